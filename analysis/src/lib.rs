@@ -1,0 +1,1 @@
+//! phytomer-analysis

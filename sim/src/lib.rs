@@ -1,0 +1,22 @@
+//! The plant, its clock, its random draws, its pose and the loop that grows it.
+//!
+//! Absent on purpose: files, TOML, Arrow, triangles and species.
+
+pub mod clock;
+pub mod grow;
+pub mod math;
+pub mod model;
+pub mod plant;
+pub mod plot;
+pub mod pose;
+pub mod random;
+pub mod record;
+pub mod shed;
+pub mod site;
+
+pub use clock::{NEVER, Tick};
+pub use grow::{Ending, grow};
+pub use model::{Growth, GrowthModel, Overgrown};
+pub use plant::Plant;
+pub use plot::Plot;
+pub use record::{RecordError, Recorder};

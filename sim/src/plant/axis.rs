@@ -1,0 +1,223 @@
+//! Axes, each the work of one apical bud (de Reffye 1988 §2), and the buds that still live.
+
+use super::key::LineageKey;
+use super::node::NodeId;
+use crate::clock::{NEVER, Tick};
+
+/// The place of an axis in its plant's columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct AxisId(pub u32);
+
+impl AxisId {
+    /// The axis that grew out of the seed.
+    pub const TRUNK: Self = Self(0);
+
+    /// As an index into the columns.
+    #[inline]
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// How an axis came to be; monopodial and sympodial growth are told apart by this, never by looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Origin {
+    /// Out of the seed.
+    Seed = 0,
+    /// Out of an axillary bud, one order above its bearing axis.
+    Axillary = 1,
+    /// In the place of an ended apex, of the same order: sympodial growth.
+    Relay = 2,
+    /// Out of a dormant bud released by the loss of an apex, of the bearing axis's order.
+    Traumatic = 3,
+    /// Out of a reiteration bud: a young tree on the old one.
+    Adaptive = 4,
+}
+
+impl Origin {
+    /// The origin as it stands in tables.
+    pub const fn tag(self) -> &'static str {
+        match self {
+            Self::Seed => "seed",
+            Self::Axillary => "axillary",
+            Self::Relay => "relay",
+            Self::Traumatic => "traumatic_reiteration",
+            Self::Adaptive => "adaptive_reiteration",
+        }
+    }
+}
+
+/// What became of an apical bud.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum ApexFate {
+    /// It lives.
+    Alive = 0,
+    /// It died by the mortality test.
+    Died = 1,
+    /// It became a flower.
+    Flowered = 2,
+    /// It had made all its growth units.
+    Completed = 3,
+    /// Something from outside killed it.
+    Killed = 4,
+    /// It was cut off.
+    Pruned = 5,
+}
+
+/// What a new axis starts from.
+#[derive(Debug, Clone, Copy)]
+pub struct NewAxis {
+    /// The node that bears it; `None` for the axis of the seed.
+    pub bearer: Option<NodeId>,
+    /// The hash of its path from the seed.
+    pub key: LineageKey,
+    /// Its order, from 1.
+    pub order: u8,
+    /// How it came to be.
+    pub origin: Origin,
+    /// Its position among the buds of its node, from 0.
+    pub position: u16,
+    /// The named state in which it starts, as the model numbers them.
+    pub state: u8,
+    /// The tick at which its bud appeared.
+    pub appearance: Tick,
+    /// The tick at which its own life began: the appearance and the delay of a proleptic bud. Dimension counts from it.
+    pub birth: Tick,
+    /// Around the bearing axis, in radians from the bearing node's reference direction.
+    pub azimuth: f32,
+    /// Between the bearing axis and this one, in radians.
+    pub insertion: f32,
+}
+
+/// The columns of the axes.
+#[derive(Debug, Clone, Default)]
+pub struct Axes {
+    /// The bearing node; [`NodeId::NONE`] for the axis of the seed.
+    pub bearer: Vec<NodeId>,
+    /// The component number of the apical bud.
+    pub component: Vec<u32>,
+    /// The lineage key.
+    pub key: Vec<LineageKey>,
+    /// The order, from 1.
+    pub order: Vec<u8>,
+    /// How the axis came to be.
+    pub origin: Vec<Origin>,
+    /// The position among the buds of the bearing node.
+    pub position: Vec<u16>,
+    /// The state in which the axis started.
+    pub state: Vec<u8>,
+    /// The tick at which the bud appeared.
+    pub appearance: Vec<Tick>,
+    /// The tick from which dimension counts.
+    pub birth: Vec<Tick>,
+    /// Azimuth around the bearing axis, radians.
+    pub azimuth: Vec<f32>,
+    /// Insertion angle, radians.
+    pub insertion: Vec<f32>,
+    /// The last node so far; [`NodeId::NONE`] before the first.
+    pub last_node: Vec<NodeId>,
+    /// The tick at which the apex ended; [`NEVER`] while it lives.
+    pub apex_end: Vec<Tick>,
+    /// How the apex ended.
+    pub apex_fate: Vec<ApexFate>,
+    /// The tick at which what the apex became is past: the end of the apex, or the fall of its terminal flower and
+    /// fruit.
+    pub spent: Vec<Tick>,
+    /// The tick at which every bud of the branch is dead; written by [`crate::shed`].
+    pub death: Vec<Tick>,
+    /// The tick at which the branch leaves the plant; written by [`crate::shed`].
+    pub shed: Vec<Tick>,
+}
+
+impl Axes {
+    /// How many axes there are.
+    #[inline]
+    pub fn len(&self) -> usize {
+        self.bearer.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.bearer.is_empty()
+    }
+
+    /// The last tick of an apex, with what became of it.
+    pub fn end_apex(&mut self, axis: AxisId, tick: Tick, fate: ApexFate) {
+        self.apex_end[axis.index()] = tick;
+        self.apex_fate[axis.index()] = fate;
+        self.spent[axis.index()] = tick;
+    }
+
+    pub(super) fn push(&mut self, axis: NewAxis, component: u32) -> AxisId {
+        let id = AxisId(self.len() as u32);
+        self.bearer.push(axis.bearer.unwrap_or(NodeId::NONE));
+        self.component.push(component);
+        self.key.push(axis.key);
+        self.order.push(axis.order);
+        self.origin.push(axis.origin);
+        self.position.push(axis.position);
+        self.state.push(axis.state);
+        self.appearance.push(axis.appearance);
+        self.birth.push(axis.birth);
+        self.azimuth.push(axis.azimuth);
+        self.insertion.push(axis.insertion);
+        self.last_node.push(NodeId::NONE);
+        self.apex_end.push(NEVER);
+        self.apex_fate.push(ApexFate::Alive);
+        self.spent.push(NEVER);
+        self.death.push(NEVER);
+        self.shed.push(NEVER);
+        id
+    }
+
+    #[inline]
+    pub(super) fn grown(&mut self, axis: AxisId, node: NodeId) {
+        self.last_node[axis.index()] = node;
+    }
+
+    pub(super) fn clear(&mut self) {
+        let Self { bearer, component, key, order, origin, position, state, appearance, birth, .. } = self;
+        bearer.clear();
+        component.clear();
+        key.clear();
+        order.clear();
+        origin.clear();
+        position.clear();
+        state.clear();
+        appearance.clear();
+        birth.clear();
+        self.azimuth.clear();
+        self.insertion.clear();
+        self.last_node.clear();
+        self.apex_end.clear();
+        self.apex_fate.clear();
+        self.spent.clear();
+        self.death.clear();
+        self.shed.clear();
+    }
+}
+
+/// A living apical bud: what its axis needs in order to grow on.
+#[derive(Debug, Clone, Copy)]
+pub struct ApicalBud {
+    /// Its axis.
+    pub axis: AxisId,
+    /// The age up to which it has grown.
+    pub age: Tick,
+    /// The clock steps of its axis so far.
+    pub cycle: u32,
+    /// The growth units that it has made.
+    pub units: u32,
+    /// The nodes that it has made.
+    pub rank: u32,
+    /// The node at its base: the last of its axis, or the bearing node.
+    pub last_node: NodeId,
+    /// The azimuth of the next node's first leaf, radians.
+    pub azimuth: f32,
+    /// Its state.
+    pub state: u8,
+    /// The axillary buds of the last node that did not ramify and lie dormant, one bit a position.
+    pub dormant: u32,
+}

@@ -1,0 +1,79 @@
+//! What became of buds and branches, tick by tick.
+
+use super::axis::AxisId;
+use crate::clock::Tick;
+
+/// The fate of a bud at a tick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u8)]
+pub enum EventKind {
+    /// It grew; `count` is the number of nodes.
+    Grew = 0,
+    /// It made a pause.
+    Paused = 1,
+    /// It died by the mortality test.
+    Died = 2,
+    /// It became a flower.
+    Flowered = 3,
+    /// It had made all its growth units; `count` of them.
+    Completed = 4,
+    /// An axillary axis of the next order appeared.
+    Branched = 5,
+    /// An axis of the same order took the place of an ended apex.
+    Relayed = 6,
+    /// A reiteration began, traumatic or adaptive.
+    Reiterated = 7,
+    /// Something from outside killed it.
+    Killed = 8,
+    /// It was cut off.
+    Pruned = 9,
+    /// A dead branch fell, with everything that it bore.
+    Shed = 10,
+}
+
+impl EventKind {
+    /// Every kind, in the order of their numbers.
+    pub const ALL: [Self; 11] = [
+        Self::Grew,
+        Self::Paused,
+        Self::Died,
+        Self::Flowered,
+        Self::Completed,
+        Self::Branched,
+        Self::Relayed,
+        Self::Reiterated,
+        Self::Killed,
+        Self::Pruned,
+        Self::Shed,
+    ];
+
+    /// The event as it stands in tables.
+    pub const fn tag(self) -> &'static str {
+        match self {
+            Self::Grew => "grew",
+            Self::Paused => "paused",
+            Self::Died => "died",
+            Self::Flowered => "flowered",
+            Self::Completed => "completed",
+            Self::Branched => "branched",
+            Self::Relayed => "relayed",
+            Self::Reiterated => "reiterated",
+            Self::Killed => "killed",
+            Self::Pruned => "pruned",
+            Self::Shed => "shed",
+        }
+    }
+}
+
+/// One event of one bud.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Event {
+    /// When.
+    pub tick: Tick,
+    /// The axis whose bud it was; for `Branched`, `Relayed` and `Reiterated` the new axis.
+    pub axis: AxisId,
+    /// What.
+    pub kind: EventKind,
+    /// How many, where the kind says of what; else 1.
+    pub count: u32,
+}

@@ -1,0 +1,196 @@
+//! The plant as columns: axes, nodes and organs in structures of arrays with typed handles, append-only.
+//!
+//! Invariants: a parent's index is smaller than its child's, in each column and in the component numbers; death is a
+//! tick in a column, never a removal. So poses are one forward scan, loads one reverse scan, and nothing recurses.
+//! One writer a column: models write topology, rest geometry and the fates of buds and organs; [`crate::shed`] alone
+//! writes the death and the fall of branches, the model's `thicken` the diameters, [`crate::pose`] the frames.
+
+mod axis;
+mod event;
+mod habit;
+pub mod key;
+mod kind;
+mod node;
+mod organ;
+
+pub use axis::{ApexFate, ApicalBud, Axes, AxisId, NewAxis, Origin};
+pub use event::{Event, EventKind};
+pub use habit::{Habit, Shape, Trend};
+pub use key::LineageKey;
+pub use kind::{Cause, Form, Kind};
+pub use node::{NewNode, NodeId, Nodes};
+pub use organ::{NewOrgan, OrganId, Organs};
+
+use crate::clock::{NEVER, Tick};
+use crate::pose::Frames;
+use crate::random::PlantRandom;
+use std::sync::Arc;
+
+/// The most components that one plant may have: component numbers are 32-bit signed in meshes.
+pub const MOST_COMPONENTS: u32 = i32::MAX as u32 - 1;
+
+/// One plant, from seed to death.
+#[derive(Debug, Clone)]
+pub struct Plant {
+    /// Its number in the run, from 0.
+    pub id: u32,
+    /// The age up to which it has grown, in ticks.
+    pub age: Tick,
+    /// The tick at which its last bud died; [`NEVER`] while one lives.
+    pub death: Tick,
+    /// Its axes; the first one grew out of the seed.
+    pub axes: Axes,
+    /// Its internodes with their nodes.
+    pub nodes: Nodes,
+    /// Its leaves, flowers and fruits.
+    pub organs: Organs,
+    /// The living apical buds, in the order of their axes.
+    pub buds: Vec<ApicalBud>,
+    /// Where each internode stands, written by the pose.
+    pub frames: Frames,
+    /// What became of its buds, where a run records it.
+    pub events: Option<Vec<Event>>,
+    /// The rules of its species that pose, shedding and drawing need.
+    pub habit: Arc<Habit>,
+    /// The source of its draws.
+    pub random: PlantRandom,
+    /// Where its seed lies in the plot, metres.
+    pub place: [f32; 3],
+    /// The stated headings of a plant that a geometric model has built, one an internode, as unit vectors in the frame
+    /// of the plant; empty where insertion, phyllotaxis and trend make the headings.
+    pub stated_headings: Vec<[f32; 3]>,
+    components: u32,
+    component_limit: u32,
+}
+
+/// What a plant starts from.
+#[derive(Debug, Clone)]
+pub struct Seed {
+    /// The plant's number in the run, from 0.
+    pub plant: u32,
+    /// The seed of the run's draws.
+    pub run_seed: u64,
+    /// The most components that it may have.
+    pub component_limit: u32,
+    /// Whether what becomes of its buds is kept.
+    pub keep_events: bool,
+}
+
+impl Plant {
+    /// A plant without any axis yet; a model's `sow` adds the first.
+    pub fn new(seed: &Seed, habit: Arc<Habit>) -> Self {
+        Self {
+            id: seed.plant,
+            age: 0,
+            death: NEVER,
+            axes: Axes::default(),
+            nodes: Nodes::default(),
+            organs: Organs::default(),
+            buds: Vec::new(),
+            frames: Frames::default(),
+            events: seed.keep_events.then(Vec::new),
+            habit,
+            random: PlantRandom::new(seed.run_seed, u64::from(seed.plant)),
+            place: [0.0; 3],
+            stated_headings: Vec::new(),
+            components: 0,
+            component_limit: seed.component_limit.min(MOST_COMPONENTS),
+        }
+    }
+
+    /// Makes this the plant of another seed, keeping the memory of its columns.
+    pub fn resow(&mut self, seed: &Seed) {
+        self.clear();
+        self.id = seed.plant;
+        self.random = PlantRandom::new(seed.run_seed, u64::from(seed.plant));
+        self.component_limit = seed.component_limit.min(MOST_COMPONENTS);
+        self.events = seed.keep_events.then(|| self.events.take().unwrap_or_default());
+    }
+
+    /// Takes everything off the plant, for a model that rebuilds it.
+    pub fn clear(&mut self) {
+        self.age = 0;
+        self.death = NEVER;
+        self.axes.clear();
+        self.nodes.clear();
+        self.organs.clear();
+        self.buds.clear();
+        self.frames.clear();
+        self.stated_headings.clear();
+        self.components = 0;
+        if let Some(events) = &mut self.events {
+            events.clear();
+        }
+    }
+
+    /// Whether `more` components still fit under the plant's limit.
+    #[inline]
+    pub fn has_room_for(&self, more: u32) -> bool {
+        self.components.saturating_add(more) <= self.component_limit
+    }
+
+    /// The most components that the plant may have.
+    pub fn component_limit(&self) -> u32 {
+        self.component_limit
+    }
+
+    /// The components that ever were: internodes, organs and apical buds.
+    pub fn components(&self) -> u32 {
+        self.components
+    }
+
+    /// Adds an axis, standing as a bud; its bearing node comes before it.
+    #[inline]
+    pub fn add_axis(&mut self, axis: NewAxis) -> AxisId {
+        let component = self.number();
+        self.axes.push(axis, component)
+    }
+
+    /// Adds an internode with its node at the tip of its axis.
+    #[inline]
+    pub fn add_node(&mut self, node: NewNode) -> NodeId {
+        let component = self.number();
+        let id = self.nodes.push(node, component);
+        self.axes.grown(node.axis, id);
+        id
+    }
+
+    /// Adds a leaf, a flower or a fruit to a node.
+    #[inline]
+    pub fn add_organ(&mut self, organ: NewOrgan) -> OrganId {
+        let component = self.number();
+        self.organs.push(organ, component)
+    }
+
+    /// Notes an event, where the run keeps them.
+    #[inline]
+    pub fn note(&mut self, tick: Tick, axis: AxisId, kind: EventKind, count: u32) {
+        if let Some(events) = &mut self.events {
+            events.push(Event { tick, axis, kind, count });
+        }
+    }
+
+    /// The lineage key of a node: it depends on its axis and its rank alone.
+    pub fn node_key(&self, node: NodeId) -> LineageKey {
+        self.axes.key[self.nodes.axis[node.index()].index()].child(key::Place::Node.on(self.nodes.rank[node.index()]))
+    }
+
+    /// The lineage key of an organ: it depends on its node, its kind and its position alone.
+    pub fn organ_key(&self, organ: OrganId) -> LineageKey {
+        let node = self.organs.node[organ.index()];
+        let axis = self.nodes.axis[node.index()];
+        let place = key::Place::Organ(self.organs.kind[organ.index()] as u8, self.organs.position[organ.index()]);
+        self.axes.key[axis.index()].child(place.on(self.nodes.rank[node.index()]))
+    }
+
+    /// Whether an apical bud lives at `age`: it has appeared and its axis has not come to its end.
+    pub fn bud_lives(&self, axis: AxisId, age: Tick) -> bool {
+        self.axes.appearance[axis.index()] <= age && age < self.axes.apex_end[axis.index()]
+    }
+
+    fn number(&mut self) -> u32 {
+        let component = self.components;
+        self.components += 1;
+        component
+    }
+}

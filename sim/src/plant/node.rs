@@ -1,0 +1,155 @@
+//! Internodes, each with the node at its tip: the phytomers without their organs.
+
+use super::axis::AxisId;
+use crate::clock::{NEVER, Tick};
+
+/// The place of a node in its plant's columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NodeId(pub u32);
+
+impl NodeId {
+    /// No node: what the first axis stands on.
+    pub const NONE: Self = Self(u32::MAX);
+
+    /// As an index into the columns.
+    #[inline]
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    /// The node, where there is one.
+    pub fn some(self) -> Option<Self> {
+        (self != Self::NONE).then_some(self)
+    }
+}
+
+/// What a new internode starts from.
+#[derive(Debug, Clone, Copy)]
+pub struct NewNode {
+    /// The node at its base; [`NodeId::NONE`] for the first internode of the trunk.
+    pub parent: NodeId,
+    /// Its axis.
+    pub axis: AxisId,
+    /// The tick at which it appeared.
+    pub birth: Tick,
+    /// Its rank along the axis, from 1.
+    pub rank: u32,
+    /// Its rank in its growth unit, from 1.
+    pub unit_rank: u16,
+    /// Whether its growth unit is of the short type.
+    pub short: bool,
+    /// Whether it was made after bud break, not laid down in the resting bud.
+    pub neoformed: bool,
+    /// The trend that it follows, as a place in the habit's.
+    pub trend: u8,
+    /// Length, metres.
+    pub length: f32,
+    /// Diameter at birth, metres.
+    pub diameter: f32,
+    /// Of its first leaf around the axis, radians from the axis's reference direction.
+    pub azimuth: f32,
+}
+
+/// The columns of the nodes.
+#[derive(Debug, Clone, Default)]
+pub struct Nodes {
+    /// The node at the base of the internode.
+    pub parent: Vec<NodeId>,
+    /// The axis.
+    pub axis: Vec<AxisId>,
+    /// The component number.
+    pub component: Vec<u32>,
+    /// The tick of appearance.
+    pub birth: Vec<Tick>,
+    /// The tick at which its branch died; written by [`crate::shed`].
+    pub death: Vec<Tick>,
+    /// The tick at which it left the plant; written by [`crate::shed`].
+    pub shed: Vec<Tick>,
+    /// The rank along the axis, from 1.
+    pub rank: Vec<u32>,
+    /// The rank in the growth unit, from 1.
+    pub unit_rank: Vec<u16>,
+    /// Short type and neoformation, one bit each.
+    pub formation: Vec<Formation>,
+    /// The trend, as a place in the habit's.
+    pub trend: Vec<u8>,
+    /// Length, metres.
+    pub length: Vec<f32>,
+    /// Diameter at birth, metres.
+    pub primary_diameter: Vec<f32>,
+    /// Diameter at the base at the recorded age, metres; written by the model's `thicken`.
+    pub diameter: Vec<f32>,
+    /// Diameter at the tip at the recorded age, metres; written by the model's `thicken`.
+    pub diameter_tip: Vec<f32>,
+    /// Azimuth of the first leaf, radians.
+    pub azimuth: Vec<f32>,
+}
+
+/// How an internode was formed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Formation(u8);
+
+impl Formation {
+    /// Of a growth unit of the short type?
+    pub fn is_short(self) -> bool {
+        self.0 & 1 != 0
+    }
+
+    /// Made after bud break?
+    pub fn is_neoformed(self) -> bool {
+        self.0 & 2 != 0
+    }
+}
+
+impl Nodes {
+    /// How many nodes there are.
+    #[inline]
+    pub fn len(&self) -> usize {
+        self.parent.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.parent.is_empty()
+    }
+
+    #[inline]
+    pub(super) fn push(&mut self, node: NewNode, component: u32) -> NodeId {
+        let id = NodeId(self.len() as u32);
+        debug_assert!(node.parent == NodeId::NONE || node.parent < id, "a parent comes before its child");
+        self.parent.push(node.parent);
+        self.axis.push(node.axis);
+        self.component.push(component);
+        self.birth.push(node.birth);
+        self.death.push(NEVER);
+        self.shed.push(NEVER);
+        self.rank.push(node.rank);
+        self.unit_rank.push(node.unit_rank);
+        self.formation.push(Formation(u8::from(node.short) | u8::from(node.neoformed) << 1));
+        self.trend.push(node.trend);
+        self.length.push(node.length);
+        self.primary_diameter.push(node.diameter);
+        self.diameter.push(node.diameter);
+        self.diameter_tip.push(node.diameter);
+        self.azimuth.push(node.azimuth);
+        id
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.parent.clear();
+        self.axis.clear();
+        self.component.clear();
+        self.birth.clear();
+        self.death.clear();
+        self.shed.clear();
+        self.rank.clear();
+        self.unit_rank.clear();
+        self.formation.clear();
+        self.trend.clear();
+        self.length.clear();
+        self.primary_diameter.clear();
+        self.diameter.clear();
+        self.diameter_tip.clear();
+        self.azimuth.clear();
+    }
+}

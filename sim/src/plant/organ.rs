@@ -1,0 +1,125 @@
+//! Leaves, flowers and fruits, each on a node.
+
+use super::kind::{Cause, Form, Kind};
+use super::node::NodeId;
+use crate::clock::Tick;
+
+/// The place of an organ in its plant's columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct OrganId(pub u32);
+
+impl OrganId {
+    /// As an index into the columns.
+    #[inline]
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What a new organ starts from.
+#[derive(Debug, Clone, Copy)]
+pub struct NewOrgan {
+    /// The node that bears it.
+    pub node: NodeId,
+    /// Leaf, flower or fruit.
+    pub kind: Kind,
+    /// Its position among the organs of its kind on the node, from 0.
+    pub position: u16,
+    /// The tick at which it appears; may lie ahead of the plant's age (a fruit, when its flower opens).
+    pub birth: Tick,
+    /// The tick at which it falls if its branch lives so long; `NEVER` if it stays as long as its branch.
+    pub death: Tick,
+    /// Why it falls then.
+    pub cause: Cause,
+    /// The form that it is drawn with.
+    pub form: Form,
+    /// Length along its own axis, metres.
+    pub length: f32,
+    /// Width across, metres.
+    pub width: f32,
+    /// Area of one side, square metres; 0 where area means nothing.
+    pub area: f32,
+    /// Around the axis, radians from the axis's reference direction.
+    pub azimuth: f32,
+    /// Between the axis and the organ, radians.
+    pub insertion: f32,
+}
+
+/// The columns of the organs.
+#[derive(Debug, Clone, Default)]
+pub struct Organs {
+    /// The bearing node.
+    pub node: Vec<NodeId>,
+    /// The component number.
+    pub component: Vec<u32>,
+    /// Leaf, flower or fruit.
+    pub kind: Vec<Kind>,
+    /// The position among the organs of its kind on the node.
+    pub position: Vec<u16>,
+    /// The tick of appearance.
+    pub birth: Vec<Tick>,
+    /// The tick of its fall, planned or past; [`crate::shed`] brings it forward to the death of the branch.
+    pub death: Vec<Tick>,
+    /// Why it falls.
+    pub cause: Vec<Cause>,
+    /// The form that it is drawn with.
+    pub form: Vec<Form>,
+    /// Length, metres.
+    pub length: Vec<f32>,
+    /// Width, metres.
+    pub width: Vec<f32>,
+    /// Area of one side, square metres.
+    pub area: Vec<f32>,
+    /// Azimuth, radians.
+    pub azimuth: Vec<f32>,
+    /// Insertion angle, radians.
+    pub insertion: Vec<f32>,
+}
+
+impl Organs {
+    /// How many organs there are.
+    #[inline]
+    pub fn len(&self) -> usize {
+        self.node.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.node.is_empty()
+    }
+
+    #[inline]
+    pub(super) fn push(&mut self, organ: NewOrgan, component: u32) -> OrganId {
+        let id = OrganId(self.len() as u32);
+        self.node.push(organ.node);
+        self.component.push(component);
+        self.kind.push(organ.kind);
+        self.position.push(organ.position);
+        self.birth.push(organ.birth);
+        self.death.push(organ.death);
+        self.cause.push(organ.cause);
+        self.form.push(organ.form);
+        self.length.push(organ.length);
+        self.width.push(organ.width);
+        self.area.push(organ.area);
+        self.azimuth.push(organ.azimuth);
+        self.insertion.push(organ.insertion);
+        id
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.node.clear();
+        self.component.clear();
+        self.kind.clear();
+        self.position.clear();
+        self.birth.clear();
+        self.death.clear();
+        self.cause.clear();
+        self.form.clear();
+        self.length.clear();
+        self.width.clear();
+        self.area.clear();
+        self.azimuth.clear();
+        self.insertion.clear();
+    }
+}

@@ -1,0 +1,19 @@
+//! What the loop tells of a plot at each age, and to whom.
+
+use crate::clock::Tick;
+use crate::plot::Plot;
+
+/// A recorder's failure: it ends the run.
+pub type RecordError = Box<dyn std::error::Error + Send + Sync>;
+
+/// Something that keeps what the loop shows it: tables, meshes, measures in a test.
+pub trait Recorder {
+    /// Whether this age is to be recorded.
+    fn wants(&self, age: Tick) -> bool;
+
+    /// The plot as it stands at `age`, shed, thickened and posed.
+    ///
+    /// # Errors
+    /// Whatever keeps it from recording; the run then ends.
+    fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError>;
+}

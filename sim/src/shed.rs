@@ -1,0 +1,72 @@
+//! The death and the fall of branches (de Reffye 1988 §5, "pruning"): when all the buds of a branch are dead the branch
+//! is dead, and falls some time later with everything that it bears.
+//!
+//! A branch is an axis with all that it bears. An apex that has become a flower counts as a living bud until its flower
+//! and its fruit have fallen; an axillary bud that lies dormant does not count. Leaves, flowers and fruits end with
+//! their branch if their own life is longer.
+
+use crate::clock::{NEVER, Tick};
+use crate::plant::{ApexFate, Cause, Event, EventKind, Plant};
+
+/// Writes the death and the fall of every branch of `plant` whose buds are all dead, and of what it bears.
+pub fn shed(plant: &mut Plant) {
+    kill_branches(plant);
+    drop_branches(plant);
+    let Plant { axes, nodes, organs, .. } = plant;
+    for node in 0..nodes.len() {
+        let axis = nodes.axis[node].index();
+        nodes.death[node] = axes.death[axis];
+        nodes.shed[node] = axes.shed[axis];
+    }
+    for organ in 0..organs.len() {
+        let death = nodes.death[organs.node[organ].index()];
+        if death < organs.death[organ] {
+            organs.death[organ] = death;
+            organs.cause[organ] = Cause::Branch;
+        }
+    }
+    plant.death = plant.axes.death.first().copied().unwrap_or(NEVER);
+}
+
+/// One reverse scan: a branch dies with the last of its buds. An axis comes after the one that bears it.
+fn kill_branches(plant: &mut Plant) {
+    let Plant { axes, nodes, .. } = plant;
+    axes.death.copy_from_slice(&axes.spent);
+    for axis in (0..axes.len()).rev() {
+        if let Some(bearer) = axes.bearer[axis].some() {
+            let bearing = nodes.axis[bearer.index()].index();
+            axes.death[bearing] = axes.death[bearing].max(axes.death[axis]);
+        }
+    }
+}
+
+/// One forward scan: a branch falls its own delay after its death, or with the branch that bears it.
+fn drop_branches(plant: &mut Plant) {
+    for axis in 0..plant.axes.len() {
+        let bearing = plant.axes.bearer[axis].some().map(|bearer| plant.nodes.axis[bearer.index()].index());
+        let with_bearer = bearing.map_or(NEVER, |bearing| plant.axes.shed[bearing]);
+        let own = fall(plant.axes.death[axis], plant.habit.shed_after(plant.axes.order[axis]));
+        let was = plant.axes.shed[axis];
+        plant.axes.shed[axis] = own.min(with_bearer);
+        let newly = was == NEVER && own < with_bearer && plant.axes.last_node[axis].some().is_some();
+        if let (true, Some(events)) = (newly, &mut plant.events) {
+            events.push(Event { tick: own, axis: crate::plant::AxisId(axis as u32), kind: EventKind::Shed, count: 1 });
+        }
+    }
+}
+
+fn fall(death: Tick, after: Tick) -> Tick {
+    if death == NEVER { NEVER } else { death.saturating_add(after) }
+}
+
+/// Why an apex ended, as a cause of death.
+pub fn cause_of(fate: ApexFate) -> Cause {
+    match fate {
+        ApexFate::Alive => Cause::None,
+        ApexFate::Died => Cause::Mortality,
+        ApexFate::Flowered => Cause::Flowered,
+        ApexFate::Completed => Cause::Completed,
+        ApexFate::Killed => Cause::Killed,
+        ApexFate::Pruned => Cause::Pruned,
+    }
+}

@@ -1,0 +1,2 @@
+//! phytomer
+fn main() {}
