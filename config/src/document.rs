@@ -1,0 +1,235 @@
+//! A TOML file as a tree in which every key and value remembers the file and the bytes where it was typed.
+//!
+//! The tree is ours and not the toml crate's because a species is merged from several files (see `inherit`) and each
+//! value must still point at its own file. All that the parser can report is reported, one fault a line: recovery
+//! after a slip finds more on the same line that is only its echo.
+//! Absent: meaning. What keys there may be is the schema's business.
+
+use phytomer_models::fault::{Path, Segment};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::report::Fault;
+use crate::source::{SourceId, Sources, Span};
+
+/// Tables and arrays nest at most this deep; no species needs a quarter of it.
+pub const MAX_DEPTH: usize = 48;
+
+/// A value and where it stands.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Node {
+    /// The bytes of the value; of a table with a header, the header; of a table made by dotted keys, its key.
+    pub span: Span,
+    /// The value.
+    pub value: Value,
+}
+
+/// A TOML value.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// A string.
+    Text(String),
+    /// A whole number.
+    Integer(i64),
+    /// A number with a point or an exponent; finite.
+    Float(f64),
+    /// `true` or `false`.
+    Boolean(bool),
+    /// A date or time, which no key of ours takes.
+    Date(String),
+    /// An array or an array of tables.
+    Array(Vec<Node>),
+    /// A table, in the order of the file.
+    Table(Vec<Entry>),
+}
+
+/// A key of a table with its value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// The key, unquoted.
+    pub key: String,
+    /// Where the key stands.
+    pub key_span: Span,
+    /// Its value.
+    pub node: Node,
+}
+
+impl Node {
+    /// The entries of a table; none of anything else.
+    pub fn entries(&self) -> &[Entry] {
+        match &self.value {
+            Value::Table(entries) => entries,
+            _ => &[],
+        }
+    }
+
+    /// The entry of a table by its key.
+    pub fn entry(&self, key: &str) -> Option<&Entry> {
+        self.entries().iter().find(|e| e.key == key)
+    }
+
+    /// The value of a table's key.
+    pub fn get(&self, key: &str) -> Option<&Node> {
+        self.entry(key).map(|e| &e.node)
+    }
+
+    /// The text, if it is one.
+    pub fn text(&self) -> Option<&str> {
+        match &self.value {
+            Value::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// Takes a key out of a table.
+    pub fn remove(&mut self, key: &str) -> Option<Entry> {
+        let Value::Table(entries) = &mut self.value else { return None };
+        let at = entries.iter().position(|e| e.key == key)?;
+        Some(entries.remove(at))
+    }
+
+    /// Where `path` leads, or, where it leads nowhere, the last place on the way.
+    pub fn locate(&self, path: &Path) -> Span {
+        let mut node = self;
+        for segment in &path.0 {
+            let next = match (segment, &node.value) {
+                (Segment::Key(key), Value::Table(_)) => node.get(key),
+                (Segment::Index(i), Value::Array(items)) => items.get(*i),
+                _ => None,
+            };
+            match next {
+                Some(next) => node = next,
+                None => return node.span,
+            }
+        }
+        node.span
+    }
+
+    /// The same tree as JSON, for serde.
+    pub fn to_json(&self) -> serde_json::Value {
+        match &self.value {
+            Value::Text(text) | Value::Date(text) => text.clone().into(),
+            Value::Integer(n) => (*n).into(),
+            Value::Float(x) => (*x).into(),
+            Value::Boolean(b) => (*b).into(),
+            Value::Array(items) => items.iter().map(Node::to_json).collect(),
+            Value::Table(entries) => entries.iter().map(|e| (e.key.clone(), e.node.to_json())).collect(),
+        }
+    }
+}
+
+/// The tree of a source. What is no TOML goes into `faults`; the tree is then what could be understood, or `None`
+/// where reading on would only find echoes of the slip.
+pub fn parse(sources: &Sources, id: SourceId, faults: &mut Vec<Fault>) -> Option<Node> {
+    let text = &sources.get(id).text;
+    let (table, errors) = DeTable::parse_recoverable(text);
+    let mut syntax = Vec::new();
+    let mut whole = true;
+    for error in errors {
+        let (fault, harmless) = syntax_fault(id, text, &error);
+        whole &= harmless;
+        syntax.push(fault);
+    }
+    let mut reader = Reader { id, faults: Vec::new() };
+    let root = Span { source: id, start: 0, end: 0 };
+    let node = Node { span: root, value: Value::Table(reader.table(table.into_inner(), 1)) };
+    faults.extend(first_of_each_line(sources, syntax));
+    if whole {
+        faults.extend(reader.faults);
+    }
+    whole.then_some(node)
+}
+
+/// A parser's error as a fault, and whether the tree can still be trusted.
+fn syntax_fault(id: SourceId, text: &str, error: &toml::de::Error) -> (Fault, bool) {
+    let range = error.span().unwrap_or(0..0);
+    let span = Span { source: id, start: range.start, end: range.end };
+    let (problem, expected) = match error.message().split_once(", expected ") {
+        Some((problem, expected)) => (problem, expected.replace("nothing", "nothing more here")),
+        None => (error.message(), String::new()),
+    };
+    let repeated = problem == "duplicate key";
+    let problem = match problem {
+        "duplicate key" => format!("the key `{}` is given twice", text.get(range).unwrap_or("?").trim()),
+        "cannot recurse further; max recursion depth met" | "recursion limit" => "nested too deep".to_owned(),
+        other => other.to_owned(),
+    };
+    let expected = if repeated { "each key once in its table".to_owned() } else { expected };
+    let expected = if expected.is_empty() { "TOML (https://toml.io)".to_owned() } else { expected };
+    (Fault::new(span, &Path::root(), problem, expected), repeated)
+}
+
+/// The first fault of each line: the rest of a line's syntax faults follow from it.
+fn first_of_each_line(sources: &Sources, mut faults: Vec<Fault>) -> Vec<Fault> {
+    faults.sort_by_key(|f| f.span);
+    let mut last = 0;
+    faults.retain(|fault| {
+        let line = fault.span.map_or(0, |span| sources.place(span).0);
+        std::mem::replace(&mut last, line) != line
+    });
+    faults
+}
+
+struct Reader {
+    id: SourceId,
+    faults: Vec<Fault>,
+}
+
+impl Reader {
+    fn span(&self, range: std::ops::Range<usize>) -> Span {
+        Span { source: self.id, start: range.start, end: range.end }
+    }
+
+    fn table(&mut self, table: DeTable<'_>, depth: usize) -> Vec<Entry> {
+        let mut entries = Vec::with_capacity(table.len());
+        for (key, value) in table {
+            let key_span = self.span(key.span());
+            let node = self.node(value, key_span, depth);
+            entries.push(Entry { key: key.into_inner().into_owned(), key_span, node });
+        }
+        entries.sort_by_key(|e| e.key_span);
+        entries
+    }
+
+    fn node(&mut self, value: Spanned<DeValue<'_>>, key: Span, depth: usize) -> Node {
+        let range = value.span();
+        let span = if range.is_empty() { key } else { self.span(range) };
+        if depth > MAX_DEPTH {
+            self.fault(span, "nested too deep", format!("at most {MAX_DEPTH} levels of tables and lists"));
+            return Node { span, value: Value::Table(Vec::new()) };
+        }
+        let value = match value.into_inner() {
+            DeValue::String(text) => Value::Text(text.into_owned()),
+            DeValue::Integer(n) => self.integer(n.as_str(), n.radix(), span),
+            DeValue::Float(x) => self.float(x.as_str(), span),
+            DeValue::Boolean(b) => Value::Boolean(b),
+            DeValue::Datetime(date) => Value::Date(date.to_string()),
+            DeValue::Array(items) => {
+                Value::Array(items.into_iter().map(|item| self.node(item, span, depth + 1)).collect())
+            }
+            DeValue::Table(table) => Value::Table(self.table(table, depth + 1)),
+        };
+        Node { span, value }
+    }
+
+    fn integer(&mut self, digits: &str, radix: u32, span: Span) -> Value {
+        Value::Integer(i64::from_str_radix(digits, radix).unwrap_or_else(|_| {
+            self.fault(span, "this whole number is too large", "at most 9223372036854775807 in size");
+            0
+        }))
+    }
+
+    fn float(&mut self, digits: &str, span: Span) -> Value {
+        let x = digits.parse().unwrap_or(f64::NAN);
+        if !x.is_finite() {
+            let problem = if x.is_nan() { "this is not a number" } else { "this number is infinite" };
+            self.fault(span, problem, "a finite number");
+            return Value::Float(0.0);
+        }
+        Value::Float(x)
+    }
+
+    fn fault(&mut self, span: Span, problem: &str, expected: impl Into<String>) {
+        self.faults.push(Fault::new(span, &Path::root(), problem, expected));
+    }
+}

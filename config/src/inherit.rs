@@ -1,0 +1,147 @@
+//! Inheritance between species, and the defaults that all orders share.
+//!
+//! The nearer file wins; in a file an `[[order]]` wins over `[every_order]`. Tables merge key by key; a value that may
+//! have several forms (a law, a number or its distribution) and a list are replaced whole. `[[order]]` tables merge by
+//! their place: the second of the child over the second of the parent; one that the parent lacks starts from the
+//! `[every_order]` of both. So each value is written once, by the nearest file that writes it, and keeps its span.
+//! Absent: several parents.
+
+use serde_json::Value as Json;
+
+use crate::document::{Entry, Node, Value};
+use crate::schema::{forms, resolve};
+
+/// The key of the tables that merge by place.
+pub const ORDER: &str = "order";
+/// The key of their defaults; gone after merging.
+pub const EVERY_ORDER: &str = "every_order";
+
+/// A species from its chain of files, the eldest ancestor first, under the schema of its model.
+pub fn merge_chain(schema: &Json, chain: Vec<Node>) -> Option<Node> {
+    let merge = Merge { root: schema };
+    let mut generations = chain.into_iter();
+    let eldest = generations.next()?;
+    let start = Node { span: eldest.span, value: Value::Table(Vec::new()) };
+    let mut merged = merge.generation(start, eldest);
+    for child in generations {
+        merged = merge.generation(merged, child);
+    }
+    merged.remove(EVERY_ORDER);
+    merged.remove("inherits");
+    Some(merged)
+}
+
+struct Merge<'s> {
+    root: &'s Json,
+}
+
+impl<'s> Merge<'s> {
+    /// One file over all that came before it.
+    fn generation(&self, mut parent: Node, mut child: Node) -> Node {
+        let (old_every, new_every) = (parent.remove(EVERY_ORDER), child.remove(EVERY_ORDER));
+        let (old_orders, new_orders) = (parent.remove(ORDER), child.remove(ORDER));
+        let orders = self.orders(old_orders, old_every.as_ref(), new_every.as_ref(), new_orders);
+        let every = match (old_every, new_every) {
+            (Some(old), Some(new)) => Some(self.entry(Some(self.order_schema()), old, new)),
+            (old, new) => new.or(old),
+        };
+        let mut merged = self.node(Some(self.root), parent, child);
+        if let Value::Table(entries) = &mut merged.value {
+            entries.extend(orders);
+            entries.extend(every);
+        }
+        merged
+    }
+
+    /// The orders of both generations with the defaults of the nearer one in between.
+    fn orders(
+        &self,
+        old: Option<Entry>,
+        old_every: Option<&Entry>,
+        new_every: Option<&Entry>,
+        new: Option<Entry>,
+    ) -> Option<Entry> {
+        let template = new.as_ref().or(old.as_ref())?;
+        let (key, key_span, span) = (template.key.clone(), template.key_span, template.node.span);
+        let mut olds = match old.map(|e| e.node.value) {
+            Some(Value::Array(items)) => items,
+            _ => Vec::new(),
+        };
+        let news = match new.map(|e| e.node.value) {
+            None => Vec::new(),
+            Some(Value::Array(items)) => items,
+            // Not a list: the schema has said so already.
+            Some(value) => return Some(Entry { key, key_span, node: Node { span, value } }),
+        };
+        let known = olds.len();
+        let fresh = old_every.map(|e| e.node.clone());
+        let mut items: Vec<Node> = Vec::new();
+        let mut news = news.into_iter();
+        for old in olds.drain(..) {
+            items.push(self.order(Some(old), new_every, news.next()));
+        }
+        items.extend(news.map(|new| self.order(fresh.clone(), new_every, Some(new))));
+        debug_assert!(items.len() >= known);
+        Some(Entry { key, key_span, node: Node { span, value: Value::Array(items) } })
+    }
+
+    fn order(&self, below: Option<Node>, every: Option<&Entry>, own: Option<Node>) -> Node {
+        let span = own.as_ref().or(below.as_ref()).or(every.map(|e| &e.node)).map(|n| n.span);
+        let layers = [below, every.map(|e| e.node.clone()), own];
+        let schema = Some(self.order_schema());
+        let mut merged = layers.into_iter().flatten().reduce(|old, new| self.node(schema, old, new));
+        if let (Some(node), Some(span)) = (&mut merged, span) {
+            node.span = span;
+        }
+        merged.unwrap_or_else(|| unreachable!("an order comes from the parent or from the child"))
+    }
+
+    fn order_schema(&self) -> &'s Json {
+        let list = self.below(Some(self.root), ORDER);
+        list.and_then(|list| list.get("items")).and_then(|item| resolve(self.root, item)).unwrap_or(&Json::Null)
+    }
+
+    fn node(&self, schema: Option<&'s Json>, old: Node, new: Node) -> Node {
+        let schema = schema.and_then(|schema| resolve(self.root, schema));
+        let single = schema.is_some_and(|schema| forms(schema).is_empty());
+        match (old.value, new.value) {
+            (Value::Table(olds), Value::Table(news)) if single => {
+                Node { span: new.span, value: Value::Table(self.entries(schema, olds, news)) }
+            }
+            (_, value) => Node { span: new.span, value },
+        }
+    }
+
+    fn entries(&self, schema: Option<&'s Json>, mut olds: Vec<Entry>, news: Vec<Entry>) -> Vec<Entry> {
+        for new in news {
+            let below = self.below(schema, &new.key);
+            match olds.iter().position(|old| old.key == new.key) {
+                Some(at) => {
+                    let old = olds.remove(at);
+                    olds.insert(at, self.entry(below, old, new));
+                }
+                None => olds.push(new),
+            }
+        }
+        olds
+    }
+
+    fn entry(&self, schema: Option<&'s Json>, old: Entry, new: Entry) -> Entry {
+        Entry { key: new.key, key_span: new.key_span, node: self.node(schema, old.node, new.node) }
+    }
+
+    /// The schema of a table's key; `None` for a key that nobody knows, whose value is replaced.
+    fn below(&self, schema: Option<&'s Json>, key: &str) -> Option<&'s Json> {
+        let schema = schema?;
+        let property = schema.get("properties").and_then(|p| p.get(key));
+        let property = property.or_else(|| schema.get("additionalProperties").filter(|a| a.is_object()))?;
+        let resolved = resolve(self.root, property)?;
+        match resolved.get("allOf").and_then(Json::as_array).map(Vec::as_slice) {
+            Some([only]) => resolve(self.root, only),
+            _ => Some(resolved),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

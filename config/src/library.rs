@@ -1,0 +1,122 @@
+//! Finding files by name: a user's file by its path, a shipped preset by its name.
+//!
+//! What ends in `.toml` is a file and nothing else. What contains a separator is a file where there is one, else a
+//! preset (`gmt1/5a`). A bare name is looked up beside the file that names it first, then among the presets; on the
+//! command line there is no such file, and a bare name is a preset.
+//! Presets are compiled into the program, so that an installed binary needs no data folder.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path as FilePath, PathBuf};
+
+use crate::source::{Origin, Source};
+use crate::spelling::nearest;
+
+include!(concat!(env!("OUT_DIR"), "/presets.rs"));
+
+/// A file longer than this is not a parameter file; reading on would only use memory.
+const MAX_BYTES: u64 = 8 << 20;
+
+/// The two kinds of file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// One species and its laws.
+    Species,
+    /// One run.
+    Scenario,
+}
+
+impl Kind {
+    /// The word in messages and on the command line.
+    pub fn word(self) -> &'static str {
+        match self {
+            Kind::Species => "species",
+            Kind::Scenario => "scenario",
+        }
+    }
+}
+
+/// Names and texts of the shipped presets of a kind, sorted by path.
+pub fn presets(kind: Kind) -> &'static [(&'static str, &'static str)] {
+    match kind {
+        Kind::Species => SPECIES,
+        Kind::Scenario => SCENARIOS,
+    }
+}
+
+/// Why a name led to no text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NotFound {
+    /// What is wrong.
+    pub problem: String,
+    /// What would be right.
+    pub expected: String,
+    /// The preset nearest in spelling.
+    pub suggestion: Option<String>,
+}
+
+/// Reads what `name` names; `beside` is the file that names it, `None` on the command line.
+pub fn find(kind: Kind, name: &str, beside: Option<&Origin>) -> Result<Source, NotFound> {
+    let folder = match beside {
+        Some(Origin::File(path)) => path.parent(),
+        _ => None,
+    };
+    let as_path = name.ends_with(".toml") || name.contains(['/', '\\']);
+    // A preset names presets; only people name files.
+    if !matches!(beside, Some(Origin::Preset(_))) && !name.is_empty() {
+        let path = folder.map_or_else(|| PathBuf::from(name), |folder| folder.join(name));
+        let with_end = PathBuf::from(format!("{}.toml", path.display()));
+        let may_be_file = as_path || folder.is_some();
+        if name.ends_with(".toml") || (as_path && path.is_file()) {
+            return read(&path).map_err(|error| unreadable(kind, name, &path, &error));
+        }
+        if may_be_file && with_end.is_file() {
+            return read(&with_end).map_err(|error| unreadable(kind, name, &with_end, &error));
+        }
+    }
+    preset(kind, name).ok_or_else(|| unknown(kind, name))
+}
+
+/// A shipped preset by its name.
+pub fn preset(kind: Kind, name: &str) -> Option<Source> {
+    let (name, text) = presets(kind).iter().find(|(preset, _)| *preset == name)?;
+    let origin = Origin::Preset((*name).to_owned());
+    Some(Source { name: format!("preset:{name}"), origin, text: (*text).into() })
+}
+
+fn read(path: &FilePath) -> io::Result<Source> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(io::Error::other(format!("it is longer than {} MiB", MAX_BYTES >> 20)));
+    }
+    let text = String::from_utf8(bytes)
+        .map_err(|e| io::Error::other(format!("byte {} is not UTF-8 text", e.utf8_error().valid_up_to() + 1)))?;
+    Ok(Source { name: path.display().to_string(), origin: Origin::File(path.to_owned()), text: text.into() })
+}
+
+fn unreadable(kind: Kind, name: &str, path: &FilePath, error: &io::Error) -> NotFound {
+    let reason = match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "it may not be read".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
+        _ => error.to_string(),
+    };
+    NotFound {
+        problem: format!("cannot read the {} file `{}`: {reason}", kind.word(), path.display()),
+        expected: format!("a readable {} file, or the name of a shipped {}", kind.word(), kind.word()),
+        suggestion: near_preset(kind, name.trim_end_matches(".toml")),
+    }
+}
+
+fn unknown(kind: Kind, name: &str) -> NotFound {
+    NotFound {
+        problem: format!("there is no {} `{name}`", kind.word()),
+        expected: format!("a shipped {} (`phytomer list` has them) or the path of a file", kind.word()),
+        suggestion: near_preset(kind, name),
+    }
+}
+
+fn near_preset(kind: Kind, name: &str) -> Option<String> {
+    nearest(name, presets(kind).iter().map(|(preset, _)| *preset)).map(str::to_owned)
+}

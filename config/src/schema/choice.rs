@@ -1,0 +1,162 @@
+//! Which form of a value was meant, where several are allowed (a bare number or a distribution; one of many laws).
+//!
+//! A form is chosen by type first, then by the constants that name it (`model = "buds"`), then by its keys, then, of
+//! equals, by the fewest faults; only the chosen form's faults are told. A key that no form knows gets the spelling
+//! nearest among all forms' keys.
+
+use serde_json::Value as Json;
+
+use super::{Place, Walk, expected, forms, known_keys, missing_keys, property, resolve};
+use crate::document::{Entry, Node, Value};
+use crate::report::Fault;
+use crate::spelling::nearest;
+
+/// Whether the node's type is one that the schema's `type` allows; any is where it names none, but for dates.
+pub fn has_type(schema: &Json, node: &Node) -> bool {
+    match schema.get("type") {
+        None => !matches!(node.value, Value::Date(_)),
+        Some(Json::Array(types)) => types.iter().filter_map(Json::as_str).any(|t| is_type(t, node)),
+        Some(one) => one.as_str().is_some_and(|t| is_type(t, node)),
+    }
+}
+
+fn is_type(name: &str, node: &Node) -> bool {
+    match &node.value {
+        Value::Text(_) => name == "string",
+        Value::Integer(_) => name == "integer" || name == "number",
+        Value::Float(_) => name == "number",
+        Value::Boolean(_) => name == "boolean",
+        Value::Array(_) => name == "array",
+        Value::Table(_) => name == "object",
+        Value::Date(_) => false,
+    }
+}
+
+/// The values that `enum` or `const` allow.
+pub fn options(schema: &Json) -> Option<Vec<&Json>> {
+    match schema.get("enum").and_then(Json::as_array) {
+        Some(options) => Some(options.iter().collect()),
+        None => schema.get("const").map(|one| vec![one]),
+    }
+}
+
+impl<'s> Walk<'s> {
+    /// Checks a value against the form that fits it best.
+    pub(super) fn choose(&mut self, forms: &'s [Json], whole: &'s Json, place: &Place<'_>, depth: usize) {
+        let flat = flatten(self.root, forms, 0);
+        let mut fitting: Vec<&'s Json> = flat.iter().copied().filter(|form| has_type(form, place.node)).collect();
+        if fitting.is_empty() {
+            let problem = format!("{} is {}", place.name(), expected::found(place.node));
+            self.faults.push(place.fault(problem, expected::describe(self.root, whole)));
+            return;
+        }
+        match &place.node.value {
+            Value::Text(_) if fitting.iter().all(|form| options(form).is_some()) => {
+                let all: Vec<&Json> = fitting.iter().filter_map(|form| options(form)).flatten().collect();
+                return self.check_options(&all, place);
+            }
+            Value::Table(entries) => {
+                if self.no_tag_agrees(&fitting, entries, place) || self.no_form_known(&fitting, entries, place) {
+                    return;
+                }
+                let best = fitting.iter().map(|form| score(self.root, form, entries)).max();
+                fitting.retain(|form| Some(score(self.root, form, entries)) == best);
+            }
+            _ => {}
+        }
+        self.try_forms(&fitting, place, depth);
+    }
+
+    /// Of forms equal in shape, the one with the fewest faults.
+    fn try_forms(&mut self, fitting: &[&'s Json], place: &Place<'_>, depth: usize) {
+        let mut best: Option<Vec<Fault>> = None;
+        for form in fitting {
+            let before = std::mem::take(&mut self.faults);
+            self.visit(form, place, depth + 1);
+            let found = std::mem::replace(&mut self.faults, before);
+            let clean = found.is_empty();
+            if best.as_ref().is_none_or(|b| found.len() < b.len()) {
+                best = Some(found);
+            }
+            if clean || self.fuel == 0 {
+                break;
+            }
+        }
+        self.faults.extend(best.unwrap_or_default());
+    }
+
+    /// Tells of a key that names the form in every form (`model`) but has a value that names none.
+    fn no_tag_agrees(&mut self, fitting: &[&'s Json], entries: &[Entry], place: &Place<'_>) -> bool {
+        for entry in entries {
+            let tags: Option<Vec<Vec<&Json>>> = fitting
+                .iter()
+                .map(|form| options(resolve(self.root, property(form, &entry.key)??)?))
+                .collect();
+            let all: Vec<&Json> = tags.into_iter().flatten().flatten().collect();
+            let value = entry.node.to_json();
+            if fitting.len() > 1 && !all.is_empty() && all.iter().all(|option| **option != value) {
+                let below = Place { node: &entry.node, at: entry.node.span, path: place.path.key(&entry.key) };
+                self.check_options(&all, &below);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Tells of a table none of whose keys belongs to any form: one fault for the whole, not one a form.
+    fn no_form_known(&mut self, fitting: &[&'s Json], entries: &[Entry], place: &Place<'_>) -> bool {
+        if fitting.iter().any(|form| entries.iter().any(|e| property(form, &e.key).is_some())) {
+            return false;
+        }
+        let mut keys: Vec<&str> = fitting.iter().flat_map(|form| naming_keys(form)).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        let Some(entry) = entries.first() else {
+            let problem = format!("{} is an empty table", place.name());
+            self.faults.push(place.fault(problem, expected::list_keys(&keys)));
+            return true;
+        };
+        let near = nearest(&entry.key, keys.iter().copied());
+        let path = place.path.key(&entry.key);
+        let problem = format!("unknown key `{}`", entry.key);
+        self.faults.push(Fault::new(entry.key_span, &path, problem, expected::list_keys(&keys)).suggest(near));
+        true
+    }
+}
+
+/// The keys that tell a form from the others: the required ones, or all where none is.
+fn naming_keys(form: &Json) -> Vec<&str> {
+    let required = missing_keys(form, &[]);
+    if required.is_empty() { known_keys(form) } else { required }
+}
+
+/// The forms with references followed and forms of forms taken apart.
+fn flatten<'s>(root: &'s Json, branches: &'s [Json], depth: usize) -> Vec<&'s Json> {
+    let mut flat = Vec::new();
+    for branch in branches {
+        let Some(form) = resolve(root, branch) else { continue };
+        let inner = forms(form);
+        if inner.is_empty() || depth > 8 || form.get("type").is_some() {
+            flat.push(form);
+        } else {
+            flat.extend(flatten(root, inner, depth + 1));
+        }
+    }
+    flat
+}
+
+/// How well a table's shape fits a form: constants that agree, known keys, then required keys that are there.
+fn score(root: &Json, form: &Json, entries: &[Entry]) -> (isize, usize, isize) {
+    let mut constants = 0;
+    let mut known = 0;
+    for entry in entries {
+        let Some(key) = property(form, &entry.key) else { continue };
+        known += 1;
+        let key = key.and_then(|schema| resolve(root, schema));
+        if let Some(options) = key.and_then(options) {
+            let agrees = options.contains(&&entry.node.to_json());
+            constants += if agrees { 1 } else { -1 };
+        }
+    }
+    (constants, known, -(missing_keys(form, entries).len() as isize))
+}

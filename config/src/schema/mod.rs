@@ -1,0 +1,222 @@
+//! A document held against the JSON Schema that schemars makes from the types, with every fault collected.
+//!
+//! The same schema is what editors get (`phytomer schema species`), so editor and program agree by construction. The
+//! keywords that schemars writes for our types are checked; where a value has several forms (`anyOf`, `oneOf`) the
+//! form that fits best is chosen first and only its faults are told.
+//! Absent: annotations, `not`, `if`, remote references, which no type of ours makes.
+
+mod bounds;
+mod choice;
+mod expected;
+mod prepare;
+
+pub use prepare::{merge_properties, of_type, without_required};
+
+use phytomer_models::fault::Path;
+use serde_json::Value as Json;
+
+use crate::document::{Entry, Node, Value};
+use crate::report::Fault;
+use crate::source::Span;
+use crate::spelling::nearest;
+
+/// References and forms nest at most this deep at one value.
+const MAX_FORMS: usize = 32;
+
+/// Trying forms one by one may take this many visits in one document; then the first that fits by shape is taken.
+const FUEL: usize = 200_000;
+
+/// Checks `node` against `schema`, whose `$ref`s lead into `schema` itself.
+pub fn check(schema: &Json, node: &Node, faults: &mut Vec<Fault>) {
+    let mut walk = Walk { root: schema, faults: Vec::new(), fuel: FUEL };
+    walk.visit(schema, &Place { node, at: node.span, path: Path::root() }, 0);
+    faults.append(&mut walk.faults);
+}
+
+/// Where `$ref` leads; the schema itself when it has none. `None` for a reference that leads nowhere or in circles.
+pub fn resolve<'s>(root: &'s Json, mut schema: &'s Json) -> Option<&'s Json> {
+    for _ in 0..MAX_FORMS {
+        let Some(reference) = schema.get("$ref").and_then(Json::as_str) else { return Some(schema) };
+        schema = root.pointer(reference.strip_prefix('#')?)?;
+    }
+    None
+}
+
+/// The forms that a value may have: the branches of `anyOf` or `oneOf`, none for a value with one form.
+pub fn forms(schema: &Json) -> &[Json] {
+    let branches = schema.get("anyOf").or_else(|| schema.get("oneOf"));
+    branches.and_then(Json::as_array).map_or(&[], Vec::as_slice)
+}
+
+/// A value on the way, with its path and what to underline when it is wrong as a whole.
+struct Place<'n> {
+    node: &'n Node,
+    at: Span,
+    path: Path,
+}
+
+impl Place<'_> {
+    fn fault(&self, problem: impl Into<String>, expected: impl Into<String>) -> Fault {
+        Fault::new(self.at, &self.path, problem, expected)
+    }
+
+    /// How a message calls the value.
+    fn name(&self) -> String {
+        match self.path.0.last() {
+            Some(phytomer_models::fault::Segment::Key(key)) => format!("`{key}`"),
+            Some(phytomer_models::fault::Segment::Index(i)) => format!("item {} of the list", i + 1),
+            None => "the file".to_owned(),
+        }
+    }
+}
+
+struct Walk<'s> {
+    root: &'s Json,
+    faults: Vec<Fault>,
+    fuel: usize,
+}
+
+impl<'s> Walk<'s> {
+    fn visit(&mut self, schema: &'s Json, place: &Place<'_>, depth: usize) {
+        self.fuel = self.fuel.saturating_sub(1);
+        if depth > MAX_FORMS * 4 {
+            self.faults.push(place.fault("nested too deep", "a simpler value"));
+            return;
+        }
+        let Some(schema) = resolve(self.root, schema) else { return };
+        for part in schema.get("allOf").and_then(Json::as_array).into_iter().flatten() {
+            self.visit(part, place, depth + 1);
+        }
+        let forms = forms(schema);
+        if !forms.is_empty() {
+            self.choose(forms, schema, place, depth);
+        }
+        if self.check_type(schema, place) {
+            self.check_value(schema, place, depth);
+        }
+    }
+
+    /// Whether the value has the schema's type; tells if not.
+    fn check_type(&mut self, schema: &Json, place: &Place<'_>) -> bool {
+        let fits = choice::has_type(schema, place.node);
+        if !fits {
+            let problem = format!("{} is {}", place.name(), expected::found(place.node));
+            self.faults.push(place.fault(problem, expected::describe(self.root, schema)));
+        }
+        fits
+    }
+
+    fn check_value(&mut self, schema: &'s Json, place: &Place<'_>, depth: usize) {
+        if let Some(options) = choice::options(schema) {
+            self.check_options(&options, place);
+        }
+        match &place.node.value {
+            Value::Integer(_) | Value::Float(_) | Value::Text(_) => {
+                if let Some(problem) = bounds::of_scalar(schema, place.node) {
+                    let problem = format!("{} is {problem}", place.name());
+                    self.faults.push(place.fault(problem, expected::describe(self.root, schema)));
+                }
+            }
+            Value::Array(items) => self.check_array(schema, items, place, depth),
+            Value::Table(entries) => self.check_table(schema, entries, place, depth),
+            Value::Boolean(_) | Value::Date(_) => {}
+        }
+    }
+
+    fn check_options(&mut self, options: &[&Json], place: &Place<'_>) {
+        let value = place.node.to_json();
+        if options.iter().any(|option| **option == value) {
+            return;
+        }
+        let problem = format!("{} is {}", place.name(), expected::found(place.node));
+        let near = place.node.text().and_then(|t| nearest(t, options.iter().filter_map(|o| o.as_str())));
+        self.faults.push(place.fault(problem, expected::list_options(options)).suggest(near));
+    }
+
+    fn check_array(&mut self, schema: &'s Json, items: &[Node], place: &Place<'_>, depth: usize) {
+        if let Some(problem) = bounds::of_array(schema, items) {
+            let problem = format!("{} {problem}", place.name());
+            self.faults.push(place.fault(problem, expected::describe(self.root, schema)));
+        }
+        for (i, item) in items.iter().enumerate() {
+            if let Some(item_schema) = item_schema(schema, i) {
+                let below = Place { node: item, at: item.span, path: place.path.index(i) };
+                self.visit(item_schema, &below, depth + 1);
+            }
+        }
+    }
+
+    fn check_table(&mut self, schema: &'s Json, entries: &[Entry], place: &Place<'_>, depth: usize) {
+        if let Some(problem) = bounds::of_table(schema, entries.len()) {
+            let problem = format!("{} {problem}", place.name());
+            self.faults.push(place.fault(problem, expected::list_keys(&known_keys(schema))));
+        }
+        let missing = missing_keys(schema, entries);
+        let mut meant = Vec::new();
+        for entry in entries {
+            let below = Place { node: &entry.node, at: entry.node.span, path: place.path.key(&entry.key) };
+            match property(schema, &entry.key) {
+                Some(Some(property)) => self.visit(property, &below, depth + 1),
+                Some(None) => {}
+                None => meant.extend(self.unknown_key(schema, entry, &below)),
+            }
+        }
+        // A key that is only misspelt is not missing too.
+        for key in missing.into_iter().filter(|key| !meant.contains(key)) {
+            let expected = property(schema, key).flatten().map(|p| expected::describe(self.root, p));
+            let problem = match place.path.0.is_empty() {
+                true => format!("the file has no `{key}`"),
+                false => format!("`{key}` is missing in `{}`", place.path),
+            };
+            self.faults.push(place.fault(problem, format!("`{key}`: {}", expected.unwrap_or_default())));
+        }
+    }
+
+    /// Tells of a key that is not allowed; gives the key that was meant.
+    fn unknown_key(&mut self, schema: &'s Json, entry: &Entry, below: &Place<'_>) -> Option<&'s str> {
+        let known = known_keys(schema);
+        let near = nearest(&entry.key, known.iter().copied());
+        let fault = Fault::new(
+            entry.key_span,
+            &below.path,
+            format!("unknown key `{}`", entry.key),
+            expected::list_keys(&known),
+        );
+        self.faults.push(fault.suggest(near));
+        near
+    }
+}
+
+/// The schema of an array's item: by place (`prefixItems`, or `items` as a list), else for all.
+fn item_schema(schema: &Json, i: usize) -> Option<&Json> {
+    match (schema.get("prefixItems"), schema.get("items")) {
+        (Some(Json::Array(places)), rest) if i < places.len() => places.get(i).or(rest),
+        (_, Some(Json::Array(places))) => places.get(i).or_else(|| schema.get("additionalItems")),
+        (_, rest) => rest,
+    }
+}
+
+/// `None`: the key is not allowed. `Some(None)`: allowed, whatever its value.
+fn property<'s>(schema: &'s Json, key: &str) -> Option<Option<&'s Json>> {
+    if let Some(property) = schema.get("properties").and_then(|p| p.get(key)) {
+        return Some(Some(property));
+    }
+    match schema.get("additionalProperties") {
+        Some(Json::Bool(false)) => None,
+        Some(Json::Bool(true)) | None => Some(None),
+        Some(other) => Some(Some(other)),
+    }
+}
+
+fn known_keys(schema: &Json) -> Vec<&str> {
+    let properties = schema.get("properties").and_then(Json::as_object);
+    properties.into_iter().flat_map(|p| p.keys().map(String::as_str)).collect()
+}
+
+fn missing_keys<'s>(schema: &'s Json, entries: &[Entry]) -> Vec<&'s str> {
+    let required = schema.get("required").and_then(Json::as_array).into_iter().flatten();
+    required.filter_map(Json::as_str).filter(|key| entries.iter().all(|e| e.key != **key)).collect()
+}
+
+#[cfg(test)]
+mod tests;

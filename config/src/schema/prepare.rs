@@ -1,0 +1,86 @@
+//! The schema of a type, made ready for files that people type.
+//!
+//! TOML has no null, so that an optional key is a key that may be absent and nothing else: the null forms that
+//! schemars adds are taken out. Draft 7 is asked for, the one that the taplo editor plugin reads best.
+//! Here too: leaving `required` out, for files that inherit, and joining the keys of two table types.
+
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use serde_json::{Map, Value as Json};
+
+/// The JSON Schema of a type, without nulls.
+pub fn of_type<T: JsonSchema>() -> Json {
+    let schema = SchemaSettings::draft07().into_generator().into_root_schema_for::<T>();
+    let mut json = Json::from(schema);
+    drop_nulls(&mut json);
+    json
+}
+
+/// Takes `null` out of types and forms; a form left alone takes the place of the choice.
+fn drop_nulls(json: &mut Json) {
+    match json {
+        Json::Array(items) => items.iter_mut().for_each(drop_nulls),
+        Json::Object(map) => {
+            map.values_mut().for_each(drop_nulls);
+            drop_null_type(map);
+            drop_null_forms(map);
+            map.retain(|key, value| !(key == "default" && value.is_null()));
+        }
+        _ => {}
+    }
+}
+
+fn drop_null_type(map: &mut Map<String, Json>) {
+    let Some(Json::Array(types)) = map.get_mut("type") else { return };
+    types.retain(|t| t != "null");
+    if let [only] = types.as_slice() {
+        let only = only.clone();
+        map.insert("type".to_owned(), only);
+    }
+    if let Some(Json::Array(options)) = map.get_mut("enum") {
+        options.retain(|o| !o.is_null());
+    }
+}
+
+fn drop_null_forms(map: &mut Map<String, Json>) {
+    for keyword in ["anyOf", "oneOf"] {
+        let Some(Json::Array(forms)) = map.get_mut(keyword) else { continue };
+        forms.retain(|form| form.get("type") != Some(&Json::from("null")));
+        if forms.len() != 1 {
+            continue;
+        }
+        let only = forms.pop();
+        map.remove(keyword);
+        if let Some(Json::Object(only)) = only {
+            only.into_iter().for_each(|(key, value)| _ = map.entry(key).or_insert(value));
+        }
+    }
+}
+
+/// The same table type with every key optional.
+pub fn without_required(mut schema: Json) -> Json {
+    if let Some(map) = schema.as_object_mut() {
+        map.remove("required");
+    }
+    schema
+}
+
+/// Adds the keys, the required keys and the definitions of the table type `other` to `schema`.
+pub fn merge_properties(schema: &mut Json, other: &Json) {
+    for keyword in ["properties", "definitions", "$defs"] {
+        let Some(more) = other.get(keyword).and_then(Json::as_object) else { continue };
+        let own = &mut schema[keyword];
+        if own.is_null() {
+            *own = Json::Object(Map::new());
+        }
+        if let Some(own) = own.as_object_mut() {
+            own.extend(more.iter().map(|(k, v)| (k.clone(), v.clone())));
+        }
+    }
+    let more = other.get("required").and_then(Json::as_array).cloned().unwrap_or_default();
+    match schema.get_mut("required").and_then(Json::as_array_mut) {
+        Some(own) => own.extend(more),
+        None if more.is_empty() => {}
+        None => schema["required"] = Json::Array(more),
+    }
+}

@@ -1,0 +1,112 @@
+//! The texts that a validation read: one [`Source`] a file, and the byte ranges ([`Span`]) that point into them.
+//!
+//! A value keeps its span through inheritance and merging, so that a fault found late is still shown in the file and
+//! at the column where somebody typed it. Lines and columns are counted only when a fault is shown; columns count
+//! characters from 1, as editors do.
+
+use std::sync::Arc;
+
+/// Where a text came from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Origin {
+    /// A file of the user, by the path that reached it.
+    File(std::path::PathBuf),
+    /// A preset that ships with the program, by its name (`gmt1/5a`).
+    Preset(String),
+}
+
+/// One text that was read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Source {
+    /// What messages call it: the path as it was typed, or `preset:coffee`.
+    pub name: String,
+    /// Where it came from.
+    pub origin: Origin,
+    /// The whole text, as read.
+    pub text: Arc<str>,
+}
+
+/// Which of the [`Sources`] a span points into.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SourceId(pub u32);
+
+/// A range of bytes in a source.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Span {
+    /// The text.
+    pub source: SourceId,
+    /// First byte.
+    pub start: usize,
+    /// One past the last byte.
+    pub end: usize,
+}
+
+/// Every text read so far, in the order of reading.
+#[derive(Debug, Clone, Default)]
+pub struct Sources(Vec<Source>);
+
+impl Sources {
+    /// Keeps a text; its id stays valid for ever.
+    pub fn add(&mut self, source: Source) -> SourceId {
+        self.0.push(source);
+        SourceId(self.0.len() as u32 - 1)
+    }
+
+    /// The text of an id given by [`Sources::add`].
+    pub fn get(&self, id: SourceId) -> &Source {
+        &self.0[id.0 as usize]
+    }
+
+    /// All texts, in the order of reading.
+    pub fn iter(&self) -> impl Iterator<Item = &Source> {
+        self.0.iter()
+    }
+
+    /// Line and column of the first byte of `span`, both from 1, the column in characters.
+    pub fn place(&self, span: Span) -> (usize, usize) {
+        let text = &self.get(span.source).text;
+        let before = &text[..floor_boundary(text, span.start)];
+        let line = before.bytes().filter(|b| *b == b'\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+        (line, column)
+    }
+
+    /// The part of `span` on its first line, never splitting a character: what is worth underlining.
+    pub fn first_line(&self, span: Span) -> std::ops::Range<usize> {
+        let text = &self.get(span.source).text;
+        let start = floor_boundary(text, span.start);
+        let end = floor_boundary(text, span.end).max(start);
+        let line = text[start..end].find(['\n', '\r']).map_or(end, |n| start + n);
+        start..line
+    }
+}
+
+/// The last character boundary at or before `at`.
+fn floor_boundary(text: &str, at: usize) -> usize {
+    let mut at = at.min(text.len());
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    at
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_count_characters() {
+        let mut sources = Sources::default();
+        let text = "a = 1\nβ = \"é\" # x\n";
+        let id = sources.add(Source {
+            name: "t".into(),
+            origin: Origin::Preset("t".into()),
+            text: text.into(),
+        });
+        let start = text.find('#').unwrap();
+        assert_eq!(sources.place(Span { source: id, start, end: start + 1 }), (2, 9));
+        let past = Span { source: id, start: 999, end: 1000 };
+        assert_eq!(sources.place(past), (3, 1));
+        assert_eq!(sources.first_line(Span { source: id, start: 0, end: 999 }), 0..5);
+    }
+}

@@ -1,0 +1,54 @@
+//! The nearest spelling: what somebody most likely meant by a name that nobody knows.
+//!
+//! Damerau–Levenshtein distance (a swap of neighbours counts once), with a cut-off of a third of the letters: beyond
+//! that a guess is noise. A missing or wrong unit (`insertion` for `insertion_deg`) is always near.
+//! Absent: any dictionary; candidates are the names that would be right at that place.
+
+/// The candidate nearest to `typed`, if one is near enough; of equals the first in alphabetical order.
+pub fn nearest<'c>(typed: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    // A longer word is no slip of the hand, and distance is quadratic in its length.
+    const LONGEST: usize = 64;
+    if typed.is_empty() || typed.len() > LONGEST {
+        return None;
+    }
+    let plain = fold(typed);
+    let cutoff = (plain.chars().count() / 3).max(1);
+    candidates
+        .into_iter()
+        .filter_map(|candidate| {
+            let distance = distance(&plain, &fold(candidate));
+            (distance <= cutoff && distance < candidate.chars().count()).then_some((distance, candidate))
+        })
+        .min()
+        .map(|(_, candidate)| candidate)
+}
+
+/// Case, hyphens and spaces are no difference that a person sees.
+fn fold(word: &str) -> String {
+    word.trim().to_lowercase().replace(['-', ' '], "_")
+}
+
+fn distance(typed: &str, candidate: &str) -> usize {
+    let unit_apart = |short: &str, long: &str| long.strip_prefix(short).is_some_and(|rest| rest.starts_with('_'));
+    if unit_apart(typed, candidate) || unit_apart(candidate, typed) {
+        return 1;
+    }
+    strsim::damerau_levenshtein(typed, candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn finds_slips_and_refuses_noise() {
+        let keys = ["insertion_deg", "internode", "death", "pause"];
+        assert_eq!(nearest("insertoin_deg", keys), Some("insertion_deg"));
+        assert_eq!(nearest("insertion", keys), Some("insertion_deg"));
+        assert_eq!(nearest("Insertion-deg", keys), Some("insertion_deg"));
+        assert_eq!(nearest("deth", keys), Some("death"));
+        assert_eq!(nearest("colour", keys), None);
+        assert_eq!(nearest("", keys), None);
+        assert_eq!(nearest("x", ["a"]), None);
+    }
+}
