@@ -3,9 +3,18 @@
 //! A frame is a base point, a heading along the internode and a reference direction `up` across it. The direction at
 //! azimuth φ is cos φ · up + sin φ · (heading × up). An axis that leaves at azimuth φ and insertion angle β from a
 //! heading h with the direction d at φ has the heading cos β · h + sin β · d and the upper side sin β · h − cos β · d.
-//! Along the axis each internode turns its share of the way to the axis's trend, in the vertical plane of its heading.
+//! The first internode of an axis keeps that direction; each one after it turns its share of the way to the axis's
+//! trend, in the vertical plane of its heading ([`course`] has the formula). The axis of the seed leaves the upward
+//! vertical, whose `up` is the X axis. Absent: bending, which is the work of mechanics.
 
-use crate::plant::{OrganId, Plant};
+mod course;
+mod scan;
+mod stated;
+mod vector;
+
+use crate::math::sincosf;
+use crate::plant::{AxisId, NodeId, OrganId, Plant};
+use scan::Tip;
 
 /// The columns of the pose, one entry a node, in metres and unit vectors; Z is up.
 #[derive(Debug, Clone, Default)]
@@ -16,13 +25,30 @@ pub struct Frames {
     pub heading: Vec<[f32; 3]>,
     /// Its reference direction, from which azimuths count.
     pub up: Vec<[f32; 3]>,
+    /// Where each axis goes on from, in double precision: one entry an axis.
+    tips: Vec<Tip>,
 }
 
 impl Frames {
+    /// The frame at the base of the internode of `node`, which must be posed.
+    #[inline]
+    pub fn at(&self, node: NodeId) -> Frame {
+        let node = node.index();
+        Frame { base: self.base[node], heading: self.heading[node], up: self.up[node] }
+    }
+
     pub(crate) fn clear(&mut self) {
         self.base.clear();
         self.heading.clear();
         self.up.clear();
+        self.tips.clear();
+    }
+
+    fn reserve(&mut self, nodes: usize) {
+        let more = nodes.saturating_sub(self.base.len());
+        self.base.reserve(more);
+        self.heading.reserve(more);
+        self.up.reserve(more);
     }
 }
 
@@ -37,10 +63,87 @@ pub struct Frame {
     pub up: [f32; 3],
 }
 
-/// Poses every internode of `plant` that has no frame yet.
-pub fn pose(_plant: &mut Plant) {}
+impl Frame {
+    /// The same directions at `distance` metres along the heading.
+    #[inline]
+    pub fn advanced(self, distance: f32) -> Self {
+        let along = |k: usize| self.base[k] + distance * self.heading[k];
+        Self { base: [along(0), along(1), along(2)], ..self }
+    }
 
-/// The pose of an organ on its node, whose frame must be there.
-pub fn organ_frame(_plant: &Plant, _organ: OrganId) -> Frame {
-    Frame { base: [0.0; 3], heading: [0.0; 3], up: [0.0; 3] }
+    /// What leaves this frame's base at `azimuth` and `insertion`, radians.
+    #[inline]
+    pub fn inserted(self, azimuth: f32, insertion: f32) -> Self {
+        let (sin_azimuth, cos_azimuth) = sincosf(azimuth);
+        let (sin, cos) = sincosf(insertion);
+        let (h, up) = (self.heading, self.up);
+        let side = [h[1] * up[2] - h[2] * up[1], h[2] * up[0] - h[0] * up[2], h[0] * up[1] - h[1] * up[0]];
+        let outward = [0, 1, 2].map(|k| cos_azimuth * up[k] + sin_azimuth * side[k]);
+        Self {
+            base: self.base,
+            heading: [0, 1, 2].map(|k| cos * h[k] + sin * outward[k]),
+            up: [0, 1, 2].map(|k| sin * h[k] - cos * outward[k]),
+        }
+    }
 }
+
+/// Poses every internode of `plant` that has no frame yet. The frames of the others stay: the pose at rest of a node
+/// depends on the nodes before it alone, and to the last bit neither on the order in which the axes grew nor on how
+/// often the plant was posed.
+pub fn pose(plant: &mut Plant) {
+    if plant.stated_headings.is_empty() {
+        scan::follow_trends(plant);
+    } else {
+        stated::follow_headings(plant);
+    }
+}
+
+/// The pose of an organ on its node, whose frame must be there. The base lies on the line of the axis, at the node;
+/// whoever draws the organ moves it out to the surface of the stem.
+#[inline]
+pub fn organ_frame(plant: &Plant, organ: OrganId) -> Frame {
+    let organs = &plant.organs;
+    let organ = organ.index();
+    node_frame(plant, organs.node[organ]).inserted(organs.azimuth[organ], organs.insertion[organ])
+}
+
+/// The frame at the tip of an internode, where its node is: the directions of the internode, its end as the base.
+#[inline]
+pub fn node_frame(plant: &Plant, node: NodeId) -> Frame {
+    plant.frames.at(node).advanced(plant.nodes.length[node.index()])
+}
+
+/// The pose of the bud that an axis starts as: on its bearing node, in the direction of its insertion.
+pub fn start_frame(plant: &Plant, axis: AxisId) -> Frame {
+    let axes = &plant.axes;
+    let bearing = bearing_frame(plant, axis);
+    bearing.inserted(axes.azimuth[axis.index()], axes.insertion[axis.index()])
+}
+
+/// The pose of the apical bud of an axis: at the tip of the last node that it has made so far, or where it starts. For
+/// the bud at an earlier age take [`node_frame`] of the last node that was there, or [`start_frame`].
+pub fn bud_frame(plant: &Plant, axis: AxisId) -> Frame {
+    match plant.axes.last_node[axis.index()].some() {
+        Some(node) => node_frame(plant, node),
+        None => start_frame(plant, axis),
+    }
+}
+
+/// The frame that an axis leaves: that of its bearing node, or the upward vertical at the plant's place.
+fn bearing_frame(plant: &Plant, axis: AxisId) -> Frame {
+    match plant.axes.bearer[axis.index()].some() {
+        Some(bearer) => node_frame(plant, bearer),
+        None => ground_frame(plant.place),
+    }
+}
+
+fn ground_frame(place: [f32; 3]) -> Frame {
+    Frame { base: place, heading: [0.0, 0.0, 1.0], up: [1.0, 0.0, 0.0] }
+}
+
+#[cfg(test)]
+mod precision_tests;
+#[cfg(test)]
+mod specimen;
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,182 @@
+//! What the pose promises: the directions of insertion, the way to the trend, unit and orthogonal frames whatever the
+//! angles, and the same bits in either order of growth.
+
+use super::specimen::{Branch, Growth, Specimen};
+use super::*;
+use crate::math::{acos, cosf, sinf};
+use crate::plant::{Cause, Form, Kind, LineageKey, NewAxis, NewOrgan, Origin, Trend};
+use crate::random::{PlantRandom, Purpose};
+use std::f32::consts::{FRAC_PI_2, PI};
+
+fn trend(inclination: f32, share: f32) -> Trend {
+    Trend { cos_inclination: cosf(inclination), sin_inclination: sinf(inclination), share }
+}
+
+fn posed(branches: &[Branch], trends: &[Trend], growth: Growth) -> Specimen {
+    let mut specimen = Specimen::grown(branches, trends, growth);
+    pose(&mut specimen.plant);
+    specimen
+}
+
+fn dot(a: [f32; 3], b: [f32; 3]) -> f64 {
+    (0..3).map(|k| f64::from(a[k]) * f64::from(b[k])).sum()
+}
+
+fn assert_near(a: [f32; 3], b: [f32; 3]) {
+    assert!((0..3).all(|k| (a[k] - b[k]).abs() < 1e-6), "{a:?} {b:?}");
+}
+
+#[test]
+fn the_trunk_of_insertion_zero_is_vertical_and_stands_at_the_seed() {
+    let mut specimen = Specimen::grown(&[Branch::trunk(4, 0.25)], &[trend(0.0, 0.2)], Growth::AxisByAxis);
+    specimen.plant.place = [3.0, -2.0, 0.5];
+    pose(&mut specimen.plant);
+    let last = specimen.plant.frames.at(NodeId(3));
+    assert_eq!(last, Frame { base: [3.0, -2.0, 1.25], heading: [0.0, 0.0, 1.0], up: [-1.0, 0.0, 0.0] });
+    assert_eq!(bud_frame(&specimen.plant, AxisId::TRUNK).base, [3.0, -2.0, 1.5]);
+}
+
+#[test]
+fn a_branch_leaves_at_its_insertion_angle_and_azimuth() {
+    let branch = Branch { azimuth: 0.6, insertion: 1.2, ..Branch::on(0, 2) };
+    let plant = posed(&[Branch::trunk(2, 0.5), branch], &[Trend::STRAIGHT], Growth::AxisByAxis).plant;
+    let bearing = plant.frames.at(NodeId(1));
+    let first = plant.frames.at(NodeId(2));
+    assert_near(first.base, [0.0, 0.0, 1.0]);
+    assert!((acos(dot(first.heading, bearing.heading)) - 1.2).abs() < 1e-6);
+    let side = [0.0, -1.0, 0.0];
+    let outward = [0, 1, 2].map(|k| cosf(0.6) * bearing.up[k] + sinf(0.6) * side[k]);
+    assert_near(first.heading, [0, 1, 2].map(|k| cosf(1.2) * bearing.heading[k] + sinf(1.2) * outward[k]));
+    assert_near(first.up, [0, 1, 2].map(|k| sinf(1.2) * bearing.heading[k] - cosf(1.2) * outward[k]));
+    assert!((3..7).all(|node| plant.frames.heading[node] == first.heading), "share 0 keeps the direction");
+}
+
+/// Figure 15: a branch of insertion 1.1 goes up if orthotropic and level if plagiotropic, ever nearer, in one plane.
+#[test]
+fn an_axis_turns_to_its_trend_without_ever_turning_back() {
+    for inclination in [0.0, FRAC_PI_2, 2.2] {
+        let branch = Branch { nodes: 200, ..Branch::on(0, 1) };
+        let plant = posed(&[Branch::trunk(1, 0.5), branch], &[trend(inclination, 0.08)], Growth::AxisByAxis).plant;
+        let angle = |node: usize| acos(f64::from(plant.frames.heading[node][2]).clamp(-1.0, 1.0));
+        let gap = |node: usize| (angle(node) - f64::from(inclination)).abs();
+        assert!((1..200).all(|node| gap(node + 1) <= gap(node) + 1e-7), "inclination {inclination}");
+        assert!(gap(200) < 1e-3);
+        let plane = |node: usize| plant.frames.heading[node];
+        let across = |node: usize| plane(1)[0] * plane(node)[1] - plane(1)[1] * plane(node)[0];
+        assert!((1..=200).all(|node| across(node).abs() < 1e-6));
+    }
+}
+
+#[test]
+fn frames_are_unit_and_orthogonal_whatever_the_angles() {
+    let mut words = PlantRandom::new(5, 8).stream(LineageKey(1), Purpose::Node);
+    let angles = [0.0, 1e-7, 1e-4, 0.8, FRAC_PI_2, PI, -PI, 2.0 * PI, 1e4, -3.0];
+    let shares = [0.0, 1e-6, 0.1, 0.5, 0.999, 1.0];
+    let lengths = [0.0, 1e-9, 0.05, 3.0];
+    for _ in 0..400 {
+        let mut any = |n: usize| words.word() as usize % n;
+        let trends: Vec<Trend> =
+            (0..3).map(|_| trend([0.0, 1e-4, 0.8, FRAC_PI_2, PI][any(5)], shares[any(6)])).collect();
+        let branches: Vec<Branch> = (0..12)
+            .map(|axis| Branch {
+                bearer: (axis > 0).then(|| (any(axis), 1 + any(9) as u32)),
+                azimuth: angles[any(10)],
+                insertion: angles[any(10)],
+                nodes: 9,
+                length: lengths[any(4)],
+                trends: [any(3) as u8, any(3) as u8],
+            })
+            .collect();
+        assert_sound(&posed(&branches, &trends, Growth::TickByTick).plant);
+    }
+}
+
+fn assert_sound(plant: &Plant) {
+    assert_eq!(plant.frames.base.len(), plant.nodes.len());
+    for (node, (&heading, &up)) in plant.frames.heading.iter().zip(&plant.frames.up).enumerate() {
+        assert!(plant.frames.base[node].iter().all(|x| x.is_finite()));
+        assert!((dot(heading, heading) - 1.0).abs() < 1e-5, "node {node}: {heading:?}");
+        assert!((dot(up, up) - 1.0).abs() < 1e-5, "node {node}: {up:?}");
+        assert!(dot(heading, up).abs() < 1e-5, "node {node}: {heading:?} {up:?}");
+    }
+}
+
+#[test]
+fn the_order_of_growth_does_not_change_a_bit() {
+    let composite = [trend(0.0, 0.3), trend(FRAC_PI_2, 0.05)];
+    let branches: Vec<Branch> = (0..30)
+        .map(|axis| Branch {
+            bearer: (axis > 0).then(|| (axis / 3, 3 + axis as u32 % 7)),
+            azimuth: 2.4 * axis as f32,
+            trends: [0, 1],
+            nodes: 20,
+            ..Branch::on(0, 1)
+        })
+        .collect();
+    let ahead = posed(&branches, &composite, Growth::AxisByAxis);
+    let mut ticked = Specimen::new(&branches, &composite);
+    while ticked.tick() {
+        pose(&mut ticked.plant);
+    }
+    assert_eq!(ahead.plant.nodes.len(), 600);
+    for (a, b) in ahead.node_at.iter().flatten().zip(ticked.node_at.iter().flatten()) {
+        assert_eq!(ahead.plant.frames.at(*a), ticked.plant.frames.at(*b));
+    }
+}
+
+#[test]
+fn stated_headings_are_kept_and_up_turns_no_more_than_it_must() {
+    let mut specimen = Specimen::grown(&[Branch::trunk(5, 1.0)], &[], Growth::AxisByAxis);
+    let slant = [0.6, 0.0, 0.8];
+    specimen.plant.stated_headings = vec![[0.0, 0.0, 1.0], slant, [1.0, 0.0, 0.0], [0.0, 0.0, -2.0], [f32::NAN; 3]];
+    pose(&mut specimen.plant);
+    let frames = &specimen.plant.frames;
+    assert_eq!(frames.up[0], [1.0, 0.0, 0.0]);
+    assert_near(frames.up[1], [0.8, 0.0, -0.6]);
+    assert_near(frames.base[2], [0.6, 0.0, 1.8]);
+    assert_near(frames.up[2], [0.0, 0.0, -1.0]);
+    assert_near(frames.heading[3], [0.0, 0.0, -1.0]);
+    assert_near(frames.heading[4], [0.0, 0.0, -1.0]);
+    assert_sound(&specimen.plant);
+}
+
+#[test]
+fn organs_and_buds_stand_at_the_tip_of_their_node() {
+    let mut specimen = Specimen::grown(&[Branch::trunk(2, 0.5)], &[], Growth::AxisByAxis);
+    let plant = &mut specimen.plant;
+    let waiting = plant.add_axis(NewAxis {
+        bearer: Some(NodeId(0)),
+        key: LineageKey(1),
+        order: 2,
+        origin: Origin::Axillary,
+        position: 0,
+        state: 0,
+        appearance: 1,
+        birth: 3,
+        azimuth: 0.0,
+        insertion: FRAC_PI_2,
+    });
+    let leaf = plant.add_organ(NewOrgan {
+        node: NodeId(1),
+        kind: Kind::Leaf,
+        position: 0,
+        birth: 1,
+        death: 9,
+        cause: Cause::LifeLength,
+        form: Form::Elliptic,
+        length: 0.1,
+        width: 0.05,
+        area: 0.004,
+        azimuth: PI,
+        insertion: FRAC_PI_2,
+    });
+    pose(plant);
+    assert_near(bud_frame(plant, AxisId::TRUNK).base, [0.0, 0.0, 1.0]);
+    let bud = bud_frame(plant, waiting);
+    assert_near(bud.base, [0.0, 0.0, 0.5]);
+    assert_near(bud.heading, [-1.0, 0.0, 0.0]);
+    assert_near(bud.up, [0.0, 0.0, 1.0]);
+    let leaf = organ_frame(plant, leaf);
+    assert_near(leaf.base, [0.0, 0.0, 1.0]);
+    assert_near(leaf.heading, [1.0, 0.0, 0.0]);
+}
