@@ -1,13 +1,27 @@
 //! Scenario and species files: reading them, inheritance, and every fault at once with its place in the file.
 //!
 //! A file becomes a tree with spans (`document`), the tree is held against the schema of its types (`schema`), species
-//! inherit (`inherit`), and what the models find wrong is shown where it was typed (`report`).
+//! inherit (`inherit`), and what the models find wrong is shown where it was typed (`report`). [`validate`] does all of
+//! it and gives a run that can begin.
 //! Absent: growth formulas, and anything that runs.
 
-pub mod document;
-pub mod inherit;
-pub mod library;
-pub mod report;
-pub mod schema;
-pub mod source;
+mod document;
+mod inherit;
+mod library;
+mod load;
+mod report;
+pub mod scenario;
+mod schema;
+mod source;
+mod species;
 mod spelling;
+mod validate;
+
+pub use library::{Kind, presets};
+pub use report::{Fault, FaultRecord, Report};
+pub use scenario::Scenario;
+pub use source::{Origin, Source, SourceId, Sources, Span};
+pub use species::{About, ArchitecturalModel, MODELS, Model, ModelName, Species};
+pub use validate::{
+    Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, kind_of, schema_of, validate, validate_species, validate_text,
+};

@@ -10,7 +10,9 @@ mod choice;
 mod expected;
 mod prepare;
 
-pub use prepare::{merge_properties, of_type, without_required};
+pub use prepare::{join, of_type, partial};
+
+use std::collections::BTreeSet;
 
 use phytomer_models::fault::Path;
 use serde_json::Value as Json;
@@ -138,10 +140,23 @@ impl<'s> Walk<'s> {
             let problem = format!("{} {problem}", place.name());
             self.faults.push(place.fault(problem, expected::describe(self.root, schema)));
         }
+        if schema.get("uniqueItems") == Some(&Json::Bool(true)) {
+            self.check_unique(items, place);
+        }
         for (i, item) in items.iter().enumerate() {
             if let Some(item_schema) = item_schema(schema, i) {
                 let below = Place { node: item, at: item.span, path: place.path.index(i) };
                 self.visit(item_schema, &below, depth + 1);
+            }
+        }
+    }
+
+    fn check_unique(&mut self, items: &[Node], place: &Place<'_>) {
+        let mut seen = BTreeSet::new();
+        for (i, item) in items.iter().enumerate() {
+            if !seen.insert(item.to_json().to_string()) {
+                let problem = format!("{} is in the list twice", expected::found(item));
+                self.faults.push(Fault::new(item.span, &place.path.index(i), problem, "each item once"));
             }
         }
     }
@@ -164,10 +179,8 @@ impl<'s> Walk<'s> {
         // A key that is only misspelt is not missing too.
         for key in missing.into_iter().filter(|key| !meant.contains(key)) {
             let expected = property(schema, key).flatten().map(|p| expected::describe(self.root, p));
-            let problem = match place.path.0.is_empty() {
-                true => format!("the file has no `{key}`"),
-                false => format!("`{key}` is missing in `{}`", place.path),
-            };
+            // No path in the words: the same gap seen through inheritance is told once.
+            let problem = format!("the key `{key}` is missing");
             self.faults.push(place.fault(problem, format!("`{key}`: {}", expected.unwrap_or_default())));
         }
     }

@@ -8,6 +8,9 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value as Json};
 
+use super::forms;
+use crate::inherit::ORDER;
+
 /// The JSON Schema of a type, without nulls.
 pub fn of_type<T: JsonSchema>() -> Json {
     let schema = SchemaSettings::draft07().into_generator().into_root_schema_for::<T>();
@@ -57,17 +60,53 @@ fn drop_null_forms(map: &mut Map<String, Json>) {
     }
 }
 
-/// The same table type with every key optional.
-pub fn without_required(mut schema: Json) -> Json {
-    if let Some(map) = schema.as_object_mut() {
-        map.remove("required");
+/// The same table type for a file that may leave keys to its ancestors: no key is required in any table that merges.
+pub fn partial(root: &Json) -> Json {
+    let mut schema = root.clone();
+    let mut tables = vec![String::new()];
+    let mut seen = 0;
+    while let Some(pointer) = tables.get(seen).cloned() {
+        seen += 1;
+        for below in plain_tables(root, &pointer) {
+            if !tables.contains(&below) {
+                tables.push(below);
+            }
+        }
+        if let Some(Json::Object(table)) = schema.pointer_mut(&pointer) {
+            table.remove("required");
+        }
     }
     schema
 }
 
+/// JSON pointers to the types of a table's values that are tables with one form, or lists of such.
+fn plain_tables(root: &Json, pointer: &str) -> Vec<String> {
+    let Some(table) = root.pointer(pointer) else { return Vec::new() };
+    let properties = table.get("properties").and_then(Json::as_object);
+    let keys = properties.into_iter().flat_map(|p| p.keys());
+    let places = keys.map(|key| (key, format!("{pointer}/properties/{}", key.replace('~', "~0").replace('/', "~1"))));
+    places.filter_map(|(key, place)| plain_table(root, if key == ORDER { place + "/items" } else { place })).collect()
+}
+
+/// Follows references from `pointer` to a table with one form.
+fn plain_table(root: &Json, mut pointer: String) -> Option<String> {
+    for _ in 0..8 {
+        let schema = root.pointer(&pointer)?;
+        let all = schema.get("allOf").and_then(Json::as_array).filter(|all| all.len() == 1);
+        if let Some(reference) = schema.get("$ref").and_then(Json::as_str) {
+            pointer = reference.strip_prefix('#')?.to_owned();
+        } else if all.is_some() {
+            pointer += "/allOf/0";
+        } else {
+            return (forms(schema).is_empty() && schema.get("properties").is_some()).then_some(pointer);
+        }
+    }
+    None
+}
+
 /// Adds the keys, the required keys and the definitions of the table type `other` to `schema`.
-pub fn merge_properties(schema: &mut Json, other: &Json) {
-    for keyword in ["properties", "definitions", "$defs"] {
+pub fn join(schema: &mut Json, other: &Json) {
+    for keyword in ["properties", "definitions"] {
         let Some(more) = other.get(keyword).and_then(Json::as_object) else { continue };
         let own = &mut schema[keyword];
         if own.is_null() {

@@ -101,7 +101,7 @@ fn only_the_form_that_fits_best_is_told_of() {
     assert_eq!(
         law("{ weibull = { shape = true } }"),
         [
-            "3:21 `scale` is missing in `order[0].death.weibull`; `scale`: a number",
+            "3:21 the key `scale` is missing; `scale`: a number",
             "3:31 `shape` is true; a number",
         ]
     );

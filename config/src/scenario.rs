@@ -1,0 +1,355 @@
+//! A scenario: what one run grows, for how long, and what it keeps.
+//!
+//! One TOML file a run. Treatments, sites and events will be further tables of this file; until they exist their keys
+//! are refused like any unknown key, so that nobody believes they did something.
+//! Absent: the species, which is a file of its own, and where the run folder goes, which the command line says.
+
+use std::collections::BTreeSet;
+
+use phytomer_models::fault::{Fault, Path};
+use phytomer_sim::clock::LAST_TICK;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The seed of a run that names none: the year of the paper. Printed and recorded like any other.
+pub const DEFAULT_SEED: u64 = 1988;
+
+/// A run: a species, a number of plants, the ages, and what is written.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// The name of the run, and of its folder unless the command line says otherwise.
+    #[schemars(length(min = 1, max = 200))]
+    pub name: String,
+    /// What the run is for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub description: Option<String>,
+    /// A shipped species by its name, or the path of a species file, as seen from this file.
+    #[schemars(length(min = 1))]
+    pub species: String,
+    /// How many plants grow.
+    #[schemars(range(min = 1, max = 1_000_000_000))]
+    pub plants: u32,
+    /// The seed of every draw: the same seed gives the same bytes. 1988 if not given.
+    #[serde(default = "default_seed")]
+    pub seed: u64,
+    /// The plants stand on a square grid this far apart, metres. If not given, each grows at the origin of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(max = 1000.0), extend("exclusiveMinimum" = 0))]
+    pub spacing_m: Option<f64>,
+    /// How long the plants grow, and at which ages they are recorded.
+    pub ages: Ages,
+    /// The tables that are written. All four if not given.
+    #[serde(default = "all_tables")]
+    pub tables: BTreeSet<Table>,
+    /// The meshes that are written. None if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub meshes: Option<Meshes>,
+    /// Where a plot that grows too large is stopped.
+    #[serde(default)]
+    pub limits: Limits,
+    /// How the tables are written.
+    #[serde(default)]
+    pub output: Output,
+}
+
+/// How long the plants grow, and at which ages they are recorded.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ages {
+    /// The last age, in ticks since the seed.
+    #[schemars(range(min = 1, max = 65_535))]
+    pub until: u32,
+    /// The ages at which the living components are recorded: `"all"`, a list, or `{ every = 5 }`. All if not given.
+    #[serde(default)]
+    pub record: Record,
+}
+
+/// Which ages are recorded.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Record {
+    /// Every age from 1, or the word that says so.
+    All(All),
+    /// These ages.
+    List(#[schemars(length(min = 1))] BTreeSet<u32>),
+    /// Every so many ticks.
+    Every(Every),
+}
+
+/// Every so many ticks.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Every {
+    /// The ticks between two recorded ages.
+    #[schemars(range(min = 1))]
+    pub every: u32,
+    /// The first recorded age. The same as `every` if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
+    pub from: Option<u32>,
+}
+
+/// The word `all`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum All {
+    /// All of them.
+    All,
+}
+
+impl Default for Record {
+    fn default() -> Self {
+        Self::All(All::All)
+    }
+}
+
+/// A table of the run folder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Table {
+    /// A row per component that ever lived.
+    Components,
+    /// A row per living component per recorded age, with its pose.
+    Records,
+    /// What became of the buds.
+    Events,
+    /// A row per plant per age.
+    Summary,
+}
+
+/// Which meshes are written.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Meshes {
+    /// The ages: `"last"`, `"all"` recorded ages, or a list. The last if not given.
+    #[serde(default)]
+    pub ages: MeshAges,
+    /// The plants: `"all"`, how many from the first, or a list of numbers from 0. The first if not given.
+    #[serde(default)]
+    pub plants: MeshPlants,
+    /// Sides of the tube that an internode is drawn as.
+    #[serde(default = "default_sides")]
+    #[schemars(range(min = 3, max = 64))]
+    pub sides: u32,
+    /// What one file holds: a plant at an age, a plant at all its ages, or all plants at an age.
+    #[serde(default)]
+    pub per: MeshFile,
+}
+
+/// The ages of the meshes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum MeshAges {
+    /// By a word.
+    Word(MeshAgesWord),
+    /// These ages.
+    List(#[schemars(length(min = 1))] BTreeSet<u32>),
+}
+
+/// The ages of the meshes by a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MeshAgesWord {
+    /// The last age.
+    Last,
+    /// Every recorded age.
+    All,
+}
+
+impl Default for MeshAges {
+    fn default() -> Self {
+        Self::Word(MeshAgesWord::Last)
+    }
+}
+
+/// The plants of the meshes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum MeshPlants {
+    /// Every plant, by the word.
+    All(All),
+    /// So many, from the first.
+    First(#[schemars(range(min = 1))] u32),
+    /// These, numbered from 0.
+    List(#[schemars(length(min = 1))] BTreeSet<u32>),
+}
+
+impl Default for MeshPlants {
+    fn default() -> Self {
+        Self::First(1)
+    }
+}
+
+/// What one mesh file holds.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MeshFile {
+    /// One plant at one age.
+    #[default]
+    PlantAge,
+    /// One plant at all ages asked for.
+    Plant,
+    /// All plants asked for at one age.
+    Age,
+}
+
+/// Where a plot that grows too large is stopped.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Limits {
+    /// The most components of a plot.
+    #[schemars(range(min = 1, max = 2_000_000_000))]
+    pub max_components: u32,
+    /// The most memory of the whole run, in MB of 10⁶ bytes. No limit if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 16))]
+    pub max_memory_mb: Option<u32>,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { max_components: 50_000_000, max_memory_mb: None }
+    }
+}
+
+/// How the tables are written.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// `zstd1` is fast, `zstd3` smaller.
+    pub compression: Compression,
+    /// How many plants one part file holds. Chosen from the expected size if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
+    pub plants_per_part: Option<u32>,
+    /// Lengths and places are rounded to this many metres: 0.0001 saves a quarter of the bytes. Exact if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(max = 1.0), extend("exclusiveMinimum" = 0))]
+    pub float_precision_m: Option<f64>,
+}
+
+/// The compression of the tables.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Compression {
+    /// Fast.
+    #[default]
+    Zstd1,
+    /// Smaller.
+    Zstd3,
+}
+
+fn default_seed() -> u64 {
+    DEFAULT_SEED
+}
+
+fn default_sides() -> u32 {
+    8
+}
+
+fn all_tables() -> BTreeSet<Table> {
+    BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary])
+}
+
+impl Ages {
+    /// The recorded ages, rising.
+    pub fn recorded(&self) -> Vec<u32> {
+        let until = self.until.min(LAST_TICK);
+        match &self.record {
+            Record::All(_) => (1..=until).collect(),
+            Record::List(ages) => ages.iter().copied().collect(),
+            Record::Every(Every { every, from }) => {
+                (from.unwrap_or(*every)..=until).step_by((*every).max(1) as usize).collect()
+            }
+        }
+    }
+}
+
+impl Scenario {
+    /// The ages at which meshes are written, rising; none where no meshes are asked for.
+    pub fn mesh_ages(&self) -> Vec<u32> {
+        match self.meshes.as_ref().map(|meshes| &meshes.ages) {
+            None => Vec::new(),
+            Some(MeshAges::Word(MeshAgesWord::Last)) => vec![self.ages.until],
+            Some(MeshAges::Word(MeshAgesWord::All)) => self.ages.recorded(),
+            Some(MeshAges::List(ages)) => ages.iter().copied().collect(),
+        }
+    }
+
+    /// Whether a mesh of this plant is written.
+    pub fn draws(&self, plant: u32) -> bool {
+        match self.meshes.as_ref().map(|meshes| &meshes.plants) {
+            None => false,
+            Some(MeshPlants::All(_)) => true,
+            Some(MeshPlants::First(count)) => plant < *count,
+            Some(MeshPlants::List(plants)) => plants.contains(&plant),
+        }
+    }
+
+    /// What no schema can say: ages beyond the last, plants beyond the number, a run that writes nothing.
+    pub fn faults(&self) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        let ages = Path::root().key("ages");
+        match &self.ages.record {
+            Record::List(list) => self.check_ages(list, &ages.key("record"), &mut faults),
+            Record::Every(every) => self.check_every(every, &ages.key("record"), &mut faults),
+            Record::All(_) => {}
+        }
+        let meshes = Path::root().key("meshes");
+        if let Some(MeshAges::List(list)) = self.meshes.as_ref().map(|m| &m.ages) {
+            self.check_ages(list, &meshes.key("ages"), &mut faults);
+        }
+        self.check_mesh_plants(&meshes.key("plants"), &mut faults);
+        if self.tables.is_empty() && self.meshes.is_none() {
+            let problem = "this run would write nothing: no table and no mesh is asked for";
+            faults.push(Fault::new(&Path::root().key("tables"), problem, "at least one table, or `[meshes]`"));
+        }
+        faults
+    }
+
+    fn check_ages(&self, list: &BTreeSet<u32>, path: &Path, faults: &mut Vec<Fault>) {
+        let until = self.ages.until;
+        let outside: Vec<String> = list.iter().filter(|age| !(1..=until).contains(age)).map(u32::to_string).collect();
+        if !outside.is_empty() {
+            let verb = if outside.len() == 1 { "age is" } else { "ages are" };
+            let problem = format!("{} {verb} outside the run, which ends at {until}", list_some(&outside));
+            faults.push(Fault::new(path, problem, format!("ages in [1, {until}]")));
+        }
+    }
+
+    fn check_every(&self, every: &Every, path: &Path, faults: &mut Vec<Fault>) {
+        let (key, first) = every.from.map_or(("every", every.every), |from| ("from", from));
+        if first > self.ages.until {
+            let problem = format!("no age is recorded: the first is {first} and the run ends at {}", self.ages.until);
+            faults.push(Fault::new(&path.key(key), problem, format!("a first age in [1, {}]", self.ages.until)));
+        }
+    }
+
+    fn check_mesh_plants(&self, path: &Path, faults: &mut Vec<Fault>) {
+        let plants = self.plants;
+        match self.meshes.as_ref().map(|m| &m.plants) {
+            Some(MeshPlants::First(count)) if *count > plants && *count > 1 => {
+                let problem = format!("meshes of {count} plants are asked for, but only {plants} grow");
+                faults.push(Fault::new(path, problem, format!("at most {plants}, or \"all\"")));
+            }
+            Some(MeshPlants::List(list)) => {
+                let outside: Vec<String> = list.iter().filter(|p| **p >= plants).map(u32::to_string).collect();
+                if !outside.is_empty() {
+                    let problem = format!("no plant has the number {}: they are numbered from 0", list_some(&outside));
+                    faults.push(Fault::new(path, problem, format!("numbers in [0, {}]", plants.saturating_sub(1))));
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// "3, 4, 5" or "3, 4, 5, 6, … (12 in all)".
+fn list_some(items: &[String]) -> String {
+    const SHOWN: usize = 4;
+    match items.len() {
+        n if n <= SHOWN => items.join(", "),
+        n => format!("{}, … ({n} in all)", items[..SHOWN].join(", ")),
+    }
+}
