@@ -1,3 +1,15 @@
 //! De Reffye's bud model (de Reffye, Edelin, Françon, Jaeger & Puech 1988, §§2–5).
+//!
+//! [`Buds`] are the parameters as people state them, [`law`] what a probability or a number of nodes may be,
+//! [`BudModel`] the compiled species that grows. [`expectation`] gives the mean of what grows in closed form.
 
+mod compile;
+pub mod expectation;
+mod grow;
 pub mod law;
+mod model;
+mod node;
+pub mod params;
+
+pub use compile::BudModel;
+pub use params::{Buds, Order};

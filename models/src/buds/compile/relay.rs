@@ -1,0 +1,104 @@
+//! The laws of new axes, and of what follows the end of an apex: relays and traumatic reiteration.
+
+use super::compiler::Compiler;
+use super::geometry::DEGREE;
+use super::node::MOST_BUDS;
+use super::words::{Chance, Layout, Measure, Number};
+use crate::buds::law::{CountTable, ProbabilityTable, VariateTable};
+use crate::buds::params::{ApexEnd, Order};
+
+/// The longest delay, in ticks.
+const LONGEST: u32 = 65_535;
+
+/// How buds at one place become axes.
+#[derive(Debug, Clone)]
+pub struct Branching {
+    pub count: Number,
+    pub chance: Chance,
+    pub delay: Number,
+    /// The insertion angle of the new axis.
+    pub insertion: Measure,
+    /// The state of the new axis; `None`: that of the bearing one.
+    pub state: Option<u8>,
+}
+
+impl Branching {
+    /// Gives each quantity its words.
+    pub fn new(
+        words: &mut Layout,
+        count: CountTable,
+        chance: ProbabilityTable,
+        delay: CountTable,
+        insertion: VariateTable,
+        state: Option<u8>,
+    ) -> Self {
+        let most = count.max();
+        Self {
+            count: words.number(count, 1),
+            chance: words.chance(chance, most),
+            delay: words.number(delay, most),
+            insertion: words.measure(insertion, DEGREE, most),
+            state,
+        }
+    }
+}
+
+/// What follows the end of an apex of an order.
+#[derive(Debug, Clone)]
+pub struct EndLaws {
+    /// The words of the record, one an axis, in the relay stream.
+    pub width: usize,
+    relayed: [bool; 3],
+    pub below: u32,
+    pub relay: Branching,
+    pub traumatic: Branching,
+}
+
+impl EndLaws {
+    /// Compiles the laws of the ends of an order.
+    pub fn compile(order: &Order, compiler: &mut Compiler) -> Self {
+        let mut layout = Layout::default();
+        let relay = relay(order, compiler, &mut layout);
+        let traumatic = traumatic(order, compiler, &mut layout);
+        let on = |end: ApexEnd| order.relay.on.contains(&end);
+        Self {
+            relayed: [on(ApexEnd::Death), on(ApexEnd::Flower), on(ApexEnd::Completed)],
+            below: order.relay.below,
+            relay,
+            traumatic,
+            width: layout.width(),
+        }
+    }
+
+    /// Whether an apex that ended so is relayed.
+    pub fn is_relayed(&self, end: ApexEnd) -> bool {
+        self.relayed[end as usize]
+    }
+}
+
+fn relay(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branching {
+    let relay = &order.relay;
+    let count = compiler.count(&relay.count, "relay.count", MOST_BUDS);
+    let chance = compiler.probability(&relay.probability, "relay.probability");
+    let delay = compiler.count(&relay.delay, "relay.delay", LONGEST);
+    let angle = match &relay.insertion_deg {
+        Some(angle) => compiler.angle(angle, "relay.insertion_deg"),
+        None => compiler.angle(&order.insertion_deg, "insertion_deg"),
+    };
+    let state = relay.state.as_ref().map(|state| compiler.state(state, "relay.state"));
+    Branching::new(words, count, chance, delay, angle, state)
+}
+
+fn traumatic(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branching {
+    let traumatic = &order.traumatic;
+    let chance = compiler.probability(&traumatic.probability, "traumatic.probability");
+    let count = match chance.is_never() {
+        true => CountTable::always(0),
+        false => compiler.count(&order.axillary.buds, "axillary.buds", MOST_BUDS),
+    };
+    let most = CountTable::always(count.max());
+    let delay = compiler.count(&traumatic.delay, "traumatic.delay", LONGEST);
+    let angle = compiler.angle(&traumatic.insertion_deg, "traumatic.insertion_deg");
+    let state = traumatic.state.as_ref().map(|state| compiler.state(state, "traumatic.state"));
+    Branching::new(words, most, chance, delay, angle, state)
+}

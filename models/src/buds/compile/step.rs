@@ -1,0 +1,101 @@
+//! The laws of a clock step: death, pause, flowering, growth units and their nodes, passages between states.
+
+use super::compiler::Compiler;
+use super::geometry::DEGREE;
+use super::words::{Chance, Layout, Measure, Number};
+use crate::buds::params::Order;
+
+/// The most growth units of one step.
+const MOST_UNITS: u32 = 64;
+/// The most nodes of a growth unit.
+const MOST_NODES: u32 = 65_535;
+
+/// The laws of one clock step of an order.
+#[derive(Debug, Clone)]
+pub struct StepLaws {
+    /// The words of the record at the head of the bud stream, one an axis.
+    pub head_width: usize,
+    /// The words of a step's record.
+    pub width: usize,
+    /// The growth units after which the apex ends (in the head record).
+    pub units: Option<Number>,
+    /// The insertion of an axis out of the seed (in the head record).
+    pub insertion: Measure,
+    pub death: Chance,
+    pub pause: Chance,
+    /// The terminal flower.
+    pub flower: Chance,
+    pub per_step: Number,
+    /// Whether a growth unit is short, once a unit.
+    pub short: Chance,
+    pub long_nodes: Number,
+    pub short_nodes: Number,
+    pub neoformed: Number,
+    /// The passages out of each state: (from, to, probability), with one word for all.
+    pub transitions: Vec<(u8, u8, Chance)>,
+}
+
+impl StepLaws {
+    /// Compiles the laws of a step.
+    pub fn compile(order: &Order, compiler: &mut Compiler) -> Self {
+        let mut head = Layout::default();
+        let units = order.apex.units.as_ref().map(|units| {
+            let table = compiler.count(units, "apex.units", MOST_NODES);
+            head.number(table, 1)
+        });
+        let angle = compiler.angle(&order.insertion_deg, "insertion_deg");
+        let insertion = head.measure(angle, DEGREE, 1);
+        let mut layout = Layout::default();
+        let death = layout.chance(compiler.probability(&order.death, "death"), 1);
+        let pause = layout.chance(compiler.probability(&order.pause, "pause"), 1);
+        let flower = layout.chance(compiler.probability(&order.flower.terminal, "flower.terminal"), 1);
+        let unit = &order.growth_unit;
+        let per_step = compiler.count(&unit.per_step, "growth_unit.per_step", MOST_UNITS);
+        let most_units = per_step.max();
+        let per_step = layout.number(per_step, 1);
+        let (short, short_nodes) = match &unit.short {
+            Some(short) => (
+                compiler.probability(&short.probability, "growth_unit.short.probability"),
+                compiler.count(&short.nodes, "growth_unit.short.nodes", MOST_NODES),
+            ),
+            None => (
+                crate::buds::law::ProbabilityTable::certain_or_never(false),
+                crate::buds::law::CountTable::always(0),
+            ),
+        };
+        let long_nodes = compiler.count(&unit.nodes, "growth_unit.nodes", MOST_NODES);
+        let neoformed = compiler.count(&unit.neoformed, "growth_unit.neoformed", MOST_NODES);
+        Self {
+            head_width: head.width(),
+            units,
+            insertion,
+            death,
+            pause,
+            flower,
+            per_step,
+            short: layout.chance(short, most_units),
+            long_nodes: layout.number(long_nodes, most_units),
+            short_nodes: layout.number(short_nodes, most_units),
+            neoformed: layout.number(neoformed, most_units),
+            transitions: transitions(order, compiler, &mut layout),
+            width: layout.width(),
+        }
+    }
+
+    /// The most nodes that a growth unit can have.
+    pub fn most_nodes(&self) -> u32 {
+        self.long_nodes.table.max().max(self.short_nodes.table.max()) + self.neoformed.table.max()
+    }
+}
+
+fn transitions(order: &Order, compiler: &mut Compiler, layout: &mut Layout) -> Vec<(u8, u8, Chance)> {
+    let mut compiled = Vec::new();
+    for (index, transition) in order.transition.iter().enumerate() {
+        let keys = format!("transition.{index}");
+        let from = compiler.state(&transition.from, &format!("{keys}.from"));
+        let to = compiler.state(&transition.to, &format!("{keys}.to"));
+        let table = compiler.probability(&transition.probability, &format!("{keys}.probability"));
+        compiled.push((from, to, layout.chance(table, 1)));
+    }
+    compiled
+}

@@ -1,0 +1,105 @@
+//! Which word of a stream decides what: slots given once per order, in a fixed sequence.
+//!
+//! A stream is read in records of a fixed width: one record a clock step (bud stream), one a node (node stream), one an
+//! axis (relay stream). Quantities that are the same at every point take no word.
+
+use crate::buds::law::{At, CountTable, ProbabilityTable, VariateTable};
+
+/// Hands out the slots of one record.
+#[derive(Debug, Default)]
+pub struct Layout {
+    width: usize,
+}
+
+impl Layout {
+    /// The words of a record so far.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    fn take(&mut self, random: bool, times: u32) -> Slot {
+        if !random {
+            return Slot { first: 0, stride: 0 };
+        }
+        let slot = Slot { first: self.width, stride: 1 };
+        self.width += times as usize;
+        slot
+    }
+
+    /// Slots for `times` tests of a probability.
+    pub fn chance(&mut self, table: ProbabilityTable, times: u32) -> Chance {
+        let slot = self.take(!table.is_never() && !table.is_certain(), times);
+        Chance { table, slot }
+    }
+
+    /// Slots for `times` numbers of things.
+    pub fn number(&mut self, table: CountTable, times: u32) -> Number {
+        let slot = self.take(table.constant().is_none(), times);
+        Number { table, slot }
+    }
+
+    /// Slots for `times` measures, each multiplied by `unit`.
+    pub fn measure(&mut self, table: VariateTable, unit: f32, times: u32) -> Measure {
+        let slot = self.take(table.constant().is_none() && table.is_random(), times);
+        Measure { table, slot, unit }
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Slot {
+    first: usize,
+    stride: usize,
+}
+
+impl Slot {
+    #[inline]
+    fn word(self, words: &[u32], nth: u32) -> u32 {
+        words[self.first + self.stride * nth as usize]
+    }
+}
+
+/// A probability with its slot.
+#[derive(Debug, Clone)]
+pub struct Chance {
+    pub table: ProbabilityTable,
+    slot: Slot,
+}
+
+impl Chance {
+    /// Whether it happens, the `nth` time (from 0) in this record.
+    #[inline]
+    pub fn happens(&self, words: &[u32], nth: u32, at: At) -> bool {
+        self.table.happens(self.slot.word(words, nth), at)
+    }
+}
+
+/// A number of things with its slot.
+#[derive(Debug, Clone)]
+pub struct Number {
+    pub table: CountTable,
+    slot: Slot,
+}
+
+impl Number {
+    /// How many, the `nth` time (from 0) in this record.
+    #[inline]
+    pub fn draw(&self, words: &[u32], nth: u32, at: At) -> u32 {
+        self.table.sample(self.slot.word(words, nth), at)
+    }
+}
+
+/// A measure with its slot and its unit.
+#[derive(Debug, Clone)]
+pub struct Measure {
+    pub table: VariateTable,
+    slot: Slot,
+    unit: f32,
+}
+
+impl Measure {
+    /// The value in SI units or radians, the `nth` time (from 0) in this record.
+    #[inline]
+    pub fn draw(&self, words: &[u32], nth: u32, at: At) -> f32 {
+        self.table.draw(self.slot.word(words, nth), at) * self.unit
+    }
+}

@@ -1,0 +1,330 @@
+//! Counts compiled to tables: for each point a cumulative distribution as 32-bit thresholds.
+//!
+//! One uniform 32-bit word gives one count by inverse transform: the number of thresholds not above the word. Tails
+//! below 2⁻³² are cut. Points with the same parameters share one distribution.
+
+use std::collections::BTreeMap;
+
+use super::MAX_WORK;
+use super::count::{Count, CountForm, Simple};
+use super::domain::{At, Domain, Grid};
+use super::formula::{self, Formula};
+use super::mass::{MAX_COUNT, Mass};
+use super::range::ValueRange;
+use crate::fault::{Fault, Path};
+
+const WORDS: f64 = 4_294_967_296.0;
+const MAX_THRESHOLDS: usize = 16 * 1024 * 1024;
+const MAX_DISTRIBUTIONS: usize = 1024 * 1024;
+const MAX_COMPONENTS: usize = 64;
+
+const WHOLE: ValueRange = ValueRange { min: 0.0, max: MAX_COUNT as f64, what: "a whole number" };
+const MEAN: ValueRange = ValueRange { min: 0.0, max: MAX_COUNT as f64, what: "a mean" };
+const SUCCESSES: ValueRange = ValueRange { min: f64::MIN_POSITIVE, max: f64::INFINITY, what: "a number of successes" };
+const SUCCESS: ValueRange = ValueRange { min: f64::MIN_POSITIVE, max: 1.0, what: "a probability" };
+
+/// One distribution: where its thresholds stand, its smallest count and its moments.
+#[derive(Clone, Debug, PartialEq)]
+struct Distribution {
+    start: u32,
+    len: u32,
+    first: u32,
+    mean: f64,
+    variance: f64,
+}
+
+/// A count, compiled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CountTable {
+    grid: Grid,
+    cells: Vec<u32>,
+    distributions: Vec<Distribution>,
+    thresholds: Vec<u32>,
+}
+
+enum Kind {
+    Constant,
+    Binomial,
+    Poisson,
+    NegativeBinomial,
+    Empirical(Mass),
+}
+
+/// One distribution made ready: its parameters are laws.
+struct Source<'a> {
+    weight: f64,
+    kind: Kind,
+    parameters: Vec<(Formula<'a>, ValueRange)>,
+    shift: u32,
+    path: Path,
+}
+
+impl Count {
+    /// Compiles a count over a domain, or tells every fault found.
+    pub fn compile(&self, domain: &Domain, path: &Path) -> Result<CountTable, Vec<Fault>> {
+        let sources = match self {
+            Self::Number(number) => vec![Source::constant(*number, path)?],
+            Self::Form(form) => sources(form, domain, path)?,
+        };
+        let formulas: Vec<&Formula> = sources.iter().flat_map(|s| s.parameters.iter().map(|p| &p.0)).collect();
+        let grid = formula::grid(&formulas, domain, path)?;
+        CountTable::fill(grid, &sources, path).map_err(|fault| vec![fault])
+    }
+}
+
+fn sources<'a>(form: &CountForm, domain: &'a Domain, path: &Path) -> Result<Vec<Source<'a>>, Vec<Fault>> {
+    form.simple().check_kind(Some(form.mixture.is_some()), path).map_err(|fault| vec![fault])?;
+    let Some(components) = &form.mixture else {
+        return Ok(vec![Source::new(1.0, &form.simple(), None, domain, path)?]);
+    };
+    let path = path.key("mixture");
+    if components.len() > MAX_COMPONENTS {
+        let problem = format!("{} distributions in a mixture", components.len());
+        return Err(vec![Fault::new(&path, problem, format!("at most {MAX_COMPONENTS}"))]);
+    }
+    let weights: Vec<f64> = components.iter().map(|component| component.weight).collect();
+    let total = check_weights(&weights, &path, Some("weight"))?;
+    let (mut sources, mut faults) = (Vec::new(), Vec::new());
+    for (i, component) in components.iter().enumerate() {
+        let path = path.index(i);
+        let kind = component.simple().check_kind(None, &path).map_err(|fault| vec![fault]);
+        let weight = component.weight / total;
+        match kind.and_then(|()| Source::new(weight, &component.simple(), Some(form.shift), domain, &path)) {
+            Ok(source) => sources.push(source),
+            Err(more) => faults.extend(more),
+        }
+    }
+    if faults.is_empty() { Ok(sources) } else { Err(faults) }
+}
+
+/// The sum of weights, each finite and at least 0 and not all 0. `key` is the key of a weight in its table, if any.
+fn check_weights(weights: &[f64], path: &Path, key: Option<&str>) -> Result<f64, Vec<Fault>> {
+    let mut faults = Vec::new();
+    for (i, weight) in weights.iter().enumerate().filter(|(_, w)| !w.is_finite() || **w < 0.0).take(8) {
+        let path = key.map_or(path.index(i), |key| path.index(i).key(key));
+        faults.push(Fault::new(&path, format!("the weight is {weight}"), "a finite weight of at least 0"));
+    }
+    let total: f64 = weights.iter().sum();
+    if faults.is_empty() && !(total > 0.0 && total.is_finite()) {
+        faults.push(Fault::new(path, format!("the weights sum to {total}"), "a finite sum above 0"));
+    }
+    if faults.is_empty() { Ok(total) } else { Err(faults) }
+}
+
+fn check_count(count: u64, path: &Path) -> Result<u32, Fault> {
+    match u32::try_from(count) {
+        Ok(count) if count <= MAX_COUNT => Ok(count),
+        _ => Err(Fault::new(path, format!("counts up to {count}"), format!("counts of at most {MAX_COUNT}"))),
+    }
+}
+
+impl<'a> Source<'a> {
+    fn constant(number: u32, path: &Path) -> Result<Self, Vec<Fault>> {
+        let number = check_count(u64::from(number), path).map_err(|fault| vec![fault])?;
+        let kind = Kind::Empirical(Mass::point(number));
+        Ok(Self { weight: 1.0, kind, parameters: Vec::new(), shift: 0, path: path.clone() })
+    }
+
+    /// `outer` is the shift of the mixture that it stands in.
+    fn new(
+        weight: f64,
+        simple: &Simple,
+        outer: Option<u32>,
+        domain: &'a Domain,
+        path: &Path,
+    ) -> Result<Self, Vec<Fault>> {
+        let shift = u64::from(simple.shift) + u64::from(outer.unwrap_or(0));
+        let shift = check_count(shift, &path.key("shift")).map_err(|fault| vec![fault])?;
+        let (kind, laws, path) = if let Some(law) = simple.constant {
+            (Kind::Constant, vec![(law, path.key("constant"), WHOLE)], path.key("constant"))
+        } else if let Some(b) = simple.binomial {
+            let path = path.key("binomial");
+            let p = (&b.p, path.key("p"), ValueRange::PROBABILITY);
+            (Kind::Binomial, vec![(&b.n, path.key("n"), WHOLE), p], path)
+        } else if let Some(poisson) = simple.poisson {
+            let path = path.key("poisson");
+            (Kind::Poisson, vec![(&poisson.mean, path.key("mean"), MEAN)], path)
+        } else if let Some(n) = simple.negative_binomial {
+            let path = path.key("negative_binomial");
+            let laws = vec![(&n.r, path.key("r"), SUCCESSES), (&n.p, path.key("p"), SUCCESS)];
+            (Kind::NegativeBinomial, laws, path)
+        } else {
+            let (weights, path) = (simple.empirical.unwrap_or(&[]), path.key("empirical"));
+            check_weights(weights, &path, None)?;
+            (Kind::Empirical(Mass::weights(weights)), Vec::new(), path)
+        };
+        let (mut parameters, mut faults) = (Vec::new(), Vec::new());
+        for (law, path, range) in laws {
+            match Formula::new(law, domain, &path) {
+                Ok(formula) => parameters.push((formula, range)),
+                Err(more) => faults.extend(more),
+            }
+        }
+        if faults.is_empty() { Ok(Self { weight, kind, parameters, shift, path }) } else { Err(faults) }
+    }
+
+    /// Its parameters at a point, each checked.
+    fn parameters(&self, at: At, stack: &mut Vec<f64>, into: &mut Vec<f64>) -> Result<(), Fault> {
+        for (i, (formula, range)) in self.parameters.iter().enumerate() {
+            let value = formula.checked(at, range, stack)?;
+            let whole = i == 0 && matches!(self.kind, Kind::Constant | Kind::Binomial);
+            if whole && value.fract() != 0.0 {
+                return Err(formula.fault(at, value, range));
+            }
+            into.push(value);
+        }
+        Ok(())
+    }
+
+    /// Its probabilities, given its parameters.
+    fn mass(&self, parameters: &[f64]) -> Result<Mass, Fault> {
+        let mass = match (&self.kind, parameters) {
+            (Kind::Constant, &[value]) => Some(Mass::point(value as u32)),
+            (Kind::Binomial, &[n, p]) => Mass::binomial(n as u32, p),
+            (Kind::Poisson, &[mean]) => Mass::poisson(mean),
+            (Kind::NegativeBinomial, &[r, p]) => Mass::negative_binomial(r, p),
+            (Kind::Empirical(mass), _) => Some(mass.clone()),
+            _ => None,
+        };
+        let limit = || Fault::new(&self.path, "the counts go too far", format!("counts of at most {MAX_COUNT}"));
+        let mut mass = mass.ok_or_else(limit)?;
+        check_count(mass.first.into(), &self.path)?;
+        mass.first += self.shift;
+        Ok(mass)
+    }
+}
+
+impl CountTable {
+    fn fill(grid: Grid, sources: &[Source], path: &Path) -> Result<Self, Fault> {
+        let mut table = Self { grid, cells: Vec::new(), distributions: Vec::new(), thresholds: Vec::new() };
+        table.cells.reserve_exact(table.grid.len());
+        let mut known: BTreeMap<Vec<u64>, u32> = BTreeMap::new();
+        let (mut stack, mut parameters, mut work) = (Vec::new(), Vec::new(), 0);
+        for cell in 0..table.grid.len() {
+            parameters.clear();
+            for source in sources {
+                source.parameters(table.grid.point(cell), &mut stack, &mut parameters)?;
+            }
+            let key: Vec<u64> = parameters.iter().map(|parameter: &f64| parameter.to_bits()).collect();
+            let found = match known.get(&key) {
+                Some(&found) => found,
+                None => {
+                    work += table.add(sources, &parameters, path)?;
+                    let found = (table.distributions.len() - 1) as u32;
+                    known.insert(key, found);
+                    found
+                }
+            };
+            if work > MAX_WORK || table.thresholds.len() > MAX_THRESHOLDS || known.len() > MAX_DISTRIBUTIONS {
+                let problem = "the count takes too many distributions to compile";
+                return Err(Fault::new(path, problem, "parameters that depend on fewer variables"));
+            }
+            table.cells.push(found);
+        }
+        if table.distributions.len() == 1 {
+            table.grid = Grid::single();
+            table.cells.truncate(1);
+        }
+        Ok(table)
+    }
+
+    /// Adds the distribution of all sources together, given their parameters; the number of steps that it took.
+    fn add(&mut self, sources: &[Source], parameters: &[f64], path: &Path) -> Result<u64, Fault> {
+        let mut rest = parameters;
+        let mut parts = Vec::with_capacity(sources.len());
+        for source in sources {
+            let (mine, others) = rest.split_at(source.parameters.len());
+            rest = others;
+            parts.push((source.weight, source.mass(mine)?));
+        }
+        let work = parts.iter().map(|(_, mass)| mass.weights.len() as u64).sum();
+        let mass = if parts.len() == 1 { parts.swap_remove(0).1 } else { Mass::mixture(&parts) };
+        let start = self.thresholds.len();
+        let (mean, variance) = mass.moments();
+        let first = self.push_thresholds(&mass, start);
+        let len = self.thresholds.len() - start;
+        check_count(u64::from(first) + len as u64, path)?;
+        let distribution = Distribution { start: start as u32, len: len as u32, first, mean, variance };
+        self.distributions.push(distribution);
+        Ok(work)
+    }
+
+    /// Adds the cumulative thresholds, without those that no word is below or above; the smallest count.
+    fn push_thresholds(&mut self, mass: &Mass, start: usize) -> u32 {
+        let (mut first, mut cumulative) = (mass.first, 0.0);
+        let counts = mass.last() - u64::from(mass.first);
+        for weight in mass.weights.iter().take(usize::try_from(counts).unwrap_or(usize::MAX)) {
+            cumulative += weight;
+            let words = (cumulative * WORDS).round();
+            if words >= WORDS {
+                break;
+            }
+            if words == 0.0 && self.thresholds.len() == start {
+                first += 1;
+            } else {
+                self.thresholds.push(words as u32);
+            }
+        }
+        first
+    }
+
+    /// The same count at every point and in every draw.
+    pub fn always(count: u32) -> Self {
+        let only = Distribution { start: 0, len: 0, first: count, mean: f64::from(count), variance: 0.0 };
+        Self { grid: Grid::single(), cells: vec![0], distributions: vec![only], thresholds: Vec::new() }
+    }
+
+    #[inline]
+    fn at(&self, at: At) -> (&Distribution, &[u32]) {
+        let distribution = &self.distributions[self.cells[self.grid.cell(at)] as usize];
+        let start = distribution.start as usize;
+        (distribution, &self.thresholds[start..start + distribution.len as usize])
+    }
+
+    /// The count at a point, drawn with one uniform 32-bit word.
+    #[inline]
+    pub fn sample(&self, word: u32, at: At) -> u32 {
+        let (distribution, thresholds) = self.at(at);
+        distribution.first + thresholds.partition_point(|&threshold| threshold <= word) as u32
+    }
+
+    /// The count, where it is the same at every point and in every draw.
+    pub fn constant(&self) -> Option<u32> {
+        match self.distributions.as_slice() {
+            [only] if only.len == 0 => Some(only.first),
+            _ => None,
+        }
+    }
+
+    /// The mean at a point.
+    pub fn mean(&self, at: At) -> f64 {
+        self.at(at).0.mean
+    }
+
+    /// The variance at a point.
+    pub fn variance(&self, at: At) -> f64 {
+        self.at(at).0.variance
+    }
+
+    /// The largest count that can be drawn at any point.
+    pub fn max(&self) -> u32 {
+        self.distributions.iter().map(|distribution| distribution.first + distribution.len).max().unwrap_or(0)
+    }
+
+    /// The smallest count that can be drawn at any point.
+    pub fn min(&self) -> u32 {
+        self.distributions.iter().map(|distribution| distribution.first).min().unwrap_or(0)
+    }
+
+    /// The probabilities of 0, 1, 2 … at a point, as they are drawn.
+    pub fn pmf(&self, at: At) -> Vec<f64> {
+        let (distribution, thresholds) = self.at(at);
+        let mut pmf = vec![0.0; distribution.first as usize];
+        let mut before = 0.0;
+        for words in thresholds.iter().map(|&threshold| f64::from(threshold)).chain([WORDS]) {
+            pmf.push((words - before) / WORDS);
+            before = words;
+        }
+        pmf
+    }
+}

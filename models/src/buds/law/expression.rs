@@ -1,0 +1,138 @@
+//! Free expressions, for the "arbitrary, strange" laws of de Reffye et al. 1988 §4: what a parsed one is, and its value.
+//!
+//! The parser emits postfix code, so evaluation and dropping need no recursion and no code is executed but these
+//! operations. A NaN is handed on by min and max, so that a logarithm of a negative number is found at the check.
+
+use phytomer_sim::math;
+
+use super::domain::{At, Uses, Variable};
+
+/// One step of the postfix code.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Op {
+    Number(f64),
+    Order,
+    Load(Variable),
+    Unary(fn(f64) -> f64),
+    Binary(fn(f64, f64) -> f64),
+    /// if(condition, then, else)
+    Choose,
+}
+
+/// A parsed expression.
+#[derive(Clone, Debug)]
+pub(super) struct Expression {
+    pub code: Vec<Op>,
+    pub uses: Uses,
+}
+
+impl Expression {
+    /// The value at a point of an axis of `order`; NaN where it has none. `stack` is scratch.
+    pub fn value(&self, order: u8, at: At, stack: &mut Vec<f64>) -> f64 {
+        stack.clear();
+        for &op in &self.code {
+            let value = match op {
+                Op::Number(number) => number,
+                Op::Order => f64::from(order),
+                Op::Load(variable) => f64::from(at.get(variable)),
+                Op::Unary(f) => f(pop(stack)),
+                Op::Binary(f) => {
+                    let right = pop(stack);
+                    f(pop(stack), right)
+                }
+                Op::Choose => {
+                    let (otherwise, then) = (pop(stack), pop(stack));
+                    choose(pop(stack), then, otherwise)
+                }
+            };
+            stack.push(value);
+        }
+        pop(stack)
+    }
+}
+
+fn pop(stack: &mut Vec<f64>) -> f64 {
+    stack.pop().unwrap_or(f64::NAN)
+}
+
+fn choose(condition: f64, then: f64, otherwise: f64) -> f64 {
+    match condition {
+        c if c.is_nan() => f64::NAN,
+        0.0 => otherwise,
+        _ => then,
+    }
+}
+
+/// A function of the language.
+pub(super) enum Function {
+    Unary(fn(f64) -> f64),
+    /// Exactly two arguments.
+    Binary(fn(f64, f64) -> f64),
+    /// Two arguments or more, folded from the left.
+    Fold(fn(f64, f64) -> f64),
+    If,
+}
+
+/// The functions by name.
+pub(super) const FUNCTIONS: [(&str, Function); 9] = [
+    ("min", Function::Fold(|a, b| if a.is_nan() || a < b { a } else { b })),
+    ("max", Function::Fold(|a, b| if a.is_nan() || a > b { a } else { b })),
+    ("exp", Function::Unary(math::exp)),
+    ("log", Function::Unary(math::log)),
+    ("pow", Function::Binary(math::pow)),
+    ("sqrt", Function::Unary(f64::sqrt)),
+    ("abs", Function::Unary(f64::abs)),
+    ("floor", Function::Unary(f64::floor)),
+    ("if", Function::If),
+];
+
+/// The variables by name.
+pub(super) const VARIABLES: [(&str, Op); 5] = [
+    ("order", Op::Order),
+    ("age", Op::Load(Variable::Age)),
+    ("dimension", Op::Load(Variable::Dimension)),
+    ("cycle", Op::Load(Variable::Cycle)),
+    ("rank", Op::Load(Variable::Rank)),
+];
+
+/// An operator between two operands.
+pub(super) struct Infix {
+    pub symbol: &'static str,
+    /// Binds tighter when higher.
+    pub precedence: u8,
+    pub apply: fn(f64, f64) -> f64,
+}
+
+/// Precedence of comparisons, which do not chain.
+pub(super) const COMPARISON: u8 = 4;
+/// Precedence of an operand of `not`: comparisons and all that binds tighter.
+pub(super) const NOT: u8 = 3;
+/// Precedence of an operand of unary minus: only powers bind tighter.
+pub(super) const MINUS: u8 = 7;
+/// Precedence of powers, which group from the right.
+pub(super) const POWER: u8 = 8;
+
+/// The operators between two operands.
+pub(super) const INFIXES: [Infix; 13] = [
+    Infix { symbol: "or", precedence: 1, apply: |a, b| truth(is_true(a) || is_true(b)) },
+    Infix { symbol: "and", precedence: 2, apply: |a, b| truth(is_true(a) && is_true(b)) },
+    Infix { symbol: "<", precedence: COMPARISON, apply: |a, b| truth(a < b) },
+    Infix { symbol: "<=", precedence: COMPARISON, apply: |a, b| truth(a <= b) },
+    Infix { symbol: ">", precedence: COMPARISON, apply: |a, b| truth(a > b) },
+    Infix { symbol: ">=", precedence: COMPARISON, apply: |a, b| truth(a >= b) },
+    Infix { symbol: "==", precedence: COMPARISON, apply: |a, b| truth(a == b) },
+    Infix { symbol: "!=", precedence: COMPARISON, apply: |a, b| truth(a != b) },
+    Infix { symbol: "+", precedence: 5, apply: |a, b| a + b },
+    Infix { symbol: "-", precedence: 5, apply: |a, b| a - b },
+    Infix { symbol: "*", precedence: 6, apply: |a, b| a * b },
+    Infix { symbol: "/", precedence: 6, apply: |a, b| a / b },
+    Infix { symbol: "^", precedence: POWER, apply: math::pow },
+];
+
+pub(super) fn is_true(value: f64) -> bool {
+    value != 0.0
+}
+
+pub(super) fn truth(condition: bool) -> f64 {
+    f64::from(u8::from(condition))
+}

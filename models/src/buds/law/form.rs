@@ -1,0 +1,140 @@
+//! A law as it is written: a bare number, or a table with exactly one kind (de Reffye et al. 1988 §4: "experimental
+//! measures, or calculated from mathematical laws taken as hypotheses, or completely arbitrary").
+//!
+//! The formulas are in `curves` and `expression`; the compilation in `formula` and `table`. That exactly one kind is
+//! given is checked there and reported as a fault; the schema lists all the kinds in one object, so that an editor
+//! can complete them and a misspelt one can be told from its neighbours.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::bare::{self, BareOr};
+use super::curves::{ExponentialLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw};
+use crate::fault::{Fault, Path};
+
+/// A law: a number as a function of age, dimension, cycle, rank and state. Written as a bare number, or as a table
+/// with exactly one kind, for example `{ value = 0.1 }` or `{ expression = "min(1, 0.01 * dimension)" }`.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Law {
+    /// The same number at every point.
+    Number(f64),
+    /// A table with exactly one kind.
+    Form(Box<LawForm>),
+}
+
+/// A law with exactly one kind, and where it comes from.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[schemars(inline, extend("minProperties" = 1))]
+pub struct LawForm {
+    /// The same number at every point, in the unit of the key that the law stands under.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "f64")]
+    pub value: Option<f64>,
+    /// One number for each value of a variable, as measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "TableLaw")]
+    pub table: Option<TableLaw>,
+    /// One number before a point and another from it on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "StepLaw")]
+    pub step: Option<StepLaw>,
+    /// A straight line: start + slope x, kept within min and max where given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "LinearLaw")]
+    pub linear: Option<LinearLaw>,
+    /// An exponential approach: end + (start − end) exp(−rate x).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "ExponentialLaw")]
+    pub exponential: Option<ExponentialLaw>,
+    /// An S-shaped curve: low + (high − low) / (1 + exp(−steepness (x − midpoint))).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "LogisticLaw")]
+    pub logistic: Option<LogisticLaw>,
+    /// The hazard of one tick of a Weibull life length: 1 − exp(−((x/scale)^shape − ((x−1)/scale)^shape)).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "WeibullLaw")]
+    pub weibull: Option<WeibullLaw>,
+    /// The hazard of one cycle whose dead fraction by cycle i is 1 − exp(−alpha i^beta), as measured on robusta coffee.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "RobustaLaw")]
+    pub robusta: Option<RobustaLaw>,
+    /// A formula of order, age, dimension, cycle and rank: + - * / ^, comparisons (0 or 1), and, or, not, min, max,
+    /// exp, log (natural), pow, sqrt, abs, floor, if(condition, then, else).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "String")]
+    pub expression: Option<String>,
+    /// One law for each physiological state of the species, every state named once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "BTreeMap<String, Law>")]
+    pub by_state: Option<BTreeMap<String, Law>>,
+    /// Where the numbers come from: a reference, a data set, an observation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "String")]
+    pub source: Option<String>,
+    /// True where the numbers are a guess and not a measure.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub assumed: bool,
+}
+
+impl<'de> Deserialize<'de> for Law {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Ok(match bare::read(deserializer)? {
+            BareOr::Bare(number) => Self::Number(number),
+            BareOr::Table(form) => Self::Form(Box::new(form)),
+        })
+    }
+}
+
+impl Default for Law {
+    /// Zero everywhere.
+    fn default() -> Self {
+        Self::Number(0.0)
+    }
+}
+
+impl From<f64> for Law {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<LawForm> for Law {
+    fn from(form: LawForm) -> Self {
+        Self::Form(Box::new(form))
+    }
+}
+
+/// A fault unless exactly one of the kinds is given. `kinds` lists each kind with whether it is given.
+pub(super) fn one_kind(kinds: &[(&'static str, bool)], path: &Path) -> Result<(), Fault> {
+    let given: Vec<&str> = kinds.iter().filter(|kind| kind.1).map(|kind| kind.0).collect();
+    let problem = match given.len() {
+        1 => return Ok(()),
+        0 => "no kind is given".to_owned(),
+        _ => format!("{} kinds are given: {}", given.len(), given.join(", ")),
+    };
+    let all: Vec<&str> = kinds.iter().map(|kind| kind.0).collect();
+    Err(Fault::new(path, problem, format!("exactly one of {}", all.join(", "))))
+}
+
+impl LawForm {
+    /// A fault unless exactly one kind is given.
+    pub(super) fn check_kind(&self, path: &Path) -> Result<(), Fault> {
+        let kinds = [
+            ("value", self.value.is_some()),
+            ("table", self.table.is_some()),
+            ("step", self.step.is_some()),
+            ("linear", self.linear.is_some()),
+            ("exponential", self.exponential.is_some()),
+            ("logistic", self.logistic.is_some()),
+            ("weibull", self.weibull.is_some()),
+            ("robusta", self.robusta.is_some()),
+            ("expression", self.expression.is_some()),
+            ("by_state", self.by_state.is_some()),
+        ];
+        one_kind(&kinds, path)
+    }
+}

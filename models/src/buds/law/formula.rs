@@ -1,0 +1,195 @@
+//! A law made ready for evaluation: its kind chosen, its parameters checked, one term for each physiological state.
+//!
+//! Faults of form (no kind, two kinds, a table too short, an unknown state) are found here, faults of value (outside
+//! the range at some point) at the evaluation. Absent on purpose: the tables that the values go to.
+
+use std::collections::BTreeMap;
+
+use super::curves::Curve;
+use super::domain::{At, Domain, Grid, Uses, Variable};
+use super::expression::Expression;
+use super::form::{Law, LawForm};
+use super::range::ValueRange;
+use super::{MAX_CELLS, MAX_WORK, parser, spelling};
+use crate::fault::{Fault, Path};
+
+/// What gives a law's value at a point of one state.
+enum Term {
+    Value(f64),
+    Curve(Box<dyn Curve>),
+    Code(Expression),
+}
+
+struct Part {
+    term: Term,
+    path: Path,
+}
+
+/// A law ready for evaluation: one part, or one for each state.
+pub(super) struct Formula<'a> {
+    parts: Vec<Part>,
+    domain: &'a Domain,
+    /// The variables that it depends on.
+    pub uses: Uses,
+}
+
+impl<'a> Formula<'a> {
+    /// Checks the form of a law and makes it ready.
+    pub fn new(law: &Law, domain: &'a Domain, path: &Path) -> Result<Self, Vec<Fault>> {
+        let mut formula = Self { parts: Vec::new(), domain, uses: Uses::default() };
+        let mut faults = Vec::new();
+        match law {
+            Law::Form(form) => match (form.check_kind(path), &form.by_state) {
+                (Err(fault), _) => faults.push(fault),
+                (Ok(()), Some(laws)) => formula.add_states(laws, &path.key("by_state"), &mut faults),
+                (Ok(()), None) => formula.add(law, path, &mut faults),
+            },
+            Law::Number(_) => formula.add(law, path, &mut faults),
+        }
+        if faults.is_empty() { Ok(formula) } else { Err(faults) }
+    }
+
+    fn add_states(&mut self, laws: &BTreeMap<String, Law>, path: &Path, faults: &mut Vec<Fault>) {
+        let states = &self.domain.states;
+        if states.is_empty() {
+            return faults.push(Fault::new(path, "the species has no states", "a law without by_state"));
+        }
+        for name in laws.keys().filter(|name| !states.contains(name)) {
+            let problem = format!("unknown state `{}`", spelling::clip(name));
+            let expected = spelling::expected(name, states.iter().map(String::as_str), "a state of this species");
+            faults.push(Fault::new(&path.key(name), problem, expected));
+        }
+        for name in states {
+            match laws.get(name) {
+                Some(law) => self.add(law, &path.key(name), faults),
+                None => faults.push(Fault::new(path, format!("no law for state `{name}`"), "a law for each state")),
+            }
+        }
+        self.uses.add_state();
+    }
+
+    fn add(&mut self, law: &Law, path: &Path, faults: &mut Vec<Fault>) {
+        let before = faults.len();
+        let term = match law {
+            Law::Number(value) => Some(Term::Value(*value)),
+            Law::Form(form) => self.term(form, path, faults),
+        };
+        let Some(term) = term else { return };
+        let mut uses = Uses::default();
+        match &term {
+            Term::Value(_) => {}
+            Term::Curve(curve) => uses.add(curve.over()),
+            Term::Code(code) => uses = code.uses,
+        }
+        if uses.has(Variable::Rank) && self.domain.max_rank == 0 {
+            let problem = "the law depends on rank, which does not apply here";
+            faults.push(Fault::new(path, problem, "a law of age, dimension or cycle"));
+        }
+        self.uses.join(uses);
+        if faults.len() == before {
+            self.parts.push(Part { term, path: path.clone() });
+        }
+    }
+
+    fn term(&self, form: &LawForm, path: &Path, faults: &mut Vec<Fault>) -> Option<Term> {
+        if let Err(fault) = form.check_kind(path) {
+            faults.push(fault);
+        } else if let Some(value) = form.value {
+            return Some(Term::Value(value));
+        } else if let Some((kind, curve)) = form.curve() {
+            curve.check(self.domain, &path.key(kind), faults);
+            return Some(Term::Curve(curve));
+        } else if let Some(text) = &form.expression {
+            match parser::parse(text) {
+                Ok(code) => return Some(Term::Code(code)),
+                Err(e) => {
+                    let problem = format!("column {} of the expression: {}", e.column, e.problem);
+                    faults.push(Fault::new(&path.key("expression"), problem, e.expected));
+                }
+            }
+        } else {
+            faults.push(Fault::new(&path.key("by_state"), "by_state inside by_state", "a law of the state"));
+        }
+        None
+    }
+
+    /// The value at a point; `stack` is scratch.
+    pub fn value(&self, at: At, stack: &mut Vec<f64>) -> f64 {
+        let Some(part) = self.part(at) else { return f64::NAN };
+        match &part.term {
+            Term::Value(value) => *value,
+            Term::Curve(curve) => curve.at(at.get(curve.over())),
+            Term::Code(code) => code.value(self.domain.order, at, stack),
+        }
+    }
+
+    /// The value at a point, or the fault where it leaves the range.
+    pub fn checked(&self, at: At, range: &ValueRange, stack: &mut Vec<f64>) -> Result<f64, Fault> {
+        let value = self.value(at, stack);
+        if range.holds(value) { Ok(value) } else { Err(self.fault(at, value, range)) }
+    }
+
+    /// "the law is 1.04 at dimension 27".
+    pub fn fault(&self, at: At, value: f64, range: &ValueRange) -> Fault {
+        let place = at.describe(self.uses, self.domain);
+        let shown = range.show(value);
+        let problem = match place.as_str() {
+            "" => format!("the value is {shown}"),
+            place => format!("the law is {shown} at {place}"),
+        };
+        match self.part(at) {
+            Some(part) => Fault::new(&part.path, problem, range.expected()),
+            None => Fault::new(&Path::root(), problem, range.expected()),
+        }
+    }
+
+    fn part(&self, at: At) -> Option<&Part> {
+        self.parts.get(self.state(at))
+    }
+
+    /// Which of the parts holds at a point.
+    pub fn state(&self, at: At) -> usize {
+        usize::from(at.state).min(self.parts.len().saturating_sub(1))
+    }
+
+    fn steps(&self) -> u64 {
+        let cost = |part: &Part| if let Term::Code(code) = &part.term { code.code.len() as u64 } else { 8 };
+        self.parts.iter().map(cost).max().unwrap_or(1)
+    }
+}
+
+/// The common grid of formulas, refused where the table would be too large or take too long to fill.
+pub(super) fn grid(formulas: &[&Formula], domain: &Domain, path: &Path) -> Result<Grid, Vec<Fault>> {
+    let mut uses = Uses::default();
+    formulas.iter().for_each(|formula| uses.join(formula.uses));
+    let too_large = |problem: String| vec![Fault::new(path, problem, "a law of fewer variables, or a shorter run")];
+    if domain.states.len() > 256 {
+        return Err(too_large(format!("{} states", domain.states.len())));
+    }
+    let grid = Grid::over(uses, domain)
+        .map_err(|cells| too_large(format!("the law takes {cells} points; the limit is {MAX_CELLS}")))?;
+    let steps: u64 = formulas.iter().map(|formula| formula.steps()).sum();
+    if steps.saturating_mul(grid.len() as u64) > MAX_WORK {
+        return Err(too_large(format!("the law takes {} points of {steps} steps each to compile", grid.len())));
+    }
+    Ok(grid)
+}
+
+impl LawForm {
+    /// The curve of one variable that is given, with its key.
+    fn curve(&self) -> Option<(&'static str, Box<dyn Curve>)> {
+        fn boxed<C: Curve + Clone + 'static>(curve: &Option<C>) -> Option<Box<dyn Curve>> {
+            curve.clone().map(|curve| Box::new(curve) as Box<dyn Curve>)
+        }
+        let curves = [
+            ("table", boxed(&self.table)),
+            ("step", boxed(&self.step)),
+            ("linear", boxed(&self.linear)),
+            ("exponential", boxed(&self.exponential)),
+            ("logistic", boxed(&self.logistic)),
+            ("weibull", boxed(&self.weibull)),
+            ("robusta", boxed(&self.robusta)),
+        ];
+        curves.into_iter().find_map(|(kind, curve)| curve.map(|curve| (kind, curve)))
+    }
+}

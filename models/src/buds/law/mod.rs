@@ -1,0 +1,43 @@
+//! Laws and distributions of the bud model: what a bud's fate, a growth unit's nodes and an internode's shape
+//! depend on (de Reffye et al. 1988 §§3–4).
+//!
+//! A [`Law`] gives a number at each point (age, dimension, cycle, rank, state) of an order; a [`Count`] and a
+//! [`Variate`] are random variables whose parameters are laws. All are written in TOML, checked over their whole
+//! [`Domain`] and compiled to tables before the first tick; during growth a draw is one look-up and one comparison.
+//! Absent on purpose: files, spans and the draws themselves (a table is handed one 32-bit word).
+
+mod bare;
+mod count;
+mod count_table;
+mod curves;
+mod domain;
+mod expression;
+mod form;
+mod formula;
+mod mass;
+mod parser;
+mod quantile;
+mod range;
+mod spelling;
+mod table;
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod tests_draws;
+mod variate;
+mod variate_table;
+
+pub use count::{Binomial, Count, CountComponent, CountForm, NegativeBinomial, Poisson};
+pub use count_table::CountTable;
+pub use curves::{Beyond, ExponentialLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw};
+pub use domain::{At, Domain, Variable};
+pub use form::{Law, LawForm};
+pub use range::ValueRange;
+pub use table::{ProbabilityTable, ValueTable};
+pub use variate::{Lognormal, Normal, Uniform, Variate, VariateForm};
+pub use variate_table::VariateTable;
+
+/// The most cells that one compiled law may have (64 MiB of thresholds).
+pub const MAX_CELLS: u64 = 16 * 1024 * 1024;
+/// The most steps of evaluation that one law may take to compile: some seconds.
+pub(crate) const MAX_WORK: u64 = 1 << 28;

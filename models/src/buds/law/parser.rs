@@ -1,0 +1,259 @@
+//! The parser of free expressions: text to postfix code, by precedence climbing.
+//!
+//! Bounded in length and depth, so that no text can exhaust the stack. Precedence from loose to tight: or, and, not,
+//! comparisons (which do not chain), + −, * /, unary minus, ^ (from the right; −2^2 = −4). Errors carry the column
+//! in the text, from 1, in characters.
+
+use super::domain::Uses;
+use super::expression::{
+    COMPARISON, Expression, FUNCTIONS, Function, INFIXES, Infix, MINUS, NOT, Op, POWER, VARIABLES, is_true, truth,
+};
+use super::spelling;
+
+/// The longest expression, in characters.
+const MAX_LENGTH: usize = 2000;
+/// The deepest nesting of parentheses and operators.
+const MAX_DEPTH: u32 = 64;
+
+/// Why a text is not an expression.
+#[derive(Debug, PartialEq)]
+pub(super) struct ParseError {
+    /// Where, in characters from 1.
+    pub column: usize,
+    pub problem: String,
+    pub expected: String,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Token {
+    Number(f64),
+    Name(String),
+    Symbol(&'static str),
+    End,
+}
+
+impl Token {
+    fn describe(&self) -> String {
+        match self {
+            Self::Number(number) => format!("unexpected number {number}"),
+            Self::Name(name) => format!("unexpected name `{}`", spelling::clip(name)),
+            Self::Symbol(symbol) => format!("unexpected `{symbol}`"),
+            Self::End => "the expression ends too early".to_owned(),
+        }
+    }
+}
+
+fn error<T>(column: usize, problem: impl Into<String>, expected: impl Into<String>) -> Result<T, ParseError> {
+    Err(ParseError { column, problem: problem.into(), expected: expected.into() })
+}
+
+/// Parses an expression.
+pub(super) fn parse(text: &str) -> Result<Expression, ParseError> {
+    let chars: Vec<char> = text.chars().take(MAX_LENGTH + 1).collect();
+    if chars.len() > MAX_LENGTH {
+        return error(MAX_LENGTH, "the expression is too long", format!("at most {MAX_LENGTH} characters"));
+    }
+    let mut parser = Parser { tokens: tokens(&chars)?, next: 0, depth: 0, code: Vec::new(), uses: Uses::default() };
+    parser.expression(0)?;
+    match parser.token() {
+        Token::End => Ok(Expression { code: parser.code, uses: parser.uses }),
+        token => error(parser.column(), token.describe(), "an operator or the end of the expression"),
+    }
+}
+
+/// Longest first, so that `<=` is not read as `<`.
+const SYMBOLS: [&str; 14] = ["<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/", "^", "(", ")", ","];
+
+fn tokens(chars: &[char]) -> Result<Vec<(usize, Token)>, ParseError> {
+    let mut tokens = Vec::new();
+    let mut at = 0;
+    while at < chars.len() {
+        if chars[at].is_whitespace() {
+            at += 1;
+            continue;
+        }
+        let (token, len) = token(&chars[at..], at + 1)?;
+        tokens.push((at + 1, token));
+        at += len;
+    }
+    tokens.push((chars.len() + 1, Token::End));
+    Ok(tokens)
+}
+
+fn token(rest: &[char], column: usize) -> Result<(Token, usize), ParseError> {
+    let first = rest[0];
+    if first.is_ascii_digit() || first == '.' {
+        return number(rest, column);
+    }
+    if first.is_alphabetic() || first == '_' {
+        let name: String = rest.iter().take_while(|c| c.is_alphanumeric() || **c == '_').collect();
+        let len = name.chars().count();
+        return Ok((Token::Name(name), len));
+    }
+    let starts = |symbol: &&&str| symbol.chars().enumerate().all(|(i, c)| rest.get(i) == Some(&c));
+    match SYMBOLS.iter().find(starts) {
+        Some(symbol) => Ok((Token::Symbol(symbol), symbol.len())),
+        None => error(column, format!("unexpected character `{first}`"), "a number, a name or an operator"),
+    }
+}
+
+fn number(rest: &[char], column: usize) -> Result<(Token, usize), ParseError> {
+    let digits = |from: usize| rest[from.min(rest.len())..].iter().take_while(|c| c.is_ascii_digit()).count();
+    let mut len = digits(0);
+    if rest.get(len) == Some(&'.') {
+        len += 1 + digits(len + 1);
+    }
+    if matches!(rest.get(len), Some('e' | 'E')) {
+        let sign = usize::from(matches!(rest.get(len + 1), Some('+' | '-')));
+        let exponent = digits(len + 1 + sign);
+        len += if exponent > 0 { 1 + sign + exponent } else { 0 };
+    }
+    let text: String = rest[..len].iter().collect();
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok((Token::Number(number), len)),
+        _ => error(column, format!("`{}` is not a number", spelling::clip(&text)), "a number such as 0.05 or 8.89e-8"),
+    }
+}
+
+struct Parser {
+    tokens: Vec<(usize, Token)>,
+    next: usize,
+    depth: u32,
+    code: Vec<Op>,
+    uses: Uses,
+}
+
+impl Parser {
+    fn token(&self) -> Token {
+        self.tokens.get(self.next).map_or(Token::End, |(_, token)| token.clone())
+    }
+
+    fn column(&self) -> usize {
+        self.tokens.get(self.next).or(self.tokens.last()).map_or(1, |(column, _)| *column)
+    }
+
+    fn infix(&self) -> Option<&'static Infix> {
+        let symbol = match self.tokens.get(self.next) {
+            Some((_, Token::Symbol(symbol))) => symbol,
+            Some((_, Token::Name(name))) => name.as_str(),
+            _ => return None,
+        };
+        INFIXES.iter().find(|infix| infix.symbol == symbol)
+    }
+
+    /// An operand and all operators of at least this precedence that follow it.
+    fn expression(&mut self, loosest: u8) -> Result<(), ParseError> {
+        self.depth += 1;
+        if self.depth > MAX_DEPTH {
+            return error(self.column(), "the expression is nested too deeply", format!("at most {MAX_DEPTH} levels"));
+        }
+        self.operand()?;
+        let mut compared = false;
+        while let Some(infix) = self.infix().filter(|infix| infix.precedence >= loosest) {
+            if infix.precedence == COMPARISON && compared {
+                return error(self.column(), "comparisons do not chain", "`and` between two comparisons");
+            }
+            compared = infix.precedence == COMPARISON;
+            self.next += 1;
+            self.expression(if infix.precedence == POWER { POWER } else { infix.precedence + 1 })?;
+            self.code.push(Op::Binary(infix.apply));
+        }
+        self.depth -= 1;
+        Ok(())
+    }
+
+    fn operand(&mut self) -> Result<(), ParseError> {
+        let column = self.column();
+        let token = self.token();
+        self.next += 1;
+        match token {
+            Token::Number(number) => self.code.push(Op::Number(number)),
+            Token::Symbol("(") => {
+                self.expression(0)?;
+                self.symbol(")")?;
+            }
+            Token::Symbol("-") => {
+                self.expression(MINUS)?;
+                self.code.push(Op::Unary(|x| -x));
+            }
+            Token::Symbol("+") => self.expression(MINUS)?,
+            Token::Name(name) if name == "not" => {
+                self.expression(NOT)?;
+                self.code.push(Op::Unary(|x| truth(!is_true(x))));
+            }
+            Token::Name(name) if self.token() == Token::Symbol("(") => self.call(&name, column)?,
+            Token::Name(name) => self.variable(&name, column)?,
+            token => return error(column, token.describe(), "a number, a variable, a function or `(`"),
+        }
+        Ok(())
+    }
+
+    fn symbol(&mut self, symbol: &'static str) -> Result<(), ParseError> {
+        if self.token() != Token::Symbol(symbol) {
+            return error(self.column(), self.token().describe(), format!("`{symbol}`"));
+        }
+        self.next += 1;
+        Ok(())
+    }
+
+    fn variable(&mut self, name: &str, column: usize) -> Result<(), ParseError> {
+        let Some((_, op)) = VARIABLES.iter().find(|(known, _)| *known == name) else {
+            return error(column, format!("unknown name `{}`", spelling::clip(name)), expected_name(name));
+        };
+        if let Op::Load(variable) = op {
+            self.uses.add(*variable);
+        }
+        self.code.push(*op);
+        Ok(())
+    }
+
+    fn call(&mut self, name: &str, column: usize) -> Result<(), ParseError> {
+        let Some((name, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) else {
+            return error(column, format!("unknown function `{}`", spelling::clip(name)), expected_name(name));
+        };
+        self.symbol("(")?;
+        let mut arguments = 0;
+        loop {
+            self.expression(0)?;
+            arguments += 1;
+            if let (Function::Fold(fold), 2..) = (function, arguments) {
+                self.code.push(Op::Binary(*fold));
+            }
+            if self.token() != Token::Symbol(",") {
+                break;
+            }
+            self.next += 1;
+        }
+        self.symbol(")")?;
+        self.finish_call(name, function, arguments, column)
+    }
+
+    fn finish_call(
+        &mut self,
+        name: &str,
+        function: &Function,
+        arguments: usize,
+        column: usize,
+    ) -> Result<(), ParseError> {
+        let (op, needs) = match (function, arguments) {
+            (Function::Fold(_), 2..) => return Ok(()),
+            (Function::Unary(f), 1) => (Some(Op::Unary(*f)), ""),
+            (Function::Binary(f), 2) => (Some(Op::Binary(*f)), ""),
+            (Function::If, 3) => (Some(Op::Choose), ""),
+            (Function::Unary(_), _) => (None, "1 argument"),
+            (Function::Binary(_), _) => (None, "2 arguments"),
+            (Function::Fold(_), _) => (None, "2 arguments or more"),
+            (Function::If, _) => (None, "3 arguments: condition, then, else"),
+        };
+        if let Some(op) = op {
+            self.code.push(op);
+            return Ok(());
+        }
+        error(column, format!("`{name}` is given {arguments} arguments"), needs)
+    }
+}
+
+fn expected_name(name: &str) -> String {
+    let names = VARIABLES.iter().map(|known| known.0).chain(FUNCTIONS.iter().map(|known| known.0));
+    spelling::expected(name, names.chain(["and", "or", "not"]), "a variable or a function")
+}

@@ -1,0 +1,150 @@
+//! Laws compiled to tables: probabilities as 32-bit thresholds, values as 32-bit floats.
+//!
+//! A draw is one look-up and one comparison with a 32-bit word. A threshold is p · 2³² rounded, so a probability is
+//! kept to 1.2e-10; `u32::MAX` means certain and 0 never. Every point of the domain is checked here, before the
+//! first tick. Absent on purpose: where the words come from.
+
+use super::domain::{At, Domain, Grid};
+use super::form::Law;
+use super::formula::{self, Formula};
+use super::range::ValueRange;
+use crate::fault::{Fault, Path};
+
+const WORDS: f64 = 4_294_967_296.0;
+/// The threshold of a certain event.
+const CERTAIN: u32 = u32::MAX;
+
+/// A law of probability, compiled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProbabilityTable {
+    grid: Grid,
+    thresholds: Vec<u32>,
+    constant: Option<f64>,
+}
+
+/// A law of values (lengths, diameters, angles), compiled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ValueTable {
+    grid: Grid,
+    values: Vec<f32>,
+}
+
+impl Law {
+    /// Compiles a law of probability over a domain, or tells every fault: for each state the first point in error.
+    pub fn compile_probability(&self, domain: &Domain, path: &Path) -> Result<ProbabilityTable, Vec<Fault>> {
+        let mut constant = None;
+        let mut same = true;
+        let (mut grid, mut thresholds) = fill(self, domain, path, &ValueRange::PROBABILITY, |p| {
+            same &= *constant.get_or_insert(p) == p;
+            threshold(p)
+        })?;
+        if same {
+            grid = Grid::single();
+            thresholds.truncate(1);
+        }
+        Ok(ProbabilityTable { grid, thresholds, constant: constant.filter(|_| same) })
+    }
+
+    /// Compiles a law of values over a domain, each within `range`, or tells every fault.
+    pub fn compile_value(&self, domain: &Domain, path: &Path, range: ValueRange) -> Result<ValueTable, Vec<Fault>> {
+        let (mut grid, mut values) = fill(self, domain, path, &range, |value| value as f32)?;
+        if values.iter().all(|value| *value == values[0]) {
+            grid = Grid::single();
+            values.truncate(1);
+        }
+        Ok(ValueTable { grid, values })
+    }
+}
+
+/// Evaluates a law at every point of its grid.
+fn fill<T>(
+    law: &Law,
+    domain: &Domain,
+    path: &Path,
+    range: &ValueRange,
+    mut convert: impl FnMut(f64) -> T,
+) -> Result<(Grid, Vec<T>), Vec<Fault>> {
+    let formula = Formula::new(law, domain, path)?;
+    let grid = formula::grid(&[&formula], domain, path)?;
+    let mut cells = Vec::with_capacity(grid.len());
+    let mut faults: Vec<(usize, Fault)> = Vec::new();
+    let mut stack = Vec::new();
+    for at in (0..grid.len()).map(|cell| grid.point(cell)) {
+        match formula.checked(at, range, &mut stack) {
+            Ok(value) => cells.push(convert(value)),
+            // The states run slowest: only the last fault can be of this state.
+            Err(_) if faults.last().is_some_and(|(state, _)| *state == formula.state(at)) => {}
+            Err(fault) => faults.push((formula.state(at), fault)),
+        }
+    }
+    if faults.is_empty() { Ok((grid, cells)) } else { Err(faults.into_iter().map(|(_, fault)| fault).collect()) }
+}
+
+fn threshold(p: f64) -> u32 {
+    // Below 1 it stays below `CERTAIN`; the cast saturates and p is in [0, 1].
+    if p >= 1.0 { CERTAIN } else { ((p * WORDS).round() as u32).min(CERTAIN - 1) }
+}
+
+impl ProbabilityTable {
+    /// The same probability at every point.
+    pub fn certain_or_never(certain: bool) -> Self {
+        let p = f64::from(u8::from(certain));
+        Self { grid: Grid::single(), thresholds: vec![threshold(p)], constant: Some(p) }
+    }
+
+    /// Whether it happens at a point, drawn with one uniform 32-bit word.
+    #[inline]
+    pub fn happens(&self, word: u32, at: At) -> bool {
+        let threshold = self.thresholds[self.grid.cell(at)];
+        (word < threshold) | (threshold == CERTAIN)
+    }
+
+    /// The probability at a point, as it is drawn (to 1.2e-10).
+    pub fn probability(&self, at: At) -> f64 {
+        match (self.constant, self.thresholds[self.grid.cell(at)]) {
+            (Some(p), _) => p,
+            (None, CERTAIN) => 1.0,
+            (None, threshold) => f64::from(threshold) / WORDS,
+        }
+    }
+
+    /// The probability, where it is the same at every point.
+    pub fn constant(&self) -> Option<f64> {
+        self.constant
+    }
+
+    /// Whether it happens at no point, so that no draw is needed.
+    pub fn is_never(&self) -> bool {
+        self.constant == Some(0.0)
+    }
+
+    /// Whether it happens at every point, so that no draw is needed.
+    pub fn is_certain(&self) -> bool {
+        self.constant == Some(1.0)
+    }
+}
+
+impl ValueTable {
+    /// The same value at every point.
+    pub fn always(value: f32) -> Self {
+        Self { grid: Grid::single(), values: vec![value] }
+    }
+
+    /// The value at a point.
+    #[inline]
+    pub fn value(&self, at: At) -> f32 {
+        self.values[self.grid.cell(at)]
+    }
+
+    /// The value, where it is the same at every point.
+    pub fn constant(&self) -> Option<f32> {
+        (self.values.len() == 1).then(|| self.values[0])
+    }
+
+    /// The smallest and the largest value over the domain.
+    pub fn extremes(&self) -> (f32, f32) {
+        self.values
+            .iter()
+            .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)))
+    }
+}

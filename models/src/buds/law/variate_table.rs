@@ -1,0 +1,267 @@
+//! Real random variables compiled to tables: for each point the parameters of one distribution.
+//!
+//! One uniform 32-bit word gives one draw by the inverse of the distribution function: the word stands for the middle
+//! of its interval, (word + ½) · 2⁻³². Draws are clamped to `min`, `max` and the caller's range, and means are those
+//! of the clamped variable.
+
+use phytomer_sim::math;
+
+use super::domain::{At, Domain, Grid};
+use super::form::Law;
+use super::formula::{self, Formula};
+use super::quantile::{density, phi, quantile};
+use super::range::ValueRange;
+use super::variate::{Lognormal, Normal, Uniform, Variate, VariateForm};
+use crate::fault::{Fault, Path};
+
+const WORDS: f64 = 4_294_967_296.0;
+
+#[derive(Clone, Debug, PartialEq)]
+enum Kind {
+    Value,
+    Normal,
+    Uniform,
+    /// Parameters are those of the logarithm.
+    Lognormal,
+    Empirical(Vec<f64>),
+}
+
+/// A real random variable, compiled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VariateTable {
+    grid: Grid,
+    kind: Kind,
+    /// Two parameters a point: the value and 0; mean and sd; min and max.
+    cells: Vec<[f64; 2]>,
+    low: f64,
+    high: f64,
+}
+
+impl Variate {
+    /// Compiles a random variable over a domain, or tells every fault found. Values, means and bounds must be within
+    /// `range`; draws are clamped to it.
+    pub fn compile(&self, domain: &Domain, path: &Path, range: ValueRange) -> Result<VariateTable, Vec<Fault>> {
+        match self {
+            Self::Number(number) if range.holds(*number) => Ok(VariateTable::single(*number)),
+            Self::Number(number) => {
+                Err(vec![Fault::new(path, format!("the value is {}", range.show(*number)), range.expected())])
+            }
+            Self::Form(form) => form.compile(domain, path, range),
+        }
+    }
+}
+
+/// A parameter: its law, its key (none where the law stands under the kind itself) and its range.
+type Parameter<'a> = (&'a Law, Option<&'static str>, ValueRange);
+
+impl VariateForm {
+    /// The distribution that is given, its key and its parameters.
+    fn kind(&self, range: ValueRange) -> (Kind, &'static str, Vec<Parameter<'_>>) {
+        let sd_range = ValueRange { min: 0.0, max: f64::INFINITY, what: "a standard deviation" };
+        let spread = |mean, sd, mean_range| vec![(mean, Some("mean"), mean_range), (sd, Some("sd"), sd_range)];
+        if let Some(law) = &self.value {
+            (Kind::Value, "value", vec![(law, None, range)])
+        } else if let Some(Normal { mean, sd }) = &self.normal {
+            (Kind::Normal, "normal", spread(mean, sd, range))
+        } else if let Some(Uniform { min, max }) = &self.uniform {
+            (Kind::Uniform, "uniform", vec![(min, Some("min"), range), (max, Some("max"), range)])
+        } else if let Some(Lognormal { mean, sd }) = &self.lognormal {
+            let positive = ValueRange { min: range.min.max(f64::MIN_POSITIVE), ..range };
+            (Kind::Lognormal, "lognormal", spread(mean, sd, positive))
+        } else {
+            (Kind::Empirical(self.empirical.clone().unwrap_or_default()), "empirical", Vec::new())
+        }
+    }
+
+    fn compile(&self, domain: &Domain, path: &Path, range: ValueRange) -> Result<VariateTable, Vec<Fault>> {
+        self.check_kind(path).map_err(|fault| vec![fault])?;
+        let mut faults = self.bound_faults(path, &range);
+        let (kind, key, parameters) = self.kind(range);
+        let path = path.key(key);
+        if let Kind::Empirical(values) = &kind {
+            faults.extend(value_faults(values, &path, &range));
+        }
+        let mut formulas = Vec::new();
+        for (law, key, range) in parameters {
+            match Formula::new(law, domain, &key.map_or(path.clone(), |key| path.key(key))) {
+                Ok(formula) => formulas.push((formula, range)),
+                Err(more) => faults.extend(more),
+            }
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let grid = formula::grid(&formulas.iter().map(|f| &f.0).collect::<Vec<_>>(), domain, &path)?;
+        // Draws stay within what a 32-bit float holds.
+        let low = self.min.unwrap_or(range.min).max(f64::from(f32::MIN));
+        let high = self.max.unwrap_or(range.max).min(f64::from(f32::MAX));
+        VariateTable { grid, kind, cells: Vec::new(), low, high }.fill(&formulas, &path).map_err(|fault| vec![fault])
+    }
+
+    /// Faults of `min` and `max`.
+    fn bound_faults(&self, path: &Path, range: &ValueRange) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        for (key, bound) in [("min", self.min), ("max", self.max)] {
+            if let Some(bound) = bound.filter(|bound| !range.holds(*bound)) {
+                let problem = format!("{key} is {}", range.show(bound));
+                faults.push(Fault::new(&path.key(key), problem, range.expected()));
+            }
+        }
+        if let (Some(min), Some(max)) = (self.min, self.max)
+            && min > max
+        {
+            faults.push(Fault::new(&path.key("min"), format!("min {min} is above max {max}"), "min ≤ max"));
+        }
+        faults
+    }
+}
+
+fn value_faults(values: &[f64], path: &Path, range: &ValueRange) -> Vec<Fault> {
+    if values.is_empty() {
+        return vec![Fault::new(path, "no values are given", "at least one value")];
+    }
+    let outside = values.iter().enumerate().filter(|(_, value)| !range.holds(**value)).take(8);
+    outside
+        .map(|(i, v)| Fault::new(&path.index(i), format!("the value is {}", range.show(*v)), range.expected()))
+        .collect()
+}
+
+impl VariateTable {
+    fn single(number: f64) -> Self {
+        Self { grid: Grid::single(), kind: Kind::Value, cells: vec![[number, 0.0]], low: number, high: number }
+    }
+
+    fn fill(mut self, formulas: &[(Formula, ValueRange)], path: &Path) -> Result<Self, Fault> {
+        let mut stack = Vec::new();
+        self.cells.reserve_exact(self.grid.len());
+        for at in (0..self.grid.len()).map(|cell| self.grid.point(cell)) {
+            let mut cell = [0.0; 2];
+            for (parameter, (formula, range)) in cell.iter_mut().zip(formulas) {
+                *parameter = formula.checked(at, range, &mut stack)?;
+            }
+            if self.kind == Kind::Uniform && cell[0] > cell[1] {
+                let problem = format!("min {} is above max {}", cell[0], cell[1]);
+                return Err(Fault::new(path, problem, "min ≤ max at every point"));
+            }
+            if self.kind == Kind::Lognormal {
+                cell = of_logarithm(cell);
+                if !cell[0].is_finite() || !cell[1].is_finite() {
+                    return Err(Fault::new(path, "sd is too large beside the mean", "a smaller sd / mean"));
+                }
+            }
+            self.cells.push(cell);
+        }
+        if self.cells.iter().all(|cell| *cell == self.cells[0]) {
+            self.grid = Grid::single();
+            self.cells.truncate(1);
+        }
+        Ok(self)
+    }
+
+    /// The same value at every point and in every draw.
+    pub fn always(value: f64) -> Self {
+        Self::single(value)
+    }
+
+    /// Whether a draw at one point can differ from another there.
+    pub fn is_random(&self) -> bool {
+        let spread = |&[a, b]: &[f64; 2]| match &self.kind {
+            Kind::Value => false,
+            Kind::Uniform => a != b,
+            Kind::Normal | Kind::Lognormal => b != 0.0,
+            Kind::Empirical(values) => values.iter().any(|value| *value != values[0]),
+        };
+        self.low != self.high && self.cells.iter().any(spread)
+    }
+
+    /// A draw at a point with one uniform 32-bit word; rises with the word, except for observed values.
+    #[inline]
+    pub fn draw(&self, word: u32, at: At) -> f32 {
+        let [a, b] = self.cells[self.grid.cell(at)];
+        let value = match &self.kind {
+            Kind::Value => a,
+            Kind::Uniform => a + (b - a) * fraction(word),
+            Kind::Normal => a + b * quantile(fraction(word)),
+            Kind::Lognormal => math::exp(a + b * quantile(fraction(word))),
+            Kind::Empirical(values) => values[pick(word, values.len())],
+        };
+        self.clamp(value) as f32
+    }
+
+    /// The value, where it is the same at every point and in every draw.
+    pub fn constant(&self) -> Option<f32> {
+        let certain = match (&self.kind, self.cells.as_slice()) {
+            _ if self.low == self.high => true,
+            (Kind::Value, [_]) => true,
+            (Kind::Uniform, [[a, b]]) => a == b,
+            (Kind::Normal | Kind::Lognormal, [[_, sd]]) => *sd == 0.0,
+            (Kind::Empirical(values), _) => values.iter().all(|value| *value == values[0]),
+            _ => false,
+        };
+        certain.then(|| self.draw(0, At::default()))
+    }
+
+    /// The mean of the clamped variable at a point.
+    pub fn mean(&self, at: At) -> f64 {
+        let [a, b] = self.cells[self.grid.cell(at)];
+        match &self.kind {
+            Kind::Value => self.clamp(a),
+            Kind::Uniform => self.uniform_mean(a, b),
+            Kind::Normal | Kind::Lognormal if b == 0.0 => f64::from(self.draw(0, at)),
+            Kind::Normal => self.normal_mean(a, b),
+            Kind::Lognormal => self.lognormal_mean(a, b),
+            Kind::Empirical(values) => values.iter().map(|value| self.clamp(*value)).sum::<f64>() / values.len() as f64,
+        }
+    }
+
+    fn clamp(&self, value: f64) -> f64 {
+        value.max(self.low).min(self.high)
+    }
+
+    fn uniform_mean(&self, a: f64, b: f64) -> f64 {
+        if a == b || self.low >= b || self.high <= a {
+            return self.clamp(a);
+        }
+        let (low, high) = (self.low.max(a), self.high.min(b));
+        ((low - a) * low + (high - low) * (low + high) / 2.0 + (b - high) * high) / (b - a)
+    }
+
+    /// E[clamp(X)] = l Φ(α) + m (Φ(β) − Φ(α)) − s (φ(β) − φ(α)) + h (1 − Φ(β)), α = (l − m)/s, β = (h − m)/s.
+    fn normal_mean(&self, m: f64, s: f64) -> f64 {
+        let (alpha, beta) = ((self.low - m) / s, (self.high - m) / s);
+        m * (phi(beta) - phi(alpha)) - s * (density(beta) - density(alpha))
+            + part(self.low, phi(alpha))
+            + part(self.high, phi(-beta))
+    }
+
+    /// As the normal's, with E[X; l < X < h] = exp(μ + s²/2) (Φ(β − s) − Φ(α − s)).
+    fn lognormal_mean(&self, m: f64, s: f64) -> f64 {
+        let standard = |bound: f64| if bound > 0.0 { (math::log(bound) - m) / s } else { f64::NEG_INFINITY };
+        let (alpha, beta) = (standard(self.low), standard(self.high));
+        math::exp(m + s * s / 2.0) * (phi(beta - s) - phi(alpha - s))
+            + part(self.low, phi(alpha))
+            + part(self.high, phi(-beta))
+    }
+}
+
+/// A bound times the probability of being clamped to it; nothing for an infinite bound.
+fn part(bound: f64, probability: f64) -> f64 {
+    if probability == 0.0 { 0.0 } else { bound * probability }
+}
+
+/// Mean and standard deviation of the logarithm from those of the variable.
+fn of_logarithm([mean, sd]: [f64; 2]) -> [f64; 2] {
+    let variance = math::log1p((sd / mean) * (sd / mean));
+    [math::log(mean) - variance / 2.0, variance.sqrt()]
+}
+
+#[inline]
+fn fraction(word: u32) -> f64 {
+    (f64::from(word) + 0.5) / WORDS
+}
+
+/// The place that a word picks among `len` equally likely ones.
+#[inline]
+fn pick(word: u32, len: usize) -> usize {
+    ((u128::from(word) * len as u128) >> 32) as usize
+}

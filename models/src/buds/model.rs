@@ -1,0 +1,144 @@
+//! The bud model as the loop sees it: sowing, growing axis by axis to an age, and the diameters at an age.
+
+use super::compile::{BudModel, OrderLaws};
+use super::grow::{Axis, Full, Words, first_bud};
+use super::law::At;
+use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
+use phytomer_sim::plant::{ApicalBud, AxisId, Habit, LineageKey, NewAxis, Origin, Plant, Shape};
+use phytomer_sim::random::Purpose;
+use phytomer_sim::site::Site;
+use phytomer_sim::Tick;
+use std::sync::Arc;
+
+impl BudModel {
+    /// The last age for which the model's laws are compiled.
+    pub fn until(&self) -> Tick {
+        self.until
+    }
+
+    /// How many orders the species has.
+    pub fn orders(&self) -> usize {
+        self.orders.len()
+    }
+
+    pub(super) fn has_order(&self, order: u8) -> bool {
+        (1..=self.orders.len()).contains(&usize::from(order))
+    }
+
+    #[inline]
+    pub(super) fn laws(&self, order: u8) -> &OrderLaws {
+        &self.orders[usize::from(order) - 1]
+    }
+
+    /// Grows one axis of `plant` from `bud` to `age`: the axis's own work alone, not that of the axes that it bears.
+    ///
+    /// This is the step from which both orders of growth are made; a prefix traversal in the manner of de Reffye 1988 §4
+    /// calls it recursively.
+    ///
+    /// # Errors
+    /// [`Overgrown`] where the plant comes to its limit.
+    pub fn grow_axis(&self, plant: &mut Plant, bud: ApicalBud, age: Tick) -> Result<Option<ApicalBud>, Overgrown> {
+        self.grow_with(plant, bud, age, &mut Words::default())
+    }
+
+    /// The bud from which axis `axis` of `plant` starts.
+    pub fn first_bud(&self, plant: &Plant, axis: AxisId) -> ApicalBud {
+        first_bud(self, plant, axis)
+    }
+
+    fn grow_with(
+        &self,
+        plant: &mut Plant,
+        bud: ApicalBud,
+        age: Tick,
+        words: &mut Words,
+    ) -> Result<Option<ApicalBud>, Overgrown> {
+        let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
+        Axis::new(self, plant, words, bud).grow(age).map_err(|Full| limit)
+    }
+
+    /// Every living bud first, then the axes that arise meanwhile, each through all its ticks: parents come before their
+    /// children, and the nodes of an axis grown at once stand together.
+    fn grow_plant(&self, plant: &mut Plant, age: Tick) -> Result<(), Overgrown> {
+        let mut words = Words::default();
+        let mut living = std::mem::take(&mut plant.buds);
+        let first_new = plant.axes.len();
+        let mut kept = 0;
+        for place in 0..living.len() {
+            if let Some(bud) = self.grow_with(plant, living[place], age, &mut words)? {
+                living[kept] = bud;
+                kept += 1;
+            }
+        }
+        living.truncate(kept);
+        let mut next = first_new;
+        while next < plant.axes.len() {
+            let bud = first_bud(self, plant, AxisId(next as u32));
+            living.extend(self.grow_with(plant, bud, age, &mut words)?);
+            next += 1;
+        }
+        plant.buds = living;
+        plant.age = age;
+        Ok(())
+    }
+}
+
+impl GrowthModel for BudModel {
+    fn growth(&self) -> Growth {
+        Growth::Extends
+    }
+
+    fn habit(&self) -> Arc<Habit> {
+        Arc::clone(&self.habit)
+    }
+
+    fn sow(&self, plant: &mut Plant) {
+        let laws = self.laws(1);
+        let mut words = vec![0; laws.step.head_width.max(1)];
+        if laws.step.head_width > 0 {
+            let mut stream = plant.random.stream(LineageKey::SEED, Purpose::Bud);
+            words.iter_mut().for_each(|word| *word = stream.word());
+        }
+        let axis = plant.add_axis(NewAxis {
+            bearer: None,
+            key: LineageKey::SEED,
+            order: 1,
+            origin: Origin::Seed,
+            position: 0,
+            state: 0,
+            appearance: 0,
+            birth: 0,
+            azimuth: 0.0,
+            insertion: laws.step.insertion.draw(&words, 0, At::default()),
+        });
+        let bud = first_bud(self, plant, axis);
+        plant.buds.push(bud);
+    }
+
+    fn grow_to(&self, age: Tick, plants: &mut [Plant], _: &Site) -> Result<(), Overgrown> {
+        plants.iter_mut().try_for_each(|plant| self.grow_plant(plant, age))
+    }
+
+    /// Diameter at birth plus the thickening of the internode's order at the plant's age and its own; a cone's tip takes
+    /// the diameter of the internode that follows it on its axis.
+    fn thicken(&self, age: Tick, plant: &mut Plant) {
+        let Plant { axes, nodes, habit, .. } = plant;
+        for node in 0..nodes.len() {
+            let axis = nodes.axis[node];
+            let order = axes.order[axis.index()];
+            let birth = nodes.birth[node];
+            let at = At { age, dimension: age.saturating_sub(birth), ..At::default() };
+            let diameter = nodes.primary_diameter[node] + self.laws(order).thickening.value(at) * 0.001;
+            nodes.diameter[node] = diameter;
+            nodes.diameter_tip[node] = diameter;
+            let Some(parent) = nodes.parent[node].some() else {
+                continue;
+            };
+            let follows = nodes.axis[parent.index()] == axis && birth <= age;
+            if follows && habit.shape(order) == Shape::Cone {
+                nodes.diameter_tip[parent.index()] = diameter.min(nodes.diameter[parent.index()]);
+            }
+        }
+    
+    }
+}

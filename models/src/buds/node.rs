@@ -1,0 +1,243 @@
+//! One node of a growth unit: its internode, leaves, flowers and buds, and the axes that arise from buds.
+//!
+//! Order of a node's components: internode, leaves, lateral flowers, then axillary and reiteration buds; the positions
+//! of a node are spread evenly around it, the first at the node's azimuth, each axillary bud in the axil of its leaf.
+
+use super::compile::Branching;
+use super::grow::{Axis, Full, leaf_fall};
+use super::law::At;
+use super::params::ApexEnd;
+use phytomer_sim::plant::key::Place;
+use phytomer_sim::plant::{EventKind, Kind, NewAxis, NewNode, NewOrgan, NodeId, Origin};
+use phytomer_sim::random::Purpose;
+
+const TURN: f32 = 2.0 * std::f32::consts::PI;
+
+/// Where a new axis arises.
+#[derive(Debug, Clone, Copy)]
+struct Bed {
+    node: NodeId,
+    rank: u32,
+    order: u8,
+    origin: Origin,
+    /// Which of the buds of its kind, from 0.
+    position: u32,
+    azimuth: f32,
+}
+
+impl Axis<'_> {
+    /// Adds a node of the given rank to a growth unit of `nodes` nodes.
+    pub(super) fn node(&mut self, rank: u32, nodes: u32, short: bool, neoformed: bool) -> Result<(), Full> {
+        let at = self.at(rank);
+        let laws = &self.laws.node;
+        let words = &self.words.on_node;
+        let leaves = laws.leaves.draw(words, 0, at);
+        let flowers = laws.flowers.draw(words, 0, at);
+        let buds = laws.axillary.count.draw(words, 0, at);
+        let reiterations = laws.reiteration.count.draw(words, 0, at);
+        if !self.plant.has_room_for(1 + leaves + 2 * flowers + buds + reiterations) {
+            return Err(Full);
+        }
+        let azimuth = self.bud.azimuth;
+        let node = self.internode(rank, short, neoformed, at);
+        let spacing = TURN / leaves.max(buds).max(1) as f32;
+        for nth in 0..leaves {
+            self.leaf(node, nth, azimuth + spacing * nth as f32, at);
+        }
+        for nth in 0..flowers {
+            self.lateral_flower(node, nth, azimuth + spacing * nth as f32, at);
+        }
+        self.axillary(node, rank, nodes, buds, azimuth);
+        self.reiterations(node, reiterations, azimuth + spacing / 2.0, at);
+        Ok(())
+    }
+
+    fn internode(&mut self, rank: u32, short: bool, neoformed: bool, at: At) -> NodeId {
+        let laws = &self.laws.node;
+        let words = &self.words.on_node;
+        let length = if short { &laws.short_length } else { &laws.long_length };
+        let along = self.bud.rank + 1;
+        let new = NewNode {
+            parent: self.bud.last_node,
+            axis: self.bud.axis,
+            birth: self.tick,
+            rank: along,
+            unit_rank: u16::try_from(rank).unwrap_or(u16::MAX),
+            short,
+            neoformed,
+            trend: self.laws.trends.at(along),
+            length: length.draw(words, 0, at),
+            diameter: laws.diameter.draw(words, 0, at),
+            azimuth: self.bud.azimuth,
+        };
+        let turned = self.bud.azimuth + laws.divergence.draw(words, 0, at);
+        self.bud.azimuth = if (0.0..TURN).contains(&turned) { turned } else { turned.rem_euclid(TURN) };
+        self.bud.rank = along;
+        self.bud.last_node = self.plant.add_node(new);
+        self.bud.last_node
+    }
+
+    fn leaf(&mut self, node: NodeId, nth: u32, azimuth: f32, at: At) {
+        let laws = &self.laws.node;
+        let words = &self.words.on_node;
+        let life = laws.leaf_life.as_ref().map(|life| life.draw(words, nth, at));
+        let (death, cause) = leaf_fall(self.model, self.tick, life);
+        let (length, width) = (laws.leaf.length.draw(words, nth, at), laws.leaf.width.draw(words, nth, at));
+        self.plant.add_organ(NewOrgan {
+            node,
+            kind: Kind::Leaf,
+            position: nth as u16,
+            birth: self.tick,
+            death,
+            cause,
+            form: laws.leaf.form,
+            length,
+            width,
+            area: length * width * laws.leaf.area_share,
+            azimuth,
+            insertion: laws.leaf.insertion.draw(words, nth, at),
+        });
+    }
+
+    fn lateral_flower(&mut self, node: NodeId, nth: u32, azimuth: f32, at: At) {
+        let laws = &self.laws.node;
+        if laws.flower_opens.happens(&self.words.on_node, nth, at) {
+            let birth = self.tick.saturating_add(laws.flower_delay.draw(&self.words.on_node, nth, at));
+            self.flower(node, nth, birth, azimuth, nth as u16);
+        }
+    }
+
+    /// The standard axillary buds: each ramifies by its law, or lies dormant.
+    fn axillary(&mut self, node: NodeId, rank: u32, nodes: u32, buds: u32, azimuth: f32) {
+        let at = self.at(rank);
+        let model = self.model;
+        let laws = self.laws;
+        let order = laws.number + 1;
+        let ramification = laws.node.ramification(rank, nodes).filter(|_| model.has_order(order));
+        let spacing = TURN / self.positions(buds, at) as f32;
+        self.bud.dormant = 0;
+        for position in 0..buds {
+            let bed = Bed {
+                node,
+                rank: self.bud.rank,
+                order,
+                origin: Origin::Axillary,
+                position,
+                azimuth: azimuth + spacing * position as f32,
+            };
+            match ramification.is_some_and(|chance| chance.happens(&self.words.on_node, position, at)) {
+                true => self.branch(bed, &laws.node.axillary, EventKind::Branched, false, at),
+                false => self.bud.dormant |= 1 << position,
+            }
+        }
+    }
+
+    fn positions(&self, buds: u32, at: At) -> u32 {
+        self.laws.node.leaves.draw(&self.words.on_node, 0, at).max(buds).max(1)
+    }
+
+    fn reiterations(&mut self, node: NodeId, buds: u32, azimuth: f32, at: At) {
+        let laws = self.laws;
+        let spacing = TURN / buds.max(1) as f32;
+        for position in 0..buds {
+            if laws.node.reiteration.chance.happens(&self.words.on_node, position, at) {
+                let bed = Bed {
+                    node,
+                    rank: self.bud.rank,
+                    order: laws.node.reiteration_order,
+                    origin: Origin::Adaptive,
+                    position,
+                    azimuth: azimuth + spacing * position as f32,
+                };
+                self.branch(bed, &laws.node.reiteration, EventKind::Reiterated, false, at);
+            }
+        }
+    }
+
+    /// What follows the end of an apex: relays from the last node or below, and traumatic reiteration where it died.
+    pub(super) fn follow_end(&mut self, end: ApexEnd) -> Result<(), Full> {
+        let laws = &self.laws.end;
+        let relayed = laws.is_relayed(end) && self.bud.rank > laws.below;
+        let released = end == ApexEnd::Death && !laws.traumatic.chance.table.is_never();
+        let Some(node) = self.own_last_node().filter(|_| relayed || released) else {
+            return Ok(());
+        };
+        if !self.plant.has_room_for(64) {
+            return Err(Full);
+        }
+        self.read_end();
+        if relayed {
+            self.relays(node);
+        }
+        if released {
+            self.release(node);
+        }
+        Ok(())
+    }
+
+    fn read_end(&mut self) {
+        if self.laws.end.width > 0 {
+            let key = self.plant.axes.key[self.bud.axis.index()];
+            let mut stream = self.plant.random.stream(key, Purpose::Relay);
+            self.words.end.iter_mut().for_each(|word| *word = stream.word());
+        }
+    }
+
+    fn relays(&mut self, last: NodeId) {
+        let laws = self.laws;
+        let at = self.at(0);
+        let node = (0..laws.end.below).fold(last, |node, _| self.plant.nodes.parent[node.index()]);
+        let rank = self.bud.rank - laws.end.below;
+        let count = laws.end.relay.count.draw(&self.words.end, 0, at);
+        let first = self.plant.nodes.azimuth[node.index()];
+        for position in 0..count {
+            let azimuth = first + TURN / count as f32 * position as f32;
+            let bed = Bed { node, rank, order: laws.number, origin: Origin::Relay, position, azimuth };
+            if laws.end.relay.chance.happens(&self.words.end, position, at) {
+                self.branch(bed, &laws.end.relay, EventKind::Relayed, true, at);
+            }
+        }
+    }
+
+    /// Traumatic reiteration: the dormant axillary buds of the last node, at this axis's order.
+    fn release(&mut self, node: NodeId) {
+        let laws = self.laws;
+        let at = self.at(0);
+        let first = self.plant.nodes.azimuth[node.index()];
+        let spacing = TURN / laws.end.traumatic.count.table.max().max(1) as f32;
+        let dormant = self.bud.dormant;
+        for position in (0..32).filter(|position| dormant >> position & 1 == 1) {
+            if laws.end.traumatic.chance.happens(&self.words.end, position, at) {
+                let azimuth = first + spacing * position as f32;
+                let rank = self.bud.rank;
+                let bed = Bed { node, rank, order: laws.number, origin: Origin::Traumatic, position, azimuth };
+                self.branch(bed, &laws.end.traumatic, EventKind::Reiterated, true, at);
+            }
+        }
+    }
+
+    /// A new axis from a bud; `end` tells whether its draws stand in the record of the end or of the node.
+    fn branch(&mut self, bed: Bed, laws: &Branching, event: EventKind, end: bool, at: At) {
+        let words = if end { &self.words.end } else { &self.words.on_node };
+        let position = bed.position as u16;
+        let place = match bed.origin {
+            Origin::Axillary => Place::Axillary(position),
+            Origin::Adaptive => Place::Reiteration(position),
+            Origin::Traumatic => Place::Relay(64 + position),
+            Origin::Relay | Origin::Seed => Place::Relay(position),
+        };
+        let axis = self.plant.add_axis(NewAxis {
+            bearer: Some(bed.node),
+            key: self.plant.axes.key[self.bud.axis.index()].child(place.on(bed.rank)),
+            order: bed.order,
+            origin: bed.origin,
+            position,
+            state: laws.state.unwrap_or(self.bud.state),
+            appearance: self.tick,
+            birth: self.tick.saturating_add(laws.delay.draw(words, bed.position, at)),
+            azimuth: bed.azimuth,
+            insertion: laws.insertion.draw(words, bed.position, at),
+        });
+        self.plant.note(self.tick, axis, event, 1);
+    }
+}

@@ -1,0 +1,133 @@
+//! Geometry at rest (de Reffye 1988 §4): internodes, phyllotaxis and trends, in the units in which people state them.
+
+use crate::buds::law::{Law, Variate};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The internodes of an order.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Internode {
+    /// The length of an internode, cm.
+    pub length_cm: Variate,
+    /// The diameter of an internode at its birth, mm.
+    pub diameter_mm: Variate,
+    /// What an internode has added to its diameter, mm: a law in which `age` is the plant's age and `dimension` the
+    /// internode's own, both in ticks.
+    pub thickening_mm: Law,
+    /// A cylinder has one diameter; a cone narrows to the diameter of the next internode of its axis.
+    pub shape: ShapeName,
+}
+
+impl Default for Internode {
+    fn default() -> Self {
+        Self {
+            length_cm: Variate::from(1.0),
+            diameter_mm: Variate::from(1.0),
+            thickening_mm: Law::default(),
+            shape: ShapeName::Cone,
+        }
+    }
+}
+
+/// The shape of internodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ShapeName {
+    /// One diameter.
+    Cylinder,
+    /// A truncated cone.
+    Cone,
+}
+
+/// Phyllotaxis: the divergence from one node to the next. The positions of one node are spread evenly around it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Phyllotaxis {
+    /// `"distichous"` (180°), `"opposite-decussate"` (90°), `"whorled"` (half the angle between two positions of a
+    /// node), `"spiral"` (the golden angle), or a Fibonacci fraction of a turn such as `"2/5"` or `"3/8"`.
+    Named(String),
+    /// The divergence from one node to the next, degrees.
+    Degrees(f64),
+    /// Divergence as a random variable, and the azimuth of an axis's first leaf.
+    Divergence(Divergence),
+}
+
+impl Default for Phyllotaxis {
+    fn default() -> Self {
+        Self::Named("spiral".to_owned())
+    }
+}
+
+/// Divergence in full.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Divergence {
+    /// The divergence from one node to the next, degrees.
+    pub divergence_deg: Variate,
+    /// The azimuth of an axis's first leaf from the upper side of the axis, degrees; left out: 90, to the side.
+    #[serde(default = "to_the_side")]
+    #[schemars(range(min = -360, max = 360))]
+    pub first_deg: f64,
+}
+
+fn to_the_side() -> f64 {
+    90.0
+}
+
+/// The development trend of an axis (de Reffye 1988 §4, Fig. 15).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Trend {
+    /// One trend for the whole axis.
+    Simple(Orientation),
+    /// A trend in full.
+    Tended(Tended),
+    /// A composite trend: phases along the axis, each from a rank on.
+    Composite(Vec<Phase>),
+}
+
+impl Default for Trend {
+    fn default() -> Self {
+        Self::Simple(Orientation::Straight)
+    }
+}
+
+/// A trend by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Orientation {
+    /// Towards the vertical, a tenth of the way an internode.
+    Orthotropic,
+    /// Towards the horizontal, a tenth of the way an internode.
+    Plagiotropic,
+    /// The direction of insertion is kept.
+    Straight,
+}
+
+/// A trend in full.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Tended {
+    /// The angle to the upward vertical that the axis tends to, degrees: 0 orthotropic, 90 plagiotropic, 180 hanging.
+    #[schemars(range(min = 0, max = 180))]
+    pub inclination_deg: f64,
+    /// The share of the way that each internode turns, in [0, 1].
+    #[schemars(range(min = 0, max = 1))]
+    pub share: f64,
+}
+
+/// One phase of a composite trend.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Phase {
+    /// The node rank along the axis from which the phase holds; the first phase starts at 1.
+    #[schemars(range(min = 1))]
+    pub from_rank: u32,
+    /// The angle to the upward vertical that the axis tends to, degrees.
+    #[schemars(range(min = 0, max = 180))]
+    pub inclination_deg: f64,
+    /// The share of the way that each internode turns, in [0, 1].
+    #[schemars(range(min = 0, max = 1))]
+    pub share: f64,
+}

@@ -1,0 +1,257 @@
+//! The parameters of the bud model as a species file states them (de Reffye 1988 §4, the list of parameters).
+//!
+//! One [`Order`] for each order of axes, the trunk first; every probability is a [`Law`] of age, dimension, cycle, rank
+//! and state, every number of things a [`Count`], every measure a [`Variate`]. A species without states, reiteration and
+//! relays reads as in 1988. Axes of an order past the last are never made.
+//!
+//! Absent on purpose: what the parameters do, which is in `compile` and `grow`.
+
+mod geometry;
+mod organs;
+mod sympodial;
+
+pub use geometry::{Divergence, Internode, Orientation, Phase, Phyllotaxis, ShapeName, Tended, Trend};
+pub use organs::{Flower, FormName, Fruit, Leaf, Season};
+pub use sympodial::{Apex, ApexEnd, Reiteration, Relay, Transition, Traumatic};
+
+use super::law::{Count, Law, Variate};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A species of the bud model.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Buds {
+    /// The physiological states that an axis can be in (juvenile, adult; long shoot, short shoot), the first one that of
+    /// the seed's axis. Left out: one state, as in 1988.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub states: Vec<String>,
+    /// When leaves fall together, whatever their age.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub season: Option<Season>,
+    /// The axes of each order: the first entry is the trunk. Axes of an order past the last are never made.
+    #[schemars(length(min = 1, max = 16))]
+    pub order: Vec<Order>,
+}
+
+/// The axes of one order.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Order {
+    /// Clock steps per tick, as an exact ratio: 1, 0.5, "2/3". In de Reffye's Fig. 14 the growth ratio r of order 1 over
+    /// order 2 is 1/speed of order 2.
+    pub speed: SpeedText,
+    /// The probability that a living apical bud dies at a clock step. Tested first.
+    pub death: Law,
+    /// The probability that a living apical bud makes a pause (a break) at a clock step. Tested second.
+    pub pause: Law,
+    /// What a bud makes at a step at which it neither dies nor pauses.
+    pub growth_unit: GrowthUnit,
+    /// Standard axillary buds: axes of the next order.
+    pub axillary: Axillary,
+    /// Adaptive reiteration: buds that make a young tree on the old one.
+    pub reiteration: Reiteration,
+    /// Traumatic reiteration: what the loss of an apex releases.
+    pub traumatic: Traumatic,
+    /// How an apex comes to its end other than by death.
+    pub apex: Apex,
+    /// Sympodial growth: axes of the same order that take the place of an ended apex.
+    pub relay: Relay,
+    /// Passages between the states, tested after each step at which the bud grew; at most one a step.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub transition: Vec<Transition>,
+    /// Length and diameter of internodes.
+    pub internode: Internode,
+    /// The insertion angle with the bearing axis, degrees; for order 1 with the vertical.
+    pub insertion_deg: Variate,
+    /// How leaves and axillary buds turn around the axis from node to node.
+    pub phyllotaxis: Phyllotaxis,
+    /// The direction that the axis tends to.
+    pub trend: Trend,
+    /// Leaves.
+    pub leaf: Leaf,
+    /// Flowers, terminal or lateral.
+    pub flower: Flower,
+    /// Fruits, from flowers that set.
+    pub fruit: Fruit,
+    /// After how many ticks a branch falls, all of whose buds are dead; left out: dead wood stays.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0, max = 65535))]
+    pub shed_after: Option<u32>,
+}
+
+impl Default for Order {
+    fn default() -> Self {
+        Self {
+            speed: SpeedText::default(),
+            death: Law::default(),
+            pause: Law::default(),
+            growth_unit: GrowthUnit::default(),
+            axillary: Axillary::default(),
+            reiteration: Reiteration::default(),
+            traumatic: Traumatic::default(),
+            apex: Apex::default(),
+            relay: Relay::default(),
+            transition: Vec::new(),
+            internode: Internode::default(),
+            insertion_deg: Variate::from(0.0),
+            phyllotaxis: Phyllotaxis::default(),
+            trend: Trend::default(),
+            leaf: Leaf::default(),
+            flower: Flower::default(),
+            fruit: Fruit::default(),
+            shed_after: None,
+        }
+    }
+}
+
+/// A growth unit: the internodes and nodes that a bud makes at one step, usually within a short time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct GrowthUnit {
+    /// The nodes of a long growth unit, or of its preformed part.
+    pub nodes: Count,
+    /// The nodes added after bud break: the neoformed part, beyond the preformed nodes.
+    pub neoformed: Count,
+    /// The growth units of one step: more than 1 is polycyclism.
+    pub per_step: Count,
+    /// Growth units of the short type; left out: all are long.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub short: Option<ShortUnit>,
+}
+
+impl Default for GrowthUnit {
+    fn default() -> Self {
+        Self { nodes: Count::from(1), neoformed: Count::from(0), per_step: Count::from(1), short: None }
+    }
+}
+
+/// Growth units of the short type: few internodes, often one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShortUnit {
+    /// The probability that a growth unit is of the short type.
+    pub probability: Law,
+    /// Its nodes.
+    #[serde(default = "one")]
+    pub nodes: Count,
+    /// The length of its internodes, cm.
+    pub length_cm: Variate,
+}
+
+fn one() -> Count {
+    Count::from(1)
+}
+
+/// The standard axillary buds of a node.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Axillary {
+    /// The axillary buds of a node; at most 32.
+    pub buds: Count,
+    /// The probability that an axillary bud becomes an axis; one that does not lies dormant.
+    pub ramification: Law,
+    /// Which nodes of a growth unit ramify.
+    pub pattern: Pattern,
+    /// The ticks that a bud waits before its axis begins: 0 sylleptic, more proleptic.
+    pub delay: Count,
+    /// The state in which the new axes start; left out: that of the bearing axis.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub state: Option<String>,
+}
+
+impl Default for Axillary {
+    fn default() -> Self {
+        Self {
+            buds: Count::from(0),
+            ramification: Law::default(),
+            pattern: Pattern::default(),
+            delay: Count::from(0),
+            state: None,
+        }
+    }
+}
+
+/// Which nodes of a growth unit ramify (de Reffye 1988 §2, Fig. 4).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Pattern {
+    /// `"continuous"`: every node; `"diffuse"`: nodes at random. Either way the law of ramification decides.
+    Named(PatternName),
+    /// Rhythmic: the nodes of the named zones of the growth unit, and no others.
+    Rhythmic(Rhythmic),
+}
+
+impl Default for Pattern {
+    fn default() -> Self {
+        Self::Named(PatternName::Continuous)
+    }
+}
+
+/// A pattern of ramification without zones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum PatternName {
+    /// Every node ramifies, as far as the law of ramification lets it.
+    Continuous,
+    /// Nodes ramify at random, by the law of ramification.
+    Diffuse,
+}
+
+/// Rhythmic ramification: by zones of the growth unit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Rhythmic {
+    /// The zones that ramify; a node in several belongs to the first.
+    #[schemars(length(min = 1, max = 64))]
+    pub zones: Vec<Zone>,
+}
+
+/// A run of nodes of a growth unit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Zone {
+    /// What botanists call it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// From which end of the growth unit ranks are counted.
+    pub from: End,
+    /// The first rank of the zone, from 1 at that end.
+    #[schemars(range(min = 1, max = 65535))]
+    pub first: u32,
+    /// The last rank of the zone; left out: the other end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 65535))]
+    pub last: Option<u32>,
+    /// The law of ramification of this zone; left out: that of the order.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ramification: Option<Law>,
+}
+
+/// An end of a growth unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum End {
+    /// The oldest node.
+    Base,
+    /// The youngest node.
+    Tip,
+}
+
+/// A growth speed: a whole number, a decimal number, or a ratio in quotes such as "2/3".
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum SpeedText {
+    /// Steps per tick.
+    Whole(u32),
+    /// Steps per tick, as a decimal number of at most six digits.
+    Decimal(f64),
+    /// "steps/ticks".
+    Ratio(String),
+}
+
+impl Default for SpeedText {
+    fn default() -> Self {
+        Self::Whole(1)
+    }
+}

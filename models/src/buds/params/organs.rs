@@ -1,0 +1,159 @@
+//! Leaves, flowers and fruits (de Reffye 1988 §5): how many, how long they live, how large they are.
+
+use crate::buds::law::{Count, Law, Variate};
+use phytomer_sim::plant::Form;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The season of leaf fall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Season {
+    /// The ticks of a year.
+    #[schemars(range(min = 1, max = 65535))]
+    pub ticks_per_year: u32,
+    /// The tick of the year, from 0, at whose beginning all leaves fall that appeared before it.
+    #[schemars(range(min = 0, max = 65534))]
+    pub leaf_fall: u32,
+}
+
+/// The leaves of a node.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Leaf {
+    /// Leaves a node.
+    pub per_node: Count,
+    /// The life length of a leaf, ticks; left out: as long as its branch.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub life: Option<Count>,
+    /// Length of the leaf with its stalk, cm.
+    pub length_cm: Variate,
+    /// Width of the blade, cm.
+    pub width_cm: Variate,
+    /// Area of one side, as a share of length × width.
+    #[schemars(range(min = 0, max = 1))]
+    pub area_share: f64,
+    /// The angle between the axis and the leaf, degrees.
+    pub insertion_deg: Variate,
+    /// The form that it is drawn with.
+    pub form: FormName,
+}
+
+impl Default for Leaf {
+    fn default() -> Self {
+        Self {
+            per_node: Count::from(1),
+            life: None,
+            length_cm: Variate::from(5.0),
+            width_cm: Variate::from(2.5),
+            area_share: 0.7,
+            insertion_deg: Variate::from(60.0),
+            form: FormName::Elliptic,
+        }
+    }
+}
+
+/// Flowers, or inflorescences.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Flower {
+    /// The probability that the apical bud becomes a flower at a clock step, which ends the axis. Tested after the pause.
+    pub terminal: Law,
+    /// The probability that a lateral flower opens, asked for each of the flowers of a node.
+    pub lateral: Law,
+    /// The lateral flowers that a node can bear.
+    pub per_node: Count,
+    /// The ticks from the appearance of a node to its lateral flowers.
+    pub delay: Count,
+    /// The life length of a flower, ticks.
+    pub life: Count,
+    /// The probability that a flower sets fruit at the end of its life.
+    pub fruit_set: Law,
+    /// Length, cm.
+    pub length_cm: Variate,
+    /// Width, cm.
+    pub width_cm: Variate,
+    /// The angle between the axis and a lateral flower, degrees.
+    pub insertion_deg: Variate,
+    /// The form that it is drawn with.
+    pub form: FormName,
+}
+
+impl Default for Flower {
+    fn default() -> Self {
+        Self {
+            terminal: Law::default(),
+            lateral: Law::default(),
+            per_node: Count::from(1),
+            delay: Count::from(0),
+            life: Count::from(1),
+            fruit_set: Law::default(),
+            length_cm: Variate::from(1.0),
+            width_cm: Variate::from(1.0),
+            insertion_deg: Variate::from(45.0),
+            form: FormName::Corolla,
+        }
+    }
+}
+
+/// Fruits.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Fruit {
+    /// The life length of a fruit, ticks.
+    pub life: Count,
+    /// Length, cm.
+    pub length_cm: Variate,
+    /// Width, cm.
+    pub width_cm: Variate,
+    /// The form that it is drawn with.
+    pub form: FormName,
+}
+
+impl Default for Fruit {
+    fn default() -> Self {
+        Self {
+            life: Count::from(1),
+            length_cm: Variate::from(1.0),
+            width_cm: Variate::from(1.0),
+            form: FormName::Berry,
+        }
+    }
+}
+
+/// A form by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum FormName {
+    /// A broad blade, widest in its middle.
+    Elliptic,
+    /// A narrow blade, widest below its middle.
+    Lanceolate,
+    /// A blade as broad as long, as a poplar's.
+    Deltoid,
+    /// A needle.
+    Needle,
+    /// A pinnate palm leaf.
+    Palm,
+    /// An open flower of five petals.
+    Corolla,
+    /// A round fruit.
+    Berry,
+    /// A cone, standing or hanging.
+    Cone,
+}
+
+impl From<FormName> for Form {
+    fn from(name: FormName) -> Self {
+        match name {
+            FormName::Elliptic => Self::Elliptic,
+            FormName::Lanceolate => Self::Lanceolate,
+            FormName::Deltoid => Self::Deltoid,
+            FormName::Needle => Self::Needle,
+            FormName::Palm => Self::Palm,
+            FormName::Corolla => Self::Corolla,
+            FormName::Berry => Self::Berry,
+            FormName::Cone => Self::Cone,
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! The ends of apices and what follows them: relays, reiteration, and passages between states (de Reffye 1988 §2).
+
+use crate::buds::law::{Count, Law, Variate};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How an apex ends other than by death or by flowering.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Apex {
+    /// The growth units after which the apex ends; left out: it never ends of itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub units: Option<Count>,
+}
+
+/// An end of an apex.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ApexEnd {
+    /// The mortality test.
+    Death,
+    /// A terminal flower.
+    Flower,
+    /// All its growth units were made.
+    Completed,
+}
+
+/// Sympodial growth: relay axes of the same order, from the last node of an ended axis or from one below.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Relay {
+    /// The ends that are relayed; empty: monopodial growth.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub on: Vec<ApexEnd>,
+    /// The relay buds; at most 32.
+    pub count: Count,
+    /// The probability that a relay bud becomes an axis.
+    pub probability: Law,
+    /// How many nodes below the last one the relays stand.
+    #[schemars(range(min = 0, max = 65535))]
+    pub below: u32,
+    /// The ticks that a relay waits.
+    pub delay: Count,
+    /// The insertion angle of a relay, degrees; left out: that of the order.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub insertion_deg: Option<Variate>,
+    /// The state in which a relay starts; left out: that in which the ended axis was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub state: Option<String>,
+}
+
+impl Default for Relay {
+    fn default() -> Self {
+        Self {
+            on: Vec::new(),
+            count: Count::from(1),
+            probability: Law::from(1.0),
+            below: 0,
+            delay: Count::from(0),
+            insertion_deg: None,
+            state: None,
+        }
+    }
+}
+
+/// Traumatic reiteration: the dormant axillary buds of the node below a lost apex, released at the order of the bearing
+/// axis instead of the next.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Traumatic {
+    /// The probability that a dormant bud is released by the death of the apex above it.
+    pub probability: Law,
+    /// The ticks that it waits.
+    pub delay: Count,
+    /// The insertion angle of the released axis, degrees.
+    pub insertion_deg: Variate,
+    /// The state in which it starts; left out: that in which the lost apex was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub state: Option<String>,
+}
+
+impl Default for Traumatic {
+    fn default() -> Self {
+        Self { probability: Law::default(), delay: Count::from(0), insertion_deg: Variate::from(45.0), state: None }
+    }
+}
+
+/// Adaptive reiteration: buds beside the standard axillary ones that make an axis of order 1, or of a given order.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Reiteration {
+    /// The reiteration buds of a node; at most 32.
+    pub buds: Count,
+    /// The probability that a reiteration bud becomes an axis.
+    pub probability: Law,
+    /// The order of the new axis.
+    #[schemars(range(min = 1, max = 16))]
+    pub order: u8,
+    /// The ticks that it waits.
+    pub delay: Count,
+    /// The insertion angle of the new axis, degrees.
+    pub insertion_deg: Variate,
+    /// The state in which it starts; left out: the first, a young tree.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub state: Option<String>,
+}
+
+impl Default for Reiteration {
+    fn default() -> Self {
+        Self {
+            buds: Count::from(0),
+            probability: Law::default(),
+            order: 1,
+            delay: Count::from(0),
+            insertion_deg: Variate::from(45.0),
+            state: None,
+        }
+    }
+}
+
+/// A passage from one state to another.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Transition {
+    /// The state before.
+    pub from: String,
+    /// The state after.
+    pub to: String,
+    /// The probability of the passage at a step at which the bud grew.
+    pub probability: Law,
+}
