@@ -77,9 +77,16 @@ impl Slope {
     pub fn turned(self, trend: &Trend) -> Self {
         let share = f64::from(trend.share);
         let (cos, sin) = (f64::from(trend.cos_inclination), f64::from(trend.sin_inclination));
-        let opposed = self.z * cos < 0.0 && self.r < NUDGE && sin < NUDGE;
-        let r = if opposed { NUDGE } else { self.r };
-        Self { z: self.z + share * (cos - self.z), r: r + share * (sin - r) }.normalized_or(self)
+        let from = if self.r < NUDGE { self.nudged(cos, sin) } else { self };
+        let z = from.z + share * (cos - from.z);
+        let r = from.r + share * (sin - from.r);
+        Self { z, r }.normalized_or(self)
+    }
+
+    /// Off the vertical, where the trend is the opposite one.
+    #[cold]
+    fn nudged(self, cos: f64, sin: f64) -> Self {
+        if self.z * cos < 0.0 && sin < NUDGE { Self { z: self.z, r: NUDGE } } else { self }
     }
 
     fn normalized(self) -> Self {

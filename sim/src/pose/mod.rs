@@ -44,11 +44,12 @@ impl Frames {
         self.tips.clear();
     }
 
-    fn reserve(&mut self, nodes: usize) {
-        let more = nodes.saturating_sub(self.base.len());
-        self.base.reserve(more);
-        self.heading.reserve(more);
-        self.up.reserve(more);
+    /// Room for the frames of every node and the tip of every axis.
+    fn resize(&mut self, nodes: usize, axes: usize) {
+        self.base.resize(nodes, [0.0; 3]);
+        self.heading.resize(nodes, [0.0; 3]);
+        self.up.resize(nodes, [0.0; 3]);
+        self.tips.resize(axes, Tip::default());
     }
 }
 

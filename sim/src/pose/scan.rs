@@ -23,9 +23,8 @@ pub(super) struct Tip {
 /// Poses the nodes that have no frame yet, run by run.
 pub(super) fn follow_trends(plant: &mut Plant) {
     let nodes = plant.nodes.len();
-    plant.frames.reserve(nodes);
-    plant.frames.tips.resize(plant.axes.len(), Tip::default());
     let mut node = plant.frames.base.len();
+    plant.frames.resize(nodes, plant.axes.len());
     while node < nodes {
         let axis = plant.nodes.axis[node];
         let run = node..end_of_run(&plant.nodes, node);
@@ -46,14 +45,9 @@ fn follow_axis(plant: &mut Plant, axis: AxisId, run: Range<usize>) {
     let start = start_frame(plant, axis);
     let (plane, slope) = Plane::of(&start);
     let Plant { nodes, frames, habit, .. } = plant;
-    let tip = if begins_axis(nodes, run.start) {
-        let tip = Tip { base: Vector::from(start.base), slope };
-        let tip = extend(frames, nodes, &[], &plane, tip, run.start..run.start + 1);
-        extend(frames, nodes, &habit.trends, &plane, tip, run.start + 1..run.end)
-    } else {
-        extend(frames, nodes, &habit.trends, &plane, frames.tips[axis.index()], run)
-    };
-    frames.tips[axis.index()] = tip;
+    let begins = begins_axis(nodes, run.start);
+    let tip = if begins { Tip { base: Vector::from(start.base), slope } } else { frames.tips[axis.index()] };
+    frames.tips[axis.index()] = extend(frames, nodes, &habit.trends, &plane, tip, run, begins);
 }
 
 /// Whether a node is the first of its axis: its parent is not on it.
@@ -62,21 +56,33 @@ pub(super) fn begins_axis(nodes: &Nodes, node: usize) -> bool {
     nodes.parent[node].some().is_none_or(|parent| nodes.axis[parent.index()] != nodes.axis[node])
 }
 
-/// Appends the frames of a run that goes on from `tip`; a node whose trend is not in `trends` goes straight on.
+/// Writes the frames of a run that goes on from `tip`. The first node of an axis, and one whose trend the habit does
+/// not know, goes straight on.
 #[inline]
-fn extend(frames: &mut Frames, nodes: &Nodes, trends: &[Trend], plane: &Plane, tip: Tip, run: Range<usize>) -> Tip {
+fn extend(
+    frames: &mut Frames,
+    nodes: &Nodes,
+    trends: &[Trend],
+    plane: &Plane,
+    tip: Tip,
+    run: Range<usize>,
+    begins: bool,
+) -> Tip {
     let Tip { mut base, mut slope } = tip;
-    let (mut heading, mut up) = (plane.heading(slope), plane.up(slope));
-    let (mut heading_32, mut up_32) = (heading.single(), up.single());
-    for (&trend, &length) in nodes.trend[run.clone()].iter().zip(&nodes.length[run]) {
-        if let Some(trend) = trends.get(usize::from(trend)).filter(|trend| trend.share > 0.0) {
+    let mut heading = plane.heading(slope);
+    let (mut stored, mut straight) = ((heading.single(), plane.up(slope).single()), begins);
+    let columns = frames.base[run.clone()].iter_mut().zip(&mut frames.heading[run.clone()]);
+    let columns = columns.zip(&mut frames.up[run.clone()]).zip(&nodes.length[run.clone()]);
+    for ((((at, along), up), &length), &trend) in columns.zip(&nodes.trend[run]) {
+        let turn = trends.get(usize::from(trend)).filter(|trend| trend.share > 0.0 && !straight);
+        if let Some(trend) = turn {
             slope = slope.turned(trend);
-            (heading, up) = (plane.heading(slope), plane.up(slope));
-            (heading_32, up_32) = (heading.single(), up.single());
+            heading = plane.heading(slope);
+            stored = (heading.single(), plane.up(slope).single());
         }
-        frames.base.push(base.single());
-        frames.heading.push(heading_32);
-        frames.up.push(up_32);
+        straight = false;
+        *at = base.single();
+        (*along, *up) = stored;
         base = base + heading * f64::from(length);
     }
     Tip { base, slope }

@@ -5,7 +5,7 @@
 //! A heading that is missing, or no direction at all, is its parent's.
 
 use super::bearing_frame;
-use super::scan::{Tip, begins_axis};
+use super::scan::begins_axis;
 use super::vector::Vector;
 use crate::plant::{NodeId, Plant};
 
@@ -14,10 +14,9 @@ const NOTHING: f64 = 1e-12;
 
 /// Poses the nodes that have no frame yet, one by one.
 pub(super) fn follow_headings(plant: &mut Plant) {
-    let nodes = plant.nodes.len();
-    plant.frames.reserve(nodes);
-    plant.frames.tips.resize(plant.axes.len(), Tip::default());
-    for node in plant.frames.base.len()..nodes {
+    let first = plant.frames.base.len();
+    plant.frames.resize(plant.nodes.len(), plant.axes.len());
+    for node in first..plant.nodes.len() {
         follow(plant, node);
     }
 }
@@ -34,9 +33,9 @@ fn follow(plant: &mut Plant, node: usize) {
     };
     let heading = stated(plant, NodeId(node as u32)).unwrap_or(was);
     let Plant { frames, nodes, .. } = plant;
-    frames.base.push(base.single());
-    frames.heading.push(heading.single());
-    frames.up.push(carried(up, was, heading).single());
+    frames.base[node] = base.single();
+    frames.heading[node] = heading.single();
+    frames.up[node] = carried(up, was, heading).single();
     frames.tips[axis.index()].base = base + heading * f64::from(nodes.length[node]);
 }
 
