@@ -54,7 +54,7 @@ enum Kind {
 struct Source<'a> {
     weight: f64,
     kind: Kind,
-    parameters: Vec<(Formula<'a>, ValueRange)>,
+    parameters: Vec<Formula<'a>>,
     shift: u32,
     path: Path,
 }
@@ -66,7 +66,7 @@ impl Count {
             Self::Number(number) => vec![Source::constant(*number, path)?],
             Self::Form(form) => sources(form, domain, path)?,
         };
-        let formulas: Vec<&Formula> = sources.iter().flat_map(|s| s.parameters.iter().map(|p| &p.0)).collect();
+        let formulas: Vec<&Formula> = sources.iter().flat_map(|source| &source.parameters).collect();
         let grid = formula::grid(&formulas, domain, path)?;
         CountTable::fill(grid, &sources, path).map_err(|fault| vec![fault])
     }
@@ -155,25 +155,12 @@ impl<'a> Source<'a> {
         };
         let (mut parameters, mut faults) = (Vec::new(), Vec::new());
         for (law, path, range) in laws {
-            match Formula::new(law, domain, &path) {
-                Ok(formula) => parameters.push((formula, range)),
+            match Formula::checked(law, domain, &path, &range, range == WHOLE) {
+                Ok(formula) => parameters.push(formula),
                 Err(more) => faults.extend(more),
             }
         }
         if faults.is_empty() { Ok(Self { weight, kind, parameters, shift, path }) } else { Err(faults) }
-    }
-
-    /// Its parameters at a point, each checked.
-    fn parameters(&self, at: At, stack: &mut Vec<f64>, into: &mut Vec<f64>) -> Result<(), Fault> {
-        for (i, (formula, range)) in self.parameters.iter().enumerate() {
-            let value = formula.checked(at, range, stack)?;
-            let whole = i == 0 && matches!(self.kind, Kind::Constant | Kind::Binomial);
-            if whole && value.fract() != 0.0 {
-                return Err(formula.fault(at, value, range));
-            }
-            into.push(value);
-        }
-        Ok(())
     }
 
     /// Its probabilities, given its parameters.
@@ -202,9 +189,8 @@ impl CountTable {
         let (mut stack, mut parameters, mut work) = (Vec::new(), Vec::new(), 0);
         for cell in 0..table.grid.len() {
             parameters.clear();
-            for source in sources {
-                source.parameters(table.grid.point(cell), &mut stack, &mut parameters)?;
-            }
+            let at = table.grid.point(cell);
+            parameters.extend(sources.iter().flat_map(|s| &s.parameters).map(|law| law.value(at, &mut stack)));
             let key: Vec<u64> = parameters.iter().map(|parameter: &f64| parameter.to_bits()).collect();
             let found = match known.get(&key) {
                 Some(&found) => found,

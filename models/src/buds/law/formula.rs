@@ -49,6 +49,19 @@ impl<'a> Formula<'a> {
         if faults.is_empty() { Ok(formula) } else { Err(faults) }
     }
 
+    /// Checks the form of a law and its value at every point, and makes it ready.
+    pub fn checked(
+        law: &Law,
+        domain: &'a Domain,
+        path: &Path,
+        range: &ValueRange,
+        whole: bool,
+    ) -> Result<Self, Vec<Fault>> {
+        let formula = Self::new(law, domain, path)?;
+        formula.tabulate(path, range, whole, |_| ())?;
+        Ok(formula)
+    }
+
     fn add_states(&mut self, laws: &BTreeMap<String, Law>, path: &Path, faults: &mut Vec<Fault>) {
         let states = &self.domain.states;
         if states.is_empty() {
@@ -123,14 +136,33 @@ impl<'a> Formula<'a> {
         }
     }
 
-    /// The value at a point, or the fault where it leaves the range.
-    pub fn checked(&self, at: At, range: &ValueRange, stack: &mut Vec<f64>) -> Result<f64, Fault> {
-        let value = self.value(at, stack);
-        if range.holds(value) { Ok(value) } else { Err(self.fault(at, value, range)) }
+    /// The values at every point of the law's own grid, or the first fault of each state: a value outside the range,
+    /// or one that is not whole where it must be.
+    pub fn tabulate<T>(
+        &self,
+        path: &Path,
+        range: &ValueRange,
+        whole: bool,
+        mut convert: impl FnMut(f64) -> T,
+    ) -> Result<(Grid, Vec<T>), Vec<Fault>> {
+        let grid = grid(&[self], self.domain, path)?;
+        let mut cells = Vec::with_capacity(grid.len());
+        let mut faults: Vec<(usize, Fault)> = Vec::new();
+        let mut stack = Vec::new();
+        for at in (0..grid.len()).map(|cell| grid.point(cell)) {
+            let value = self.value(at, &mut stack);
+            if range.holds(value) && !(whole && value.fract() != 0.0) {
+                cells.push(convert(value));
+            // The states run slowest: only the last fault can be of this state.
+            } else if faults.last().is_none_or(|(state, _)| *state != self.state(at)) {
+                faults.push((self.state(at), self.fault(at, value, range)));
+            }
+        }
+        if faults.is_empty() { Ok((grid, cells)) } else { Err(faults.into_iter().map(|(_, fault)| fault).collect()) }
     }
 
     /// "the law is 1.04 at dimension 27".
-    pub fn fault(&self, at: At, value: f64, range: &ValueRange) -> Fault {
+    fn fault(&self, at: At, value: f64, range: &ValueRange) -> Fault {
         let place = at.describe(self.uses, self.domain);
         let shown = range.show(value);
         let problem = match place.as_str() {
@@ -148,7 +180,7 @@ impl<'a> Formula<'a> {
     }
 
     /// Which of the parts holds at a point.
-    pub fn state(&self, at: At) -> usize {
+    fn state(&self, at: At) -> usize {
         usize::from(at.state).min(self.parts.len().saturating_sub(1))
     }
 

@@ -6,7 +6,7 @@
 
 use super::domain::{At, Domain, Grid};
 use super::form::Law;
-use super::formula::{self, Formula};
+use super::formula::Formula;
 use super::range::ValueRange;
 use crate::fault::{Fault, Path};
 
@@ -34,10 +34,11 @@ impl Law {
     pub fn compile_probability(&self, domain: &Domain, path: &Path) -> Result<ProbabilityTable, Vec<Fault>> {
         let mut constant = None;
         let mut same = true;
-        let (mut grid, mut thresholds) = fill(self, domain, path, &ValueRange::PROBABILITY, |p| {
-            same &= *constant.get_or_insert(p) == p;
-            threshold(p)
-        })?;
+        let (mut grid, mut thresholds) =
+            Formula::new(self, domain, path)?.tabulate(path, &ValueRange::PROBABILITY, false, |p| {
+                same &= *constant.get_or_insert(p) == p;
+                threshold(p)
+            })?;
         if same {
             grid = Grid::single();
             thresholds.truncate(1);
@@ -47,37 +48,14 @@ impl Law {
 
     /// Compiles a law of values over a domain, each within `range`, or tells every fault.
     pub fn compile_value(&self, domain: &Domain, path: &Path, range: ValueRange) -> Result<ValueTable, Vec<Fault>> {
-        let (mut grid, mut values) = fill(self, domain, path, &range, |value| value as f32)?;
+        let (mut grid, mut values) =
+            Formula::new(self, domain, path)?.tabulate(path, &range, false, |value| value as f32)?;
         if values.iter().all(|value| *value == values[0]) {
             grid = Grid::single();
             values.truncate(1);
         }
         Ok(ValueTable { grid, values })
     }
-}
-
-/// Evaluates a law at every point of its grid.
-fn fill<T>(
-    law: &Law,
-    domain: &Domain,
-    path: &Path,
-    range: &ValueRange,
-    mut convert: impl FnMut(f64) -> T,
-) -> Result<(Grid, Vec<T>), Vec<Fault>> {
-    let formula = Formula::new(law, domain, path)?;
-    let grid = formula::grid(&[&formula], domain, path)?;
-    let mut cells = Vec::with_capacity(grid.len());
-    let mut faults: Vec<(usize, Fault)> = Vec::new();
-    let mut stack = Vec::new();
-    for at in (0..grid.len()).map(|cell| grid.point(cell)) {
-        match formula.checked(at, range, &mut stack) {
-            Ok(value) => cells.push(convert(value)),
-            // The states run slowest: only the last fault can be of this state.
-            Err(_) if faults.last().is_some_and(|(state, _)| *state == formula.state(at)) => {}
-            Err(fault) => faults.push((formula.state(at), fault)),
-        }
-    }
-    if faults.is_empty() { Ok((grid, cells)) } else { Err(faults.into_iter().map(|(_, fault)| fault).collect()) }
 }
 
 fn threshold(p: f64) -> u32 {

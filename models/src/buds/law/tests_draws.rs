@@ -183,9 +183,13 @@ fn faults_of_variates_are_told() {
     let sd = variate_faults(
         read!(Variate, { "normal": { "mean": 1, "sd": { "expression": "2 - rank" } }, "min": 2, "max": 1 }),
     );
-    assert_eq!(sd, ["law.min: min 2 is above max 1; expected min ≤ max"]);
-    let sd = variate_faults(read!(Variate, { "normal": { "mean": 1, "sd": { "expression": "2 - rank" } } }));
-    assert_eq!(sd, ["law.normal.sd: the law is -1 at rank 3; expected a standard deviation of at least 0"]);
+    assert_eq!(
+        sd,
+        [
+            "law.min: min 2 is above max 1; expected min ≤ max",
+            "law.normal.sd: the law is -1 at rank 3; expected a standard deviation of at least 0",
+        ]
+    );
     for bad in [
         read!(Variate, {}),
         read!(Variate, 1e300),

@@ -83,15 +83,15 @@ impl VariateForm {
         }
         let mut formulas = Vec::new();
         for (law, key, range) in parameters {
-            match Formula::new(law, domain, &key.map_or(path.clone(), |key| path.key(key))) {
-                Ok(formula) => formulas.push((formula, range)),
+            match Formula::checked(law, domain, &key.map_or(path.clone(), |key| path.key(key)), &range, false) {
+                Ok(formula) => formulas.push(formula),
                 Err(more) => faults.extend(more),
             }
         }
         if !faults.is_empty() {
             return Err(faults);
         }
-        let grid = formula::grid(&formulas.iter().map(|f| &f.0).collect::<Vec<_>>(), domain, &path)?;
+        let grid = formula::grid(&formulas.iter().collect::<Vec<_>>(), domain, &path)?;
         // Draws stay within what a 32-bit float holds.
         let low = self.min.unwrap_or(range.min).max(f64::from(f32::MIN));
         let high = self.max.unwrap_or(range.max).min(f64::from(f32::MAX));
@@ -131,13 +131,13 @@ impl VariateTable {
         Self { grid: Grid::single(), kind: Kind::Value, cells: vec![[number, 0.0]], low: number, high: number }
     }
 
-    fn fill(mut self, formulas: &[(Formula, ValueRange)], path: &Path) -> Result<Self, Fault> {
+    fn fill(mut self, formulas: &[Formula], path: &Path) -> Result<Self, Fault> {
         let mut stack = Vec::new();
         self.cells.reserve_exact(self.grid.len());
         for at in (0..self.grid.len()).map(|cell| self.grid.point(cell)) {
             let mut cell = [0.0; 2];
-            for (parameter, (formula, range)) in cell.iter_mut().zip(formulas) {
-                *parameter = formula.checked(at, range, &mut stack)?;
+            for (parameter, formula) in cell.iter_mut().zip(formulas) {
+                *parameter = formula.value(at, &mut stack);
             }
             if self.kind == Kind::Uniform && cell[0] > cell[1] {
                 let problem = format!("min {} is above max {}", cell[0], cell[1]);
