@@ -1,0 +1,137 @@
+//! A plant as a list of components with their lineage keys, so that two plants can be laid side by side.
+//!
+//! Numbers are compared bit for bit; they are kept as bits. Absent on purpose: component numbers and places in columns,
+//! which differ between growing ahead and growing by the clock.
+
+use phytomer_sim::clock::Tick;
+use phytomer_sim::plant::{AxisId, LineageKey, NodeId, OrganId, Plant};
+
+/// One component of a plant.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Component {
+    /// Its lineage key.
+    pub key: LineageKey,
+    /// `axis` (with its apical bud), `node` (with its internode) or `organ`.
+    pub what: &'static str,
+    /// The tick of appearance.
+    pub birth: Tick,
+    /// The tick of death.
+    pub death: Tick,
+    /// The tick of its fall; for an organ its death.
+    pub shed: Tick,
+    /// The key of what bears it: an axis's bearing node, the node below a node, an organ's node.
+    pub parent: Option<LineageKey>,
+    /// Ranks, kinds, fates and causes: every whole number that belongs to it, in the order of the columns.
+    pub state: Vec<u32>,
+    /// Lengths, areas and angles, as bits, in the order of the columns.
+    pub measures: Vec<u32>,
+}
+
+/// The components of `plant`, sorted by lineage key.
+pub fn components(plant: &Plant) -> Vec<Component> {
+    let axes = (0..plant.axes.len()).map(|i| axis(plant, i));
+    let nodes = (0..plant.nodes.len()).map(|i| node(plant, i));
+    let organs = (0..plant.organs.len()).map(|i| organ(plant, i));
+    let mut components: Vec<Component> = axes.chain(nodes).chain(organs).collect();
+    components.sort_unstable();
+    components
+}
+
+/// As [`components`], in the order of their numbers, each with its number.
+pub(super) fn numbered(plant: &Plant) -> Vec<(u32, Component)> {
+    let axes = (0..plant.axes.len()).map(|i| (plant.axes.component[i], axis(plant, i)));
+    let nodes = (0..plant.nodes.len()).map(|i| (plant.nodes.component[i], node(plant, i)));
+    let organs = (0..plant.organs.len()).map(|i| (plant.organs.component[i], organ(plant, i)));
+    let mut components: Vec<(u32, Component)> = axes.chain(nodes).chain(organs).collect();
+    components.sort_unstable();
+    components
+}
+
+fn axis(plant: &Plant, i: usize) -> Component {
+    let axes = &plant.axes;
+    Component {
+        key: axes.key[i],
+        what: "axis",
+        birth: axes.appearance[i],
+        death: axes.death[i],
+        shed: axes.shed[i],
+        parent: axes.bearer[i].some().map(|bearer| plant.node_key(bearer)),
+        state: vec![
+            axes.order[i].into(),
+            axes.origin[i] as u32,
+            axes.position[i].into(),
+            axes.state[i].into(),
+            axes.birth[i],
+            axes.apex_end[i],
+            axes.apex_fate[i] as u32,
+            axes.spent[i],
+        ],
+        measures: bits(&[axes.azimuth[i], axes.insertion[i]]),
+    }
+}
+
+fn node(plant: &Plant, i: usize) -> Component {
+    let nodes = &plant.nodes;
+    let heading = plant.stated_headings.get(i).copied().unwrap_or_default();
+    Component {
+        key: plant.node_key(NodeId(i as u32)),
+        what: "node",
+        birth: nodes.birth[i],
+        death: nodes.death[i],
+        shed: nodes.shed[i],
+        parent: nodes.parent[i].some().map(|parent| plant.node_key(parent)),
+        state: vec![
+            nodes.rank[i],
+            nodes.unit_rank[i].into(),
+            nodes.formation[i].is_short().into(),
+            nodes.formation[i].is_neoformed().into(),
+            nodes.trend[i].into(),
+        ],
+        measures: bits(&[
+            nodes.length[i],
+            nodes.primary_diameter[i],
+            nodes.azimuth[i],
+            heading[0],
+            heading[1],
+            heading[2],
+        ]),
+    }
+}
+
+fn organ(plant: &Plant, i: usize) -> Component {
+    let organs = &plant.organs;
+    Component {
+        key: plant.organ_key(OrganId(i as u32)),
+        what: "organ",
+        birth: organs.birth[i],
+        death: organs.death[i],
+        shed: organs.death[i],
+        parent: Some(plant.node_key(organs.node[i])),
+        state: vec![organs.kind[i] as u32, organs.position[i].into(), organs.cause[i] as u32, organs.form[i] as u32],
+        measures: bits(&[organs.length[i], organs.width[i], organs.area[i], organs.azimuth[i], organs.insertion[i]]),
+    }
+}
+
+fn bits(measures: &[f32]) -> Vec<u32> {
+    measures.iter().map(|x| x.to_bits()).collect()
+}
+
+/// The events of a plant, with axes by their keys, sorted; empty where it keeps none.
+pub(super) fn events(plant: &Plant) -> Vec<(Tick, LineageKey, u8, u32)> {
+    let key = |axis: AxisId| plant.axes.key[axis.index()];
+    let mut events: Vec<_> =
+        plant.events.iter().flatten().map(|e| (e.tick, key(e.axis), e.kind as u8, e.count)).collect();
+    events.sort_unstable();
+    events
+}
+
+/// Stops at the first component in which two plants differ.
+pub(super) fn assert_same(rule: &str, one: &[Component], other: &[Component]) {
+    for (a, b) in one.iter().zip(other) {
+        assert!(a == b, "{rule}, but one plant has\n  {a:?}\nand the other\n  {b:?}");
+    }
+    let (more, fewer) = if one.len() > other.len() { (one, other) } else { (other, one) };
+    if let Some(component) = more.get(fewer.len()) {
+        panic!("{rule}, but they have {} and {} components; one alone has\n  {component:?}", one.len(), other.len());
+    }
+}

@@ -1,0 +1,160 @@
+//! The clauses that two growths of one plant show side by side: ahead or by the clock, alone or among neighbours, in
+//! fresh or in used memory, with or without room.
+//!
+//! All rest on draws that are keyed by lineage and on ticks that are columns (design of `sim::random` and `sim::grow`).
+//! Absent on purpose: what one plant shows by itself (`structure`).
+
+use super::component::{Component, assert_same, components, events, numbered};
+use super::structure::standing;
+use super::{grown, grown_by_the_clock, seed_of, site_at, sown};
+use phytomer_sim::clock::{NEVER, Tick};
+use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
+use phytomer_sim::plant::{NodeId, Plant, Seed};
+use phytomer_sim::shed::shed;
+
+/// Growing ahead to `until` equals growing tick by tick, component for component and event for event; a model that
+/// rebuilds numbers its components alike too.
+///
+/// # Panics
+/// At the first difference.
+pub fn ahead_equals_the_clock(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
+    let rule = "growing ahead equals growing by the clock";
+    let ahead = grown(model, until, seed);
+    let by_clock = grown_by_the_clock(model, until, seed);
+    assert_same(rule, &components(&ahead), &components(&by_clock));
+    assert_eq!(ahead.death, by_clock.death, "{rule}, to the death of the plant");
+    assert_eq!(events(&ahead), events(&by_clock), "{rule}, event for event");
+    if model.growth() == Growth::Rebuilds {
+        assert!(numbered(&ahead) == numbered(&by_clock), "a model that rebuilds numbers components alike at each time");
+    }
+}
+
+/// The plant at an age, grown to that age, is the plant read at that age from one grown to `until`: the same components
+/// with the same births; where the model extends its plants, also the same lives so far, measures and diameters.
+///
+/// # Panics
+/// At the first difference.
+pub fn ages_agree(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
+    let mut last = grown(model, until, seed);
+    let whole = components(&last);
+    for age in 1..=until {
+        let mut then = grown(model, age, seed);
+        let rule = format!("the plant of age {age} is the plant of age {until} read at {age}");
+        let read = |all: &[Component]| all.iter().filter_map(|c| at(c, age, model.growth())).collect::<Vec<_>>();
+        assert_same(&rule, &read(&components(&then)), &read(&whole));
+        if model.growth() == Growth::Extends {
+            model.thicken(age, &mut then);
+            model.thicken(age, &mut last);
+            let alike = thicknesses(&then, age) == thicknesses(&last, age);
+            assert!(alike, "{rule}, to the diameters of its internodes");
+        } else {
+            numbers_hold(&then, &last);
+        }
+    }
+}
+
+/// A component as it can be known at `age`: without what is still to come, and without what a rebuild may change.
+fn at(component: &Component, age: Tick, growth: Growth) -> Option<Component> {
+    let past = |tick: Tick| if tick <= age { tick } else { NEVER };
+    let mut known = component.clone();
+    known.death = past(known.death);
+    known.shed = past(known.shed);
+    known.state.clear();
+    if growth == Growth::Rebuilds {
+        known.measures.clear();
+    }
+    (component.birth <= age).then_some(known)
+}
+
+fn thicknesses(plant: &Plant, age: Tick) -> Vec<(u64, u32, u32)> {
+    let nodes = &plant.nodes;
+    let one =
+        |i: usize| (plant.node_key(NodeId(i as u32)).0, nodes.diameter[i].to_bits(), nodes.diameter_tip[i].to_bits());
+    let mut all: Vec<_> = standing(plant, age).map(one).collect();
+    all.sort_unstable();
+    all
+}
+
+/// Where a model rebuilds, a component has one number at all ages: tables of several ages are joined by it.
+fn numbers_hold(young: &Plant, old: &Plant) {
+    let named = |plant: &Plant| {
+        let mut all: Vec<_> = numbered(plant).into_iter().map(|(number, c)| (c.key, number)).collect();
+        all.sort_unstable();
+        all
+    };
+    let old = named(old);
+    for pair in named(young) {
+        assert!(old.binary_search(&pair).is_ok(), "a component has one number at all ages: {:?}", pair.0);
+    }
+}
+
+/// A plant grown alone equals the plant grown among others, and the same plant grown twice is the same.
+///
+/// # Panics
+/// At the first difference.
+pub fn alone_equals_among_neighbours(model: &dyn GrowthModel, until: Tick, seed: u64) {
+    let mut plot: Vec<Plant> = [4, 1, 9].into_iter().map(|number| sown(model, &seed_of(seed, number))).collect();
+    let done = model.grow_to(until, &mut plot, &site_at(until));
+    assert_eq!(done, Ok(()), "plants without limit come to age {until}");
+    for plant in &mut plot {
+        shed(plant);
+        let alone = grown(model, until, &seed_of(seed, plant.id));
+        same_plant("a plant does not depend on its neighbours", &alone, plant);
+        same_plant("one seed is one plant", &alone, &grown(model, until, &seed_of(seed, plant.id)));
+    }
+}
+
+/// A plant sown into the memory of another equals one in fresh memory, and so does one taken back to its seed.
+///
+/// # Panics
+/// At the first difference.
+pub fn memory_is_forgotten(model: &dyn GrowthModel, until: Tick, seed: u64) {
+    let fresh = grown(model, until, &seed_of(seed, 3));
+    let mut used = grown(model, until, &seed_of(seed, 8));
+    used.resow(&seed_of(seed, 3));
+    model.sow(&mut used);
+    super::grow(model, until, &mut used);
+    same_plant("a plant does not depend on the memory that it is sown into", &fresh, &used);
+    used.clear();
+    model.sow(&mut used);
+    super::grow(model, until, &mut used);
+    same_plant("a plant taken back to its seed grows again as it did", &fresh, &used);
+}
+
+fn same_plant(rule: &str, one: &Plant, other: &Plant) {
+    assert_same(rule, &components(one), &components(other));
+    assert!(numbered(one) == numbered(other), "{rule}, to the numbers of its components");
+    assert_eq!((one.id, one.age, one.death), (other.id, other.age, other.death), "{rule}: number, age and death");
+    assert!(events(one) == events(other), "{rule}, event for event");
+}
+
+/// A plant with room for its last component grows to `until`; with less, the model says that it is overgrown, and the
+/// plant never passes its limit, ahead or by the clock.
+///
+/// # Panics
+/// Where this is not so.
+pub fn limit_holds(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
+    let needs = grown(model, until, seed).components();
+    let first = sown(model, seed).components();
+    let limited = |component_limit| Seed { component_limit, ..seed.clone() };
+    assert_eq!(grown(model, until, &limited(needs)).components(), needs, "a plant may have as many as its limit");
+    let between = first + (needs - first) / 2;
+    for limit in [first, between, needs - 1].into_iter().filter(|limit| (first..needs).contains(limit)) {
+        overgrows(model, until..=until, &limited(limit));
+        overgrows(model, 1..=until, &limited(limit));
+    }
+}
+
+fn overgrows(model: &dyn GrowthModel, ages: std::ops::RangeInclusive<Tick>, seed: &Seed) {
+    let limit = seed.component_limit;
+    let mut plant = sown(model, seed);
+    for age in ages {
+        let done = model.grow_to(age, std::slice::from_mut(&mut plant), &site_at(age));
+        assert!(plant.components() <= limit, "a plant never passes its limit of {limit}: {}", plant.components());
+        if let Err(overgrown) = done {
+            assert_eq!(overgrown, Overgrown { plant: seed.plant, limit }, "an overgrown plant is named with its limit");
+            return;
+        }
+    }
+    panic!("a plant that needs more than its limit of {limit} components is overgrown");
+}

@@ -1,0 +1,88 @@
+//! The contract: what every growth model keeps, whatever it grows, as a test suite that each model instantiates.
+//!
+//! [`check`] runs all of it; the finer functions hold one clause each. They are for tests: each panics with the rule
+//! that was broken, the model's plant and the component, and returns nothing. The clauses are those of the plant's
+//! columns (`sim::plant`), of the loop (`sim::grow`: growing ahead equals growing by the clock) and of keyed draws (a
+//! plant depends on nothing but its seed).
+//! Absent on purpose: anything that holds for one model alone; counts from papers stand with the literature tests.
+
+mod component;
+mod growth;
+mod structure;
+#[cfg(test)]
+mod tests;
+
+pub use component::{Component, components};
+pub use growth::{ages_agree, ahead_equals_the_clock, alone_equals_among_neighbours, limit_holds, memory_is_forgotten};
+pub use structure::{diameters, events_tell_the_plant, poses, structure};
+
+use phytomer_sim::clock::Tick;
+use phytomer_sim::model::GrowthModel;
+use phytomer_sim::plant::{MOST_COMPONENTS, Plant, Seed};
+use phytomer_sim::shed::shed;
+use phytomer_sim::site::Site;
+
+/// Holds `model` to every clause of the contract, on plants of the run seed `seed` grown to the age `until` (at least
+/// 1). For tests; it grows the plant some thirty times and once to each age, so a few thousand components are enough.
+///
+/// # Panics
+/// At the first rule that is broken, naming it.
+pub fn check(model: &dyn GrowthModel, until: Tick, seed: u64) {
+    for number in [0, 1, 77] {
+        let mut plant = grown(model, until, &seed_of(seed, number));
+        structure(&plant, until);
+        events_tell_the_plant(&plant, until);
+        diameters(model, &mut plant, until);
+        poses(&mut plant);
+        ahead_equals_the_clock(model, until, &seed_of(seed, number));
+    }
+    ages_agree(model, until, &seed_of(seed, 0));
+    alone_equals_among_neighbours(model, until, seed);
+    memory_is_forgotten(model, until, seed);
+    limit_holds(model, until, &seed_of(seed, 0));
+}
+
+/// The seed of plant `number` in the run `run_seed`, without limit, with its events kept.
+pub fn seed_of(run_seed: u64, number: u32) -> Seed {
+    Seed { plant: number, run_seed, component_limit: MOST_COMPONENTS, keep_events: true }
+}
+
+/// A plant sown by `model`.
+pub fn sown(model: &dyn GrowthModel, seed: &Seed) -> Plant {
+    let mut plant = Plant::new(seed, model.habit());
+    model.sow(&mut plant);
+    plant
+}
+
+/// A plant grown ahead to `until` at once, and shed.
+///
+/// # Panics
+/// Where the model finds the plant overgrown.
+pub fn grown(model: &dyn GrowthModel, until: Tick, seed: &Seed) -> Plant {
+    let mut plant = sown(model, seed);
+    grow(model, until, &mut plant);
+    plant
+}
+
+/// A plant grown tick by tick to `until`, shed at each.
+///
+/// # Panics
+/// Where the model finds the plant overgrown.
+pub fn grown_by_the_clock(model: &dyn GrowthModel, until: Tick, seed: &Seed) -> Plant {
+    let mut plant = sown(model, seed);
+    (1..=until).for_each(|age| grow(model, age, &mut plant));
+    plant
+}
+
+/// Open ground at `age`.
+fn site_at(age: Tick) -> Site {
+    let mut site = Site::default();
+    site.begin(age);
+    site
+}
+
+fn grow(model: &dyn GrowthModel, age: Tick, plant: &mut Plant) {
+    let done = model.grow_to(age, std::slice::from_mut(plant), &site_at(age));
+    assert_eq!(done, Ok(()), "a plant without limit comes to age {age}");
+    shed(plant);
+}

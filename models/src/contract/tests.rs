@@ -1,0 +1,119 @@
+//! The contract catches models that break it: a sound tree, spoilt in one way each.
+
+use super::*;
+use crate::fault::Path;
+use crate::geometric::{Gmt1, Gmt1Model};
+use phytomer_sim::model::{Growth, Overgrown};
+use phytomer_sim::plant::{Habit, LineageKey, NodeId};
+use std::sync::Arc;
+
+fn sound() -> Gmt1Model {
+    let tree = Gmt1 {
+        h1_deg: 10.0,
+        h2_deg: -60.0,
+        r1: 0.9,
+        r2: 0.7,
+        diameter_ratio: 0.7,
+        divergence_deg: 140.0,
+        levels: 5,
+        first_length_m: 1.0,
+        first_diameter_m: 0.1,
+    };
+    tree.compile(6, &Path::root()).expect("the tree is sound")
+}
+
+/// A tree that something happens to after each growth to an age.
+struct Spoilt {
+    tree: Gmt1Model,
+    growth: Growth,
+    spoil: fn(Tick, &mut [Plant]),
+    tells_limit: bool,
+}
+
+fn spoilt(spoil: fn(Tick, &mut [Plant])) -> Spoilt {
+    Spoilt { tree: sound(), growth: Growth::Rebuilds, spoil, tells_limit: true }
+}
+
+impl GrowthModel for Spoilt {
+    fn growth(&self) -> Growth {
+        self.growth
+    }
+
+    fn habit(&self) -> Arc<Habit> {
+        self.tree.habit()
+    }
+
+    fn sow(&self, plant: &mut Plant) {
+        self.tree.sow(plant);
+    }
+
+    fn grow_to(&self, age: Tick, plants: &mut [Plant], site: &Site) -> Result<(), Overgrown> {
+        let done = self.tree.grow_to(age, plants, site);
+        (self.spoil)(age, plants);
+        if self.tells_limit { done } else { Ok(()) }
+    }
+
+    fn thicken(&self, age: Tick, plant: &mut Plant) {
+        self.tree.thicken(age, plant);
+    }
+}
+
+#[track_caller]
+fn breaks(model: &Spoilt, rule: &str) {
+    let failure = std::panic::catch_unwind(|| check(model, 6, 1)).expect_err(rule);
+    let message = match failure.downcast::<String>() {
+        Ok(message) => *message,
+        Err(other) => (*other.downcast::<&str>().expect("a panic has a message")).to_owned(),
+    };
+    assert!(message.contains(rule), "`{message}` does not say `{rule}`");
+}
+
+fn set<T>(column: &mut [T], at: usize, value: T) {
+    if let Some(place) = column.get_mut(at) {
+        *place = value;
+    }
+}
+
+#[test]
+fn a_sound_model_keeps_it_whether_it_rebuilds_or_extends() {
+    check(&spoilt(|_, _| ()), 6, 1);
+    check(&Spoilt { growth: Growth::Extends, ..spoilt(|_, _| ()) }, 6, 1);
+}
+
+#[test]
+fn a_rule_of_topology_is_named_when_it_is_broken() {
+    breaks(&spoilt(|_, p| set(&mut p[0].nodes.component, 5, 4)), "component numbers are dense");
+    breaks(&spoilt(|_, p| set(&mut p[0].nodes.parent, 3, NodeId(0))), "stands on the node before it");
+    breaks(&spoilt(|_, p| set(&mut p[0].nodes.parent, 3, NodeId(30))), "a parent's index is smaller");
+    breaks(&spoilt(|_, p| set(&mut p[0].nodes.rank, 1, 7)), "ranks along an axis are 1, 2, 3");
+    breaks(&spoilt(|_, p| set(&mut p[0].axes.order, 1, 1)), "the order of an axis follows from its origin");
+    breaks(&spoilt(|_, p| set(&mut p[0].axes.last_node, 0, NodeId(0))), "an axis knows its last node");
+    breaks(&spoilt(|_, p| set(&mut p[0].axes.key, 1, LineageKey::SEED)), "lineage keys are unique");
+}
+
+#[test]
+fn a_rule_of_time_or_measure_is_named_when_it_is_broken() {
+    breaks(&spoilt(|_, p| p[0].age = 0), "has that age");
+    breaks(&spoilt(|_, p| set(&mut p[0].nodes.birth, 0, 0)), "a node appears in 1..=6");
+    breaks(&spoilt(|_, p| set(&mut p[0].nodes.birth, 0, 3)), "no sooner than");
+    breaks(&spoilt(|_, p| set(&mut p[0].nodes.length, 3, f32::NAN)), "finite numbers");
+    breaks(&spoilt(|_, p| p[0].stated_headings.truncate(9)), "for every internode or for none");
+    breaks(&spoilt(|_, p| p[0].events.iter_mut().for_each(Vec::clear)), "the events of growth count the nodes");
+}
+
+#[test]
+fn a_plant_that_depends_on_more_than_its_seed_is_caught() {
+    let crowded = spoilt(|_, plants| {
+        let width = plants.len() as f32;
+        plants.iter_mut().for_each(|p| set(&mut p.nodes.length, 3, width));
+    });
+    breaks(&crowded, "a plant does not depend on its neighbours");
+    let stretching = |age, plants: &mut [Plant]| set(&mut plants[0].nodes.length, 0, age as f32);
+    breaks(&Spoilt { growth: Growth::Extends, ..spoilt(stretching) }, "the plant of age 1 is the plant of age 6 read");
+    breaks(&Spoilt { tells_limit: false, ..spoilt(regrown) }, "needs more than its limit");
+}
+
+/// What an overgrown plant must not hide: it stands at the age asked for.
+fn regrown(age: Tick, plants: &mut [Plant]) {
+    plants.iter_mut().for_each(|plant| plant.age = age);
+}
