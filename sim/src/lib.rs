@@ -3,6 +3,7 @@
 //! Absent on purpose: files, TOML, Arrow, triangles and species.
 
 pub mod clock;
+pub mod expectation;
 pub mod grow;
 pub mod math;
 pub mod model;

@@ -1,6 +1,7 @@
 //! What a growth model is to the loop: something that sows a plant and grows it to an age.
 
 use crate::clock::Tick;
+use crate::expectation::Expectation;
 use crate::plant::{Habit, Plant};
 use crate::site::Site;
 use std::sync::Arc;
@@ -43,4 +44,10 @@ pub trait GrowthModel: Send + Sync {
 
     /// Writes the diameters of each internode as they are at `age`.
     fn thicken(&self, age: Tick, plant: &mut Plant);
+
+    /// The means of what a plant makes up to `until`, where the model's laws allow them in closed form.
+    fn expectation(&self, until: Tick) -> Option<Expectation> {
+        let _ = until;
+        None
+    }
 }

@@ -3,6 +3,7 @@
 use super::compile::{BudModel, OrderLaws};
 use super::grow::{Axis, Full, Words, first_bud};
 use super::law::At;
+use phytomer_sim::expectation::Expectation;
 use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
 use phytomer_sim::plant::{ApicalBud, AxisId, Habit, LineageKey, NewAxis, Origin, Plant, Shape};
 use phytomer_sim::random::Purpose;
@@ -117,6 +118,10 @@ impl GrowthModel for BudModel {
 
     fn grow_to(&self, age: Tick, plants: &mut [Plant], _: &Site) -> Result<(), Overgrown> {
         plants.iter_mut().try_for_each(|plant| self.grow_plant(plant, age))
+    }
+
+    fn expectation(&self, until: Tick) -> Option<Expectation> {
+        self.expectation_from(1, until)
     }
 
     /// Diameter at birth plus the thickening of the internode's order at the plant's age and its own; a cone's tip takes

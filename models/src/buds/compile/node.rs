@@ -124,11 +124,9 @@ impl NodeLaws {
         zone.map(|zone| zone.chance.as_ref().unwrap_or(&self.axillary.chance))
     }
 
-    /// The laws of ramification that some node can be under.
-    pub fn may_branch(&self) -> bool {
-        let order_wide = !self.axillary.chance.table.is_never();
-        let by_zone = |zone: &ZoneLaw| zone.chance.as_ref().map_or(order_wide, |chance| !chance.table.is_never());
-        self.axillary.count.table.max() > 0 && self.zones.as_ref().map_or(order_wide, |zones| zones.iter().any(by_zone))
+    /// The laws of ramification of the zones that have one of their own.
+    pub fn zone_chances(&self) -> impl Iterator<Item = &Chance> {
+        self.zones.iter().flatten().filter_map(|zone| zone.chance.as_ref())
     }
 }
 

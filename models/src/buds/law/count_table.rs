@@ -282,6 +282,11 @@ impl CountTable {
         }
     }
 
+    /// Whether the distribution is the same at every point.
+    pub fn is_steady(&self) -> bool {
+        self.cells.len() == 1
+    }
+
     /// The mean at a point.
     pub fn mean(&self, at: At) -> f64 {
         self.at(at).0.mean

@@ -1,0 +1,68 @@
+//! The mean of what grows, in closed form: expectations by order and age, and the probability of extinction.
+//!
+//! For laws that depend on the order alone, with one bud in k at each node of order o, survival s = 1 − d and growth
+//! g = 1 − p, the mean number of growth units of order q that a bud of order o has made after n ticks is
+//! M(o,q)(n) = s_o [M(o,q)(n − 1) + g_o (1{o = q} + k_o a_o M(o+1,q)(n − 1))], M(0) = 0. For laws of age, dimension, cycle
+//! and state the same mean is summed over cohorts: the axes of one order born at one tick in one state, of which each
+//! clock step kills, rests, ends or grows a share. Means are linear, so the sum is exact, whatever the random numbers of
+//! nodes and buds, as long as they are drawn independently, which they are.
+//!
+//! Absent: the deaths of branches. What is counted is what has been made.
+
+mod cohort;
+mod unit;
+
+use super::compile::BudModel;
+use cohort::Cohorts;
+use phytomer_sim::Tick;
+use phytomer_sim::expectation::Expectation;
+
+impl BudModel {
+    /// The means of what an axis of order `order` and all that it bears have made by each age from 0 to `until`, counted
+    /// from the birth of the axis; `None` where the laws do not allow it (relays below the last node) or the sum would
+    /// take too long.
+    pub fn expectation_from(&self, order: u8, until: Tick) -> Option<Expectation> {
+        if !self.has_order(order) || self.orders.iter().any(|laws| laws.end.below > 0) {
+            return None;
+        }
+        Cohorts::new(self, until.min(self.until)).sum_from(order)
+    }
+}
+
+/// The probability that one bud and all its descendants are dead after `ticks` ticks, for buds of one type: at each tick
+/// a bud dies with probability `death`, else pauses with probability `pause`, else grows and bears another such bud with
+/// probability `ramification` (k = 1). The limit is the smallest root of q = d + s q [p + g (1 − a + a q)]:
+/// q = min(1, d/(s g a)).
+///
+/// ```
+/// use phytomer_models::buds::expectation::{extinct_by, extinction};
+/// assert!((extinction(0.1, 0.0, 0.5) - 2.0 / 9.0).abs() < 1e-15);
+/// assert!((extinct_by(0.1, 0.0, 0.5, 200) - 2.0 / 9.0).abs() < 1e-12);
+/// ```
+pub fn extinct_by(death: f64, pause: f64, ramification: f64, ticks: Tick) -> f64 {
+    let (survives, grows) = (1.0 - death, 1.0 - pause);
+    let branches = |q: f64| 1.0 - ramification + ramification * q;
+    (0..ticks).fold(0.0, |q, _| death + survives * q * (pause + grows * branches(q)))
+}
+
+/// The probability that one bud and all its descendants ever die out; see [`extinct_by`].
+pub fn extinction(death: f64, pause: f64, ramification: f64) -> f64 {
+    let births = (1.0 - death) * (1.0 - pause) * ramification;
+    match death {
+        0.0 => 0.0,
+        _ if births <= death => 1.0,
+        _ => death / births,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extinction_is_certain_where_deaths_outweigh_births() {
+        assert_eq!(extinction(0.5, 0.0, 0.5), 1.0);
+        assert_eq!(extinction(0.0, 0.5, 0.5), 0.0);
+        assert!((extinct_by(0.5, 0.0, 0.5, 10_000) - 1.0).abs() < 1e-9);
+    }
+}

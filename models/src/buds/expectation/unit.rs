@@ -1,0 +1,104 @@
+//! The means of one growth unit: nodes, organs, and the axes that its buds become.
+
+use crate::buds::compile::{BudModel, NodeLaws, OrderLaws};
+use crate::buds::law::At;
+
+/// The means of one growth unit.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Unit {
+    /// Nodes.
+    pub nodes: f64,
+    /// Leaves, flowers and fruits.
+    pub organs: f64,
+    /// Axillary axes.
+    pub laterals: f64,
+    /// Adaptive reiterations.
+    pub reiterations: f64,
+    /// The probability that it has no node.
+    pub empty: f64,
+    /// Dormant axillary buds on its last node, 0 where it has none.
+    pub dormant: f64,
+    /// Steps of summation that it took.
+    pub work: u64,
+}
+
+impl Unit {
+    /// The means of a growth unit made at `at`.
+    pub fn at(model: &BudModel, laws: &OrderLaws, at: At) -> Self {
+        let short = laws.step.short.table.probability(at);
+        let neoformed = laws.step.neoformed.table.pmf(at);
+        let mut mean = Self::default();
+        if short < 1.0 {
+            let nodes = convolve(&laws.step.long_nodes.table.pmf(at), &neoformed);
+            mean.add(1.0 - short, &Self::of(model, laws, &nodes, at));
+        }
+        if short > 0.0 {
+            let nodes = convolve(&laws.step.short_nodes.table.pmf(at), &neoformed);
+            mean.add(short, &Self::of(model, laws, &nodes, at));
+        }
+        mean
+    }
+
+    fn of(model: &BudModel, laws: &OrderLaws, nodes: &[f64], at: At) -> Self {
+        let mut mean = Self { empty: nodes.first().copied().unwrap_or(0.0), ..Self::default() };
+        let mut at_least: f64 = nodes.iter().sum();
+        for rank in 1..nodes.len() {
+            at_least -= nodes[rank - 1];
+            let at = At { rank: rank as u32, ..at };
+            let node = &laws.node;
+            mean.nodes += at_least;
+            mean.organs += at_least * organs(node, at);
+            mean.reiterations +=
+                at_least * node.reiteration.count.table.mean(at) * node.reiteration.chance.table.probability(at);
+        }
+        mean.ramify(model, laws, nodes, at);
+        mean.work += nodes.len() as u64;
+        mean
+    }
+
+    /// Laterals and dormant buds, for every number of nodes, since zones are counted from either end.
+    fn ramify(&mut self, model: &BudModel, laws: &OrderLaws, nodes: &[f64], at: At) {
+        if laws.node.axillary.count.table.max() == 0 {
+            return;
+        }
+        let next = model.has_order(laws.number + 1);
+        for (count, &probability) in nodes.iter().enumerate().skip(1).filter(|(_, p)| **p > 0.0) {
+            let count = count as u32;
+            let on_node = |rank| {
+                let at = At { rank, ..at };
+                let chance = laws.node.ramification(rank, count).filter(|_| next);
+                (laws.node.axillary.count.table.mean(at), chance.map_or(0.0, |chance| chance.table.probability(at)))
+            };
+            self.laterals += probability * (1..=count).map(on_node).map(|(buds, chance)| buds * chance).sum::<f64>();
+            let (buds, chance) = on_node(count);
+            self.dormant += probability * buds * (1.0 - chance);
+            self.work += u64::from(count);
+        }
+    }
+
+    fn add(&mut self, share: f64, other: &Self) {
+        self.nodes += share * other.nodes;
+        self.organs += share * other.organs;
+        self.laterals += share * other.laterals;
+        self.reiterations += share * other.reiterations;
+        self.empty += share * other.empty;
+        self.dormant += share * other.dormant;
+        self.work += other.work;
+    }
+}
+
+fn organs(node: &NodeLaws, at: At) -> f64 {
+    let opening = node.flowers.table.mean(at) * node.flower_opens.table.probability(at);
+    node.leaves.table.mean(at) + opening * (1.0 + node.fruit_set.table.probability(at))
+}
+
+/// The distribution of a sum of two independent counts.
+fn convolve(a: &[f64], b: &[f64]) -> Vec<f64> {
+    let mut sum = vec![0.0; (a.len() + b.len()).saturating_sub(1)];
+    for (i, x) in a.iter().enumerate().filter(|(_, x)| **x > 0.0) {
+        for (j, y) in b.iter().enumerate() {
+            sum[i + j] += x * y;
+        }
+    }
+    sum
+}
