@@ -3,6 +3,8 @@
 //! Numbers are compared bit for bit; they are kept as bits. Absent on purpose: component numbers and places in columns,
 //! which differ between growing ahead and growing by the clock.
 
+use std::fmt::Debug;
+
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{AxisId, LineageKey, NodeId, OrganId, Plant};
 
@@ -116,22 +118,25 @@ fn bits(measures: &[f32]) -> Vec<u32> {
     measures.iter().map(|x| x.to_bits()).collect()
 }
 
-/// The events of a plant, with axes by their keys, sorted; empty where it keeps none.
-pub(super) fn events(plant: &Plant) -> Vec<(Tick, LineageKey, u8, u32)> {
+/// An event, with its axis by its key: tick, axis, kind, count.
+pub(super) type KeyedEvent = (Tick, LineageKey, &'static str, u32);
+
+/// The events of a plant, sorted; empty where it keeps none.
+pub(super) fn events(plant: &Plant) -> Vec<KeyedEvent> {
     let key = |axis: AxisId| plant.axes.key[axis.index()];
     let mut events: Vec<_> =
-        plant.events.iter().flatten().map(|e| (e.tick, key(e.axis), e.kind as u8, e.count)).collect();
+        plant.events.iter().flatten().map(|e| (e.tick, key(e.axis), e.kind.tag(), e.count)).collect();
     events.sort_unstable();
     events
 }
 
-/// Stops at the first component in which two plants differ.
-pub(super) fn assert_same(rule: &str, one: &[Component], other: &[Component]) {
+/// Stops at the first component, or event, in which two plants differ.
+pub(super) fn assert_same<T: PartialEq + Debug>(rule: &str, one: &[T], other: &[T]) {
     for (a, b) in one.iter().zip(other) {
         assert!(a == b, "{rule}, but one plant has\n  {a:?}\nand the other\n  {b:?}");
     }
     let (more, fewer) = if one.len() > other.len() { (one, other) } else { (other, one) };
-    if let Some(component) = more.get(fewer.len()) {
-        panic!("{rule}, but they have {} and {} components; one alone has\n  {component:?}", one.len(), other.len());
+    if let Some(single) = more.get(fewer.len()) {
+        panic!("{rule}, but they have {} and {}; one alone has\n  {single:?}", one.len(), other.len());
     }
 }

@@ -9,6 +9,7 @@
 use super::branching::{child, length};
 use super::gmt1::Gmt1;
 use phytomer_sim::clock::{NEVER, Tick};
+use phytomer_sim::expectation::{Expectation, OrderExpectation};
 use phytomer_sim::math;
 use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
 use phytomer_sim::plant::key::Place;
@@ -87,6 +88,28 @@ impl Gmt1Model {
         }
         plant.age = age;
         Ok(())
+    }
+
+    /// Branches and axes by order and age. Of the 2ᵐ branches of growth level m, C(m, k) have order k + 1: k of the m
+    /// branchings that led to them were taken sideways.
+    fn counts(&self, until: Tick) -> Expectation {
+        let last = self.parameters.level_at(until);
+        let mut orders: Vec<_> = (0..=last.unwrap_or(0)).map(|_| OrderExpectation::zero(until)).collect();
+        orders[0].axes[0] = 1.0;
+        let mut branches = vec![0.0; orders.len()];
+        for level in 0..last.map_or(0, |last| last + 1) {
+            let age = birth(level) as usize;
+            let mothers = branches.clone();
+            for (k, order) in orders.iter_mut().enumerate() {
+                let sideways = if k > 0 { mothers[k - 1] } else { 0.0 };
+                let onward = if level == 0 && k == 0 { 1.0 } else { mothers[k] };
+                order.axes[age] = sideways;
+                branches[k] = onward + sideways;
+                (order.units[age], order.nodes[age]) = (branches[k], branches[k]);
+            }
+        }
+        orders.iter_mut().for_each(OrderExpectation::accumulate);
+        Expectation { orders }
     }
 
     /// The base section: "the first two child branches lie on the plane parallel to the direction of gravity", so it
@@ -219,5 +242,10 @@ impl GrowthModel for Gmt1Model {
         let nodes = &mut plant.nodes;
         nodes.diameter.copy_from_slice(&nodes.primary_diameter);
         nodes.diameter_tip.copy_from_slice(&nodes.primary_diameter);
+    }
+
+    /// Nothing is left to chance: the counts themselves.
+    fn expectation(&self, until: Tick) -> Option<Expectation> {
+        Some(self.counts(until))
     }
 }

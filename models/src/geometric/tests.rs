@@ -6,6 +6,7 @@ use crate::contract;
 use crate::fault::Path;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::math;
+use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::{NodeId, Origin, Plant};
 use std::f64::consts::PI;
 
@@ -115,6 +116,23 @@ fn a_tree_of_age_n_has_2_to_the_n_less_1_branches_and_its_lengths_their_closed_f
             let sum: f64 = plant.nodes.length.iter().map(|&long| f64::from(long)).sum();
             let closed: f64 = (0..age).map(|k| math::pow(tree.r1 + tree.r2, f64::from(k))).sum();
             assert!((sum / closed - 1.0).abs() < 1e-6, "{} at age {age}: {sum} is not {closed}", row.0);
+        }
+    }
+}
+
+#[test]
+fn what_is_expected_of_a_tree_is_what_grows() {
+    let tree = Gmt1 { levels: 6, ..row("5f") };
+    let expected = model(&tree).expectation(9).expect("counts without chance");
+    for age in 0..=9 {
+        assert_eq!(expected.components(age), tree.components_at(age) as f64, "at age {age}");
+        let plant = grown(&tree, age);
+        for (order, means) in (1..).zip(&expected.orders) {
+            let axes = plant.axes.order.iter().filter(|&&o| o == order).count();
+            let of_order = |axis: &&phytomer_sim::plant::AxisId| plant.axes.order[axis.index()] == order;
+            let nodes = plant.nodes.axis.iter().filter(of_order).count();
+            let found = [means.axes[age as usize], means.nodes[age as usize], means.units[age as usize]];
+            assert_eq!(found, [axes, nodes, nodes].map(|n| n as f64), "order {order} at age {age}");
         }
     }
 }
