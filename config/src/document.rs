@@ -88,10 +88,29 @@ impl Node {
         Some(entries.remove(at))
     }
 
+    /// Where the last key of `path` stands, if it leads to a key.
+    pub fn locate_key(&self, path: &Path) -> Option<Span> {
+        let (last, above) = path.0.split_last()?;
+        let Segment::Key(key) = last else { return None };
+        let (table, true) = self.follow(above) else { return None };
+        table.entry(key).map(|e| e.key_span)
+    }
+
+    /// The value to which `path` leads.
+    pub fn at(&self, path: &Path) -> Option<&Node> {
+        let (node, whole) = self.follow(&path.0);
+        whole.then_some(node)
+    }
+
     /// Where `path` leads, or, where it leads nowhere, the last place on the way.
     pub fn locate(&self, path: &Path) -> Span {
+        self.follow(&path.0).0.span
+    }
+
+    /// The last value on the way along `path`, and whether it is the way's end.
+    fn follow(&self, path: &[Segment]) -> (&Node, bool) {
         let mut node = self;
-        for segment in &path.0 {
+        for segment in path {
             let next = match (segment, &node.value) {
                 (Segment::Key(key), Value::Table(_)) => node.get(key),
                 (Segment::Index(i), Value::Array(items)) => items.get(*i),
@@ -99,10 +118,10 @@ impl Node {
             };
             match next {
                 Some(next) => node = next,
-                None => return node.span,
+                None => return (node, false),
             }
         }
-        node.span
+        (node, true)
     }
 
     /// The same tree as JSON, for serde.
@@ -130,33 +149,50 @@ pub fn parse(sources: &Sources, id: SourceId, faults: &mut Vec<Fault>) -> Option
         whole &= harmless;
         syntax.push(fault);
     }
-    let mut reader = Reader { id, faults: Vec::new() };
+    let mut reader = Reader { id, faults: Vec::new(), too_deep: false };
     let root = Span { source: id, start: 0, end: 0 };
     let node = Node { span: root, value: Value::Table(reader.table(table.into_inner(), 1)) };
     faults.extend(first_of_each_line(sources, syntax));
     if whole {
         faults.extend(reader.faults);
     }
-    whole.then_some(node)
+    (whole && !reader.too_deep).then_some(node)
 }
 
 /// A parser's error as a fault, and whether the tree can still be trusted.
 fn syntax_fault(id: SourceId, text: &str, error: &toml::de::Error) -> (Fault, bool) {
     let range = error.span().unwrap_or(0..0);
     let span = Span { source: id, start: range.start, end: range.end };
-    let (problem, expected) = match error.message().split_once(", expected ") {
-        Some((problem, expected)) => (problem, expected.replace("nothing", "nothing more here")),
-        None => (error.message(), String::new()),
+    let (problem, expected) = error.message().split_once(", expected ").unwrap_or((error.message(), ""));
+    let key = || text.get(range.clone()).unwrap_or("?").trim();
+    let (problem, expected) = match (problem, expected) {
+        ("duplicate key", _) => (format!("the key `{}` is given twice", key()), "each key once in its table"),
+        ("cannot recurse further; max recursion depth met" | "recursion limit", _) => {
+            ("nested too deep".to_owned(), "fewer levels of tables and lists")
+        }
+        ("string values must be quoted", _) if value_is_absent(text, range.start) => {
+            ("there is no value".to_owned(), "a value after `=`")
+        }
+        ("unexpected key or value", _) if is_decimal_comma(text, range.start) => {
+            ("this number has a comma".to_owned(), "a decimal point, as in `0.92`")
+        }
+        (other, "literal string") => (other.to_owned(), "a text in quotes"),
+        (other, "nothing") => (other.to_owned(), "nothing more here"),
+        (other, "") => (other.to_owned(), "TOML (https://toml.io)"),
+        (other, expected) => (other.to_owned(), expected),
     };
-    let repeated = problem == "duplicate key";
-    let problem = match problem {
-        "duplicate key" => format!("the key `{}` is given twice", text.get(range).unwrap_or("?").trim()),
-        "cannot recurse further; max recursion depth met" | "recursion limit" => "nested too deep".to_owned(),
-        other => other.to_owned(),
-    };
-    let expected = if repeated { "each key once in its table".to_owned() } else { expected };
-    let expected = if expected.is_empty() { "TOML (https://toml.io)".to_owned() } else { expected };
-    (Fault::new(span, &Path::root(), problem, expected), repeated)
+    (Fault::new(span, &Path::root(), problem, expected), error.message().starts_with("duplicate key"))
+}
+
+fn value_is_absent(text: &str, at: usize) -> bool {
+    text.get(at..).and_then(|rest| rest.lines().next()).unwrap_or("").trim().is_empty()
+}
+
+/// Whether a comma stands at `at` between two digits.
+fn is_decimal_comma(text: &str, at: usize) -> bool {
+    let digit = |b: Option<&u8>| b.is_some_and(u8::is_ascii_digit);
+    let bytes = text.as_bytes();
+    bytes.get(at) == Some(&b',') && at > 0 && digit(bytes.get(at - 1)) && digit(bytes.get(at + 1))
 }
 
 /// The first fault of each line: the rest of a line's syntax faults follow from it.
@@ -173,6 +209,7 @@ fn first_of_each_line(sources: &Sources, mut faults: Vec<Fault>) -> Vec<Fault> {
 struct Reader {
     id: SourceId,
     faults: Vec<Fault>,
+    too_deep: bool,
 }
 
 impl Reader {
@@ -195,6 +232,7 @@ impl Reader {
         let range = value.span();
         let span = if range.is_empty() { key } else { self.span(range) };
         if depth > MAX_DEPTH {
+            self.too_deep = true;
             self.fault(span, "nested too deep", format!("at most {MAX_DEPTH} levels of tables and lists"));
             return Node { span, value: Value::Table(Vec::new()) };
         }

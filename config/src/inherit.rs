@@ -135,11 +135,7 @@ impl<'s> Merge<'s> {
         let schema = schema?;
         let property = schema.get("properties").and_then(|p| p.get(key));
         let property = property.or_else(|| schema.get("additionalProperties").filter(|a| a.is_object()))?;
-        let resolved = resolve(self.root, property)?;
-        match resolved.get("allOf").and_then(Json::as_array).map(Vec::as_slice) {
-            Some([only]) => resolve(self.root, only),
-            _ => Some(resolved),
-        }
+        resolve(self.root, property)
     }
 }
 

@@ -9,6 +9,7 @@ mod document;
 mod inherit;
 mod library;
 mod load;
+mod meaning;
 mod report;
 pub mod scenario;
 mod schema;
@@ -22,6 +23,4 @@ pub use report::{Fault, FaultRecord, Report};
 pub use scenario::Scenario;
 pub use source::{Origin, Source, SourceId, Sources, Span};
 pub use species::{About, ArchitecturalModel, MODELS, Model, ModelName, Species};
-pub use validate::{
-    Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, kind_of, schema_of, validate, validate_species, validate_text,
-};
+pub use validate::{Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, kind_of, schema_of, validate, validate_species};

@@ -7,7 +7,7 @@
 
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::{Path as FilePath, PathBuf};
+use std::path::{Component, Path as FilePath, PathBuf};
 
 use crate::source::{Origin, Source};
 use crate::spelling::nearest;
@@ -92,7 +92,22 @@ fn read(path: &FilePath) -> io::Result<Source> {
     }
     let text = String::from_utf8(bytes)
         .map_err(|e| io::Error::other(format!("byte {} is not UTF-8 text", e.utf8_error().valid_up_to() + 1)))?;
-    Ok(Source { name: path.display().to_string(), origin: Origin::File(path.to_owned()), text: text.into() })
+    Ok(Source { name: shown(path), origin: Origin::File(path.to_owned()), text: text.into() })
+}
+
+/// The path as people would write it: without `.` and without going down and up again.
+fn shown(path: &FilePath) -> String {
+    let mut parts = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(parts.components().next_back(), Some(Component::Normal(_))) => {
+                _ = parts.pop()
+            }
+            other => parts.push(other),
+        }
+    }
+    parts.display().to_string()
 }
 
 fn unreadable(kind: Kind, name: &str, path: &FilePath, error: &io::Error) -> NotFound {
@@ -103,9 +118,9 @@ fn unreadable(kind: Kind, name: &str, path: &FilePath, error: &io::Error) -> Not
         _ => error.to_string(),
     };
     NotFound {
-        problem: format!("cannot read the {} file `{}`: {reason}", kind.word(), path.display()),
+        problem: format!("cannot read the {} file `{}`: {reason}", kind.word(), shown(path)),
         expected: format!("a readable {} file, or the name of a shipped {}", kind.word(), kind.word()),
-        suggestion: near_preset(kind, name.trim_end_matches(".toml")),
+        suggestion: near_file(name, path).or_else(|| near_preset(kind, name.trim_end_matches(".toml"))),
     }
 }
 
@@ -115,6 +130,18 @@ fn unknown(kind: Kind, name: &str) -> NotFound {
         expected: format!("a shipped {} (`phytomer list` has them) or the path of a file", kind.word()),
         suggestion: near_preset(kind, name),
     }
+}
+
+/// The TOML file of the same folder that is nearest in spelling, written as `name` is.
+fn near_file(name: &str, path: &FilePath) -> Option<String> {
+    const LOOKED_AT: usize = 1000;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(FilePath::new("."));
+    let entries = std::fs::read_dir(folder).ok()?.take(LOOKED_AT).filter_map(Result::ok);
+    let mut stems: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    stems.retain_mut(|file| file.strip_suffix(".toml").map(str::to_owned).map(|stem| *file = stem).is_some());
+    let typed = path.file_name()?.to_str()?;
+    let near = nearest(typed.trim_end_matches(".toml"), stems.iter().map(String::as_str))?;
+    Some(format!("{}{near}.toml", name.strip_suffix(typed).unwrap_or_default()))
 }
 
 fn near_preset(kind: Kind, name: &str) -> Option<String> {

@@ -5,16 +5,16 @@
 //! Absent: faults of meaning, which `validate` asks the models for.
 
 use phytomer_models::fault::{Path, Segment};
-use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 
 use crate::document::{self, Node};
 use crate::inherit::merge_chain;
 use crate::library::{self, Kind};
+use crate::meaning;
 use crate::report::Fault;
 use crate::schema;
 use crate::source::{Origin, Source, SourceId, Sources, Span};
-use crate::species::{About, MODELS, ModelName, Species, any_file, split};
+use crate::species::{About, MODELS, Model, ModelName, any_file, split};
 
 /// More ancestors than this are a mistake even where they are no circle.
 const MOST_ANCESTORS: usize = 16;
@@ -24,6 +24,17 @@ const MOST_ANCESTORS: usize = 16;
 pub(crate) struct Loader {
     pub sources: Sources,
     pub faults: Vec<Fault>,
+}
+
+/// What serde makes of a tree.
+type Read<T> = Result<T, serde_path_to_error::Error<serde_json::Error>>;
+
+/// A species as far as it could be read.
+pub(crate) struct Found {
+    pub about: Option<About>,
+    pub model: Model,
+    /// The merged tree, with the place of every value.
+    pub node: Node,
 }
 
 /// A name in a file, and the file.
@@ -60,15 +71,13 @@ impl Loader {
         (id, document::parse(&self.sources, id, &mut self.faults))
     }
 
-    /// A value of a type that the schema stands for, from a tree that the schema has passed.
-    pub fn read<T: DeserializeOwned>(&mut self, node: &Node, json: Json) -> Option<T> {
-        match serde_path_to_error::deserialize(json) {
-            Ok(value) => Some(value),
-            Err(error) => {
-                self.refused(node, &error);
-                None
-            }
+    /// A value of a type from a tree that its schema has checked, with `refused` the faults that it found. Some: the
+    /// value, or what can be made of it without the values refused.
+    pub fn read<T>(&mut self, node: &Node, refused: &[Fault], read: impl Fn(Json) -> Read<T>) -> Option<T> {
+        if !refused.is_empty() {
+            return read(meaning::without(node, refused)?.to_json()).ok();
         }
+        read(node.to_json()).map_err(|error| self.refused(node, &error)).ok()
     }
 
     fn refused(&mut self, node: &Node, error: &serde_path_to_error::Error<serde_json::Error>) {
@@ -84,23 +93,21 @@ impl Loader {
         self.faults.push(Fault::new(node.locate(&path), &path, problem, "a value that the schema allows"));
     }
 
-    /// A species, its ancestors merged; `None`, with faults, where that is not possible.
-    pub fn species(&mut self, mention: &Mention) -> Option<(Species, Node)> {
-        let known = self.faults.len();
+    /// A species, its ancestors merged; `None`, with faults, where nothing can be made of it. With faults and not
+    /// `None`: what is left without the values refused.
+    pub fn species(&mut self, mention: &Mention) -> Option<Found> {
         let chain = self.chain(mention)?;
-        let model = self.model(&chain)?;
+        let name = self.model(&chain, mention)?;
         for node in &chain {
-            schema::check(model.file_schema(), node, &mut self.faults);
+            schema::check(name.file_schema(), node, &mut self.faults);
         }
-        let merged = merge_chain(model.schema(), chain)?;
-        schema::check(model.schema(), &merged, &mut self.faults);
-        if self.faults.len() > known {
-            return None;
-        }
-        let (about, parameters) = split(merged.to_json());
-        let about: Option<About> = self.read(&merged, about);
-        let model = model.read(parameters).map_err(|error| self.refused(&merged, &error)).ok();
-        Some((Species { about: about?, model: model? }, merged))
+        let node = merge_chain(name.schema(), chain)?;
+        let mut refused = Vec::new();
+        schema::check(name.schema(), &node, &mut refused);
+        self.faults.extend(refused.iter().cloned());
+        let about = self.read(&node, &refused, |json| serde_path_to_error::deserialize(split(json).0));
+        let model = self.read(&node, &refused, |json| name.read(split(json).1))?;
+        Some(Found { about, model, node })
     }
 
     /// The files of a species, the eldest ancestor first.
@@ -147,37 +154,44 @@ impl Loader {
     }
 
     /// The model that the chain names; all its files must agree. Where none is named the files are still checked.
-    fn model(&mut self, chain: &[Node]) -> Option<ModelName> {
-        let key = Path::root().key("model");
+    fn model(&mut self, chain: &[Node], mention: &Mention) -> Option<ModelName> {
         let mut found: Option<ModelName> = None;
-        let mut named = false;
         for value in chain.iter().filter_map(|node| node.get("model")) {
-            named = true;
             let Some(model) = value.text().and_then(ModelName::from_word) else { continue };
-            if found.is_some_and(|elder| elder != model) {
-                let problem = format!("a species of the model `{}` cannot become one of `{}`", word(found), model.word());
-                self.faults.push(Fault::new(value.span, &key, problem, "the model of the species that it inherits from"));
+            if let Some(elder) = found.filter(|elder| *elder != model) {
+                let problem =
+                    format!("a species of the model `{}` cannot become one of `{}`", elder.word(), model.word());
+                let expected = "the model of the species that it inherits from";
+                self.faults.push(Fault::new(value.span, &path_of(&["model"]), problem, expected));
                 return None;
             }
             found = Some(model);
         }
-        if found.is_some() {
-            return found;
+        if found.is_none() {
+            self.no_model(chain, mention);
+        }
+        found
+    }
+
+    /// Tells of a species without a model that is known.
+    fn no_model(&mut self, chain: &[Node], mention: &Mention) {
+        let named = chain.iter().any(|node| node.get("model").is_some());
+        if !named && chain.iter().any(looks_like_scenario) {
+            return self.fault_at(mention, format!("`{}` is a scenario", mention.name), "a species");
         }
         let any = any_file();
         chain.iter().for_each(|node| schema::check(&any, node, &mut self.faults));
         if let (false, Some(youngest)) = (named, chain.last()) {
             let words: Vec<String> = MODELS.iter().map(|m| format!("`{}`", m.word())).collect();
             let expected = format!("`model`: one of {}", words.join(", "));
-            let fault = Fault::new(youngest.span, &Path::root(), "the key `model` is missing", expected);
-            self.faults.push(fault);
+            self.faults.push(Fault::new(youngest.span, &Path::root(), "the key `model` is missing", expected));
         }
-        None
     }
 }
 
-fn word(model: Option<ModelName>) -> &'static str {
-    model.map_or("", ModelName::word)
+/// Whether a file without a model has the keys of a scenario.
+pub(crate) fn looks_like_scenario(node: &Node) -> bool {
+    ["species", "ages", "plants"].into_iter().filter(|key| node.get(key).is_some()).count() >= 2
 }
 
 /// The same file by whatever path it is reached.

@@ -312,8 +312,9 @@ impl Scenario {
         let until = self.ages.until;
         let outside: Vec<String> = list.iter().filter(|age| !(1..=until).contains(age)).map(u32::to_string).collect();
         if !outside.is_empty() {
-            let verb = if outside.len() == 1 { "age is" } else { "ages are" };
-            let problem = format!("{} {verb} outside the run, which ends at {until}", list_some(&outside));
+            let (noun, verb) = if outside.len() == 1 { ("age", "is") } else { ("ages", "are") };
+            let list = list_some(&outside);
+            let problem = format!("the {noun} {list} {verb} outside the run, which ends at {until}");
             faults.push(Fault::new(path, problem, format!("ages in [1, {until}]")));
         }
     }

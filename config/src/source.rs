@@ -71,11 +71,12 @@ impl Sources {
         (line, column)
     }
 
-    /// The part of `span` on its first line, never splitting a character: what is worth underlining.
+    /// The part of `span` on its first line, at most 80 bytes of it and never splitting a character: what is worth
+    /// underlining.
     pub fn first_line(&self, span: Span) -> std::ops::Range<usize> {
         let text = &self.get(span.source).text;
         let start = floor_boundary(text, span.start);
-        let end = floor_boundary(text, span.end).max(start);
+        let end = floor_boundary(text, span.end.min(start + 80)).max(start);
         let line = text[start..end].find(['\n', '\r']).map_or(end, |n| start + n);
         start..line
     }
@@ -98,11 +99,7 @@ mod tests {
     fn columns_count_characters() {
         let mut sources = Sources::default();
         let text = "a = 1\nβ = \"é\" # x\n";
-        let id = sources.add(Source {
-            name: "t".into(),
-            origin: Origin::Preset("t".into()),
-            text: text.into(),
-        });
+        let id = sources.add(Source { name: "t".into(), origin: Origin::Preset("t".into()), text: text.into() });
         let start = text.find('#').unwrap();
         assert_eq!(sources.place(Span { source: id, start, end: start + 1 }), (2, 9));
         let past = Span { source: id, start: 999, end: 1000 };

@@ -180,11 +180,12 @@ impl Model {
         }
     }
 
-    /// The components that a plant is expected to have made by the age `until`.
-    pub fn expected_components(&self, until: u32) -> f64 {
+    /// The components that a plant is expected to have made by `age`, of this model and its compiled form; `None`
+    /// where the laws give no mean in closed form.
+    pub fn expected_components(&self, compiled: &dyn GrowthModel, age: u32) -> Option<f64> {
         match self {
-            Model::Buds(_) => 0.0,
-            Model::Gmt1(gmt1) => gmt1.components_at(until) as f64,
+            Model::Gmt1(gmt1) => Some(gmt1.components_at(age) as f64),
+            Model::Buds(_) => compiled.expectation(age).map(|means| means.components(age)),
         }
     }
 

@@ -1,7 +1,7 @@
 //! The nearest spelling: what somebody most likely meant by a name that nobody knows.
 //!
 //! Damerau–Levenshtein distance (a swap of neighbours counts once), with a cut-off of a third of the letters: beyond
-//! that a guess is noise. A missing or wrong unit (`insertion` for `insertion_deg`) is always near.
+//! that a guess is noise. A missing or wrong unit (`insertion` for `insertion_deg`), or a word half written, is always near.
 //! Absent: any dictionary; candidates are the names that would be right at that place.
 
 /// The candidate nearest to `typed`, if one is near enough; of equals the first in alphabetical order.
@@ -30,7 +30,9 @@ fn fold(word: &str) -> String {
 
 fn distance(typed: &str, candidate: &str) -> usize {
     let unit_apart = |short: &str, long: &str| long.strip_prefix(short).is_some_and(|rest| rest.starts_with('_'));
-    if unit_apart(typed, candidate) || unit_apart(candidate, typed) {
+    let begun = |short: &str, long: &str| short.len() >= 3 && 2 * short.len() >= long.len() && long.starts_with(short);
+    let near = |short: &str, long: &str| unit_apart(short, long) || (short != long && begun(short, long));
+    if near(typed, candidate) || near(candidate, typed) {
         return 1;
     }
     strsim::damerau_levenshtein(typed, candidate)
@@ -47,6 +49,7 @@ mod tests {
         assert_eq!(nearest("insertion", keys), Some("insertion_deg"));
         assert_eq!(nearest("Insertion-deg", keys), Some("insertion_deg"));
         assert_eq!(nearest("deth", keys), Some("death"));
+        assert_eq!(nearest("insertion_degrees", keys), Some("insertion_deg"));
         assert_eq!(nearest("colour", keys), None);
         assert_eq!(nearest("", keys), None);
         assert_eq!(nearest("x", ["a"]), None);

@@ -4,6 +4,7 @@
 //! the last, laws that leave their range at some age), and last the growth explosion, which needs compiled laws.
 //! Absent: anything written. A scenario that fails here leaves no trace.
 
+use std::fmt;
 use std::path::Path as FilePath;
 use std::sync::{Arc, OnceLock};
 
@@ -14,11 +15,12 @@ use serde_json::{Value as Json, json};
 
 use crate::document::Node;
 use crate::library::Kind;
-use crate::load::{Loader, Mention, integer_at, path_of};
+use crate::load::{Found, Loader, Mention, integer_at, path_of};
+use crate::meaning;
 use crate::report::{Fault, Report};
 use crate::scenario::Scenario;
 use crate::schema;
-use crate::source::{Origin, Source, Sources};
+use crate::source::{Source, Sources};
 use crate::species::{Species, any_file};
 
 /// The last age over which a species is checked that is not part of a scenario.
@@ -59,17 +61,6 @@ pub fn validate(scenario: &str) -> Result<Resolved, Report> {
     conclude(loader, found, |(scenario, species, model), sources| Resolved { scenario, species, model, sources })
 }
 
-/// Checks the text of a scenario that may not be a file yet. Its species is looked up as seen from `origin`.
-///
-/// # Errors
-/// Every fault of the scenario and of its species.
-pub fn validate_text(name: &str, origin: Origin, text: &str) -> Result<Resolved, Report> {
-    let mut loader = Loader::default();
-    let source = Source { name: name.to_owned(), origin, text: text.into() };
-    let found = check_scenario(&mut loader, source);
-    conclude(loader, found, |(scenario, species, model), sources| Resolved { scenario, species, model, sources })
-}
-
 /// Reads and checks a species by itself, over the ages up to `until`.
 ///
 /// # Errors
@@ -89,9 +80,12 @@ pub fn kind_of(name: &str) -> Kind {
     let found = crate::library::find(Kind::Scenario, name, None);
     let Ok(source) = found else { return if is_path { Kind::Scenario } else { Kind::Species } };
     let (_, node) = loader.parse(source);
-    let has = |key: &str| node.as_ref().is_some_and(|node| node.get(key).is_some());
-    let species = ["model", "order", "every_order", "inherits", "tick"].into_iter().any(has);
-    if species && !has("species") && !has("ages") { Kind::Species } else { Kind::Scenario }
+    if node.is_some_and(|node| looks_like_species(&node)) { Kind::Species } else { Kind::Scenario }
+}
+
+fn looks_like_species(node: &Node) -> bool {
+    let has = |key: &&str| node.get(key).is_some();
+    ["model", "order", "every_order", "inherits", "tick"].iter().any(has) && !["species", "ages"].iter().any(has)
 }
 
 /// The JSON Schema of a kind of file, as editors want it.
@@ -117,22 +111,28 @@ fn conclude<T, R>(loader: Loader, found: Option<T>, make: impl FnOnce(T, Sources
 type Checked = (Scenario, Species, Arc<dyn GrowthModel>);
 
 fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
+    let name = source.name.clone();
     let (_, node) = loader.parse(source);
     let node = node?;
-    let before = loader.faults.len();
-    schema::check(scenario_schema(), &node, &mut loader.faults);
-    // A fault in the scenario is no reason to keep quiet about those of its species.
-    let scenario: Option<Scenario> =
-        if loader.faults.len() == before { loader.read(&node, node.to_json()) } else { None };
+    if looks_like_species(&node) {
+        let problem = format!("`{name}` is a species and not a scenario");
+        let expected = "a scenario that names it: `species`, `plants` and `ages`";
+        loader.faults.push(Fault::new(node.span, &path_of(&[]), problem, expected));
+        return None;
+    }
+    let mut refused = Vec::new();
+    schema::check(scenario_schema(), &node, &mut refused);
+    loader.faults.extend(refused.iter().cloned());
+    let scenario: Option<Scenario> = loader.read(&node, &refused, serde_path_to_error::deserialize);
     if let Some(scenario) = &scenario {
         tell(loader, &node, scenario.faults());
     }
     let until = integer_at(&node, &["ages", "until"]).and_then(|n| u32::try_from(n).ok());
     let mention = species_mention(&node)?;
     let (species, model) = check_species(loader, &mention, until.filter(|n| (1..=LAST_TICK).contains(n)))?;
-    let scenario = scenario?;
-    check_explosion(loader, &node, &scenario, &species);
-    Some((scenario, species, model))
+    let checked = (scenario?, species, model);
+    check_explosion(loader, &node, &checked);
+    Some(checked)
 }
 
 fn species_mention(scenario: &Node) -> Option<Mention> {
@@ -146,9 +146,9 @@ fn check_species(
     mention: &Mention,
     until: Option<u32>,
 ) -> Option<(Species, Arc<dyn GrowthModel>)> {
-    let (species, node) = loader.species(mention)?;
-    match species.model.compile(until?) {
-        Ok(model) => Some((species, model)),
+    let Found { about, model, node } = loader.species(mention)?;
+    match model.compile(until?) {
+        Ok(compiled) => Some((Species { about: about?, model }, compiled)),
         Err(faults) => {
             tell(loader, &node, faults);
             None
@@ -158,27 +158,24 @@ fn check_species(
 
 /// Faults of meaning, shown where the values were typed.
 fn tell(loader: &mut Loader, node: &Node, faults: Vec<fault::Fault>) {
-    let place = |f: fault::Fault| Fault::new(node.locate(&f.path), &f.path, f.problem, f.expected);
-    loader.faults.extend(faults.into_iter().map(place));
+    let placed = faults.into_iter().map(|fault| meaning::place(&loader.sources, node, fault));
+    loader.faults.extend(placed.collect::<Vec<_>>());
 }
 
 /// A plot of which more is expected than it may have would be cut off: better told before the first tick.
-fn check_explosion(loader: &mut Loader, node: &Node, scenario: &Scenario, species: &Species) {
-    let expected = species.model.expected_components(scenario.ages.until);
+fn check_explosion(loader: &mut Loader, node: &Node, (scenario, species, model): &Checked) {
+    let until = scenario.ages.until;
     let most = scenario.limits.max_components;
+    let Some(expected) = species.model.expected_components(model.as_ref(), until) else { return };
     if expected <= f64::from(most) {
         return;
     }
-    let keys: &[&str] =
-        if integer_at(node, &["limits", "max_components"]).is_some() { &["limits", "max_components"] } else { &["ages", "until"] };
-    let path = path_of(keys);
-    let problem = format!(
-        "the growth explodes: by age {} a plant of `{}` is expected to have {} components",
-        scenario.ages.until,
-        species.about.name,
-        in_words(expected)
-    );
-    let expected = format!("at most {} (limits.max_components): an earlier last age, or fewer branches", in_words(most.into()));
+    let set = integer_at(node, &["limits", "max_components"]).is_some();
+    let path = path_of(if set { &["limits", "max_components"] } else { &["ages", "until"] });
+    let (name, expected, most) = (&species.about.name, in_words(expected), in_words(most.into()));
+    let problem =
+        format!("the growth explodes: by age {until} a plant of `{name}` is expected to have {expected} components");
+    let expected = format!("at most {most} (limits.max_components): an earlier last age, or fewer branches");
     loader.faults.push(Fault::new(node.locate(&path), &path, problem, expected));
 }
 
@@ -201,7 +198,24 @@ fn in_words(x: f64) -> String {
     }
 }
 
+impl fmt::Debug for Resolved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Resolved").field("scenario", &self.scenario).field("species", &self.species).finish()
+    }
+}
+
+impl fmt::Debug for ResolvedSpecies {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ResolvedSpecies").field("species", &self.species).finish()
+    }
+}
+
 impl Resolved {
+    /// The components that a plant is expected to have made by `age`, where the laws give a mean in closed form.
+    pub fn expected_components(&self, age: u32) -> Option<f64> {
+        self.species.model.expected_components(self.model.as_ref(), age)
+    }
+
     /// The whole run as data, for `run.json`: the scenario with its defaults and the species without ancestors.
     ///
     /// # Errors
@@ -224,5 +238,34 @@ impl Resolved {
     /// A value that TOML cannot hold, which no checked species has.
     pub fn species_toml(&self) -> Result<String, toml::ser::Error> {
         self.species.to_toml()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document;
+    use crate::library::find;
+
+    /// Editors have one schema for species of all models; it must pass what the program passes.
+    #[test]
+    fn the_schema_for_editors_passes_good_files() {
+        for name in ["child", "coffee_like", "states", "binary", "minimal_species"] {
+            let mut sources = Sources::default();
+            let source = find(Kind::Species, &format!("tests/good/{name}.toml"), None).expect("a good file");
+            let id = sources.add(source);
+            let mut faults = Vec::new();
+            let node = document::parse(&sources, id, &mut faults).expect("a tree");
+            schema::check(&schema_of(Kind::Species), &node, &mut faults);
+            assert_eq!(faults, []);
+        }
+    }
+
+    #[test]
+    fn large_numbers_are_readable() {
+        assert_eq!(in_words(12_345_678.4), "12 345 678");
+        assert_eq!(in_words(100.0), "100");
+        assert_eq!(in_words(2.96e12), "3.0e12");
+        assert_eq!(in_words(f64::INFINITY), "more than can be counted");
     }
 }

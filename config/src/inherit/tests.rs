@@ -32,7 +32,8 @@ fn merged(texts: &[&str]) -> (Node, Sources) {
 
 #[test]
 fn tables_merge_and_laws_are_replaced() {
-    let old = "inherits = \"x\"\nsite = { a = 1, b = 2 }\nlist = [1, 2]\n[[order]]\ndeath = { linear = 1 }\npause = 1\n";
+    let old =
+        "inherits = \"x\"\nsite = { a = 1, b = 2 }\nlist = [1, 2]\n[[order]]\ndeath = { linear = 1 }\npause = 1\n";
     let new = "site.b = 3\nlist = [9]\n[[order]]\ndeath = { step = 2 }\n";
     let (node, _) = merged(&[old, new]);
     let expected = json!({

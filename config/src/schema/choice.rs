@@ -53,7 +53,7 @@ impl<'s> Walk<'s> {
         match &place.node.value {
             Value::Text(_) if fitting.iter().all(|form| options(form).is_some()) => {
                 let all: Vec<&Json> = fitting.iter().filter_map(|form| options(form)).flatten().collect();
-                return self.check_options(&all, place);
+                return self.check_options(&all, place, &expected::describe(self.root, whole));
             }
             Value::Table(entries) => {
                 if self.no_tag_agrees(&fitting, entries, place) || self.no_form_known(&fitting, entries, place) {
@@ -88,15 +88,13 @@ impl<'s> Walk<'s> {
     /// Tells of a key that names the form in every form (`model`) but has a value that names none.
     fn no_tag_agrees(&mut self, fitting: &[&'s Json], entries: &[Entry], place: &Place<'_>) -> bool {
         for entry in entries {
-            let tags: Option<Vec<Vec<&Json>>> = fitting
-                .iter()
-                .map(|form| options(resolve(self.root, property(form, &entry.key)??)?))
-                .collect();
+            let tags: Option<Vec<Vec<&Json>>> =
+                fitting.iter().map(|form| options(resolve(self.root, property(form, &entry.key)??)?)).collect();
             let all: Vec<&Json> = tags.into_iter().flatten().flatten().collect();
             let value = entry.node.to_json();
             if fitting.len() > 1 && !all.is_empty() && all.iter().all(|option| **option != value) {
                 let below = Place { node: &entry.node, at: entry.node.span, path: place.path.key(&entry.key) };
-                self.check_options(&all, &below);
+                self.check_options(&all, &below, &expected::list_options(&all));
                 return true;
             }
         }
@@ -108,9 +106,12 @@ impl<'s> Walk<'s> {
         if fitting.iter().any(|form| entries.iter().any(|e| property(form, &e.key).is_some())) {
             return false;
         }
-        let mut keys: Vec<&str> = fitting.iter().flat_map(|form| naming_keys(form)).collect();
-        keys.sort_unstable();
-        keys.dedup();
+        let mut keys: Vec<&str> = Vec::new();
+        for key in fitting.iter().flat_map(|form| naming_keys(form)) {
+            if !keys.contains(&key) {
+                keys.push(key);
+            }
+        }
         let Some(entry) = entries.first() else {
             let problem = format!("{} is an empty table", place.name());
             self.faults.push(place.fault(problem, expected::list_keys(&keys)));

@@ -101,18 +101,32 @@ fn describe_table(schema: &Json) -> String {
 fn describe_forms(root: &Json, schema: &Json, depth: usize) -> String {
     let mut words: Vec<String> = Vec::new();
     let mut keys: Vec<&str> = Vec::new();
+    let mut named: Vec<&Json> = Vec::new();
     for form in forms(schema) {
         let Some(resolved) = resolve(root, form) else { continue };
+        if let Some(options) = choice::options(resolved) {
+            named.extend(options);
+            continue;
+        }
         let required = missing_keys(resolved, &[]);
         match required.as_slice() {
             [] => push_new(&mut words, describe_at(root, form, depth + 1)),
             required => keys.extend(required.iter().filter(|k| !keys.contains(k)).copied().collect::<Vec<_>>()),
         }
     }
+    if !named.is_empty() {
+        words.insert(0, list_options(&named));
+    }
     if !keys.is_empty() {
         words.push(format!("a table with {}", list_keys(&keys)));
     }
     words.join(", or ")
+}
+
+/// Whether the schema asks for an array of tables.
+pub fn is_list_of_tables(root: &Json, schema: &Json) -> bool {
+    let item = schema.get("items").and_then(|item| resolve(root, item));
+    item.and_then(|item| item.get("type")).is_some_and(|t| t == "object")
 }
 
 fn push_new(words: &mut Vec<String>, word: String) {
@@ -123,7 +137,8 @@ fn push_new(words: &mut Vec<String>, word: String) {
 
 /// "one of `a`, `b`".
 pub fn list_options(options: &[&Json]) -> String {
-    let names: Vec<String> = options.iter().map(|o| o.as_str().map_or_else(|| o.to_string(), |s| s.to_owned())).collect();
+    let names: Vec<String> =
+        options.iter().map(|o| o.as_str().map_or_else(|| o.to_string(), |s| s.to_owned())).collect();
     list_keys(&names.iter().map(String::as_str).collect::<Vec<_>>())
 }
 

@@ -35,13 +35,24 @@ pub fn check(schema: &Json, node: &Node, faults: &mut Vec<Fault>) {
     faults.append(&mut walk.faults);
 }
 
-/// Where `$ref` leads; the schema itself when it has none. `None` for a reference that leads nowhere or in circles.
+/// Where `$ref` leads; the schema itself when it has none. draft 7 wraps a reference that has a description into an
+/// `allOf` of one, which is followed too. `None` for a reference that leads nowhere or in circles.
 pub fn resolve<'s>(root: &'s Json, mut schema: &'s Json) -> Option<&'s Json> {
     for _ in 0..MAX_FORMS {
-        let Some(reference) = schema.get("$ref").and_then(Json::as_str) else { return Some(schema) };
-        schema = root.pointer(reference.strip_prefix('#')?)?;
+        schema = match (schema.get("$ref").and_then(Json::as_str), wrapped(schema)) {
+            (Some(reference), _) => root.pointer(reference.strip_prefix('#')?)?,
+            (None, Some(inner)) => inner,
+            (None, None) => return Some(schema),
+        };
     }
     None
+}
+
+/// The inside of an `allOf` of one beside which nothing is asked.
+fn wrapped(schema: &Json) -> Option<&Json> {
+    let keys = schema.as_object()?;
+    let [inner] = keys.get("allOf")?.as_array()?.as_slice() else { return None };
+    keys.keys().all(|key| matches!(key.as_str(), "allOf" | "description" | "default" | "title")).then_some(inner)
 }
 
 /// The forms that a value may have: the branches of `anyOf` or `oneOf`, none for a value with one form.
@@ -103,14 +114,18 @@ impl<'s> Walk<'s> {
         let fits = choice::has_type(schema, place.node);
         if !fits {
             let problem = format!("{} is {}", place.name(), expected::found(place.node));
-            self.faults.push(place.fault(problem, expected::describe(self.root, schema)));
+            let mut expected = expected::describe(self.root, schema);
+            if let (Value::Table(_), true) = (&place.node.value, expected::is_list_of_tables(self.root, schema)) {
+                expected += &format!(": `[[{}]]` in place of `[{}]`", place.path, place.path);
+            }
+            self.faults.push(place.fault(problem, expected));
         }
         fits
     }
 
     fn check_value(&mut self, schema: &'s Json, place: &Place<'_>, depth: usize) {
         if let Some(options) = choice::options(schema) {
-            self.check_options(&options, place);
+            self.check_options(&options, place, &expected::list_options(&options));
         }
         match &place.node.value {
             Value::Integer(_) | Value::Float(_) | Value::Text(_) => {
@@ -125,14 +140,14 @@ impl<'s> Walk<'s> {
         }
     }
 
-    fn check_options(&mut self, options: &[&Json], place: &Place<'_>) {
+    fn check_options(&mut self, options: &[&Json], place: &Place<'_>, expected: &str) {
         let value = place.node.to_json();
         if options.iter().any(|option| **option == value) {
             return;
         }
         let problem = format!("{} is {}", place.name(), expected::found(place.node));
         let near = place.node.text().and_then(|t| nearest(t, options.iter().filter_map(|o| o.as_str())));
-        self.faults.push(place.fault(problem, expected::list_options(options)).suggest(near));
+        self.faults.push(place.fault(problem, expected).suggest(near));
     }
 
     fn check_array(&mut self, schema: &'s Json, items: &[Node], place: &Place<'_>, depth: usize) {

@@ -15,18 +15,22 @@ use crate::inherit::ORDER;
 pub fn of_type<T: JsonSchema>() -> Json {
     let schema = SchemaSettings::draft07().into_generator().into_root_schema_for::<T>();
     let mut json = Json::from(schema);
-    drop_nulls(&mut json);
+    tidy(&mut json);
     json
 }
 
-/// Takes `null` out of types and forms; a form left alone takes the place of the choice.
-fn drop_nulls(json: &mut Json) {
+/// Takes `null` out of types and forms, and the line breaks of the source out of descriptions; a form left alone takes
+/// the place of the choice.
+fn tidy(json: &mut Json) {
     match json {
-        Json::Array(items) => items.iter_mut().for_each(drop_nulls),
+        Json::Array(items) => items.iter_mut().for_each(tidy),
         Json::Object(map) => {
-            map.values_mut().for_each(drop_nulls);
+            map.values_mut().for_each(tidy);
             drop_null_type(map);
             drop_null_forms(map);
+            if let Some(Json::String(text)) = map.get_mut("description") {
+                *text = text.replace('\n', " ");
+            }
             map.retain(|key, value| !(key == "default" && value.is_null()));
         }
         _ => {}

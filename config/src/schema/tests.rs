@@ -96,14 +96,11 @@ fn every_fault_is_told_in_the_order_of_the_file() {
 #[test]
 fn only_the_form_that_fits_best_is_told_of() {
     let law = |text: &str| faults(&format!("name = \"a\"\n[[order]]\ndeath = {text}\n"));
-    assert_eq!(law("{ wiebull = 1 }"), ["3:11 unknown key `wiebull`; one of `mixture`, `weibull` (weibull?)"]);
-    assert_eq!(law("{}"), ["3:9 `death` is an empty table; one of `mixture`, `weibull`"]);
+    assert_eq!(law("{ wiebull = 1 }"), ["3:11 unknown key `wiebull`; one of `weibull`, `mixture` (weibull?)"]);
+    assert_eq!(law("{}"), ["3:9 `death` is an empty table; one of `weibull`, `mixture`"]);
     assert_eq!(
         law("{ weibull = { shape = true } }"),
-        [
-            "3:21 the key `scale` is missing; `scale`: a number",
-            "3:31 `shape` is true; a number",
-        ]
+        ["3:21 the key `scale` is missing; `scale`: a number", "3:31 `shape` is true; a number",]
     );
     let deep = format!("{}1{}", "{ mixture = [".repeat(20), "] }".repeat(20));
     assert_eq!(law(&deep), Vec::<String>::new());
@@ -115,14 +112,14 @@ fn only_the_form_that_fits_best_is_told_of() {
 fn faults_of_syntax_are_told_once_a_line() {
     assert_eq!(
         faults("name = \"a\nplants = = 3\n"),
-        [
-            "1:10 invalid basic string; `\"`",
-            "2:10 extra `=`; nothing more here",
-        ]
+        ["1:10 invalid basic string; `\"`", "2:10 extra `=`; nothing more here",]
     );
     let twice = faults("name = \"a\"\nname = \"b\"\n[[order]]\ndeath = 2\nx = 1\n");
     assert_eq!(
         twice,
-        ["2:1 the key `name` is given twice; each key once in its table", "5:1 unknown key `x`; one of `death`, `weights`"]
+        [
+            "2:1 the key `name` is given twice; each key once in its table",
+            "5:1 unknown key `x`; one of `death`, `weights`"
+        ]
     );
 }

@@ -1,0 +1,102 @@
+//! Faults of meaning, found by the models in a tree of values, shown where the values were typed.
+//!
+//! A model knows a path and words; the file, the line and the column come from the tree. Where the schema has refused
+//! some keys, the models are asked about the rest: what was refused is taken out first ([`without`]), so that all
+//! faults are told at once and none is the echo of another.
+//! Absent: what is a fault.
+
+use phytomer_models::fault::{self, Path, Segment};
+
+use crate::document::{Node, Value};
+use crate::inherit::ORDER;
+use crate::report::Fault;
+use crate::source::{Sources, Span};
+use crate::spelling::nearest;
+
+/// Keys that others refer to: without them, what is left would look wrong.
+const REFERRED_TO: [&str; 2] = [ORDER, "states"];
+
+/// The tree without the values at which something was refused; `None` where nothing useful is left.
+pub fn without(node: &Node, faults: &[Fault]) -> Option<Node> {
+    let mut rest = node.clone();
+    for fault in faults {
+        match fault.path.0.as_slice() {
+            [] => {}
+            [Segment::Key(list), Segment::Index(i), Segment::Key(key), ..] if list == ORDER => {
+                remove_from_item(&mut rest, list, *i, key);
+            }
+            [Segment::Key(key), ..] if REFERRED_TO.contains(&key.as_str()) => return None,
+            [Segment::Key(table), Segment::Key(key), ..] => remove_below(&mut rest, table, key),
+            [Segment::Key(key), ..] => _ = rest.remove(key),
+            _ => return None,
+        }
+    }
+    Some(rest)
+}
+
+fn entry_mut<'n>(node: &'n mut Node, key: &str) -> Option<&'n mut Node> {
+    let Value::Table(entries) = &mut node.value else { return None };
+    entries.iter_mut().find(|e| e.key == key).map(|e| &mut e.node)
+}
+
+fn remove_below(node: &mut Node, table: &str, key: &str) {
+    if let Some(table) = entry_mut(node, table) {
+        table.remove(key);
+    }
+}
+
+fn remove_from_item(node: &mut Node, list: &str, i: usize, key: &str) {
+    if let Some(Value::Array(items)) = entry_mut(node, list).map(|list| &mut list.value)
+        && let Some(item) = items.get_mut(i)
+    {
+        item.remove(key);
+    }
+}
+
+/// A model's fault at its place.
+pub fn place(sources: &Sources, node: &Node, fault: fault::Fault) -> Fault {
+    let fault::Fault { path, problem, expected } = fault;
+    let at_key = node.locate_key(&path).filter(|_| problem.starts_with("unknown"));
+    let typed = match (at_key, path.0.last()) {
+        (Some(_), Some(Segment::Key(key))) => Some(key.as_str()),
+        _ => node.at(&path).and_then(Node::text),
+    };
+    let near = typed.and_then(|typed| nearest(typed, quoted(&expected)).filter(|near| *near != typed));
+    let near = near.map(str::to_owned);
+    let span = at_key.unwrap_or_else(|| node.locate(&path));
+    match in_expression(sources, node, &path, &problem) {
+        Some((span, problem)) => Fault::new(span, &path, problem, expected).suggest(near),
+        None => Fault::new(span, &path, problem, expected).suggest(near),
+    }
+}
+
+/// The names that a text offers: what it has in quotes or backticks, or behind "one of".
+fn quoted(text: &str) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for mark in ['"', '`'] {
+        names.extend(text.split(mark).skip(1).step_by(2));
+    }
+    if let Some(list) = text.strip_prefix("one of ") {
+        names.extend(list.split(", "));
+    }
+    // A number in quotes is an example, not a name.
+    names.retain(|name| name.starts_with(char::is_alphabetic));
+    names
+}
+
+/// The place inside an expression to which "column 8 of the expression: …" points, and the words behind it. `None`
+/// where the text is written in a way in which columns and bytes differ (escapes, several lines).
+fn in_expression<'p>(sources: &Sources, node: &Node, path: &Path, problem: &'p str) -> Option<(Span, &'p str)> {
+    let (column, words) = problem.strip_prefix("column ")?.split_once(" of the expression: ")?;
+    let column: usize = column.parse().ok()?;
+    let span = node.at(path).map(|node| node.span)?;
+    let typed = sources.get(span.source).text.get(span.start..span.end)?;
+    let inside = typed.get(1..typed.len().checked_sub(1)?)?;
+    if !inside.is_ascii() || inside.contains(['\\', '\n', '"', '\'']) {
+        return None;
+    }
+    let rest = inside.get(column.checked_sub(1)?..)?;
+    let word = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len()).max(1);
+    let start = span.start + column;
+    Some((Span { start, end: start + word, ..span }, words))
+}

@@ -1,0 +1,119 @@
+//! What a checked scenario gives: defaults, ages, provenance, and a resolved form that reads back as itself.
+
+use std::fs;
+
+use phytomer_config::scenario::{DEFAULT_SEED, Table};
+use phytomer_config::{Kind, Model, Origin, kind_of, schema_of, validate, validate_species};
+
+#[test]
+fn a_minimal_scenario_has_its_defaults() {
+    let run = validate("tests/good/scenario_minimal.toml").expect("it is right");
+    let scenario = &run.scenario;
+    assert_eq!(scenario.seed, DEFAULT_SEED);
+    assert_eq!(scenario.ages.recorded(), (1..=10).collect::<Vec<_>>());
+    assert_eq!(scenario.tables.len(), 4);
+    assert_eq!(scenario.limits.max_components, 50_000_000);
+    assert!(scenario.mesh_ages().is_empty() && !scenario.draws(0));
+    assert_eq!(run.expected_components(10), Some(10.0 + 10.0 + 1.0), "ten internodes, ten leaves, a bud");
+    assert_eq!(run.model.habit().shapes.len(), 1);
+}
+
+#[test]
+fn a_full_scenario_says_what_it_writes() {
+    let run = validate("tests/good/scenario_full.toml").expect("it is right");
+    let scenario = &run.scenario;
+    assert_eq!(scenario.ages.recorded(), [10, 15, 20, 25, 30, 35, 40]);
+    assert_eq!(scenario.mesh_ages(), [10, 20, 40]);
+    assert!(scenario.draws(999) && !scenario.draws(2));
+    assert!(scenario.tables.contains(&Table::Records) && !scenario.tables.contains(&Table::Events));
+}
+
+#[test]
+fn every_file_read_is_kept_for_provenance() {
+    let species = validate_species("tests/good/child.toml", 40).expect("it is right");
+    let names: Vec<&str> = species.sources.iter().map(|source| source.name.as_str()).collect();
+    assert_eq!(names, ["tests/good/child.toml", "tests/good/coffee_like.toml"]);
+    for source in species.sources.iter() {
+        assert!(matches!(source.origin, Origin::File(_)));
+        assert_eq!(&*source.text, fs::read_to_string(&source.name).expect("the file"));
+    }
+}
+
+#[test]
+fn inheritance_is_resolved_by_order() {
+    let species = validate_species("tests/good/child.toml", 40).expect("it is right").species;
+    assert_eq!(species.about.name, "coffee_child");
+    assert_eq!(species.about.scientific_name.as_deref(), Some("Coffea canephora"));
+    let Model::Buds(buds) = species.model else { panic!("a species of the bud model") };
+    assert_eq!(buds.order.len(), 3);
+    let json = serde_json::to_value(&buds.order).expect("orders as JSON");
+    assert_eq!(json[0]["pause"], 0.1, "the nearer [every_order] wins over the farther [[order]]");
+    assert_eq!(json[0]["insertion_deg"], 0.0, "the parent's own order wins over its [every_order]");
+    assert_eq!(json[1]["death"]["weibull"]["shape"], 2.0, "a law is replaced whole");
+    assert!(json[1]["death"].get("robusta").is_none());
+    assert_eq!(json[1]["flower"]["per_node"], 4, "a table merges");
+    assert_eq!(json[2]["insertion_deg"], 60.0, "a new order starts from the parent's [every_order]");
+}
+
+#[test]
+fn the_resolved_form_reads_back_as_itself() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["scenario_full", "scenario_lists", "scenario_states"] {
+        let run = validate(&format!("tests/good/{name}.toml")).expect("it is right");
+        let species = folder.path().join("species.toml");
+        fs::write(&species, run.species_toml().expect("TOML")).expect("written");
+        let read = validate_species(&species.to_string_lossy(), 40).unwrap_or_else(|r| panic!("{}", r.render(false)));
+        assert_eq!(read.species, run.species);
+        let scenario = folder.path().join("scenario.toml");
+        let text = run.scenario_toml().expect("TOML");
+        fs::write(&scenario, text.replace(&format!("{:?}", run.scenario.species), "\"species\"")).expect("written");
+        let read = validate(&scenario.to_string_lossy()).unwrap_or_else(|r| panic!("{}", r.render(false)));
+        assert_eq!(read.scenario.ages, run.scenario.ages);
+        assert_eq!(read.to_json().expect("JSON")["species"], run.to_json().expect("JSON")["species"]);
+        assert_eq!(read.scenario.seed, run.scenario.seed);
+    }
+}
+
+#[test]
+fn faults_are_data_too() {
+    let report = validate_species("tests/bad/key_misspelt.toml", 40).expect_err("it is wrong");
+    let json = serde_json::to_value(report.records()).expect("JSON");
+    assert_eq!(json[0]["file"], "tests/bad/key_misspelt.toml");
+    assert_eq!((&json[0]["line"], &json[0]["column"]), (&6.into(), &1.into()));
+    assert_eq!(json[0]["path"], "order[0].deth");
+    assert_eq!(json[0]["problem"], "unknown key `deth`");
+    assert_eq!(json[0]["suggestion"], "death");
+    assert_eq!(report.to_string(), "3 faults in 1 file");
+}
+
+#[test]
+fn a_file_tells_its_kind() {
+    assert_eq!(kind_of("tests/good/child.toml"), Kind::Species);
+    assert_eq!(kind_of("tests/good/scenario_minimal.toml"), Kind::Scenario);
+    assert_eq!(kind_of("gmt1/5a"), Kind::Species);
+}
+
+#[test]
+fn a_preset_is_found_by_its_name_and_by_a_near_one() {
+    assert!(validate_species("gmt1/5a", 10).is_ok());
+    let report = validate_species("gmt1/5z", 10).expect_err("there is none");
+    assert_eq!(report.faults[0].suggestion.as_deref(), Some("gmt1/5a"));
+    assert!(report.render(false).starts_with("error: there is no species `gmt1/5z`"));
+}
+
+#[test]
+fn color_is_for_terminals_only() {
+    let report = validate_species("tests/bad/key_misspelt.toml", 40).expect_err("it is wrong");
+    assert!(report.render(true).contains('\u{1b}') && !report.render(false).contains('\u{1b}'));
+}
+
+#[test]
+fn the_schemas_for_editors_are_of_draft_7() {
+    for kind in [Kind::Species, Kind::Scenario] {
+        let schema = schema_of(kind);
+        assert_eq!(schema["$schema"], "http://json-schema.org/draft-07/schema#");
+        assert!(!schema.to_string().contains("\"null\""), "TOML has no null");
+    }
+    let forms = schema_of(Kind::Species)["anyOf"].as_array().map(Vec::len);
+    assert_eq!(forms, Some(phytomer_config::MODELS.len()));
+}
