@@ -1,1 +1,18 @@
-//! phytomer-outputs
+//! What leaves a run: the run folder with its tables (Parquet), meshes, and the reading back of what was written.
+//!
+//! A run folder is made by [`RunFolder::create`], filled shard by shard and closed by [`RunFolder::finish`]; what it
+//! holds is in `docs` and in its own `datapackage.json`. [`read`] opens it again. Absent on purpose: growth rules.
+
+mod error;
+pub mod meshes;
+pub mod read;
+pub mod run_folder;
+#[cfg(test)]
+mod specimen;
+pub mod tables;
+
+pub use error::Error;
+pub use run_folder::{
+    FileReport, Input, Mode, OvergrownPlot, Provenance, RunFolder, RunPlan, RunReport, Shard, ShardReport,
+};
+pub use tables::Table;

@@ -1,0 +1,161 @@
+//! Everything that can go wrong between a plant and a file, in words for the person who must set it right.
+//!
+//! A failed write ends the run: nothing here is logged and passed over.
+
+use parquet::errors::ParquetError;
+use std::path::{Path, PathBuf};
+
+/// A failure of this crate.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The file system refused.
+    #[error("cannot {doing} {}: {source}", path.display())]
+    Io {
+        /// What was tried: "create", "rename", …
+        doing: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// The system's answer.
+        source: std::io::Error,
+    },
+    /// A table could not be written.
+    #[error(
+        "cannot write the table {}: {source}\nwhat is complete is kept: free some space, then go on with --resume",
+        path.display()
+    )]
+    Table {
+        /// The part file.
+        path: PathBuf,
+        /// The writer's answer.
+        source: ParquetError,
+    },
+    /// A table could not be read.
+    #[error("cannot read the table {}: {source}", path.display())]
+    Read {
+        /// The part file.
+        path: PathBuf,
+        /// The reader's answer.
+        source: ParquetError,
+    },
+    /// A column of a table is not of the type that its schema states.
+    #[error("the table {} has no column `{column}` of the stated type", path.display())]
+    Column {
+        /// The part file.
+        path: PathBuf,
+        /// The column.
+        column: &'static str,
+    },
+    /// A JSON file could not be understood.
+    #[error("cannot understand {}: {source}", path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: serde_json::Error,
+    },
+    /// The folder for a new run holds files already.
+    #[error(
+        "{} already holds files: go on with that run by --resume, replace it by --overwrite, or choose another folder \
+         by --out",
+        path.display()
+    )]
+    Occupied {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The folder to resume, replace or read is not a run.
+    #[error("{} has no run.json, so it is not a run folder; nothing in it was touched", path.display())]
+    NotARun {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The run to resume is another run.
+    #[error(
+        "{} holds a run with another `{what}`: resume it with the scenario and the program it began with, or choose \
+         another folder by --out",
+        path.display()
+    )]
+    Foreign {
+        /// The folder.
+        path: PathBuf,
+        /// The first thing that differs.
+        what: String,
+    },
+    /// A line of the journal other than the last is damaged.
+    #[error("line {line} of {} is damaged: begin the run anew with --overwrite", path.display())]
+    Journal {
+        /// The journal.
+        path: PathBuf,
+        /// From 1.
+        line: usize,
+    },
+    /// A shard was asked for that the plan does not have.
+    #[error("there is no shard {shard}: the run has {shards}")]
+    NoSuchShard {
+        /// The one asked for.
+        shard: u32,
+        /// How many there are.
+        shards: u32,
+    },
+    /// A plot came to a shard out of its turn.
+    #[error("shard {shard} was given plot {plot} where plot {expected} is next")]
+    PlotOutOfTurn {
+        /// The shard.
+        shard: u32,
+        /// The plot that came.
+        plot: u32,
+        /// The plot whose turn it was.
+        expected: u32,
+    },
+    /// A shard was to be committed before all its plots had ended.
+    #[error("shard {shard} has {ended} of its {plots} plots: it cannot be committed")]
+    UnfinishedShard {
+        /// The shard.
+        shard: u32,
+        /// The plots that have ended.
+        ended: u32,
+        /// The plots that it covers.
+        plots: u32,
+    },
+    /// The run was to be finished before all its shards were committed.
+    #[error("{} lacks {missing} shards: go on with it by --resume", path.display())]
+    MissingShards {
+        /// The folder.
+        path: PathBuf,
+        /// How many.
+        missing: usize,
+    },
+    /// A plant has more components than the tables can hold.
+    #[error("plant {plant} has {components} components; tables hold at most {most} a plant: lower max_components")]
+    PlantTooLarge {
+        /// The plant's number.
+        plant: u32,
+        /// Its components.
+        components: u32,
+        /// The most that a table holds.
+        most: u32,
+    },
+}
+
+impl Error {
+    /// Makes an [`Error::Io`] of the system's answer.
+    pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_path_buf();
+        move |source| Self::Io { doing, path, source }
+    }
+
+    pub(crate) fn table(path: &Path) -> impl FnOnce(ParquetError) -> Self {
+        let path = path.to_path_buf();
+        move |source| Self::Table { path, source }
+    }
+
+    pub(crate) fn read(path: &Path) -> impl FnOnce(ParquetError) -> Self {
+        let path = path.to_path_buf();
+        move |source| Self::Read { path, source }
+    }
+
+    pub(crate) fn json(path: &Path) -> impl FnOnce(serde_json::Error) -> Self {
+        let path = path.to_path_buf();
+        move |source| Self::Json { path, source }
+    }
+}

@@ -1,0 +1,245 @@
+//! Reading a run back: what it says of itself, its tables' schemas, metadata and rows.
+//!
+//! For `describe`, for analysis and for tests. A run that is not finished can be read as far as it has come: its parts
+//! are whole, because they get their names only when they are.
+
+use crate::Error;
+use crate::run_folder::files_in;
+use crate::tables::Table;
+use arrow_array::types::{Float64Type, Int32Type};
+use arrow_array::{Array, BooleanArray, PrimitiveArray, RecordBatch};
+use arrow_schema::SchemaRef;
+use parquet::arrow::arrow_reader::{ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder};
+use parquet::file::metadata::ParquetMetaData;
+use phytomer_sim::Tick;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A run on the disk.
+#[derive(Debug, Clone)]
+pub struct Run {
+    path: PathBuf,
+    json: Value,
+}
+
+/// One row of `summary`, in the terms of its columns.
+#[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the columns are described in tables::columns::SUMMARY")]
+pub struct SummaryRow {
+    pub plot_id: u32,
+    pub plant_id: u32,
+    pub age: Tick,
+    pub internodes: u32,
+    pub leaves: u32,
+    pub flowers: u32,
+    pub fruits: u32,
+    pub buds: u32,
+    pub dead_internodes: u32,
+    pub axes: u32,
+    pub max_order: u32,
+    pub height_m: Option<f64>,
+    pub crown_width_m: Option<f64>,
+    pub leaf_area_m2: f64,
+    pub wood_volume_m3: f64,
+    pub alive: bool,
+    pub death_age: Option<Tick>,
+}
+
+impl Run {
+    /// Opens a run folder.
+    ///
+    /// # Errors
+    /// [`Error::NotARun`], or where `run.json` cannot be read.
+    pub fn open(path: &Path) -> Result<Self, Error> {
+        let file = path.join("run.json");
+        if !file.exists() {
+            return Err(Error::NotARun { path: path.to_path_buf() });
+        }
+        let text = fs::read(&file).map_err(Error::io("read", &file))?;
+        let json = serde_json::from_slice(&text).map_err(Error::json(&file))?;
+        Ok(Self { path: path.to_path_buf(), json })
+    }
+
+    /// What `run.json` says.
+    pub fn json(&self) -> &Value {
+        &self.json
+    }
+
+    /// Whether the run was finished.
+    pub fn is_complete(&self) -> bool {
+        self.json["status"] == "complete"
+    }
+
+    /// The part files of a table, in their order; none where the run has no such table.
+    ///
+    /// # Errors
+    /// Where the folder cannot be read.
+    pub fn parts(&self, table: Table) -> Result<Vec<PathBuf>, Error> {
+        let mut files = files_in(&self.path.join(table.name()))?;
+        files.retain(|file| {
+            let name = file.file_name().unwrap_or_default().to_string_lossy();
+            name.starts_with("part-") && name.ends_with(".parquet")
+        });
+        Ok(files)
+    }
+
+    /// The tables that the run has, with their rows.
+    ///
+    /// # Errors
+    /// Where a part cannot be read.
+    pub fn rows(&self) -> Result<BTreeMap<Table, u64>, Error> {
+        let mut rows = BTreeMap::new();
+        for table in Table::ALL {
+            for part in self.parts(table)? {
+                *rows.entry(table).or_default() += open(&part)?.metadata().file_metadata().num_rows() as u64;
+            }
+        }
+        Ok(rows)
+    }
+
+    /// The arrow schema of a table as its first part states it.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    pub fn schema(&self, table: Table) -> Result<Option<SchemaRef>, Error> {
+        let parts = self.parts(table)?;
+        parts.first().map(|part| Ok(open(part)?.schema().clone())).transpose()
+    }
+
+    /// The Parquet metadata of each part of a table: row groups, encodings, statistics.
+    ///
+    /// # Errors
+    /// Where a part cannot be read.
+    pub fn parquet(&self, table: Table) -> Result<Vec<Arc<ParquetMetaData>>, Error> {
+        self.parts(table)?.iter().map(|part| Ok(open(part)?.metadata().clone())).collect()
+    }
+
+    /// The key-value metadata of a table's first part.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    pub fn metadata(&self, table: Table) -> Result<BTreeMap<String, String>, Error> {
+        let parts = self.parquet(table)?;
+        let pairs = parts.first().and_then(|part| part.file_metadata().key_value_metadata().cloned());
+        Ok(pairs.into_iter().flatten().map(|pair| (pair.key, pair.value.unwrap_or_default())).collect())
+    }
+
+    /// The rows of a table, part after part.
+    ///
+    /// # Errors
+    /// Where the folder cannot be read; where a part cannot, the iterator says so and ends.
+    pub fn batches(&self, table: Table) -> Result<Batches, Error> {
+        self.batches_of(table, 8192)
+    }
+
+    /// The same, with at most `rows` rows in a batch.
+    ///
+    /// # Errors
+    /// As [`Run::batches`].
+    pub fn batches_of(&self, table: Table, rows: usize) -> Result<Batches, Error> {
+        Ok(Batches { parts: self.parts(table)?.into_iter(), rows, now: None })
+    }
+
+    /// The rows of `summary`.
+    ///
+    /// # Errors
+    /// Where they cannot be read.
+    pub fn summary(&self) -> Result<Vec<SummaryRow>, Error> {
+        let mut rows = Vec::new();
+        for batch in self.batches(Table::Summary)? {
+            let batch = batch?;
+            let columns = SummaryBatch { batch: &batch, path: &self.path };
+            for row in 0..batch.num_rows() {
+                rows.push(columns.row(row)?);
+            }
+        }
+        Ok(rows)
+    }
+}
+
+fn open(part: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, Error> {
+    let file = File::open(part).map_err(Error::io("open", part))?;
+    ParquetRecordBatchReaderBuilder::try_new(file).map_err(Error::read(part))
+}
+
+/// The record batches of a table.
+pub struct Batches {
+    parts: std::vec::IntoIter<PathBuf>,
+    rows: usize,
+    now: Option<(PathBuf, ParquetRecordBatchReader)>,
+}
+
+impl Batches {
+    fn open_next(&mut self) -> Option<Result<(), Error>> {
+        let part = self.parts.next()?;
+        let reader = open(&part).and_then(|file| file.with_batch_size(self.rows).build().map_err(Error::read(&part)));
+        Some(reader.map(|reader| self.now = Some((part, reader))))
+    }
+}
+
+impl Iterator for Batches {
+    type Item = Result<RecordBatch, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            let batch = self.now.as_mut().and_then(|(part, reader)| Some((part.clone(), reader.next()?)));
+            if let Some((part, batch)) = batch {
+                return Some(batch.map_err(|source| Error::read(&part)(source.into())));
+            }
+            if let Err(error) = self.open_next()? {
+                return Some(Err(error));
+            }
+        }
+    }
+}
+
+struct SummaryBatch<'a> {
+    batch: &'a RecordBatch,
+    path: &'a Path,
+}
+
+impl SummaryBatch<'_> {
+    fn row(&self, row: usize) -> Result<SummaryRow, Error> {
+        Ok(SummaryRow {
+            plot_id: self.count("plot_id", row)?,
+            plant_id: self.count("plant_id", row)?,
+            age: self.count("age", row)?,
+            internodes: self.count("internodes", row)?,
+            leaves: self.count("leaves", row)?,
+            flowers: self.count("flowers", row)?,
+            fruits: self.count("fruits", row)?,
+            buds: self.count("buds", row)?,
+            dead_internodes: self.count("dead_internodes", row)?,
+            axes: self.count("axes", row)?,
+            max_order: self.count("max_order", row)?,
+            height_m: self.real("height_m", row)?,
+            crown_width_m: self.real("crown_width_m", row)?,
+            leaf_area_m2: self.real("leaf_area_m2", row)?.unwrap_or_default(),
+            wood_volume_m3: self.real("wood_volume_m3", row)?.unwrap_or_default(),
+            alive: self.column::<BooleanArray>("alive")?.value(row),
+            death_age: self.number("death_age", row)?,
+        })
+    }
+
+    fn column<A: 'static>(&self, column: &'static str) -> Result<&A, Error> {
+        let array = self.batch.column_by_name(column).and_then(|array| array.as_any().downcast_ref());
+        array.ok_or(Error::Column { path: self.path.join(Table::Summary.name()), column })
+    }
+
+    fn number(&self, column: &'static str, row: usize) -> Result<Option<u32>, Error> {
+        let array = self.column::<PrimitiveArray<Int32Type>>(column)?;
+        Ok(array.is_valid(row).then(|| array.value(row).unsigned_abs()))
+    }
+
+    fn count(&self, column: &'static str, row: usize) -> Result<u32, Error> {
+        Ok(self.number(column, row)?.unwrap_or_default())
+    }
+
+    fn real(&self, column: &'static str, row: usize) -> Result<Option<f64>, Error> {
+        let array = self.column::<PrimitiveArray<Float64Type>>(column)?;
+        Ok(array.is_valid(row).then(|| array.value(row)))
+    }
+}

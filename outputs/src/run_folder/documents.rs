@@ -1,0 +1,213 @@
+//! What a run folder says of itself: `run.json`, `datapackage.json` (Frictionless Data Package 1) and `views.sql`
+//! (DuckDB).
+
+use super::durable;
+use super::journal::{FileReport, OvergrownPlot, ShardReport};
+use super::plan::RunPlan;
+use crate::Error;
+use crate::tables::Table;
+use crate::tables::arrow::plant_ontology;
+use crate::tables::schema::{Column, Type};
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// What a finished run has written.
+#[derive(Debug, Clone, Serialize)]
+pub struct RunReport {
+    /// Its plants that live at the last age.
+    pub living: u64,
+    /// Its plants that have died.
+    pub dead: u64,
+    /// The components that ever were.
+    pub components: u64,
+    /// The rows of each table.
+    pub rows: BTreeMap<Table, u64>,
+    /// The bytes of all files.
+    pub bytes: u64,
+    /// The files.
+    pub files: Vec<FileReport>,
+    /// The plots that ended by a limit.
+    pub overgrown: Vec<OvergrownPlot>,
+}
+
+impl RunReport {
+    /// Adds up the shards of a run; reports of some of them make the report of a part of it.
+    pub fn of<'a>(shards: impl IntoIterator<Item = &'a ShardReport>) -> Self {
+        let empty = BTreeMap::new();
+        let mut run =
+            Self { living: 0, dead: 0, components: 0, rows: empty, bytes: 0, files: Vec::new(), overgrown: Vec::new() };
+        for shard in shards {
+            run.living += shard.living;
+            run.dead += shard.dead;
+            run.components += shard.components;
+            run.bytes += shard.bytes();
+            for file in &shard.files {
+                if let (Some(table), Some(rows)) = (file.table, file.rows) {
+                    *run.rows.entry(table).or_default() += rows;
+                }
+            }
+            run.files.extend(shard.files.iter().cloned());
+            run.overgrown.extend(&shard.overgrown);
+        }
+        run
+    }
+}
+
+/// The files that are there from the start.
+pub fn write_start(path: &Path, plan: &RunPlan) -> Result<(), Error> {
+    durable::write(&path.join("views.sql"), views(plan).as_bytes())?;
+    write_json(&path.join("run.json"), &Value::Object(run(plan, "running")))
+}
+
+/// The files that a finished run has.
+pub fn write_end(
+    path: &Path,
+    plan: &RunPlan,
+    done: &BTreeMap<u32, ShardReport>,
+    timings: &[(&str, f64)],
+) -> Result<RunReport, Error> {
+    let report = RunReport::of(done.values());
+    write_json(&path.join("datapackage.json"), &data_package(plan, &report))?;
+    let file = path.join("run.json");
+    let mut run = run(plan, "complete");
+    let timings: Map<String, Value> =
+        timings.iter().map(|(name, seconds)| ((*name).to_owned(), json!(seconds))).collect();
+    run.insert("timings_s".to_owned(), Value::Object(timings));
+    let result = serde_json::to_value(&report).map_err(Error::json(&file))?;
+    if let Value::Object(result) = result {
+        run.extend(result);
+    }
+    write_json(&file, &Value::Object(run))?;
+    Ok(report)
+}
+
+fn run(plan: &RunPlan, status: &str) -> Map<String, Value> {
+    let mut run = Map::from_iter([("format".to_owned(), json!("phytomer run")), ("status".to_owned(), json!(status))]);
+    run.extend(plan.identity());
+    run.insert("resolved_scenario".to_owned(), plan.provenance.resolved.clone());
+    run
+}
+
+fn write_json(path: &Path, value: &Value) -> Result<(), Error> {
+    let mut text = serde_json::to_vec_pretty(value).map_err(Error::json(path))?;
+    text.push(b'\n');
+    durable::write(path, &text)
+}
+
+fn data_package(plan: &RunPlan, report: &RunReport) -> Value {
+    let resources: Vec<Value> = plan.tables.iter().map(|table| resource(*table, report)).collect();
+    json!({
+        "profile": "data-package",
+        "name": slug(&plan.provenance.scenario),
+        "title": format!("phytomer run of {}", plan.provenance.scenario),
+        "description": "Plants grown from seed; SI units, ages in ticks since the seed, Z up. Null: does not apply.",
+        "version": plan.provenance.version,
+        "resources": resources,
+    })
+}
+
+/// A name as the Data Package specification wants it: lower case letters, digits and `-`.
+fn slug(name: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
+    name.chars().map(plain).collect()
+}
+
+fn resource(table: Table, report: &RunReport) -> Value {
+    let paths: Vec<&str> =
+        report.files.iter().filter(|file| file.table == Some(table)).map(|file| file.path.as_str()).collect();
+    let mut schema = json!({ "fields": table.columns().iter().map(field).collect::<Vec<_>>(), "missingValues": [] });
+    if table != Table::Events {
+        schema["primaryKey"] = json!(table.sorted_by());
+    }
+    json!({
+        "profile": "data-resource",
+        "name": table.name(),
+        "description": table.description(),
+        "path": paths,
+        "format": "parquet",
+        "mediatype": "application/vnd.apache.parquet",
+        "rows": report.rows.get(&table).copied().unwrap_or(0),
+        "schema": schema,
+    })
+}
+
+fn field(column: &Column) -> Value {
+    let mut field = json!({
+        "name": column.name,
+        "type": match column.holds {
+            Type::Bool => "boolean",
+            Type::Int | Type::Key => "integer",
+            Type::Float | Type::Double => "number",
+            Type::Word(_) | Type::Name => "string",
+        },
+        "description": column.description,
+        "constraints": { "required": !column.nullable },
+    });
+    if !column.unit.is_empty() {
+        field["unit"] = json!(column.unit);
+    }
+    if let Type::Word(words) = column.holds {
+        field["constraints"]["enum"] = json!(words);
+    }
+    if column.name == "kind" {
+        field["plantOntology"] = plant_ontology();
+    }
+    field
+}
+
+/// The macros of `views.sql`, with the table that each needs.
+const MACROS: [(Table, &str, &str); 6] = [
+    (
+        Table::Records,
+        "Everything that stands at an age: SELECT kind, count(*) FROM at_age(10) GROUP BY kind;",
+        "at_age(a) AS TABLE SELECT * FROM records WHERE age = a",
+    ),
+    (
+        Table::Records,
+        "The internodes of each order at an age, with their length and wood volume, by plant.",
+        "orders_at(a) AS TABLE SELECT plant_id, \"order\", count(*) AS internodes, sum(length_m) AS length_m, \
+         sum(pi() / 12 * length_m * (diameter_m ** 2 + diameter_m * diameter_tip_m + diameter_tip_m ** 2)) AS \
+         wood_volume_m3 FROM records WHERE age = a AND kind IN ('internode', 'short_internode') GROUP BY ALL ORDER BY ALL",
+    ),
+    (
+        Table::Components,
+        "What was alive at any age, recorded or not.",
+        "alive_at(a) AS TABLE SELECT * FROM components WHERE birth_age <= a AND (death_age IS NULL OR death_age > a)",
+    ),
+    (
+        Table::Components,
+        "One row an axis.",
+        "axes() AS TABLE SELECT b.plant_id, b.axis_id, b.bearing_axis_id, b.\"order\", b.origin, b.birth_age, b.death_age, \
+         count(i.component_id) AS internodes, sum(i.length_m) AS length_m FROM components b LEFT JOIN components i ON \
+         i.plant_id = b.plant_id AND i.axis_id = b.axis_id AND i.kind IN ('internode', 'short_internode') WHERE b.kind = \
+         'apical_bud' GROUP BY ALL ORDER BY ALL",
+    ),
+    (
+        Table::Events,
+        "How often each fate befell a bud, by age.",
+        "fates() AS TABLE SELECT age, event, count(*) AS buds FROM events GROUP BY ALL ORDER BY ALL",
+    ),
+    (
+        Table::Summary,
+        "Means over the plants, by age.",
+        "growth() AS TABLE SELECT age, count(*) AS plants, sum(alive::INT) AS alive, avg(internodes) AS internodes, \
+         avg(leaves) AS leaves, avg(height_m) AS height_m, avg(leaf_area_m2) AS leaf_area_m2 FROM summary GROUP BY age \
+         ORDER BY age",
+    ),
+];
+
+fn views(plan: &RunPlan) -> String {
+    let mut sql =
+        String::from("-- For DuckDB. Paths are relative: start DuckDB in this folder, then `.read views.sql`.\n");
+    for table in &plan.tables {
+        let name = table.name();
+        sql += &format!("\n-- {}\n", table.description());
+        sql += &format!("CREATE OR REPLACE VIEW {name} AS SELECT * FROM read_parquet('{name}/part-*.parquet');\n");
+    }
+    for (_, comment, body) in MACROS.iter().filter(|(table, ..)| plan.tables.contains(table)) {
+        sql += &format!("\n-- {comment}\nCREATE OR REPLACE MACRO {body};\n");
+    }
+    sql
+}

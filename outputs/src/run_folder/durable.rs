@@ -1,0 +1,128 @@
+//! Files that are either whole or not there: written beside their final name, synced, then renamed.
+
+use crate::Error;
+use sha2::{Digest, Sha256};
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+/// A new file that is hashed as it is written.
+#[derive(Debug)]
+pub struct HashingFile {
+    file: File,
+    path: PathBuf,
+    hash: Sha256,
+    bytes: u64,
+}
+
+impl HashingFile {
+    /// Creates the file, replacing what is there.
+    pub fn create(path: &Path) -> Result<Self, Error> {
+        let file = File::create(path).map_err(Error::io("create", path))?;
+        Ok(Self { file, path: path.to_path_buf(), hash: Sha256::new(), bytes: 0 })
+    }
+
+    /// Makes sure that the file is on the disk; its bytes and its hash.
+    pub fn finish(self) -> Result<(u64, String), Error> {
+        self.file.sync_all().map_err(Error::io("write to disk", &self.path))?;
+        Ok((self.bytes, hexadecimal(&self.hash.finalize())))
+    }
+}
+
+impl Write for HashingFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.file.write(bytes)?;
+        self.hash.update(&bytes[..written]);
+        self.bytes += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+/// The name beside `path` under which it is written.
+pub fn beside(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!(".{name}.tmp"))
+}
+
+/// Whether a file is one that [`beside`] names.
+pub fn is_beside(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| {
+        let name = name.to_string_lossy();
+        name.starts_with('.') && name.ends_with(".tmp")
+    })
+}
+
+/// Writes a whole small file.
+pub fn write(path: &Path, content: &[u8]) -> Result<(), Error> {
+    let staged = beside(path);
+    let mut file = File::create(&staged).map_err(Error::io("create", &staged))?;
+    file.write_all(content).map_err(Error::io("write", &staged))?;
+    file.sync_all().map_err(Error::io("write to disk", &staged))?;
+    rename(&staged, path)
+}
+
+/// Gives a synced file its final name, and makes sure that the name is on the disk.
+pub fn rename(from: &Path, to: &Path) -> Result<(), Error> {
+    fs::rename(from, to).map_err(Error::io("rename", from))?;
+    sync_folder_of(to)
+}
+
+/// Makes sure that the names in the folder of `path` are on the disk, where a system can say so.
+pub fn sync_folder_of(path: &Path) -> Result<(), Error> {
+    let Some(folder) = path.parent().filter(|folder| cfg!(unix) && !folder.as_os_str().is_empty()) else {
+        return Ok(());
+    };
+    File::open(folder).and_then(|folder| folder.sync_all()).map_err(Error::io("write to disk", folder))
+}
+
+/// Syncs a file that someone else has written; its bytes and its hash.
+pub fn sync_and_hash(path: &Path) -> Result<(u64, String), Error> {
+    let mut file = File::open(path).map_err(Error::io("open", path))?;
+    file.sync_all().map_err(Error::io("write to disk", path))?;
+    let mut hash = Sha256::new();
+    let mut block = vec![0; 1 << 20];
+    let mut bytes = 0;
+    loop {
+        let read = file.read(&mut block).map_err(Error::io("read", path))?;
+        if read == 0 {
+            return Ok((bytes, hexadecimal(&hash.finalize())));
+        }
+        hash.update(&block[..read]);
+        bytes += read as u64;
+    }
+}
+
+/// Removes a file if it is there.
+pub fn remove(path: &Path) -> Result<(), Error> {
+    match fs::remove_file(path) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => Err(Error::io("remove", path)(source)),
+        _ => Ok(()),
+    }
+}
+
+/// The files directly in a folder, sorted; none where there is no folder.
+pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let entries = match fs::read_dir(folder) {
+        Err(source) if source.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries.map_err(Error::io("read", folder))?,
+    };
+    let mut files = Vec::new();
+    for entry in entries {
+        files.push(entry.map_err(Error::io("read", folder))?.path());
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// The hash of some bytes, in hexadecimal.
+pub fn sha256_of(bytes: &[u8]) -> String {
+    hexadecimal(&Sha256::digest(bytes))
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}

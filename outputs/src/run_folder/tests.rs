@@ -1,0 +1,190 @@
+//! Creation, journal, resuming, refusals, and the same bytes on any number of threads.
+
+use super::*;
+use crate::read::Run;
+use crate::specimen::{Sapling, grow_shard, plan, plot, run};
+use phytomer_sim::grow;
+use std::collections::BTreeMap;
+use tempfile::tempdir;
+
+/// Every file under a folder but `run.json`, which holds timings.
+fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut all = BTreeMap::new();
+    for path in durable::files_in(folder).unwrap() {
+        if path.is_dir() {
+            all.extend(contents(&path).into_iter().map(|(name, bytes)| (path.join(name), bytes)));
+        } else if path.file_name().unwrap() != "run.json" {
+            all.insert(path.clone(), fs::read(&path).unwrap());
+        }
+    }
+    all.into_iter().map(|(path, bytes)| (path.strip_prefix(folder).unwrap().to_path_buf(), bytes)).collect()
+}
+
+#[test]
+fn a_run_folder_holds_what_it_says() {
+    let home = tempdir().unwrap();
+    let path = home.path().join("runs/sapling");
+    let report = run(&path, plan(5, 2));
+    assert_eq!((report.living, report.dead, report.files.len()), (0, 5, 12));
+    let run = Run::open(&path).unwrap();
+    assert!(run.is_complete());
+    assert_eq!(run.rows().unwrap(), report.rows);
+    assert_eq!(run.json()["seed"], 42);
+    assert_eq!(run.json()["timings_s"]["growth"], 0.5);
+    assert_eq!(run.json()["resolved_scenario"]["species"], "sapling");
+    for file in &report.files {
+        assert_eq!(durable::sync_and_hash(&path.join(&file.path)).unwrap(), (file.bytes, file.sha256.clone()));
+    }
+    let package: Value = serde_json::from_slice(&fs::read(path.join("datapackage.json")).unwrap()).unwrap();
+    assert_eq!(package["name"], "sapling");
+    assert_eq!(package["resources"][1]["path"][2], "records/part-00002.parquet");
+    assert_eq!(package["resources"][1]["schema"]["fields"][11]["unit"], "m");
+    assert!(fs::read_to_string(path.join("views.sql")).unwrap().contains("MACRO at_age(a) AS TABLE"));
+}
+
+#[test]
+fn the_bytes_do_not_depend_on_the_number_of_threads() {
+    let written = [1, 2, 7].map(|threads| {
+        let home = tempdir().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| run(&home.path().join("run"), plan(6, 4)));
+        contents(&home.path().join("run"))
+    });
+    assert_eq!(written[0], written[1]);
+    assert_eq!(written[0], written[2]);
+}
+
+#[test]
+fn an_interrupted_run_ends_with_the_same_bytes() {
+    let home = tempdir().unwrap();
+    let (whole, broken) = (home.path().join("whole"), home.path().join("broken"));
+    run(&whole, plan(7, 2));
+    let folder = RunFolder::create(&broken, plan(7, 2), Mode::New).unwrap();
+    grow_shard(&folder, 2, 100_000);
+    grow_shard(&folder, 0, 100_000);
+    // A shard that was renamed but not entered, one that was half written, and a torn line.
+    fs::copy(broken.join("records/part-00000.parquet"), broken.join("records/part-00001.parquet")).unwrap();
+    fs::write(broken.join("events/.part-00003.parquet.tmp"), b"half").unwrap();
+    let journal = fs::OpenOptions::new().append(true).open(broken.join("journal.jsonl"));
+    std::io::Write::write_all(&mut journal.unwrap(), b"{\"shard\":1,\"fil").unwrap();
+    drop(folder);
+
+    let folder = RunFolder::create(&broken, plan(7, 2), Mode::Resume).unwrap();
+    assert_eq!(folder.missing_shards(), [1, 3]);
+    assert!(!broken.join("records/part-00001.parquet").exists());
+    assert!(!broken.join("events/.part-00003.parquet.tmp").exists());
+    assert!(matches!(folder.finish(&[]), Err(Error::MissingShards { missing: 2, .. })));
+    for shard in folder.missing_shards() {
+        grow_shard(&folder, shard, 100_000);
+    }
+    folder.finish(&[]).unwrap();
+    assert_eq!(contents(&whole), contents(&broken));
+    let again = RunFolder::create(&broken, plan(7, 2), Mode::Resume).unwrap();
+    assert!(again.missing_shards().is_empty());
+}
+
+#[test]
+fn a_shard_whose_file_is_lost_is_grown_again() {
+    let home = tempdir().unwrap();
+    run(home.path(), plan(4, 2));
+    fs::remove_file(home.path().join("events/part-00001.parquet")).unwrap();
+    let folder = RunFolder::create(home.path(), plan(4, 2), Mode::Resume).unwrap();
+    assert_eq!(folder.missing_shards(), [1]);
+    grow_shard(&folder, 1, 100_000);
+    folder.finish(&[]).unwrap();
+    assert_eq!(fs::read_to_string(home.path().join("journal.jsonl")).unwrap().lines().count(), 2);
+}
+
+#[test]
+fn a_damaged_journal_is_refused_and_can_be_overwritten() {
+    let home = tempdir().unwrap();
+    run(home.path(), plan(4, 2));
+    let journal = home.path().join("journal.jsonl");
+    let text = fs::read_to_string(&journal).unwrap();
+    fs::write(&journal, format!("nonsense\n{text}")).unwrap();
+    let refused = RunFolder::create(home.path(), plan(4, 2), Mode::Resume);
+    assert!(matches!(refused, Err(Error::Journal { line: 1, .. })));
+    let folder = RunFolder::create(home.path(), plan(4, 2), Mode::Overwrite).unwrap();
+    assert_eq!(folder.missing_shards(), [0, 1]);
+    assert!(durable::files_in(&home.path().join("records")).unwrap().is_empty());
+}
+
+#[test]
+fn folders_that_are_not_this_run_are_left_alone() {
+    let home = tempdir().unwrap();
+    fs::write(home.path().join("letter.txt"), b"dear").unwrap();
+    let mode = |mode| RunFolder::create(home.path(), plan(1, 1), mode).map(|_| ());
+    assert!(matches!(mode(Mode::New), Err(Error::Occupied { .. })));
+    assert!(matches!(mode(Mode::Resume), Err(Error::NotARun { .. })));
+    assert!(matches!(mode(Mode::Overwrite), Err(Error::NotARun { .. })));
+    let run_home = tempdir().unwrap();
+    run(run_home.path(), plan(1, 1));
+    let mut other = plan(1, 1);
+    other.provenance.resolved["share"] = serde_json::json!(0.2);
+    let error = RunFolder::create(run_home.path(), other, Mode::Resume).unwrap_err();
+    assert!(matches!(&error, Error::Foreign { what, .. } if what == "scenario_sha256"), "{error}");
+    let mut other = plan(1, 1);
+    other.provenance.seed = 43;
+    assert!(matches!(RunFolder::create(run_home.path(), other, Mode::Resume), Err(Error::Foreign { .. })));
+}
+
+#[test]
+fn an_overwritten_run_leaves_what_is_not_its_own() {
+    let home = tempdir().unwrap();
+    run(home.path(), plan(3, 1));
+    fs::write(home.path().join("notes.txt"), b"mine").unwrap();
+    let folder = RunFolder::create(home.path(), plan(1, 1), Mode::Overwrite).unwrap();
+    grow_shard(&folder, 0, 100_000);
+    folder.finish(&[]).unwrap();
+    assert!(home.path().join("notes.txt").exists());
+    assert_eq!(Run::open(home.path()).unwrap().parts(Table::Records).unwrap().len(), 1);
+}
+
+#[test]
+fn an_overgrown_plot_keeps_the_ages_before_its_limit() {
+    let home = tempdir().unwrap();
+    let folder = RunFolder::create(home.path(), plan(2, 1), Mode::New).unwrap();
+    let report = grow_shard(&folder, 0, 40);
+    let age = report.overgrown[0].age;
+    assert_eq!(report.overgrown, [OvergrownPlot { plot: 0, plant: 0, age, limit: 40 }]);
+    assert_eq!((report.living, report.dead), (1, 0));
+    grow_shard(&folder, 1, 100_000);
+    folder.finish(&[]).unwrap();
+    let run = Run::open(home.path()).unwrap();
+    assert_eq!(run.json()["overgrown"][0]["age"], age);
+    let rows = run.summary().unwrap();
+    let ages: Vec<u32> = rows.iter().filter(|row| row.plant_id == 0).map(|row| row.age).collect();
+    let expected: Vec<u32> = plan(2, 1).recorded.into_iter().filter(|&recorded| recorded < age).collect();
+    assert_eq!(ages, expected);
+}
+
+#[test]
+fn a_further_file_is_named_hashed_and_journalled() {
+    let home = tempdir().unwrap();
+    let folder = RunFolder::create(home.path(), plan(1, 1), Mode::New).unwrap();
+    let mut shard = folder.shard(0).unwrap();
+    let staged = shard.stage("meshes/plant-0.ply").unwrap();
+    fs::write(&staged, b"ply").unwrap();
+    let mut plot = plot(0, 100_000);
+    let ending = grow(&Sapling, &mut plot, 12, &mut shard).unwrap();
+    shard.end_plot(&plot, ending).unwrap();
+    let report = shard.commit().unwrap();
+    assert_eq!(report.files[4].path, "meshes/plant-0.ply");
+    assert_eq!(report.files[4].sha256, durable::sha256_of(b"ply"));
+    assert!(home.path().join("meshes/plant-0.ply").exists() && !staged.exists());
+}
+
+#[test]
+fn an_unfinished_shard_is_not_committed_and_leaves_nothing() {
+    let home = tempdir().unwrap();
+    let folder = RunFolder::create(home.path(), plan(2, 2), Mode::New).unwrap();
+    let mut shard = folder.shard(0).unwrap();
+    let mut late = plot(1, 100_000);
+    assert!(grow(&Sapling, &mut late, 12, &mut shard).is_err());
+    let mut first = plot(0, 100_000);
+    let ending = grow(&Sapling, &mut first, 12, &mut shard).unwrap();
+    shard.end_plot(&first, ending).unwrap();
+    assert!(matches!(shard.commit(), Err(Error::UnfinishedShard { ended: 1, plots: 2, .. })));
+    assert!(durable::files_in(&home.path().join("records")).unwrap().is_empty());
+    assert!(matches!(folder.shard(1), Err(Error::NoSuchShard { shard: 1, shards: 1 })));
+}

@@ -1,0 +1,183 @@
+//! A small plant with everything that a table must tell apart, for the tests of this crate.
+//!
+//! Each tick the trunk makes an internode with a leaf of three ticks' life and a bud; the bud grows two internodes,
+//! dies, and its branch falls two ticks later. At tick 6 the trunk bears a flower, at tick 8 it dies.
+
+use crate::{Mode, Provenance, RunFolder, RunPlan, RunReport, ShardReport, Table};
+use phytomer_sim::model::Overgrown;
+use phytomer_sim::plant::{
+    ApexFate, AxisId, Cause, EventKind, Form, Habit, Kind, LineageKey, NewAxis, NewNode, NewOrgan, NodeId, Origin,
+    Plant, Seed, Shape, Trend, key::Place,
+};
+use phytomer_sim::site::Site;
+use phytomer_sim::{Ending, Growth, GrowthModel, NEVER, Plot, Tick, grow};
+use std::path::Path;
+use std::sync::Arc;
+
+/// The model of the specimen.
+pub struct Sapling;
+
+const TRUNK_DIES: Tick = 8;
+
+impl GrowthModel for Sapling {
+    fn growth(&self) -> Growth {
+        Growth::Extends
+    }
+
+    fn habit(&self) -> Arc<Habit> {
+        let trends = vec![Trend::STRAIGHT];
+        Arc::new(Habit { trends, shed_after: vec![NEVER, 2], shapes: vec![Shape::Cone] })
+    }
+
+    fn sow(&self, plant: &mut Plant) {
+        axis(plant, None, 0);
+    }
+
+    fn grow_to(&self, age: Tick, plants: &mut [Plant], _site: &Site) -> Result<(), Overgrown> {
+        plants.iter_mut().try_for_each(|plant| (plant.age + 1..=age).try_for_each(|tick| step(plant, tick)))
+    }
+
+    fn thicken(&self, age: Tick, plant: &mut Plant) {
+        for node in 0..plant.nodes.len() {
+            let years = age.saturating_sub(plant.nodes.birth[node]) as f32;
+            plant.nodes.diameter[node] = plant.nodes.primary_diameter[node] * (1.0 + 0.1 * years);
+            plant.nodes.diameter_tip[node] = plant.nodes.diameter[node] * 0.9;
+        }
+    }
+}
+
+fn step(plant: &mut Plant, tick: Tick) -> Result<(), Overgrown> {
+    let axes = plant.axes.len();
+    if !plant.has_room_for(4 * axes as u32) {
+        return Err(Overgrown { plant: plant.id, limit: plant.component_limit() });
+    }
+    for axis in 0..axes {
+        grow_axis(plant, AxisId(axis as u32), tick);
+    }
+    plant.age = tick;
+    Ok(())
+}
+
+fn grow_axis(plant: &mut Plant, id: AxisId, tick: Tick) {
+    if !plant.bud_lives(id, tick - 1) {
+        return;
+    }
+    let trunk = id == AxisId::TRUNK;
+    let last = if trunk { TRUNK_DIES } else { plant.axes.birth[id.index()] + 3 };
+    if tick == last {
+        plant.axes.end_apex(id, tick, ApexFate::Died);
+        plant.note(tick, id, EventKind::Died, 1);
+        return;
+    }
+    let node = internode(plant, id, tick);
+    plant.note(tick, id, EventKind::Grew, 1);
+    organ(plant, node, Kind::Leaf, tick, 3);
+    if trunk {
+        let branch = axis(plant, Some(node), tick);
+        plant.note(tick, branch, EventKind::Branched, 1);
+    }
+    if trunk && tick == 6 {
+        organ(plant, node, Kind::Flower, tick, 1);
+    }
+}
+
+fn axis(plant: &mut Plant, bearer: Option<NodeId>, tick: Tick) -> AxisId {
+    let key = bearer.map_or(LineageKey::SEED, |node| LineageKey::SEED.child(Place::Axillary(0).on(node.0 + 1)));
+    plant.add_axis(NewAxis {
+        bearer,
+        key,
+        order: if bearer.is_some() { 2 } else { 1 },
+        origin: if bearer.is_some() { Origin::Axillary } else { Origin::Seed },
+        position: 0,
+        state: 0,
+        appearance: tick,
+        birth: tick,
+        azimuth: tick as f32,
+        insertion: if bearer.is_some() { 1.0 } else { 0.0 },
+    })
+}
+
+fn internode(plant: &mut Plant, axis: AxisId, tick: Tick) -> NodeId {
+    let last = plant.axes.last_node[axis.index()];
+    let parent = last.some().unwrap_or(plant.axes.bearer[axis.index()]);
+    let rank = last.some().map_or(1, |last| plant.nodes.rank[last.index()] + 1);
+    plant.add_node(NewNode {
+        parent,
+        axis,
+        birth: tick,
+        rank,
+        unit_rank: 1,
+        short: axis != AxisId::TRUNK,
+        neoformed: false,
+        trend: 0,
+        length: 0.1 + 0.001 * plant.id as f32,
+        diameter: 0.01,
+        azimuth: 2.4,
+    })
+}
+
+fn organ(plant: &mut Plant, node: NodeId, kind: Kind, birth: Tick, life: Tick) {
+    let leaf = kind == Kind::Leaf;
+    plant.add_organ(NewOrgan {
+        node,
+        kind,
+        position: 0,
+        birth,
+        death: birth + life,
+        cause: Cause::LifeLength,
+        form: if leaf { Form::Elliptic } else { Form::Corolla },
+        length: 0.08,
+        width: 0.03,
+        area: if leaf { 0.0016 } else { 0.0 },
+        azimuth: 2.4,
+        insertion: 0.8,
+    });
+}
+
+/// A plan of `plots` specimens to age 12.
+pub fn plan(plots: u32, plots_per_part: u32) -> RunPlan {
+    RunPlan {
+        tables: Table::ALL.to_vec(),
+        recorded: vec![1, 4, 7, 8, 10, 12],
+        until: 12,
+        plots,
+        plots_per_part,
+        compression_level: 1,
+        precision_m: None,
+        provenance: Provenance {
+            scenario: "Sapling".to_owned(),
+            treatment: "control".to_owned(),
+            seed: 42,
+            version: "0.0.0".to_owned(),
+            git_hash: "abc".to_owned(),
+            resolved: serde_json::json!({ "species": "sapling", "share": 0.1 }),
+            inputs: Vec::new(),
+        },
+    }
+}
+
+/// A sown plot.
+pub fn plot(plant: u32, component_limit: u32) -> Plot {
+    Plot::of_one(&Sapling, &Seed { plant, run_seed: 42, component_limit, keep_events: true })
+}
+
+/// A grown and ended plot in the shard of a folder.
+pub fn grow_shard(folder: &RunFolder, shard: u32, component_limit: u32) -> ShardReport {
+    let mut open = folder.shard(shard).unwrap();
+    for id in folder.plan().plots_of(shard) {
+        let mut plot = plot(id, component_limit);
+        let ending = grow(&Sapling, &mut plot, folder.plan().until, &mut open).unwrap();
+        assert_eq!(matches!(ending, Ending::Complete), component_limit > 1000);
+        open.end_plot(&plot, ending).unwrap();
+    }
+    open.commit().unwrap()
+}
+
+/// A whole run.
+pub fn run(path: &Path, plan: RunPlan) -> RunReport {
+    let folder = RunFolder::create(path, plan, Mode::New).unwrap();
+    for shard in folder.missing_shards() {
+        grow_shard(&folder, shard, 100_000);
+    }
+    folder.finish(&[("growth", 0.5)]).unwrap()
+}

@@ -1,0 +1,115 @@
+//! What arrow and Parquet are told of a table: types, field metadata, encodings, key-value metadata.
+//!
+//! Nothing in a file depends on the clock, the machine or the number of threads; `created_by` names this program.
+
+use super::Table;
+use super::columns::{PLANT_ONTOLOGY, SCHEMA_VERSION};
+use super::schema::{Column, Encoding, Type};
+use crate::run_folder::RunPlan;
+use arrow_schema::{DataType, Field, Schema, SchemaRef};
+use parquet::basic::{Compression, Encoding as ParquetEncoding, ZstdLevel};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::{KeyValue, SortingColumn};
+use parquet::file::properties::{EnabledStatistics, WriterProperties, WriterPropertiesBuilder};
+use parquet::schema::types::ColumnPath;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// The dictionary page of a column of [`Encoding::Repeated`] may grow to this many bytes before it is given up.
+const SMALL_DICTIONARY: usize = 64 * 1024;
+
+/// The arrow schema of a table; a field's metadata has its `unit` and its `description`.
+pub fn schema(table: Table) -> SchemaRef {
+    Arc::new(Schema::new(table.columns().iter().map(field).collect::<Vec<_>>()))
+}
+
+/// One column as an arrow field.
+pub fn field(column: &Column) -> Field {
+    let mut metadata = HashMap::from([("description".to_owned(), column.description.to_owned())]);
+    if !column.unit.is_empty() {
+        metadata.insert("unit".to_owned(), column.unit.to_owned());
+    }
+    Field::new(column.name, data_type(column.holds), column.nullable).with_metadata(metadata)
+}
+
+fn data_type(holds: Type) -> DataType {
+    match holds {
+        Type::Bool => DataType::Boolean,
+        Type::Int => DataType::Int32,
+        Type::Key => DataType::Int64,
+        Type::Float => DataType::Float32,
+        Type::Double => DataType::Float64,
+        Type::Word(_) | Type::Name => DataType::Dictionary(Box::new(DataType::Int8), Box::new(DataType::Utf8)),
+    }
+}
+
+/// How the files of a table are written.
+///
+/// # Errors
+/// Where zstd has no such level.
+pub fn properties(table: Table, plan: &RunPlan) -> Result<WriterProperties, ParquetError> {
+    let base = WriterProperties::builder()
+        .set_created_by(format!("phytomer version {}", plan.provenance.version))
+        .set_compression(Compression::ZSTD(ZstdLevel::try_new(plan.compression_level)?))
+        .set_max_row_group_row_count(Some(super::ROW_GROUP))
+        .set_statistics_enabled(EnabledStatistics::Chunk)
+        .set_dictionary_enabled(false)
+        .set_sorting_columns(Some(sorting(table)))
+        .set_key_value_metadata(Some(key_values(table, plan)));
+    Ok(table.columns().iter().fold(base, encode).build())
+}
+
+fn encode(properties: WriterPropertiesBuilder, column: &Column) -> WriterPropertiesBuilder {
+    let path = || ColumnPath::from(column.name);
+    match column.encoding {
+        Encoding::Plain => properties.set_column_encoding(path(), ParquetEncoding::PLAIN),
+        Encoding::Delta => properties.set_column_encoding(path(), ParquetEncoding::DELTA_BINARY_PACKED),
+        Encoding::Split => properties.set_column_encoding(path(), ParquetEncoding::BYTE_STREAM_SPLIT),
+        Encoding::Dictionary => properties.set_column_dictionary_enabled(path(), true),
+        Encoding::Repeated => properties
+            .set_column_encoding(path(), ParquetEncoding::BYTE_STREAM_SPLIT)
+            .set_column_dictionary_enabled(path(), true)
+            .set_column_dictionary_page_size_limit(path(), SMALL_DICTIONARY),
+    }
+}
+
+fn sorting(table: Table) -> Vec<SortingColumn> {
+    let place = |name: &&str| table.columns().iter().position(|column| column.name == *name);
+    let sorted = |place: usize| SortingColumn { column_idx: place as i32, descending: false, nulls_first: false };
+    table.sorted_by().iter().filter_map(place).map(sorted).collect()
+}
+
+/// The key-value metadata of every file of a table.
+fn key_values(table: Table, plan: &RunPlan) -> Vec<KeyValue> {
+    let provenance = &plan.provenance;
+    let entry = |key: &str, value: String| KeyValue::new(format!("phytomer.{key}"), value);
+    vec![
+        entry("table", table.name().to_owned()),
+        entry("schema_version", SCHEMA_VERSION.to_owned()),
+        entry("version", provenance.version.clone()),
+        entry("git_hash", provenance.git_hash.clone()),
+        entry("scenario", provenance.scenario.clone()),
+        entry("treatment", provenance.treatment.clone()),
+        entry("seed", provenance.seed.to_string()),
+        entry(
+            "units",
+            "metres, square metres, cubic metres, radians; ages in ticks since the seed; Z is up".to_owned(),
+        ),
+        entry("rounding", rounding(plan)),
+        entry("plant_ontology", plant_ontology().to_string()),
+    ]
+}
+
+fn rounding(plan: &RunPlan) -> String {
+    match plan.precision_m {
+        Some(precision) => {
+            format!("positions to the greatest power of two not above {precision} m, directions to 2^-12")
+        }
+        None => "none".to_owned(),
+    }
+}
+
+/// The Plant Ontology term of each kind, as JSON.
+pub fn plant_ontology() -> serde_json::Value {
+    PLANT_ONTOLOGY.iter().map(|(kind, term)| (kind.tag().to_owned(), serde_json::Value::from(*term))).collect()
+}

@@ -1,0 +1,203 @@
+//! Column buffers: filled row by row, lent to arrow without a copy, and taken back with their memory.
+//!
+//! While a buffer is being filled, a negative integer and a NaN stand for null; they become nulls when the buffer is
+//! lent and never reach a file. [`columns!`] makes a struct of buffers out of a table's columns.
+
+use super::schema::{Column, Rounding};
+use arrow_array::types::{ArrowPrimitiveType, Float32Type, Float64Type, Int8Type, Int32Type, Int64Type};
+use arrow_array::{ArrayRef, BooleanArray, DictionaryArray, PrimitiveArray, StringArray};
+use arrow_buffer::{ArrowNativeType, BooleanBuffer, Buffer, NullBuffer, ScalarBuffer};
+use arrow_schema::ArrowError;
+use phytomer_sim::{NEVER, Tick};
+use std::sync::Arc;
+
+/// What stands for null in a buffer of integers.
+pub const NULL: i32 = -1;
+
+/// The values of one column.
+#[derive(Debug)]
+pub enum Values {
+    /// 0, 1, or −1 for null.
+    Bool(Vec<i8>),
+    /// 32-bit numbers.
+    Int(Vec<i32>),
+    /// 64-bit numbers, never null.
+    Key(Vec<i64>),
+    /// Real numbers.
+    Float(Vec<f32>),
+    /// Real numbers, 64 bits wide.
+    Double(Vec<f64>),
+    /// Places in the column's list of words.
+    Word(Vec<i8>),
+}
+
+/// The memory of a lent buffer, to be taken back once the array is dropped.
+#[derive(Debug)]
+pub enum Lent {
+    /// A copy was lent: the buffer itself is still here.
+    Kept(Values),
+    /// 32-bit numbers.
+    Int(Buffer),
+    /// 64-bit numbers.
+    Key(Buffer),
+    /// Real numbers.
+    Float(Buffer),
+    /// Real numbers, 64 bits wide.
+    Double(Buffer),
+    /// Places in a list of words.
+    Word(Buffer),
+}
+
+impl Lent {
+    /// The buffer, empty, with its memory.
+    pub fn take_back(self) -> Values {
+        match self {
+            Self::Kept(Values::Bool(mut values)) => {
+                values.clear();
+                Values::Bool(values)
+            }
+            Self::Kept(values) => values,
+            Self::Int(buffer) => Values::Int(emptied(buffer)),
+            Self::Key(buffer) => Values::Key(emptied(buffer)),
+            Self::Float(buffer) => Values::Float(emptied(buffer)),
+            Self::Double(buffer) => Values::Double(emptied(buffer)),
+            Self::Word(buffer) => Values::Word(emptied(buffer)),
+        }
+    }
+}
+
+fn emptied<N: ArrowNativeType>(buffer: Buffer) -> Vec<N> {
+    let mut values = buffer.into_vec().unwrap_or_default();
+    values.clear();
+    values
+}
+
+/// The arrow array of `values`, and the buffer to take back. `words` are those of a column of words.
+///
+/// # Errors
+/// Where a word's place is not in the list.
+pub fn lend(values: Values, column: &Column, words: &Arc<StringArray>) -> Result<(ArrayRef, Lent), ArrowError> {
+    let nullable = column.nullable;
+    Ok(match values {
+        Values::Bool(values) => (truths(&values, nullable), Lent::Kept(Values::Bool(values))),
+        Values::Int(values) => {
+            let (array, buffer) = numbers::<Int32Type>(values, nullable, |value| value >= 0);
+            (Arc::new(array), Lent::Int(buffer))
+        }
+        Values::Key(values) => {
+            let (array, buffer) = numbers::<Int64Type>(values, false, |_| true);
+            (Arc::new(array), Lent::Key(buffer))
+        }
+        Values::Float(values) => {
+            let (array, buffer) = numbers::<Float32Type>(values, nullable, |value| !value.is_nan());
+            (Arc::new(array), Lent::Float(buffer))
+        }
+        Values::Double(values) => {
+            let (array, buffer) = numbers::<Float64Type>(values, nullable, |value| !value.is_nan());
+            (Arc::new(array), Lent::Double(buffer))
+        }
+        Values::Word(values) => {
+            let (keys, buffer) = numbers::<Int8Type>(values, nullable, |value| value >= 0);
+            (Arc::new(DictionaryArray::try_new(keys, words.clone())?), Lent::Word(buffer))
+        }
+    })
+}
+
+fn numbers<T: ArrowPrimitiveType>(
+    values: Vec<T::Native>,
+    nullable: bool,
+    applies: impl Fn(T::Native) -> bool,
+) -> (PrimitiveArray<T>, Buffer) {
+    let nulls = nullable.then(|| applying(values.len(), |row| applies(values[row]))).flatten();
+    let length = values.len();
+    let buffer = Buffer::from_vec(values);
+    (PrimitiveArray::new(ScalarBuffer::new(buffer.clone(), 0, length), nulls), buffer)
+}
+
+fn truths(values: &[i8], nullable: bool) -> ArrayRef {
+    let nulls = nullable.then(|| applying(values.len(), |row| values[row] >= 0)).flatten();
+    Arc::new(BooleanArray::new(BooleanBuffer::collect_bool(values.len(), |row| values[row] > 0), nulls))
+}
+
+fn applying(rows: usize, applies: impl FnMut(usize) -> bool) -> Option<NullBuffer> {
+    let valid = NullBuffer::new(BooleanBuffer::collect_bool(rows, applies));
+    (valid.null_count() > 0).then_some(valid)
+}
+
+/// Rounds positions and directions to a power of two, so that the low bits are zero and compress away. The step of a
+/// position is the greatest power of two that is not above `precision_m`, so no value moves by more than half of that.
+pub fn round(values: &mut Values, rounding: Rounding, precision_m: f32) {
+    let step = match rounding {
+        Rounding::Exact => return,
+        Rounding::Position => power_of_two_below(precision_m),
+        Rounding::Direction => 1.0 / 4096.0,
+    };
+    if let Values::Float(values) = values {
+        let steps = 1.0 / step;
+        for value in values {
+            // Adding zero makes −0 a 0.
+            *value = (*value * steps).round_ties_even() * step + 0.0;
+        }
+    }
+}
+
+/// The greatest power of two that is not above a positive normal number: its exponent without its fraction.
+fn power_of_two_below(value: f32) -> f32 {
+    f32::from_bits(value.to_bits() & 0x7f80_0000)
+}
+
+/// A set of buffers, one a column, in the order of the table's columns.
+pub trait Columns: Default {
+    /// The rows that are in.
+    fn rows(&self) -> usize;
+
+    /// Takes the buffers out, leaving empty ones.
+    fn take(&mut self) -> Vec<Values>;
+
+    /// Puts emptied buffers back, for their memory.
+    fn give_back(&mut self, values: Vec<Values>);
+}
+
+/// Makes a struct of column buffers; the fields stand in the order of the table's columns.
+macro_rules! columns {
+    ($(#[$meta:meta])* $name:ident { $first:ident: $first_values:ident($first_type:ty), $($field:ident: $values:ident($type:ty)),* $(,)? }) => {
+        $(#[$meta])*
+        #[derive(Debug, Default)]
+        pub struct $name {
+            pub $first: Vec<$first_type>,
+            $(pub $field: Vec<$type>,)*
+        }
+
+        impl $crate::tables::buffers::Columns for $name {
+            fn rows(&self) -> usize {
+                self.$first.len()
+            }
+
+            fn take(&mut self) -> Vec<$crate::tables::buffers::Values> {
+                use $crate::tables::buffers::Values;
+                vec![
+                    Values::$first_values(std::mem::take(&mut self.$first)),
+                    $(Values::$values(std::mem::take(&mut self.$field)),)*
+                ]
+            }
+
+            fn give_back(&mut self, values: Vec<$crate::tables::buffers::Values>) {
+                use $crate::tables::buffers::Values;
+                let mut values = values.into_iter();
+                if let Some(Values::$first_values(buffer)) = values.next() {
+                    self.$first = buffer;
+                }
+                $(if let Some(Values::$values(buffer)) = values.next() {
+                    self.$field = buffer;
+                })*
+            }
+        }
+    };
+}
+pub(crate) use columns;
+
+/// A tick that is over by `last`; null for one that has not come, which the run does not know.
+#[inline]
+pub fn known(tick: Tick, last: Tick) -> i32 {
+    if tick <= last && tick != NEVER { tick as i32 } else { NULL }
+}

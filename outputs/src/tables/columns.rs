@@ -1,0 +1,217 @@
+//! The columns of the four tables, each declared once.
+//!
+//! The arrow schema, the Parquet metadata, `datapackage.json` and the documentation are all made from these lists. Ids
+//! and ticks are signed, because many readers know no unsigned numbers; null means "does not apply" or "not by the end
+//! of the run", and no number stands for it.
+
+use super::schema::{Column, Encoding, Rounding, Type};
+use phytomer_sim::plant::{Cause, EventKind, Kind, Origin};
+
+/// The version of these lists: it changes with a column's name, type or meaning.
+pub const SCHEMA_VERSION: &str = "1";
+
+/// The tags of [`Kind`], in the order of their numbers.
+pub static KINDS: [&str; Kind::ALL.len()] = {
+    let mut tags = [""; Kind::ALL.len()];
+    let mut i = 0;
+    while i < tags.len() {
+        tags[i] = Kind::ALL[i].tag();
+        i += 1;
+    }
+    tags
+};
+
+/// The tags of [`EventKind`], in the order of their numbers.
+pub static EVENT_TAGS: [&str; EventKind::ALL.len()] = {
+    let mut tags = [""; EventKind::ALL.len()];
+    let mut i = 0;
+    while i < tags.len() {
+        tags[i] = EventKind::ALL[i].tag();
+        i += 1;
+    }
+    tags
+};
+
+/// The tags of [`Origin`], in the order of their numbers.
+pub static ORIGINS: [&str; 5] =
+    [Origin::Seed.tag(), Origin::Axillary.tag(), Origin::Relay.tag(), Origin::Traumatic.tag(), Origin::Adaptive.tag()];
+
+/// The causes of death, in the order of their numbers less one.
+pub static CAUSES: [&str; 9] = {
+    const ALL: [Cause; 9] = [
+        Cause::Mortality,
+        Cause::Flowered,
+        Cause::Completed,
+        Cause::LifeLength,
+        Cause::Season,
+        Cause::Branch,
+        Cause::FruitSet,
+        Cause::Killed,
+        Cause::Pruned,
+    ];
+    let mut tags = [""; 9];
+    let mut i = 0;
+    while i < 9 {
+        tags[i] = match ALL[i].tag() {
+            Some(tag) => tag,
+            None => "",
+        };
+        i += 1;
+    }
+    tags
+};
+
+/// The Plant Ontology term of each kind; the ontology tells neither short from long internodes nor apical buds from
+/// buds.
+pub static PLANT_ONTOLOGY: [(Kind, &str); Kind::ALL.len()] = [
+    (Kind::Internode, "PO:0005005"),
+    (Kind::ShortInternode, "PO:0005005"),
+    (Kind::Leaf, "PO:0025034"),
+    (Kind::Flower, "PO:0009046"),
+    (Kind::Fruit, "PO:0009001"),
+    (Kind::ApicalBud, "PO:0000055"),
+];
+
+const TREATMENT: Column = Column::new(
+    "treatment",
+    Type::Name,
+    Encoding::Dictionary,
+    "The treatment of the plot; `control` where a run has one.",
+);
+const PLOT: Column = Column::id("plot_id", "The plot: the plants that share a site.");
+const PLANT: Column = Column::id("plant_id", "The plant's number in the run, from 0.");
+const AGE: Column = Column::id("age", "Ticks since the seed.").unit("tick");
+const COMPONENT: Column = Column::id(
+    "component_id",
+    "The component's number in its plant: dense from 0, a parent's before its children's, the same at every age.",
+);
+const PARENT: Column = Column::id(
+    "parent_id",
+    "The component_id of the internode whose node bears this one; for an apical bud, of the internode that bears its \
+     axis. Null for what stands on the seed.",
+)
+.or_null();
+const AXIS: Column = Column::id("axis_id", "The axis, as the component_id of its apical bud.");
+const ORDER: Column = Column::small("order", "The order of the axis; the trunk is 1.");
+const KIND: Column = Column::word("kind", &KINDS, "What the component is.");
+
+/// A row per component that stands at a recorded age, living or dead.
+pub static RECORDS: [Column; 25] = [
+    TREATMENT,
+    PLOT,
+    PLANT,
+    AGE,
+    COMPONENT,
+    PARENT,
+    AXIS,
+    ORDER,
+    KIND,
+    Column::id(
+        "rank",
+        "The rank along the axis, from 1, of the internode or of the internode that bears the organ; for an apical bud, \
+         the internodes that it has made so far.",
+    ),
+    Column::tick("birth_age", "The age of the plant at which the component appeared."),
+    Column::float("x_m", "m", "The base of the component, eastward; for an apical bud, its place.")
+        .rounded(Rounding::Position),
+    Column::float("y_m", "m", "The same, northward.").rounded(Rounding::Position),
+    Column::float("z_m", "m", "The same, upward.").rounded(Rounding::Position),
+    Column::float("dir_x", "", "The direction in which the component points, a unit vector.")
+        .rounded(Rounding::Direction),
+    Column::float("dir_y", "", "The same, y.").rounded(Rounding::Direction),
+    Column::float("dir_z", "", "The same, z.").rounded(Rounding::Direction),
+    Column::float("up_x", "", "The direction of its upper side, a unit vector across the first.")
+        .rounded(Rounding::Direction),
+    Column::float("up_y", "", "The same, y.").rounded(Rounding::Direction),
+    Column::float("up_z", "", "The same, z.").rounded(Rounding::Direction),
+    Column::float("length_m", "m", "Length along its direction. Null for buds.").repeated().or_null(),
+    Column::float("diameter_m", "m", "Diameter at the base at this age; width of an organ. Null for buds.").or_null(),
+    Column::float("diameter_tip_m", "m", "Diameter at the tip at this age. Null for organs and buds.").or_null(),
+    Column::float("area_m2", "m2", "Area of one side. Null where a component has none.").repeated().or_null(),
+    Column::truth("alive", "False for dead wood that still stands: between its branch's death and its fall."),
+];
+
+/// A row per component that ever lived, by the last age of the run.
+pub static COMPONENTS: [Column; 24] = [
+    TREATMENT,
+    PLOT,
+    PLANT,
+    COMPONENT,
+    Column::new(
+        "lineage_key",
+        Type::Key,
+        Encoding::Plain,
+        "A hash of the path of ranks from the seed: the same in every run and every order of growth.",
+    ),
+    PARENT,
+    AXIS,
+    Column::id("bearing_axis_id", "The axis that bears this axis, as an axis_id. Null on the axis of the seed.")
+        .or_null(),
+    ORDER,
+    KIND,
+    Column::word("origin", &ORIGINS, "How the axis came to be."),
+    Column::small("state", "The state in which the axis started, as the model numbers them."),
+    Column::small(
+        "position",
+        "The position among its like on the node, from 0: of an organ, or of the bud that an axis came from. Null for \
+         internodes.",
+    )
+    .or_null(),
+    Column::id("rank", "The rank along the axis, from 1, of the internode or of the organ's. Null for buds.").or_null(),
+    Column::small("unit_rank", "The same in the growth unit, from 1. Null for buds.").or_null(),
+    Column::truth("neoformed", "Whether the internode was made after bud break. Null for organs and buds.").or_null(),
+    Column::tick("birth_age", "The age of the plant at which the component appeared."),
+    Column::tick("birth_dimension", "The ticks since the birth of the axis, at the component's. Null for buds.")
+        .or_null(),
+    Column::float("length_m", "m", "Length along its direction. Null for buds.").repeated().or_null(),
+    Column::float("birth_diameter_m", "m", "Diameter at birth; width of an organ. Null for buds.").repeated().or_null(),
+    Column::float("area_m2", "m2", "Area of one side. Null where a component has none.").repeated().or_null(),
+    Column::tick(
+        "death_age",
+        "The age at which it died: an organ fell, an apex ended, every bud of an internode's branch was dead. Null for \
+         what was alive at the end.",
+    )
+    .or_null(),
+    Column::tick("shed_age", "The age at which it left the plant. Null for what stood at the end.").or_null(),
+    Column::word("cause_of_death", &CAUSES, "Why it died. Null for what was alive at the end.").or_null(),
+];
+
+/// A row per fate of a bud or a branch, up to the last age of the run.
+pub static EVENTS: [Column; 8] = [
+    TREATMENT,
+    PLOT,
+    PLANT,
+    AGE,
+    Column::id("component_id", "The apical bud: of the new axis where one began, of the branch that fell for `shed`."),
+    Column::id("axis_id", "The axis of that bud: the same number, so that events join by axis too."),
+    Column::word("event", &EVENT_TAGS, "What happened; the falls of organs are in components."),
+    Column::small("count", "Of how many: the nodes of `grew`, the growth units of `completed`; else 1."),
+];
+
+/// A row per plant and recorded age.
+pub static SUMMARY: [Column; 18] = [
+    TREATMENT,
+    PLOT,
+    PLANT,
+    AGE,
+    Column::id("internodes", "Living internodes, long and short."),
+    Column::id("leaves", "Leaves on the plant."),
+    Column::id("flowers", "Flowers on the plant."),
+    Column::id("fruits", "Fruits on the plant."),
+    Column::id("buds", "Living apical buds."),
+    Column::id("dead_internodes", "Dead internodes that still stand."),
+    Column::id("axes", "Axes with an internode that stands or a living bud."),
+    Column::small("max_order", "The highest order among them; 0 where none is left."),
+    Column::double("height_m", "m", "The highest tip of a living internode above the seed. Null where none lives.")
+        .or_null(),
+    Column::double(
+        "crown_width_m",
+        "m",
+        "The mean of the extents along x and y of the tips of living internodes. Null where none lives.",
+    )
+    .or_null(),
+    Column::double("leaf_area_m2", "m2", "One side of every leaf on the plant."),
+    Column::double("wood_volume_m3", "m3", "The frusta of the internodes that stand, living and dead."),
+    Column::truth("alive", "Whether a bud lives."),
+    Column::tick("death_age", "The age at which the last bud died. Null while one lives.").or_null(),
+];

@@ -1,0 +1,150 @@
+//! Encoding of columns on as many threads as there are, while the thread that grows the plants goes on.
+//!
+//! A full row group puts one job a column into a queue. The threads of the rayon pool take jobs from it; the thread that
+//! needs a row group finished takes jobs too, and waits only for what another thread is working on at that moment. So
+//! nothing depends on a free thread in the pool, and a shard never picks up another shard's plants while it waits.
+
+use super::buffers::{self, Values};
+use super::schema::Column;
+use arrow_array::StringArray;
+use arrow_schema::Field;
+use parquet::arrow::arrow_writer::{ArrowColumnChunk, ArrowColumnWriter, compute_leaves};
+use parquet::errors::ParquetError;
+use std::collections::VecDeque;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+
+/// One column of one row group, to be encoded.
+pub struct Job {
+    /// Where the result goes.
+    pub group: Arc<RowGroup>,
+    /// Which column.
+    pub place: usize,
+    /// The declared column.
+    pub column: &'static Column,
+    /// The same for arrow.
+    pub field: Arc<Field>,
+    /// Its words, if it has any.
+    pub words: Arc<StringArray>,
+    /// The precision of positions, if they are rounded.
+    pub precision_m: Option<f32>,
+    /// Its values.
+    pub values: Values,
+    /// What encodes them.
+    pub writer: ArrowColumnWriter,
+}
+
+type Encoded = Result<(ArrowColumnChunk, Values), ParquetError>;
+
+/// A row group whose columns are being encoded.
+pub struct RowGroup {
+    columns: Mutex<Encoding>,
+    finished: Condvar,
+}
+
+struct Encoding {
+    done: Vec<Option<Encoded>>,
+    left: usize,
+}
+
+impl RowGroup {
+    /// A row group of so many columns.
+    pub fn of(columns: usize) -> Arc<Self> {
+        let done = std::iter::repeat_with(|| None).take(columns).collect();
+        Arc::new(Self { columns: Mutex::new(Encoding { done, left: columns }), finished: Condvar::new() })
+    }
+
+    fn put(&self, place: usize, encoded: Encoded) {
+        let mut columns = lock(&self.columns);
+        columns.done[place] = Some(encoded);
+        columns.left -= 1;
+        if columns.left == 0 {
+            self.finished.notify_all();
+        }
+    }
+
+    fn is_finished(&self) -> bool {
+        lock(&self.columns).left == 0
+    }
+
+    fn wait(&self) -> Vec<Encoded> {
+        let mut columns = lock(&self.columns);
+        while columns.left > 0 {
+            columns = self.finished.wait(columns).unwrap_or_else(PoisonError::into_inner);
+        }
+        columns.done.drain(..).flatten().collect()
+    }
+}
+
+/// The jobs of one shard.
+#[derive(Default)]
+pub struct Queue {
+    waiting: Mutex<Waiting>,
+}
+
+#[derive(Default)]
+struct Waiting {
+    jobs: VecDeque<Job>,
+    hands: usize,
+}
+
+impl Queue {
+    /// Puts jobs in, and asks the pool for hands where there are fewer at work than threads to spare.
+    pub fn submit(self: &Arc<Self>, jobs: Vec<Job>) {
+        let spare = rayon::current_num_threads() - 1;
+        let mut waiting = lock(&self.waiting);
+        waiting.jobs.extend(jobs);
+        while waiting.hands < spare {
+            waiting.hands += 1;
+            let queue = self.clone();
+            rayon::spawn(move || queue.work());
+        }
+    }
+
+    /// The columns of `group` in their order, encoding whatever stands before them in the queue.
+    pub fn finish(&self, group: &RowGroup) -> Vec<Encoded> {
+        while !group.is_finished() {
+            let Some(job) = lock(&self.waiting).jobs.pop_front() else { break };
+            job.run();
+        }
+        group.wait()
+    }
+
+    fn work(&self) {
+        while let Some(job) = self.next_or_leave() {
+            job.run();
+        }
+    }
+
+    fn next_or_leave(&self) -> Option<Job> {
+        let mut waiting = lock(&self.waiting);
+        let job = waiting.jobs.pop_front();
+        if job.is_none() {
+            waiting.hands -= 1;
+        }
+        job
+    }
+}
+
+impl Job {
+    fn run(self) {
+        let (group, place) = (self.group.clone(), self.place);
+        group.put(place, self.encode());
+    }
+
+    fn encode(self) -> Encoded {
+        let Self { column, field, words, precision_m, mut values, mut writer, .. } = self;
+        if let Some(precision) = precision_m {
+            buffers::round(&mut values, column.rounding, precision);
+        }
+        let (array, lent) = buffers::lend(values, column, &words)?;
+        for leaf in compute_leaves(&field, &array)? {
+            writer.write(&leaf)?;
+        }
+        drop(array);
+        Ok((writer.close()?, lent.take_back()))
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

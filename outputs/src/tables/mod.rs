@@ -1,0 +1,94 @@
+//! The four tables of a run, from the plant's columns to Parquet part files.
+//!
+//! [`columns`] declares what a table holds; [`records`], [`components`], [`events`] and [`summary`] fill column buffers
+//! from a plant; [`part`] turns full buffers into row groups of one file, encoded column by column on as many threads
+//! as there are ([`encode`]). The bytes do not depend on the number of threads: a row group is a fixed number of rows
+//! and its columns are put into the file in their order.
+
+pub mod arrow;
+mod buffers;
+pub mod columns;
+mod components;
+mod encode;
+mod events;
+mod part;
+mod records;
+pub mod schema;
+mod standing;
+mod summary;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use buffers::Columns;
+pub(crate) use components::ComponentColumns;
+pub(crate) use encode::Queue;
+pub(crate) use events::{EventColumns, sort as sort_events};
+pub(crate) use part::{Part, PartReport};
+pub(crate) use records::{RecordColumns, Scene};
+pub(crate) use standing::Standing;
+pub(crate) use summary::{SummaryColumns, summarise};
+
+use schema::Column;
+use serde::{Deserialize, Serialize};
+
+/// Rows in a row group.
+pub const ROW_GROUP: usize = 122_880;
+
+/// One of the four tables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Table {
+    /// A row per component that ever lived.
+    Components,
+    /// A row per component that stands at a recorded age.
+    Records,
+    /// A row per fate of a bud or a branch.
+    Events,
+    /// A row per plant and recorded age.
+    Summary,
+}
+
+impl Table {
+    /// Every table.
+    pub const ALL: [Self; 4] = [Self::Components, Self::Records, Self::Events, Self::Summary];
+
+    /// Its name, and that of its folder in the run.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Components => "components",
+            Self::Records => "records",
+            Self::Events => "events",
+            Self::Summary => "summary",
+        }
+    }
+
+    /// One sentence about its rows.
+    pub const fn description(self) -> &'static str {
+        match self {
+            Self::Components => "A row per component that ever lived, by the last age of the run.",
+            Self::Records => "A row per component that stands at a recorded age, with its pose.",
+            Self::Events => "A row per fate of a bud or a branch.",
+            Self::Summary => "A row per plant and recorded age.",
+        }
+    }
+
+    /// Its columns.
+    pub fn columns(self) -> &'static [Column] {
+        match self {
+            Self::Components => &columns::COMPONENTS,
+            Self::Records => &columns::RECORDS,
+            Self::Events => &columns::EVENTS,
+            Self::Summary => &columns::SUMMARY,
+        }
+    }
+
+    /// The columns by which its rows are sorted; they also tell one row from another, but for events.
+    pub const fn sorted_by(self) -> &'static [&'static str] {
+        match self {
+            Self::Components => &["plot_id", "plant_id", "component_id"],
+            Self::Records => &["plot_id", "age", "plant_id", "component_id"],
+            Self::Events => &["plot_id", "plant_id", "age", "component_id"],
+            Self::Summary => &["plot_id", "age", "plant_id"],
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! One part file of one table: rows go into column buffers, full buffers become row groups, row groups go to the file.
+//!
+//! Memory is bounded by [`IN_FLIGHT`] row groups and the one that is being filled, whatever the number of plants. The
+//! file is hashed as it is written.
+
+use super::buffers::{Columns, Values};
+use super::encode::{Job, Queue, RowGroup};
+use super::schema::{Column, Type};
+use super::{ROW_GROUP, Table, arrow};
+use crate::Error;
+use crate::run_folder::{HashingFile, RunPlan};
+use arrow_array::StringArray;
+use arrow_schema::SchemaRef;
+use parquet::arrow::ArrowWriter;
+use parquet::arrow::arrow_writer::ArrowRowGroupWriterFactory;
+use parquet::errors::ParquetError;
+use parquet::file::writer::SerializedFileWriter;
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Row groups that may be encoded while the next one is filled.
+const IN_FLIGHT: usize = 2;
+
+/// A part file being written.
+pub struct Part<C> {
+    /// The rows of the row group that is being filled; [`Part::flush_if_full`] goes after each row.
+    pub columns: C,
+    table: Table,
+    path: PathBuf,
+    schema: SchemaRef,
+    words: Vec<Arc<StringArray>>,
+    precision_m: Option<f32>,
+    queue: Arc<Queue>,
+    file: SerializedFileWriter<HashingFile>,
+    factory: ArrowRowGroupWriterFactory,
+    in_flight: VecDeque<Arc<RowGroup>>,
+    spare: Vec<Vec<Values>>,
+    groups: usize,
+    rows: u64,
+}
+
+/// What a part file has become.
+#[derive(Debug, Clone)]
+pub struct PartReport {
+    /// Its rows.
+    pub rows: u64,
+    /// Its bytes.
+    pub bytes: u64,
+    /// Its hash, in hexadecimal.
+    pub sha256: String,
+}
+
+impl<C: Columns> Part<C> {
+    /// Creates the file at `path`, replacing what may be there.
+    pub fn create(table: Table, path: &Path, plan: &RunPlan, queue: &Arc<Queue>) -> Result<Self, Error> {
+        let schema = arrow::schema(table);
+        let properties = arrow::properties(table, plan).map_err(Error::table(path))?;
+        let writer = ArrowWriter::try_new(HashingFile::create(path)?, schema.clone(), Some(properties));
+        let (file, factory) = writer.and_then(ArrowWriter::into_serialized_writer).map_err(Error::table(path))?;
+        let words = table.columns().iter().map(|column| words_of(column, &plan.provenance.treatment)).collect();
+        Ok(Self {
+            columns: C::default(),
+            table,
+            path: path.to_path_buf(),
+            schema,
+            words,
+            precision_m: plan.precision_m.map(|precision| precision as f32),
+            queue: queue.clone(),
+            file,
+            factory,
+            in_flight: VecDeque::new(),
+            spare: Vec::new(),
+            groups: 0,
+            rows: 0,
+        })
+    }
+
+    /// The rows that still fit into the row group.
+    pub fn room(&self) -> usize {
+        ROW_GROUP - self.columns.rows()
+    }
+
+    /// Sends a full row group on its way.
+    #[inline]
+    pub fn flush_if_full(&mut self) -> Result<(), Error> {
+        if self.columns.rows() < ROW_GROUP { Ok(()) } else { self.flush() }
+    }
+
+    #[cold]
+    fn flush(&mut self) -> Result<(), Error> {
+        let path = self.path.clone();
+        self.submit().map_err(Error::table(&path))?;
+        while self.in_flight.len() > IN_FLIGHT {
+            self.write_first().map_err(Error::table(&path))?;
+        }
+        if let Some(buffers) = self.spare.pop() {
+            self.columns.give_back(buffers);
+        }
+        Ok(())
+    }
+
+    fn submit(&mut self) -> Result<(), ParquetError> {
+        let writers = self.factory.create_column_writers(self.groups)?;
+        self.groups += 1;
+        self.rows += self.columns.rows() as u64;
+        let group = RowGroup::of(writers.len());
+        let columns = self.table.columns().iter().zip(self.columns.take()).zip(writers);
+        let job = |(place, ((column, values), writer))| Job {
+            group: group.clone(),
+            place,
+            column,
+            field: self.schema.fields()[place].clone(),
+            words: self.words[place].clone(),
+            precision_m: self.precision_m,
+            values,
+            writer,
+        };
+        self.queue.submit(columns.enumerate().map(job).collect());
+        self.in_flight.push_back(group);
+        Ok(())
+    }
+
+    fn write_first(&mut self) -> Result<(), ParquetError> {
+        let Some(group) = self.in_flight.pop_front() else { return Ok(()) };
+        let columns = self.queue.finish(&group);
+        let mut row_group = self.file.next_row_group()?;
+        let mut buffers = Vec::with_capacity(columns.len());
+        for column in columns {
+            let (chunk, values) = column?;
+            chunk.append_to_row_group(&mut row_group)?;
+            buffers.push(values);
+        }
+        row_group.close()?;
+        self.spare.push(buffers);
+        Ok(())
+    }
+
+    /// Writes what is left, closes the file and makes sure that it is on the disk.
+    pub fn finish(mut self) -> Result<PartReport, Error> {
+        if self.columns.rows() > 0 {
+            self.flush()?;
+        }
+        while !self.in_flight.is_empty() {
+            self.write_first().map_err(Error::table(&self.path))?;
+        }
+        let file = self.file.into_inner().map_err(Error::table(&self.path))?;
+        let (bytes, sha256) = file.finish()?;
+        Ok(PartReport { rows: self.rows, bytes, sha256 })
+    }
+}
+
+fn words_of(column: &Column, treatment: &str) -> Arc<StringArray> {
+    Arc::new(match column.holds {
+        Type::Word(words) => StringArray::from_iter_values(words),
+        Type::Name => StringArray::from_iter_values([treatment]),
+        _ => StringArray::from_iter_values([""; 0]),
+    })
+}

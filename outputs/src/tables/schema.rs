@@ -1,0 +1,117 @@
+//! What a column of a table is: its name, type, unit, encoding and meaning.
+//!
+//! The lists themselves are in [`super::columns`]. Absent: arrow and Parquet, which [`super::arrow`] makes of this.
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Type {
+    /// True or false.
+    Bool,
+    /// A 32-bit signed number.
+    Int,
+    /// A 64-bit signed number.
+    Key,
+    /// A 32-bit real number.
+    Float,
+    /// A 64-bit real number.
+    Double,
+    /// One word of a closed list, as a dictionary string.
+    Word(&'static [&'static str]),
+    /// A word that the run chooses, as a dictionary string.
+    Name,
+}
+
+/// How a column is encoded in Parquet, before compression.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Encoding {
+    /// PLAIN: hashes and truth values, in which no order can be found.
+    Plain,
+    /// DELTA_BINARY_PACKED: numbers that climb or stay.
+    Delta,
+    /// A dictionary: few values, often repeated.
+    Dictionary,
+    /// BYTE_STREAM_SPLIT, never a dictionary: measured real numbers.
+    Split,
+    /// A small dictionary that gives way to BYTE_STREAM_SPLIT: real numbers that laws repeat.
+    Repeated,
+}
+
+/// What the optional rounding does to a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rounding {
+    /// Nothing.
+    Exact,
+    /// A position: to the stated precision.
+    Position,
+    /// A component of a unit vector: to 2⁻¹².
+    Direction,
+}
+
+/// One column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Column {
+    /// Its name, with the unit in it.
+    pub name: &'static str,
+    /// What it holds.
+    pub holds: Type,
+    /// How it is encoded.
+    pub encoding: Encoding,
+    /// Its unit; empty where it has none.
+    pub unit: &'static str,
+    /// Whether it may be null.
+    pub nullable: bool,
+    /// What the optional rounding does to it.
+    pub rounding: Rounding,
+    /// What it means.
+    pub description: &'static str,
+}
+
+impl Column {
+    pub(super) const fn new(name: &'static str, holds: Type, encoding: Encoding, description: &'static str) -> Self {
+        Self { name, holds, encoding, unit: "", nullable: false, rounding: Rounding::Exact, description }
+    }
+
+    pub(super) const fn id(name: &'static str, description: &'static str) -> Self {
+        Self::new(name, Type::Int, Encoding::Delta, description)
+    }
+
+    pub(super) const fn small(name: &'static str, description: &'static str) -> Self {
+        Self::new(name, Type::Int, Encoding::Dictionary, description)
+    }
+
+    pub(super) const fn tick(name: &'static str, description: &'static str) -> Self {
+        Self::new(name, Type::Int, Encoding::Dictionary, description).unit("tick")
+    }
+
+    pub(super) const fn word(name: &'static str, words: &'static [&'static str], description: &'static str) -> Self {
+        Self::new(name, Type::Word(words), Encoding::Dictionary, description)
+    }
+
+    pub(super) const fn truth(name: &'static str, description: &'static str) -> Self {
+        Self::new(name, Type::Bool, Encoding::Plain, description)
+    }
+
+    pub(super) const fn float(name: &'static str, unit: &'static str, description: &'static str) -> Self {
+        Self::new(name, Type::Float, Encoding::Split, description).unit(unit)
+    }
+
+    pub(super) const fn double(name: &'static str, unit: &'static str, description: &'static str) -> Self {
+        Self::new(name, Type::Double, Encoding::Split, description).unit(unit)
+    }
+
+    pub(super) const fn unit(self, unit: &'static str) -> Self {
+        Self { unit, ..self }
+    }
+
+    pub(super) const fn repeated(self) -> Self {
+        Self { encoding: Encoding::Repeated, ..self }
+    }
+
+    pub(super) const fn rounded(self, rounding: Rounding) -> Self {
+        Self { rounding, ..self }
+    }
+
+    pub(super) const fn or_null(self) -> Self {
+        Self { nullable: true, ..self }
+    }
+}

@@ -1,0 +1,144 @@
+//! Which components of a plant stand at an age, in the order of their numbers.
+//!
+//! Nodes, organs and axes each climb in component numbers; together they fill the numbers from 0 without a gap. So the
+//! columns of a plant are laid out once by number: which component it is, from when and until when it stands. An age is
+//! then one straight scan.
+
+use crate::Error;
+use phytomer_sim::Tick;
+use phytomer_sim::plant::{AxisId, NodeId, OrganId, Plant};
+
+/// Components that are picked out of the scan at a time.
+pub const SELECTION: usize = 4096;
+
+/// The two high bits of a place tell the class, the others the index.
+const CLASS_SHIFT: u32 = 30;
+const INDEX: u32 = (1 << CLASS_SHIFT) - 1;
+
+/// A component, by the columns it is in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Component {
+    /// An internode with its node.
+    Node(NodeId),
+    /// A leaf, a flower or a fruit.
+    Organ(OrganId),
+    /// The apical bud of an axis.
+    Bud(AxisId),
+}
+
+/// The components of one plant by their numbers.
+#[derive(Debug, Default)]
+pub struct Standing {
+    of: Option<(u32, Tick, u32)>,
+    places: Vec<u32>,
+    from: Vec<Tick>,
+    until: Vec<Tick>,
+    tips: Vec<NodeId>,
+}
+
+impl Standing {
+    /// Lays out `plant`, unless it is laid out already: a plant changes its columns only with its age.
+    ///
+    /// # Errors
+    /// [`Error::PlantTooLarge`].
+    pub fn read(&mut self, plant: &Plant) -> Result<(), Error> {
+        let components = plant.components();
+        if components > INDEX {
+            return Err(Error::PlantTooLarge { plant: plant.id, components, most: INDEX });
+        }
+        let now = Some((plant.id, plant.age, components));
+        if self.of != now {
+            self.of = now;
+            self.lay_out(plant);
+        }
+        Ok(())
+    }
+
+    /// Forgets the plant.
+    pub fn forget(&mut self) {
+        self.of = None;
+    }
+
+    fn lay_out(&mut self, plant: &Plant) {
+        let components = plant.components() as usize;
+        for column in [&mut self.places, &mut self.from, &mut self.until] {
+            column.resize(components, 0);
+        }
+        let Plant { axes, nodes, organs, .. } = plant;
+        for node in 0..nodes.len() {
+            self.put(nodes.component[node], 0, node, nodes.birth[node], nodes.shed[node]);
+        }
+        for organ in 0..organs.len() {
+            self.put(organs.component[organ], 1, organ, organs.birth[organ], organ_end(plant, OrganId(organ as u32)));
+        }
+        for axis in 0..axes.len() {
+            let until = axes.apex_end[axis].min(axes.shed[axis]);
+            self.put(axes.component[axis], 2, axis, axes.appearance[axis], until);
+        }
+    }
+
+    #[inline]
+    fn put(&mut self, component: u32, class: u32, index: usize, from: Tick, until: Tick) {
+        let component = component as usize;
+        self.places[component] = class << CLASS_SHIFT | index as u32;
+        self.from[component] = from;
+        self.until[component] = until;
+    }
+
+    /// The component of a number.
+    #[inline]
+    pub fn component(&self, number: u32) -> Component {
+        let place = self.places[number as usize];
+        let index = place & INDEX;
+        match place >> CLASS_SHIFT {
+            0 => Component::Node(NodeId(index)),
+            1 => Component::Organ(OrganId(index)),
+            _ => Component::Bud(AxisId(index)),
+        }
+    }
+
+    /// Puts into `numbers` the next components that stand at `age`, at most [`SELECTION`] and at most `room`, going on
+    /// from `next`. None is left when `next` has come to the plant's number of components.
+    pub fn select(&self, age: Tick, room: usize, next: &mut u32, numbers: &mut Vec<u32>) {
+        let start = *next as usize;
+        let end = (start + SELECTION.min(room)).min(self.places.len());
+        numbers.resize(end - start, 0);
+        let mut found = 0;
+        for (number, (from, until)) in (*next..).zip(self.from[start..end].iter().zip(&self.until[start..end])) {
+            // Written always, kept where it stands: no branch to mispredict.
+            numbers[found] = number;
+            found += usize::from(*from <= age && age < *until);
+        }
+        numbers.truncate(found);
+        *next = end as u32;
+    }
+
+    /// The components of the plant.
+    pub fn len(&self) -> u32 {
+        self.places.len() as u32
+    }
+
+    /// Finds the last internode of each axis at `age`, for [`Standing::tip`].
+    pub fn find_tips(&mut self, plant: &Plant, age: Tick) {
+        self.tips.clear();
+        self.tips.resize(plant.axes.len(), NodeId::NONE);
+        for (node, (birth, axis)) in (0..).zip(plant.nodes.birth.iter().zip(&plant.nodes.axis)) {
+            if *birth <= age {
+                self.tips[axis.index()] = NodeId(node);
+            }
+        }
+    }
+
+    /// The last internode of an axis at the age of [`Standing::find_tips`]; [`NodeId::NONE`] before the first.
+    #[inline]
+    pub fn tip(&self, axis: AxisId) -> NodeId {
+        self.tips[axis.index()]
+    }
+}
+
+/// The tick at which an organ is gone: its own fall, or the fall of its branch if that should come first.
+#[inline]
+pub fn organ_end(plant: &Plant, organ: OrganId) -> Tick {
+    let node = plant.organs.node[organ.index()];
+    plant.organs.death[organ.index()].min(plant.nodes.shed[node.index()])
+}

@@ -1,0 +1,132 @@
+//! The rows of `summary`: one plant at one age in a few numbers, which agree with a count of its `records`.
+
+use super::buffers::{NULL, columns};
+use super::standing::{Standing, organ_end};
+use phytomer_sim::plant::{AxisId, Kind, NodeId, OrganId, Plant};
+use phytomer_sim::pose::node_frame;
+use phytomer_sim::{Plot, Tick};
+
+columns! {
+    /// The buffers of `summary`.
+    SummaryColumns {
+        treatment: Word(i8), plot: Int(i32), plant: Int(i32), age: Int(i32),
+        internodes: Int(i32), leaves: Int(i32), flowers: Int(i32), fruits: Int(i32), buds: Int(i32),
+        dead_internodes: Int(i32), axes: Int(i32), max_order: Int(i32),
+        height: Double(f64), crown_width: Double(f64), leaf_area: Double(f64), wood_volume: Double(f64),
+        alive: Bool(i8), death: Int(i32),
+    }
+}
+
+/// One plant at one age; what is null in the table is NaN here.
+#[derive(Debug, Clone, Default)]
+pub struct Summary {
+    internodes: u32,
+    leaves: u32,
+    flowers: u32,
+    fruits: u32,
+    buds: u32,
+    dead_internodes: u32,
+    axes: u32,
+    max_order: u8,
+    height: f64,
+    crown_width: f64,
+    leaf_area: f64,
+    wood_volume: f64,
+}
+
+/// Sums up `plant` at `age`; `standing` has the tips of its axes at that age.
+pub fn summarise(plant: &Plant, standing: &Standing, age: Tick) -> Summary {
+    let mut summary = Summary::default();
+    count_nodes(plant, age, &mut summary);
+    count_organs(plant, age, &mut summary);
+    count_axes(plant, standing, age, &mut summary);
+    summary
+}
+
+fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
+    let nodes = &plant.nodes;
+    let mut low = [f32::INFINITY; 3];
+    let mut high = [f32::NEG_INFINITY; 3];
+    for node in 0..nodes.len() {
+        if nodes.birth[node] > age || age >= nodes.shed[node] {
+            continue;
+        }
+        summary.wood_volume += frustum(nodes.length[node], nodes.diameter[node], nodes.diameter_tip[node]);
+        if age >= nodes.death[node] {
+            summary.dead_internodes += 1;
+            continue;
+        }
+        summary.internodes += 1;
+        let tip = node_frame(plant, NodeId(node as u32)).base;
+        for k in 0..3 {
+            low[k] = low[k].min(tip[k]);
+            high[k] = high[k].max(tip[k]);
+        }
+    }
+    let extent = |k: usize| f64::from(high[k]) - f64::from(low[k]);
+    let lives = summary.internodes > 0;
+    summary.height = if lives { f64::from(high[2]) - f64::from(plant.place[2]) } else { f64::NAN };
+    summary.crown_width = if lives { (extent(0) + extent(1)) / 2.0 } else { f64::NAN };
+}
+
+fn frustum(length: f32, base: f32, tip: f32) -> f64 {
+    let (length, base, tip) = (f64::from(length), f64::from(base), f64::from(tip));
+    std::f64::consts::PI / 12.0 * length * (base * base + base * tip + tip * tip)
+}
+
+fn count_organs(plant: &Plant, age: Tick, summary: &mut Summary) {
+    let organs = &plant.organs;
+    for organ in 0..organs.len() {
+        if organs.birth[organ] > age || age >= organ_end(plant, OrganId(organ as u32)) {
+            continue;
+        }
+        match organs.kind[organ] {
+            Kind::Leaf => {
+                summary.leaves += 1;
+                summary.leaf_area += f64::from(organs.area[organ]);
+            }
+            Kind::Flower => summary.flowers += 1,
+            Kind::Fruit => summary.fruits += 1,
+            Kind::Internode | Kind::ShortInternode | Kind::ApicalBud => {}
+        }
+    }
+}
+
+fn count_axes(plant: &Plant, standing: &Standing, age: Tick, summary: &mut Summary) {
+    let axes = &plant.axes;
+    for axis in 0..axes.len() {
+        let there = age < axes.shed[axis];
+        let bud = there && plant.bud_lives(AxisId(axis as u32), age);
+        let stem = there && standing.tip(AxisId(axis as u32)).some().is_some();
+        summary.buds += u32::from(bud);
+        if bud || stem {
+            summary.axes += 1;
+            summary.max_order = summary.max_order.max(axes.order[axis]);
+        }
+    }
+}
+
+impl SummaryColumns {
+    /// Adds the row of one plant at one age.
+    pub fn add(&mut self, plot: &Plot, plant: &Plant, age: Tick, summary: &Summary) {
+        let dead = plant.death <= age;
+        self.treatment.push(0);
+        self.plot.push(plot.id as i32);
+        self.plant.push(plant.id as i32);
+        self.age.push(age as i32);
+        self.internodes.push(summary.internodes as i32);
+        self.leaves.push(summary.leaves as i32);
+        self.flowers.push(summary.flowers as i32);
+        self.fruits.push(summary.fruits as i32);
+        self.buds.push(summary.buds as i32);
+        self.dead_internodes.push(summary.dead_internodes as i32);
+        self.axes.push(summary.axes as i32);
+        self.max_order.push(i32::from(summary.max_order));
+        self.height.push(summary.height);
+        self.crown_width.push(summary.crown_width);
+        self.leaf_area.push(summary.leaf_area);
+        self.wood_volume.push(summary.wood_volume);
+        self.alive.push(i8::from(!dead));
+        self.death.push(if dead { plant.death as i32 } else { NULL });
+    }
+}
