@@ -9,7 +9,7 @@ use crate::model::{Growth, GrowthModel, Overgrown};
 use crate::plot::Plot;
 use crate::pose::pose;
 use crate::record::{RecordError, Recorder};
-use crate::shed::shed;
+use crate::shed::{note_falls, shed};
 
 /// How a plot came to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,6 +30,18 @@ pub enum Ending {
 /// # Errors
 /// The recorder's.
 pub fn grow(
+    model: &dyn GrowthModel,
+    plot: &mut Plot,
+    until: Tick,
+    recorder: &mut dyn Recorder,
+) -> Result<Ending, RecordError> {
+    let ending = follow_ages(model, plot, until, recorder)?;
+    let last = plot.site.age;
+    plot.plants.iter_mut().for_each(|plant| note_falls(plant, last));
+    Ok(ending)
+}
+
+fn follow_ages(
     model: &dyn GrowthModel,
     plot: &mut Plot,
     until: Tick,

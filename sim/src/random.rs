@@ -4,11 +4,12 @@
 //! A plant's 256-bit key is a hash of the run's seed and the plant's number. Each axis has streams of its own, named by
 //! its lineage key, one for each [`Purpose`]; within a stream the word position is the place in the axis's life. So a
 //! draw can be sought at any time, in any order, on any thread, and a plant does not depend on its neighbours.
+//!
+//! The words are those of `rand_chacha`'s `ChaCha8Rng` with the same seed and stream, word for word, which a test holds.
+//! That crate makes four blocks at each seek; growth by the clock needs a few words of each of many streams, so the
+//! block is made here, one at a time.
 
 use crate::plant::key::{LineageKey, mix, scramble};
-use rand::Rng;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 /// What the words of a stream decide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,70 +22,140 @@ pub enum Purpose {
     Relay = 2,
 }
 
+/// The words of one ChaCha block.
+const BLOCK: u64 = 16;
+
+/// No block: no stream is that long.
+const NO_BLOCK: u64 = u64::MAX;
+
 /// The source of every draw of one plant.
 #[derive(Debug, Clone)]
 pub struct PlantRandom {
-    seed: [u8; 32],
+    key: [u32; 8],
 }
 
 impl PlantRandom {
     /// The draws of plant number `plant` in a run seeded with `seed`.
     pub fn new(seed: u64, plant: u64) -> Self {
-        let mut bytes = [0; 32];
+        let mut key = [0; 8];
         let mut state = mix(scramble(seed), plant);
-        for chunk in bytes.chunks_exact_mut(8) {
+        for pair in key.chunks_exact_mut(2) {
             state = scramble(state);
-            chunk.copy_from_slice(&state.to_le_bytes());
+            pair.copy_from_slice(&[state as u32, (state >> 32) as u32]);
         }
-        Self { seed: bytes }
+        Self { key }
     }
 
     /// The stream of the axis with lineage key `axis`, standing at its first word.
     pub fn stream(&self, axis: LineageKey, purpose: Purpose) -> Stream {
-        let mut words = ChaCha8Rng::from_seed(self.seed);
-        words.set_stream(mix(axis.0, purpose as u64));
-        Stream { words, position: 0 }
+        let name = mix(axis.0, purpose as u64);
+        Stream { key: self.key, name, position: 0, block: NO_BLOCK, words: [0; BLOCK as usize] }
     }
 }
 
 /// The 32-bit words of one axis for one purpose; sought by position, cheap to read forward.
 #[derive(Debug, Clone)]
 pub struct Stream {
-    words: ChaCha8Rng,
+    key: [u32; 8],
+    name: u64,
     position: u64,
+    block: u64,
+    words: [u32; BLOCK as usize],
 }
 
 impl Stream {
-    /// Goes to word `position`; free where the stream stands there already.
+    /// Goes to word `position`.
     #[inline]
     pub fn seek(&mut self, position: u64) {
-        if position != self.position {
-            self.words.set_word_pos(u128::from(position));
-            self.position = position;
-        }
+        self.position = position;
     }
 
     /// The next word, uniform over all 2³² values.
     #[inline]
     pub fn word(&mut self) -> u32 {
+        let block = self.position / BLOCK;
+        if block != self.block {
+            self.words = chacha8(&self.key, block, self.name);
+            self.block = block;
+        }
+        let word = self.words[(self.position % BLOCK) as usize];
         self.position += 1;
-        self.words.next_u32()
+        word
     }
+}
+
+/// A row of the ChaCha state.
+type Row = [u32; 4];
+
+/// One block of ChaCha8 (Bernstein 2008, *ChaCha, a variant of Salsa20*), with a 64-bit counter and a 64-bit stream.
+fn chacha8(key: &[u32; 8], counter: u64, stream: u64) -> [u32; BLOCK as usize] {
+    let start: [Row; 4] = [
+        [0x6170_7865, 0x3320_646e, 0x7962_2d32, 0x6b20_6574],
+        [key[0], key[1], key[2], key[3]],
+        [key[4], key[5], key[6], key[7]],
+        [counter as u32, (counter >> 32) as u32, stream as u32, (stream >> 32) as u32],
+    ];
+    let [mut a, mut b, mut c, mut d] = start;
+    for _ in 0..4 {
+        quarter_rounds(&mut a, &mut b, &mut c, &mut d);
+        (b, c, d) = (turned::<1>(b), turned::<2>(c), turned::<3>(d));
+        quarter_rounds(&mut a, &mut b, &mut c, &mut d);
+        (b, c, d) = (turned::<3>(b), turned::<2>(c), turned::<1>(d));
+    }
+    let mut words = [0; BLOCK as usize];
+    for (row, (mixed, first)) in [a, b, c, d].into_iter().zip(start).enumerate() {
+        for column in 0..4 {
+            words[4 * row + column] = mixed[column].wrapping_add(first[column]);
+        }
+    }
+    words
+}
+
+/// Four quarter rounds side by side, one a column.
+#[inline(always)]
+fn quarter_rounds(a: &mut Row, b: &mut Row, c: &mut Row, d: &mut Row) {
+    mix_rows::<16>(a, b, d);
+    mix_rows::<12>(c, d, b);
+    mix_rows::<8>(a, b, d);
+    mix_rows::<7>(c, d, b);
+}
+
+/// sum += addend; turning = (turning xor sum) rotated left.
+#[inline(always)]
+fn mix_rows<const BITS: u32>(sum: &mut Row, addend: &Row, turning: &mut Row) {
+    for column in 0..4 {
+        sum[column] = sum[column].wrapping_add(addend[column]);
+        turning[column] = (turning[column] ^ sum[column]).rotate_left(BITS);
+    }
+}
+
+#[inline(always)]
+fn turned<const LEFT: usize>(row: Row) -> Row {
+    [row[LEFT % 4], row[(LEFT + 1) % 4], row[(LEFT + 2) % 4], row[(LEFT + 3) % 4]]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::Rng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
 
     #[test]
-    fn a_sought_word_equals_the_word_read_in_sequence() {
-        let random = PlantRandom::new(7, 3);
-        let mut forward = random.stream(LineageKey(42), Purpose::Bud);
-        let sequence: Vec<u32> = (0..200).map(|_| forward.word()).collect();
-        let mut sought = random.stream(LineageKey(42), Purpose::Bud);
-        for position in [199_u64, 0, 63, 64, 65, 4, 128] {
-            sought.seek(position);
-            assert_eq!(sought.word(), sequence[position as usize]);
+    fn the_words_are_those_of_rand_chacha() {
+        let random = PlantRandom::new(1988, 23);
+        let mut stream = random.stream(LineageKey(0xdead_beef_0123_4567), Purpose::Node);
+        let mut seed = [0; 32];
+        for (bytes, word) in seed.chunks_exact_mut(4).zip(random.key) {
+            bytes.copy_from_slice(&word.to_le_bytes());
+        }
+        let mut reference = ChaCha8Rng::from_seed(seed);
+        reference.set_stream(stream.name);
+        assert!((0..1000).all(|_| stream.word() == reference.next_u32()));
+        for position in [3_u64, 64, (1 << 36) + 5, 17] {
+            stream.seek(position);
+            reference.set_word_pos(u128::from(position));
+            assert!((0..40).all(|_| stream.word() == reference.next_u32()), "from {position}");
         }
     }
 

@@ -6,7 +6,7 @@
 //! their branch if their own life is longer.
 
 use crate::clock::{NEVER, Tick};
-use crate::plant::{ApexFate, Cause, Event, EventKind, Plant};
+use crate::plant::{ApexFate, AxisId, Cause, Event, EventKind, Plant};
 
 /// Writes the death and the fall of every branch of `plant` whose buds are all dead, and of what it bears.
 pub fn shed(plant: &mut Plant) {
@@ -46,13 +46,25 @@ fn drop_branches(plant: &mut Plant) {
         let bearing = plant.axes.bearer[axis].some().map(|bearer| plant.nodes.axis[bearer.index()].index());
         let with_bearer = bearing.map_or(NEVER, |bearing| plant.axes.shed[bearing]);
         let own = fall(plant.axes.death[axis], plant.habit.shed_after(plant.axes.order[axis]));
-        let was = plant.axes.shed[axis];
         plant.axes.shed[axis] = own.min(with_bearer);
-        let newly = was == NEVER && own < with_bearer && plant.axes.last_node[axis].some().is_some();
-        if let (true, Some(events)) = (newly, &mut plant.events) {
-            events.push(Event { tick: own, axis: crate::plant::AxisId(axis as u32), kind: EventKind::Shed, count: 1 });
+    }
+}
+
+/// Notes the falls up to `age` among the plant's events, once it is grown: a branch that falls with the one that bears it
+/// is part of that one's fall, and a bud that never made a node does not fall.
+pub fn note_falls(plant: &mut Plant, age: Tick) {
+    let Some(mut events) = plant.events.take() else {
+        return;
+    };
+    for axis in (0..plant.axes.len()).filter(|&axis| plant.axes.last_node[axis].some().is_some()) {
+        let bearing = plant.axes.bearer[axis].some().map(|bearer| plant.nodes.axis[bearer.index()].index());
+        let with_bearer = bearing.map_or(NEVER, |bearing| plant.axes.shed[bearing]);
+        let tick = plant.axes.shed[axis];
+        if tick <= age && tick < with_bearer {
+            events.push(Event { tick, axis: AxisId(axis as u32), kind: EventKind::Shed, count: 1 });
         }
     }
+    plant.events = Some(events);
 }
 
 fn fall(death: Tick, after: Tick) -> Tick {

@@ -35,9 +35,6 @@ impl Axis<'_> {
         let flowers = laws.flowers.draw(words, 0, at);
         let buds = laws.axillary.count.draw(words, 0, at);
         let reiterations = laws.reiteration.count.draw(words, 0, at);
-        if !self.plant.has_room_for(1 + leaves + 2 * flowers + buds + reiterations) {
-            return Err(Full);
-        }
         let azimuth = self.bud.azimuth;
         let node = self.internode(rank, short, neoformed, at);
         let spacing = TURN / leaves.max(buds).max(1) as f32;
@@ -49,7 +46,7 @@ impl Axis<'_> {
         }
         self.axillary(node, rank, nodes, buds, azimuth);
         self.reiterations(node, reiterations, azimuth + spacing / 2.0, at);
-        Ok(())
+        if self.plant.is_overgrown() { Err(Full) } else { Ok(()) }
     }
 
     fn internode(&mut self, rank: u32, short: bool, neoformed: bool, at: At) -> NodeId {
@@ -162,9 +159,6 @@ impl Axis<'_> {
         let Some(node) = self.own_last_node().filter(|_| relayed || released) else {
             return Ok(());
         };
-        if !self.plant.has_room_for(64) {
-            return Err(Full);
-        }
         self.read_end();
         if relayed {
             self.relays(node);
@@ -172,7 +166,7 @@ impl Axis<'_> {
         if released {
             self.release(node);
         }
-        Ok(())
+        if self.plant.is_overgrown() { Err(Full) } else { Ok(()) }
     }
 
     fn read_end(&mut self) {

@@ -129,6 +129,12 @@ impl Plant {
         self.components.saturating_add(more) <= self.component_limit
     }
 
+    /// Whether the plant has more components than it may have: whoever grows it stops and says so.
+    #[inline]
+    pub fn is_overgrown(&self) -> bool {
+        self.components > self.component_limit
+    }
+
     /// The most components that the plant may have.
     pub fn component_limit(&self) -> u32 {
         self.component_limit
