@@ -1,0 +1,122 @@
+//! The order-specific recursion M(o,q)(n) = s_o [M(o,q)(n − 1) + g_o (1{o = q} + k_o a_o M(o+1,q)(n − 1))], M(0) = 0, for
+//! three random sets of laws, against the cohorts that `--dry-run` sums and against grown plants; and the cohorts against
+//! grown plants where laws are richer than the recursion.
+
+use crate::grown::{PLANTS, Sample, compiled, plant, units_by_order};
+use phytomer_models::buds::law::{Count, CountForm, Law, LawForm, Poisson};
+use phytomer_models::buds::params::{Apex, ApexEnd, Axillary, GrowthUnit, Relay, SpeedText, Traumatic};
+use phytomer_models::buds::{Buds, Order};
+use phytomer_sim::GrowthModel as _;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng as _, SeedableRng as _};
+
+#[derive(Debug, Clone, Copy)]
+struct Constant {
+    death: f64,
+    pause: f64,
+    buds: u32,
+    ramification: f64,
+}
+
+fn random_laws(seed: u64) -> [Constant; 3] {
+    let mut words = ChaCha8Rng::seed_from_u64(seed);
+    let mut share = |most: f64| most * f64::from(words.next_u32()) / 4_294_967_296.0;
+    [0; 3].map(|_| Constant {
+        death: share(0.2),
+        pause: share(0.6),
+        buds: 1 + share(3.0) as u32,
+        ramification: share(1.0),
+    })
+}
+
+/// The recursion, as it stands in the module's documentation; orders from 0.
+fn recursion(laws: &[Constant; 3], order: usize, counted: usize, ticks: u32) -> f64 {
+    if order > 2 || ticks == 0 {
+        return 0.0;
+    }
+    let Constant { death, pause, buds, ramification } = laws[order];
+    let own = f64::from(u8::from(order == counted));
+    let lateral = f64::from(buds) * ramification * recursion(laws, order + 1, counted, ticks - 1);
+    (1.0 - death) * (recursion(laws, order, counted, ticks - 1) + (1.0 - pause) * (own + lateral))
+}
+
+fn species(laws: &[Constant; 3]) -> Buds {
+    let order = |law: &Constant| Order {
+        death: Law::from(law.death),
+        pause: Law::from(law.pause),
+        axillary: Axillary {
+            buds: Count::from(law.buds),
+            ramification: Law::from(law.ramification),
+            ..Axillary::default()
+        },
+        ..Order::default()
+    };
+    Buds { order: laws.iter().map(order).collect(), ..Buds::default() }
+}
+
+#[test]
+fn cohorts_equal_the_recursion_and_plants_follow_both() {
+    for seed in [1, 2, 3] {
+        let laws = random_laws(seed);
+        let until = 8;
+        let model = compiled(&species(&laws), until);
+        for from in 0..3_usize {
+            let summed = model.expectation_from(from as u8 + 1, until).unwrap();
+            for counted in 0..3 {
+                for age in 0..=until {
+                    let (cohorts, closed) = (summed.orders[counted].units[age as usize], recursion(&laws, from, counted, age));
+                    assert!((cohorts - closed).abs() <= 1e-9 * closed.max(1.0), "set {seed}, M({from},{counted})({age})");
+                }
+            }
+        }
+        let plants: Vec<_> = (0..PLANTS).map(|number| units_by_order(&plant(&model, number, until), until)).collect();
+        for counted in 0..3 {
+            let sample = Sample::of(plants.iter().map(|units| units[counted] as f64));
+            sample.assert_mean(recursion(&laws, 0, counted, until), &format!("set {seed}, order {}", counted + 1));
+        }
+    }
+}
+
+/// Ages, ranks, speeds, relays, traumatic reiteration, random nodes and delays: beyond the recursion, within the cohorts.
+#[test]
+fn cohorts_follow_laws_of_age_and_random_counts() {
+    let expression = |text: &str| Law::from(LawForm { expression: Some(text.to_owned()), ..LawForm::default() });
+    let poisson = |mean: f64| {
+        let poisson = Poisson { mean: Law::from(mean) };
+        Count::from(CountForm { poisson: Some(poisson), ..CountForm::default() })
+    };
+    let trunk = Order {
+        death: expression("0.004 * dimension"),
+        pause: expression("min(0.5, 0.03 * age)"),
+        growth_unit: GrowthUnit { nodes: poisson(1.6), per_step: Count::from(2), ..GrowthUnit::default() },
+        axillary: Axillary {
+            buds: Count::from(2),
+            ramification: expression("0.2 * rank / (1 + rank)"),
+            delay: poisson(1.0),
+            ..Axillary::default()
+        },
+        relay: Relay { on: vec![ApexEnd::Death], count: Count::from(2), probability: Law::from(0.7), ..Relay::default() },
+        traumatic: Traumatic { probability: Law::from(0.3), ..Traumatic::default() },
+        ..Order::default()
+    };
+    let branch = Order {
+        speed: SpeedText::Ratio("2/3".to_owned()),
+        death: Law::from(0.05),
+        apex: Apex { units: Some(Count::from(CountForm { empirical: Some(vec![0.0, 1.0, 2.0, 1.0]), ..CountForm::default() })) },
+        ..Order::default()
+    };
+    let until = 12;
+    let model = compiled(&Buds { order: vec![trunk, branch], ..Buds::default() }, until);
+    let expected = model.expectation(until).unwrap();
+    let plants: Vec<_> = (0..PLANTS).map(|number| plant(&model, number, until)).collect();
+    for order in [1_u8, 2] {
+        let of_order = |axis: usize, plant: &phytomer_sim::Plant| plant.axes.order[axis] == order;
+        let nodes = Sample::of(plants.iter().map(|plant| {
+            (0..plant.nodes.len()).filter(|&node| of_order(plant.nodes.axis[node].index(), plant)).count() as f64
+        }));
+        let axes = Sample::of(plants.iter().map(|plant| (0..plant.axes.len()).filter(|&axis| of_order(axis, plant)).count() as f64));
+        let means = &expected.orders[usize::from(order) - 1];
+        nodes.assert_mean(means.nodes[until as usize], &format!("nodes of order {order}"));
+        axes.assert_mean(means.axes[until as usize], &format!("axes of order {order}"));
+    }
+}
