@@ -1,1 +1,20 @@
-//! phytomer
+//! Grow any plant from seed to death, a million at a time, and query the result like a database.
+//!
+//! This is the facade: the five crates of the house under short names, and [`run`], which makes a run folder out of a
+//! scenario. The command line is the binary's own (`cli/`).
+//!
+//! ```no_run
+//! use phytomer::run::{self, Progress, Settings};
+//!
+//! let resolved = phytomer::config::validate("coffee").map_err(|report| report.render(false)).unwrap();
+//! let outcome = run::run(&resolved, &Settings::in_folder("runs/coffee"), &Progress::default()).unwrap();
+//! println!("{} components", outcome.report.components);
+//! ```
+
+pub use phytomer_analysis as analysis;
+pub use phytomer_config as config;
+pub use phytomer_models as models;
+pub use phytomer_outputs as outputs;
+pub use phytomer_sim as sim;
+
+pub mod run;

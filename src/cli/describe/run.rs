@@ -1,0 +1,158 @@
+//! What a run folder holds: tables with rows, parts and sizes, ages, plants, seed, version, limits that were met.
+//!
+//! Rows are counted in the Parquet files themselves, so that an unfinished run is told as far as it has come.
+
+use super::super::amounts;
+use super::super::named::Recorded;
+use anyhow::Result;
+use phytomer_outputs::Table;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A run folder and what was found in it.
+pub struct Held {
+    recorded: Recorded,
+    folder: PathBuf,
+    tables: BTreeMap<Table, Size>,
+    meshes: Size,
+}
+
+/// Rows, files and bytes.
+#[derive(Debug, Clone, Copy, Default)]
+struct Size {
+    rows: u64,
+    files: u64,
+    bytes: u64,
+}
+
+impl Size {
+    fn add(&mut self, file: &Path) {
+        self.files += 1;
+        self.bytes += fs::metadata(file).map(|metadata| metadata.len()).unwrap_or_default();
+    }
+
+    fn as_json(self) -> Value {
+        json!({"rows": self.rows, "files": self.files, "bytes": self.bytes})
+    }
+}
+
+impl Held {
+    /// Looks into the folder.
+    ///
+    /// # Errors
+    /// Where a file of it cannot be read.
+    pub fn of(recorded: Recorded, folder: PathBuf) -> Result<Self> {
+        let mut tables = BTreeMap::new();
+        for (table, rows) in recorded.run.rows()? {
+            let mut size = Size { rows, ..Size::default() };
+            recorded.run.parts(table)?.iter().for_each(|part| size.add(part));
+            tables.insert(table, size);
+        }
+        let mut meshes = Size::default();
+        if let Ok(files) = fs::read_dir(folder.join("meshes")) {
+            let files = files.flatten().map(|file| file.path());
+            files.filter(|file| file.extension().is_some_and(|end| end == "ply")).for_each(|file| meshes.add(&file));
+        }
+        Ok(Self { recorded, folder, tables, meshes })
+    }
+
+    fn words(&self, key: &str) -> &str {
+        self.recorded.run.json()[key].as_str().unwrap_or("unknown")
+    }
+
+    fn number(&self, key: &str) -> Option<u64> {
+        self.recorded.run.json()[key].as_u64()
+    }
+
+    fn overgrown(&self) -> usize {
+        self.recorded.run.json()["overgrown"].as_array().map_or(0, Vec::len)
+    }
+
+    pub fn as_json(&self) -> Value {
+        let tables: serde_json::Map<_, _> =
+            self.tables.iter().map(|(table, size)| (table.name().to_owned(), size.as_json())).collect();
+        let run = self.recorded.run.json();
+        json!({
+            "kind": "run",
+            "run": self.folder.display().to_string(),
+            "status": run["status"],
+            "scenario": run["scenario"],
+            "species": self.recorded.species.about.name,
+            "seed": run["seed"],
+            "version": run["version"],
+            "git_hash": run["git_hash"],
+            "schema_version": run["schema_version"],
+            "plants": self.recorded.scenario.plants,
+            "living": run["living"],
+            "dead": run["dead"],
+            "components": run["components"],
+            "until": self.recorded.scenario.ages.until,
+            "recorded_ages": run["recorded_ages"],
+            "tables": tables,
+            "meshes": self.meshes.as_json(),
+            "overgrown": run["overgrown"],
+        })
+    }
+
+    pub fn as_text(&self) -> String {
+        let scenario = &self.recorded.scenario;
+        let status = if self.recorded.run.is_complete() { "a complete run" } else { "an unfinished run" };
+        let (name, species) = (self.words("scenario"), &self.recorded.species.about.name);
+        let mut text = format!("{}: {status} of the scenario `{name}`, species `{species}`\n", self.folder.display());
+        let mut line = |name: &str, value: String| {
+            let _ = writeln!(text, "  {name:<11} {value}");
+        };
+        line("plants", self.plants_in_words());
+        line("ages", ages_in_words(&scenario.ages.recorded(), scenario.ages.until));
+        if let Some(components) = self.number("components") {
+            line("components", amounts::count(components));
+        }
+        line("seed", scenario.seed.to_string());
+        line("made by", format!("phytomer {} ({})", self.words("version"), self.words("git_hash")));
+        if self.overgrown() > 0 {
+            line(
+                "limits",
+                format!("{} came to the limit: `overgrown` in run.json", amounts::of(self.overgrown() as u64, "plant")),
+            );
+        }
+        text + &self.tables_in_words()
+    }
+
+    fn plants_in_words(&self) -> String {
+        let plants = amounts::count(self.recorded.scenario.plants.into());
+        match (self.number("living"), self.number("dead")) {
+            (Some(living), Some(dead)) => {
+                format!("{plants}: {} living, {} dead", amounts::count(living), amounts::count(dead))
+            }
+            _ => format!("{plants}, not all of them grown yet; --resume goes on"),
+        }
+    }
+
+    fn tables_in_words(&self) -> String {
+        let mut text = format!("\n  {:<11} {:>15} {:>7} {:>9}\n", "table", "rows", "files", "size");
+        for (table, size) in &self.tables {
+            let (rows, bytes) = (amounts::count(size.rows), amounts::bytes(size.bytes as f64));
+            let _ = writeln!(text, "  {:<11} {rows:>15} {:>7} {bytes:>9}", table.name(), size.files);
+        }
+        if self.meshes.files > 0 {
+            let bytes = amounts::bytes(self.meshes.bytes as f64);
+            let _ = writeln!(text, "  {:<11} {:>15} {:>7} {bytes:>9}", "meshes", "", self.meshes.files);
+        }
+        text
+    }
+}
+
+/// "12 recorded of 60: 5, 10, 15, … 60".
+pub fn ages_in_words(recorded: &[u32], until: u32) -> String {
+    const SHOWN: usize = 12;
+    let words: Vec<String> = recorded.iter().map(u32::to_string).collect();
+    match words.len() {
+        0 => format!("to {until}, none recorded"),
+        n if n as u32 == until => format!("1 to {until}, all recorded"),
+        n if n <= SHOWN => format!("to {until}, recorded at {}", words.join(", ")),
+        n => format!("to {until}, {n} recorded: {}, … {}", words[..4].join(", "), words[n - 1]),
+    }
+}

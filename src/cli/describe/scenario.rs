@@ -1,0 +1,73 @@
+//! What a scenario would grow and keep, with what is expected of it.
+
+use super::super::amounts;
+use super::run::ages_in_words;
+use anyhow::Result;
+use phytomer::run::forecast::Forecast;
+use phytomer_config::Resolved;
+use phytomer_config::scenario::Table;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+
+/// The scenario, its species and its forecast.
+///
+/// # Errors
+/// A number that JSON cannot hold, which no checked run has.
+pub fn as_json(resolved: &Resolved) -> Result<Value> {
+    let mut json = resolved.to_json()?;
+    json["kind"] = "scenario".into();
+    json["expected"] = json!(Forecast::of(resolved));
+    Ok(json)
+}
+
+pub fn as_text(resolved: &Resolved) -> String {
+    let (scenario, species) = (&resolved.scenario, &resolved.species.about);
+    let mut text = format!("{}: a scenario\n", scenario.name);
+    if let Some(description) = &scenario.description {
+        let _ = writeln!(text, "  {}", description.split_whitespace().collect::<Vec<_>>().join(" "));
+    }
+    let mut line = |name: &str, value: String| {
+        let _ = writeln!(text, "  {name:<11} {value}");
+    };
+    line("species", format!("{} ({})", species.name, resolved.species.model.name().word()));
+    line("plants", amounts::count(scenario.plants.into()));
+    line("tick", species.tick.clone());
+    line("ages", ages_in_words(&scenario.ages.recorded(), scenario.ages.until));
+    line("seed", scenario.seed.to_string());
+    line("tables", tables_in_words(&scenario.tables));
+    line("meshes", meshes_in_words(resolved));
+    if let Some(forecast) = Forecast::of(resolved) {
+        line(
+            "expected",
+            format!(
+                "{} components, {} rows of records",
+                amounts::about(forecast.components),
+                amounts::about(forecast.records_rows)
+            ),
+        );
+    }
+    text
+}
+
+fn tables_in_words(tables: &std::collections::BTreeSet<Table>) -> String {
+    let word = |table: &Table| match table {
+        Table::Components => "components",
+        Table::Records => "records",
+        Table::Events => "events",
+        Table::Summary => "summary",
+    };
+    let words: Vec<&str> = tables.iter().map(word).collect();
+    if words.is_empty() { "none".to_owned() } else { words.join(", ") }
+}
+
+fn meshes_in_words(resolved: &Resolved) -> String {
+    let scenario = &resolved.scenario;
+    let ages: Vec<String> = scenario.mesh_ages().iter().map(u32::to_string).collect();
+    match &scenario.meshes {
+        None => "none".to_owned(),
+        Some(_) => {
+            let plants = (0..scenario.plants).filter(|plant| scenario.draws(*plant)).count();
+            format!("{} at age {}", amounts::of(plants as u64, "plant"), ages.join(", "))
+        }
+    }
+}

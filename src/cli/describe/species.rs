@@ -1,0 +1,173 @@
+//! What a species is made of: its laws order by order, where its numbers come from, and what is assumed.
+//!
+//! Written for any model from its parameters as data: what stands at its default is left out. Absent: meanings, which
+//! the schema has (`phytomer schema species`).
+
+use anyhow::Result;
+use phytomer_config::{Model, Species};
+use phytomer_models::buds::Order;
+use serde_json::{Map, Value, json};
+use std::fmt::Write as _;
+
+/// A number with a note on where it comes from.
+struct Note {
+    place: String,
+    source: Option<String>,
+    assumed: bool,
+}
+
+/// The species with its notes gathered.
+///
+/// # Errors
+/// A number that JSON cannot hold, which no checked species has.
+pub fn as_json(species: &Species) -> Result<Value> {
+    let json = species.to_json()?;
+    let notes = notes_of(&json).into_iter();
+    let notes: Vec<Value> =
+        notes.map(|note| json!({"place": note.place, "source": note.source, "assumed": note.assumed})).collect();
+    Ok(json!({"kind": "species", "species": json, "notes": notes}))
+}
+
+/// The same for people.
+///
+/// # Errors
+/// As [`as_json`].
+pub fn as_text(species: &Species) -> Result<String> {
+    let json = species.to_json()?;
+    let mut text = heading(species);
+    match &species.model {
+        Model::Buds(buds) => {
+            for (number, order) in (1..).zip(&buds.order) {
+                let _ = writeln!(text, "\n  order {number}");
+                laws(order, &mut text)?;
+            }
+        }
+        _ => {
+            text += "\n  parameters\n";
+            let about = serde_json::to_value(&species.about)?;
+            let own = json.as_object().into_iter().flatten();
+            own.filter(|(key, _)| about.get(key).is_none() && *key != "model")
+                .for_each(|(key, value)| law(key, value, &mut text));
+        }
+    }
+    text += &notes_in_words(&notes_of(&json));
+    Ok(text)
+}
+
+fn heading(species: &Species) -> String {
+    let about = &species.about;
+    let mut text = format!("{}: a species of the model `{}`\n", about.name, species.model.name().word());
+    let architecture = about.architectural_model.and_then(|model| serde_json::to_value(model).ok());
+    let architecture = architecture.and_then(|model| model.as_str().map(str::to_owned));
+    let lines = [
+        ("botanical", about.scientific_name.clone()),
+        ("common", about.common_name.clone()),
+        ("architecture", architecture.map(|model| format!("{model} (Hallé & Oldeman)"))),
+        ("tick", Some(about.tick.clone())),
+        ("about", about.description.clone()),
+        ("source", about.source.clone()),
+    ];
+    for (name, value) in lines {
+        if let Some(value) = value {
+            let _ = writeln!(text, "  {name:<18} {}", value.split_whitespace().collect::<Vec<_>>().join(" "));
+        }
+    }
+    text
+}
+
+/// What an order states beyond the defaults.
+fn laws(order: &Order, text: &mut String) -> Result<()> {
+    let default = serde_json::to_value(Order::default())?;
+    let stated = serde_json::to_value(order)?;
+    for (key, value) in stated.as_object().into_iter().flatten() {
+        if let Some(value) = beyond(value, &default[key]) {
+            law(key, &value, text);
+        }
+    }
+    Ok(())
+}
+
+/// The part of a value that is not the default's.
+fn beyond(value: &Value, default: &Value) -> Option<Value> {
+    match (value, default) {
+        (value, default) if value == default => None,
+        (Value::Object(value), Value::Object(default)) if value.keys().all(|key| default.contains_key(key)) => {
+            let rest: Map<_, _> = value
+                .iter()
+                .filter(|(key, value)| default[*key] != **value)
+                .map(|(k, v)| (k.clone(), v.clone()))
+                .collect();
+            Some(rest.into())
+        }
+        _ => Some(value.clone()),
+    }
+}
+
+fn law(key: &str, value: &Value, text: &mut String) {
+    let _ = writeln!(text, "    {key:<16} {}", in_words(value));
+}
+
+/// A value on one line, in the manner of TOML.
+fn in_words(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Number(number) => match number.as_f64() {
+            Some(x) if x.fract() != 0.0 && x.abs() < 1e-3 => format!("{x:e}"),
+            Some(x) if x.fract() == 0.0 && x.abs() < 1e15 => format!("{x:.0}"),
+            _ => number.to_string(),
+        },
+        Value::Array(items) => format!("[{}]", items.iter().map(in_words).collect::<Vec<_>>().join(", ")),
+        Value::Object(keys) => keys
+            .iter()
+            .filter(|(key, _)| !["source", "assumed"].contains(&key.as_str()))
+            .map(|(key, value)| match value {
+                Value::Object(_) => format!("{key} {{ {} }}", in_words(value)),
+                _ => format!("{key} {}", in_words(value)),
+            })
+            .collect::<Vec<_>>()
+            .join(", "),
+        other => other.to_string(),
+    }
+}
+
+/// Every number in the parameters that says where it comes from or that it is assumed.
+fn notes_of(species: &Value) -> Vec<Note> {
+    let mut notes = Vec::new();
+    for (key, value) in species.as_object().into_iter().flatten() {
+        gather(key, value, &mut notes);
+    }
+    notes
+}
+
+fn gather(place: &str, value: &Value, notes: &mut Vec<Note>) {
+    match value {
+        Value::Object(keys) => {
+            let source = keys.get("source").and_then(Value::as_str).map(str::to_owned);
+            let assumed = keys.get("assumed").and_then(Value::as_bool).unwrap_or(false);
+            if source.is_some() || assumed {
+                notes.push(Note { place: place.to_owned(), source, assumed });
+            }
+            keys.iter().for_each(|(key, value)| gather(&format!("{place}.{key}"), value, notes));
+        }
+        Value::Array(items) => {
+            (1..).zip(items).for_each(|(number, item)| gather(&format!("{place} {number}"), item, notes));
+        }
+        _ => {}
+    }
+}
+
+fn notes_in_words(notes: &[Note]) -> String {
+    let mut text = String::new();
+    for (title, assumed) in [("with a source", false), ("assumed", true)] {
+        let of_kind: Vec<&Note> = notes.iter().filter(|note| note.assumed == assumed).collect();
+        if of_kind.is_empty() {
+            continue;
+        }
+        let _ = writeln!(text, "\n  {title}");
+        for note in of_kind {
+            let source = note.source.as_deref().unwrap_or("");
+            let _ = writeln!(text, "    {}", format!("{}: {source}", note.place).trim_end_matches(": "));
+        }
+    }
+    text
+}

@@ -1,0 +1,201 @@
+//! `grow`: the main job, from a scenario's name to a run folder, with what a person wants to know on the way.
+//!
+//! Ctrl-C gives up the parts that are being grown, keeps those that are complete and tells how to go on; a second one
+//! ends at once. Absent: the run itself (`phytomer::run`), and what is told at its end ([`telling`]).
+
+mod bar;
+mod telling;
+
+use super::named::RUNS;
+use super::{Misuse, Verdict, refuse, terminal};
+use anyhow::{Context, Result};
+use clap::Args;
+use phytomer::outputs::Mode;
+use phytomer::run::forecast::Forecast;
+use phytomer::run::{self, Outcome, Program, Progress, Settings};
+use phytomer_config::{Resolved, validate};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Grow the plants of a scenario from seed to the last age, into a run folder of tables and meshes.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  phytomer grow coffee
+  phytomer grow coffee --dry-run
+  phytomer grow my_plant/scenario.toml --seed 7 --name another_seed
+  phytomer grow coffee --plants 20 --out /tmp/twenty --threads 2
+  phytomer grow coffee --resume
+
+Exit code 1 where a plant came to its limit or a file could not be written, 3 where the scenario is wrong, 130 after
+Ctrl-C; --resume then goes on and ends with the same bytes.")]
+pub struct Grow {
+    /// A shipped scenario by its name, or a scenario file by its path.
+    scenario: String,
+    /// Threads; as many as the machine has if not given. No result depends on it.
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// The seed of every draw, in the place of the scenario's.
+    #[arg(long)]
+    seed: Option<u64>,
+    /// How many plants grow, in the place of the scenario's number.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
+    plants: Option<u32>,
+    /// The run folder; `runs/<name>` if not given.
+    #[arg(long, value_name = "DIR", conflicts_with = "name")]
+    out: Option<PathBuf>,
+    /// The folder's name below `runs`; that of the scenario if not given.
+    #[arg(long)]
+    name: Option<String>,
+    /// Go on with an interrupted run; what is complete is kept.
+    #[arg(long, conflicts_with = "overwrite")]
+    resume: bool,
+    /// Replace the run that is in the folder.
+    #[arg(long)]
+    overwrite: bool,
+    /// Tell what is expected of the run, and write nothing.
+    #[arg(long)]
+    dry_run: bool,
+    /// Tell what came of it as one JSON object on stdout.
+    #[arg(long)]
+    json: bool,
+    /// Show no progress, and at the end nothing but trouble.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Grow {
+    pub fn obey(self) -> Result<Verdict> {
+        let mut resolved = match validate(&self.scenario) {
+            Ok(resolved) => resolved,
+            Err(report) => return refuse(&report, self.json),
+        };
+        self.override_scenario(&mut resolved)?;
+        if self.dry_run {
+            telling::forecast(&resolved, Forecast::of(&resolved).as_ref(), self.json)?;
+            return Ok(Verdict::Done);
+        }
+        let settings = self.settings(&resolved)?;
+        let progress = Arc::new(Progress::default());
+        self.listen(&progress)?;
+        let outcome = bar::beside(&progress, self.quiet || self.json, || run::run(&resolved, &settings, &progress))?;
+        self.tell(&resolved, &settings, &outcome)
+    }
+
+    /// The seed and the number of plants as the command line has them.
+    fn override_scenario(&self, resolved: &mut Resolved) -> Result<()> {
+        let scenario = &mut resolved.scenario;
+        scenario.seed = self.seed.unwrap_or(scenario.seed);
+        let Some(plants) = self.plants else { return Ok(()) };
+        scenario.plants = plants;
+        match scenario.faults().first() {
+            Some(fault) => {
+                Err(Misuse(format!("--plants {plants}: {}; expected {}", fault.problem, fault.expected)).into())
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn settings(&self, resolved: &Resolved) -> Result<Settings> {
+        let name = self.name.as_ref().unwrap_or(&resolved.scenario.name);
+        let folder = match &self.out {
+            Some(folder) => folder.clone(),
+            None => Path::new(RUNS).join(folder_name(name)?),
+        };
+        let mode = match (self.resume, self.overwrite) {
+            (true, _) => Mode::Resume,
+            (_, true) => Mode::Overwrite,
+            _ => Mode::New,
+        };
+        let threads = self.threads.unwrap_or(0).into();
+        Ok(Settings { folder, mode, threads, program: Program::default() })
+    }
+
+    fn listen(&self, progress: &Arc<Progress>) -> Result<()> {
+        let progress = Arc::clone(progress);
+        let obey = move || {
+            if progress.is_stopped() {
+                std::process::exit(Verdict::Interrupted as i32);
+            }
+            progress.stop();
+            terminal::say("\nstopping; complete parts are kept (once more to end at once)");
+        };
+        ctrlc::set_handler(obey).context("cannot listen for Ctrl-C")
+    }
+
+    fn tell(&self, resolved: &Resolved, settings: &Settings, outcome: &Outcome) -> Result<Verdict> {
+        let verdict = match outcome {
+            outcome if outcome.is_interrupted() => Verdict::Interrupted,
+            outcome if !outcome.report.overgrown.is_empty() => Verdict::Failed,
+            _ => Verdict::Done,
+        };
+        let told = telling::Told { resolved, settings, outcome, verdict };
+        if self.json {
+            terminal::put_json(&told.as_json())?;
+        } else if verdict != Verdict::Interrupted && !self.quiet {
+            terminal::put(&told.as_text())?;
+        }
+        if !outcome.report.overgrown.is_empty() {
+            terminal::say(&told.overgrown());
+        }
+        if verdict == Verdict::Interrupted {
+            terminal::say(&told.interrupted(&self.again()));
+        }
+        Ok(verdict)
+    }
+
+    /// The command that goes on with this run.
+    fn again(&self) -> String {
+        let mut words = vec!["phytomer".to_owned(), "grow".to_owned(), shown(&self.scenario)];
+        let mut option = |name: &str, value: Option<String>| {
+            words.extend(value.into_iter().flat_map(|value| [format!("--{name}"), shown(&value)]));
+        };
+        option("seed", self.seed.map(|seed| seed.to_string()));
+        option("plants", self.plants.map(|plants| plants.to_string()));
+        option("out", self.out.as_ref().map(|folder| folder.display().to_string()));
+        option("name", self.name.clone());
+        words.push("--resume".to_owned());
+        words.join(" ")
+    }
+}
+
+/// A word as a shell takes it.
+fn shown(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+=:,@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+/// A name as a folder's: what some system might take amiss becomes `-`.
+fn folder_name(name: &str) -> Result<String> {
+    let plain = |c: char| if c.is_alphanumeric() || "._-+".contains(c) { c } else { '-' };
+    let folder: String = name.trim().chars().map(plain).collect();
+    let folder = folder.trim_start_matches('.').to_owned();
+    if folder.is_empty() {
+        return Err(Misuse(format!("`{name}` cannot be the name of a folder: choose one by --name or --out")).into());
+    }
+    Ok(folder)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_stay_below_the_folder_of_runs() {
+        let name = |name: &str| folder_name(name).unwrap();
+        assert_eq!(name("coffee"), "coffee");
+        assert_eq!(name("gmt1/5a"), "gmt1-5a");
+        assert_eq!(name("../../etc"), "-..-etc");
+        assert_eq!(name("Kaffee, süß"), "Kaffee--süß");
+        assert!(folder_name("..").is_err());
+    }
+
+    #[test]
+    fn words_are_quoted_for_the_shell() {
+        assert_eq!([shown("a/b.toml"), shown("my plant"), shown("it's")], ["a/b.toml", "'my plant'", "'it'\\''s'"]);
+    }
+}

@@ -1,0 +1,187 @@
+//! What `grow` tells: at the end what came of the run, before a run what is expected of it.
+//!
+//! The same figures as text for people and as one JSON object for programs. Absent: how they came about.
+
+use super::super::{Verdict, amounts, terminal};
+use super::shown;
+use anyhow::Result;
+use phytomer::run::forecast::Forecast;
+use phytomer::run::{Outcome, Settings};
+use phytomer_config::Resolved;
+use phytomer_outputs::Table;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+
+/// A run and what came of it.
+pub struct Told<'a> {
+    pub resolved: &'a Resolved,
+    pub settings: &'a Settings,
+    pub outcome: &'a Outcome,
+    pub verdict: Verdict,
+}
+
+impl Told<'_> {
+    /// One object with everything.
+    pub fn as_json(&self) -> Value {
+        let Self { resolved, settings, outcome, .. } = self;
+        let report = &outcome.report;
+        json!({
+            "status": match self.verdict {
+                Verdict::Interrupted => "interrupted",
+                Verdict::Failed => "limited",
+                _ => "complete",
+            },
+            "run": settings.folder.display().to_string(),
+            "scenario": resolved.scenario.name,
+            "species": resolved.species.about.name,
+            "seed": resolved.scenario.seed,
+            "until": resolved.scenario.ages.until,
+            "version": settings.program.version,
+            "git_hash": settings.program.git_hash,
+            "plants": report.living + report.dead,
+            "living": report.living,
+            "dead": report.dead,
+            "components": report.components,
+            "rows": report.rows,
+            "files": report.files.len(),
+            "bytes": report.bytes,
+            "parts": outcome.shards,
+            "parts_committed": outcome.committed,
+            "parts_grown_now": outcome.grown_now,
+            "components_grown_now": outcome.components_now,
+            "seconds": outcome.seconds,
+            "components_per_second": self.rate().round(),
+            "peak_memory_bytes": amounts::peak_memory(),
+            "overgrown": report.overgrown,
+        })
+    }
+
+    fn rate(&self) -> f64 {
+        self.outcome.components_now as f64 / self.outcome.seconds.max(1e-6)
+    }
+
+    /// What a person wants to know.
+    pub fn as_text(&self) -> String {
+        let Self { resolved, settings, outcome, .. } = self;
+        let (scenario, report) = (&resolved.scenario, &outcome.report);
+        let plants = amounts::of(report.living + report.dead, "plant");
+        let species = &resolved.species.about.name;
+        let time = amounts::time(outcome.seconds);
+        let mut text = format!("{plants} of `{species}` grown to age {} in {time}\n", scenario.ages.until);
+        let mut line = |name: &str, value: String| {
+            let _ = writeln!(text, "  {name:<11} {value}");
+        };
+        line("plants", format!("{} living, {} dead", amounts::count(report.living), amounts::count(report.dead)));
+        line("components", format!("{}{}", amounts::count(report.components), self.rate_in_words()));
+        line("rows", self.rows_in_words());
+        line("seed", scenario.seed.to_string());
+        line(
+            "memory",
+            amounts::peak_memory().map_or("unknown".into(), |b| format!("{} at most", amounts::bytes(b as f64))),
+        );
+        let files = amounts::of(report.files.len() as u64, "file");
+        line("folder", format!("{} ({files}, {})", settings.folder.display(), amounts::bytes(report.bytes as f64)));
+        text += "\nNext:";
+        self.next_commands().iter().for_each(|command| text += &format!("\n  {command}"));
+        text
+    }
+
+    fn rate_in_words(&self) -> String {
+        match self.outcome.grown_now {
+            0 => ", all of them there already".to_owned(),
+            _ => format!(", {} a second", amounts::about(self.rate().round())),
+        }
+    }
+
+    fn rows_in_words(&self) -> String {
+        let rows = self.outcome.report.rows.iter();
+        let words: Vec<_> = rows.map(|(table, rows)| format!("{} {}", amounts::count(*rows), table.name())).collect();
+        if words.is_empty() { "no tables".to_owned() } else { words.join(", ") }
+    }
+
+    fn next_commands(&self) -> Vec<String> {
+        let folder = self.settings.folder.display().to_string();
+        let mut commands: Vec<String> = self.query(&folder).into_iter().collect();
+        commands.push(format!("phytomer describe {}", shown(&folder)));
+        let age = self.resolved.scenario.ages.until;
+        commands.push(format!("phytomer mesh {} --plant 0 --age {age} --out plant.ply", shown(&folder)));
+        commands
+    }
+
+    /// A query whose result says something, for the first table that it can be asked of.
+    fn query(&self, folder: &str) -> Option<String> {
+        let rows = &self.outcome.report.rows;
+        let from = |table: Table| format!("FROM '{folder}/{}/*.parquet'", table.name());
+        let sql = if rows.contains_key(&Table::Summary) {
+            let what = "age, count(*) AS plants, avg(height_m) AS height_m, avg(internodes) AS internodes";
+            format!("SELECT {what} {} GROUP BY age ORDER BY age", from(Table::Summary))
+        } else if rows.contains_key(&Table::Records) {
+            format!("SELECT age, kind, count(*) {} GROUP BY ALL ORDER BY ALL", from(Table::Records))
+        } else if rows.contains_key(&Table::Components) {
+            format!("SELECT kind, cause_of_death, count(*) {} GROUP BY ALL ORDER BY ALL", from(Table::Components))
+        } else {
+            format!("SELECT age, event, count(*) {} GROUP BY ALL ORDER BY ALL", from(Table::Events))
+        };
+        (!rows.is_empty()).then(|| format!("duckdb -c \"{sql}\""))
+    }
+
+    /// Which plots ended by a limit.
+    pub fn overgrown(&self) -> String {
+        const SHOWN: usize = 5;
+        let overgrown = &self.outcome.report.overgrown;
+        let plots = amounts::of(overgrown.len() as u64, "plant");
+        let mut text = format!("error: {plots} came to the limit; the ages before it are recorded, the others grew on");
+        for plot in overgrown.iter().take(SHOWN) {
+            let limit = amounts::count(plot.limit.into());
+            let _ = write!(text, "\n  plant {} at age {}: more than {limit} components", plot.plant, plot.age);
+        }
+        if overgrown.len() > SHOWN {
+            let _ = write!(text, "\n  … and {} more (run.json has them all)", overgrown.len() - SHOWN);
+        }
+        text + "\nraise limits.max_components or limits.max_memory_mb, or end the run earlier (ages.until)"
+    }
+
+    /// How to go on with what was stopped.
+    pub fn interrupted(&self, again: &str) -> String {
+        let Outcome { committed, shards, .. } = self.outcome;
+        format!("stopped: {committed} of {shards} parts are complete; go on with\n  {again}")
+    }
+}
+
+/// Tells what is expected of a run.
+pub fn forecast(resolved: &Resolved, forecast: Option<&Forecast>, as_json: bool) -> Result<()> {
+    let scenario = &resolved.scenario;
+    if as_json {
+        let what = json!({"status": "dry_run", "scenario": scenario.name, "seed": scenario.seed, "expected": forecast});
+        return terminal::put_json(&what);
+    }
+    let plants = amounts::of(scenario.plants.into(), "plant");
+    let species = &resolved.species.about.name;
+    let mut text = format!("{plants} of `{species}` to age {}, seed {}\n", scenario.ages.until, scenario.seed);
+    match forecast {
+        Some(forecast) => text += &in_words(forecast),
+        None => text += "  the laws of this species allow no expectation in closed form\n",
+    }
+    terminal::put(&(text + "nothing was written"))
+}
+
+fn in_words(forecast: &Forecast) -> String {
+    let mut text = String::new();
+    for (order, components) in (1..).zip(&forecast.components_by_order) {
+        let _ = writeln!(text, "  order {order:<5} {:>10} components a plant", amounts::about(*components));
+    }
+    let mut line = |name: &str, value: f64, unit: &str| {
+        let _ = writeln!(text, "  {name:<11} {:>10} {unit}", amounts::about(value));
+    };
+    line("in all", forecast.components, "components");
+    line("records", forecast.records_rows, "rows");
+    line("summary", forecast.summary_rows, "rows");
+    let _ = writeln!(
+        text,
+        "  {:<11} {:>10} of tables, about, if nothing is shed",
+        "disk",
+        amounts::bytes(forecast.table_bytes)
+    );
+    let _ = writeln!(text, "  {:<11} {:>10} a plant while it grows", "memory", amounts::bytes(forecast.bytes_a_plant));
+    text
+}

@@ -1,0 +1,121 @@
+//! `list`: what ships with the program, and the words that files and tables use.
+
+use super::{Verdict, terminal};
+use anyhow::Result;
+use clap::{Args, ValueEnum};
+use phytomer_config::{Kind, MODELS, presets, validate, validate_species};
+use phytomer_outputs::tables::columns::PLANT_ONTOLOGY;
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// List what ships: scenarios, species, growth models, kinds of components.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  phytomer list
+  phytomer list species
+  phytomer list kinds --json")]
+pub struct List {
+    /// One list alone.
+    what: Option<Listed>,
+    /// As one JSON object on stdout.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What can be listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Listed {
+    /// Runs to grow by name.
+    Scenarios,
+    /// Plants that scenarios can name.
+    Species,
+    /// Growth models that a species can choose.
+    Models,
+    /// Kinds of components, as the column `kind` has them.
+    Kinds,
+}
+
+#[derive(Debug, Serialize)]
+struct Entry {
+    name: String,
+    description: String,
+}
+
+impl List {
+    pub fn obey(self) -> Result<Verdict> {
+        let all = [Listed::Scenarios, Listed::Species, Listed::Models, Listed::Kinds];
+        let lists = all.into_iter().filter(|list| self.what.is_none_or(|what| what == *list));
+        let lists: Vec<(&str, Vec<Entry>)> = lists.map(|list| (list.title(), list.entries())).collect();
+        if self.json {
+            let object: serde_json::Map<_, _> =
+                lists.iter().map(|(title, entries)| ((*title).to_owned(), serde_json::json!(entries))).collect();
+            terminal::put_json(&object)?;
+        } else {
+            let texts: Vec<String> = lists.iter().map(|(title, entries)| as_text(title, entries)).collect();
+            terminal::put(texts.join("\n").trim_end())?;
+        }
+        Ok(Verdict::Done)
+    }
+}
+
+impl Listed {
+    fn title(self) -> &'static str {
+        match self {
+            Self::Scenarios => "scenarios",
+            Self::Species => "species",
+            Self::Models => "models",
+            Self::Kinds => "kinds",
+        }
+    }
+
+    fn entries(self) -> Vec<Entry> {
+        match self {
+            Self::Scenarios => presets(Kind::Scenario).iter().map(|(name, _)| scenario(name)).collect(),
+            Self::Species => presets(Kind::Species).iter().map(|(name, _)| species(name)).collect(),
+            Self::Models => MODELS.map(|model| entry(model.word(), model_in_words(model.word()))).into(),
+            Self::Kinds => PLANT_ONTOLOGY.iter().map(|(kind, term)| entry(kind.tag(), term)).collect(),
+        }
+    }
+}
+
+fn entry(name: &str, description: &str) -> Entry {
+    Entry { name: name.to_owned(), description: description.to_owned() }
+}
+
+fn scenario(name: &str) -> Entry {
+    let description = validate(name).ok().and_then(|resolved| resolved.scenario.description);
+    entry(name, &first_sentence(description.as_deref().unwrap_or_default()))
+}
+
+fn species(name: &str) -> Entry {
+    // Its words do not depend on the ages for which it is compiled.
+    let about = validate_species(name, 1).ok().map(|species| species.species.about);
+    let words = |about: phytomer_config::About| about.scientific_name.or(about.common_name).or(about.description);
+    entry(name, &first_sentence(&about.and_then(words).unwrap_or_default()))
+}
+
+fn model_in_words(word: &str) -> &'static str {
+    match word {
+        "buds" => "every bud dies, pauses, grows and branches by laws (de Reffye et al. 1988)",
+        "gmt1" => "two branches at every tip, by ratios and angles (Aono & Kunii 1984)",
+        _ => "",
+    }
+}
+
+/// The words up to the first full stop that a sentence follows; "Fig. 5a" is none.
+fn first_sentence(text: &str) -> String {
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let ends = |(at, _): &(usize, &str)| line[at + 2..].starts_with(char::is_uppercase);
+    let end = line.match_indices(". ").find(ends).map_or(line.len(), |(at, _)| at + 1);
+    line[..end].to_owned()
+}
+
+fn as_text(title: &str, entries: &[Entry]) -> String {
+    let width = entries.iter().map(|entry| entry.name.chars().count()).max().unwrap_or(0);
+    let mut text = format!("{title}\n");
+    for Entry { name, description } in entries {
+        let _ = writeln!(text, "{}", format!("  {name:<width$}  {description}").trim_end());
+    }
+    text
+}

@@ -1,0 +1,108 @@
+//! The verbs, one file each, and what they share: the exit codes and the examples of `--help`.
+//!
+//! A verb reads its arguments, asks the library and tells what came of it. Absent: any work that a program without a
+//! terminal could want; that is the library's.
+
+mod amounts;
+mod describe;
+mod grow;
+mod init;
+mod list;
+mod mesh;
+mod named;
+mod schema;
+pub mod terminal;
+mod validate;
+
+use anyhow::Result;
+use clap::{Parser, Subcommand};
+use phytomer_config::Report;
+use serde_json::json;
+use std::process::ExitCode;
+
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (", env!("PHYTOMER_GIT_HASH"), ")");
+
+const EXAMPLES: &str = "\
+Examples:
+  phytomer init my_plant                        a species and a scenario to begin with
+  phytomer grow coffee                          grow a shipped scenario into runs/coffee
+  phytomer validate my_plant/scenario.toml      every fault at once
+  phytomer describe coffee                      what a run, a scenario or a species holds
+  phytomer list                                 everything that ships
+  phytomer schema species                       the JSON Schema of a species file
+  phytomer mesh coffee --plant 0 --age 12 --out coffee.ply
+
+`phytomer help <verb>` has more of each.";
+
+/// Grow any plant from seed to death, a million at a time, and query the result like a database.
+#[derive(Debug, Parser)]
+#[command(name = "phytomer", version = VERSION, after_help = EXAMPLES, arg_required_else_help = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    Init(init::Init),
+    Grow(grow::Grow),
+    Validate(validate::Validate),
+    Describe(describe::Describe),
+    List(list::List),
+    Schema(schema::Schema),
+    Mesh(mesh::Mesh),
+}
+
+/// How the program ends, other than by an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// All is done.
+    Done = 0,
+    /// The run failed, or a plot ended at a limit.
+    Failed = 1,
+    /// The command line asks for what cannot be.
+    Usage = 2,
+    /// A file is wrong.
+    Invalid = 3,
+    /// Ctrl-C.
+    Interrupted = 130,
+}
+
+impl From<Verdict> for ExitCode {
+    fn from(verdict: Verdict) -> Self {
+        Self::from(verdict as u8)
+    }
+}
+
+/// The arguments contradict each other or the input.
+#[derive(Debug, Clone, thiserror::Error)]
+#[error("{0}")]
+pub struct Misuse(pub String);
+
+impl Cli {
+    /// Does what the verb says.
+    ///
+    /// # Errors
+    /// Whatever keeps it from being done.
+    pub fn obey(self) -> Result<Verdict> {
+        match self.verb {
+            Verb::Init(verb) => verb.obey(),
+            Verb::Grow(verb) => verb.obey(),
+            Verb::Validate(verb) => verb.obey(),
+            Verb::Describe(verb) => verb.obey(),
+            Verb::List(verb) => verb.obey(),
+            Verb::Schema(verb) => verb.obey(),
+            Verb::Mesh(verb) => verb.obey(),
+        }
+    }
+}
+
+/// Tells every fault: as one JSON object on stdout, or with source lines on stderr.
+fn refuse(report: &Report, as_json: bool) -> Result<Verdict> {
+    if as_json {
+        terminal::put_json(&json!({"status": "invalid", "faults": report.records()}))?;
+    } else {
+        terminal::say(report.render(terminal::stderr_has_colour()).trim_end());
+    }
+    Ok(Verdict::Invalid)
+}

@@ -1,0 +1,98 @@
+//! What a name on the command line stands for: a run folder, a scenario or a species.
+//!
+//! A folder with a `run.json` is a run, and so is one of that name under `runs/`, unless a scenario or a species of the
+//! name ships; `runs/coffee` always means the run. Absent: what is told of them.
+
+use anyhow::{Context, Result};
+use phytomer_config::{
+    Kind, Report, Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, Scenario, Species, kind_of, presets, validate,
+    validate_species,
+};
+use phytomer_outputs::read::Run;
+use phytomer_sim::GrowthModel;
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The folder that runs are written to.
+pub const RUNS: &str = "runs";
+
+/// What was named.
+pub enum Named {
+    /// A run folder.
+    Run(PathBuf),
+    /// A scenario, checked.
+    Scenario(Box<Resolved>),
+    /// A species, checked.
+    Species(Box<ResolvedSpecies>),
+}
+
+/// The run folder of a name, where there is one.
+pub fn run_folder(name: &str) -> Option<PathBuf> {
+    let ships =
+        [Kind::Scenario, Kind::Species].iter().any(|kind| presets(*kind).iter().any(|(preset, _)| *preset == name));
+    let below = Path::new(RUNS).join(name);
+    let candidates = [Some(PathBuf::from(name)), (!ships).then_some(below)];
+    candidates.into_iter().flatten().find(|folder| folder.join("run.json").is_file())
+}
+
+/// Finds and checks what a name stands for.
+///
+/// # Errors
+/// Every fault of it; for a name that nothing has, the nearest spelling.
+pub fn find(name: &str) -> std::result::Result<Named, Report> {
+    if let Some(folder) = run_folder(name) {
+        return Ok(Named::Run(folder));
+    }
+    if kind_of(name) == Kind::Scenario {
+        return validate(name).map(|scenario| Named::Scenario(Box::new(scenario)));
+    }
+    validate_species(name, SPECIES_ALONE_UNTIL).map(|species| Named::Species(Box::new(species))).map_err(|report| {
+        let nearer = || validate(name).err().filter(suggests);
+        if is_unknown(&report) && !suggests(&report) { nearer().unwrap_or(report) } else { report }
+    })
+}
+
+fn suggests(report: &Report) -> bool {
+    report.faults.iter().any(|fault| fault.suggestion.is_some())
+}
+
+fn is_unknown(report: &Report) -> bool {
+    report.faults.iter().all(|fault| fault.span.is_none())
+}
+
+/// The scenario and the species as a run folder keeps them.
+pub struct Recorded {
+    /// The scenario, with what the command line changed.
+    pub scenario: Scenario,
+    /// The species without ancestors.
+    pub species: Species,
+    /// The run folder.
+    pub run: Run,
+}
+
+impl Recorded {
+    /// Reads them from `run.json`.
+    ///
+    /// # Errors
+    /// Where it cannot be read, or was written by a program whose files this one does not know.
+    pub fn of(folder: &Path) -> Result<Self> {
+        let run = Run::open(folder)?;
+        let doing = || format!("cannot understand {}", folder.join("run.json").display());
+        let resolved = &run.json()["resolved_scenario"];
+        let scenario = Scenario::deserialize(&resolved["scenario"]).with_context(doing)?;
+        let species = Species::from_json(&resolved["species"]).with_context(doing)?;
+        Ok(Self { scenario, species, run })
+    }
+
+    /// The species' model, for the ages of the run.
+    ///
+    /// # Errors
+    /// Where its laws do not hold, which those of a run that began do.
+    pub fn compile(&self) -> Result<Arc<dyn GrowthModel>> {
+        self.species.model.compile(self.scenario.ages.until).map_err(|faults| match faults.into_iter().next() {
+            Some(fault) => anyhow::Error::new(fault),
+            None => anyhow::anyhow!("the species of the run cannot be compiled"),
+        })
+    }
+}

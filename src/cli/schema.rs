@@ -1,0 +1,42 @@
+//! `schema`: the JSON Schemas of species and scenario files, for editors and for programs that write such files.
+//!
+//! Absent: the schemas themselves, which `phytomer-config` makes from the types.
+
+use super::{Verdict, terminal};
+use anyhow::Result;
+use clap::{Args, ValueEnum};
+use phytomer_config::{Kind, schema_of};
+
+/// Print the JSON Schema of a kind of file.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  phytomer schema species
+  phytomer schema scenario
+
+An editor with taplo obeys a schema that the first line of a file names:
+  #:schema ./species.schema.json")]
+pub struct Schema {
+    /// Which kind of file.
+    kind: FileKind,
+}
+
+/// A kind of file.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum FileKind {
+    /// One species and its laws.
+    Species,
+    /// One run.
+    Scenario,
+}
+
+impl Schema {
+    pub fn obey(self) -> Result<Verdict> {
+        let kind = match self.kind {
+            FileKind::Species => Kind::Species,
+            FileKind::Scenario => Kind::Scenario,
+        };
+        terminal::put_json(&schema_of(kind))?;
+        Ok(Verdict::Done)
+    }
+}

@@ -1,0 +1,199 @@
+//! A run: from a scenario to its run folder.
+//!
+//! The plants are dealt into shards of neighbours. Each shard sows its plants one after another into the same columns,
+//! grows each from seed to the last age, shows it to the tables and the meshes at the ages asked for, and commits its
+//! files; shards grow in parallel. A draw depends on the run's seed and the plant alone, so neither the number of
+//! threads nor an interruption shows in a single byte.
+//!
+//! Absent: growth (`sim`, `models`), files (`outputs`), and everything that a person sees (`cli`).
+
+pub mod drawing;
+pub mod forecast;
+mod plan;
+mod progress;
+
+pub use plan::{Program, component_limit, place_of, plan_of, seed_of};
+pub use progress::Progress;
+
+use anyhow::{Context, Result};
+use drawing::Drawing;
+use phytomer_config::Resolved;
+use phytomer_outputs::{Mode, RunFolder, RunReport, Shard, ShardReport};
+use phytomer_sim::{Growth, Plot, RecordError, Recorder, Tick, grow};
+use progress::Stopped;
+use rayon::ThreadPool;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// How a run is made, beside what its scenario says. Nothing here shows in the bytes of a table or a mesh but the
+/// program's name.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// The run folder.
+    pub folder: PathBuf,
+    /// What to do where the folder holds files already.
+    pub mode: Mode,
+    /// Threads; 0 takes as many as the machine has.
+    pub threads: usize,
+    /// The program that the files name as their maker.
+    pub program: Program,
+}
+
+impl Settings {
+    /// A new run in `folder`, on every thread of the machine.
+    pub fn in_folder(folder: impl Into<PathBuf>) -> Self {
+        Self { folder: folder.into(), mode: Mode::New, threads: 0, program: Program::default() }
+    }
+}
+
+/// What came of a run.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// What was written; of an interrupted run the shards of this start alone.
+    pub report: RunReport,
+    /// How many shards the run has.
+    pub shards: u32,
+    /// How many of them are on the disk.
+    pub committed: u32,
+    /// How many of them this start has grown.
+    pub grown_now: u32,
+    /// Components of the plants that this start has grown.
+    pub components_now: u64,
+    /// How long it took, seconds.
+    pub seconds: f64,
+}
+
+impl Outcome {
+    /// Whether the run was stopped before its end; `Mode::Resume` goes on with it.
+    pub fn is_interrupted(&self) -> bool {
+        self.committed < self.shards
+    }
+}
+
+/// Grows every plant of a scenario and writes the run folder.
+///
+/// # Errors
+/// Where a file cannot be written, or where the folder holds another run.
+pub fn run(resolved: &Resolved, settings: &Settings, progress: &Progress) -> Result<Outcome> {
+    let start = Instant::now();
+    let plan = plan_of(resolved, &settings.program)?;
+    let shards = plan.shards();
+    let pool = pool(settings.threads)?;
+    let folder = RunFolder::create(&settings.folder, plan, settings.mode)?;
+    let missing = folder.missing_shards();
+    progress.begin(resolved, missing.iter().map(|shard| folder.plan().plots_of(*shard).len() as u64).sum());
+    let grown = pool.install(|| grow_shards(resolved, &folder, &missing, progress))?;
+    let seconds = start.elapsed().as_secs_f64();
+    let components_now = grown.iter().map(|shard| shard.components).sum();
+    let grown_now = grown.len() as u32;
+    let committed = shards - missing.len() as u32 + grown_now;
+    let report =
+        if committed == shards { folder.finish(&[("growing_and_writing", seconds)])? } else { RunReport::of(&grown) };
+    Ok(Outcome { report, shards, committed, grown_now, components_now, seconds })
+}
+
+/// A pool of so many threads, apart from any that the caller may have.
+fn pool(threads: usize) -> Result<ThreadPool> {
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(threads).thread_name(|i| format!("grow-{i}"));
+    builder.build().context("cannot start the threads")
+}
+
+/// The shards that were committed; fewer than `missing` after a stop.
+fn grow_shards(
+    resolved: &Resolved,
+    folder: &RunFolder,
+    missing: &[u32],
+    progress: &Progress,
+) -> Result<Vec<ShardReport>> {
+    let grown: Result<Vec<_>> = missing
+        .into_par_iter()
+        .map(|shard| {
+            let grown = Grower { resolved, folder, progress }.grow_shard(*shard);
+            // A failed write ends the run: the other shards need not go on.
+            grown.inspect_err(|_| progress.stop())
+        })
+        .collect();
+    Ok(grown?.into_iter().flatten().collect())
+}
+
+/// What the plants of all shards share.
+struct Grower<'a> {
+    resolved: &'a Resolved,
+    folder: &'a RunFolder,
+    progress: &'a Progress,
+}
+
+impl Grower<'_> {
+    /// Grows the plants of one shard, one after another in the same columns; `None` where it was told to stop.
+    fn grow_shard(&self, shard: u32) -> Result<Option<ShardReport>> {
+        let plants = self.folder.plan().plots_of(shard);
+        let model = self.resolved.model.as_ref();
+        let scenario = &self.resolved.scenario;
+        let mut plot = Plot::of_one(model, &seed_of(scenario, plants.start));
+        let drawing = Drawing::of(self.resolved);
+        let mut keeper = Keeper { shard: self.folder.shard(shard)?, drawing, grower: self, plant: plants.start };
+        for plant in plants {
+            if self.progress.is_stopped() {
+                return Ok(None);
+            }
+            plot.resow(model, &seed_of(scenario, plant));
+            plot.plants[0].place = place_of(scenario, plant);
+            if !keeper.grow_plot(&mut plot, plant)? {
+                return Ok(None);
+            }
+        }
+        Ok(Some(keeper.shard.commit()?))
+    }
+}
+
+/// Shows each plot of a shard to the shard's tables and meshes.
+struct Keeper<'a> {
+    shard: Shard<'a>,
+    drawing: Option<Drawing<'a>>,
+    grower: &'a Grower<'a>,
+    plant: u32,
+}
+
+impl Keeper<'_> {
+    /// Grows one plot to its end; `false` where it was told to stop.
+    fn grow_plot(&mut self, plot: &mut Plot, plant: u32) -> Result<bool> {
+        self.plant = plant;
+        let Grower { resolved, progress, .. } = self.grower;
+        let ending = match grow(resolved.model.as_ref(), plot, resolved.scenario.ages.until, self) {
+            Ok(ending) => ending,
+            Err(error) if error.is::<Stopped>() => return Ok(false),
+            Err(error) => return Err(anyhow::anyhow!(error)),
+        };
+        self.shard.end_plot(plot, ending)?;
+        progress.end_plant(&plot.plants[0]);
+        Ok(true)
+    }
+
+    fn draws(&self, age: Tick) -> bool {
+        self.drawing.as_ref().is_some_and(|drawing| drawing.wants(self.plant, age))
+    }
+}
+
+impl Recorder for Keeper<'_> {
+    /// A model that rebuilds the plant must also make it at the last age, of which the components are written.
+    fn wants(&self, age: Tick) -> bool {
+        let resolved = self.grower.resolved;
+        let last = age == resolved.scenario.ages.until && resolved.model.growth() == Growth::Rebuilds;
+        last || self.shard.wants(age) || self.draws(age)
+    }
+
+    fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
+        self.grower.progress.check()?;
+        if self.shard.wants(age) {
+            self.shard.record(age, plot)?;
+        }
+        if self.draws(age)
+            && let Some(drawing) = &self.drawing
+        {
+            drawing.draw(age, &plot.plants[0], &mut self.shard)?;
+        }
+        self.grower.progress.end_age();
+        Ok(())
+    }
+}

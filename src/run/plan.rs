@@ -1,0 +1,165 @@
+//! What a scenario means for a run: its plan of tables and parts, and each plant's seed, place and limit.
+//!
+//! Everything here follows from the scenario alone, never from the machine, so that a run can be resumed anywhere and
+//! ends with the same bytes.
+
+use super::forecast::Forecast;
+use anyhow::{Context, Result};
+use phytomer_config::{Resolved, Scenario, scenario};
+use phytomer_outputs::{Input, Provenance, RunPlan, Table};
+use phytomer_sim::plant::Seed;
+use sha2::{Digest, Sha256};
+
+/// Bytes that a component takes in memory: topology, fates and pose together.
+pub const BYTES_A_COMPONENT: u64 = 96;
+
+/// The work of a part file, in components shown to a table: about 60 MB of `records`, some seconds of one core.
+const WORK_A_PART: f64 = 2e6;
+
+/// A smaller part is not worth its file, however many threads wait for work.
+const LEAST_WORK_A_PART: f64 = 2.5e5;
+
+/// Parts that even a small run is dealt into, so that it uses several threads and can be resumed.
+const PARTS_OF_A_SMALL_RUN: f64 = 16.0;
+
+/// Components of a plant of which nothing can be expected.
+const UNFORESEEN: f64 = 1e4;
+
+/// The program that the files name as their maker.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Program {
+    /// Its version.
+    pub version: String,
+    /// The commit that it was built from; `unknown` outside a checkout.
+    pub git_hash: String,
+}
+
+impl Default for Program {
+    fn default() -> Self {
+        Self { version: env!("CARGO_PKG_VERSION").to_owned(), git_hash: env!("PHYTOMER_GIT_HASH").to_owned() }
+    }
+}
+
+/// The plan of a scenario's run.
+///
+/// # Errors
+/// Where the scenario cannot be written as JSON, which no checked scenario can fail to be.
+pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan> {
+    let scenario = &resolved.scenario;
+    Ok(RunPlan {
+        tables: scenario.tables.iter().copied().map(table).collect(),
+        recorded: scenario.ages.recorded(),
+        until: scenario.ages.until,
+        plots: scenario.plants,
+        plots_per_part: plots_per_part(resolved),
+        compression_level: match scenario.output.compression {
+            scenario::Compression::Zstd1 => 1,
+            scenario::Compression::Zstd3 => 3,
+        },
+        precision_m: scenario.output.float_precision_m,
+        provenance: Provenance {
+            scenario: scenario.name.clone(),
+            treatment: "control".to_owned(),
+            seed: scenario.seed,
+            version: program.version.clone(),
+            git_hash: program.git_hash.clone(),
+            resolved: resolved.to_json().context("cannot write the scenario as JSON")?,
+            inputs: inputs(resolved),
+        },
+    })
+}
+
+fn table(table: scenario::Table) -> Table {
+    match table {
+        scenario::Table::Components => Table::Components,
+        scenario::Table::Records => Table::Records,
+        scenario::Table::Events => Table::Events,
+        scenario::Table::Summary => Table::Summary,
+    }
+}
+
+fn inputs(resolved: &Resolved) -> Vec<Input> {
+    let hash = |text: &str| Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+    resolved.sources.iter().map(|source| Input { path: source.name.clone(), sha256: hash(&source.text) }).collect()
+}
+
+/// How many plants share a part file: as the scenario says, else by the expected work of a plant.
+fn plots_per_part(resolved: &Resolved) -> u32 {
+    let scenario = &resolved.scenario;
+    if let Some(plants) = scenario.output.plants_per_part {
+        return plants.min(scenario.plants);
+    }
+    let work = Forecast::of(resolved).map_or(UNFORESEEN, |forecast| forecast.work_a_plant()).max(1.0);
+    let in_all = work * f64::from(scenario.plants);
+    let parts = (in_all / LEAST_WORK_A_PART).clamp(1.0, PARTS_OF_A_SMALL_RUN).max(in_all / WORK_A_PART);
+    (f64::from(scenario.plants) / parts).ceil().max(1.0) as u32
+}
+
+/// The most components of a plant: the scenario's limit, or what its memory holds, whichever is smaller.
+///
+/// The memory is that of one plant at a time: how many grow at once depends on the machine, and a limit must not.
+pub fn component_limit(scenario: &Scenario) -> u32 {
+    let limits = &scenario.limits;
+    let fitting = limits.max_memory_mb.map_or(u64::MAX, |mb| u64::from(mb) * 1_000_000 / BYTES_A_COMPONENT);
+    u64::from(limits.max_components).min(fitting) as u32
+}
+
+/// What plant number `plant` of a scenario grows from.
+pub fn seed_of(scenario: &Scenario, plant: u32) -> Seed {
+    Seed {
+        plant,
+        run_seed: scenario.seed,
+        component_limit: component_limit(scenario),
+        keep_events: scenario.tables.contains(&scenario::Table::Events),
+    }
+}
+
+/// Where its seed lies, metres: on a square grid, row by row from the origin; each at an origin of its own where the
+/// scenario gives no spacing.
+pub fn place_of(scenario: &Scenario, plant: u32) -> [f32; 3] {
+    let Some(spacing) = scenario.spacing_m else { return [0.0; 3] };
+    let root = scenario.plants.isqrt();
+    let row = root + u32::from(root * root < scenario.plants);
+    let along = |steps: u32| (f64::from(steps) * spacing) as f32;
+    [along(plant % row), along(plant / row), 0.0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use phytomer_config::{Origin, validate_text};
+
+    fn scenario(text: &str) -> Resolved {
+        let head = "name = \"t\"\nspecies = \"gmt1/5a\"\nages = { until = 4 }\n";
+        validate_text("t", Origin::Preset("t".into()), &format!("{head}{text}"))
+            .unwrap_or_else(|r| panic!("{}", r.render(false)))
+    }
+
+    #[test]
+    fn plants_stand_on_a_square_grid() {
+        let ten = scenario("plants = 10\nspacing_m = 2.5");
+        assert_eq!(place_of(&ten.scenario, 0), [0.0; 3]);
+        assert_eq!(place_of(&ten.scenario, 3), [7.5, 0.0, 0.0]);
+        assert_eq!(place_of(&ten.scenario, 9), [2.5, 5.0, 0.0]);
+        assert_eq!(place_of(&scenario("plants = 9\nspacing_m = 1").scenario, 8), [2.0, 2.0, 0.0]);
+        assert_eq!(place_of(&scenario("plants = 9").scenario, 8), [0.0; 3]);
+    }
+
+    #[test]
+    fn the_smaller_limit_holds() {
+        let limit = |text: &str| component_limit(&scenario(text).scenario);
+        assert_eq!(limit("plants = 1"), 50_000_000);
+        assert_eq!(limit("plants = 1\nlimits = { max_memory_mb = 96 }"), 1_000_000);
+        assert_eq!(limit("plants = 1\nlimits = { max_components = 5_000, max_memory_mb = 96 }"), 5_000);
+    }
+
+    #[test]
+    fn parts_have_a_fair_size_and_do_not_depend_on_the_machine() {
+        let plan = |text: &str| plan_of(&scenario(text), &Program::default()).unwrap();
+        assert_eq!(plan("plants = 7\noutput = { plants_per_part = 3 }").shards(), 3);
+        assert_eq!(plan("plants = 2\noutput = { plants_per_part = 30 }").plots_per_part, 2);
+        assert_eq!(plan("plants = 10").shards(), 1);
+        let many = plan("plants = 1_000_000");
+        assert!((8..2_000).contains(&many.shards()), "{} parts", many.shards());
+    }
+}

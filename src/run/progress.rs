@@ -1,0 +1,83 @@
+//! How far a run has come, and the wish to stop it: numbers that the growing threads raise and a person's terminal
+//! reads.
+//!
+//! Absent: how they are shown, which is the command line's.
+
+use phytomer_config::Resolved;
+use phytomer_sim::plant::Plant;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
+
+/// The state of a run that is under way.
+#[derive(Debug, Default)]
+pub struct Progress {
+    stop: AtomicBool,
+    plants: AtomicU64,
+    plants_in_all: AtomicU64,
+    ages: AtomicU64,
+    ages_a_plant: AtomicU64,
+    components: AtomicU64,
+}
+
+/// The run was told to stop.
+#[derive(Debug, Clone, Copy, thiserror::Error)]
+#[error("the run was told to stop")]
+pub(super) struct Stopped;
+
+impl Progress {
+    /// Asks the run to stop soon: shards that are not complete are given up, committed ones stay.
+    pub fn stop(&self) {
+        self.stop.store(true, Relaxed);
+    }
+
+    /// Whether it was asked to stop.
+    pub fn is_stopped(&self) -> bool {
+        self.stop.load(Relaxed)
+    }
+
+    /// Plants grown so far in this start.
+    pub fn plants(&self) -> u64 {
+        self.plants.load(Relaxed)
+    }
+
+    /// Plants that this start has to grow; 0 before it began.
+    pub fn plants_in_all(&self) -> u64 {
+        self.plants_in_all.load(Relaxed)
+    }
+
+    /// Components of the plants grown so far.
+    pub fn components(&self) -> u64 {
+        self.components.load(Relaxed)
+    }
+
+    /// The share of the work that is done, in [0, 1]; recorded ages count, so that a single plant moves too.
+    pub fn share(&self) -> f64 {
+        let ages = self.ages.load(Relaxed) as f64;
+        let in_all = (self.plants_in_all() * self.ages_a_plant.load(Relaxed)).max(1) as f64;
+        (ages / in_all).min(1.0)
+    }
+
+    pub(super) fn begin(&self, resolved: &Resolved, plants: u64) {
+        let scenario = &resolved.scenario;
+        let mut ages = scenario.ages.recorded();
+        ages.extend(scenario.mesh_ages());
+        ages.sort_unstable();
+        ages.dedup();
+        self.ages_a_plant.store(ages.len() as u64, Relaxed);
+        self.plants_in_all.store(plants, Relaxed);
+    }
+
+    pub(super) fn check(&self) -> Result<(), Stopped> {
+        if self.is_stopped() { Err(Stopped) } else { Ok(()) }
+    }
+
+    pub(super) fn end_age(&self) {
+        self.ages.fetch_add(1, Relaxed);
+    }
+
+    pub(super) fn end_plant(&self, plant: &Plant) {
+        self.components.fetch_add(u64::from(plant.components()), Relaxed);
+        let plants = self.plants.fetch_add(1, Relaxed) + 1;
+        // A plant that met its limit has shown fewer ages than others.
+        self.ages.fetch_max(plants * self.ages_a_plant.load(Relaxed), Relaxed);
+    }
+}
