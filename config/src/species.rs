@@ -211,6 +211,18 @@ impl Species {
         Ok(json)
     }
 
+    /// The species that [`Species::to_json`] has written, as `run.json` keeps it.
+    ///
+    /// # Errors
+    /// Where it is no such species; that its laws make sense is told by [`Model::compile`].
+    pub fn from_json(json: &Json) -> serde_json::Result<Self> {
+        let word = json["model"].as_str().and_then(ModelName::from_word);
+        let unknown = || <serde_json::Error as serde::de::Error>::custom("a species of an unknown model");
+        let (about, parameters) = split(json.clone());
+        let model = word.ok_or_else(unknown)?.read(parameters).map_err(serde_path_to_error::Error::into_inner)?;
+        Ok(Self { about: serde_json::from_value(about)?, model })
+    }
+
     /// The same as TOML.
     ///
     /// # Errors
