@@ -68,7 +68,12 @@ impl Axis<'_> {
             azimuth: self.bud.azimuth,
         };
         let turned = self.bud.azimuth + laws.divergence.draw(words, 0, at);
-        self.bud.azimuth = if (0.0..TURN).contains(&turned) { turned } else { turned.rem_euclid(TURN) };
+        // A divergence is within a turn, so one correction keeps the azimuth in [0, 2π).
+        self.bud.azimuth = match turned {
+            over if over >= TURN => over - TURN,
+            under if under < 0.0 => under + TURN,
+            within => within,
+        };
         self.bud.rank = along;
         self.bud.last_node = self.plant.add_node(new);
         self.bud.last_node

@@ -28,20 +28,23 @@ impl Layout {
 
     /// Slots for `times` tests of a probability.
     pub fn chance(&mut self, table: ProbabilityTable, times: u32) -> Chance {
-        let slot = self.take(!table.is_never() && !table.is_certain(), times);
-        Chance { table, slot }
+        let fixed = (table.is_never() || table.is_certain()).then(|| table.is_certain());
+        let slot = self.take(fixed.is_none(), times);
+        Chance { table, slot, fixed }
     }
 
     /// Slots for `times` numbers of things.
     pub fn number(&mut self, table: CountTable, times: u32) -> Number {
-        let slot = self.take(table.constant().is_none(), times);
-        Number { table, slot }
+        let fixed = table.constant();
+        let slot = self.take(fixed.is_none(), times);
+        Number { table, slot, fixed }
     }
 
     /// Slots for `times` measures, each multiplied by `unit`.
     pub fn measure(&mut self, table: VariateTable, unit: f32, times: u32) -> Measure {
-        let slot = self.take(table.constant().is_none() && table.is_random(), times);
-        Measure { table, slot, unit }
+        let fixed = table.constant().map(|value| value * unit);
+        let slot = self.take(fixed.is_none() && table.is_random(), times);
+        Measure { table, slot, unit, fixed }
     }
 }
 
@@ -63,13 +66,15 @@ impl Slot {
 pub struct Chance {
     pub table: ProbabilityTable,
     slot: Slot,
+    /// What happens at every point, where that is certain.
+    fixed: Option<bool>,
 }
 
 impl Chance {
     /// Whether it happens, the `nth` time (from 0) in this record.
     #[inline]
     pub fn happens(&self, words: &[u32], nth: u32, at: At) -> bool {
-        self.table.happens(self.slot.word(words, nth), at)
+        self.fixed.unwrap_or_else(|| self.table.happens(self.slot.word(words, nth), at))
     }
 }
 
@@ -78,13 +83,14 @@ impl Chance {
 pub struct Number {
     pub table: CountTable,
     slot: Slot,
+    fixed: Option<u32>,
 }
 
 impl Number {
     /// How many, the `nth` time (from 0) in this record.
     #[inline]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> u32 {
-        self.table.sample(self.slot.word(words, nth), at)
+        self.fixed.unwrap_or_else(|| self.table.sample(self.slot.word(words, nth), at))
     }
 }
 
@@ -94,12 +100,13 @@ pub struct Measure {
     pub table: VariateTable,
     slot: Slot,
     unit: f32,
+    fixed: Option<f32>,
 }
 
 impl Measure {
     /// The value in SI units or radians, the `nth` time (from 0) in this record.
     #[inline]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> f32 {
-        self.table.draw(self.slot.word(words, nth), at) * self.unit
+        self.fixed.unwrap_or_else(|| self.table.draw(self.slot.word(words, nth), at) * self.unit)
     }
 }
