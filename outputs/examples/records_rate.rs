@@ -1,6 +1,6 @@
 //! How fast a whole run of one big tree goes into its tables, against what the parquet crate alone needs for the same
-//! batches with the same settings and threads. Usage: `records_rate [internodes in thousands] [threads] [runs]`, in
-//! release mode.
+//! batches with the same settings and threads. Usage: `records_rate [internodes in thousands] [threads] [runs] [0 to leave
+//! parquet alone out]`, in release mode.
 //!
 //! The tree is not a species: a bush whose axes grow an internode with a leaf a tick, with noisy lengths and angles, so
 //! that its columns are about as hard to compress as those of a real tree.
@@ -90,7 +90,7 @@ fn grow_axis(plant: &mut Plant, axis: AxisId, age: Tick, most: usize, waiting: &
             azimuth: 2.4 + share(32),
         });
         add_leaf(plant, parent, tick, share(0));
-        if order < 6 && noise % 4 != 0 {
+        if order < 6 && !noise.is_multiple_of(4) {
             waiting.push(add_axis(plant, parent, key.child(Place::Axillary(0).on(rank)), tick, order + 1));
         }
     }
@@ -107,7 +107,7 @@ fn add_axis(plant: &mut Plant, bearer: NodeId, key: LineageKey, tick: Tick, orde
         state: 0,
         appearance: tick,
         birth: tick,
-        azimuth: 6.28 * share,
+        azimuth: std::f32::consts::TAU * share,
         insertion: if order == 1 { 0.0 } else { 0.6 + 0.3 * share },
     })
 }
@@ -124,7 +124,7 @@ fn add_leaf(plant: &mut Plant, node: NodeId, tick: Tick, share: f32) {
         length: 0.08,
         width: 0.07,
         area: 0.004,
-        azimuth: 6.28 * share,
+        azimuth: std::f32::consts::TAU * share,
         insertion: 0.9,
     });
 }
@@ -148,6 +148,15 @@ fn plan(internodes: usize) -> RunPlan {
             inputs: Vec::new(),
         },
     }
+}
+
+/// The processor time that this process has had, in seconds, where the system tells (Linux): steadier than the clock on
+/// a machine that is shared.
+fn processor_s() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
+    let ticks = |place: usize| fields.get(place).and_then(|field| field.parse::<f64>().ok()).unwrap_or(f64::NAN);
+    (ticks(11) + ticks(12)) / 100.0
 }
 
 fn write_run(path: &Path, internodes: usize) -> f64 {
@@ -207,17 +216,26 @@ fn main() {
     let internodes = 1000 * arguments.next().unwrap_or(1000);
     let threads = arguments.next().unwrap_or(2);
     let runs = arguments.next().unwrap_or(3);
+    let compare = arguments.next() != Some(0);
     rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().expect("a pool");
     let home = tempfile::tempdir().expect("a folder");
     for _ in 0..runs {
         let path = home.path().join("run");
+        let before = processor_s();
         let ours = write_run(&path, internodes);
+        let ours_processor = processor_s() - before;
+        if !compare {
+            println!("run {ours:.2} s, processor {ours_processor:.2} s");
+            continue;
+        }
         let run = Run::open(&path).expect("a run");
         let rows = run.rows().expect("rows")[&Table::Records];
         let bytes = run.json()["bytes"].as_u64().unwrap_or(0);
         let batches = run.batches_of(Table::Records, ROW_GROUP).expect("batches");
         let batches: Vec<_> = batches.collect::<Result<_, _>>().expect("batches");
+        let before = processor_s();
         let alone = write_alone(&home.path().join("alone.parquet"), &batches, internodes);
+        let alone_processor = processor_s() - before;
         let rate = |seconds: f64| rows as f64 / seconds / 1e6;
         println!(
             "{rows} rows, {:.1} bytes a row: run {ours:.2} s, {:.2} M rows/s; parquet alone {alone:.2} s, {:.2} M rows/s; \
@@ -227,5 +245,6 @@ fn main() {
             rate(alone),
             ours / alone
         );
+        println!("  processor: run {ours_processor:.2} s, parquet alone {alone_processor:.2} s");
     }
 }

@@ -192,7 +192,7 @@ const MACROS: [(Table, &str, &str); 6] = [
     (
         Table::Summary,
         "Means over the plants, by age.",
-        "growth() AS TABLE SELECT age, count(*) AS plants, sum(alive::INT) AS alive, avg(internodes) AS internodes, \
+        "growth() AS TABLE SELECT age, count(*) AS plants, count(*) FILTER (alive) AS alive, avg(internodes) AS internodes, \
          avg(leaves) AS leaves, avg(height_m) AS height_m, avg(leaf_area_m2) AS leaf_area_m2 FROM summary GROUP BY age \
          ORDER BY age",
     ),

@@ -7,8 +7,8 @@ use super::journal::{FileReport, OvergrownPlot, ShardReport};
 use super::{RunFolder, durable};
 use crate::Error;
 use crate::tables::{
-    Columns, ComponentColumns, EventColumns, Part, PartReport, Queue, RecordColumns, Scene, Standing, SummaryColumns,
-    Table, sort_events, summarise,
+    Columns, ComponentColumns, EventColumns, Part, PartReport, Queue, RecordColumns, RecordRow, Scene, Standing,
+    SummaryColumns, Table, sort_events, summarise,
 };
 use phytomer_sim::plant::{Event, Plant};
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick};
@@ -32,6 +32,7 @@ pub struct Shard<'a> {
     staged: Vec<String>,
     standing: Standing,
     numbers: Vec<u32>,
+    rows: Vec<RecordRow>,
     sorted: Vec<Event>,
     report: ShardReport,
     ended: u32,
@@ -46,6 +47,7 @@ impl<'a> Shard<'a> {
             staged: Vec::new(),
             standing: Standing::default(),
             numbers: Vec::new(),
+            rows: Vec::new(),
             sorted: Vec::new(),
             report,
             ended: 0,
@@ -156,7 +158,7 @@ impl<'a> Shard<'a> {
         let mut next = 0;
         while next < self.standing.len() {
             self.standing.select(age, part.room(), &mut next, &mut self.numbers);
-            part.columns.fill(plot, &scene, &self.numbers);
+            part.columns.fill(plot, &scene, &self.numbers, &mut self.rows);
             part.flush_if_full()?;
         }
         Ok(())

@@ -24,7 +24,7 @@ pub(crate) use components::ComponentColumns;
 pub(crate) use encode::Queue;
 pub(crate) use events::{EventColumns, sort as sort_events};
 pub(crate) use part::{Part, PartReport};
-pub(crate) use records::{RecordColumns, Scene};
+pub(crate) use records::{RecordColumns, Row as RecordRow, Scene};
 pub(crate) use standing::Standing;
 pub(crate) use summary::{SummaryColumns, summarise};
 

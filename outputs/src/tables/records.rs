@@ -3,7 +3,7 @@
 use super::buffers::{NULL, columns};
 use super::columns::KINDS;
 use super::standing::{Component, Standing};
-use phytomer_sim::plant::{AxisId, Kind, NodeId, OrganId, Plant};
+use phytomer_sim::plant::{Axes, AxisId, Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::{Frame, node_frame, organ_frame, start_frame};
 use phytomer_sim::{Plot, Tick};
 
@@ -21,8 +21,8 @@ columns! {
     }
 }
 
-/// What one component puts into a row.
-struct Row {
+/// What one component puts into a row; NaN and −1 are nulls.
+pub struct Row {
     component: u32,
     parent: i32,
     axis: AxisId,
@@ -48,16 +48,17 @@ pub struct Scene<'a> {
 }
 
 impl RecordColumns {
-    /// Adds a row for each of the components `numbers`.
-    pub fn fill(&mut self, plot: &Plot, scene: &Scene<'_>, numbers: &[u32]) {
-        for &number in numbers {
-            let row = match scene.standing.component(number) {
-                Component::Node(node) => scene.of_node(node),
-                Component::Organ(organ) => scene.of_organ(organ),
-                Component::Bud(axis) => scene.of_bud(axis),
-            };
-            self.push(&row, &scene.plant.axes);
-        }
+    /// Adds a row for each of the components `numbers`; `rows` is memory to work in.
+    pub fn fill(&mut self, plot: &Plot, scene: &Scene<'_>, numbers: &[u32], rows: &mut Vec<Row>) {
+        rows.clear();
+        rows.extend(numbers.iter().map(|&number| match scene.standing.component(number) {
+            Component::Node(node) => scene.of_node(node),
+            Component::Organ(organ) => scene.of_organ(organ),
+            Component::Bud(axis) => scene.of_bud(axis),
+        }));
+        // Column by column out of the cache, which is several times as fast as pushing row by row to 25 columns.
+        self.push_identity(rows, &scene.plant.axes);
+        self.push_pose(rows);
         let rows = self.component.len();
         self.treatment.resize(rows, 0);
         self.plot.resize(rows, plot.id as i32);
@@ -65,30 +66,31 @@ impl RecordColumns {
         self.age.resize(rows, scene.age as i32);
     }
 
-    #[inline]
-    fn push(&mut self, row: &Row, axes: &phytomer_sim::plant::Axes) {
-        let Frame { base, heading, up } = row.frame;
-        self.component.push(row.component as i32);
-        self.parent.push(row.parent);
-        self.axis.push(axes.component[row.axis.index()] as i32);
-        self.order.push(i32::from(axes.order[row.axis.index()]));
-        self.kind.push(row.kind as i8);
-        self.rank.push(row.rank as i32);
-        self.birth.push(row.birth as i32);
-        self.x.push(base[0]);
-        self.y.push(base[1]);
-        self.z.push(base[2]);
-        self.dir_x.push(heading[0]);
-        self.dir_y.push(heading[1]);
-        self.dir_z.push(heading[2]);
-        self.up_x.push(up[0]);
-        self.up_y.push(up[1]);
-        self.up_z.push(up[2]);
-        self.length.push(row.length);
-        self.diameter.push(row.diameter);
-        self.diameter_tip.push(row.diameter_tip);
-        self.area.push(row.area);
-        self.alive.push(i8::from(row.alive));
+    fn push_identity(&mut self, rows: &[Row], axes: &Axes) {
+        self.component.extend(rows.iter().map(|row| row.component as i32));
+        self.parent.extend(rows.iter().map(|row| row.parent));
+        self.axis.extend(rows.iter().map(|row| axes.component[row.axis.index()] as i32));
+        self.order.extend(rows.iter().map(|row| i32::from(axes.order[row.axis.index()])));
+        self.kind.extend(rows.iter().map(|row| row.kind as i8));
+        self.rank.extend(rows.iter().map(|row| row.rank as i32));
+        self.birth.extend(rows.iter().map(|row| row.birth as i32));
+        self.alive.extend(rows.iter().map(|row| i8::from(row.alive)));
+    }
+
+    fn push_pose(&mut self, rows: &[Row]) {
+        self.x.extend(rows.iter().map(|row| row.frame.base[0]));
+        self.y.extend(rows.iter().map(|row| row.frame.base[1]));
+        self.z.extend(rows.iter().map(|row| row.frame.base[2]));
+        self.dir_x.extend(rows.iter().map(|row| row.frame.heading[0]));
+        self.dir_y.extend(rows.iter().map(|row| row.frame.heading[1]));
+        self.dir_z.extend(rows.iter().map(|row| row.frame.heading[2]));
+        self.up_x.extend(rows.iter().map(|row| row.frame.up[0]));
+        self.up_y.extend(rows.iter().map(|row| row.frame.up[1]));
+        self.up_z.extend(rows.iter().map(|row| row.frame.up[2]));
+        self.length.extend(rows.iter().map(|row| row.length));
+        self.diameter.extend(rows.iter().map(|row| row.diameter));
+        self.diameter_tip.extend(rows.iter().map(|row| row.diameter_tip));
+        self.area.extend(rows.iter().map(|row| row.area));
     }
 }
 

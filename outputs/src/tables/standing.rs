@@ -8,8 +8,8 @@ use crate::Error;
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{AxisId, NodeId, OrganId, Plant};
 
-/// Components that are picked out of the scan at a time.
-pub const SELECTION: usize = 4096;
+/// Components that are looked at in one step of the scan: few enough for their rows to stay in a core's cache.
+const SELECTION: usize = 512;
 
 /// The two high bits of a place tell the class, the others the index.
 const CLASS_SHIFT: u32 = 30;
