@@ -9,7 +9,7 @@ use phytomer_models::fault::{Path, Segment};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::report::Fault;
+use crate::report::{Fault, MOST_FAULTS};
 use crate::source::{SourceId, Sources, Span};
 
 /// Tables and arrays nest at most this deep; no species needs a quarter of it.
@@ -144,7 +144,7 @@ pub fn parse(sources: &Sources, id: SourceId, faults: &mut Vec<Fault>) -> Option
     let (table, errors) = DeTable::parse_recoverable(text);
     let mut syntax = Vec::new();
     let mut whole = true;
-    for error in errors {
+    for error in errors.into_iter().take(MOST_FAULTS) {
         let (fault, harmless) = syntax_fault(id, text, &error);
         whole &= harmless;
         syntax.push(fault);
@@ -200,7 +200,7 @@ fn first_of_each_line(sources: &Sources, mut faults: Vec<Fault>) -> Vec<Fault> {
     faults.sort_by_key(|f| f.span);
     let mut last = 0;
     faults.retain(|fault| {
-        let line = fault.span.map_or(0, |span| sources.place(span).0);
+        let line = fault.span.map_or(0, |span| sources.line(span));
         std::mem::replace(&mut last, line) != line
     });
     faults

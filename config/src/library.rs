@@ -15,7 +15,7 @@ use crate::spelling::nearest;
 include!(concat!(env!("OUT_DIR"), "/presets.rs"));
 
 /// A file longer than this is not a parameter file; reading on would only use memory.
-const MAX_BYTES: u64 = 8 << 20;
+const MAX_BYTES: u64 = 4 << 20;
 
 /// The two kinds of file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,14 +7,20 @@
 use std::fmt::Write as _;
 
 use annotate_snippets::renderer::DecorStyle;
-use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet, Title};
 use phytomer_models::fault::Path;
 use serde::Serialize;
 
 use crate::source::{Sources, Span};
 
-/// People stop reading long before; `--json` has them all.
+/// People stop reading long before; `--json` has more.
 const SHOWN: usize = 50;
+
+/// Beyond this a file is not a parameter file with slips in it, and looking on would only take time.
+pub(crate) const MOST_FAULTS: usize = 1000;
+
+/// Of a longer line only the part around the fault is shown.
+const LONGEST_LINE: usize = 2000;
 
 /// One thing that is wrong, and where.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -75,7 +81,7 @@ pub struct FaultRecord {
 pub struct Report {
     /// The texts that the faults point into.
     pub sources: Sources,
-    /// At least one fault.
+    /// At least one fault, at most a thousand.
     pub faults: Vec<Fault>,
 }
 
@@ -84,6 +90,7 @@ impl Report {
     pub fn new(sources: Sources, mut faults: Vec<Fault>) -> Self {
         faults.sort_by(|a, b| (a.span, &a.problem, &a.path).cmp(&(b.span, &b.problem, &b.path)));
         faults.dedup_by(|b, a| a.span.is_some() && a.span == b.span && a.problem == b.problem);
+        faults.truncate(MOST_FAULTS);
         Self { sources, faults }
     }
 
@@ -93,7 +100,8 @@ impl Report {
         files.sort();
         files.dedup();
         let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-        let faults = count(self.faults.len(), "fault");
+        let least = if self.faults.len() == MOST_FAULTS { "at least " } else { "" };
+        let faults = format!("{least}{}", count(self.faults.len(), "fault"));
         if files.is_empty() { faults } else { format!("{faults} in {}", count(files.len(), "file")) }
     }
 
@@ -106,7 +114,7 @@ impl Report {
             self.render_one(&renderer, fault, &mut out);
         }
         if self.faults.len() > SHOWN {
-            let _ = writeln!(out, "… and {} more (--json shows them all)\n", self.faults.len() - SHOWN);
+            let _ = writeln!(out, "… and {} more (--json shows them)\n", self.faults.len() - SHOWN);
         }
         let _ = writeln!(out, "{}", self.summary());
         out
@@ -115,12 +123,8 @@ impl Report {
     fn render_one(&self, renderer: &Renderer, fault: &Fault, out: &mut String) {
         let title = Level::ERROR.primary_title(&fault.problem);
         let mut group = match fault.span {
-            None => annotate_snippets::Group::with_title(title),
-            Some(span) => {
-                let source = self.sources.get(span.source);
-                let underline = AnnotationKind::Primary.span(self.sources.first_line(span));
-                title.element(Snippet::source(&*source.text).path(&source.name).annotation(underline))
-            }
+            None => Group::with_title(title),
+            Some(span) => self.underline(title, span),
         };
         if !fault.expected.is_empty() {
             group = group.element(Level::NOTE.with_name("expected").message(clean(&fault.expected)));
@@ -128,7 +132,29 @@ impl Report {
         if let Some(suggestion) = &fault.suggestion {
             group = group.element(Level::HELP.message(format!("did you mean `{}`?", clean(suggestion))));
         }
-        let _ = writeln!(out, "{}\n", renderer.render(&[group]));
+        let shown = renderer.render(&[group]);
+        // A snippet without a path of its own (a long line's) has an empty line in its place.
+        let lines = shown.lines().filter(|line| line.trim() != ":::");
+        lines.for_each(|line| _ = writeln!(out, "{line}"));
+        out.push('\n');
+    }
+
+    /// The title above the line where `span` begins.
+    fn underline<'a>(&'a self, title: Title<'a>, span: Span) -> Group<'a> {
+        let source = self.sources.get(span.source);
+        let (start, line) = self.sources.line_text(span);
+        let underlined = self.sources.first_line(span);
+        let within = |at: usize| at.saturating_sub(start).min(line.len());
+        let (from, to) = (within(underlined.start), within(underlined.end));
+        let (line_number, column) = self.sources.place(span);
+        if line.len() <= LONGEST_LINE {
+            let snippet = Snippet::source(line).line_start(line_number).path(&source.name);
+            return title.element(snippet.annotation(AnnotationKind::Primary.span(from..to)));
+        }
+        let (left, right) = (line.floor_char_boundary(from.saturating_sub(60)), line.floor_char_boundary(to + 60));
+        let origin = Origin::path(&source.name).line(line_number).char_column(column);
+        let snippet = Snippet::source(&line[left..right]).line_start(line_number);
+        title.element(origin).element(snippet.annotation(AnnotationKind::Primary.span(from - left..to - left)))
     }
 
     /// The report for programs.

@@ -43,32 +43,44 @@ pub struct Span {
 
 /// Every text read so far, in the order of reading.
 #[derive(Debug, Clone, Default)]
-pub struct Sources(Vec<Source>);
+pub struct Sources(Vec<(Source, Arc<[usize]>)>);
 
 impl Sources {
     /// Keeps a text; its id stays valid for ever.
     pub fn add(&mut self, source: Source) -> SourceId {
-        self.0.push(source);
+        let line_starts = [0].into_iter().chain(source.text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+        self.0.push((source, line_starts));
         SourceId(self.0.len() as u32 - 1)
     }
 
     /// The text of an id given by [`Sources::add`].
     pub fn get(&self, id: SourceId) -> &Source {
-        &self.0[id.0 as usize]
+        &self.0[id.0 as usize].0
     }
 
     /// All texts, in the order of reading.
     pub fn iter(&self) -> impl Iterator<Item = &Source> {
-        self.0.iter()
+        self.0.iter().map(|(source, _)| source)
+    }
+
+    /// The line of the first byte of `span`, from 1.
+    pub fn line(&self, span: Span) -> usize {
+        self.0[span.source.0 as usize].1.partition_point(|start| *start <= span.start)
     }
 
     /// Line and column of the first byte of `span`, both from 1, the column in characters.
     pub fn place(&self, span: Span) -> (usize, usize) {
-        let text = &self.get(span.source).text;
-        let before = &text[..floor_boundary(text, span.start)];
-        let line = before.bytes().filter(|b| *b == b'\n').count() + 1;
-        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-        (line, column)
+        let (line, text) = (self.line(span), &self.get(span.source).text);
+        let start = self.0[span.source.0 as usize].1[line - 1];
+        (line, text[start..floor_boundary(text, span.start)].chars().count() + 1)
+    }
+
+    /// The text of the line where `span` begins, and where that line begins.
+    pub fn line_text(&self, span: Span) -> (usize, &str) {
+        let starts = &self.0[span.source.0 as usize].1;
+        let (line, text) = (self.line(span), &self.get(span.source).text);
+        let end = starts.get(line).copied().unwrap_or(text.len());
+        (starts[line - 1], text[starts[line - 1]..end].trim_end_matches(['\n', '\r']))
     }
 
     /// The part of `span` on its first line, at most 80 bytes of it and never splitting a character: what is worth
@@ -104,6 +116,8 @@ mod tests {
         assert_eq!(sources.place(Span { source: id, start, end: start + 1 }), (2, 9));
         let past = Span { source: id, start: 999, end: 1000 };
         assert_eq!(sources.place(past), (3, 1));
+        assert_eq!(sources.line_text(Span { source: id, start, end: start }), (6, "β = \"é\" # x"));
+        assert_eq!(sources.line_text(past), (text.len(), ""));
         assert_eq!(sources.first_line(Span { source: id, start: 0, end: 999 }), 0..5);
     }
 }

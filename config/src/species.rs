@@ -180,15 +180,6 @@ impl Model {
         }
     }
 
-    /// The components that a plant is expected to have made by `age`, of this model and its compiled form; `None`
-    /// where the laws give no mean in closed form.
-    pub fn expected_components(&self, compiled: &dyn GrowthModel, age: u32) -> Option<f64> {
-        match self {
-            Model::Gmt1(gmt1) => Some(gmt1.components_at(age) as f64),
-            Model::Buds(_) => compiled.expectation(age).map(|means| means.components(age)),
-        }
-    }
-
     fn to_json(&self) -> serde_json::Result<Json> {
         match self {
             Model::Buds(buds) => serde_json::to_value(buds),

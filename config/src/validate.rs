@@ -166,7 +166,7 @@ fn tell(loader: &mut Loader, node: &Node, faults: Vec<fault::Fault>) {
 fn check_explosion(loader: &mut Loader, node: &Node, (scenario, species, model): &Checked) {
     let until = scenario.ages.until;
     let most = scenario.limits.max_components;
-    let Some(expected) = species.model.expected_components(model.as_ref(), until) else { return };
+    let Some(expected) = model.expectation(until).map(|means| means.components(until)) else { return };
     if expected <= f64::from(most) {
         return;
     }
@@ -213,7 +213,7 @@ impl fmt::Debug for ResolvedSpecies {
 impl Resolved {
     /// The components that a plant is expected to have made by `age`, where the laws give a mean in closed form.
     pub fn expected_components(&self, age: u32) -> Option<f64> {
-        self.species.model.expected_components(self.model.as_ref(), age)
+        self.model.expectation(age).map(|means| means.components(age))
     }
 
     /// The whole run as data, for `run.json`: the scenario with its defaults and the species without ancestors.

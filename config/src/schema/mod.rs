@@ -18,7 +18,7 @@ use phytomer_models::fault::Path;
 use serde_json::Value as Json;
 
 use crate::document::{Entry, Node, Value};
-use crate::report::Fault;
+use crate::report::{Fault, MOST_FAULTS};
 use crate::source::Span;
 use crate::spelling::nearest;
 
@@ -91,6 +91,9 @@ struct Walk<'s> {
 
 impl<'s> Walk<'s> {
     fn visit(&mut self, schema: &'s Json, place: &Place<'_>, depth: usize) {
+        if self.faults.len() >= MOST_FAULTS {
+            return;
+        }
         self.fuel = self.fuel.saturating_sub(1);
         if depth > MAX_FORMS * 4 {
             self.faults.push(place.fault("nested too deep", "a simpler value"));
@@ -184,6 +187,9 @@ impl<'s> Walk<'s> {
         let missing = missing_keys(schema, entries);
         let mut meant = Vec::new();
         for entry in entries {
+            if self.faults.len() >= MOST_FAULTS {
+                return;
+            }
             let below = Place { node: &entry.node, at: entry.node.span, path: place.path.key(&entry.key) };
             match property(schema, &entry.key) {
                 Some(Some(property)) => self.visit(property, &below, depth + 1),
