@@ -1,5 +1,6 @@
 //! What a run folder says of itself: `run.json`, `datapackage.json` (Frictionless Data Package 1) and `views.sql`
 //! (DuckDB).
+//! Absent: the tables themselves, and the journal, which holds a run together until these are written.
 
 use super::durable;
 use super::journal::{FileReport, OvergrownPlot, ShardReport};

@@ -1,4 +1,6 @@
 //! Files that are either whole or not there: written beside their final name, synced, then renamed.
+//!
+//! A crash at any moment leaves the old file, the new one, or a file beside its name that a resumed run removes.
 
 use crate::Error;
 use sha2::{Digest, Sha256};

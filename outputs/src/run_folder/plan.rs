@@ -1,4 +1,6 @@
 //! What a run is to write, known before its first tick; a run is resumed only under an equal plan.
+//!
+//! The identity of a plan is everything that the bytes of the tables depend on; limits and threads are not in it.
 
 use crate::tables::Table;
 use phytomer_sim::Tick;

@@ -1,4 +1,6 @@
 //! Creation, journal, resuming, refusals, and the same bytes on any number of threads.
+//!
+//! A crash is played by what it leaves behind: torn lines, parts without an entry, files beside their names.
 
 use super::*;
 use crate::read::Run;

@@ -1,4 +1,6 @@
 //! The rows of `records`: de Reffye's record (1988 §6) of each component that stands at an age, with its pose.
+//!
+//! Positions and directions are those of the pose; diameters those of the recorded age. Absent: any formula of growth.
 
 use super::buffers::{NULL, columns};
 use super::columns::KINDS;

@@ -1,4 +1,6 @@
 //! The rows of `summary`: one plant at one age in a few numbers, which agree with a count of its `records`.
+//!
+//! Sums run in the order of the plant's columns, in double precision: the same bits on any number of threads.
 
 use super::buffers::{NULL, columns};
 use super::standing::{Standing, organ_end};

@@ -1,4 +1,6 @@
 //! Types, encodings and metadata as stated; order, nulls and counts of the rows; rounding.
+//!
+//! The rows are those of the crate's specimen plant, whose life is known tick by tick.
 
 use super::schema::{Encoding, Type};
 use super::*;
