@@ -1,0 +1,87 @@
+//! Independent readers of what a run leaves: pyarrow, DuckDB and Polars for the tables, plyfile, trimesh, Open3D, meshio
+//! and PyVista for the meshes.
+//!
+//! They live in `.venv`, which `.ci/run` fills from `tests/readers/requirements.txt`; where they are missing the tests
+//! skip and say so, but never in CI. `PHYTOMER_RUN` names a run folder to read beside the small one grown here.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+/// A small plant with branches, leaves and dead wood, drawn with eight sides.
+const SCENARIO: &str = r#"
+name = "readers"
+species = "leeuwenberg"
+plants = 3
+seed = 7
+ages = { until = 10, record = "all" }
+meshes = { ages = [4, 10], plants = 1, sides = 8 }
+"#;
+
+/// The Python that has the readers; `None`, with the reason printed, where there is none.
+fn python() -> Option<PathBuf> {
+    let python = Path::new(ROOT).join(".venv/bin/python");
+    let found = Command::new(&python)
+        .arg(Path::new(ROOT).join("tests/readers/present.py"))
+        .arg(Path::new(ROOT).join("tests/readers/requirements.txt"))
+        .output();
+    let reason = match found {
+        Ok(found) if found.status.success() => return Some(python),
+        Ok(found) => String::from_utf8_lossy(&found.stderr).trim().to_owned(),
+        Err(error) => format!("{}: {error}", python.display()),
+    };
+    assert!(std::env::var_os("CI").is_none(), "CI must have the readers: {reason}");
+    eprintln!("skipped: no independent readers here ({reason}); .ci/run installs them");
+    None
+}
+
+fn grow(folder: &Path) -> PathBuf {
+    let scenario = folder.join("readers.toml");
+    std::fs::write(&scenario, SCENARIO).expect("a scenario file");
+    let run = folder.join("run");
+    let done = Command::new(env!("CARGO_BIN_EXE_phytomer"))
+        .args(["grow", "--quiet", "--out"])
+        .args([&run, &scenario])
+        .output()
+        .expect("phytomer runs");
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    run
+}
+
+fn read(python: &Path, script: &str, arguments: &[&str]) {
+    let done = Command::new(python)
+        .arg(Path::new(ROOT).join("tests/readers").join(script))
+        .args(arguments)
+        .output()
+        .expect("python runs");
+    let told = format!("{}{}", String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));
+    assert!(done.status.success(), "{script} {arguments:?}:\n{told}");
+    println!("{told}");
+}
+
+#[test]
+fn independent_readers_agree_on_a_small_run() {
+    let Some(python) = python() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let run = grow(folder.path());
+    let run = run.to_str().expect("a path in UTF-8");
+    read(&python, "tables.py", &[run]);
+    read(&python, "meshes.py", &[run, "8", "tubes"]);
+}
+
+#[test]
+fn independent_readers_agree_on_a_given_run() {
+    let Some(run) = std::env::var_os("PHYTOMER_RUN") else {
+        eprintln!("skipped: PHYTOMER_RUN names no run folder to read");
+        return;
+    };
+    let Some(python) = python() else {
+        return;
+    };
+    let run = run.to_str().expect("a path in UTF-8").to_owned();
+    read(&python, "tables.py", &[&run]);
+    read(&python, "meshes.py", &[&run, "8"]);
+}

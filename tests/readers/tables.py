@@ -1,0 +1,95 @@
+"""Three readers of Parquet read every table of a run folder: tables.py RUN
+
+The types and units are those of datapackage.json, the counts of living things those of the summary.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import duckdb
+import polars
+import pyarrow.parquet
+
+run = Path(sys.argv[1])
+package = json.loads((run / "datapackage.json").read_text(encoding="utf-8"))
+report = json.loads((run / "run.json").read_text(encoding="utf-8"))
+resources = {resource["name"]: resource for resource in package["resources"]}
+assert set(resources) >= {"components", "records", "events", "summary"}, resources.keys()
+
+ARROW = {
+    "integer": ("int32", "int64"),
+    "number": ("float", "double"),
+    "boolean": ("bool",),
+    "string": ("string", "dictionary<values=string, indices=int32, ordered=0>"),
+}
+
+
+def parts(table):
+    return sorted((run / table).glob("part-*.parquet"))
+
+
+def by_pyarrow(table, fields):
+    rows = 0
+    for part in parts(table):
+        file = pyarrow.parquet.ParquetFile(part)
+        rows += file.metadata.num_rows
+        schema = file.schema_arrow
+        assert schema.names == [field["name"] for field in fields], (part, schema.names)
+        for field in fields:
+            column = schema.field(field["name"])
+            assert str(column.type) in ARROW[field["type"]], (part, column)
+            unit = (column.metadata or {}).get(b"unit", b"").decode()
+            assert unit == field.get("unit", ""), (part, field["name"], unit)
+        known = {key.decode() for key in file.schema_arrow.metadata or {}}
+        assert any("seed" in key for key in known), known
+        assert file.read().num_rows == file.metadata.num_rows
+    return rows
+
+
+def by_polars(table):
+    return polars.scan_parquet([str(part) for part in parts(table)]).collect().height
+
+
+def by_duckdb(table):
+    return duckdb.sql(f"select count(*) from read_parquet('{run}/{table}/part-*.parquet')").fetchone()[0]
+
+
+for table, resource in resources.items():
+    fields = resource["schema"]["fields"]
+    counts = {by_pyarrow(table, fields), by_polars(table), by_duckdb(table)}
+    assert len(counts) == 1, f"{table}: the readers disagree: {counts}"
+    print(f"{table}: {counts.pop()} rows, {len(fields)} columns, three readers agree")
+
+summary = duckdb.sql(f"select * from read_parquet('{run}/summary/part-*.parquet')")
+print("summary columns:", summary.columns)
+kinds = {
+    "living_internodes": "kind in ('internode', 'short_internode') and alive",
+    "dead_internodes": "kind in ('internode', 'short_internode') and not alive",
+    "living_leaves": "kind = 'leaf'",
+    "living_flowers": "kind = 'flower'",
+    "living_fruits": "kind = 'fruit'",
+    "living_buds": "kind = 'apical_bud'",
+}
+checked = 0
+for column, condition in kinds.items():
+    if column not in summary.columns:
+        continue
+    checked += 1
+    disagreeing = duckdb.sql(f"""
+        with counted as (
+            select plant_id, age, count(*) filter (where {condition}) as n
+            from read_parquet('{run}/records/part-*.parquet') group by plant_id, age)
+        select count(*) from read_parquet('{run}/summary/part-*.parquet') s
+        left join counted c using (plant_id, age) where s.{column} <> coalesce(c.n, 0)
+    """).fetchone()[0]
+    assert disagreeing == 0, f"{column}: {disagreeing} plants and ages disagree with records"
+assert checked >= 5, f"only {checked} columns of the summary are known here"
+
+con = duckdb.connect()
+con.execute(f"set file_search_path = '{run}'")
+con.execute((run / "views.sql").read_text(encoding="utf-8"))
+last = con.sql("select max(age) from summary").fetchone()[0]
+alive = con.sql(f"select count(*) from at_age({last})").fetchone()[0]
+print(f"views.sql: {alive} components stand at age {last}")
+print("tables ok:", report.get("name", run.name))
