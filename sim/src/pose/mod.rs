@@ -37,7 +37,8 @@ impl Frames {
         Frame { base: self.base[node], heading: self.heading[node], up: self.up[node] }
     }
 
-    pub(crate) fn clear(&mut self) {
+    /// Forgets every frame, so that the next pose makes them all.
+    pub fn clear(&mut self) {
         self.base.clear();
         self.heading.clear();
         self.up.clear();

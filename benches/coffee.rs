@@ -1,0 +1,15 @@
+//! The coffee tree: a bushy plant with leaves, flowers and fruits, and its population.
+
+mod specimen;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use specimen::Specimen;
+
+fn coffee(criterion: &mut Criterion) {
+    let coffee = Specimen::of("coffee");
+    coffee.growth(criterion, true);
+    coffee.frames(criterion);
+}
+
+criterion_group!(benches, coffee);
+criterion_main!(benches);

@@ -1,0 +1,16 @@
+//! A poplar of thirty years, with its leaves: growth, meshing and PLY.
+
+mod specimen;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use specimen::Specimen;
+
+fn poplar(criterion: &mut Criterion) {
+    let poplar = Specimen::of("poplar_30y");
+    poplar.growth(criterion, true);
+    poplar.meshing(criterion);
+    poplar.ply(criterion);
+}
+
+criterion_group!(benches, poplar);
+criterion_main!(benches);

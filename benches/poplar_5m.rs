@@ -1,0 +1,16 @@
+//! A bare poplar of five million internodes: growth on long axes, frames, and the tables at ten ages.
+
+mod specimen;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use specimen::Specimen;
+
+fn poplar(criterion: &mut Criterion) {
+    let poplar = Specimen::of("poplar_5m");
+    poplar.growth(criterion, true);
+    poplar.frames(criterion);
+    poplar.records(criterion);
+}
+
+criterion_group!(benches, poplar);
+criterion_main!(benches);

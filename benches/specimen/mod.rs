@@ -1,0 +1,180 @@
+//! What the benches have in common: a shipped scenario as a specimen, its plant, and the baselines beside it.
+//!
+//! A baseline does the same work with everything left out that is ours: the parquet crate fed with ready batches, a plain
+//! write of the same bytes. Rates are elements a second: internodes, vertices, rows or bytes, as the group says.
+
+#![allow(dead_code)]
+
+pub mod baseline;
+
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, SamplingMode, Throughput};
+use phytomer::config::{Resolved, validate};
+use phytomer::outputs::Mode;
+use phytomer::outputs::meshes::{Chunk, MeshOptions, MeshWriter, Ply, Scene};
+use phytomer::run::{self, Program, Progress, Settings, plan_of, seed_of};
+use phytomer::sim::pose::pose;
+use phytomer::sim::shed::shed;
+use phytomer::sim::{GrowthModel, Plot, Tick};
+use std::fs::File;
+use std::hint::black_box;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// A shipped scenario, and the first of its plants.
+pub struct Specimen {
+    pub name: &'static str,
+    pub resolved: Resolved,
+}
+
+impl Specimen {
+    pub fn of(name: &'static str) -> Self {
+        let resolved = validate(name).unwrap_or_else(|report| panic!("{}", report.render(false)));
+        Self { name, resolved }
+    }
+
+    fn model(&self) -> &dyn GrowthModel {
+        self.resolved.model.as_ref()
+    }
+
+    fn until(&self) -> Tick {
+        self.resolved.scenario.ages.until
+    }
+
+    fn sown(&self) -> Plot {
+        Plot::of_one(self.model(), &seed_of(&self.resolved.scenario, 0))
+    }
+
+    /// The plant at its last age, shed, thickened and posed.
+    pub fn grown(&self) -> Plot {
+        let mut plot = self.sown();
+        self.model().grow_to(self.until(), &mut plot.plants, &plot.site).expect("room to grow");
+        plot.plants.iter_mut().for_each(shed);
+        self.model().thicken(self.until(), &mut plot.plants[0]);
+        pose(&mut plot.plants[0]);
+        plot
+    }
+
+    /// A group of benches of this specimen, whose rates count `elements` of something.
+    pub fn group<'a>(&self, criterion: &'a mut Criterion, what: &str, rate: Throughput) -> BenchmarkGroup<'a, WallTime> {
+        let mut group = criterion.benchmark_group(format!("{}/{what}", self.name));
+        group.throughput(rate).sample_size(10).sampling_mode(SamplingMode::Flat);
+        group.measurement_time(Duration::from_secs(3)).warm_up_time(Duration::from_millis(500));
+        group
+    }
+
+    /// Growth from the seed to the last age, axis by axis and tick by tick, in internodes a second.
+    pub fn growth(&self, criterion: &mut Criterion, by_the_clock: bool) {
+        let internodes = self.grown().plants[0].nodes.len() as u64;
+        let mut group = self.group(criterion, "growth (internodes)", Throughput::Elements(internodes));
+        let mut plot = self.sown();
+        let seed = seed_of(&self.resolved.scenario, 0);
+        group.bench_function("axis by axis", |bencher| {
+            bencher.iter(|| {
+                plot.resow(self.model(), &seed);
+                self.model().grow_to(self.until(), &mut plot.plants, &plot.site).expect("room to grow");
+                black_box(&plot);
+            });
+        });
+        if by_the_clock {
+            group.bench_function("tick by tick", |bencher| {
+                bencher.iter(|| {
+                    plot.resow(self.model(), &seed);
+                    for age in 1..=self.until() {
+                        self.model().grow_to(age, &mut plot.plants, &plot.site).expect("room to grow");
+                    }
+                    black_box(&plot);
+                });
+            });
+        }
+        group.finish();
+    }
+
+    /// The pose of every internode, against a plain write of as many bytes.
+    pub fn frames(&self, criterion: &mut Criterion) {
+        let mut plot = self.grown();
+        let internodes = plot.plants[0].nodes.len();
+        let mut group = self.group(criterion, "frames (internodes)", Throughput::Elements(internodes as u64));
+        group.bench_function("pose", |bencher| {
+            bencher.iter(|| {
+                plot.plants[0].frames.clear();
+                pose(&mut plot.plants[0]);
+            });
+        });
+        let frames = vec![[0.5_f32; 9]; internodes];
+        let mut copy = vec![[0.0_f32; 9]; internodes];
+        group.bench_function("plain memory write of as many bytes (baseline)", |bencher| {
+            bencher.iter(|| {
+                copy.copy_from_slice(black_box(&frames));
+                black_box(&copy);
+            });
+        });
+        group.finish();
+    }
+
+    /// The vertices of a mesh, into reused chunks.
+    pub fn meshing(&self, criterion: &mut Criterion) {
+        let plot = self.grown();
+        let scene = Scene::new(&plot.plants[0], self.until(), &MeshOptions::default());
+        let mut group = self.group(criterion, "meshing (vertices)", Throughput::Elements(scene.counts().vertices));
+        let mut chunk = Chunk::new();
+        group.bench_function("into reused chunks", |bencher| {
+            bencher.iter(|| {
+                let mut sink = |chunk: &mut Chunk| {
+                    black_box(chunk.filled());
+                    chunk.clear();
+                    Ok(())
+                };
+                scene.vertices(&mut chunk, &mut sink).expect("memory does not fail");
+            });
+        });
+        group.finish();
+    }
+
+    /// A PLY file in memory-backed storage, against a plain bulk write of the same bytes.
+    pub fn ply(&self, criterion: &mut Criterion) {
+        let plot = self.grown();
+        let scene = Scene::new(&plot.plants[0], self.until(), &MeshOptions::default());
+        let about = scene.about(self.resolved.scenario.seed);
+        let path = memory_backed(self.name);
+        let write = || {
+            let mut file = File::create(&path).expect("a file");
+            Ply.write(&scene, &about, &mut file).expect("a write");
+        };
+        write();
+        let bytes = std::fs::read(&path).expect("the file");
+        let mut group = self.group(criterion, "PLY (bytes)", Throughput::Bytes(bytes.len() as u64));
+        group.bench_function("mesh and write", |bencher| bencher.iter(write));
+        group.bench_function("plain bulk write of the same bytes (baseline)", |bencher| {
+            bencher.iter(|| baseline::write_blocks(&path, &bytes));
+        });
+        group.finish();
+        std::fs::remove_file(path).expect("the file goes");
+    }
+
+    /// The whole `grow` of a scenario into its run folder, against the parquet crate alone on ready batches of the same
+    /// rows, with the same settings and threads.
+    pub fn records(&self, criterion: &mut Criterion) {
+        let home = tempfile::tempdir().expect("a folder");
+        let settings = Settings { mode: Mode::Overwrite, ..Settings::in_folder(home.path().join("run")) };
+        let grow = || run::run(&self.resolved, &settings, &Progress::default()).expect("a run");
+        let outcome = grow();
+        let rows = outcome.report.rows.values().sum();
+        let plan = plan_of(&self.resolved, &Program::default()).expect("a plan");
+        let ready = baseline::ready_batches(&home.path().join("run"), &plan);
+        let mut group = self.group(criterion, "records (rows)", Throughput::Elements(rows));
+        group.bench_function("whole grow", |bencher| bencher.iter(grow));
+        group.bench_function("the parquet crate alone on ready batches (baseline)", |bencher| {
+            bencher.iter(|| ready.write(home.path()));
+        });
+        group.bench_function("plain memory write of the same columns", |bencher| bencher.iter(|| ready.copy()));
+        group.finish();
+    }
+}
+
+/// A file name in memory-backed storage where there is some, else in the temporary folder.
+fn memory_backed(name: &str) -> PathBuf {
+    let memory = PathBuf::from("/dev/shm");
+    let folder = if memory.is_dir() { memory } else { std::env::temp_dir() };
+    folder.join(format!("phytomer-bench-{name}-{}.ply", std::process::id()))
+}

@@ -1,0 +1,75 @@
+//! The table of `docs/performance.md`, from what `cargo bench` has measured on this machine:
+//!
+//! ```sh
+//! cargo bench && cargo run --release --example performance
+//! ```
+//!
+//! Criterion keeps its estimates below `target/criterion`; a bench called a baseline is what the others of its group
+//! are compared with.
+
+use anyhow::{Context, Result};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// One bench as criterion has kept it.
+struct Bench {
+    group: String,
+    name: String,
+    elements: f64,
+    seconds: f64,
+}
+
+fn main() -> Result<()> {
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| PathBuf::from("target"), PathBuf::from);
+    let folder = target.join("criterion");
+    let mut benches = Vec::new();
+    collect(&folder, &mut benches)
+        .with_context(|| format!("cannot read {}: run `cargo bench` first", folder.display()))?;
+    benches.sort_by(|a, b| (&a.group, a.is_baseline(), &a.name).cmp(&(&b.group, b.is_baseline(), &b.name)));
+    println!("| specimen/what | bench | a run, s | M elements/s | rate against the baseline |");
+    println!("|---|---|---:|---:|---:|");
+    for bench in &benches {
+        let baseline = benches.iter().find(|other| other.group == bench.group && other.is_baseline());
+        let ratio = baseline.map_or("".to_owned(), |baseline| format!("{:.2}", baseline.seconds / bench.seconds));
+        let rate = bench.elements / bench.seconds / 1e6;
+        println!("| {} | {} | {:.4} | {rate:.1} | {ratio} |", bench.group, bench.name, bench.seconds);
+    }
+    Ok(())
+}
+
+impl Bench {
+    fn is_baseline(&self) -> bool {
+        self.name.ends_with("(baseline)")
+    }
+
+    /// A bench from its folder, where the folder is one.
+    fn read(folder: &Path) -> Result<Option<Self>> {
+        let file = folder.join("new/benchmark.json");
+        if !file.is_file() {
+            return Ok(None);
+        }
+        let about: Value = serde_json::from_str(&fs::read_to_string(file)?)?;
+        let estimates: Value = serde_json::from_str(&fs::read_to_string(folder.join("new/estimates.json"))?)?;
+        let text = |key: &str| about[key].as_str().unwrap_or_default().to_owned();
+        let throughput = about["throughput"].as_object().and_then(|kinds| kinds.values().next());
+        let seconds = estimates["median"]["point_estimate"].as_f64().context("an estimate without a median")? / 1e9;
+        let elements = throughput.and_then(Value::as_f64).unwrap_or(f64::NAN);
+        Ok(Some(Self { group: text("group_id"), name: text("function_id"), elements, seconds }))
+    }
+}
+
+/// Every bench below a folder.
+fn collect(folder: &Path, benches: &mut Vec<Bench>) -> Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if !path.is_dir() {
+            continue;
+        }
+        match Bench::read(&path)? {
+            Some(bench) => benches.push(bench),
+            None => collect(&path, benches)?,
+        }
+    }
+    Ok(())
+}
