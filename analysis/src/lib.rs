@@ -1,1 +1,7 @@
-//! phytomer-analysis
+//! What recorded runs say: measures of populations of simulated plants, one a file, from the tables alone.
+//!
+//! Nothing here runs a model; the same measures hold for any tables of the same schema.
+
+mod population;
+
+pub use population::{AgeOfPopulation, Moments, population};

@@ -1,0 +1,119 @@
+//! A population by age: how many plants live, how tall they are, how much they bear.
+//!
+//! Source: the table `summary`, one row a plant and recorded age. Standing dead plants are counted among the dead and
+//! not among the measured.
+
+use phytomer_outputs::Error;
+use phytomer_outputs::read::{Run, SummaryRow};
+use std::collections::BTreeMap;
+
+/// Mean and standard deviation of a measure over the living plants.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Moments {
+    /// How many plants were measured.
+    pub n: u64,
+    /// The mean; 0 where nothing was measured.
+    pub mean: f64,
+    /// The sum of squared deviations from the mean.
+    squares: f64,
+}
+
+impl Moments {
+    /// One more measure (Welford 1962: stable in one pass).
+    pub fn add(&mut self, value: f64) {
+        self.n += 1;
+        let before = value - self.mean;
+        self.mean += before / self.n as f64;
+        self.squares += before * (value - self.mean);
+    }
+
+    /// The sample standard deviation; `None` below two measures.
+    pub fn standard_deviation(&self) -> Option<f64> {
+        (self.n > 1).then(|| (self.squares / (self.n - 1) as f64).sqrt())
+    }
+}
+
+/// A population at one recorded age.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct AgeOfPopulation {
+    /// Plants with a living bud.
+    pub living: u64,
+    /// Plants without one.
+    pub dead: u64,
+    /// Height of the living, metres.
+    pub height_m: Moments,
+    /// Living internodes of the living.
+    pub internodes: Moments,
+    /// Leaf area of the living, square metres.
+    pub leaf_area_m2: Moments,
+}
+
+impl AgeOfPopulation {
+    fn add(&mut self, plant: &SummaryRow) {
+        if !plant.alive {
+            self.dead += 1;
+            return;
+        }
+        self.living += 1;
+        if let Some(height) = plant.height_m {
+            self.height_m.add(height);
+        }
+        self.internodes.add(f64::from(plant.internodes));
+        self.leaf_area_m2.add(plant.leaf_area_m2);
+    }
+}
+
+/// The population of a run at each recorded age.
+///
+/// # Errors
+/// Where the summary cannot be read.
+pub fn population(run: &Run) -> Result<BTreeMap<u32, AgeOfPopulation>, Error> {
+    let mut ages = BTreeMap::<u32, AgeOfPopulation>::new();
+    for plant in run.summary()? {
+        ages.entry(plant.age).or_default().add(&plant);
+    }
+    Ok(ages)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_are_those_of_the_textbook() {
+        let mut moments = Moments::default();
+        [2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0].into_iter().for_each(|value| moments.add(value));
+        assert_eq!(moments.mean, 5.0);
+        assert!((moments.standard_deviation().unwrap() - (32.0_f64 / 7.0).sqrt()).abs() < 1e-12);
+        assert_eq!(Moments::default().standard_deviation(), None);
+    }
+
+    #[test]
+    fn the_dead_are_counted_and_not_measured() {
+        let plant = |alive, height| SummaryRow {
+            plot_id: 0,
+            plant_id: 0,
+            age: 3,
+            internodes: 10,
+            leaves: 0,
+            flowers: 0,
+            fruits: 0,
+            buds: 1,
+            dead_internodes: 0,
+            axes: 1,
+            max_order: 1,
+            height_m: height,
+            crown_width_m: None,
+            leaf_area_m2: 0.5,
+            wood_volume_m3: 0.0,
+            alive,
+            death_age: None,
+        };
+        let mut age = AgeOfPopulation::default();
+        [plant(true, Some(1.0)), plant(true, Some(3.0)), plant(false, Some(9.0)), plant(true, None)]
+            .iter()
+            .for_each(|plant| age.add(plant));
+        assert_eq!((age.living, age.dead, age.height_m.n, age.height_m.mean), (3, 1, 2, 2.0));
+        assert_eq!(age.internodes.n, 3);
+    }
+}
