@@ -24,7 +24,7 @@ Examples:
   phytomer grow coffee
   phytomer grow coffee --dry-run
   phytomer grow my_plant/scenario.toml --seed 7 --name another_seed
-  phytomer grow coffee --plants 20 --out /tmp/twenty --threads 2
+  phytomer grow coffee --plants 20 --out twenty --threads 2
   phytomer grow coffee --resume
 
 Exit code 1 where a plant came to its limit or a file could not be written, 3 where the scenario is wrong, 130 after

@@ -47,18 +47,26 @@ pub fn find(name: &str) -> std::result::Result<Named, Report> {
     if kind_of(name) == Kind::Scenario {
         return validate(name).map(|scenario| Named::Scenario(Box::new(scenario)));
     }
-    validate_species(name, SPECIES_ALONE_UNTIL).map(|species| Named::Species(Box::new(species))).map_err(|report| {
-        let nearer = || validate(name).err().filter(suggests);
-        if is_unknown(&report) && !suggests(&report) { nearer().unwrap_or(report) } else { report }
-    })
+    let species = validate_species(name, SPECIES_ALONE_UNTIL).map(|species| Named::Species(Box::new(species)));
+    species.map_err(|report| if is_unknown(&report) { unknown(name, report) } else { report })
 }
 
-fn suggests(report: &Report) -> bool {
-    report.faults.iter().any(|fault| fault.suggestion.is_some())
-}
-
+/// Whether the fault is that nothing has this name.
 fn is_unknown(report: &Report) -> bool {
-    report.faults.iter().all(|fault| fault.span.is_none())
+    report.sources.iter().next().is_none()
+}
+
+/// The report of an unknown name, with the nearer of the spellings that a species and a scenario would have.
+fn unknown(name: &str, mut report: Report) -> Report {
+    let as_scenario = validate(name).err().and_then(|report| report.faults.into_iter().next()?.suggestion);
+    if let Some(fault) = report.faults.first_mut() {
+        let alike = |word: &String| name.chars().zip(word.chars()).take_while(|(a, b)| a == b).count();
+        let spellings = [as_scenario, fault.suggestion.take()].into_iter().flatten();
+        fault.suggestion = spellings.max_by_key(alike);
+        fault.problem = format!("there is no run, scenario or species `{name}`");
+        fault.expected = "what ships (`phytomer list` has it), a run below runs/, or the path of a file".to_owned();
+    }
+    report
 }
 
 /// The scenario and the species as a run folder keeps them.

@@ -1,0 +1,67 @@
+//! The same scenario gives the same bytes in every table and mesh: on any number of threads, and in debug and release.
+//!
+//! Both profiles run this file against the same hashes (`tests/data/small.sha256`). Where a change of the growth or of a
+//! format is meant, `PHYTOMER_BLESS=1 cargo test --test determinism` writes them anew.
+
+mod program;
+
+use phytomer::config::validate;
+use phytomer::run::{self, Program, Progress, Settings};
+use program::{data, hashes, run as phytomer};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+#[test]
+fn one_two_and_seven_threads_write_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let grown = ["1", "2", "7"].map(|threads| {
+        phytomer(folder.path(), &["grow", &data("small.toml"), "--threads", threads, "--name", threads]).ending(0);
+        hashes(&folder.path().join("runs").join(threads))
+    });
+    assert_eq!(grown[0].len(), 4 * 3 + 2 * 2, "four tables of three parts, two plants at two ages");
+    assert_eq!(grown[0], grown[1]);
+    assert_eq!(grown[0], grown[2]);
+}
+
+#[test]
+fn a_single_plant_is_the_same_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let grown = ["1", "2", "7"].map(|threads| {
+        let words =
+            ["grow", &data("small.toml"), "--plants", "8", "--seed", "3", "--threads", threads, "--name", threads];
+        phytomer(folder.path(), &words).ending(0);
+        hashes(&folder.path().join("runs").join(threads))
+    });
+    assert_eq!(grown[0], grown[1]);
+    assert_eq!(grown[0], grown[2]);
+}
+
+#[test]
+fn another_seed_gives_other_plants() {
+    let folder = tempfile::tempdir().unwrap();
+    let grown = ["7", "8"].map(|seed| {
+        phytomer(folder.path(), &["grow", &data("small.toml"), "--seed", seed, "--name", seed]).ending(0);
+        hashes(&folder.path().join("runs").join(seed))
+    });
+    assert!(grown[0].iter().all(|(file, hash)| grown[1].get(file) != Some(hash)));
+}
+
+#[test]
+fn debug_and_release_write_the_bytes_that_are_known() {
+    let folder = tempfile::tempdir().unwrap();
+    let resolved = validate(&data("small.toml")).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    // The files name their maker; a fixed name keeps the hashes from changing with every commit.
+    let maker = Program { version: "0".into(), git_hash: "0".into() };
+    let settings = Settings { program: maker, threads: 2, ..Settings::in_folder(folder.path().join("run")) };
+    run::run(&resolved, &settings, &Progress::default()).unwrap();
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/small.sha256");
+    let found = hashes(&settings.folder);
+    if std::env::var_os("PHYTOMER_BLESS").is_some() {
+        let lines: String = found.iter().map(|(file, hash)| format!("{hash}  {file}\n")).collect();
+        std::fs::write(&golden, lines).unwrap();
+    }
+    let text = std::fs::read_to_string(&golden).unwrap();
+    let lines = text.lines().filter_map(|line| line.split_once("  "));
+    let known: BTreeMap<String, String> = lines.map(|(hash, file)| (file.to_owned(), hash.to_owned())).collect();
+    assert_eq!(found, known);
+}

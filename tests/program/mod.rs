@@ -1,0 +1,82 @@
+//! The built program as a test uses it: run it in a folder, and hash what it has written.
+//!
+//! Absent: anything that knows growth. These tests see files, streams and exit codes.
+
+#![allow(dead_code, reason = "each test program uses a part of it")]
+
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// The program, in `folder`, with these words.
+pub fn program(folder: &Path, words: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_phytomer"));
+    command.current_dir(folder).args(words).env("NO_COLOR", "1");
+    command
+}
+
+/// What came of a run of the program.
+pub struct Said {
+    pub code: Option<i32>,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+/// Runs the program to its end.
+pub fn run(folder: &Path, words: &[&str]) -> Said {
+    said(program(folder, words).output().expect("the program starts"))
+}
+
+/// What an output says.
+pub fn said(output: Output) -> Said {
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    Said { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
+}
+
+impl Said {
+    /// The same, having ended with this exit code.
+    #[track_caller]
+    pub fn ending(self, code: i32) -> Self {
+        assert_eq!(self.code, Some(code), "stdout:\n{}\nstderr:\n{}", self.stdout, self.stderr);
+        self
+    }
+
+    /// stdout as JSON.
+    #[track_caller]
+    pub fn json(&self) -> serde_json::Value {
+        serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}\n{}", self.stdout))
+    }
+}
+
+/// A file of the tests' own data.
+pub fn data(name: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/runs").join(name).display().to_string()
+}
+
+/// The hash of every table and mesh below a run folder, by its path there.
+pub fn hashes(run: &Path) -> BTreeMap<String, String> {
+    let mut hashes = BTreeMap::new();
+    let mut folders = vec![run.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(&folder).into_iter().flatten().map(|entry| entry.expect("an entry").path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else if is_result(&path) {
+                let name = path.strip_prefix(run).expect("below the run").display().to_string().replace('\\', "/");
+                hashes.insert(name, sha256(&path));
+            }
+        }
+    }
+    hashes
+}
+
+fn is_result(path: &Path) -> bool {
+    path.extension().is_some_and(|end| end == "parquet" || end == "ply")
+}
+
+/// The hash of a file, in hexadecimal.
+pub fn sha256(path: &PathBuf) -> String {
+    Sha256::digest(fs::read(path).expect("a readable file")).iter().map(|byte| format!("{byte:02x}")).collect()
+}
