@@ -57,9 +57,16 @@ impl RunReport {
 }
 
 /// The files that are there from the start.
+///
+/// `run.json` first: a folder that holds anything else holds it too, so that a run killed at its start can be resumed.
 pub fn write_start(path: &Path, plan: &RunPlan) -> Result<(), Error> {
-    durable::write(&path.join("views.sql"), views(plan).as_bytes())?;
-    write_json(&path.join("run.json"), &Value::Object(run(plan, "running")))
+    write_json(&path.join("run.json"), &Value::Object(run(plan, "running")))?;
+    write_views(path, plan)
+}
+
+/// `views.sql`, which depends on the plan alone.
+pub fn write_views(path: &Path, plan: &RunPlan) -> Result<(), Error> {
+    durable::write(&path.join("views.sql"), views(plan).as_bytes())
 }
 
 /// The files that a finished run has.

@@ -74,6 +74,7 @@ impl RunFolder {
 
     fn go_on(path: &Path, plan: RunPlan) -> Result<Self, Error> {
         check_identity(path, &plan)?;
+        documents::write_views(path, &plan)?;
         make_tables(path, &plan)?;
         let mut journal = Journal::go_on(&path.join("journal.jsonl"))?;
         let lost: Vec<u32> =
