@@ -1,0 +1,74 @@
+//! A pinnate palm leaf: an arching rachis of four sides, and leaflets in pairs along it, narrow kites that hang a little.
+//!
+//! De Reffye 1988 §5 (Fig. 16) grows a palm as a growth unit of its own; here it is one organ, drawn whole.
+
+use super::{Depth, Point, Shape, along};
+use phytomer_sim::math::sincosf;
+
+/// The angle through which the rachis bends from base to tip, radians.
+const ARCH: f32 = 1.25;
+const STEPS: u16 = 6;
+const PAIRS: u16 = 18;
+/// The bare stalk's share of the length.
+const STALK: f32 = 0.18;
+/// The corners of the rachis across it: on the box's axes, so that scaling keeps its normals outward.
+const CORNERS: [[f32; 2]; 5] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0], [1.0, 0.0]];
+const RACHIS_RADIUS: f32 = 0.012;
+/// How far a leaflet points ahead and how far it hangs, for each part that it reaches out.
+const AHEAD: f32 = 0.16;
+const HANG: f32 = 0.05;
+
+/// A rachis with its leaflets.
+pub fn palm() -> Shape {
+    let mut shape = Shape::new(Depth::Length);
+    rachis(&mut shape);
+    for pair in 0..PAIRS {
+        let place = STALK + (0.97 - STALK) * f32::from(pair) / f32::from(PAIRS - 1);
+        leaflet(&mut shape, place, 1.0);
+        leaflet(&mut shape, place, -1.0);
+    }
+    shape
+}
+
+/// The rachis at a share of its length: where it is and where it points, in the plane of x and z.
+fn arch(share: f32) -> ([f32; 2], [f32; 2]) {
+    let bend = ARCH * share;
+    let (sin, cos) = sincosf(bend);
+    ([sin / ARCH, (cos - 1.0) / ARCH], [cos, -sin])
+}
+
+fn rachis(shape: &mut Shape) {
+    let first = shape.points.len() as u32;
+    for step in 0..=STEPS {
+        let share = f32::from(step) / f32::from(STEPS);
+        let ([x, z], [along_x, along_z]) = arch(share);
+        let radius = RACHIS_RADIUS * (1.0 - 0.9 * share);
+        for (side, [cos, sin]) in CORNERS.into_iter().enumerate() {
+            let normal = [-along_z * sin, cos, along_x * sin];
+            let at = [x + radius * normal[0], radius * normal[1], z + radius * normal[2]];
+            shape.points.push(Point { at, normal, texture: [side as f32 / 4.0, share], stalk: true });
+        }
+    }
+    for step in 0..u32::from(STEPS) {
+        for side in 0..4 {
+            let (low, high) = (first + 5 * step + side, first + 5 * (step + 1) + side);
+            shape.faces.extend([[low, low + 1, high + 1], [low, high + 1, high]]);
+        }
+    }
+}
+
+/// A leaflet at a share of the rachis, to the left (1) or the right (−1): longest below the middle.
+fn leaflet(shape: &mut Shape, place: f32, side: f32) {
+    let ([x, z], [along_x, along_z]) = arch(place);
+    let among = (place - STALK) / (1.0 - STALK);
+    let reach = 0.5 * ((0.25 + 1.6 * among) * (1.0 - 0.93 * among) / 0.68).min(1.0).sqrt();
+    let at = |out: f32, ahead: f32| {
+        let ahead = ahead + AHEAD * out / 0.5;
+        [x + along_x * ahead, side * out, z + along_z * ahead - HANG * out / 0.5]
+    };
+    let wide = 0.016;
+    let kite = [at(0.0, 0.0), at(0.35 * reach, -wide), at(reach, 0.0), at(0.35 * reach, wide)];
+    let [base, behind, tip, before] = kite;
+    let counterclockwise = if side > 0.0 { [base, before, tip, behind] } else { kite };
+    shape.polygon(&counterclockwise, along, false);
+}

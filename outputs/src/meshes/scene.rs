@@ -1,0 +1,197 @@
+//! What stands of a plant at an age, as vertices and triangles in chunks.
+//!
+//! An internode stands from its birth until its branch falls, an organ from its birth until its death. A component that
+//! lives has the death age +∞, so that `birth_age <= a and a < death_age` needs no special case and no future is told;
+//! an internode that stands dead has the tick of its death. An organ's base is moved from the line of the axis to the
+//! surface of the stem, half the tip's diameter out towards the organ.
+
+use super::MeshOptions;
+use super::chunk::{Chunk, Face, Sink, Tag, Vertex};
+use super::forms::{Placement, Shape, shape};
+use super::tube::{Frustum, Tube};
+use super::{About, colour};
+use phytomer_sim::clock::Tick;
+use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
+use phytomer_sim::pose::organ_frame;
+use std::io;
+
+/// Below this sine of its insertion angle an organ stands on the tip of the stem, not on its side.
+const TERMINAL: f32 = 1e-3;
+
+/// How large a mesh is.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Its components.
+    pub components: u64,
+    /// Its vertices.
+    pub vertices: u64,
+    /// Its triangles.
+    pub faces: u64,
+}
+
+/// A plant at an age, to be drawn.
+#[derive(Debug)]
+pub struct Scene<'a> {
+    plant: &'a Plant,
+    age: Tick,
+    options: MeshOptions,
+    tube: Tube,
+}
+
+impl<'a> Scene<'a> {
+    /// What stands of `plant` at `age`; its frames and diameters must be those of that age.
+    pub fn new(plant: &'a Plant, age: Tick, options: &MeshOptions) -> Self {
+        Self { plant, age, options: *options, tube: Tube::new(options.sides) }
+    }
+
+    /// What a file says of it.
+    pub fn about(&self, run_seed: u64) -> About {
+        About { plant: self.plant.id, age: self.age, run_seed }
+    }
+
+    /// How large its mesh is: one scan of births and deaths.
+    pub fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        let mut count = |vertices: usize, faces: usize| {
+            counts.components += 1;
+            counts.vertices += vertices as u64;
+            counts.faces += faces as u64;
+        };
+        self.nodes().for_each(|_| count(self.tube.vertices(), self.tube.faces().len()));
+        self.organs().for_each(|organ| {
+            let shape = self.shape(organ);
+            count(shape.points.len(), shape.faces.len());
+        });
+        counts
+    }
+
+    /// Hands the vertices to `sink`, chunk by chunk, the last one too.
+    ///
+    /// # Errors
+    /// The sink's.
+    pub fn vertices(&self, chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
+        for node in self.nodes() {
+            let out = chunk.room(self.tube.vertices(), sink)?;
+            self.tube.write(&self.frustum(node), &self.wood_tag(node), out);
+        }
+        for organ in self.organs() {
+            let shape = self.shape(organ);
+            let out = chunk.room::<Vertex>(shape.points.len(), sink)?;
+            shape.write(&self.placement(organ), &self.organ_tags(organ), out);
+        }
+        sink(chunk)
+    }
+
+    /// Hands the triangles to `sink`, chunk by chunk, the last one too, in the order of the vertices.
+    ///
+    /// # Errors
+    /// The sink's.
+    pub fn faces(&self, chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
+        let mut first = 0;
+        for _ in self.nodes() {
+            put_faces(first, self.tube.faces(), chunk, sink)?;
+            first += self.tube.vertices() as u32;
+        }
+        for organ in self.organs() {
+            let shape = self.shape(organ);
+            put_faces(first, &shape.faces, chunk, sink)?;
+            first += shape.points.len() as u32;
+        }
+        sink(chunk)
+    }
+
+    /// The internodes that are drawn.
+    fn nodes(&self) -> impl Iterator<Item = NodeId> {
+        let (nodes, age, kinds) = (&self.plant.nodes, self.age, self.options.kinds);
+        let drawn = move |&node: &usize| {
+            nodes.birth[node] <= age
+                && age < nodes.shed[node]
+                && kinds[node_kind(nodes.formation[node].is_short()) as usize]
+        };
+        (0..nodes.len()).filter(drawn).map(|node| NodeId(node as u32))
+    }
+
+    /// The organs that are drawn.
+    fn organs(&self) -> impl Iterator<Item = OrganId> {
+        let (organs, age, kinds) = (&self.plant.organs, self.age, self.options.kinds);
+        let drawn = move |&organ: &usize| {
+            organs.birth[organ] <= age && age < organs.death[organ] && kinds[organs.kind[organ] as usize]
+        };
+        (0..organs.len()).filter(drawn).map(|organ| OrganId(organ as u32))
+    }
+
+    #[inline]
+    fn shape(&self, organ: OrganId) -> &'static Shape {
+        shape(self.plant.organs.form[organ.index()])
+    }
+
+    #[inline]
+    fn frustum(&self, node: NodeId) -> Frustum {
+        let frame = self.plant.frames.at(node);
+        let nodes = &self.plant.nodes;
+        let node = node.index();
+        let radii = [nodes.diameter[node] * 0.5, nodes.diameter_tip[node] * 0.5];
+        Frustum { base: frame.base, heading: frame.heading, up: frame.up, length: nodes.length[node], radii }
+    }
+
+    fn placement(&self, organ: OrganId) -> Placement {
+        let frame = organ_frame(self.plant, organ);
+        let organs = &self.plant.organs;
+        let node = organs.node[organ.index()];
+        let out = outward(self.plant.frames.heading[node.index()], frame.heading);
+        let radius = 0.5 * self.plant.nodes.diameter_tip[node.index()];
+        let base = [0, 1, 2].map(|k| frame.base[k] + radius * out[k]);
+        let size = [organs.length[organ.index()], organs.width[organ.index()]];
+        Placement { base, heading: frame.heading, up: frame.up, size }
+    }
+
+    #[inline]
+    fn wood_tag(&self, node: NodeId) -> Tag {
+        let nodes = &self.plant.nodes;
+        let node = node.index();
+        let dead = nodes.death[node] <= self.age;
+        Tag {
+            colour: colour::wood((self.age - nodes.birth[node]) as f32, dead),
+            birth: nodes.birth[node] as f32,
+            death: if dead { nodes.death[node] as f32 } else { f32::INFINITY },
+            component: nodes.component[node] as i32,
+            kind: node_kind(nodes.formation[node].is_short()) as u8,
+        }
+    }
+
+    /// The tags of an organ and of its stalk.
+    fn organ_tags(&self, organ: OrganId) -> [Tag; 2] {
+        let organs = &self.plant.organs;
+        let organ = organ.index();
+        let (kind, birth) = (organs.kind[organ], organs.birth[organ]);
+        colour::organ(kind, organs.form[organ], birth, organs.death[organ], self.age).map(|colour| Tag {
+            colour,
+            birth: birth as f32,
+            death: f32::INFINITY,
+            component: organs.component[organ] as i32,
+            kind: kind as u8,
+        })
+    }
+}
+
+#[inline]
+fn node_kind(short: bool) -> Kind {
+    if short { Kind::ShortInternode } else { Kind::Internode }
+}
+
+/// The part of an organ's heading across its stem's, as a unit vector; nothing for an organ on the tip.
+fn outward(stem: [f32; 3], organ: [f32; 3]) -> [f32; 3] {
+    let along = stem[0] * organ[0] + stem[1] * organ[1] + stem[2] * organ[2];
+    let across = [0, 1, 2].map(|k| organ[k] - along * stem[k]);
+    let length = (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).sqrt();
+    if length > TERMINAL { across.map(|x| x / length) } else { [0.0; 3] }
+}
+
+#[inline]
+fn put_faces(first: u32, faces: &[[u32; 3]], chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
+    let out = chunk.room(faces.len(), sink)?;
+    for (face, out) in faces.iter().zip(out) {
+        *out = Face::new(face.map(|corner| first + corner));
+    }
+    Ok(())
+}

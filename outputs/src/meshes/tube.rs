@@ -1,0 +1,159 @@
+//! Internodes as closed tubes: frusta with a regular polygon across, as the hexagonal cones of de Reffye 1988 §6.
+//!
+//! The side has normals that lean with its slope, the two caps axial ones, so each ring stands twice; the side's ring
+//! closes on a vertex of its own, so that the texture runs once around (s) and from base to tip (t). With n sides that
+//! is 4n + 2 vertices and 4n − 4 triangles. Vertices lie on the circle of the diameter, so the polygon is inscribed.
+
+use super::chunk::{Tag, Vertex};
+use phytomer_sim::math::sincos;
+
+/// An internode as a frustum, in metres and unit vectors.
+#[derive(Debug, Clone, Copy)]
+pub struct Frustum {
+    /// The centre of its base.
+    pub base: [f32; 3],
+    /// Along it.
+    pub heading: [f32; 3],
+    /// Across it.
+    pub up: [f32; 3],
+    /// Its length.
+    pub length: f32,
+    /// The radius at its base and at its tip.
+    pub radii: [f32; 2],
+}
+
+/// The table of a polygon with its triangles, made once for all the tubes of a mesh.
+#[derive(Debug, Clone)]
+pub struct Tube {
+    /// Cosine, sine and share of the way around, of each corner; the first comes again at the end.
+    corners: Vec<[f32; 3]>,
+    faces: Vec<[u32; 3]>,
+}
+
+impl Tube {
+    /// Tubes of `sides` sides, at least 3.
+    pub fn new(sides: u8) -> Self {
+        let sides = u32::from(sides.max(3));
+        let corner = |k: u32| {
+            let share = f64::from(k) / f64::from(sides);
+            let (sin, cos) = sincos(std::f64::consts::TAU * f64::from(k % sides) / f64::from(sides));
+            [cos as f32, sin as f32, share as f32]
+        };
+        Self { corners: (0..=sides).map(corner).collect(), faces: faces(sides) }
+    }
+
+    /// The vertices of a tube.
+    pub fn vertices(&self) -> usize {
+        4 * self.corners.len() - 2
+    }
+
+    /// The triangles of a tube, by the numbers of its own vertices, counterclockwise from outside.
+    pub fn faces(&self) -> &[[u32; 3]] {
+        &self.faces
+    }
+
+    /// Writes the vertices of one tube; `out` has exactly their number.
+    #[inline]
+    pub fn write(&self, frustum: &Frustum, tag: &Tag, out: &mut [Vertex]) {
+        let Frustum { base, heading: h, up, length, radii } = *frustum;
+        let side = cross(h, up);
+        let tip = [base[0] + length * h[0], base[1] + length * h[1], base[2] + length * h[2]];
+        let lean = lean(length, radii[0] - radii[1]);
+        let down = [-h[0], -h[1], -h[2]];
+        let ring = self.corners.len();
+        let (low, out) = out.split_at_mut(ring);
+        let (high, out) = out.split_at_mut(ring);
+        let (bottom, top) = out.split_at_mut(ring - 1);
+        for (k, &[cos, sin, share]) in self.corners.iter().enumerate() {
+            let radial = [0, 1, 2].map(|i| cos * up[i] + sin * side[i]);
+            let at_base = [0, 1, 2].map(|i| base[i] + radii[0] * radial[i]);
+            let at_tip = [0, 1, 2].map(|i| tip[i] + radii[1] * radial[i]);
+            let normal = [0, 1, 2].map(|i| lean[0] * radial[i] + lean[1] * h[i]);
+            low[k] = Vertex::new(at_base, normal, [share, 0.0], tag);
+            high[k] = Vertex::new(at_tip, normal, [share, 1.0], tag);
+            if k + 1 < ring {
+                let round = [0.5 + 0.5 * cos, 0.5 + 0.5 * sin];
+                bottom[k] = Vertex::new(at_base, down, round, tag);
+                top[k] = Vertex::new(at_tip, h, round, tag);
+            }
+        }
+    }
+}
+
+/// The normal of the side, along the radius and along the axis.
+fn lean(length: f32, narrowing: f32) -> [f32; 2] {
+    let norm = (length * length + narrowing * narrowing).sqrt();
+    if norm > 0.0 { [length / norm, narrowing / norm] } else { [1.0, 0.0] }
+}
+
+fn faces(sides: u32) -> Vec<[u32; 3]> {
+    let ring = sides + 1;
+    let side = (0..sides).flat_map(|k| [[k, k + 1, ring + k + 1], [k, ring + k + 1, ring + k]]);
+    let (bottom, top) = (2 * ring, 2 * ring + sides);
+    let caps = (1..sides - 1).flat_map(|k| [[bottom, bottom + k + 1, bottom + k], [top, top + k, top + k + 1]]);
+    side.chain(caps).collect()
+}
+
+/// The vector product.
+#[inline]
+pub(super) fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::chunk::Face;
+    use super::super::measure::{assert_closed, assert_unit_normals, outward_share, volume};
+    use super::*;
+    use bytemuck::Zeroable;
+    use phytomer_sim::math::sin;
+
+    const TAG: Tag = Tag { colour: [9, 9, 9, 255], birth: 1.0, death: f32::INFINITY, component: 0, kind: 0 };
+
+    fn tube(sides: u8, frustum: &Frustum) -> (Vec<Vertex>, Vec<Face>) {
+        let tube = Tube::new(sides);
+        let mut vertices = vec![Vertex::zeroed(); tube.vertices()];
+        tube.write(frustum, &TAG, &mut vertices);
+        (vertices, tube.faces().iter().map(|&face| Face::new(face)).collect())
+    }
+
+    fn leaning(length: f32, radii: [f32; 2]) -> Frustum {
+        Frustum { base: [0.1, -0.2, 0.3], heading: [0.6, 0.0, 0.8], up: [0.8, 0.0, -0.6], length, radii }
+    }
+
+    /// V = h/3 · (A₁ + A₂ + √(A₁A₂)), with the area n/2 · r² · sin 2π/n of the polygon.
+    #[test]
+    fn a_tube_is_closed_and_has_the_volume_of_the_polygonal_frustum() {
+        for sides in [3, 4, 6, 8, 17, 255] {
+            for radii in [[0.4, 0.4], [0.5, 0.2], [0.1, 0.6]] {
+                let (vertices, faces) = tube(sides, &leaning(1.5, radii));
+                let n = usize::from(sides);
+                assert_eq!((vertices.len(), faces.len()), (4 * n + 2, 4 * n - 4));
+                assert_closed(&vertices, &faces);
+                assert_unit_normals(&vertices);
+                assert_eq!(outward_share(&vertices, &faces), 1.0);
+                let n = f64::from(sides);
+                let area = |r: f32| n / 2.0 * f64::from(r) * f64::from(r) * sin(std::f64::consts::TAU / n);
+                let (a, b) = (area(radii[0]), area(radii[1]));
+                let expected = 1.5 / 3.0 * (a + b + (a * b).sqrt());
+                let measured = volume(&vertices, &faces);
+                assert!((measured / expected - 1.0).abs() < 1e-5, "{sides} sides {radii:?}: {measured} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn normals_are_unit_where_there_is_hardly_a_tube() {
+        for (length, radii) in [(0.0, [0.0, 0.0]), (0.0, [0.1, 0.0]), (1e-20, [0.1, 0.1]), (2.0, [0.1, 0.0])] {
+            assert_unit_normals(&tube(8, &leaning(length, radii)).0);
+        }
+    }
+
+    #[test]
+    fn the_side_leans_with_the_cone() {
+        let (vertices, _) = tube(8, &Frustum { radii: [0.3, 0.2], ..leaning(0.1, [0.0; 2]) });
+        let normal = vertices[0].normal();
+        let along: f32 = (0..3).map(|k| normal[k] * [0.6, 0.0, 0.8][k]).sum();
+        assert!((along - 0.5_f32.sqrt()).abs() < 1e-6);
+    }
+}
