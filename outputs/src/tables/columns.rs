@@ -132,7 +132,7 @@ pub static RECORDS: [Column; 25] = [
 ];
 
 /// A row per component that ever lived, by the last age of the run.
-pub static COMPONENTS: [Column; 24] = [
+pub static COMPONENTS: [Column; 25] = [
     TREATMENT,
     PLOT,
     PLANT,
@@ -157,12 +157,27 @@ pub static COMPONENTS: [Column; 24] = [
          internodes.",
     )
     .or_null(),
-    Column::id("rank", "The rank along the axis, from 1, of the internode or of the organ's. Null for buds.").or_null(),
-    Column::small("unit_rank", "The same in the growth unit, from 1. Null for buds.").or_null(),
+    Column::id(
+        "rank",
+        "The rank along the axis, from 1, of the internode, or of the one that bears the organ or the bud (for a bud, \
+         along the bearing axis). Null for the bud of the seed.",
+    )
+    .or_null(),
+    Column::small(
+        "unit_rank",
+        "The rank of the same internode in its growth unit, from 1. Null for the bud of the seed.",
+    )
+    .or_null(),
     Column::truth("neoformed", "Whether the internode was made after bud break. Null for organs and buds.").or_null(),
     Column::tick("birth_age", "The age of the plant at which the component appeared."),
     Column::tick("birth_dimension", "The ticks since the birth of the axis, at the component's. Null for buds.")
         .or_null(),
+    Column::tick(
+        "delay",
+        "The ticks between the appearance of a bud and the birth of its axis: 0 sylleptic, more proleptic. Null for \
+         internodes and organs.",
+    )
+    .or_null(),
     Column::float("length_m", "m", "Length along its direction. Null for buds.").repeated().or_null(),
     Column::float("birth_diameter_m", "m", "Diameter at birth; width of an organ. Null for buds.").repeated().or_null(),
     Column::float("area_m2", "m2", "Area of one side. Null where a component has none.").repeated().or_null(),

@@ -15,7 +15,7 @@ columns! {
         treatment: Word(i8), plot: Int(i32), plant: Int(i32), component: Int(i32), key: Key(i64),
         parent: Int(i32), axis: Int(i32), bearing_axis: Int(i32), order: Int(i32), kind: Word(i8), origin: Word(i8),
         state: Int(i32), position: Int(i32), rank: Int(i32), unit_rank: Int(i32), neoformed: Bool(i8),
-        birth: Int(i32), birth_dimension: Int(i32),
+        birth: Int(i32), birth_dimension: Int(i32), delay: Int(i32),
         length: Float(f32), birth_diameter: Float(f32), area: Float(f32),
         death: Int(i32), shed: Int(i32), cause: Word(i8),
     }
@@ -34,6 +34,7 @@ struct Row {
     neoformed: i8,
     birth: Tick,
     birth_dimension: i32,
+    delay: i32,
     length: f32,
     birth_diameter: f32,
     area: f32,
@@ -79,6 +80,7 @@ impl ComponentColumns {
         self.neoformed.push(row.neoformed);
         self.birth.push(row.birth as i32);
         self.birth_dimension.push(row.birth_dimension);
+        self.delay.push(row.delay);
         self.length.push(row.length);
         self.birth_diameter.push(row.birth_diameter);
         self.area.push(row.area);
@@ -106,6 +108,7 @@ fn of_node(plant: &Plant, node: NodeId) -> Row {
         neoformed: i8::from(nodes.formation[i].is_neoformed()),
         birth: nodes.birth[i],
         birth_dimension: nodes.birth[i].saturating_sub(axes.birth[axis.index()]) as i32,
+        delay: NULL,
         length: nodes.length[i],
         birth_diameter: nodes.primary_diameter[i],
         area: f32::NAN,
@@ -134,6 +137,7 @@ fn of_organ(plant: &Plant, organ: OrganId) -> Row {
         neoformed: -1,
         birth: organs.birth[i],
         birth_dimension: organs.birth[i].saturating_sub(axes.birth[axis.index()]) as i32,
+        delay: NULL,
         length: organs.length[i],
         birth_diameter: organs.width[i],
         area: area_of(organs.area[i]),
@@ -147,6 +151,7 @@ fn of_organ(plant: &Plant, organ: OrganId) -> Row {
 fn of_bud(plant: &Plant, axis: AxisId) -> Row {
     let axes = &plant.axes;
     let i = axis.index();
+    let bearer = axes.bearer[i].some().map(NodeId::index);
     Row {
         component: axes.component[i],
         key: axes.key[i],
@@ -154,11 +159,12 @@ fn of_bud(plant: &Plant, axis: AxisId) -> Row {
         axis,
         kind: Kind::ApicalBud,
         position: i32::from(axes.position[i]),
-        rank: NULL,
-        unit_rank: NULL,
+        rank: bearer.map_or(NULL, |node| plant.nodes.rank[node] as i32),
+        unit_rank: bearer.map_or(NULL, |node| i32::from(plant.nodes.unit_rank[node])),
         neoformed: -1,
         birth: axes.appearance[i],
         birth_dimension: NULL,
+        delay: axes.birth[i].saturating_sub(axes.appearance[i]) as i32,
         length: f32::NAN,
         birth_diameter: f32::NAN,
         area: f32::NAN,
