@@ -56,7 +56,12 @@ impl Specimen {
     }
 
     /// A group of benches of this specimen, whose rates count `elements` of something.
-    pub fn group<'a>(&self, criterion: &'a mut Criterion, what: &str, rate: Throughput) -> BenchmarkGroup<'a, WallTime> {
+    pub fn group<'a>(
+        &self,
+        criterion: &'a mut Criterion,
+        what: &str,
+        rate: Throughput,
+    ) -> BenchmarkGroup<'a, WallTime> {
         let mut group = criterion.benchmark_group(format!("{}/{what}", self.name));
         group.throughput(rate).sample_size(10).sampling_mode(SamplingMode::Flat);
         group.measurement_time(Duration::from_secs(3)).warm_up_time(Duration::from_millis(500));

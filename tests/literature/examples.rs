@@ -26,7 +26,8 @@ fn example_1_grows_by_binomial_coefficients() {
 /// Example 2: no break, equal death d at every order.
 #[test]
 fn example_2_loses_buds() {
-    let tables = [("example2", [0.9, 2.52, 5.436, 10.0287, 16.52409]), ("example2_d20", [0.8, 2.08, 4.128, 6.9952, 10.59968])];
+    let tables =
+        [("example2", [0.9, 2.52, 5.436, 10.0287, 16.52409]), ("example2_d20", [0.8, 2.08, 4.128, 6.9952, 10.59968])];
     for (name, totals) in tables {
         assert_totals(name, &totals);
     }
@@ -55,8 +56,13 @@ fn assert_totals(name: &str, totals: &[f64]) {
 /// N steps of the laterals grows with probability 1 − p: mean N (1 − p), variance p times the mean.
 #[test]
 fn example_4_grows_at_the_ratio_of_figure_14() {
-    let figures =
-        [("example4_r05", 608.0), ("example4", 304.0), ("example4_r15", 192.0), ("example4_r2", 144.0), ("example4_r3", 91.2)];
+    let figures = [
+        ("example4_r05", 608.0),
+        ("example4", 304.0),
+        ("example4_r15", 192.0),
+        ("example4_r2", 144.0),
+        ("example4_r3", 91.2),
+    ];
     for (name, mean) in figures {
         let model = shipped(name, 20);
         let closed = model.expectation(20).unwrap().orders[1].units[20];

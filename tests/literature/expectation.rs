@@ -64,8 +64,12 @@ fn cohorts_equal_the_recursion_and_plants_follow_both() {
             let summed = model.expectation_from(from as u8 + 1, until).unwrap();
             for counted in 0..3 {
                 for age in 0..=until {
-                    let (cohorts, closed) = (summed.orders[counted].units[age as usize], recursion(&laws, from, counted, age));
-                    assert!((cohorts - closed).abs() <= 1e-9 * closed.max(1.0), "set {seed}, M({from},{counted})({age})");
+                    let (cohorts, closed) =
+                        (summed.orders[counted].units[age as usize], recursion(&laws, from, counted, age));
+                    assert!(
+                        (cohorts - closed).abs() <= 1e-9 * closed.max(1.0),
+                        "set {seed}, M({from},{counted})({age})"
+                    );
                 }
             }
         }
@@ -95,14 +99,21 @@ fn cohorts_follow_laws_of_age_and_random_counts() {
             delay: poisson(1.0),
             ..Axillary::default()
         },
-        relay: Relay { on: vec![ApexEnd::Death], count: Count::from(2), probability: Law::from(0.7), ..Relay::default() },
+        relay: Relay {
+            on: vec![ApexEnd::Death],
+            count: Count::from(2),
+            probability: Law::from(0.7),
+            ..Relay::default()
+        },
         traumatic: Traumatic { probability: Law::from(0.3), ..Traumatic::default() },
         ..Order::default()
     };
     let branch = Order {
         speed: SpeedText::Ratio("2/3".to_owned()),
         death: Law::from(0.05),
-        apex: Apex { units: Some(Count::from(CountForm { empirical: Some(vec![0.0, 1.0, 2.0, 1.0]), ..CountForm::default() })) },
+        apex: Apex {
+            units: Some(Count::from(CountForm { empirical: Some(vec![0.0, 1.0, 2.0, 1.0]), ..CountForm::default() })),
+        },
         ..Order::default()
     };
     let until = 12;
@@ -114,7 +125,9 @@ fn cohorts_follow_laws_of_age_and_random_counts() {
         let nodes = Sample::of(plants.iter().map(|plant| {
             (0..plant.nodes.len()).filter(|&node| of_order(plant.nodes.axis[node].index(), plant)).count() as f64
         }));
-        let axes = Sample::of(plants.iter().map(|plant| (0..plant.axes.len()).filter(|&axis| of_order(axis, plant)).count() as f64));
+        let axes = Sample::of(
+            plants.iter().map(|plant| (0..plant.axes.len()).filter(|&axis| of_order(axis, plant)).count() as f64),
+        );
         let means = &expected.orders[usize::from(order) - 1];
         nodes.assert_mean(means.nodes[until as usize], &format!("nodes of order {order}"));
         axes.assert_mean(means.axes[until as usize], &format!("axes of order {order}"));

@@ -5,7 +5,7 @@
 use crate::grown::compiled;
 use phytomer_config::{Kind, Model, presets};
 use phytomer_models::buds::BudModel;
-use phytomer_sim::plant::{ApicalBud, AxisId, LineageKey, OrganId, NodeId, Seed};
+use phytomer_sim::plant::{ApicalBud, AxisId, LineageKey, NodeId, OrganId, Seed};
 use phytomer_sim::{GrowthModel, Plant, Plot, Tick};
 use std::collections::BTreeMap;
 
@@ -77,7 +77,12 @@ fn facts(plant: &Plant) -> BTreeMap<LineageKey, Facts> {
     }
     for o in 0..organs.len() {
         let mut of = vec![organs.kind[o] as u32, u32::from(organs.position[o]), organs.birth[o], organs.death[o]];
-        of.extend([organs.cause[o] as u32, organs.form[o] as u32, organs.length[o].to_bits(), organs.width[o].to_bits()]);
+        of.extend([
+            organs.cause[o] as u32,
+            organs.form[o] as u32,
+            organs.length[o].to_bits(),
+            organs.width[o].to_bits(),
+        ]);
         of.extend([organs.area[o].to_bits(), organs.azimuth[o].to_bits(), organs.insertion[o].to_bits()]);
         facts.insert(plant.organ_key(OrganId(o as u32)), (key_of(organs.node[o]), of));
     }

@@ -181,9 +181,12 @@ impl<'a> Axis<'a> {
     /// At most one passage between states, by one word a passage in the order in which they are stated.
     fn pass_state(&mut self) {
         let at = self.at(0);
-        let passage = self.laws.step.transitions.iter().find(|(from, _, chance)| {
-            *from == self.bud.state && chance.happens(&self.words.step, 0, at)
-        });
+        let passage = self
+            .laws
+            .step
+            .transitions
+            .iter()
+            .find(|(from, _, chance)| *from == self.bud.state && chance.happens(&self.words.step, 0, at));
         if let Some(&(_, to, _)) = passage {
             self.bud.state = to;
         }

@@ -3,12 +3,12 @@
 use super::compile::{BudModel, OrderLaws};
 use super::grow::{Axis, Full, Words, first_bud};
 use super::law::At;
+use phytomer_sim::Tick;
 use phytomer_sim::expectation::Expectation;
 use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
 use phytomer_sim::plant::{ApicalBud, AxisId, Habit, LineageKey, NewAxis, Origin, Plant, Shape};
 use phytomer_sim::random::Purpose;
 use phytomer_sim::site::Site;
-use phytomer_sim::Tick;
 use std::sync::Arc;
 
 impl BudModel {
@@ -144,7 +144,6 @@ impl GrowthModel for BudModel {
                 nodes.diameter_tip[parent.index()] = diameter.min(nodes.diameter[parent.index()]);
             }
         }
-    
     }
 }
 
@@ -187,14 +186,15 @@ mod tests {
                 state: Some("branch".to_owned()),
                 ..Axillary::default()
             },
-            reiteration: Reiteration {
-                buds: Count::from(1),
-                probability: Law::from(0.01),
-                ..Reiteration::default()
-            },
+            reiteration: Reiteration { buds: Count::from(1), probability: Law::from(0.01), ..Reiteration::default() },
             traumatic: Traumatic { probability: Law::from(0.5), delay: Count::from(1), ..Traumatic::default() },
             relay: Relay { on: vec![ApexEnd::Flower], count: Count::from(2), below: 1, ..Relay::default() },
-            flower: Flower { terminal: Law::from(0.05), fruit_set: Law::from(0.5), life: poisson(1.0), ..Flower::default() },
+            flower: Flower {
+                terminal: Law::from(0.05),
+                fruit_set: Law::from(0.5),
+                life: poisson(1.0),
+                ..Flower::default()
+            },
             transition: vec![Transition {
                 from: "juvenile".to_owned(),
                 to: "adult".to_owned(),
@@ -209,8 +209,18 @@ mod tests {
             death: Law::from(0.15),
             insertion_deg: normal(60.0, 8.0),
             phyllotaxis: Phyllotaxis::Named("2/5".to_owned()),
-            flower: Flower { lateral: Law::from(0.4), delay: poisson(1.0), fruit_set: Law::from(0.5), ..Flower::default() },
-            leaf: Leaf { per_node: poisson(1.0), life: Some(poisson(3.0)), length_cm: normal(5.0, 1.0), ..Leaf::default() },
+            flower: Flower {
+                lateral: Law::from(0.4),
+                delay: poisson(1.0),
+                fruit_set: Law::from(0.5),
+                ..Flower::default()
+            },
+            leaf: Leaf {
+                per_node: poisson(1.0),
+                life: Some(poisson(3.0)),
+                length_cm: normal(5.0, 1.0),
+                ..Leaf::default()
+            },
             shed_after: Some(2),
             ..Order::default()
         };

@@ -108,7 +108,7 @@ impl<'a> Shard<'a> {
             let dead = plant.death <= last;
             self.report.dead += u64::from(dead);
             self.report.living += u64::from(!dead);
-            self.report.components += u64::from(plant.components());
+            self.report.components += plant.lived_by(last);
             self.write_components(plot, plant, last)?;
             self.write_events(plot, plant, last)?;
         }

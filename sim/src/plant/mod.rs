@@ -145,6 +145,14 @@ impl Plant {
         self.components
     }
 
+    /// How many components have lived by `age`. A flower planned for a branch that died before it opened never did.
+    pub fn lived_by(&self, age: Tick) -> u64 {
+        let by = |births: &[Tick]| births.iter().filter(|&&birth| birth <= age).count() as u64;
+        let organs = self.organs.birth.iter().zip(&self.organs.death);
+        let opened = organs.filter(|&(&birth, &death)| birth <= age && birth < death).count() as u64;
+        by(&self.axes.appearance) + by(&self.nodes.birth) + opened
+    }
+
     /// Adds an axis, standing as a bud; its bearing node comes before it.
     #[inline]
     pub fn add_axis(&mut self, axis: NewAxis) -> AxisId {

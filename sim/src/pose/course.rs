@@ -78,9 +78,8 @@ impl Slope {
         let share = f64::from(trend.share);
         let (cos, sin) = (f64::from(trend.cos_inclination), f64::from(trend.sin_inclination));
         let from = if self.r < NUDGE { self.nudged(cos, sin) } else { self };
-        let z = from.z + share * (cos - from.z);
-        let r = from.r + share * (sin - from.r);
-        Self { z, r }.normalized_or(self)
+        let keep = 1.0 - share;
+        Self { z: keep * from.z + share * cos, r: keep * from.r + share * sin }.normalized_or(self)
     }
 
     /// Off the vertical, where the trend is the opposite one.
@@ -98,8 +97,8 @@ impl Slope {
     fn normalized_or(self, otherwise: Self) -> Self {
         let square = self.z * self.z + self.r * self.r;
         if square > 1e-100 {
-            let scale = 1.0 / square.sqrt();
-            Self { z: self.z * scale, r: self.r * scale }
+            let length = square.sqrt();
+            Self { z: self.z / length, r: self.r / length }
         } else {
             otherwise
         }

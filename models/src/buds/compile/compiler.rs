@@ -1,7 +1,9 @@
 //! The compiler of one order: compiles laws where they stand, collects every fault and goes on.
 
 use super::domain;
-use crate::buds::law::{Count, CountTable, Domain, Law, ProbabilityTable, ValueRange, ValueTable, Variate, VariateTable};
+use crate::buds::law::{
+    Count, CountTable, Domain, Law, ProbabilityTable, ValueRange, ValueTable, Variate, VariateTable,
+};
 use crate::buds::params::{Buds, SpeedText};
 use crate::fault::{Fault, Path};
 use phytomer_sim::clock::Speed;

@@ -58,10 +58,9 @@ impl StepLaws {
                 compiler.probability(&short.probability, "growth_unit.short.probability"),
                 compiler.count(&short.nodes, "growth_unit.short.nodes", MOST_NODES),
             ),
-            None => (
-                crate::buds::law::ProbabilityTable::certain_or_never(false),
-                crate::buds::law::CountTable::always(0),
-            ),
+            None => {
+                (crate::buds::law::ProbabilityTable::certain_or_never(false), crate::buds::law::CountTable::always(0))
+            }
         };
         let long_nodes = compiler.count(&unit.nodes, "growth_unit.nodes", MOST_NODES);
         let neoformed = compiler.count(&unit.neoformed, "growth_unit.neoformed", MOST_NODES);

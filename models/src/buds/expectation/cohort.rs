@@ -1,7 +1,7 @@
 //! Cohorts: the axes of one order, born at one tick in one state, followed step by step as shares.
 
 use super::unit::Unit;
-use crate::buds::compile::{BudModel, Branching, OrderLaws};
+use crate::buds::compile::{Branching, BudModel, OrderLaws};
 use crate::buds::law::At;
 use crate::buds::params::ApexEnd;
 use phytomer_sim::Tick;
