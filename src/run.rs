@@ -131,7 +131,7 @@ impl Grower<'_> {
         let model = self.resolved.model.as_ref();
         let scenario = &self.resolved.scenario;
         let mut plot = Plot::of_one(model, &seed_of(scenario, plants.start));
-        let drawing = Drawing::of(self.resolved);
+        let drawing = Drawing::of(self.resolved, self.folder.plan().shards());
         let mut keeper = Keeper { shard: self.folder.shard(shard)?, drawing, grower: self, plant: plants.start };
         for plant in plants {
             if self.progress.is_stopped() {
@@ -143,7 +143,7 @@ impl Grower<'_> {
                 return Ok(None);
             }
         }
-        Ok(Some(keeper.shard.commit()?))
+        keeper.commit().map(Some)
     }
 }
 
@@ -166,8 +166,14 @@ impl Keeper<'_> {
             Err(error) => return Err(anyhow::anyhow!(error)),
         };
         self.shard.end_plot(plot, ending)?;
+        self.drawing.iter_mut().try_for_each(Drawing::end_plant)?;
         progress.end_plant(&plot.plants[0]);
         Ok(true)
+    }
+
+    fn commit(mut self) -> Result<ShardReport> {
+        self.drawing.iter_mut().try_for_each(Drawing::finish)?;
+        Ok(self.shard.commit()?)
     }
 
     fn draws(&self, age: Tick) -> bool {
@@ -189,7 +195,7 @@ impl Recorder for Keeper<'_> {
             self.shard.record(age, plot)?;
         }
         if self.draws(age)
-            && let Some(drawing) = &self.drawing
+            && let Some(drawing) = &mut self.drawing
         {
             drawing.draw(age, &plot.plants[0], &mut self.shard)?;
         }

@@ -222,6 +222,33 @@ fn a_mesh_is_that_of_the_run() {
 }
 
 #[test]
+fn meshes_per_plant_and_per_age_hold_every_scene() {
+    let folder = tempdir().unwrap();
+    for (per, parts, files) in [
+        ("plant", 1, vec!["plant-00000.ply", "plant-00001.ply"]),
+        ("age", 2, vec!["age-0006.ply", "age-0012.ply"]),
+        (
+            "age",
+            1,
+            vec![
+                "age-0006_part-00000.ply",
+                "age-0006_part-00001.ply",
+                "age-0012_part-00000.ply",
+                "age-0012_part-00001.ply",
+            ],
+        ),
+    ] {
+        let meshes = format!("[meshes]\nages = [6, 12]\nplants = \"all\"\nper = \"{per}\"\n");
+        scenario(folder.path(), &format!("output = {{ plants_per_part = {parts} }}\n{meshes}"));
+        run(folder.path(), &["grow", "s.toml", "--overwrite", "--quiet"]).ending(0);
+        let found = fs::read_dir(folder.path().join("runs/s/meshes")).unwrap().map(|file| file.unwrap().file_name());
+        let mut found: Vec<String> = found.map(|name| name.to_string_lossy().into_owned()).collect();
+        found.sort();
+        assert_eq!(found, files);
+    }
+}
+
+#[test]
 fn lists_have_everything_that_ships() {
     let folder = tempdir().unwrap();
     let all = run(folder.path(), &["list", "--json"]).ending(0).json();

@@ -1,14 +1,17 @@
 //! The meshes that a scenario asks for, drawn while its plants grow and registered with the shard that they belong to.
 //!
-//! A file belongs to the shard of its plants, so it is committed, resumed and removed with that shard's tables.
+//! A file belongs to the shard of its plants, so it is committed, resumed and removed with that shard's tables. All
+//! plants at an age are therefore one file where the run has one part, and one a part where it has more.
 //! Absent: forms and formats, which are `phytomer_outputs::meshes`'.
 
 use anyhow::{Context, Result, ensure};
+use phytomer_config::scenario::{MeshFile, Meshes};
 use phytomer_config::{Resolved, Scenario};
 use phytomer_outputs::Shard;
-use phytomer_outputs::meshes::{MeshOptions, MeshWriter, Ply, Scene};
+use phytomer_outputs::meshes::{Collection, MeshOptions, MeshWriter, Ply, Scene};
+use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
-use phytomer_sim::{RecordError, Tick};
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::Path;
 
@@ -18,8 +21,12 @@ const MOST_VERTICES: u64 = i32::MAX as u64;
 /// What is drawn of the plants of one shard.
 pub struct Drawing<'a> {
     scenario: &'a Scenario,
+    meshes: &'a Meshes,
     ages: Vec<Tick>,
     options: MeshOptions,
+    parts: u32,
+    /// The files that are not complete yet, by their paths in the run folder.
+    open: BTreeMap<String, Collection>,
 }
 
 /// The mesh options of a scenario.
@@ -46,11 +53,12 @@ pub fn write_mesh(plant: &Plant, age: Tick, run_seed: u64, options: &MeshOptions
 }
 
 impl<'a> Drawing<'a> {
-    /// What is drawn of a run; `None` where the scenario asks for no meshes.
-    pub fn of(resolved: &'a Resolved) -> Option<Self> {
+    /// What is drawn of a run of so many parts; `None` where the scenario asks for no meshes.
+    pub fn of(resolved: &'a Resolved, parts: u32) -> Option<Self> {
         let scenario = &resolved.scenario;
         let meshes = scenario.meshes.as_ref()?;
-        Some(Self { scenario, ages: scenario.mesh_ages(), options: options_of(meshes.sides) })
+        let options = options_of(meshes.sides);
+        Some(Self { scenario, meshes, ages: scenario.mesh_ages(), options, parts, open: BTreeMap::new() })
     }
 
     /// Whether this plant is drawn at this age.
@@ -62,8 +70,49 @@ impl<'a> Drawing<'a> {
     ///
     /// # Errors
     /// Where its mesh cannot be written.
-    pub fn draw(&self, age: Tick, plant: &Plant, shard: &mut Shard) -> Result<(), RecordError> {
-        let path = shard.stage(&format!("meshes/plant-{:05}_age-{age:04}.ply", plant.id))?;
-        Ok(write_mesh(plant, age, self.scenario.seed, &self.options, &path)?)
+    pub fn draw(&mut self, age: Tick, plant: &Plant, shard: &mut Shard) -> Result<()> {
+        let id = plant.id;
+        match self.meshes.per {
+            MeshFile::PlantAge => {
+                let path = shard.stage(&format!("meshes/plant-{id:05}_age-{age:04}.ply"))?;
+                write_mesh(plant, age, self.scenario.seed, &self.options, &path)
+            }
+            MeshFile::Plant => self.collect(format!("meshes/plant-{id:05}.ply"), age, plant, shard),
+            MeshFile::Age if self.parts == 1 => self.collect(format!("meshes/age-{age:04}.ply"), age, plant, shard),
+            MeshFile::Age => {
+                let path = format!("meshes/age-{age:04}_part-{:05}.ply", shard.number());
+                self.collect(path, age, plant, shard)
+            }
+        }
+    }
+
+    fn collect(&mut self, path: String, age: Tick, plant: &Plant, shard: &mut Shard) -> Result<()> {
+        let scene = Scene::new(plant, age, &self.options);
+        let doing = || format!("cannot write the mesh {path}");
+        if !self.open.contains_key(&path) {
+            let new = Collection::create(&shard.stage(&path)?).with_context(doing)?;
+            self.open.insert(path.clone(), new);
+        }
+        let Some(collection) = self.open.get_mut(&path) else { return Ok(()) };
+        collection.add(&scene, &scene.about(self.scenario.seed)).with_context(doing)
+    }
+
+    /// The last age of a plant is past.
+    ///
+    /// # Errors
+    /// Where its file cannot be written.
+    pub fn end_plant(&mut self) -> Result<()> {
+        if self.meshes.per == MeshFile::Plant { self.finish() } else { Ok(()) }
+    }
+
+    /// Completes the files that are open.
+    ///
+    /// # Errors
+    /// Where they cannot be written.
+    pub fn finish(&mut self) -> Result<()> {
+        for (path, collection) in std::mem::take(&mut self.open) {
+            collection.finish().with_context(|| format!("cannot write the mesh {path}"))?;
+        }
+        Ok(())
     }
 }

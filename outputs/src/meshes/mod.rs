@@ -6,6 +6,7 @@
 //! Vertices are not shared between components. Absent: buds, which have no form; curvature, which is the pose's.
 
 mod chunk;
+mod collection;
 mod colour;
 mod file;
 mod forms;
@@ -18,6 +19,7 @@ mod tests;
 mod tube;
 
 pub use chunk::{Chunk, Face, Sink, Tag, Vertex};
+pub use collection::Collection;
 pub use file::{MeshError, MeshFile, MeshRecorder, write_mesh};
 pub use ply::Ply;
 pub use scene::{Counts, Scene};

@@ -29,9 +29,8 @@ impl MeshWriter for Ply {
 
     fn write(&self, scene: &Scene, about: &About, out: &mut (dyn Write + Send)) -> io::Result<()> {
         let counts = scene.counts();
-        let mut head = Vec::new();
-        Writer::<DefaultElement>::new().write_header(&mut head, &header(about, counts))?;
-        out.write_all(&head)?;
+        let plant = format!("plant {} age {} seed {}", about.plant, about.age, about.run_seed);
+        out.write_all(&header_of(vec![plant], counts)?)?;
         if counts.vertices * Vertex::BYTES as u64 + counts.faces * Face::BYTES as u64 > OVERLAP_FROM {
             write_overlapped(scene, out)
         } else {
@@ -82,15 +81,22 @@ fn write_overlapped(scene: &Scene, out: &mut (dyn Write + Send)) -> io::Result<(
     })
 }
 
-fn header(about: &About, counts: Counts) -> Header {
+/// The whole header, with comments of what the file holds.
+pub(super) fn header_of(comments: Vec<String>, counts: Counts) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    Writer::<DefaultElement>::new().write_header(&mut bytes, &header(comments, counts))?;
+    Ok(bytes)
+}
+
+fn header(comments: Vec<String>, counts: Counts) -> Header {
     let mut header = Header::new();
     header.encoding = Encoding::BinaryLittleEndian;
     header.comments = vec![
         format!("phytomer {}", env!("CARGO_PKG_VERSION")),
         "unit metre, Z up".into(),
         "ages in ticks since the seed, death_age inf while the component lives".into(),
-        format!("plant {} age {} seed {}", about.plant, about.age, about.run_seed),
     ];
+    header.comments.extend(comments);
     header.elements.add(vertex_element(counts.vertices as usize));
     header.elements.add(face_element(counts.faces as usize));
     header
