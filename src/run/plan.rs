@@ -127,39 +127,52 @@ pub fn place_of(scenario: &Scenario, plant: u32) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use phytomer_config::{Origin, validate_text};
+    use phytomer_config::scenario::Limits;
+    use phytomer_config::validate;
 
-    fn scenario(text: &str) -> Resolved {
-        let head = "name = \"t\"\nspecies = \"gmt1/5a\"\nages = { until = 4 }\n";
-        validate_text("t", Origin::Preset("t".into()), &format!("{head}{text}"))
-            .unwrap_or_else(|r| panic!("{}", r.render(false)))
+    fn changed(change: impl FnOnce(&mut Scenario)) -> Resolved {
+        let mut resolved = validate("example1").unwrap_or_else(|report| panic!("{}", report.render(false)));
+        change(&mut resolved.scenario);
+        resolved
     }
 
     #[test]
     fn plants_stand_on_a_square_grid() {
-        let ten = scenario("plants = 10\nspacing_m = 2.5");
-        assert_eq!(place_of(&ten.scenario, 0), [0.0; 3]);
-        assert_eq!(place_of(&ten.scenario, 3), [7.5, 0.0, 0.0]);
-        assert_eq!(place_of(&ten.scenario, 9), [2.5, 5.0, 0.0]);
-        assert_eq!(place_of(&scenario("plants = 9\nspacing_m = 1").scenario, 8), [2.0, 2.0, 0.0]);
-        assert_eq!(place_of(&scenario("plants = 9").scenario, 8), [0.0; 3]);
+        let place = |plants, spacing_m, plant| {
+            let resolved = changed(|scenario| {
+                scenario.plants = plants;
+                scenario.spacing_m = spacing_m;
+            });
+            place_of(&resolved.scenario, plant)
+        };
+        assert_eq!(place(10, Some(2.5), 0), [0.0; 3]);
+        assert_eq!(place(10, Some(2.5), 3), [7.5, 0.0, 0.0]);
+        assert_eq!(place(10, Some(2.5), 9), [2.5, 5.0, 0.0]);
+        assert_eq!(place(9, Some(1.0), 8), [2.0, 2.0, 0.0]);
+        assert_eq!(place(9, None, 8), [0.0; 3]);
     }
 
     #[test]
     fn the_smaller_limit_holds() {
-        let limit = |text: &str| component_limit(&scenario(text).scenario);
-        assert_eq!(limit("plants = 1"), 50_000_000);
-        assert_eq!(limit("plants = 1\nlimits = { max_memory_mb = 96 }"), 1_000_000);
-        assert_eq!(limit("plants = 1\nlimits = { max_components = 5_000, max_memory_mb = 96 }"), 5_000);
+        let limit = |limits: Limits| component_limit(&changed(|scenario| scenario.limits = limits).scenario);
+        assert_eq!(limit(Limits::default()), 50_000_000);
+        assert_eq!(limit(Limits { max_memory_mb: Some(96), ..Limits::default() }), 1_000_000);
+        assert_eq!(limit(Limits { max_components: 5_000, max_memory_mb: Some(96) }), 5_000);
     }
 
     #[test]
     fn parts_have_a_fair_size_and_do_not_depend_on_the_machine() {
-        let plan = |text: &str| plan_of(&scenario(text), &Program::default()).unwrap();
-        assert_eq!(plan("plants = 7\noutput = { plants_per_part = 3 }").shards(), 3);
-        assert_eq!(plan("plants = 2\noutput = { plants_per_part = 30 }").plots_per_part, 2);
-        assert_eq!(plan("plants = 10").shards(), 1);
-        let many = plan("plants = 1_000_000");
-        assert!((8..2_000).contains(&many.shards()), "{} parts", many.shards());
+        let plan = |plants, a_part| {
+            let resolved = changed(|scenario| {
+                scenario.plants = plants;
+                scenario.output.plants_per_part = a_part;
+            });
+            plan_of(&resolved, &Program::default()).unwrap()
+        };
+        assert_eq!(plan(7, Some(3)).shards(), 3);
+        assert_eq!(plan(2, Some(30)).plots_per_part, 2);
+        assert_eq!(plan(10, None).shards(), 1);
+        let many = plan(1_000_000, None).shards();
+        assert!((8..2_000).contains(&many), "{many} parts");
     }
 }
