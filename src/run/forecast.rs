@@ -12,7 +12,7 @@ use serde::Serialize;
 pub const BYTES_A_RECORD: f64 = 31.0;
 
 /// Bytes of a row of `components`, of `events` and of `summary`, likewise.
-const BYTES_A_COMPONENT_ROW: f64 = 16.0;
+const BYTES_A_COMPONENT_ROW: f64 = 20.0;
 const BYTES_A_SUMMARY_ROW: f64 = 60.0;
 
 /// What is expected of a run.

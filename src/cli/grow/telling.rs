@@ -103,7 +103,9 @@ impl Told<'_> {
         let folder = self.settings.folder.display().to_string();
         let mut commands: Vec<String> = self.query(&folder).into_iter().collect();
         commands.push(format!("phytomer describe {}", shown(&folder)));
-        let age = self.resolved.scenario.ages.until;
+        // Midway: at the last age a plant may be dead and gone.
+        let ages = self.resolved.scenario.ages.recorded();
+        let age = ages.get(ages.len() / 2).copied().unwrap_or(self.resolved.scenario.ages.until);
         commands.push(format!("phytomer mesh {} --plant 0 --age {age} --out plant.ply", shown(&folder)));
         commands
     }
