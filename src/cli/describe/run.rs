@@ -1,10 +1,12 @@
-//! What a run folder holds: tables with rows, parts and sizes, ages, plants, seed, version, limits that were met.
+//! What a run folder holds: tables with rows, parts and sizes, ages, plants, seed, version, limits that were met, and the
+//! population at each recorded age.
 //!
 //! Rows are counted in the Parquet files themselves, so that an unfinished run is told as far as it has come.
 
 use super::super::amounts;
 use super::super::named::Recorded;
 use anyhow::Result;
+use phytomer_analysis::{AgeOfPopulation, Moments, population};
 use phytomer_outputs::Table;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -18,6 +20,7 @@ pub struct Held {
     folder: PathBuf,
     tables: BTreeMap<Table, Size>,
     meshes: Size,
+    population: BTreeMap<u32, AgeOfPopulation>,
 }
 
 /// Rows, files and bytes.
@@ -56,7 +59,8 @@ impl Held {
             let files = files.flatten().map(|file| file.path());
             files.filter(|file| file.extension().is_some_and(|end| end == "ply")).for_each(|file| meshes.add(&file));
         }
-        Ok(Self { recorded, folder, tables, meshes })
+        let population = population(&recorded.run)?;
+        Ok(Self { recorded, folder, tables, meshes, population })
     }
 
     fn words(&self, key: &str) -> &str {
@@ -93,6 +97,7 @@ impl Held {
             "recorded_ages": run["recorded_ages"],
             "tables": tables,
             "meshes": self.meshes.as_json(),
+            "population": self.population_as_json(),
             "overgrown": run["overgrown"],
         })
     }
@@ -118,7 +123,45 @@ impl Held {
                 format!("{} came to the limit: `overgrown` in run.json", amounts::of(self.overgrown() as u64, "plant")),
             );
         }
-        text + &self.tables_in_words()
+        text + &self.tables_in_words() + &self.population_in_words()
+    }
+
+    /// The living at each recorded age, as means with their standard deviations.
+    fn population_in_words(&self) -> String {
+        if self.population.is_empty() {
+            return String::new();
+        }
+        let mut text = format!(
+            "\n  {:>5} {:>9} {:>9} {:>16} {:>20} {:>16}\n",
+            "age", "living", "dead", "height, m", "internodes", "leaf area, m2"
+        );
+        for (age, of) in &self.population {
+            let _ = writeln!(
+                text,
+                "  {age:>5} {:>9} {:>9} {:>16} {:>20} {:>16}",
+                amounts::count(of.living),
+                amounts::count(of.dead),
+                spread(&of.height_m, 2),
+                spread(&of.internodes, 1),
+                spread(&of.leaf_area_m2, 2)
+            );
+        }
+        text
+    }
+
+    fn population_as_json(&self) -> Vec<Value> {
+        let moments = |of: &Moments| json!({"n": of.n, "mean": of.mean, "sd": of.standard_deviation()});
+        let row = |(age, of): (&u32, &AgeOfPopulation)| {
+            json!({
+                "age": age,
+                "living": of.living,
+                "dead": of.dead,
+                "height_m": moments(&of.height_m),
+                "internodes": moments(&of.internodes),
+                "leaf_area_m2": moments(&of.leaf_area_m2),
+            })
+        };
+        self.population.iter().map(row).collect()
     }
 
     fn plants_in_words(&self) -> String {
@@ -142,6 +185,15 @@ impl Held {
             let _ = writeln!(text, "  {:<11} {:>15} {:>7} {bytes:>9}", "meshes", "", self.meshes.files);
         }
         text
+    }
+}
+
+/// "3.02 ± 0.41"; a dash where nothing was measured.
+fn spread(moments: &Moments, digits: usize) -> String {
+    match (moments.n, moments.standard_deviation()) {
+        (0, _) => "-".to_owned(),
+        (_, None) => format!("{:.digits$}", moments.mean),
+        (_, Some(deviation)) => format!("{:.digits$} ± {deviation:.digits$}", moments.mean),
     }
 }
 
