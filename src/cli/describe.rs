@@ -38,7 +38,10 @@ impl Describe {
                 let held = run::Held::of(Recorded::of(&folder)?, folder)?;
                 (held.as_text(), held.as_json())
             }
-            Named::Scenario(resolved) => (scenario::as_text(&resolved), scenario::as_json(&resolved)?),
+            Named::Scenario(resolved) => {
+                let text = scenario::as_text(&resolved) + "\n" + &species::as_text(&resolved.species)?;
+                (text, scenario::as_json(&resolved)?)
+            }
             Named::Species(resolved) => {
                 let species = &resolved.species;
                 (species::as_text(species)?, species::as_json(species)?)
