@@ -73,14 +73,35 @@ impl Stream {
     /// The next word, uniform over all 2³² values.
     #[inline]
     pub fn word(&mut self) -> u32 {
+        self.reach();
+        let word = self.words[(self.position % BLOCK) as usize];
+        self.position += 1;
+        word
+    }
+
+    /// The next words, as many as `into` holds.
+    #[inline]
+    pub fn read(&mut self, into: &mut [u32]) {
+        let mut left = into;
+        while !left.is_empty() {
+            self.reach();
+            let ready = &self.words[(self.position % BLOCK) as usize..];
+            let taken = left.len().min(ready.len());
+            let (now, later) = left.split_at_mut(taken);
+            now.iter_mut().zip(ready).for_each(|(word, ready)| *word = *ready);
+            self.position += taken as u64;
+            left = later;
+        }
+    }
+
+    /// Makes the block in which the next word stands.
+    #[inline]
+    fn reach(&mut self) {
         let block = self.position / BLOCK;
         if block != self.block {
             self.words = chacha8(&self.key, block, self.name);
             self.block = block;
         }
-        let word = self.words[(self.position % BLOCK) as usize];
-        self.position += 1;
-        word
     }
 }
 
@@ -155,7 +176,9 @@ mod tests {
         for position in [3_u64, 64, (1 << 36) + 5, 17] {
             stream.seek(position);
             reference.set_word_pos(u128::from(position));
-            assert!((0..40).all(|_| stream.word() == reference.next_u32()), "from {position}");
+            let mut words = [0; 40];
+            stream.read(&mut words);
+            assert!(words.iter().all(|&word| word == reference.next_u32()), "from {position}");
         }
     }
 

@@ -42,9 +42,7 @@ impl Words {
 /// Reads record `number` of `width` words, after a head of `head` words.
 fn read(stream: &mut Stream, head: usize, number: u32, width: usize, words: &mut [u32]) {
     stream.seek(head as u64 + u64::from(number) * width as u64);
-    for word in &mut words[..width] {
-        *word = stream.word();
-    }
+    stream.read(&mut words[..width]);
 }
 
 /// One axis while it grows.

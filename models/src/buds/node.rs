@@ -25,9 +25,33 @@ struct Bed {
     azimuth: f32,
 }
 
+/// The axillary buds of one node.
+#[derive(Debug, Clone, Copy)]
+struct AxillaryBuds {
+    node: NodeId,
+    rank: u32,
+    nodes: u32,
+    buds: u32,
+    /// Between two positions around the node, radians.
+    spacing: f32,
+}
+
 impl Axis<'_> {
     /// Adds a node of the given rank to a growth unit of `nodes` nodes.
     pub(super) fn node(&mut self, rank: u32, nodes: u32, short: bool, neoformed: bool) -> Result<(), Full> {
+        let at = self.at(rank);
+        let azimuth = self.bud.azimuth;
+        let node = self.internode(rank, short, neoformed, at);
+        if self.laws.node.is_bare {
+            self.bud.dormant = 0;
+        } else {
+            self.dress(node, rank, nodes, azimuth);
+        }
+        if self.plant.is_overgrown() { Err(Full) } else { Ok(()) }
+    }
+
+    /// Leaves, lateral flowers, and buds with the axes that they become.
+    fn dress(&mut self, node: NodeId, rank: u32, nodes: u32, azimuth: f32) {
         let at = self.at(rank);
         let laws = &self.laws.node;
         let words = &self.words.on_node;
@@ -35,8 +59,6 @@ impl Axis<'_> {
         let flowers = laws.flowers.draw(words, 0, at);
         let buds = laws.axillary.count.draw(words, 0, at);
         let reiterations = laws.reiteration.count.draw(words, 0, at);
-        let azimuth = self.bud.azimuth;
-        let node = self.internode(rank, short, neoformed, at);
         let spacing = TURN / leaves.max(buds).max(1) as f32;
         for nth in 0..leaves {
             self.leaf(node, nth, azimuth + spacing * nth as f32, at);
@@ -44,9 +66,8 @@ impl Axis<'_> {
         for nth in 0..flowers {
             self.lateral_flower(node, nth, azimuth + spacing * nth as f32, at);
         }
-        self.axillary(node, rank, nodes, buds, azimuth);
+        self.axillary(AxillaryBuds { node, rank, nodes, buds, spacing }, azimuth);
         self.reiterations(node, reiterations, azimuth + spacing / 2.0, at);
-        if self.plant.is_overgrown() { Err(Full) } else { Ok(()) }
     }
 
     fn internode(&mut self, rank: u32, short: bool, neoformed: bool, at: At) -> NodeId {
@@ -110,13 +131,13 @@ impl Axis<'_> {
     }
 
     /// The standard axillary buds: each ramifies by its law, or lies dormant.
-    fn axillary(&mut self, node: NodeId, rank: u32, nodes: u32, buds: u32, azimuth: f32) {
+    fn axillary(&mut self, of: AxillaryBuds, azimuth: f32) {
+        let AxillaryBuds { node, rank, nodes, buds, spacing } = of;
         let at = self.at(rank);
         let model = self.model;
         let laws = self.laws;
         let order = laws.number + 1;
         let ramification = laws.node.ramification(rank, nodes).filter(|_| model.has_order(order));
-        let spacing = TURN / self.positions(buds, at) as f32;
         self.bud.dormant = 0;
         for position in 0..buds {
             let bed = Bed {
@@ -132,10 +153,6 @@ impl Axis<'_> {
                 false => self.bud.dormant |= 1 << position,
             }
         }
-    }
-
-    fn positions(&self, buds: u32, at: At) -> u32 {
-        self.laws.node.leaves.draw(&self.words.on_node, 0, at).max(buds).max(1)
     }
 
     fn reiterations(&mut self, node: NodeId, buds: u32, azimuth: f32, at: At) {

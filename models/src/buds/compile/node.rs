@@ -24,6 +24,8 @@ const LONGEST: u32 = 65_535;
 pub struct NodeLaws {
     /// The words of a node's record.
     pub width: usize,
+    /// Whether no node bears anything: neither leaf nor flower nor bud.
+    pub is_bare: bool,
     pub long_length: Measure,
     pub short_length: Measure,
     pub diameter: Measure,
@@ -84,10 +86,15 @@ impl NodeLaws {
         let opens = compiler.probability(&order.flower.lateral, "flower.lateral");
         let sets = compiler.probability(&order.flower.fruit_set, "flower.fruit_set");
         let mut flower_count = |count: &Count, keys: &str| compiler.count(count, keys, LONGEST);
+        let is_bare = [&leaves, &flowers].iter().all(|count| count.max() == 0);
         let flower_delay = flower_count(&order.flower.delay, "flower.delay");
         let flower_life = flower_count(&order.flower.life, "flower.life");
         let fruit_life = flower_count(&order.fruit.life, "fruit.life");
+        let axillary = axillary(order, compiler, words);
+        let reiteration = reiteration(order, compiler, words);
+        let budless = axillary.count.table.max() == 0 && reiteration.count.table.max() == 0;
         Self {
+            is_bare: is_bare && budless,
             long_length: words.measure(long_length, CM, 1),
             short_length: words.measure(short_length, CM, 1),
             diameter: words.measure(diameter, MM, 1),
@@ -95,9 +102,9 @@ impl NodeLaws {
             leaves: words.number(leaves, 1),
             leaf_life: leaf_life(order, compiler, words, most_leaves),
             leaf: leaf(order, compiler, words, most_leaves),
-            axillary: axillary(order, compiler, words),
+            axillary,
             zones: zones(order, compiler, words),
-            reiteration: reiteration(order, compiler, words),
+            reiteration,
             reiteration_order: order.reiteration.order,
             flowers: words.number(flowers, 1),
             flower_opens: words.chance(opens, most_flowers),

@@ -9,7 +9,7 @@ use phytomer_sim::math;
 use super::domain::{At, Domain, Grid};
 use super::form::Law;
 use super::formula::{self, Formula};
-use super::quantile::{density, phi, quantile};
+use super::quantile::{density, deviate, phi};
 use super::range::ValueRange;
 use super::variate::{Lognormal, Normal, Uniform, Variate, VariateForm};
 use crate::fault::{Fault, Path};
@@ -181,8 +181,8 @@ impl VariateTable {
         let value = match &self.kind {
             Kind::Value => a,
             Kind::Uniform => a + (b - a) * fraction(word),
-            Kind::Normal => a + b * quantile(fraction(word)),
-            Kind::Lognormal => math::exp(a + b * quantile(fraction(word))),
+            Kind::Normal => a + b * deviate(word),
+            Kind::Lognormal => math::exp(a + b * deviate(word)),
             Kind::Empirical(values) => values[pick(word, values.len())],
         };
         self.clamp(value) as f32
@@ -256,7 +256,7 @@ fn of_logarithm([mean, sd]: [f64; 2]) -> [f64; 2] {
 }
 
 #[inline]
-fn fraction(word: u32) -> f64 {
+pub(super) fn fraction(word: u32) -> f64 {
     (f64::from(word) + 0.5) / WORDS
 }
 
