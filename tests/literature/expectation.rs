@@ -4,7 +4,7 @@
 
 use crate::grown::{PLANTS, Sample, compiled, plant, units_by_order};
 use phytomer_models::buds::law::{Count, CountForm, Law, LawForm, Poisson};
-use phytomer_models::buds::params::{Apex, ApexEnd, Axillary, GrowthUnit, Relay, SpeedText, Traumatic};
+use phytomer_models::buds::params::{Apex, ApexEnd, Axillary, Flower, GrowthUnit, Relay, SpeedText, Traumatic};
 use phytomer_models::buds::{Buds, Order};
 use phytomer_sim::GrowthModel as _;
 use rand_chacha::ChaCha8Rng;
@@ -105,6 +105,11 @@ fn cohorts_follow_laws_of_age_and_random_counts() {
             probability: Law::from(0.7),
             ..Relay::default()
         },
+        flower: Flower {
+            lateral: Law::from(0.3),
+            fruit_set: expression("0.1 * rank / (1 + rank)"),
+            ..Flower::default()
+        },
         traumatic: Traumatic { probability: Law::from(0.3), ..Traumatic::default() },
         ..Order::default()
     };
@@ -128,7 +133,12 @@ fn cohorts_follow_laws_of_age_and_random_counts() {
         let axes = Sample::of(
             plants.iter().map(|plant| (0..plant.axes.len()).filter(|&axis| of_order(axis, plant)).count() as f64),
         );
+        let organs = Sample::of(plants.iter().map(|plant| {
+            let of = |organ: usize| plant.nodes.axis[plant.organs.node[organ].index()].index();
+            (0..plant.organs.len()).filter(|&organ| of_order(of(organ), plant)).count() as f64
+        }));
         let means = &expected.orders[usize::from(order) - 1];
+        organs.assert_mean(means.organs[until as usize], &format!("organs of order {order}"));
         nodes.assert_mean(means.nodes[until as usize], &format!("nodes of order {order}"));
         axes.assert_mean(means.axes[until as usize], &format!("axes of order {order}"));
     }

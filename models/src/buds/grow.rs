@@ -12,7 +12,7 @@ use super::compile::{BudModel, OrderLaws};
 use super::law::At;
 use super::params::ApexEnd;
 use phytomer_sim::clock::{NEVER, Tick};
-use phytomer_sim::plant::{ApexFate, ApicalBud, AxisId, EventKind, Form, Kind, NewOrgan, NodeId, Plant};
+use phytomer_sim::plant::{ApexFate, ApicalBud, AxisId, Cause, EventKind, Form, Kind, NewOrgan, NodeId, Plant};
 use phytomer_sim::random::{Purpose, Stream};
 
 /// The words of one axis: its streams, opened when first read, and the record last read from each.
@@ -43,6 +43,20 @@ impl Words {
 fn read(stream: &mut Stream, head: usize, number: u32, width: usize, words: &mut [u32]) {
     stream.seek(head as u64 + u64::from(number) * width as u64);
     stream.read(&mut words[..width]);
+}
+
+/// The position of a terminal flower, which is no lateral's.
+const TERMINAL: u16 = u16::MAX;
+
+/// Where a flower opens, and when.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FlowerSite {
+    pub node: NodeId,
+    /// Which of the flowers of its node's record, from 0.
+    pub nth: u32,
+    pub birth: Tick,
+    pub azimuth: f32,
+    pub position: u16,
 }
 
 /// One axis while it grows.
@@ -157,7 +171,8 @@ impl<'a> Axis<'a> {
             true => laws.short_nodes.draw(&self.words.step, unit, at),
             false => laws.long_nodes.draw(&self.words.step, unit, at),
         };
-        let nodes = preformed + laws.neoformed.draw(&self.words.step, unit, at);
+        let neoformed = if short { 0 } else { laws.neoformed.draw(&self.words.step, unit, at) };
+        let nodes = preformed + neoformed;
         for rank in 1..=nodes {
             self.read_node();
             self.node(rank, nodes, short, rank > preformed)?;
@@ -205,7 +220,8 @@ impl<'a> Axis<'a> {
         };
         // The record of the node that this bud will never make.
         self.read_node();
-        let past = self.flower(node, 0, self.tick, 0.0, u16::MAX);
+        let past =
+            self.flower(FlowerSite { node, nth: 0, birth: self.tick, azimuth: 0.0, position: TERMINAL }, self.at(0));
         self.plant.axes.spent[self.bud.axis.index()] = past;
     }
 
@@ -214,14 +230,15 @@ impl<'a> Axis<'a> {
         (self.bud.rank > 0).then_some(self.bud.last_node)
     }
 
-    /// A flower that opens at `birth`, and the fruit that it may set; the tick at which the last of them falls.
-    pub fn flower(&mut self, node: NodeId, nth: u32, birth: Tick, azimuth: f32, position: u16) -> Tick {
+    /// A flower, and the fruit that it may set; the tick at which the last of them falls. A terminal flower stands in the
+    /// direction of its axis, and its laws are asked at rank 0, which is no node's.
+    pub fn flower(&mut self, site: FlowerSite, at: At) -> Tick {
+        let FlowerSite { node, nth, birth, azimuth, position } = site;
         let laws = &self.laws.node;
-        let (words, at) = (&self.words.on_node, self.at(0));
+        let words = &self.words.on_node;
         let fall = birth.saturating_add(laws.flower_life.draw(words, nth, at).max(1));
         let sets = laws.fruit_set.happens(words, nth, at);
-        let terminal = position == u16::MAX;
-        let insertion = if terminal { 0.0 } else { laws.flower.insertion.draw(words, nth, at) };
+        let insertion = if position == TERMINAL { 0.0 } else { laws.flower.insertion.draw(words, nth, at) };
         let organ = |kind, form: Form, birth, death, cause, length, width| NewOrgan {
             node,
             kind,
@@ -236,14 +253,13 @@ impl<'a> Axis<'a> {
             azimuth,
             insertion,
         };
-        use phytomer_sim::plant::Cause::{FruitSet, LifeLength};
         let (length, width) = (laws.flower.length.draw(words, nth, at), laws.flower.width.draw(words, nth, at));
-        let cause = if sets { FruitSet } else { LifeLength };
+        let cause = if sets { Cause::FruitSet } else { Cause::LifeLength };
         let flower = organ(Kind::Flower, laws.flower.form, birth, fall, cause, length, width);
         let fruit = sets.then(|| {
             let ripe = fall.saturating_add(laws.fruit_life.draw(words, nth, at).max(1));
             let (length, width) = (laws.fruit.length.draw(words, nth, at), laws.fruit.width.draw(words, nth, at));
-            organ(Kind::Fruit, laws.fruit.form, fall, ripe, LifeLength, length, width)
+            organ(Kind::Fruit, laws.fruit.form, fall, ripe, Cause::LifeLength, length, width)
         });
         self.plant.add_organ(flower);
         fruit.map_or(fall, |fruit| {
@@ -266,12 +282,12 @@ pub(super) fn first_bud(model: &BudModel, plant: &Plant, axis: AxisId) -> Apical
         azimuth: model.laws(plant.axes.order[place]).first_azimuth,
         state: plant.axes.state[place],
         dormant: 0,
+        bud_spacing: 0.0,
     }
 }
 
 /// The tick at which a leaf falls, by its life length or by the season, and why.
-pub(super) fn leaf_fall(model: &BudModel, birth: Tick, life: Option<u32>) -> (Tick, phytomer_sim::plant::Cause) {
-    use phytomer_sim::plant::Cause::{LifeLength, None as Stays, Season};
+pub(super) fn leaf_fall(model: &BudModel, birth: Tick, life: Option<u32>) -> (Tick, Cause) {
     let aged = life.map_or(NEVER, |life| birth.saturating_add(life.max(1)));
     let seasonal = model.season.map_or(NEVER, |season| {
         let (year, fall) = (u64::from(season.ticks_per_year), u64::from(season.leaf_fall));
@@ -280,8 +296,8 @@ pub(super) fn leaf_fall(model: &BudModel, birth: Tick, life: Option<u32>) -> (Ti
         u32::try_from(u64::from(birth) + wait).unwrap_or(NEVER)
     });
     match (aged.min(seasonal), aged <= seasonal) {
-        (NEVER, _) => (NEVER, Stays),
-        (tick, true) => (tick, LifeLength),
-        (tick, false) => (tick, Season),
+        (NEVER, _) => (NEVER, Cause::None),
+        (tick, true) => (tick, Cause::LifeLength),
+        (tick, false) => (tick, Cause::Season),
     }
 }

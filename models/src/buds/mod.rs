@@ -10,6 +10,8 @@ pub mod law;
 mod model;
 mod node;
 pub mod params;
+#[cfg(test)]
+mod tests;
 
 pub use compile::BudModel;
 pub use params::{Buds, Order};

@@ -132,7 +132,8 @@ impl GrowthModel for BudModel {
             let axis = nodes.axis[node];
             let order = axes.order[axis.index()];
             let birth = nodes.birth[node];
-            let at = At { age, dimension: age.saturating_sub(birth), ..At::default() };
+            let own = age.saturating_sub(birth);
+            let at = At { age, dimension: own, cycle: own, rank: 0, state: axes.state[axis.index()] };
             let diameter = nodes.primary_diameter[node] + self.laws(order).thickening.value(at) * 0.001;
             nodes.diameter[node] = diameter;
             nodes.diameter_tip[node] = diameter;
@@ -144,96 +145,5 @@ impl GrowthModel for BudModel {
                 nodes.diameter_tip[parent.index()] = diameter.min(nodes.diameter[parent.index()]);
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::buds::law::{Count, CountForm, Law, Normal, Poisson, Variate, VariateForm};
-    use crate::buds::params::{
-        ApexEnd, Axillary, Flower, GrowthUnit, Leaf, Phyllotaxis, Reiteration, Relay, Season, ShortUnit, SpeedText,
-        Transition, Traumatic,
-    };
-    use crate::buds::{Buds, Order};
-    use crate::contract;
-    use crate::fault::Path;
-
-    fn poisson(mean: f64) -> Count {
-        Count::from(CountForm { poisson: Some(Poisson { mean: Law::from(mean) }), ..CountForm::default() })
-    }
-
-    fn normal(mean: f64, sd: f64) -> Variate {
-        let normal = Normal { mean: Law::from(mean), sd: Law::from(sd) };
-        Variate::from(VariateForm { normal: Some(normal), min: Some(0.0), ..VariateForm::default() })
-    }
-
-    /// Everything that the model can do, in one species.
-    fn chimera() -> Buds {
-        let short = ShortUnit { probability: Law::from(0.3), nodes: Count::from(1), length_cm: Variate::from(0.2) };
-        let trunk = Order {
-            death: Law::from(0.05),
-            pause: Law::from(0.2),
-            growth_unit: GrowthUnit {
-                nodes: poisson(1.5),
-                neoformed: poisson(0.5),
-                per_step: Count::from(2),
-                short: Some(short),
-            },
-            axillary: Axillary {
-                buds: Count::from(2),
-                ramification: Law::from(0.4),
-                delay: poisson(0.7),
-                state: Some("branch".to_owned()),
-                ..Axillary::default()
-            },
-            reiteration: Reiteration { buds: Count::from(1), probability: Law::from(0.01), ..Reiteration::default() },
-            traumatic: Traumatic { probability: Law::from(0.5), delay: Count::from(1), ..Traumatic::default() },
-            relay: Relay { on: vec![ApexEnd::Flower], count: Count::from(2), below: 1, ..Relay::default() },
-            flower: Flower {
-                terminal: Law::from(0.05),
-                fruit_set: Law::from(0.5),
-                life: poisson(1.0),
-                ..Flower::default()
-            },
-            transition: vec![Transition {
-                from: "juvenile".to_owned(),
-                to: "adult".to_owned(),
-                probability: Law::from(0.2),
-            }],
-            insertion_deg: normal(3.0, 1.0),
-            shed_after: Some(5),
-            ..Order::default()
-        };
-        let branch = Order {
-            speed: SpeedText::Ratio("3/2".to_owned()),
-            death: Law::from(0.15),
-            insertion_deg: normal(60.0, 8.0),
-            phyllotaxis: Phyllotaxis::Named("2/5".to_owned()),
-            flower: Flower {
-                lateral: Law::from(0.4),
-                delay: poisson(1.0),
-                fruit_set: Law::from(0.5),
-                ..Flower::default()
-            },
-            leaf: Leaf {
-                per_node: poisson(1.0),
-                life: Some(poisson(3.0)),
-                length_cm: normal(5.0, 1.0),
-                ..Leaf::default()
-            },
-            shed_after: Some(2),
-            ..Order::default()
-        };
-        let states = ["juvenile", "adult", "branch"].map(str::to_owned).to_vec();
-        let season = Some(Season { ticks_per_year: 4, leaf_fall: 3 });
-        Buds { states, season, order: vec![trunk, branch] }
-    }
-
-    #[test]
-    fn the_bud_model_keeps_the_contract_of_growth_models() {
-        let model = chimera().compile(14, &Path::root()).unwrap();
-        contract::check(&model, 14, 4);
-        let simple = Buds { order: vec![Order::default()], ..Buds::default() };
-        contract::check(&simple.compile(6, &Path::root()).unwrap(), 6, 1);
     }
 }

@@ -4,7 +4,7 @@
 //! of a node are spread evenly around it, the first at the node's azimuth, each axillary bud in the axil of its leaf.
 
 use super::compile::Branching;
-use super::grow::{Axis, Full, leaf_fall};
+use super::grow::{Axis, FlowerSite, Full, leaf_fall};
 use super::law::At;
 use super::params::ApexEnd;
 use phytomer_sim::plant::key::Place;
@@ -13,9 +13,9 @@ use phytomer_sim::random::Purpose;
 
 const TURN: f32 = 2.0 * std::f32::consts::PI;
 
-/// Where a new axis arises.
+/// Where a bud stands that becomes an axis.
 #[derive(Debug, Clone, Copy)]
-struct Bed {
+struct BudSite {
     node: NodeId,
     rank: u32,
     order: u8,
@@ -63,8 +63,9 @@ impl Axis<'_> {
         for nth in 0..leaves {
             self.leaf(node, nth, azimuth + spacing * nth as f32, at);
         }
+        let between_flowers = TURN / flowers.max(leaves).max(buds).max(1) as f32;
         for nth in 0..flowers {
-            self.lateral_flower(node, nth, azimuth + spacing * nth as f32, at);
+            self.lateral_flower(node, nth, azimuth + between_flowers * nth as f32, at);
         }
         self.axillary(AxillaryBuds { node, rank, nodes, buds, spacing }, azimuth);
         self.reiterations(node, reiterations, azimuth + spacing / 2.0, at);
@@ -126,7 +127,7 @@ impl Axis<'_> {
         let laws = &self.laws.node;
         if laws.flower_opens.happens(&self.words.on_node, nth, at) {
             let birth = self.tick.saturating_add(laws.flower_delay.draw(&self.words.on_node, nth, at));
-            self.flower(node, nth, birth, azimuth, nth as u16);
+            self.flower(FlowerSite { node, nth, birth, azimuth, position: nth as u16 }, at);
         }
     }
 
@@ -139,8 +140,9 @@ impl Axis<'_> {
         let order = laws.number + 1;
         let ramification = laws.node.ramification(rank, nodes).filter(|_| model.has_order(order));
         self.bud.dormant = 0;
+        self.bud.bud_spacing = spacing;
         for position in 0..buds {
-            let bed = Bed {
+            let site = BudSite {
                 node,
                 rank: self.bud.rank,
                 order,
@@ -149,7 +151,7 @@ impl Axis<'_> {
                 azimuth: azimuth + spacing * position as f32,
             };
             match ramification.is_some_and(|chance| chance.happens(&self.words.on_node, position, at)) {
-                true => self.branch(bed, &laws.node.axillary, EventKind::Branched, false, at),
+                true => self.branch(site, &laws.node.axillary, EventKind::Branched, false, at),
                 false => self.bud.dormant |= 1 << position,
             }
         }
@@ -160,7 +162,7 @@ impl Axis<'_> {
         let spacing = TURN / buds.max(1) as f32;
         for position in 0..buds {
             if laws.node.reiteration.chance.happens(&self.words.on_node, position, at) {
-                let bed = Bed {
+                let site = BudSite {
                     node,
                     rank: self.bud.rank,
                     order: laws.node.reiteration_order,
@@ -168,7 +170,7 @@ impl Axis<'_> {
                     position,
                     azimuth: azimuth + spacing * position as f32,
                 };
-                self.branch(bed, &laws.node.reiteration, EventKind::Reiterated, false, at);
+                self.branch(site, &laws.node.reiteration, EventKind::Reiterated, false, at);
             }
         }
     }
@@ -202,15 +204,19 @@ impl Axis<'_> {
     fn relays(&mut self, last: NodeId) {
         let laws = self.laws;
         let at = self.at(0);
-        let node = (0..laws.end.below).fold(last, |node, _| self.plant.nodes.parent[node.index()]);
+        // The first relay stands where the first leaf of the node above would: phyllotaxis goes on.
+        let (mut node, mut first) = (last, self.bud.azimuth);
+        for _ in 0..laws.end.below {
+            first = self.plant.nodes.azimuth[node.index()];
+            node = self.plant.nodes.parent[node.index()];
+        }
         let rank = self.bud.rank - laws.end.below;
         let count = laws.end.relay.count.draw(&self.words.end, 0, at);
-        let first = self.plant.nodes.azimuth[node.index()];
         for position in 0..count {
             let azimuth = first + TURN / count as f32 * position as f32;
-            let bed = Bed { node, rank, order: laws.number, origin: Origin::Relay, position, azimuth };
+            let site = BudSite { node, rank, order: laws.number, origin: Origin::Relay, position, azimuth };
             if laws.end.relay.chance.happens(&self.words.end, position, at) {
-                self.branch(bed, &laws.end.relay, EventKind::Relayed, true, at);
+                self.branch(site, &laws.end.relay, EventKind::Relayed, true, at);
             }
         }
     }
@@ -220,39 +226,38 @@ impl Axis<'_> {
         let laws = self.laws;
         let at = self.at(0);
         let first = self.plant.nodes.azimuth[node.index()];
-        let spacing = TURN / laws.end.traumatic.count.table.max().max(1) as f32;
-        let dormant = self.bud.dormant;
+        let (dormant, spacing) = (self.bud.dormant, self.bud.bud_spacing);
         for position in (0..32).filter(|position| dormant >> position & 1 == 1) {
             if laws.end.traumatic.chance.happens(&self.words.end, position, at) {
                 let azimuth = first + spacing * position as f32;
                 let rank = self.bud.rank;
-                let bed = Bed { node, rank, order: laws.number, origin: Origin::Traumatic, position, azimuth };
-                self.branch(bed, &laws.end.traumatic, EventKind::Reiterated, true, at);
+                let site = BudSite { node, rank, order: laws.number, origin: Origin::Traumatic, position, azimuth };
+                self.branch(site, &laws.end.traumatic, EventKind::Reiterated, true, at);
             }
         }
     }
 
     /// A new axis from a bud; `end` tells whether its draws stand in the record of the end or of the node.
-    fn branch(&mut self, bed: Bed, laws: &Branching, event: EventKind, end: bool, at: At) {
+    fn branch(&mut self, site: BudSite, laws: &Branching, event: EventKind, end: bool, at: At) {
         let words = if end { &self.words.end } else { &self.words.on_node };
-        let position = bed.position as u16;
-        let place = match bed.origin {
+        let position = site.position as u16;
+        let place = match site.origin {
             Origin::Axillary => Place::Axillary(position),
             Origin::Adaptive => Place::Reiteration(position),
             Origin::Traumatic => Place::Relay(64 + position),
             Origin::Relay | Origin::Seed => Place::Relay(position),
         };
         let axis = self.plant.add_axis(NewAxis {
-            bearer: Some(bed.node),
-            key: self.plant.axes.key[self.bud.axis.index()].child(place.on(bed.rank)),
-            order: bed.order,
-            origin: bed.origin,
+            bearer: Some(site.node),
+            key: self.plant.axes.key[self.bud.axis.index()].child(place.on(site.rank)),
+            order: site.order,
+            origin: site.origin,
             position,
             state: laws.state.unwrap_or(self.bud.state),
             appearance: self.tick,
-            birth: self.tick.saturating_add(laws.delay.draw(words, bed.position, at)),
-            azimuth: bed.azimuth,
-            insertion: laws.insertion.draw(words, bed.position, at),
+            birth: self.tick.saturating_add(laws.delay.draw(words, site.position, at)),
+            azimuth: site.azimuth,
+            insertion: laws.insertion.draw(words, site.position, at),
         });
         self.plant.note(self.tick, axis, event, 1);
     }

@@ -15,7 +15,7 @@ use crate::fault::{Fault, Path};
 
 /// The most growth levels: at level n a tree has 2ⁿ⁺¹ − 1 branches and 2ⁿ apical buds, and they must stay under
 /// [`MOST_COMPONENTS`]. Orders stay under 31.
-pub const MOST_LEVELS: u32 = 29;
+pub const MOST_LEVELS: u32 = 28;
 const _: () = assert!((3 << MOST_LEVELS) - 1 <= MOST_COMPONENTS as u64);
 
 /// The shortest and the thinnest branch that a tree may have, metres: less than any cell, and single precision still
@@ -53,7 +53,7 @@ pub struct Gmt1 {
     #[schemars(range(min = -360.0, max = 360.0))]
     pub divergence_deg: f64,
     /// The largest growth level (g_level): the branchings between the first branch and a tip of the full-grown tree.
-    #[schemars(range(max = 29))]
+    #[schemars(range(max = 28))]
     pub levels: u32,
     /// Length of the first branch, metres; 1 (assumed) if not given.
     #[serde(default = "assumed_length")]

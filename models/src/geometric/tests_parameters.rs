@@ -43,7 +43,7 @@ fn each_fault_names_its_key_its_value_and_what_was_expected() {
         (|tree| tree.r1 = 0.0, "gmt1.r1: r1 is 0; expected a ratio above 0, at most 1"),
         (|tree| tree.r2 = 1.5, "gmt1.r2: r2 is 1.5; expected a ratio above 0, at most 1"),
         (|tree| tree.first_length_m = -1.0, "gmt1.first_length_m: first_length_m is -1; expected metres above 0"),
-        (|tree| tree.levels = 30, "gmt1.levels: levels is 30: a tree of 2^31 branches; expected at most 29"),
+        (|tree| tree.levels = 30, "gmt1.levels: levels is 30: a tree of 2^31 branches; expected at most 28"),
         (|tree| tree.r2 = 1e-3, "gmt1.r2: after 9 levels a branch is 1.0e-27 m long; expected branches of at least"),
         (|tree| tree.diameter_ratio = 0.01, "gmt1.diameter_ratio: after 9 levels a branch is 1.0e-19 m thick"),
     ];

@@ -220,4 +220,6 @@ pub struct ApicalBud {
     pub state: u8,
     /// The axillary buds of the last node that did not ramify and lie dormant, one bit a position.
     pub dormant: u32,
+    /// Between two positions around the last node, radians.
+    pub bud_spacing: f32,
 }

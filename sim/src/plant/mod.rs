@@ -26,8 +26,8 @@ use crate::pose::Frames;
 use crate::random::PlantRandom;
 use std::sync::Arc;
 
-/// The most components that one plant may have: component numbers are 32-bit signed in meshes.
-pub const MOST_COMPONENTS: u32 = i32::MAX as u32 - 1;
+/// The most components that one plant may have: tables give two bits of 32 to the class of a component.
+pub const MOST_COMPONENTS: u32 = (1 << 30) - 1;
 
 /// One plant, from seed to death.
 #[derive(Debug, Clone)]

@@ -18,6 +18,8 @@ pub struct Compiler<'a> {
     buds: &'a Buds,
     domain: Domain,
     path: Path,
+    /// The path of the array of orders.
+    orders_path: Path,
     /// The clock of the order.
     pub speed: Speed,
     /// What was wrong so far.
@@ -26,12 +28,18 @@ pub struct Compiler<'a> {
 
 impl<'a> Compiler<'a> {
     /// The compiler of the order at `index` (from 0).
-    pub fn new(buds: &'a Buds, index: usize, until: u32, path: &Path) -> Self {
+    pub fn new(buds: &'a Buds, index: usize, until: u32, orders_path: &Path) -> Self {
         let text = &buds.order[index].speed;
         let parsed = parse_speed(text);
         let speed = parsed.unwrap_or(Speed::ONE);
-        let mut compiler =
-            Self { buds, domain: domain(buds, index, until, speed), path: path.clone(), speed, faults: Vec::new() };
+        let mut compiler = Self {
+            buds,
+            domain: domain(buds, index, until, speed),
+            path: orders_path.index(index),
+            orders_path: orders_path.clone(),
+            speed,
+            faults: Vec::new(),
+        };
         if parsed.is_none() || compiler.domain.max_cycle > 64 * until.max(1) {
             let expected = "a positive number or ratio of clock steps per tick such as 1, 0.5 or \"2/3\", at most 64";
             compiler.fault("speed", format!("the speed is {}", speed_in_words(text)), expected);
@@ -49,9 +57,9 @@ impl<'a> Compiler<'a> {
         self.buds.order.len()
     }
 
-    /// From now on laws may depend on ranks up to `rank`.
+    /// From now on laws may depend on ranks up to `rank`; on none, if that is 0.
     pub fn set_max_rank(&mut self, rank: u32) {
-        self.domain.max_rank = rank.max(1);
+        self.domain.max_rank = rank;
     }
 
     /// Notes a fault at a dotted path below the order.
@@ -95,14 +103,17 @@ impl<'a> Compiler<'a> {
         self.variate(variate, keys, ANGLE)
     }
 
-    /// The insertion angle of the axes that the axillary buds of this order make, degrees.
+    /// The insertion angle of the axes that the axillary buds of this order make, degrees: stated with the next order,
+    /// asked at the bearing node.
     pub fn insertion_of_next_order(&mut self) -> VariateTable {
-        let Some(next) = self.buds.order.get(usize::from(self.domain.order)) else {
+        let next = usize::from(self.domain.order);
+        let Some(order) = self.buds.order.get(next) else {
             return VariateTable::always(0.0);
         };
-        // The next order's own compiler reports what is wrong with it.
-        let mut compiler = Compiler::new(self.buds, usize::from(self.domain.order), self.domain.until, &self.path);
-        compiler.angle(&next.insertion_deg, "insertion_deg")
+        let domain = Domain { order: self.domain.order + 1, ..self.domain.clone() };
+        let path = self.orders_path.index(next).key("insertion_deg");
+        let compiled = order.insertion_deg.compile(&domain, &path, ANGLE);
+        self.accept(compiled).unwrap_or_else(|| VariateTable::always(0.0))
     }
 
     fn variate(&mut self, variate: &Variate, keys: &str, range: ValueRange) -> VariateTable {
@@ -112,7 +123,8 @@ impl<'a> Compiler<'a> {
 
     /// The thickening of internodes, mm.
     pub fn thickening(&mut self, law: &Law) -> ValueTable {
-        let compiled = law.compile_value(&self.domain, &self.at("internode.thickening_mm"), MEASURE);
+        let domain = Domain { max_cycle: self.domain.until, max_rank: 0, ..self.domain.clone() };
+        let compiled = law.compile_value(&domain, &self.at("internode.thickening_mm"), MEASURE);
         self.accept(compiled).unwrap_or_else(|| ValueTable::always(0.0))
     }
 

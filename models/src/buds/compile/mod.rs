@@ -61,8 +61,7 @@ impl Buds {
         let mut orders = Vec::new();
         let mut trends = Vec::new();
         for (index, order) in self.order.iter().enumerate().take(MOST_ORDERS) {
-            let path = path.key("order").index(index);
-            let mut compiler = Compiler::new(self, index, until.min(LAST_TICK), &path);
+            let mut compiler = Compiler::new(self, index, until.min(LAST_TICK), &path.key("order"));
             orders.push(compile_order(order, &mut compiler, &mut trends));
             faults.append(&mut compiler.faults);
         }
@@ -115,13 +114,14 @@ impl Buds {
 
 fn compile_order(order: &Order, compiler: &mut Compiler, trends: &mut Vec<phytomer_sim::plant::Trend>) -> OrderLaws {
     let step = StepLaws::compile(order, compiler);
-    compiler.set_max_rank(step.most_nodes());
+    let end = EndLaws::compile(order, compiler);
+    compiler.set_max_rank(step.most_nodes().max(1));
     let (phyllotaxis, first_azimuth) = geometry::phyllotaxis(order, compiler);
     OrderLaws {
         number: compiler.order_number(),
         speed: compiler.speed,
         node: NodeLaws::compile(order, phyllotaxis, compiler),
-        end: EndLaws::compile(order, compiler),
+        end,
         trends: Trends::compile(&order.trend, compiler, trends),
         first_azimuth,
         thickening: compiler.thickening(&order.internode.thickening_mm),

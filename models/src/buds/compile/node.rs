@@ -4,8 +4,8 @@ use super::compiler::Compiler;
 use super::geometry::DEGREE;
 use super::relay::Branching;
 use super::words::{Chance, Layout, Measure, Number};
-use crate::buds::law::{Count, VariateTable};
-use crate::buds::params::{End, FormName, Order, Pattern};
+use crate::buds::law::{Count, CountTable, VariateTable};
+use crate::buds::params::{End, Order, Pattern};
 use phytomer_sim::plant::Form;
 
 /// Metres in a centimetre and in a millimetre.
@@ -17,7 +17,7 @@ const MOST_ORGANS: u32 = 64;
 /// The most buds of one kind on a node: dormant buds are kept as bits.
 pub const MOST_BUDS: u32 = 32;
 /// The longest delay or life length, in ticks.
-const LONGEST: u32 = 65_535;
+pub const LONGEST: u32 = 65_535;
 
 /// The laws of one node of an order.
 #[derive(Debug, Clone)]
@@ -138,10 +138,10 @@ impl NodeLaws {
 }
 
 /// The lateral flowers of a node; none where none can open, so that they take no words.
-fn lateral_flowers(order: &Order, compiler: &mut Compiler) -> crate::buds::law::CountTable {
+fn lateral_flowers(order: &Order, compiler: &mut Compiler) -> CountTable {
     let flowers = compiler.count(&order.flower.per_node, "flower.per_node", MOST_ORGANS);
     match compiler.probability(&order.flower.lateral, "flower.lateral").is_never() {
-        true => crate::buds::law::CountTable::always(0),
+        true => CountTable::always(0),
         false => flowers,
     }
 }
@@ -162,7 +162,7 @@ fn leaf(order: &Order, compiler: &mut Compiler, words: &mut Layout, leaves: u32)
         width: words.measure(compiler.measure(&leaf.width_cm, "leaf.width_cm"), CM, leaves),
         insertion: words.measure(angle, DEGREE, leaves),
         area_share: leaf.area_share as f32,
-        form: form(leaf.form),
+        form: leaf.form.into(),
     }
 }
 
@@ -174,7 +174,7 @@ fn flower(order: &Order, compiler: &mut Compiler, words: &mut Layout, flowers: u
         width: words.measure(compiler.measure(&flower.width_cm, "flower.width_cm"), CM, flowers),
         insertion: words.measure(angle, DEGREE, flowers),
         area_share: 0.0,
-        form: form(flower.form),
+        form: flower.form.into(),
     }
 }
 
@@ -185,12 +185,8 @@ fn fruit(order: &Order, compiler: &mut Compiler, words: &mut Layout, flowers: u3
         width: words.measure(compiler.measure(&order.fruit.width_cm, "fruit.width_cm"), CM, flowers),
         insertion: words.measure(angle, DEGREE, flowers),
         area_share: 0.0,
-        form: form(order.fruit.form),
+        form: order.fruit.form.into(),
     }
-}
-
-fn form(name: FormName) -> Form {
-    name.into()
 }
 
 fn axillary(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branching {

@@ -2,13 +2,10 @@
 
 use super::compiler::Compiler;
 use super::geometry::DEGREE;
-use super::node::MOST_BUDS;
+use super::node::{LONGEST, MOST_BUDS};
 use super::words::{Chance, Layout, Measure, Number};
 use crate::buds::law::{CountTable, ProbabilityTable, VariateTable};
 use crate::buds::params::{ApexEnd, Order};
-
-/// The longest delay, in ticks.
-const LONGEST: u32 = 65_535;
 
 /// How buds at one place become axes.
 #[derive(Debug, Clone)]
@@ -83,6 +80,7 @@ fn relay(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branchin
     let delay = compiler.count(&relay.delay, "relay.delay", LONGEST);
     let angle = match &relay.insertion_deg {
         Some(angle) => compiler.angle(angle, "relay.insertion_deg"),
+        None if relay.on.is_empty() => VariateTable::always(0.0),
         None => compiler.angle(&order.insertion_deg, "insertion_deg"),
     };
     let state = relay.state.as_ref().map(|state| compiler.state(state, "relay.state"));

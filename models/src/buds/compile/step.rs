@@ -3,6 +3,7 @@
 use super::compiler::Compiler;
 use super::geometry::DEGREE;
 use super::words::{Chance, Layout, Measure, Number};
+use crate::buds::law::{CountTable, ProbabilityTable, VariateTable};
 use crate::buds::params::Order;
 
 /// The most growth units of one step.
@@ -31,7 +32,7 @@ pub struct StepLaws {
     pub long_nodes: Number,
     pub short_nodes: Number,
     pub neoformed: Number,
-    /// The passages out of each state: (from, to, probability), with one word for all.
+    /// The passages out of each state: (from, to, probability), with a word each.
     pub transitions: Vec<(u8, u8, Chance)>,
 }
 
@@ -43,7 +44,10 @@ impl StepLaws {
             let table = compiler.count(units, "apex.units", MOST_NODES);
             head.number(table, 1)
         });
-        let angle = compiler.angle(&order.insertion_deg, "insertion_deg");
+        let angle = match compiler.order_number() {
+            1 => compiler.angle(&order.insertion_deg, "insertion_deg"),
+            _ => VariateTable::always(0.0),
+        };
         let insertion = head.measure(angle, DEGREE, 1);
         let mut layout = Layout::default();
         let death = layout.chance(compiler.probability(&order.death, "death"), 1);
@@ -58,12 +62,14 @@ impl StepLaws {
                 compiler.probability(&short.probability, "growth_unit.short.probability"),
                 compiler.count(&short.nodes, "growth_unit.short.nodes", MOST_NODES),
             ),
-            None => {
-                (crate::buds::law::ProbabilityTable::certain_or_never(false), crate::buds::law::CountTable::always(0))
-            }
+            None => (ProbabilityTable::certain_or_never(false), CountTable::always(0)),
         };
         let long_nodes = compiler.count(&unit.nodes, "growth_unit.nodes", MOST_NODES);
         let neoformed = compiler.count(&unit.neoformed, "growth_unit.neoformed", MOST_NODES);
+        if long_nodes.max() + neoformed.max() > MOST_NODES {
+            let found = format!("a growth unit can have {} nodes", long_nodes.max() + neoformed.max());
+            compiler.fault("growth_unit.neoformed", found, "at most 65535 nodes, preformed and neoformed together");
+        }
         Self {
             head_width: head.width(),
             units,
@@ -83,7 +89,7 @@ impl StepLaws {
 
     /// The most nodes that a growth unit can have.
     pub fn most_nodes(&self) -> u32 {
-        self.long_nodes.table.max().max(self.short_nodes.table.max()) + self.neoformed.table.max()
+        (self.long_nodes.table.max() + self.neoformed.table.max()).max(self.short_nodes.table.max())
     }
 }
 

@@ -33,8 +33,7 @@ impl Unit {
             mean.add(1.0 - short, &Self::of(model, laws, &nodes, at));
         }
         if short > 0.0 {
-            let nodes = convolve(&laws.step.short_nodes.table.pmf(at), &neoformed);
-            mean.add(short, &Self::of(model, laws, &nodes, at));
+            mean.add(short, &Self::of(model, laws, &laws.step.short_nodes.table.pmf(at), at));
         }
         mean
     }

@@ -12,8 +12,8 @@ pub struct Internode {
     pub length_cm: Variate,
     /// The diameter of an internode at its birth, mm.
     pub diameter_mm: Variate,
-    /// What an internode has added to its diameter, mm: a law in which `age` is the plant's age and `dimension` the
-    /// internode's own, both in ticks.
+    /// What an internode has added to its diameter, mm: a law in which `age` is the plant's age, `dimension` and `cycle`
+    /// the internode's own, in ticks, and the state that in which its axis started.
     pub thickening_mm: Law,
     /// A cylinder has one diameter; a cone narrows to the diameter of the next internode of its axis.
     pub shape: ShapeName,

@@ -62,7 +62,8 @@ pub struct Order {
     pub transition: Vec<Transition>,
     /// Length and diameter of internodes.
     pub internode: Internode,
-    /// The insertion angle with the bearing axis, degrees; for order 1 with the vertical.
+    /// The insertion angle with the bearing axis, degrees; for order 1 with the vertical. A law of it is asked at the
+    /// bearing node: age, dimension, cycle, rank and state are those of the bearing axis there.
     pub insertion_deg: Variate,
     /// How leaves and axillary buds turn around the axis from node to node.
     pub phyllotaxis: Phyllotaxis,
@@ -111,7 +112,7 @@ impl Default for Order {
 pub struct GrowthUnit {
     /// The nodes of a long growth unit, or of its preformed part.
     pub nodes: Count,
-    /// The nodes added after bud break: the neoformed part, beyond the preformed nodes.
+    /// The nodes added after bud break: the neoformed part of a long growth unit, beyond the preformed nodes.
     pub neoformed: Count,
     /// The growth units of one step: more than 1 is polycyclism.
     pub per_step: Count,

@@ -58,6 +58,7 @@ impl Default for Leaf {
 #[serde(deny_unknown_fields, default)]
 pub struct Flower {
     /// The probability that the apical bud becomes a flower at a clock step, which ends the axis. Tested after the pause.
+    /// The flower stands on the last node of the axis; a bud without a node of its own ends without one.
     pub terminal: Law,
     /// The probability that a lateral flower opens, asked for each of the flowers of a node.
     pub lateral: Law,

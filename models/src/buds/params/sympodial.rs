@@ -25,7 +25,8 @@ pub enum ApexEnd {
     Completed,
 }
 
-/// Sympodial growth: relay axes of the same order, from the last node of an ended axis or from one below.
+/// Sympodial growth: relay axes of the same order, from the last node of an ended axis or from one below. Relay buds are
+/// buds of their own beside the axillary ones; an axis that ends before it has a node of its own is not relayed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Relay {

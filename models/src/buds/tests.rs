@@ -1,0 +1,204 @@
+//! The bud model under the contract of growth models: two species that between them use everything that it can do, and
+//! the small promises that no closed form covers.
+
+use super::law::{Count, CountForm, Law, LawForm, Normal, Poisson, Variate, VariateForm};
+use super::params::{
+    Apex, ApexEnd, Axillary, Flower, GrowthUnit, Leaf, Pattern, Phase, Phyllotaxis, Reiteration, Relay, Rhythmic,
+    Season, ShortUnit, SpeedText, Transition, Traumatic, Trend, Zone,
+};
+use super::params::{End, Internode};
+use super::{Buds, Order};
+use crate::contract;
+use crate::fault::Path;
+use phytomer_sim::plant::{ApexFate, Kind, NodeId, Origin};
+use std::collections::BTreeMap;
+
+fn poisson(mean: f64) -> Count {
+    Count::from(CountForm { poisson: Some(Poisson { mean: Law::from(mean) }), ..CountForm::default() })
+}
+
+fn normal(mean: f64, sd: f64) -> Variate {
+    let normal = Normal { mean: Law::from(mean), sd: Law::from(sd) };
+    Variate::from(VariateForm { normal: Some(normal), min: Some(0.0), ..VariateForm::default() })
+}
+
+fn expression(text: &str) -> Law {
+    Law::from(LawForm { expression: Some(text.to_owned()), ..LawForm::default() })
+}
+
+/// Random counts, polycyclism, short units, delays, states, reiteration both ways, terminal flowers and relays below.
+fn chimera() -> Buds {
+    let short = ShortUnit { probability: Law::from(0.3), nodes: Count::from(1), length_cm: Variate::from(0.2) };
+    let unit =
+        GrowthUnit { nodes: poisson(1.5), neoformed: poisson(0.5), per_step: Count::from(2), short: Some(short) };
+    let axillary = Axillary {
+        buds: Count::from(2),
+        ramification: Law::from(0.4),
+        delay: poisson(0.7),
+        state: Some("branch".to_owned()),
+        ..Axillary::default()
+    };
+    let growing_up = Transition { from: "juvenile".to_owned(), to: "adult".to_owned(), probability: Law::from(0.2) };
+    let trunk = Order {
+        death: Law::from(0.05),
+        pause: Law::from(0.2),
+        growth_unit: unit,
+        axillary,
+        reiteration: Reiteration { buds: Count::from(1), probability: Law::from(0.01), ..Reiteration::default() },
+        traumatic: Traumatic { probability: Law::from(0.5), delay: Count::from(1), ..Traumatic::default() },
+        relay: Relay { on: vec![ApexEnd::Flower], count: Count::from(2), below: 1, ..Relay::default() },
+        flower: Flower {
+            terminal: Law::from(0.05),
+            fruit_set: Law::from(0.5),
+            life: poisson(1.0),
+            ..Flower::default()
+        },
+        transition: vec![growing_up],
+        insertion_deg: normal(3.0, 1.0),
+        shed_after: Some(5),
+        ..Order::default()
+    };
+    let branch = Order {
+        speed: SpeedText::Ratio("3/2".to_owned()),
+        death: Law::from(0.15),
+        insertion_deg: normal(60.0, 8.0),
+        phyllotaxis: Phyllotaxis::Named("2/5".to_owned()),
+        flower: Flower { lateral: Law::from(0.4), delay: poisson(1.0), fruit_set: Law::from(0.5), ..Flower::default() },
+        leaf: Leaf { per_node: poisson(1.0), life: Some(poisson(3.0)), length_cm: normal(5.0, 1.0), ..Leaf::default() },
+        shed_after: Some(2),
+        ..Order::default()
+    };
+    let states = ["juvenile", "adult", "branch"].map(str::to_owned).to_vec();
+    let season = Some(Season { ticks_per_year: 4, leaf_fall: 3 });
+    Buds { states, season, order: vec![trunk, branch] }
+}
+
+/// Zones from both ends, laws of rank and of state, determinate axes, relays on death and completion, composite trends.
+fn hydra() -> Buds {
+    let zone = |from, first, last, ramification: Option<Law>| Zone { name: None, from, first, last, ramification };
+    let zones = vec![zone(End::Tip, 1, Some(2), None), zone(End::Base, 1, Some(1), Some(expression("0.2 * rank")))];
+    let by_state = BTreeMap::from([("long".to_owned(), Law::from(0.1)), ("short".to_owned(), Law::from(0.6))]);
+    let pauses = Law::from(LawForm { by_state: Some(by_state), ..LawForm::default() });
+    let phases = vec![
+        Phase { from_rank: 1, inclination_deg: 80.0, share: 0.2 },
+        Phase { from_rank: 4, inclination_deg: 10.0, share: 0.1 },
+    ];
+    let order = Order {
+        death: Law::from(0.1),
+        pause: pauses,
+        growth_unit: GrowthUnit { nodes: Count::from(4), ..GrowthUnit::default() },
+        axillary: Axillary {
+            buds: Count::from(1),
+            ramification: expression("0.2 + 0.1 * rank"),
+            pattern: Pattern::Rhythmic(Rhythmic { zones }),
+            ..Axillary::default()
+        },
+        apex: Apex { units: Some(poisson(3.0)) },
+        relay: Relay { on: vec![ApexEnd::Death, ApexEnd::Completed], probability: Law::from(0.4), ..Relay::default() },
+        transition: vec![Transition { from: "long".to_owned(), to: "short".to_owned(), probability: Law::from(0.3) }],
+        internode: Internode { length_cm: normal(4.0, 1.0), ..Internode::default() },
+        insertion_deg: Variate::from(45.0),
+        trend: Trend::Composite(phases),
+        leaf: Leaf { per_node: Count::from(3), ..Leaf::default() },
+        flower: Flower { lateral: Law::from(0.2), fruit_set: expression("0.25 * rank"), ..Flower::default() },
+        ..Order::default()
+    };
+    let leafless = Order { leaf: Leaf { per_node: Count::from(0), ..Leaf::default() }, ..order.clone() };
+    Buds { states: vec!["long".to_owned(), "short".to_owned()], season: None, order: vec![order, leafless] }
+}
+
+#[test]
+fn the_bud_model_keeps_the_contract_of_growth_models() {
+    let simple = Buds { order: vec![Order::default()], ..Buds::default() };
+    for (species, until) in [(chimera(), 14), (hydra(), 9), (simple, 6)] {
+        contract::check(&species.compile(until, &Path::root()).unwrap(), until, 4);
+    }
+}
+
+/// A relay stands on the node of its rank, below the tip by as many nodes as stated, at the order of the ended axis.
+#[test]
+fn relays_and_traumatic_reiterations_keep_the_order_of_the_ended_axis() {
+    let model = chimera().compile(14, &Path::root()).unwrap();
+    let mut seen = [0, 0];
+    for number in 0..40 {
+        let plant = contract::grown(&model, 14, &contract::seed_of(9, number));
+        for axis in 0..plant.axes.len() {
+            let origin = plant.axes.origin[axis];
+            if !matches!(origin, Origin::Relay | Origin::Traumatic) {
+                continue;
+            }
+            let bearer = plant.axes.bearer[axis];
+            let ended = plant.nodes.axis[bearer.index()].index();
+            let last = plant.axes.last_node[ended];
+            let below = plant.nodes.rank[last.index()] - plant.nodes.rank[bearer.index()];
+            assert_eq!(plant.axes.order[axis], plant.axes.order[ended]);
+            assert_eq!(plant.axes.appearance[axis], plant.axes.apex_end[ended], "it appears where the apex ends");
+            let (fate, nodes_below) = match origin {
+                Origin::Relay => (ApexFate::Flowered, 1),
+                _ => (ApexFate::Died, 0),
+            };
+            assert_eq!((plant.axes.apex_fate[ended], below), (fate, nodes_below));
+            seen[usize::from(origin == Origin::Relay)] += 1;
+        }
+    }
+    assert!(seen.iter().all(|&count| count > 10), "{seen:?}");
+}
+
+/// A bud released by the death of its apex stands where it lay dormant, in the axil of its leaf.
+#[test]
+fn a_released_bud_stands_in_the_axil_of_its_leaf() {
+    let trunk = Order {
+        death: Law::from(0.3),
+        leaf: Leaf { per_node: Count::from(3), ..Leaf::default() },
+        axillary: Axillary { buds: Count::from(2), ..Axillary::default() },
+        traumatic: Traumatic { probability: Law::from(1.0), ..Traumatic::default() },
+        ..Order::default()
+    };
+    let model = Buds { order: vec![trunk], ..Buds::default() }.compile(12, &Path::root()).unwrap();
+    let plant = contract::grown(&model, 12, &contract::seed_of(3, 1));
+    let leaf_azimuth = |node: NodeId, position: u16| {
+        let organs = &plant.organs;
+        let on_node = (0..organs.len()).find(|&organ| {
+            organs.node[organ] == node && organs.kind[organ] == Kind::Leaf && organs.position[organ] == position
+        });
+        organs.azimuth[on_node.expect("a leaf at each position")]
+    };
+    let released = (0..plant.axes.len()).filter(|&axis| plant.axes.origin[axis] == Origin::Traumatic);
+    let mut count = 0;
+    for axis in released {
+        let leaf = leaf_azimuth(plant.axes.bearer[axis], plant.axes.position[axis]);
+        assert!((plant.axes.azimuth[axis] - leaf).abs() < 1e-5, "axis {axis}");
+        count += 1;
+    }
+    assert!(count > 4, "{count} buds were released");
+}
+
+/// The laws of a lateral flower are asked at the rank of its node.
+#[test]
+fn a_flower_asks_its_laws_at_the_rank_of_its_node() {
+    let order = Order {
+        growth_unit: GrowthUnit { nodes: Count::from(3), ..GrowthUnit::default() },
+        flower: Flower { lateral: Law::from(1.0), fruit_set: expression("rank == 2"), ..Flower::default() },
+        ..Order::default()
+    };
+    let model = Buds { order: vec![order], ..Buds::default() }.compile(5, &Path::root()).unwrap();
+    let plant = contract::grown(&model, 5, &contract::seed_of(1, 0));
+    let of_fruits = (0..plant.organs.len()).filter(|&organ| plant.organs.kind[organ] == Kind::Fruit);
+    let ranks: Vec<u16> = of_fruits.map(|organ| plant.nodes.unit_rank[plant.organs.node[organ].index()]).collect();
+    assert_eq!(ranks, [2; 5]);
+}
+
+/// A law over what does not apply where it stands is a fault, never silently ignored.
+#[test]
+fn a_law_of_rank_where_no_rank_applies_is_refused() {
+    let ranked = |change: fn(&mut Order, Law)| {
+        let mut order = Order { relay: Relay { on: vec![ApexEnd::Death], ..Relay::default() }, ..Order::default() };
+        change(&mut order, expression("0.1 * rank"));
+        Buds { order: vec![order], ..Buds::default() }.compile(5, &Path::root()).is_err()
+    };
+    assert!(ranked(|order, law| order.relay.probability = law));
+    assert!(ranked(|order, law| order.traumatic.probability = law));
+    assert!(ranked(|order, law| order.internode.thickening_mm = law));
+    assert!(ranked(|order, law| order.death = law));
+    assert!(!ranked(|order, law| order.axillary.ramification = law));
+}
