@@ -1,4 +1,7 @@
 //! The coffee tree: a bushy plant with leaves, flowers and fruits, and its population.
+//!
+//! Growth in both orders, and frames. What it is measured against is in `specimen::baseline`; `docs/performance.md` has
+//! the table.
 
 mod specimen;
 

@@ -1,4 +1,7 @@
 //! Baselines: the same bytes and the same batches, without anything of ours.
+//!
+//! The parquet crate gets ready batches, the same settings and the same threads; a mesh's baseline is a write of its
+//! bytes in blocks.
 
 use arrow_array::{Array, RecordBatch};
 use parquet::arrow::ArrowWriter;

@@ -1,4 +1,7 @@
 //! Growth models, peers of one another: each its documented parameter struct, then its formulas.
+//!
+//! A model reads no file and draws no triangle; it grows plants of `phytomer_sim` and tells its faults by paths. A new
+//! one is a folder here, a line here, and a variant in `config`.
 
 pub mod buds;
 pub mod contract;

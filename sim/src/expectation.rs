@@ -1,4 +1,7 @@
 //! What is expected of a plant before it grows: means by order and age, where a model's laws allow them in closed form.
+//!
+//! A run can be told its size before its first tick, and a growth explosion refused. Absent: the sums, which belong to
+//! the models.
 
 use crate::clock::Tick;
 

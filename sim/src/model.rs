@@ -1,4 +1,7 @@
 //! What a growth model is to the loop: something that sows a plant and grows it to an age.
+//!
+//! The trait is called once a tick and plot, never once a node. Absent: parameters, species and files; a model's own
+//! crate knows them.
 
 use crate::clock::Tick;
 use crate::expectation::Expectation;

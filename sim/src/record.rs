@@ -1,4 +1,6 @@
 //! What the loop tells of a plot at each age, and to whom.
+//!
+//! A recorder is asked once an age whether it wants it, and shown the plot once. Absent: formats and files.
 
 use crate::clock::Tick;
 use crate::plot::Plot;

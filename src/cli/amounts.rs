@@ -1,4 +1,6 @@
 //! Numbers as people read them: `1 234 567`, `2.4 M`, `31.5 MB`, `1 min 12 s`, and the peak memory of this process.
+//!
+//! Spaces part thousands; sizes are in powers of a thousand. Absent: JSON, which carries plain numbers.
 
 /// A count with thin groups: `1 234 567`.
 pub fn count(number: u64) -> String {

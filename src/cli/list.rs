@@ -1,4 +1,6 @@
 //! `list`: what ships with the program, and the words that files and tables use.
+//!
+//! Scenarios, species, models and kinds of component, each a line. Absent: what they hold, which `describe` tells.
 
 use super::{Verdict, terminal};
 use anyhow::Result;

@@ -1,4 +1,7 @@
 //! Plants for the literature tests: grown, counted, averaged.
+//!
+//! A bound is 4 standard errors of the sample that is tested, never a guess. Absent: the claims, which the other files
+//! hold.
 
 use phytomer_models::buds::{BudModel, Buds};
 use phytomer_models::fault::Path;

@@ -1,4 +1,7 @@
 //! The bud model as the loop sees it: sowing, growing axis by axis to an age, and the diameters at an age.
+//!
+//! A plant grown ahead takes its axes one after another through all their ticks; a plant grown by the clock takes each
+//! living bud through one. Both call the same step. Absent: the step (`grow`) and the node (`node`).
 
 use super::compile::{BudModel, OrderLaws};
 use super::grow::{Axis, Full, Words, first_bud};

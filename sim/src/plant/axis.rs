@@ -1,4 +1,7 @@
 //! Axes, each the work of one apical bud (de Reffye 1988 §2), and the buds that still live.
+//!
+//! Orders count from the trunk, 1. Monopodial and sympodial growth are told apart by the origin of an axis. Absent: the
+//! laws by which apices end, and the pose of axes.
 
 use super::key::LineageKey;
 use super::node::NodeId;

@@ -1,4 +1,7 @@
 //! What became of buds and branches, tick by tick.
+//!
+//! The log is kept only where a run wants it; growth, death and fall are in the columns anyway. Absent: the falls of
+//! organs, which their own columns tell.
 
 use super::axis::AxisId;
 use crate::clock::Tick;

@@ -1,4 +1,7 @@
 //! What a component is (the tag of de Reffye's record, 1988 §6), which form it is drawn with, and why it ended.
+//!
+//! The numbers of these lists are part of the tables and of the meshes: they may grow at their ends, never change.
+//! Absent: how a form looks.
 
 /// The tag of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -1,4 +1,7 @@
 //! Internodes, each with the node at its tip: the phytomers without their organs.
+//!
+//! A node stands at the tip of its internode and bears leaves and buds; its rank counts along the axis from 1. Absent:
+//! the curvature that mechanics will write.
 
 use super::axis::AxisId;
 use crate::clock::{NEVER, Tick};

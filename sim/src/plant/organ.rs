@@ -1,4 +1,7 @@
 //! Leaves, flowers and fruits, each on a node.
+//!
+//! An organ's end is planned at its birth, from its life length and the season; its branch may end earlier. Absent: its
+//! pose, which follows from that of its node.
 
 use super::kind::{Cause, Form, Kind};
 use super::node::NodeId;

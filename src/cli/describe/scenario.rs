@@ -1,4 +1,6 @@
 //! What a scenario would grow and keep, with what is expected of it.
+//!
+//! The laws of its species are told with it, since they are half of what a scenario means. Absent: anything grown.
 
 use super::super::amounts;
 use super::run::ages_in_words;

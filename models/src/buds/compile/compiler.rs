@@ -1,4 +1,8 @@
 //! The compiler of one order: compiles laws where they stand, collects every fault and goes on.
+//!
+//! Laws are compiled over the domain of their order: all ages, dimensions, cycles, ranks and states that can occur. A
+//! law that fails leaves a harmless table in its place, so that the faults of the others are found too. Absent: what
+//! the laws are for, which `step`, `node` and `relay` know.
 
 use super::domain;
 use crate::buds::law::{

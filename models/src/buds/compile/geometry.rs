@@ -1,4 +1,7 @@
 //! Phyllotaxis and trends, from names and degrees to radians and ratios (de Reffye 1988 §4, Fig. 3 and Fig. 15).
+//!
+//! The named phyllotaxes are those of the paper and of Aono & Kunii 1984; the smoothed shape of Fig. 15 becomes a share
+//! of the way to the trend that each internode turns. Absent: the turning itself, which is the pose's.
 
 use super::compiler::Compiler;
 use crate::buds::law::{Variate, VariateTable};

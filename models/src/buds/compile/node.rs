@@ -1,4 +1,7 @@
 //! The laws of a node: the geometry of its internode, what it bears and how much of it.
+//!
+//! Every random quantity of a node has its slot in the node's record of words. Absent: the growing of a node
+//! (`buds::node`), and what happens at a clock step (`step`).
 
 use super::compiler::Compiler;
 use super::geometry::DEGREE;

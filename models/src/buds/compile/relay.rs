@@ -1,4 +1,7 @@
 //! The laws of new axes, and of what follows the end of an apex: relays and traumatic reiteration.
+//!
+//! De Reffye 1988 §2: sympodial growth and traumatic reiteration. These laws are asked at the end of an axis, where no
+//! rank applies. Absent: the axes themselves, which `buds::node` adds.
 
 use super::compiler::Compiler;
 use super::geometry::DEGREE;

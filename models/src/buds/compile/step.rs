@@ -1,4 +1,7 @@
 //! The laws of a clock step: death, pause, flowering, growth units and their nodes, passages between states.
+//!
+//! De Reffye 1988 §4: the mortality test, the break test, then the growth unit. Each has its slot in the step's record
+//! of words. Absent: what a node bears (`node`), and the clock (`buds::grow`).
 
 use super::compiler::Compiler;
 use super::geometry::DEGREE;

@@ -1,4 +1,7 @@
 //! Cohorts: the axes of one order, born at one tick in one state, followed step by step as shares.
+//!
+//! A cohort's shares live, rest, grow or end by the same compiled laws as a bud; what they bear starts cohorts of its
+//! own, at later ticks. Absent: branch deaths and leaf fall, so that what is counted is what has been made.
 
 use super::unit::Unit;
 use crate::buds::compile::{Branching, BudModel, OrderLaws};

@@ -1,4 +1,7 @@
 //! The means of one growth unit: nodes, organs, and the axes that its buds become.
+//!
+//! They are sums over the distribution of the number of nodes and over ranks, since laws may depend on either. Absent:
+//! the fates of buds, which `cohort` follows.
 
 use crate::buds::compile::{BudModel, NodeLaws, OrderLaws};
 use crate::buds::law::At;

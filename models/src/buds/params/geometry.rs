@@ -1,4 +1,7 @@
 //! Geometry at rest (de Reffye 1988 §4): internodes, phyllotaxis and trends, in the units in which people state them.
+//!
+//! People type centimetres, millimetres and degrees; compilation makes metres and radians of them. Absent: the pose,
+//! which is the same for every model (`phytomer_sim::pose`).
 
 use crate::buds::law::{Law, Variate};
 use schemars::JsonSchema;

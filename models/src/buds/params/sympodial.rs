@@ -1,4 +1,7 @@
 //! The ends of apices and what follows them: relays, reiteration, and passages between states (de Reffye 1988 §2).
+//!
+//! Passages between states are those of a reference axis (Barczi et al. 2008, AMAPsim): an oriented automaton along the
+//! life of an axis. All of it is optional; a species that states none of it grows as in 1988.
 
 use crate::buds::law::{Count, Law, Variate};
 use schemars::JsonSchema;

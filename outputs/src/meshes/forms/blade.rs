@@ -1,4 +1,7 @@
 //! Leaf blades as folded halves: a convex polygon on each side of the midrib, raised like an open book, and a stalk.
+//!
+//! At most four convex polygons a leaf (de Reffye 1988 §6), folded along the midrib. Absent: colours, which follow from
+//! kind and age.
 
 use super::{Depth, Shape, along};
 

@@ -1,4 +1,6 @@
 //! An open flower: a narrow tube and five petals that spread from its mouth, each one plane kite.
+//!
+//! De Reffye 1988 §6 makes petals of convex polygons. Absent: inflorescences, which stand as one flower.
 
 use super::round::revolve;
 use super::{Depth, Shape};

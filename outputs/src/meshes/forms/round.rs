@@ -1,4 +1,6 @@
 //! Fruits as solids of revolution with few sides: a berry, and the cone of a conifer.
+//!
+//! A few rings of triangles are enough at the size of a fruit (de Reffye 1988 §6 draws a few vectors). Absent: stalks.
 
 use super::{Depth, Point, Shape, unit};
 use phytomer_sim::math::sincosf;
