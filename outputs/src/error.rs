@@ -117,6 +117,16 @@ pub enum Error {
         /// The plots that it covers.
         plots: u32,
     },
+    /// A line of the journal was torn by a failed write and could not be taken back.
+    #[error(
+        "nothing more is entered in {}: a write to it failed and could not be taken back; what is complete is kept: \
+         free some space, then go on with --resume",
+        path.display()
+    )]
+    TornJournal {
+        /// The journal.
+        path: PathBuf,
+    },
     /// The run was to be finished before all its shards were committed.
     #[error("{} lacks {missing} shards: go on with it by --resume", path.display())]
     MissingShards {

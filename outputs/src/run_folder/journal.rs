@@ -1,7 +1,8 @@
 //! The journal of a run: one line of JSON for each shard whose files are whole and on the disk.
 //!
 //! A crash may tear the last line, which then counts as not written; a damaged line before it is an error. Where two
-//! lines name the same shard the later one holds.
+//! lines name the same shard the later one holds. No line ever follows a torn one: what a failed write left is taken
+//! back, and where even that fails the journal takes no more.
 
 use super::durable;
 use crate::Error;
@@ -10,7 +11,7 @@ use phytomer_sim::Tick;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
-use std::io::Write;
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// What a committed shard has written.
@@ -78,6 +79,10 @@ pub struct Journal {
     path: PathBuf,
     file: File,
     done: BTreeMap<u32, ShardReport>,
+    /// The length of the whole lines, bytes.
+    whole: u64,
+    /// Whether the file may end with a torn line.
+    torn: bool,
 }
 
 impl Journal {
@@ -86,7 +91,7 @@ impl Journal {
         let file = File::create(path).map_err(Error::io("create", path))?;
         file.sync_all().map_err(Error::io("write to disk", path))?;
         durable::sync_folder_of(path)?;
-        Ok(Self { path: path.to_path_buf(), file, done: BTreeMap::new() })
+        Ok(Self { path: path.to_path_buf(), file, done: BTreeMap::new(), whole: 0, torn: false })
     }
 
     /// Reads the journal of an earlier start and goes on with it; a torn last line is cut off.
@@ -95,9 +100,9 @@ impl Journal {
             return Self::begin(path);
         }
         let (done, whole) = read(path)?;
-        let file = OpenOptions::new().append(true).open(path).map_err(Error::io("open", path))?;
-        file.set_len(whole).map_err(Error::io("shorten", path))?;
-        Ok(Self { path: path.to_path_buf(), file, done })
+        let mut file = OpenOptions::new().write(true).open(path).map_err(Error::io("open", path))?;
+        cut(&mut file, whole).map_err(Error::io("shorten", path))?;
+        Ok(Self { path: path.to_path_buf(), file, done, whole, torn: false })
     }
 
     /// The shards that are done, by number.
@@ -110,11 +115,31 @@ impl Journal {
         self.done.remove(&shard);
     }
 
-    /// Enters a shard; it is on the disk when this returns.
+    /// Enters a shard; it is on the disk when this returns. After an error the journal is as it was before.
+    ///
+    /// # Errors
+    /// A failed write, or [`Error::TornJournal`] after one that could not be taken back.
     pub fn enter(&mut self, report: ShardReport) -> Result<(), Error> {
+        self.enter_by(report, |file, line| {
+            file.write_all(line)?;
+            file.sync_all()
+        })
+    }
+
+    fn enter_by(
+        &mut self,
+        report: ShardReport,
+        write: impl FnOnce(&mut File, &[u8]) -> io::Result<()>,
+    ) -> Result<(), Error> {
+        if self.torn {
+            return Err(Error::TornJournal { path: self.path.clone() });
+        }
         let line = line_of(&report).map_err(Error::json(&self.path))?;
-        self.file.write_all(&line).map_err(Error::io("write", &self.path))?;
-        self.file.sync_all().map_err(Error::io("write to disk", &self.path))?;
+        if let Err(source) = write(&mut self.file, &line) {
+            self.torn = cut(&mut self.file, self.whole).is_err();
+            return Err(Error::io("write", &self.path)(source));
+        }
+        self.whole += line.len() as u64;
         self.done.insert(report.shard, report);
         Ok(())
     }
@@ -122,10 +147,20 @@ impl Journal {
     /// Writes the whole journal anew, in the order of the shards.
     pub fn put_in_order(&mut self) -> Result<(), Error> {
         let lines: Result<Vec<_>, _> = self.done.values().map(line_of).collect();
-        durable::write(&self.path, &lines.map_err(Error::json(&self.path))?.concat())?;
-        self.file = OpenOptions::new().append(true).open(&self.path).map_err(Error::io("open", &self.path))?;
+        let content = lines.map_err(Error::json(&self.path))?.concat();
+        durable::write(&self.path, &content)?;
+        let mut file = OpenOptions::new().write(true).open(&self.path).map_err(Error::io("open", &self.path))?;
+        file.seek(SeekFrom::End(0)).map_err(Error::io("open", &self.path))?;
+        (self.file, self.whole, self.torn) = (file, content.len() as u64, false);
         Ok(())
     }
+}
+
+/// Shortens the file to its whole lines; the next line goes there.
+fn cut(file: &mut File, whole: u64) -> io::Result<()> {
+    file.set_len(whole)?;
+    file.seek(SeekFrom::Start(whole))?;
+    file.sync_all()
 }
 
 fn line_of(report: &ShardReport) -> Result<Vec<u8>, serde_json::Error> {
@@ -150,4 +185,61 @@ pub fn read(path: &Path) -> Result<(BTreeMap<u32, ShardReport>, u64), Error> {
         whole += line.len() as u64;
     }
     Ok((done, whole))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn report(shard: u32) -> ShardReport {
+        ShardReport { shard, files: Vec::new(), living: 1, dead: 2, components: 3, overgrown: Vec::new() }
+    }
+
+    /// Half of a line, then a full disk.
+    fn half(file: &mut File, line: &[u8]) -> io::Result<()> {
+        file.write_all(&line[..line.len() / 2])?;
+        Err(io::Error::from(io::ErrorKind::StorageFull))
+    }
+
+    #[test]
+    fn no_line_follows_a_torn_one() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("journal.jsonl");
+        let mut journal = Journal::begin(&path).unwrap();
+        journal.enter(report(0)).unwrap();
+        assert!(matches!(journal.enter_by(report(1), half), Err(Error::Io { doing: "write", .. })));
+        assert!(!journal.done().contains_key(&1));
+        journal.enter(report(2)).unwrap();
+        let (done, whole) = read(&path).unwrap();
+        assert_eq!(done.into_keys().collect::<Vec<_>>(), [0, 2]);
+        assert_eq!(whole, fs::metadata(&path).unwrap().len());
+    }
+
+    #[test]
+    fn a_resumed_journal_takes_back_a_torn_line_too() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("journal.jsonl");
+        Journal::begin(&path).unwrap().enter(report(0)).unwrap();
+        OpenOptions::new().append(true).open(&path).unwrap().write_all(b"{\"shard\":1,").unwrap();
+        let mut journal = Journal::go_on(&path).unwrap();
+        journal.enter(report(1)).unwrap();
+        journal.enter_by(report(2), half).unwrap_err();
+        journal.put_in_order().unwrap();
+        journal.enter(report(3)).unwrap();
+        assert_eq!(read(&path).unwrap().0.into_keys().collect::<Vec<_>>(), [0, 1, 3]);
+    }
+
+    /// A file that is open for reading alone can be neither written nor shortened.
+    #[test]
+    fn a_journal_that_cannot_be_mended_takes_no_more() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("journal.jsonl");
+        let mut journal = Journal::begin(&path).unwrap();
+        journal.enter(report(0)).unwrap();
+        let sound = std::mem::replace(&mut journal.file, File::open(&path).unwrap());
+        assert!(matches!(journal.enter(report(1)), Err(Error::Io { .. })));
+        journal.file = sound;
+        assert!(matches!(journal.enter(report(2)), Err(Error::TornJournal { .. })));
+        assert_eq!(read(&path).unwrap().0.into_keys().collect::<Vec<_>>(), [0]);
+    }
 }
