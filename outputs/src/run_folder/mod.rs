@@ -131,16 +131,17 @@ impl RunFolder {
         self.journal.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Removes what an interrupted shard left: files beside their names, and parts that are not in the journal.
+    /// Removes what an interrupted shard left: files beside their names, and parts and meshes that are not in the
+    /// journal.
     fn sweep(&self) -> Result<(), Error> {
         let journal = self.journal();
         let files = journal.done().values().flat_map(|report| &report.files);
         let known: BTreeSet<PathBuf> = files.map(|file| self.path.join(&file.path)).collect();
-        for table in Table::ALL {
-            let files = durable::files_in(&self.path.join(table.name()))?;
+        for name in filled() {
+            let files = durable::files_in(&self.path.join(name))?;
             files
                 .iter()
-                .filter(|file| is_part(file) && !known.contains(*file))
+                .filter(|file| is_own(file) && !known.contains(*file))
                 .try_for_each(|file| durable::remove(file))?;
         }
         for folder in durable::files_in(&self.path)?.iter().filter(|path| path.is_dir()) {
@@ -186,22 +187,29 @@ fn clear(path: &Path) -> Result<(), Error> {
             durable::remove(&path.join(&file.path))?;
         }
     }
-    for table in Table::ALL {
-        for file in durable::files_in(&path.join(table.name()))?.iter().filter(|file| is_part(file)) {
+    for name in filled() {
+        for file in durable::files_in(&path.join(name))?.iter().filter(|file| is_own(file)) {
             durable::remove(file)?;
         }
         // Stays where it holds something else, which is not ours to remove.
-        let _ = fs::remove_dir(path.join(table.name()));
+        let _ = fs::remove_dir(path.join(name));
     }
+    remove_beside(path)?;
     for name in ["journal.jsonl", "datapackage.json", "views.sql", "run.json"] {
         durable::remove(&path.join(name))?;
     }
     Ok(())
 }
 
-fn is_part(file: &Path) -> bool {
+/// The folders that shards fill.
+fn filled() -> impl Iterator<Item = &'static str> {
+    Table::ALL.iter().map(|table| table.name()).chain(["meshes"])
+}
+
+/// Whether a file in such a folder is one that a shard writes there: a part, a mesh, or one of them half written.
+fn is_own(file: &Path) -> bool {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
-    (name.starts_with("part-") && name.ends_with(".parquet")) || durable::is_beside(file)
+    (name.starts_with("part-") && name.ends_with(".parquet")) || name.ends_with(".ply") || durable::is_beside(file)
 }
 
 fn remove_beside(folder: &Path) -> Result<(), Error> {

@@ -58,6 +58,19 @@ fn the_bytes_do_not_depend_on_the_number_of_threads() {
     assert_eq!(written[0], written[2]);
 }
 
+/// A mesh that was renamed but not entered, one that was half written, and a file that is not the run's.
+fn unentered_meshes(run: &Path) {
+    fs::create_dir_all(run.join("meshes")).unwrap();
+    for name in ["plant-00003_age-0012.ply", ".plant-00004_age-0012.ply.tmp", "notes.txt"] {
+        fs::write(run.join("meshes").join(name), b"ply").unwrap();
+    }
+}
+
+fn names_in(folder: &Path) -> Vec<String> {
+    let files = durable::files_in(folder).unwrap();
+    files.iter().map(|file| file.file_name().unwrap().to_string_lossy().into_owned()).collect()
+}
+
 #[test]
 fn an_interrupted_run_ends_with_the_same_bytes() {
     let home = tempdir().unwrap();
@@ -69,6 +82,7 @@ fn an_interrupted_run_ends_with_the_same_bytes() {
     // A shard that was renamed but not entered, one that was half written, and a torn line.
     fs::copy(broken.join("records/part-00000.parquet"), broken.join("records/part-00001.parquet")).unwrap();
     fs::write(broken.join("events/.part-00003.parquet.tmp"), b"half").unwrap();
+    unentered_meshes(&broken);
     let journal = fs::OpenOptions::new().append(true).open(broken.join("journal.jsonl"));
     std::io::Write::write_all(&mut journal.unwrap(), b"{\"shard\":1,\"fil").unwrap();
     drop(folder);
@@ -77,6 +91,8 @@ fn an_interrupted_run_ends_with_the_same_bytes() {
     assert_eq!(folder.missing_shards(), [1, 3]);
     assert!(!broken.join("records/part-00001.parquet").exists());
     assert!(!broken.join("events/.part-00003.parquet.tmp").exists());
+    assert_eq!(names_in(&broken.join("meshes")), ["notes.txt"]);
+    fs::remove_file(broken.join("meshes/notes.txt")).unwrap();
     assert!(matches!(folder.finish(&[]), Err(Error::MissingShards { missing: 2, .. })));
     for shard in folder.missing_shards() {
         grow_shard(&folder, shard, 100_000);
@@ -137,10 +153,14 @@ fn an_overwritten_run_leaves_what_is_not_its_own() {
     let home = tempdir().unwrap();
     run(home.path(), plan(3, 1));
     fs::write(home.path().join("notes.txt"), b"mine").unwrap();
+    fs::write(home.path().join(".run.json.tmp"), b"half").unwrap();
+    unentered_meshes(home.path());
     let folder = RunFolder::create(home.path(), plan(1, 1), Mode::Overwrite).unwrap();
     grow_shard(&folder, 0, 100_000);
     folder.finish(&[]).unwrap();
     assert!(home.path().join("notes.txt").exists());
+    assert!(!home.path().join(".run.json.tmp").exists());
+    assert_eq!(names_in(&home.path().join("meshes")), ["notes.txt"]);
     assert_eq!(Run::open(home.path()).unwrap().parts(Table::Records).unwrap().len(), 1);
 }
 
@@ -176,6 +196,9 @@ fn a_further_file_is_named_hashed_and_journalled() {
     assert_eq!(report.files[4].path, "meshes/plant-0.ply");
     assert_eq!(report.files[4].sha256, durable::sha256_of(b"ply"));
     assert!(home.path().join("meshes/plant-0.ply").exists() && !staged.exists());
+    drop(folder);
+    RunFolder::create(home.path(), plan(1, 1), Mode::Resume).unwrap();
+    assert!(home.path().join("meshes/plant-0.ply").exists(), "the journal names it");
 }
 
 #[test]
