@@ -14,6 +14,9 @@ use serde::{Deserialize, Serialize};
 /// The seed of a run that names none: the year of the paper. Printed and recorded like any other.
 pub const DEFAULT_SEED: u64 = 1988;
 
+/// Bytes that a component takes in memory, about: topology, fates and pose together.
+pub const BYTES_A_COMPONENT: u64 = 96;
+
 /// A run: a species, a number of plants, the ages, and what is written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -199,9 +202,10 @@ pub enum MeshFile {
 #[serde(deny_unknown_fields, default)]
 pub struct Limits {
     /// The most components of a plot.
-    #[schemars(range(min = 1, max = 2_000_000_000))]
+    #[schemars(range(min = 1, max = 1_073_741_823))]
     pub max_components: u32,
-    /// The most memory of the whole run, in MB of 10⁶ bytes. No limit if not given.
+    /// The most memory of one plant while it grows, in MB of 10⁶ bytes, at about 96 bytes a component. No limit if not
+    /// given.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 16))]
     pub max_memory_mb: Option<u32>,
@@ -210,6 +214,26 @@ pub struct Limits {
 impl Default for Limits {
     fn default() -> Self {
         Self { max_components: 50_000_000, max_memory_mb: None }
+    }
+}
+
+impl Limits {
+    /// The most components of a plant: as stated, or what its memory holds, whichever is smaller.
+    ///
+    /// The memory is that of one plant at a time: how many grow at once depends on the machine, and a limit must not.
+    pub fn components(&self) -> u32 {
+        self.components_in_memory().map_or(self.max_components, |fitting| fitting.min(self.max_components))
+    }
+
+    /// The key of the limit that holds.
+    pub fn binding(&self) -> &'static str {
+        let by_memory = self.components_in_memory().is_some_and(|fitting| fitting < self.max_components);
+        if by_memory { "max_memory_mb" } else { "max_components" }
+    }
+
+    fn components_in_memory(&self) -> Option<u32> {
+        let bytes = u64::from(self.max_memory_mb?) * 1_000_000;
+        Some(u32::try_from(bytes / BYTES_A_COMPONENT).unwrap_or(u32::MAX))
     }
 }
 

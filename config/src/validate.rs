@@ -165,17 +165,17 @@ fn tell(loader: &mut Loader, node: &Node, faults: Vec<fault::Fault>) {
 /// A plot of which more is expected than it may have would be cut off: better told before the first tick.
 fn check_explosion(loader: &mut Loader, node: &Node, (scenario, species, model): &Checked) {
     let until = scenario.ages.until;
-    let most = scenario.limits.max_components;
+    let (most, key) = (scenario.limits.components(), scenario.limits.binding());
     let Some(expected) = model.expectation(until).map(|means| means.components(until)) else { return };
     if expected <= f64::from(most) {
         return;
     }
-    let set = integer_at(node, &["limits", "max_components"]).is_some();
-    let path = path_of(if set { &["limits", "max_components"] } else { &["ages", "until"] });
+    let set = integer_at(node, &["limits", key]).is_some();
+    let path = path_of(&if set { ["limits", key] } else { ["ages", "until"] });
     let (name, expected, most) = (&species.about.name, in_words(expected), in_words(most.into()));
     let problem =
         format!("the growth explodes: by age {until} a plant of `{name}` is expected to have {expected} components");
-    let expected = format!("at most {most} (limits.max_components): an earlier last age, or fewer branches");
+    let expected = format!("at most {most} (limits.{key}): an earlier last age, or fewer branches");
     loader.faults.push(Fault::new(node.locate(&path), &path, problem, expected));
 }
 

@@ -3,8 +3,9 @@
 //! The means are of what plants have *made*; what they have shed by a recorded age is counted as if it still stood, so
 //! that rows and bytes are upper bounds for species that shed. Absent: memory and time, which the machine decides.
 
-use super::plan::{BYTES_A_COMPONENT, component_limit};
-use phytomer_config::{Resolved, scenario::Table};
+use super::plan::component_limit;
+use phytomer_config::Resolved;
+use phytomer_config::scenario::{BYTES_A_COMPONENT, Table};
 use phytomer_sim::expectation::Expectation;
 use serde::Serialize;
 

@@ -10,9 +10,6 @@ use phytomer_outputs::{Input, Provenance, RunPlan, Table};
 use phytomer_sim::plant::Seed;
 use sha2::{Digest, Sha256};
 
-/// Bytes that a component takes in memory: topology, fates and pose together.
-pub const BYTES_A_COMPONENT: u64 = 96;
-
 /// The work of a part file, in components shown to a table: about 60 MB of `records`, some seconds of one core.
 const WORK_A_PART: f64 = 2e6;
 
@@ -95,13 +92,9 @@ fn plots_per_part(resolved: &Resolved) -> u32 {
     (f64::from(scenario.plants) / parts).ceil().max(1.0) as u32
 }
 
-/// The most components of a plant: the scenario's limit, or what its memory holds, whichever is smaller.
-///
-/// The memory is that of one plant at a time: how many grow at once depends on the machine, and a limit must not.
+/// The most components of a plant.
 pub fn component_limit(scenario: &Scenario) -> u32 {
-    let limits = &scenario.limits;
-    let fitting = limits.max_memory_mb.map_or(u64::MAX, |mb| u64::from(mb) * 1_000_000 / BYTES_A_COMPONENT);
-    u64::from(limits.max_components).min(fitting) as u32
+    scenario.limits.components()
 }
 
 /// What plant number `plant` of a scenario grows from.
