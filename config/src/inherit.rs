@@ -78,22 +78,22 @@ impl<'s> Merge<'s> {
         let mut items: Vec<Node> = Vec::new();
         let mut news = news.into_iter();
         for old in olds.drain(..) {
-            items.push(self.order(Some(old), new_every, news.next()));
+            items.push(self.order(old, new_every, news.next()));
         }
-        items.extend(news.map(|new| self.order(fresh.clone(), new_every, Some(new))));
+        items.extend(news.map(|new| {
+            let empty = || Node { span: new.span, value: Value::Table(Vec::new()) };
+            self.order(fresh.clone().unwrap_or_else(empty), new_every, Some(new))
+        }));
         debug_assert!(items.len() >= known);
         Some(Entry { key, key_span, node: Node { span, value: Value::Array(items) } })
     }
 
-    fn order(&self, below: Option<Node>, every: Option<&Entry>, own: Option<Node>) -> Node {
-        let span = own.as_ref().or(below.as_ref()).or(every.map(|e| &e.node)).map(|n| n.span);
-        let layers = [below, every.map(|e| e.node.clone()), own];
+    fn order(&self, below: Node, every: Option<&Entry>, own: Option<Node>) -> Node {
+        let span = own.as_ref().unwrap_or(&below).span;
+        let layers = every.map(|e| e.node.clone()).into_iter().chain(own);
         let schema = Some(self.order_schema());
-        let mut merged = layers.into_iter().flatten().reduce(|old, new| self.node(schema, old, new));
-        if let (Some(node), Some(span)) = (&mut merged, span) {
-            node.span = span;
-        }
-        merged.unwrap_or_else(|| unreachable!("an order comes from the parent or from the child"))
+        let merged = layers.fold(below, |old, new| self.node(schema, old, new));
+        Node { span, ..merged }
     }
 
     fn order_schema(&self) -> &'s Json {
