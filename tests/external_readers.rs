@@ -1,5 +1,5 @@
 //! Independent readers of what a run leaves: pyarrow, DuckDB and Polars for the tables, plyfile, trimesh, Open3D, meshio
-//! and PyVista for the meshes.
+//! and PyVista for the meshes; and jsonschema for the schemas of species and scenarios.
 //!
 //! They live in `.venv`, which `.ci/run` fills from `tests/readers/requirements.txt`; where they are missing the tests
 //! skip and say so, but never in CI. `PHYTOMER_RUN` names a run folder to read beside the small one grown here.
@@ -36,17 +36,18 @@ fn python() -> Option<PathBuf> {
     None
 }
 
-fn grow(folder: &Path) -> PathBuf {
-    let scenario = folder.join("readers.toml");
-    std::fs::write(&scenario, SCENARIO).expect("a scenario file");
-    let run = folder.join("run");
-    let done = Command::new(env!("CARGO_BIN_EXE_phytomer"))
-        .args(["grow", "--quiet", "--out"])
-        .args([&run, &scenario])
-        .output()
-        .expect("phytomer runs");
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+/// Grows a scenario into the folder; the run's path.
+fn grow(folder: &Path, scenario: &str) -> String {
+    let run = folder.join("run").to_str().expect("a path in UTF-8").to_owned();
+    phytomer(&["grow", "--quiet", "--out", &run, scenario]);
     run
+}
+
+/// What the program says on stdout.
+fn phytomer(words: &[&str]) -> Vec<u8> {
+    let done = Command::new(env!("CARGO_BIN_EXE_phytomer")).args(words).output().expect("phytomer runs");
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    done.stdout
 }
 
 fn read(python: &Path, script: &str, arguments: &[&str]) {
@@ -66,10 +67,37 @@ fn independent_readers_agree_on_a_small_run() {
         return;
     };
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let run = grow(folder.path());
-    let run = run.to_str().expect("a path in UTF-8");
-    read(&python, "tables.py", &[run]);
-    read(&python, "meshes.py", &[run, "8", "tubes"]);
+    let scenario = folder.path().join("readers.toml");
+    std::fs::write(&scenario, SCENARIO).expect("a scenario file");
+    let run = grow(folder.path(), scenario.to_str().expect("a path in UTF-8"));
+    read(&python, "tables.py", &[&run]);
+    read(&python, "meshes.py", &[&run, "8", "tubes"]);
+}
+
+#[test]
+fn independent_readers_agree_on_the_shipped_gmt1() {
+    let Some(python) = python() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let run = grow(folder.path(), "gmt1");
+    read(&python, "tables.py", &[&run]);
+    read(&python, "meshes.py", &[&run, "8", "tubes"]);
+}
+
+#[test]
+fn an_independent_validator_accepts_every_shipped_file() {
+    let Some(python) = python() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let [species, scenario] = ["species", "scenario"].map(|kind| {
+        let file = folder.path().join(kind).to_str().expect("a path in UTF-8").to_owned();
+        std::fs::write(&file, phytomer(&["schema", kind])).expect("a schema");
+        file
+    });
+    let presets = Path::new(ROOT).join("config/presets").display().to_string();
+    read(&python, "schemas.py", &[&species, &scenario, &presets]);
 }
 
 #[test]

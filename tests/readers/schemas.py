@@ -1,0 +1,38 @@
+"""An independent validator holds every shipped file against the JSON Schemas: schemas.py SPECIES SCENARIO PRESETS
+
+SPECIES and SCENARIO are what `phytomer schema` prints; PRESETS is the folder with `species` and `scenarios`.
+"""
+
+import copy
+import json
+import sys
+import tomllib
+from pathlib import Path
+
+from jsonschema.validators import validator_for
+
+
+def validator(path):
+    schema = json.loads(Path(path).read_text(encoding="utf-8"))
+    kind = validator_for(schema)
+    kind.check_schema(schema)
+    return kind(schema)
+
+
+def refuses_a_misspelling(check, file):
+    """A validator that lets everything through would prove nothing."""
+    bad = copy.deepcopy(file)
+    bad["nmae"] = bad.pop("name")
+    return any(check.iter_errors(bad))
+
+
+for folder, check in (("species", validator(sys.argv[1])), ("scenarios", validator(sys.argv[2]))):
+    files = sorted((Path(sys.argv[3]) / folder).rglob("*.toml"))
+    assert files, f"no files in {folder}"
+    for path in files:
+        file = tomllib.loads(path.read_text(encoding="utf-8"))
+        faults = [f"{error.json_path}: {error.message}" for error in check.iter_errors(file)]
+        assert not faults, f"{path}:\n" + "\n".join(faults)
+        assert "name" not in file or refuses_a_misspelling(check, file), f"{path}: a misspelt key is let through"
+    print(f"{folder}: {len(files)} files obey the schema")
+print("schemas ok")
