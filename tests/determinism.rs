@@ -5,7 +5,7 @@
 
 mod program;
 
-use phytomer::config::validate;
+use phytomer::config::{Kind, presets, validate};
 use phytomer::run::{self, Program, Progress, Settings};
 use program::{data, hashes, run as phytomer};
 use std::collections::BTreeMap;
@@ -34,6 +34,36 @@ fn a_single_plant_is_the_same_on_any_number_of_threads() {
     });
     assert_eq!(grown[0], grown[1]);
     assert_eq!(grown[0], grown[2]);
+}
+
+/// A shipped scenario with so many plants in parts of two, so that several threads have work.
+fn shipped(folder: &Path, name: &str, plants: &str) -> BTreeMap<String, String> {
+    let (_, text) = presets(Kind::Scenario).iter().find(|(known, _)| *known == name).unwrap();
+    let text = text.split_once("[output]").map_or(*text, |(before, _)| before);
+    // A file called `coffee.toml` would be taken for the species of that name.
+    let file = folder.join(format!("{name}_in_parts.toml"));
+    std::fs::write(&file, format!("{text}\n[output]\nplants_per_part = 2\n")).unwrap();
+    let file = file.to_str().unwrap();
+    let grown = ["1", "2", "7"].map(|threads| {
+        let run = format!("{name}-{threads}");
+        phytomer(folder, &["grow", file, "--plants", plants, "--threads", threads, "--name", &run]).ending(0);
+        hashes(&folder.join("runs").join(run))
+    });
+    assert_eq!(grown[0], grown[1]);
+    assert_eq!(grown[0], grown[2]);
+    grown[0].clone()
+}
+
+#[test]
+fn the_shipped_coffee_is_the_same_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(shipped(folder.path(), "coffee", "8").len(), 4 * 4 + 2 * 4, "four parts, two plants at four ages");
+}
+
+#[test]
+fn the_shipped_gmt1_is_the_same_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(shipped(folder.path(), "gmt1", "5").len(), 4 * 3 + 1, "three parts, one plant at its last age");
 }
 
 #[test]
