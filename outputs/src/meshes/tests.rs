@@ -43,7 +43,7 @@ fn add_axis(plant: &mut Plant, bearer: Option<NodeId>, nodes: u32) -> Vec<NodeId
             birth: rank,
             rank,
             unit_rank: 1,
-            short: rank % 3 == 0,
+            short: rank.is_multiple_of(3),
             neoformed: false,
             trend: 0,
             length: 0.1,
