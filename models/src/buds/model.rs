@@ -50,6 +50,17 @@ impl BudModel {
         first_bud(self, plant, axis)
     }
 
+    /// Metres that internodes have added to their diameters when the plant is `age` ticks old: by order and state, then by
+    /// their own age.
+    fn thickening_at(&self, age: Tick) -> Vec<Vec<f32>> {
+        let classes = self.orders.iter().flat_map(|laws| (0..self.states).map(move |state| (laws, state as u8)));
+        let by_own_age = |(laws, state): (&OrderLaws, u8)| {
+            let at = |own| At { age, dimension: own, cycle: own, rank: 0, state };
+            (0..=age).map(|own| laws.thickening.value(at(own)) * 0.001).collect()
+        };
+        classes.map(by_own_age).collect()
+    }
+
     fn grow_with(
         &self,
         plant: &mut Plant,
@@ -130,14 +141,13 @@ impl GrowthModel for BudModel {
     /// Diameter at birth plus the thickening of the internode's order at the plant's age and its own; a cone's tip takes
     /// the diameter of the internode that follows it on its axis.
     fn thicken(&self, age: Tick, plant: &mut Plant) {
+        let added = self.thickening_at(age);
         let Plant { axes, nodes, habit, .. } = plant;
         for node in 0..nodes.len() {
             let axis = nodes.axis[node];
-            let order = axes.order[axis.index()];
-            let birth = nodes.birth[node];
-            let own = age.saturating_sub(birth);
-            let at = At { age, dimension: own, cycle: own, rank: 0, state: axes.state[axis.index()] };
-            let diameter = nodes.primary_diameter[node] + self.laws(order).thickening.value(at) * 0.001;
+            let (order, birth) = (axes.order[axis.index()], nodes.birth[node]);
+            let class = (usize::from(order) - 1) * self.states + usize::from(axes.state[axis.index()]);
+            let diameter = nodes.primary_diameter[node] + added[class][age.saturating_sub(birth) as usize];
             nodes.diameter[node] = diameter;
             nodes.diameter_tip[node] = diameter;
             let Some(parent) = nodes.parent[node].some() else {
