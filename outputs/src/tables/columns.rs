@@ -179,7 +179,9 @@ pub static COMPONENTS: [Column; 25] = [
     )
     .or_null(),
     Column::float("length_m", "m", "Length along its direction. Null for buds.").repeated().or_null(),
-    Column::float("birth_diameter_m", "m", "Diameter at birth; the width of an organ. Null for buds.").repeated().or_null(),
+    Column::float("birth_diameter_m", "m", "Diameter at birth; the width of an organ. Null for buds.")
+        .repeated()
+        .or_null(),
     Column::float("area_m2", "m2", "Area of one side. Null where a component has none.").repeated().or_null(),
     Column::tick(
         "death_age",
