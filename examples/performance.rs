@@ -27,13 +27,13 @@ fn main() -> Result<()> {
     collect(&folder, &mut benches)
         .with_context(|| format!("cannot read {}: run `cargo bench` first", folder.display()))?;
     benches.sort_by(|a, b| (&a.group, a.is_baseline(), &a.name).cmp(&(&b.group, b.is_baseline(), &b.name)));
-    println!("| specimen/what | bench | a run, s | M elements/s | rate against the baseline |");
+    println!("| specimen/what | bench | a run, ms | M elements/s | rate against the baseline |");
     println!("|---|---|---:|---:|---:|");
     for bench in &benches {
         let baseline = benches.iter().find(|other| other.group == bench.group && other.is_baseline());
-        let ratio = baseline.map_or("".to_owned(), |baseline| format!("{:.2}", baseline.seconds / bench.seconds));
+        let ratio = baseline.map_or_else(String::new, |baseline| format!("{:.2}", baseline.seconds / bench.seconds));
         let rate = bench.elements / bench.seconds / 1e6;
-        println!("| {} | {} | {:.4} | {rate:.1} | {ratio} |", bench.group, bench.name, bench.seconds);
+        println!("| {} | {} | {:.2} | {rate:.1} | {ratio} |", bench.group, bench.name, bench.seconds * 1e3);
     }
     Ok(())
 }
