@@ -52,6 +52,8 @@ pub struct Cohorts<'a> {
     /// Axes born, by order, state and tick.
     births: Vec<Vec<Vec<f64>>>,
     expected: Vec<OrderExpectation>,
+    /// The growth unit of each order in which it is the same at every point.
+    steady: Vec<Option<Unit>>,
     work: u64,
 }
 
@@ -64,6 +66,7 @@ impl<'a> Cohorts<'a> {
             until,
             births: vec![vec![ticks; model.states]; model.orders.len()],
             expected: vec![OrderExpectation::zero(until); model.orders.len()],
+            steady: model.orders.iter().map(|laws| steady_unit(model, laws)).collect(),
             work: 0,
         }
     }
@@ -95,14 +98,13 @@ impl<'a> Cohorts<'a> {
         let ends = Completion::of(laws, At { age: birth, state, ..At::default() });
         let mut living = vec![vec![Flow::default(); self.model.states]; ends.stages()];
         living[0][usize::from(state)].apices = born;
-        let steady = steady(laws).then(|| Unit::at(self.model, laws, At::default()));
         let mut cycle = 0;
         for tick in birth + 1..=self.until {
             let dimension = tick - birth;
             while cycle < laws.speed.steps_by(dimension) {
                 cycle += 1;
                 let at = At { age: tick, dimension, cycle, ..At::default() };
-                living = self.step(order, &living, &ends, steady, at);
+                living = self.step(order, &living, &ends, at);
                 if self.work > MOST_WORK {
                     return None;
                 }
@@ -112,20 +114,13 @@ impl<'a> Cohorts<'a> {
     }
 
     /// One clock step of a cohort: what is still living after it, by growth units made and by state.
-    fn step(
-        &mut self,
-        order: usize,
-        living: &[Vec<Flow>],
-        ends: &Completion,
-        steady: Option<Unit>,
-        at: At,
-    ) -> Vec<Vec<Flow>> {
+    fn step(&mut self, order: usize, living: &[Vec<Flow>], ends: &Completion, at: At) -> Vec<Vec<Flow>> {
         let mut after = vec![vec![Flow::default(); self.model.states]; living.len()];
         for (made, states) in living.iter().enumerate() {
             for (state, flow) in states.iter().enumerate().filter(|(_, flow)| flow.apices > 0.0) {
                 let at = At { state: state as u8, ..at };
                 let growing = self.fates(order, *flow, &mut after[made][state], at);
-                let unit = steady.unwrap_or_else(|| Unit::at(self.model, &self.model.orders[order], at));
+                let unit = self.steady[order].unwrap_or_else(|| Unit::at(self.model, &self.model.orders[order], at));
                 self.work += 1 + unit.work;
                 self.grow(order, growing, (made, ends), &unit, &mut after, at);
             }
@@ -234,8 +229,12 @@ impl<'a> Cohorts<'a> {
     }
 }
 
-/// Whether a growth unit is the same at every point, so that its means need be summed once.
-fn steady(laws: &OrderLaws) -> bool {
+/// The means of a growth unit, summed once, where it is the same at every point.
+fn steady_unit(model: &BudModel, laws: &OrderLaws) -> Option<Unit> {
+    is_steady(laws).then(|| Unit::at(model, laws, At::default()))
+}
+
+fn is_steady(laws: &OrderLaws) -> bool {
     let (step, node) = (&laws.step, &laws.node);
     let chances = [&step.short, &node.flower_opens, &node.fruit_set, &node.axillary.chance, &node.reiteration.chance];
     let steady_laterals = node.zone_chances().all(|chance| chance.table.constant().is_some());
