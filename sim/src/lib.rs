@@ -6,6 +6,7 @@ pub mod clock;
 pub mod expectation;
 pub mod grow;
 pub mod math;
+pub mod mechanics;
 pub mod model;
 pub mod plant;
 pub mod plot;
@@ -14,6 +15,7 @@ pub mod random;
 pub mod record;
 pub mod shed;
 pub mod site;
+mod vector;
 
 pub use clock::{NEVER, Tick};
 pub use grow::{Ending, grow};

@@ -32,11 +32,15 @@ pub enum EventKind {
     Pruned = 9,
     /// A dead branch fell, with everything that it bore.
     Shed = 10,
+    /// The plant's stiffness no longer held what it carried.
+    Buckled = 11,
+    /// The bending of the plant found no equilibrium; `count` is the number of steps tried.
+    Unsettled = 12,
 }
 
 impl EventKind {
     /// Every kind, in the order of their numbers.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Grew,
         Self::Paused,
         Self::Died,
@@ -48,6 +52,8 @@ impl EventKind {
         Self::Killed,
         Self::Pruned,
         Self::Shed,
+        Self::Buckled,
+        Self::Unsettled,
     ];
 
     /// The event as it stands in tables.
@@ -64,6 +70,8 @@ impl EventKind {
             Self::Killed => "killed",
             Self::Pruned => "pruned",
             Self::Shed => "shed",
+            Self::Buckled => "buckled",
+            Self::Unsettled => "unsettled",
         }
     }
 }

@@ -4,6 +4,7 @@
 //! turns smoothly towards its trend.
 
 use crate::clock::Tick;
+use crate::mechanics::Wood;
 
 /// The direction that an axis tends to, and how fast it turns there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +40,8 @@ pub struct Habit {
     pub shed_after: Vec<Tick>,
     /// The shape of internodes, by order from 1.
     pub shapes: Vec<Shape>,
+    /// The mechanics of its wood; `None` where diameters follow the model's law and nothing bends.
+    pub wood: Option<Wood>,
 }
 
 impl Habit {

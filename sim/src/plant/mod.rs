@@ -3,15 +3,18 @@
 //! Invariants: a parent's index is smaller than its child's, in each column and in the component numbers; death is a
 //! tick in a column, never a removal. So poses are one forward scan, loads one reverse scan, and nothing recurses.
 //! One writer a column: models write topology, rest geometry and the fates of buds and organs; [`crate::shed`] alone
-//! writes the death and the fall of branches, the model's `thicken` the diameters, [`crate::pose`] the frames.
+//! writes the death and the fall of branches, the model's `thicken` or secondary growth the diameters,
+//! [`crate::mechanics`] the curvature, [`crate::pose`] the frames.
 
 mod axis;
+pub(crate) mod borne;
 mod event;
 mod habit;
 pub mod key;
 mod kind;
 mod node;
 mod organ;
+pub(crate) mod standing;
 
 pub use axis::{ApexFate, ApicalBud, Axes, AxisId, NewAxis, Origin};
 pub use event::{Event, EventKind};
@@ -22,6 +25,7 @@ pub use node::{NewNode, NodeId, Nodes};
 pub use organ::{NewOrgan, OrganId, Organs};
 
 use crate::clock::{NEVER, Tick};
+use crate::mechanics::Strain;
 use crate::pose::Frames;
 use crate::random::PlantRandom;
 use std::sync::Arc;
@@ -48,6 +52,8 @@ pub struct Plant {
     pub buds: Vec<ApicalBud>,
     /// Where each internode stands, written by the pose.
     pub frames: Frames,
+    /// What bending has left in each internode, written by mechanics; empty where the plant does not bend.
+    pub strain: Strain,
     /// What became of its buds, where a run records it.
     pub events: Option<Vec<Event>>,
     /// The rules of its species that pose, shedding and drawing need.
@@ -88,6 +94,7 @@ impl Plant {
             organs: Organs::default(),
             buds: Vec::new(),
             frames: Frames::default(),
+            strain: Strain::default(),
             events: seed.keep_events.then(Vec::new),
             habit,
             random: PlantRandom::new(seed.run_seed, u64::from(seed.plant)),
@@ -116,6 +123,7 @@ impl Plant {
         self.organs.clear();
         self.buds.clear();
         self.frames.clear();
+        self.strain.clear();
         self.stated_headings.clear();
         self.components = 0;
         if let Some(events) = &mut self.events {

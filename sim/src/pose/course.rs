@@ -8,7 +8,7 @@
 //! keeps its two components in the plane and across it. One square root an internode, no trigonometry.
 
 use super::Frame;
-use super::vector::Vector;
+use crate::vector::Vector;
 use crate::plant::Trend;
 
 /// Below this sine of the angle to the vertical a heading has no horizontal direction of its own; that of `up` serves.

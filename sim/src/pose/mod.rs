@@ -7,10 +7,10 @@
 //! trend, in the vertical plane of its heading (`course` has the formula). The axis of the seed leaves the upward
 //! vertical, whose `up` is the X axis. Absent: bending, which is the work of mechanics.
 
+pub(crate) mod bent;
 mod course;
 mod scan;
 mod stated;
-mod vector;
 
 use crate::math::sincosf;
 use crate::plant::{AxisId, NodeId, OrganId, Plant};
@@ -47,10 +47,14 @@ impl Frames {
 
     /// Room for the frames of every node and the tip of every axis.
     fn resize(&mut self, nodes: usize, axes: usize) {
+        self.resize_nodes(nodes);
+        self.tips.resize(axes, Tip::default());
+    }
+
+    fn resize_nodes(&mut self, nodes: usize) {
         self.base.resize(nodes, [0.0; 3]);
         self.heading.resize(nodes, [0.0; 3]);
         self.up.resize(nodes, [0.0; 3]);
-        self.tips.resize(axes, Tip::default());
     }
 }
 

@@ -2,7 +2,7 @@
 //! tests, on a 40 m tree of four orders with 2,000 internodes an axis; less than 0.1 mm everywhere.
 
 use super::specimen::{Branch, Growth, Specimen};
-use super::vector::Vector;
+use crate::vector::Vector;
 use super::*;
 use crate::math::{cos, sin, sincos};
 use crate::plant::Trend;

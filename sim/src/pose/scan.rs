@@ -6,8 +6,9 @@
 //! frame of its bearing node: 40 m from the seed that is 2 µm, once an order.
 
 use super::course::{Plane, Slope};
-use super::vector::Vector;
+use crate::vector::Vector;
 use super::{Frames, start_frame};
+use crate::plant::standing::{begins_axis, end_of_run};
 use crate::plant::{AxisId, Nodes, Plant, Trend};
 use std::ops::Range;
 
@@ -33,13 +34,6 @@ pub(super) fn follow_trends(plant: &mut Plant) {
     }
 }
 
-/// The first node after `node` that is not the next of the same axis.
-#[inline]
-fn end_of_run(nodes: &Nodes, node: usize) -> usize {
-    let axis = nodes.axis[node];
-    node + nodes.axis[node..].iter().take_while(|&&other| other == axis).count()
-}
-
 #[inline]
 fn follow_axis(plant: &mut Plant, axis: AxisId, run: Range<usize>) {
     let start = start_frame(plant, axis);
@@ -48,12 +42,6 @@ fn follow_axis(plant: &mut Plant, axis: AxisId, run: Range<usize>) {
     let begins = begins_axis(nodes, run.start);
     let tip = if begins { Tip { base: Vector::from(start.base), slope } } else { frames.tips[axis.index()] };
     frames.tips[axis.index()] = extend(frames, nodes, &habit.trends, &plane, tip, run, begins);
-}
-
-/// Whether a node is the first of its axis: its parent is not on it.
-#[inline]
-pub(super) fn begins_axis(nodes: &Nodes, node: usize) -> bool {
-    nodes.parent[node].some().is_none_or(|parent| nodes.axis[parent.index()] != nodes.axis[node])
 }
 
 /// Writes the frames of a run that goes on from `tip`. The first node of an axis, and one whose trend the habit does

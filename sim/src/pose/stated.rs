@@ -5,8 +5,8 @@
 //! A heading that is missing, or no direction at all, is its parent's.
 
 use super::bearing_frame;
-use super::scan::begins_axis;
-use super::vector::Vector;
+use crate::vector::Vector;
+use crate::plant::standing::begins_axis;
 use crate::plant::{NodeId, Plant};
 
 /// Below this square of its length a vector has no direction.

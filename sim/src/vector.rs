@@ -1,12 +1,12 @@
-//! Vectors in double precision, for what the pose accumulates along an axis before it is stored in single precision.
+//! Vectors in double precision, for what pose and mechanics accumulate before it is stored in single precision.
 //!
-//! The workspace takes glam without its f64 types; these few operations are all that the pose needs of them.
+//! The workspace takes glam without its f64 types; these few operations are all that is needed of them.
 
 use std::ops::{Add, Mul, Sub};
 
 /// Three numbers: a point in metres, or a direction.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Vector {
+pub(crate) struct Vector {
     pub x: f64,
     pub y: f64,
     pub z: f64,
@@ -21,6 +21,15 @@ impl Vector {
     #[inline]
     pub fn dot(self, other: Self) -> f64 {
         self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    #[inline]
+    pub fn cross(self, other: Self) -> Self {
+        Self::new(
+            self.y * other.z - self.z * other.y,
+            self.z * other.x - self.x * other.z,
+            self.x * other.y - self.y * other.x,
+        )
     }
 
     /// As it is stored.

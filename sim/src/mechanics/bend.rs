@@ -1,0 +1,158 @@
+//! One tick of bending: loads and shape iterated to equilibrium, on the curvature that is frozen in the wood.
+//!
+//! New wood is laid on the bent shape and is free of stress there, so a tick adds dκ = dM / (E I) with the stiffness of
+//! the tick, never the whole moment over the last stiffness (Ancelin, Fourcaud & Lac 2004). With κ₀ = κ − M / (E I), taken
+//! at the curvature and the moment of the last tick and the stiffness of this one, the equilibrium is M = E I (κ − κ₀).
+//! It is found by Newton steps (`loads`, `turn`), each followed by a pose.
+
+use super::loads::{Load, Response, Scan, second_moment};
+use super::secondary::Above;
+use super::turn::turn;
+use super::uprighting::straighten;
+use super::wood::Wood;
+use crate::site::Fields;
+use crate::clock::Tick;
+use crate::plant::borne::Borne;
+use crate::plant::standing::Standing;
+use crate::plant::{AxisId, EventKind, Plant};
+use crate::pose::bent::{Stance, follow_bends};
+use crate::pose::pose;
+use crate::site::Site;
+use crate::vector::Vector;
+
+/// A plant is in equilibrium when a step turns no internode by more, rad. The steps converge quadratically, so what is
+/// left then is far less.
+pub const SETTLED: f64 = 1e-4;
+
+/// The most steps of a tick; a plant that still moves is reported.
+pub const MOST_STEPS: u32 = 60;
+
+/// Scratch of the bending of one plant after another, kept for its memory.
+#[derive(Debug, Clone, Default)]
+pub struct Bench {
+    standing: Standing,
+    laterals: Borne,
+    organs: Borne,
+    natural: Vec<[f32; 2]>,
+    responses: Vec<Response>,
+    loads: Vec<Load>,
+    stances: Vec<Stance>,
+    turns: Vec<Vector>,
+    /// The diameters of the last tick, where reaction wood is made.
+    before: Vec<f32>,
+    pub(super) above: Vec<Above>,
+}
+
+/// How a tick of bending came out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Outcome {
+    /// The steps that it took.
+    pub steps: u32,
+    /// Whether the last step moved nothing any more.
+    pub settled: bool,
+    /// Whether the shape held what it carries at every step.
+    pub holds: bool,
+}
+
+/// Bends `plant` under its weight and the wind of `site`, as it stands at `age`, and poses it. What buckles or does not
+/// settle is noted among its events.
+pub fn bend(plant: &mut Plant, age: Tick, site: &Site, bench: &mut Bench) -> Outcome {
+    let habit = std::sync::Arc::clone(&plant.habit);
+    let Some(wood) = habit.wood.as_ref().filter(|wood| wood.feels(&site.fields(&wood.drag))) else {
+        pose(plant);
+        return Outcome { steps: 0, settled: true, holds: true };
+    };
+    bench.prepare(plant, age);
+    let outcome = bench.settle(plant, wood, age, &site.fields(&wood.drag));
+    report(plant, age, outcome);
+    outcome
+}
+
+impl Bench {
+    /// Keeps the diameters of the last tick, before the plant thickens, where the righting of axes asks for them.
+    pub fn remember(&mut self, plant: &Plant) {
+        self.before.clear();
+        if plant.habit.wood.as_ref().is_some_and(Wood::makes_reaction_wood) {
+            self.before.extend_from_slice(&plant.nodes.diameter);
+        }
+    }
+
+    fn prepare(&mut self, plant: &mut Plant, age: Tick) {
+        plant.strain.resize(plant.nodes.len());
+        self.standing.find(plant, age);
+        self.laterals.arrange(&plant.axes.bearer);
+        self.organs.arrange(&plant.organs.node);
+        self.responses.resize(plant.nodes.len(), Response::default());
+    }
+
+    fn settle(&mut self, plant: &mut Plant, wood: &Wood, age: Tick, fields: &Fields) -> Outcome {
+        self.pose(plant);
+        self.freeze(plant, wood, age);
+        straighten(plant, wood, age, &self.standing, &self.before, &mut self.natural);
+        let mut outcome = Outcome { steps: 0, settled: false, holds: true };
+        while !outcome.settled && outcome.steps < MOST_STEPS {
+            outcome.holds &= self.weigh(plant, wood, age, fields);
+            let turned = turn(plant, &self.standing, &self.laterals, &self.responses, &mut self.turns);
+            self.pose(plant);
+            outcome.steps += 1;
+            outcome.settled = turned <= SETTLED;
+        }
+        self.load(plant, wood, age);
+        outcome
+    }
+
+    fn pose(&mut self, plant: &mut Plant) {
+        follow_bends(plant, &self.standing, &self.laterals, &mut self.stances);
+    }
+
+    fn weigh(&mut self, plant: &Plant, wood: &Wood, age: Tick, fields: &Fields) -> bool {
+        let Self { natural, loads, responses, .. } = self;
+        let scan = Scan { plant, wood, age, fields: *fields, natural, loads, responses };
+        scan.weigh(&self.standing, &self.laterals, &self.organs)
+    }
+
+    /// From the moments of the last tick to the curvature without load: κ₀ = κ − M / (E I). The column of the moments
+    /// lends its memory until [`Self::load`] gives it back.
+    fn freeze(&mut self, plant: &mut Plant, wood: &Wood, age: Tick) {
+        self.natural = std::mem::take(&mut plant.strain.moment);
+        each_flexural(plant, wood, age, &self.standing, |node, flexural, plant| {
+            let curvature = plant.strain.curvature[node];
+            let natural = &mut self.natural[node];
+            *natural = [0, 1].map(|k| (f64::from(curvature[k]) - f64::from(natural[k]) / flexural) as f32);
+        });
+    }
+
+    /// From the curvature without load to the moments of this tick: M = E I (κ − κ₀).
+    fn load(&mut self, plant: &mut Plant, wood: &Wood, age: Tick) {
+        each_flexural(plant, wood, age, &self.standing, |node, flexural, plant| {
+            let curvature = plant.strain.curvature[node];
+            let moment = &mut self.natural[node];
+            *moment = [0, 1].map(|k| (f64::from(curvature[k] - moment[k]) * flexural) as f32);
+        });
+        plant.strain.moment = std::mem::take(&mut self.natural);
+    }
+}
+
+/// Shows each internode that bends, with its flexural stiffness E I, N·m².
+fn each_flexural(plant: &Plant, wood: &Wood, age: Tick, standing: &Standing, mut show: impl FnMut(usize, f64, &Plant)) {
+    for run in &standing.runs {
+        let tissue = wood.tissue(plant.axes.order[run.axis.index()]);
+        for node in run.nodes() {
+            let middle = f64::from(plant.nodes.diameter[node] + plant.nodes.diameter_tip[node]) * 0.5;
+            let flexural = tissue.modulus(age - plant.nodes.birth[node]) * second_moment(middle);
+            if flexural > 0.0 {
+                show(node, flexural, plant);
+            }
+        }
+    }
+}
+
+fn report(plant: &mut Plant, age: Tick, outcome: Outcome) {
+    if !outcome.holds && !plant.strain.buckled {
+        plant.note(age, AxisId::TRUNK, EventKind::Buckled, 1);
+    }
+    plant.strain.buckled = !outcome.holds;
+    if !outcome.settled {
+        plant.note(age, AxisId::TRUNK, EventKind::Unsettled, outcome.steps);
+    }
+}

@@ -1,0 +1,23 @@
+//! Wood, weight and wind: how internodes thicken, and how axes bend under what they bear (de Reffye 1988 §5, "by the
+//! theory of material strength" with Young's modulus).
+//!
+//! Each tick internodes gain diameter (`secondary`), then loads and shape are brought to equilibrium (`bend`: moments in
+//! one reverse scan in `loads`, curvatures in one forward scan in `turn`, the pose in another). What bending leaves is
+//! frozen in the wood (`strain`). Axes right themselves by reaction wood and as young shoots (`uprighting`); `sway` moves a
+//! plant of one age in the wind. Absent: twisting, creep and breaking.
+
+mod bend;
+mod loads;
+mod secondary;
+mod strain;
+mod turn;
+mod uprighting;
+mod wood;
+
+pub use bend::{Bench, MOST_STEPS, Outcome, SETTLED, bend};
+pub use secondary::{Thickening, taper, thicken};
+pub use strain::Strain;
+pub use wood::{Drag, OrganMass, Tissue, Uprighting, Wood, wood_volume};
+
+#[cfg(test)]
+mod tests;

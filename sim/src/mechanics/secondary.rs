@@ -1,0 +1,137 @@
+//! Secondary growth: how internodes gain diameter, in one reverse scan.
+//!
+//! - The law of age is the model's own (de Reffye 1988 §5).
+//! - The pipe model (Shinozaki et al. 1964): each leaf above adds a pipe of one section. Pipes stay in the wood when
+//!   their leaves fall.
+//! - Da Vinci's rule (Prusinkiewicz & Lindenmayer 1990 §2, "da Vinci's postulate"): at a fork d^Δ is the sum of d^Δ above.
+//! - Rings: each tick adds a ring of one width, or a section in proportion to the foliage above (Pressler's law).
+//!
+//! Fallen branches count on in what lay below them: wood does not vanish. Absent: heartwood, and growth that differs
+//! around the stem.
+
+use super::bend::Bench;
+use crate::clock::Tick;
+use crate::math::pow;
+use crate::plant::{Kind, NodeId, Plant, Shape};
+use std::f64::consts::PI;
+
+/// How the internodes of a species gain diameter.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Thickening {
+    /// By the model's law of age.
+    #[default]
+    Law,
+    /// The section at birth and `per_leaf` m² for each leaf above: for each that lives, or for each that ever was.
+    Pipe {
+        /// The section of one pipe, m².
+        per_leaf: f64,
+        /// Whether only living leaves count; the pipes of fallen ones stay in the wood.
+        living: bool,
+    },
+    /// d^Δ of an internode is the sum of d^Δ of the internodes on its node; where one stands there, the internode is at
+    /// least as thick as it was born.
+    DaVinci {
+        /// Δ.
+        exponent: f64,
+    },
+    /// A ring a tick while the axis lives.
+    Rings {
+        /// The width of a ring, m.
+        width: f64,
+        /// The section that a square metre of living leaves above adds in a tick, m²/m².
+        per_foliage: f64,
+    },
+}
+
+/// Gives each internode of `plant` its diameters at `age`, where the species has wood that does not follow the model's
+/// law. Called at each tick, in order: rings stand on the last tick's diameters.
+pub fn thicken(plant: &mut Plant, age: Tick, bench: &mut Bench) {
+    let habit = std::sync::Arc::clone(&plant.habit);
+    let rule = habit.wood.as_ref().map_or(Thickening::Law, |wood| wood.thickening);
+    let above = &mut bench.above;
+    above.clear();
+    above.resize(plant.nodes.len(), Above::default());
+    match rule {
+        Thickening::Law => return,
+        Thickening::Pipe { per_leaf, living } => {
+            count_leaves(plant, age, above, |_, lives| if living && !lives { 0.0 } else { per_leaf });
+            downwards(plant, age, above, |plant, node, above| {
+                let section = PI / 4.0 * square(plant.nodes.primary_diameter[node]) + above.sum;
+                (section * 4.0 / PI).sqrt().max(f64::from(plant.nodes.diameter[node]))
+            });
+        }
+        Thickening::DaVinci { exponent } => join_forks(plant, age, above, exponent),
+        Thickening::Rings { width, per_foliage } => {
+            count_leaves(plant, age, above, |area, lives| if lives { per_foliage * area } else { 0.0 });
+            downwards(plant, age, above, |plant, node, above| {
+                let diameter = plant.nodes.diameter[node];
+                let grows = plant.nodes.birth[node] < age && age < plant.nodes.death[node];
+                if grows { (square(diameter) + above.sum * 4.0 / PI).sqrt() + 2.0 * width } else { f64::from(diameter) }
+            });
+        }
+    }
+    taper(plant, age);
+}
+
+/// What the internodes and leaves above a node amount to.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Above {
+    sum: f64,
+    /// How many internodes stand on the node.
+    branches: u32,
+}
+
+/// Enters what each leaf that has appeared by `age` is worth at its node, by its area and whether it lives.
+fn count_leaves(plant: &Plant, age: Tick, above: &mut [Above], worth: impl Fn(f64, bool) -> f64) {
+    let organs = &plant.organs;
+    for organ in (0..organs.len()).filter(|&organ| organs.kind[organ] == Kind::Leaf && organs.birth[organ] <= age) {
+        above[organs.node[organ].index()].sum += worth(f64::from(organs.area[organ]), organs.death[organ] > age);
+    }
+}
+
+/// From the tips down: each internode takes its diameter from what is above it, and hands that on.
+fn downwards(plant: &mut Plant, age: Tick, above: &mut [Above], diameter: impl Fn(&Plant, usize, &Above) -> f64) {
+    for node in (0..plant.nodes.len()).rev().filter(|&node| plant.nodes.birth[node] <= age) {
+        plant.nodes.diameter[node] = diameter(plant, node, &above[node]) as f32;
+        hand_down(plant, node, above, above[node].sum);
+    }
+}
+
+fn join_forks(plant: &mut Plant, age: Tick, above: &mut [Above], exponent: f64) {
+    for node in (0..plant.nodes.len()).rev().filter(|&node| plant.nodes.birth[node] <= age) {
+        let born = f64::from(plant.nodes.primary_diameter[node]);
+        let powered = match above[node].branches {
+            0 => pow(born, exponent),
+            1 => above[node].sum.max(pow(born, exponent)),
+            _ => above[node].sum,
+        };
+        plant.nodes.diameter[node] = pow(powered, 1.0 / exponent) as f32;
+        hand_down(plant, node, above, powered);
+    }
+}
+
+#[inline]
+fn hand_down(plant: &Plant, node: usize, above: &mut [Above], worth: f64) {
+    if let Some(parent) = plant.nodes.parent[node].some() {
+        above[parent.index()].sum += worth;
+        above[parent.index()].branches += 1;
+    }
+}
+
+/// The tip of a cone has the diameter of the internode that follows it on its axis, where that is thinner; every other
+/// tip has that of its base.
+pub fn taper(plant: &mut Plant, age: Tick) {
+    let Plant { axes, nodes, habit, .. } = plant;
+    for node in 0..nodes.len() {
+        nodes.diameter_tip[node] = nodes.diameter[node];
+        let (axis, parent) = (nodes.axis[node], nodes.parent[node]);
+        let follows = parent != NodeId::NONE && nodes.axis[parent.index()] == axis && nodes.birth[node] <= age;
+        if follows && habit.shape(axes.order[axis.index()]) == Shape::Cone {
+            nodes.diameter_tip[parent.index()] = nodes.diameter[node].min(nodes.diameter[parent.index()]);
+        }
+    }
+}
+
+fn square(diameter: f32) -> f64 {
+    f64::from(diameter) * f64::from(diameter)
+}
