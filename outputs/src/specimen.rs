@@ -26,7 +26,7 @@ impl GrowthModel for Sapling {
 
     fn habit(&self) -> Arc<Habit> {
         let trends = vec![Trend::STRAIGHT];
-        Arc::new(Habit { trends, shed_after: vec![NEVER, 2], shapes: vec![Shape::Cone] })
+        Arc::new(Habit { trends, shed_after: vec![NEVER, 2], shapes: vec![Shape::Cone], wood: None })
     }
 
     fn sow(&self, plant: &mut Plant) {

@@ -2,12 +2,13 @@
 //!
 //! Where the site feeds nothing back, growth runs ahead to the last age, axis by axis (the prefix traversal of de Reffye
 //! 1988 §4), and the loop reads the plant at each age from birth and death ticks. Where it does, growth follows the
-//! clock. The draws are keyed, so both give the same plant.
+//! clock. The draws are keyed, so both give the same plant. Wood remembers: a plant that bends or lays rings thickens and
+//! bends at each age, one that does neither at the ages that are recorded.
 
 use crate::clock::Tick;
+use crate::mechanics::{Thickening, bend, thicken};
 use crate::model::{Growth, GrowthModel, Overgrown};
 use crate::plot::Plot;
-use crate::pose::pose;
 use crate::record::{RecordError, Recorder};
 use crate::shed::{note_falls, shed};
 
@@ -56,15 +57,28 @@ fn follow_ages(
             }
             plot.plants.iter_mut().for_each(shed);
         }
-        if recorder.wants(age) {
-            for plant in &mut plot.plants {
-                model.thicken(age, plant);
-                pose(plant);
-            }
+        let wanted = recorder.wants(age);
+        if wanted || plot.remembers() {
+            stand(model, plot, age);
+        }
+        if wanted {
             recorder.record(age, plot)?;
         }
     }
     Ok(Ending::Complete)
+}
+
+/// Gives each internode its diameter and its place at `age`.
+fn stand(model: &dyn GrowthModel, plot: &mut Plot, age: Tick) {
+    let Plot { plants, site, bench, .. } = plot;
+    for plant in plants {
+        bench.remember(plant);
+        match plant.habit.thickening() {
+            Thickening::Law => model.thicken(age, plant),
+            rule => thicken(plant, age, rule, bench),
+        }
+        bend(plant, age, site, bench);
+    }
 }
 
 /// Grows the whole plot to its last age at once, where that is allowed. A plot too large for its limit starts again by

@@ -45,7 +45,8 @@ pub trait GrowthModel: Send + Sync {
     /// [`Overgrown`] where a plant would pass its limit of components; the plant then holds part of its growth.
     fn grow_to(&self, age: Tick, plants: &mut [Plant], site: &Site) -> Result<(), Overgrown>;
 
-    /// Writes the diameters of each internode as they are at `age`.
+    /// Writes the diameters of each internode as they are at `age`, by the model's law; where the species states another
+    /// rule of secondary growth, the loop applies that one after it.
     fn thicken(&self, age: Tick, plant: &mut Plant);
 
     /// The means of what a plant makes up to `until`, where the model's laws allow them in closed form.

@@ -2,6 +2,7 @@
 //!
 //! Where nothing is shared a plot is one plant.
 
+use crate::mechanics::Bench;
 use crate::model::GrowthModel;
 use crate::plant::{Plant, Seed};
 use crate::site::Site;
@@ -15,6 +16,8 @@ pub struct Plot {
     pub plants: Vec<Plant>,
     /// What they stand on.
     pub site: Site,
+    /// Scratch of mechanics, kept for its memory.
+    pub bench: Bench,
 }
 
 impl Plot {
@@ -22,22 +25,27 @@ impl Plot {
     pub fn of_one(model: &dyn GrowthModel, seed: &Seed) -> Self {
         let mut plant = Plant::new(seed, model.habit());
         model.sow(&mut plant);
-        Self { id: seed.plant, plants: vec![plant], site: Site::default() }
+        Self { id: seed.plant, plants: vec![plant], site: Site::default(), bench: Bench::default() }
     }
 
     /// Sows a plot of one plant anew from another seed, keeping the memory of its columns.
     pub fn resow(&mut self, model: &dyn GrowthModel, seed: &Seed) {
         self.id = seed.plant;
-        self.site = Site::default();
+        self.site.begin(0);
         for plant in &mut self.plants {
             plant.resow(seed);
             model.sow(plant);
         }
     }
 
+    /// Whether the shape of its plants at an age depends on those at the ages before, so that each must be gone through.
+    pub fn remembers(&self) -> bool {
+        self.plants.iter().any(|plant| plant.habit.wood.is_some())
+    }
+
     /// Takes every plant back to its seed.
     pub fn restart(&mut self, model: &dyn GrowthModel) {
-        self.site = Site::default();
+        self.site.begin(0);
         for plant in &mut self.plants {
             plant.clear();
             model.sow(plant);

@@ -9,7 +9,8 @@ use super::law::At;
 use phytomer_sim::Tick;
 use phytomer_sim::expectation::Expectation;
 use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
-use phytomer_sim::plant::{ApicalBud, AxisId, Habit, LineageKey, NewAxis, Origin, Plant, Shape};
+use phytomer_sim::mechanics::taper;
+use phytomer_sim::plant::{ApicalBud, AxisId, Habit, LineageKey, NewAxis, Origin, Plant};
 use phytomer_sim::random::Purpose;
 use phytomer_sim::site::Site;
 use std::sync::Arc;
@@ -138,25 +139,16 @@ impl GrowthModel for BudModel {
         self.expectation_from(1, until)
     }
 
-    /// Diameter at birth plus the thickening of the internode's order at the plant's age and its own; a cone's tip takes
-    /// the diameter of the internode that follows it on its axis.
+    /// Diameter at birth plus the thickening of the internode's order at the plant's age and its own.
     fn thicken(&self, age: Tick, plant: &mut Plant) {
         let added = self.thickening_at(age);
-        let Plant { axes, nodes, habit, .. } = plant;
+        let Plant { axes, nodes, .. } = plant;
         for node in 0..nodes.len() {
-            let axis = nodes.axis[node];
-            let (order, birth) = (axes.order[axis.index()], nodes.birth[node]);
-            let class = (usize::from(order) - 1) * self.states + usize::from(axes.state[axis.index()]);
-            let diameter = nodes.primary_diameter[node] + added[class][age.saturating_sub(birth) as usize];
-            nodes.diameter[node] = diameter;
-            nodes.diameter_tip[node] = diameter;
-            let Some(parent) = nodes.parent[node].some() else {
-                continue;
-            };
-            let follows = nodes.axis[parent.index()] == axis && birth <= age;
-            if follows && habit.shape(order) == Shape::Cone {
-                nodes.diameter_tip[parent.index()] = diameter.min(nodes.diameter[parent.index()]);
-            }
+            let axis = nodes.axis[node].index();
+            let class = (usize::from(axes.order[axis]) - 1) * self.states + usize::from(axes.state[axis]);
+            let own_age = age.saturating_sub(nodes.birth[node]) as usize;
+            nodes.diameter[node] = nodes.primary_diameter[node] + added[class][own_age];
         }
+        taper(plant, age);
     }
 }

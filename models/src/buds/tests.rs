@@ -70,7 +70,7 @@ fn chimera() -> Buds {
     };
     let states = ["juvenile", "adult", "branch"].map(str::to_owned).to_vec();
     let season = Some(Season { ticks_per_year: 4, leaf_fall: 3 });
-    Buds { states, season, order: vec![trunk, branch] }
+    Buds { states, season, wood: None, order: vec![trunk, branch] }
 }
 
 /// Zones from both ends, laws of rank and of state, determinate axes, relays on death and completion, composite trends.
@@ -104,7 +104,7 @@ fn hydra() -> Buds {
         ..Order::default()
     };
     let leafless = Order { leaf: Leaf { per_node: Count::from(0), ..Leaf::default() }, ..order.clone() };
-    Buds { states: vec!["long".to_owned(), "short".to_owned()], season: None, order: vec![order, leafless] }
+    Buds { states: vec!["long".to_owned(), "short".to_owned()], season: None, wood: None, order: vec![order, leafless] }
 }
 
 #[test]

@@ -64,6 +64,7 @@ impl Gmt1Model {
                 trends: vec![Trend::STRAIGHT],
                 shed_after: vec![NEVER],
                 shapes: vec![Shape::Cylinder],
+                wood: None,
             }),
         }
     }

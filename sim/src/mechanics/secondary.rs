@@ -43,11 +43,9 @@ pub enum Thickening {
     },
 }
 
-/// Gives each internode of `plant` its diameters at `age`, where the species has wood that does not follow the model's
-/// law. Called at each tick, in order: rings stand on the last tick's diameters.
-pub fn thicken(plant: &mut Plant, age: Tick, bench: &mut Bench) {
-    let habit = std::sync::Arc::clone(&plant.habit);
-    let rule = habit.wood.as_ref().map_or(Thickening::Law, |wood| wood.thickening);
+/// Gives each internode of `plant` its diameters at `age` by a rule other than the model's law. Called at each tick, in
+/// order: rings stand on the last tick's diameters.
+pub fn thicken(plant: &mut Plant, age: Tick, rule: Thickening, bench: &mut Bench) {
     let above = &mut bench.above;
     above.clear();
     above.resize(plant.nodes.len(), Above::default());

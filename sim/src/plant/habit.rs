@@ -4,7 +4,7 @@
 //! turns smoothly towards its trend.
 
 use crate::clock::Tick;
-use crate::mechanics::Wood;
+use crate::mechanics::{Thickening, Wood};
 
 /// The direction that an axis tends to, and how fast it turns there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +48,11 @@ impl Habit {
     /// The ticks between the death and the fall of a branch of `order`; orders past the last are as the last.
     pub fn shed_after(&self, order: u8) -> Tick {
         by_order(&self.shed_after, order).copied().unwrap_or(crate::clock::NEVER)
+    }
+
+    /// How internodes gain diameter.
+    pub fn thickening(&self) -> Thickening {
+        self.wood.as_ref().map_or(Thickening::Law, |wood| wood.thickening)
     }
 
     /// The shape of the internodes of `order`; orders past the last are as the last.

@@ -9,6 +9,7 @@ mod geometry;
 mod node;
 mod relay;
 mod step;
+mod wood;
 pub(super) mod words;
 
 pub(super) use geometry::Trends;
@@ -65,6 +66,7 @@ impl Buds {
             orders.push(compile_order(order, &mut compiler, &mut trends));
             faults.append(&mut compiler.faults);
         }
+        let wood = wood::compile(self, until.min(LAST_TICK), path, &mut faults);
         if !faults.is_empty() {
             faults.sort_by(|a, b| a.path.cmp(&b.path));
             faults.dedup();
@@ -74,6 +76,7 @@ impl Buds {
             trends,
             shed_after: self.order.iter().map(|order| order.shed_after.unwrap_or(NEVER)).collect(),
             shapes: self.order.iter().map(|order| Shape::from(order.internode.shape)).collect(),
+            wood,
         };
         let states = self.states.len().max(1);
         Ok(BudModel { orders, season: self.season, states, until, habit: Arc::new(habit) })

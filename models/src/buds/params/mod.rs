@@ -9,10 +9,12 @@
 mod geometry;
 mod organs;
 mod sympodial;
+mod wood;
 
 pub use geometry::{Divergence, Internode, Orientation, Phase, Phyllotaxis, ShapeName, Tended, Trend};
 pub use organs::{Flower, FormName, Fruit, Leaf, Season};
 pub use sympodial::{Apex, ApexEnd, Reiteration, Relay, Transition, Traumatic};
+pub use wood::{CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood};
 
 use super::law::{Count, Law, Variate};
 use schemars::JsonSchema;
@@ -29,6 +31,9 @@ pub struct Buds {
     /// When leaves fall together, whatever their age.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub season: Option<Season>,
+    /// The wood: secondary growth, weight and bending; left out: laws of age, and the pose at rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wood: Option<Wood>,
     /// The axes of each order: the first entry is the trunk. Axes of an order past the last are never made.
     #[schemars(length(min = 1, max = 16))]
     pub order: Vec<Order>,
@@ -75,6 +80,9 @@ pub struct Order {
     pub flower: Flower,
     /// Fruits, from flowers that set.
     pub fruit: Fruit,
+    /// What the wood of this order is, where it is not that of the species, and how its axes right themselves.
+    #[serde(skip_serializing_if = "OrderWood::is_as_the_species")]
+    pub wood: OrderWood,
     /// After how many ticks a branch falls, all of whose buds are dead; left out: dead wood stays.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 65535))]
@@ -101,6 +109,7 @@ impl Default for Order {
             leaf: Leaf::default(),
             flower: Flower::default(),
             fruit: Fruit::default(),
+            wood: OrderWood::default(),
             shed_after: None,
         }
     }

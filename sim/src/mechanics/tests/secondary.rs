@@ -1,6 +1,7 @@
 //! Secondary growth: what the rules conserve.
 
 use super::*;
+use crate::mechanics::secondary;
 use std::f64::consts::PI;
 
 /// A trunk with three branches on its middle node, and leaves.
@@ -17,6 +18,10 @@ fn fork(thickening: Thickening) -> Plant {
     plant
 }
 
+fn grow_thick(plant: &mut Plant, age: u32, bench: &mut Bench) {
+    secondary::thicken(plant, age, plant.habit.thickening(), bench);
+}
+
 fn power(plant: &Plant, node: usize, exponent: f64) -> f64 {
     pow(f64::from(plant.nodes.diameter[node]), exponent)
 }
@@ -25,7 +30,7 @@ fn power(plant: &Plant, node: usize, exponent: f64) -> f64 {
 fn at_a_fork_the_powers_of_the_diameters_add_up() {
     for exponent in [2.0, 2.3, 3.0] {
         let mut plant = fork(Thickening::DaVinci { exponent });
-        thicken(&mut plant, 1, &mut Bench::default());
+        grow_thick(&mut plant, 1, &mut Bench::default());
         let above: f64 = [3, 6, 9, 12].iter().map(|&node| power(&plant, node, exponent)).sum();
         let below = power(&plant, 2, exponent);
         assert!((below / above - 1.0).abs() < 1e-6, "Δ = {exponent}: {below}, not {above}");
@@ -36,7 +41,7 @@ fn at_a_fork_the_powers_of_the_diameters_add_up() {
 #[test]
 fn with_an_exponent_of_2_the_sections_add_up() {
     let mut plant = fork(Thickening::DaVinci { exponent: 2.0 });
-    thicken(&mut plant, 1, &mut Bench::default());
+    grow_thick(&mut plant, 1, &mut Bench::default());
     let expected = 0.004_f64.powi(2) + 0.003_f64.powi(2) + 0.005_f64.powi(2) + 0.002_f64.powi(2);
     assert!((power(&plant, 0, 2.0) / expected - 1.0).abs() < 1e-6);
 }
@@ -45,17 +50,17 @@ fn with_an_exponent_of_2_the_sections_add_up() {
 fn a_pipe_for_each_leaf_above() {
     let mut plant = fork(Thickening::Pipe { per_leaf: 1e-6, living: false });
     plant.organs.death[0] = 1;
-    thicken(&mut plant, 1, &mut Bench::default());
+    grow_thick(&mut plant, 1, &mut Bench::default());
     let section = PI / 4.0 * power(&plant, 0, 2.0);
     assert!((section / (PI / 4.0 * 0.004 * 0.004 + 6e-6) - 1.0).abs() < 1e-6);
 
     let mut plant = fork(Thickening::Pipe { per_leaf: 1e-6, living: true });
     plant.organs.death[0] = 1;
-    thicken(&mut plant, 1, &mut Bench::default());
+    grow_thick(&mut plant, 1, &mut Bench::default());
     let first = PI / 4.0 * power(&plant, 0, 2.0);
     assert!((first / (PI / 4.0 * 0.004 * 0.004 + 5e-6) - 1.0).abs() < 1e-6);
     plant.organs.death.fill(2);
-    thicken(&mut plant, 2, &mut Bench::default());
+    grow_thick(&mut plant, 2, &mut Bench::default());
     assert_eq!(first, PI / 4.0 * power(&plant, 0, 2.0), "the pipes of fallen leaves stay");
 }
 
@@ -64,7 +69,7 @@ fn a_ring_a_tick_and_a_section_for_the_foliage() {
     let mut plant = fork(Thickening::Rings { width: 0.001, per_foliage: 1e-4 });
     let mut bench = Bench::default();
     for age in 1..=4 {
-        thicken(&mut plant, age, &mut bench);
+        grow_thick(&mut plant, age, &mut bench);
     }
     // Born at 1: three ticks of rings on an axis that lives; leaves above the first internode: 6 of 0.01 m².
     let mut diameter = 0.004_f64;
