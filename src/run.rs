@@ -131,6 +131,7 @@ impl Grower<'_> {
         let model = self.resolved.model.as_ref();
         let scenario = &self.resolved.scenario;
         let mut plot = Plot::of_one(model, &seed_of(scenario, plants.start));
+        plot.site = scenario.site.felt();
         let drawing = Drawing::of(self.resolved, self.folder.plan().shards());
         let mut keeper = Keeper { shard: self.folder.shard(shard)?, drawing, grower: self, plant: plants.start };
         for plant in plants {

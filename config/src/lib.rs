@@ -17,6 +17,7 @@ mod source;
 mod species;
 mod spelling;
 mod validate;
+mod woods;
 
 pub use library::{Kind, presets};
 pub use report::{Fault, FaultRecord, Report};
@@ -24,3 +25,4 @@ pub use scenario::Scenario;
 pub use source::{Origin, Source, SourceId, Sources, Span};
 pub use species::{About, ArchitecturalModel, MODELS, Model, ModelName, Species};
 pub use validate::{Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, kind_of, schema_of, validate, validate_species};
+pub use woods::{ShippedWood, woods};

@@ -15,6 +15,7 @@ use crate::report::Fault;
 use crate::schema;
 use crate::source::{Origin, Source, SourceId, Sources, Span};
 use crate::species::{About, MODELS, Model, ModelName, any_file, split};
+use crate::woods;
 
 /// More ancestors than this are a mistake even where they are no circle.
 const MOST_ANCESTORS: usize = 16;
@@ -101,7 +102,8 @@ impl Loader {
         for node in &chain {
             schema::check(name.file_schema(), node, &mut self.faults);
         }
-        let node = merge_chain(name.schema(), chain)?;
+        let mut node = merge_chain(name.schema(), chain)?;
+        woods::fill(&mut node, &mut self.sources, &mut self.faults);
         let mut refused = Vec::new();
         schema::check(name.schema(), &node, &mut refused);
         self.faults.extend(refused.iter().cloned());

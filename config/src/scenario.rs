@@ -1,8 +1,12 @@
 //! A scenario: what one run grows, for how long, and what it keeps.
 //!
-//! One TOML file a run. Treatments, sites and events will be further tables of this file; until they exist their keys
+//! One TOML file a run. Treatments and events will be further tables of this file; until they exist their keys
 //! are refused like any unknown key, so that nobody believes they did something.
 //! Absent: the species, which is a file of its own, and where the run folder goes, which the command line says.
+
+mod site;
+
+pub use site::{Site, Wind};
 
 use std::collections::BTreeSet;
 
@@ -40,6 +44,9 @@ pub struct Scenario {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 1000.0), extend("exclusiveMinimum" = 0))]
     pub spacing_m: Option<f64>,
+    /// What acts on the plants from outside: gravity and wind.
+    #[serde(default, skip_serializing_if = "Site::is_default")]
+    pub site: Site,
     /// How long the plants grow, and at which ages they are recorded.
     pub ages: Ages,
     /// The tables that are written. All four if not given.
@@ -251,6 +258,9 @@ pub struct Output {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 1.0), extend("exclusiveMinimum" = 0))]
     pub float_precision_m: Option<f64>,
+    /// Whether `records` has the columns of mechanics: wood volume, fresh mass, curvature and bending moment.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub mechanics: bool,
 }
 
 /// The compression of the tables.

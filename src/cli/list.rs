@@ -1,16 +1,16 @@
 //! `list`: what ships with the program, and the words that files and tables use.
 //!
-//! Scenarios, species, models and kinds of component, each a line. Absent: what they hold, which `describe` tells.
+//! Scenarios, species, models, woods and kinds of component, each a line. Absent: what they hold, which `describe` tells.
 
 use super::{Verdict, terminal};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use phytomer_config::{Kind, MODELS, presets, validate, validate_species};
+use phytomer_config::{Kind, MODELS, presets, validate, validate_species, woods};
 use phytomer_outputs::tables::columns::PLANT_ONTOLOGY;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// List what ships: scenarios, species, growth models, kinds of components.
+/// List what ships: scenarios, species, growth models, woods, kinds of components.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -34,6 +34,8 @@ enum Listed {
     Species,
     /// Growth models that a species can choose.
     Models,
+    /// Woods that a species can be like.
+    Woods,
     /// Kinds of components, as the column `kind` has them.
     Kinds,
 }
@@ -46,7 +48,7 @@ struct Entry {
 
 impl List {
     pub fn obey(self) -> Result<Verdict> {
-        let all = [Listed::Scenarios, Listed::Species, Listed::Models, Listed::Kinds];
+        let all = [Listed::Scenarios, Listed::Species, Listed::Models, Listed::Woods, Listed::Kinds];
         let lists = all.into_iter().filter(|list| self.what.is_none_or(|what| what == *list));
         let lists: Vec<(&str, Vec<Entry>)> = lists.map(|list| (list.title(), list.entries())).collect();
         if self.json {
@@ -67,6 +69,7 @@ impl Listed {
             Self::Scenarios => "scenarios",
             Self::Species => "species",
             Self::Models => "models",
+            Self::Woods => "woods",
             Self::Kinds => "kinds",
         }
     }
@@ -76,6 +79,7 @@ impl Listed {
             Self::Scenarios => presets(Kind::Scenario).iter().map(|(name, _)| scenario(name)).collect(),
             Self::Species => presets(Kind::Species).iter().map(|(name, _)| species(name)).collect(),
             Self::Models => MODELS.map(|model| entry(model.word(), model_in_words(model.word()))).into(),
+            Self::Woods => woods().iter().map(|wood| entry(&wood.name, &wood.scientific_name)).collect(),
             Self::Kinds => PLANT_ONTOLOGY.iter().map(|(kind, term)| entry(kind.tag(), term)).collect(),
         }
     }

@@ -64,6 +64,7 @@ impl Mesh {
         let age = self.age.unwrap_or(scenario.ages.until);
         self.check(scenario, age)?;
         let mut plot = Plot::of_one(model, &seed_of(scenario, self.plant));
+        plot.site = scenario.site.felt();
         plot.plants[0].place = place_of(scenario, self.plant);
         let staged = beside(&self.out);
         let options = options_of(self.sides);
