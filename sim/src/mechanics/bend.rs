@@ -63,6 +63,9 @@ pub fn bend(plant: &mut Plant, age: Tick, site: &Site, bench: &mut Bench) -> Out
         return Outcome { steps: 0, settled: true, holds: true };
     };
     bench.prepare(plant, age);
+    bench.pose(plant);
+    bench.freeze(plant, wood, age);
+    straighten(plant, wood, age, &bench.standing, &bench.before, &mut bench.natural);
     let outcome = bench.settle(plant, wood, age, &site.fields(&wood.drag));
     report(plant, age, outcome);
     outcome
@@ -85,10 +88,18 @@ impl Bench {
         self.responses.resize(plant.nodes.len(), Response::default());
     }
 
-    fn settle(&mut self, plant: &mut Plant, wood: &Wood, age: Tick, fields: &Fields) -> Outcome {
+    /// Leans a plant that stands bent at `age` into a site where more or less acts on it, and gives back the curvatures
+    /// that it had. Nothing grows meanwhile.
+    pub(super) fn lean(&mut self, plant: &mut Plant, wood: &Wood, age: Tick, site: &Site) -> Vec<[f32; 2]> {
+        self.prepare(plant, age);
+        let stood = plant.strain.curvature.clone();
         self.pose(plant);
         self.freeze(plant, wood, age);
-        straighten(plant, wood, age, &self.standing, &self.before, &mut self.natural);
+        self.settle(plant, wood, age, &site.fields(&wood.drag));
+        stood
+    }
+
+    fn settle(&mut self, plant: &mut Plant, wood: &Wood, age: Tick, fields: &Fields) -> Outcome {
         let mut outcome = Outcome { steps: 0, settled: false, holds: true };
         while !outcome.settled && outcome.steps < MOST_STEPS {
             outcome.holds &= self.weigh(plant, wood, age, fields);
@@ -101,7 +112,7 @@ impl Bench {
         outcome
     }
 
-    fn pose(&mut self, plant: &mut Plant) {
+    pub(super) fn pose(&mut self, plant: &mut Plant) {
         follow_bends(plant, &self.standing, &self.laterals, &mut self.stances);
     }
 

@@ -10,6 +10,7 @@ mod bend;
 mod loads;
 mod secondary;
 mod strain;
+pub mod sway;
 mod turn;
 mod uprighting;
 mod wood;

@@ -146,3 +146,61 @@ fn reaction_wood_rights_a_stem_by_the_strain_of_its_rings() {
     assert!((curvature / expected - 1.0).abs() < 1e-4, "{curvature}, not {expected}");
     assert!(tip(&plant).1 > crate::math::cos(0.5), "upwards");
 }
+
+/// The bush, windy.
+fn windy() -> Plant {
+    let mut plant = bush();
+    let mut wood = plant.habit.wood.clone().expect("it has wood");
+    wood.drag = Drag { coefficient: 0.8, exponent: 0.5 };
+    plant.habit = Arc::new(Habit { wood: Some(wood), ..(*plant.habit).clone() });
+    plant
+}
+
+#[test]
+fn a_frame_of_calm_moves_nothing_and_one_of_wind_moves_about_its_steady_shape() {
+    let (mut plant, mut bench) = (windy(), Bench::default());
+    bend(&mut plant, 1, &unit_gravity(), &mut bench);
+    let stood = plant.clone();
+    sway::sway(&mut plant, 1, &unit_gravity(), Wind::default(), 0.4, &mut bench).expect("it can sway");
+    assert_eq!(stood.frames.base, plant.frames.base);
+    assert_eq!(stood.strain.curvature, plant.strain.curvature);
+
+    let wind = Wind { speed: 4.0, towards: 0.0 };
+    let mut leaning = stood.clone();
+    bend(&mut leaning, 1, &Site { wind, ..unit_gravity() }, &mut bench);
+    let frames = 4000;
+    let (mut mean, mut least, mut most) = (0.0, f64::MAX, f64::MIN);
+    for frame in 0..frames / 100 {
+        let mut swaying = stood.clone();
+        let time = f64::from(frame) * sway::GUSTS_S * 100.0 / f64::from(frames);
+        sway::sway(&mut swaying, 1, &unit_gravity(), wind, time, &mut bench).expect("it can sway");
+        let x = tip(&swaying).0;
+        mean += x * 100.0 / f64::from(frames);
+        (least, most) = (least.min(x), most.max(x));
+    }
+    let (still, steady) = (tip(&stood).0, tip(&leaning).0);
+    assert!(steady > still + 1e-3, "the wind leans it over: {still} {steady}");
+    assert!(most > least + 1e-4, "it moves: {least} {most}");
+    assert!((mean - steady).abs() < (steady - still) * 0.5, "about its steady shape: {mean} {steady}");
+}
+
+#[test]
+fn the_first_frequency_is_that_of_a_clamped_cylinder() {
+    let rod = Rod { weight: 0.3, flexural: 7.0, ..Rod::level(30) };
+    let plant = rod.plant();
+    let wood = plant.habit.wood.as_ref().expect("it has wood");
+    let (modulus, density) = (f64::from(wood.tissues[0].modulus[0]), f64::from(wood.tissues[0].density[0]));
+    let expected = sway::CLAMPED_CYLINDER * 0.02 * (modulus / density).sqrt();
+    let found = sway::frequencies(&plant, wood, 1)[0];
+    assert!((found / expected - 1.0).abs() < 1e-5, "{found}, not {expected}");
+}
+
+#[test]
+fn what_has_no_wood_or_no_drag_does_not_sway() {
+    let (mut plant, wind) = (bush(), Wind { speed: 4.0, towards: 0.0 });
+    let moved = sway::sway(&mut plant, 1, &unit_gravity(), wind, 0.0, &mut Bench::default());
+    assert_eq!(moved, Err(sway::Unmoved::NoDrag));
+    plant.habit = Arc::new(Habit { wood: None, ..(*plant.habit).clone() });
+    let moved = sway::sway(&mut plant, 1, &unit_gravity(), wind, 0.0, &mut Bench::default());
+    assert_eq!(moved, Err(sway::Unmoved::Stiff));
+}
