@@ -4,7 +4,7 @@
 
 use crate::grown::{PLANTS, Sample, compiled, plant, units_by_order};
 use phytomer_models::buds::law::{Count, CountForm, Law, LawForm, Poisson};
-use phytomer_models::buds::params::{Apex, ApexEnd, Axillary, Flower, GrowthUnit, Relay, SpeedText, Traumatic};
+use phytomer_models::buds::params::{Apex, ApexEnd, Axillary, Flower, GrowthUnit, Relay, SpeedText, Speeds, Traumatic};
 use phytomer_models::buds::{Buds, Order};
 use phytomer_sim::GrowthModel as _;
 use rand_chacha::ChaCha8Rng;
@@ -114,7 +114,7 @@ fn cohorts_follow_laws_of_age_and_random_counts() {
         ..Order::default()
     };
     let branch = Order {
-        speed: SpeedText::Ratio("2/3".to_owned()),
+        speed: Speeds::from(SpeedText::Ratio("2/3".to_owned())),
         death: Law::from(0.05),
         apex: Apex {
             units: Some(Count::from(CountForm { empirical: Some(vec![0.0, 1.0, 2.0, 1.0]), ..CountForm::default() })),

@@ -67,7 +67,10 @@ fn reference(plant: &Plant) -> Reference {
                 let (h, up) = (all.heading[parent], all.up[parent]);
                 let end = all.base[parent] + h * f64::from(plant.nodes.length[parent]);
                 match plant.nodes.axis[parent] == plant.nodes.axis[node] {
-                    true => turned(&plant.habit.trends[usize::from(plant.nodes.trend[node])], (end, h, up)),
+                    true => {
+                        let trends = plant.trends_of(plant.nodes.axis[node]);
+                        turned(&trends[usize::from(plant.nodes.trend[node])], (end, h, up))
+                    }
                     false => inserted(plant, node, (end, h, up)),
                 }
             }

@@ -44,10 +44,11 @@ fn end_of_run(nodes: &Nodes, node: usize) -> usize {
 fn follow_axis(plant: &mut Plant, axis: AxisId, run: Range<usize>) {
     let start = start_frame(plant, axis);
     let (plane, slope) = Plane::of(&start);
-    let Plant { nodes, frames, habit, .. } = plant;
+    let Plant { nodes, frames, habit, own_trends, .. } = plant;
+    let trends = own_trends.of(axis).unwrap_or(&habit.trends);
     let begins = begins_axis(nodes, run.start);
     let tip = if begins { Tip { base: Vector::from(start.base), slope } } else { frames.tips[axis.index()] };
-    frames.tips[axis.index()] = extend(frames, nodes, &habit.trends, &plane, tip, run, begins);
+    frames.tips[axis.index()] = extend(frames, nodes, trends, &plane, tip, run, begins);
 }
 
 /// Whether a node is the first of its axis: its parent is not on it.
@@ -56,8 +57,8 @@ pub(super) fn begins_axis(nodes: &Nodes, node: usize) -> bool {
     nodes.parent[node].some().is_none_or(|parent| nodes.axis[parent.index()] != nodes.axis[node])
 }
 
-/// Writes the frames of a run that goes on from `tip`. The first node of an axis, and one whose trend the habit does
-/// not know, goes straight on.
+/// Writes the frames of a run that goes on from `tip`, on an axis of the given trends. The first node of an axis, and one
+/// whose trend is not among them, goes straight on.
 #[inline]
 fn extend(
     frames: &mut Frames,

@@ -87,6 +87,12 @@ pub struct Number {
 }
 
 impl Number {
+    /// How many, where that is the same at every point and in every draw.
+    #[inline]
+    pub fn fixed(&self) -> Option<u32> {
+        self.fixed
+    }
+
     /// How many, the `nth` time (from 0) in this record.
     #[inline]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> u32 {
@@ -104,6 +110,12 @@ pub struct Measure {
 }
 
 impl Measure {
+    /// The same value at every point and in every draw, where it is so.
+    #[inline]
+    pub fn fixed(&self) -> Option<f32> {
+        self.fixed
+    }
+
     /// The value in SI units or radians, the `nth` time (from 0) in this record.
     #[inline]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> f32 {

@@ -23,7 +23,7 @@ impl BudModel {
     /// from the birth of the axis; `None` where the laws do not allow it (relays below the last node) or the sum would
     /// take too long.
     pub fn expectation_from(&self, order: u8, until: Tick) -> Option<Expectation> {
-        if !self.has_order(order) || self.orders.iter().any(|laws| laws.end.below > 0) {
+        if !self.has_order(order) || self.orders.iter().any(|laws| laws.end.below.table.max() > 0) {
             return None;
         }
         Cohorts::new(self, until.min(self.until)).sum_from(order)
