@@ -33,6 +33,8 @@ pub struct Trends {
 /// A phase, its laws compiled.
 struct Phase {
     from_rank: CountTable,
+    /// Whether its rank has no fault of its own.
+    is_ranked: bool,
     inclination: VariateTable,
     share: VariateTable,
 }
@@ -99,14 +101,17 @@ impl Phase {
     fn always(inclination_deg: f64, share: f64) -> Self {
         Self {
             from_rank: CountTable::always(1),
+            is_ranked: true,
             inclination: VariateTable::always(inclination_deg),
             share: VariateTable::always(share),
         }
     }
 
     fn compile(from_rank: &Count, inclination: &Variate, share: &Variate, keys: &str, compiler: &mut Compiler) -> Self {
+        let faults = compiler.faults.len();
         Self {
             from_rank: compiler.rank(from_rank, &format!("{keys}.from_rank")),
+            is_ranked: compiler.faults.len() == faults,
             inclination: compiler.variate(inclination, &format!("{keys}.inclination_deg"), INCLINATION),
             share: compiler.share(share, &format!("{keys}.share")),
         }
@@ -142,7 +147,7 @@ fn phases(trend: &Trend, compiler: &mut Compiler) -> Vec<Phase> {
 fn check_ranks(phases: &[Phase], stated: usize, compiler: &mut Compiler) {
     let begins = phases.first().is_some_and(|phase| phase.from_rank.constant() == Some(1));
     let ascending = phases.windows(2).all(|pair| pair[0].from_rank.min() < pair[1].from_rank.max());
-    if !begins || !ascending || stated > MOST_PHASES {
+    if phases.iter().all(|phase| phase.is_ranked) && (!begins || !ascending || stated > MOST_PHASES) {
         let found = "the phases do not start at rank 1 and ascend".to_owned();
         compiler.fault("trend", found, "at most 64 phases, the first from rank 1, in ascending order");
     }

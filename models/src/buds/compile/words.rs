@@ -1,7 +1,7 @@
 //! Which word of a stream decides what: slots given once per order, in a fixed sequence.
 //!
-//! A stream is read in records of a fixed width: one record a clock step (bud stream), one a node (node stream), one an
-//! axis (relay stream). Quantities that are the same at every point take no word.
+//! A stream is read in records of a fixed width: one record an axis and then one a clock step (bud stream), one a node
+//! (node stream), one an axis (relay stream). Quantities that are the same at every point take no word.
 
 use crate::buds::law::{At, CountTable, ProbabilityTable, VariateTable};
 

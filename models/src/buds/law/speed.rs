@@ -119,9 +119,11 @@ impl SpeedForm {
             _ if self.empirical.is_some() && !(1..=MOST_RATIOS).contains(&ratios) => {
                 fault("empirical", format!("there are {ratios} speeds"), format!("from 1 to {MOST_RATIOS} speeds"))
             }
-            Some(_) if self.empirical.is_none() => {
-                fault("weights", "one speed has no weights".to_owned(), "weights beside `empirical` only".to_owned())
-            }
+            Some(_) if self.empirical.is_none() => fault(
+                "weights",
+                "weights are given, but no speeds to draw from".to_owned(),
+                "`empirical` beside them".to_owned(),
+            ),
             Some(weights) if weights.len() != ratios => {
                 let problem = format!("{} weights for {ratios} speeds", weights.len());
                 fault("weights", problem, "one weight for each speed".to_owned())
