@@ -22,7 +22,7 @@ use phytomer_sim::expectation::Expectation;
 
 impl BudModel {
     /// The means of what an axis of order `order` and all that it bears have made by each age from 0 to `until`, counted
-    /// from the birth of the axis; `None` where the laws do not allow it (relays below the last node) or the sum would
+    /// from the birth of the axis; `None` where the laws do not allow it (relays that can stand below the last node) or the sum would
     /// take too long.
     pub fn expectation_from(&self, order: u8, until: Tick) -> Option<Expectation> {
         if !self.has_order(order) || self.orders.iter().any(|laws| laws.end.below.table.max() > 0) {
