@@ -26,7 +26,7 @@ impl GrowthModel for Sapling {
 
     fn habit(&self) -> Arc<Habit> {
         let trends = vec![Trend::STRAIGHT];
-        Arc::new(Habit { trends, shed_after: vec![NEVER, 2], shapes: vec![Shape::Cone], wood: None })
+        Arc::new(Habit { trends, shapes: vec![Shape::Cone], wood: None })
     }
 
     fn sow(&self, plant: &mut Plant) {
@@ -94,6 +94,7 @@ fn axis(plant: &mut Plant, bearer: Option<NodeId>, tick: Tick) -> AxisId {
         birth: tick,
         azimuth: tick as f32,
         insertion: if bearer.is_some() { 1.0 } else { 0.0 },
+        shed_after: if bearer.is_some() { 2 } else { NEVER },
     })
 }
 

@@ -45,7 +45,7 @@ fn drop_branches(plant: &mut Plant) {
     for axis in 0..plant.axes.len() {
         let bearing = plant.axes.bearer[axis].some().map(|bearer| plant.nodes.axis[bearer.index()].index());
         let with_bearer = bearing.map_or(NEVER, |bearing| plant.axes.shed[bearing]);
-        let own = fall(plant.axes.death[axis], plant.habit.shed_after(plant.axes.order[axis]));
+        let own = fall(plant.axes.death[axis], plant.axes.shed_after[axis]);
         plant.axes.shed[axis] = own.min(with_bearer);
     }
 }

@@ -81,8 +81,5 @@ impl Wind {
 
 impl Fields {
     /// Neither weight nor wind.
-    pub const NONE: Self = Self {
-        gravity: Vector { x: 0.0, y: 0.0, z: 0.0 },
-        drag: Vector { x: 0.0, y: 0.0, z: 0.0 },
-    };
+    pub const NONE: Self = Self { gravity: Vector { x: 0.0, y: 0.0, z: 0.0 }, drag: Vector { x: 0.0, y: 0.0, z: 0.0 } };
 }

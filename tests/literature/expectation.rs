@@ -4,7 +4,10 @@
 
 use crate::grown::{PLANTS, Sample, compiled, plant, units_by_order};
 use phytomer_models::buds::law::{Count, CountForm, Law, LawForm, Poisson};
-use phytomer_models::buds::params::{Apex, ApexEnd, Axillary, Flower, GrowthUnit, Relay, SpeedText, Traumatic};
+use phytomer_models::buds::params::{
+    Apex, ApexEnd, Axillary, End, Flower, GrowthUnit, Pattern, Relay, Rhythmic, SpeedForm, SpeedText, Speeds,
+    Traumatic, Zone,
+};
 use phytomer_models::buds::{Buds, Order};
 use phytomer_sim::GrowthModel as _;
 use rand_chacha::ChaCha8Rng;
@@ -114,7 +117,7 @@ fn cohorts_follow_laws_of_age_and_random_counts() {
         ..Order::default()
     };
     let branch = Order {
-        speed: SpeedText::Ratio("2/3".to_owned()),
+        speed: Speeds::from(SpeedText::Ratio("2/3".to_owned())),
         death: Law::from(0.05),
         apex: Apex {
             units: Some(Count::from(CountForm { empirical: Some(vec![0.0, 1.0, 2.0, 1.0]), ..CountForm::default() })),
@@ -142,4 +145,71 @@ fn cohorts_follow_laws_of_age_and_random_counts() {
         nodes.assert_mean(means.nodes[until as usize], &format!("nodes of order {order}"));
         axes.assert_mean(means.axes[until as usize], &format!("axes of order {order}"));
     }
+}
+
+/// Speeds drawn once an axis and zones drawn once a growth unit: cohorts split by speed, and the mean over the zones.
+#[test]
+fn cohorts_follow_drawn_speeds_and_zones() {
+    let until = 10;
+    let model = compiled(&drawn_species(), until);
+    let expected = model.expectation(until).unwrap();
+    let plants: Vec<_> = (0..PLANTS).map(|number| plant(&model, number, until)).collect();
+    for order in [1_u8, 2] {
+        let means = &expected.orders[usize::from(order) - 1];
+        for age in [until / 2, until] {
+            let nodes = Sample::of(plants.iter().map(|plant| {
+                let of = |&node: &usize| plant.axes.order[plant.nodes.axis[node].index()] == order;
+                (0..plant.nodes.len()).filter(|node| of(node) && plant.nodes.birth[*node] <= age).count() as f64
+            }));
+            nodes.assert_mean(means.nodes[age as usize], &format!("nodes of order {order} at age {age}"));
+            let axes = Sample::of(plants.iter().map(|plant| {
+                let of = |&axis: &usize| plant.axes.order[axis] == order && plant.axes.appearance[axis] <= age;
+                (0..plant.axes.len()).filter(of).count() as f64
+            }));
+            axes.assert_mean(means.axes[age as usize], &format!("axes of order {order} at age {age}"));
+        }
+    }
+}
+
+/// Three speeds; two zones that may overlap, of which the second has a law of its own; released dormant buds.
+fn drawn_species() -> Buds {
+    let weights =
+        |weights: &[f64]| Count::from(CountForm { empirical: Some(weights.to_vec()), ..CountForm::default() });
+    let speeds = |texts: &[&str], weights: &[f64]| {
+        let empirical = Some(texts.iter().map(|&text| SpeedText::Ratio(text.to_owned())).collect());
+        Speeds::from(SpeedForm { empirical, weights: Some(weights.to_vec()), ..SpeedForm::default() })
+    };
+    let of_rank = Law::from(LawForm { expression: Some("0.2 * rank / (1 + rank)".to_owned()), ..LawForm::default() });
+    let zones = vec![
+        Zone {
+            name: None,
+            from: End::Tip,
+            first: weights(&[0.0, 2.0, 1.0]),
+            last: Some(weights(&[0.0, 1.0, 1.0, 2.0])),
+            ramification: None,
+        },
+        Zone {
+            name: None,
+            from: End::Base,
+            first: weights(&[0.0, 1.0, 1.0, 1.0]),
+            last: None,
+            ramification: Some(of_rank),
+        },
+    ];
+    let trunk = Order {
+        speed: speeds(&["1/2", "1", "4/3"], &[1.0, 2.0, 1.0]),
+        death: Law::from(0.04),
+        growth_unit: GrowthUnit { nodes: weights(&[1.0, 1.0, 2.0, 3.0, 1.0]), ..GrowthUnit::default() },
+        axillary: Axillary {
+            buds: Count::from(2),
+            ramification: Law::from(0.4),
+            pattern: Pattern::Rhythmic(Rhythmic { zones }),
+            ..Axillary::default()
+        },
+        traumatic: Traumatic { probability: Law::from(0.5), ..Traumatic::default() },
+        ..Order::default()
+    };
+    let units = Some(weights(&[0.0, 0.0, 1.0, 1.0, 1.0]));
+    let branch = Order { speed: speeds(&["2/3", "3"], &[3.0, 1.0]), apex: Apex { units }, ..Order::default() };
+    Buds { order: vec![trunk, branch], ..Buds::default() }
 }

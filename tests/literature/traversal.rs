@@ -65,7 +65,9 @@ fn facts(plant: &Plant) -> BTreeMap<LineageKey, Facts> {
         let mut of = vec![u32::from(axes.order[a]), axes.origin[a] as u32, u32::from(axes.position[a])];
         of.extend([u32::from(axes.state[a]), axes.appearance[a], axes.birth[a], axes.apex_end[a]]);
         of.extend([axes.apex_fate[a] as u32, axes.spent[a], axes.death[a], axes.shed[a]]);
-        of.extend([axes.azimuth[a].to_bits(), axes.insertion[a].to_bits()]);
+        of.extend([axes.azimuth[a].to_bits(), axes.insertion[a].to_bits(), axes.shed_after[a]]);
+        let own_trends = plant.own_trends.of(AxisId(a as u32)).unwrap_or_default();
+        of.extend(own_trends.iter().flat_map(|t| [t.cos_inclination, t.sin_inclination, t.share].map(f32::to_bits)));
         facts.insert(axes.key[a], (key_of(axes.bearer[a]), of));
     }
     for n in 0..nodes.len() {
@@ -106,6 +108,29 @@ fn affordable(model: &BudModel, most: Tick) -> Tick {
     (1..=most).rev().find(|&age| expected.as_ref().is_some_and(|e| e.components(age) < 60_000.0)).unwrap_or(8)
 }
 
+fn assert_one_plant(name: &str, model: &BudModel, until: Tick) {
+    let clocked = by_the_clock(model, until);
+    for (way, other) in [("traversal", by_traversal(model, until)), ("growth ahead", ahead(model, until))] {
+        assert!(facts(&clocked) == facts(&other), "{name}: {way} differs at age {until}");
+        assert!(events(&clocked) == events(&other), "{name}: the events of {way} differ at age {until}");
+    }
+}
+
+/// What an axis, a unit, a set of relays or a leaf draws once is drawn alike in whatever order the axes grow.
+#[test]
+fn clocked_traversed_and_grown_ahead_are_one_plant_where_every_number_is_drawn() {
+    let (name, until) = ("config/tests/good/drawn.toml", 30);
+    let species = phytomer_config::validate_species(name, until).unwrap_or_else(|report| panic!("{report}"));
+    let Model::Buds(buds) = species.species.model else {
+        panic!("{name} is of the bud model");
+    };
+    let model = compiled(&buds, until);
+    let orders = by_the_clock(&model, until).axes.order;
+    let enough = (1..=3).all(|order| orders.iter().filter(|&&of| of == order).count() > 5);
+    assert!(enough, "the plant has axes of every order: {orders:?}");
+    assert_one_plant(name, &model, until);
+}
+
 #[test]
 fn clocked_traversed_and_grown_ahead_are_one_plant_for_every_shipped_species() {
     let mut compared = 0;
@@ -115,12 +140,7 @@ fn clocked_traversed_and_grown_ahead_are_one_plant_for_every_shipped_species() {
             continue;
         };
         let until = affordable(&compiled(&buds, 60), 60);
-        let model = compiled(&buds, until);
-        let clocked = by_the_clock(&model, until);
-        for (way, other) in [("traversal", by_traversal(&model, until)), ("growth ahead", ahead(&model, until))] {
-            assert!(facts(&clocked) == facts(&other), "{name}: {way} differs at age {until}");
-            assert!(events(&clocked) == events(&other), "{name}: the events of {way} differ at age {until}");
-        }
+        assert_one_plant(name, &compiled(&buds, until), until);
         compared += 1;
     }
     assert!(compared >= 10, "only {compared} species of the bud model are shipped");

@@ -8,11 +8,13 @@
 //! [`Axis::grow`] takes an axis from any age to any later one; whether a plant grows axis by axis to the end or tick by
 //! tick, each axis makes the same draws at the same steps.
 
-use super::compile::{BudModel, OrderLaws};
+use super::compile::{BudModel, OrderLaws, Ranks};
 use super::law::At;
 use super::params::ApexEnd;
-use phytomer_sim::clock::{NEVER, Tick};
-use phytomer_sim::plant::{ApexFate, ApicalBud, AxisId, Cause, EventKind, Form, Kind, NewOrgan, NodeId, Plant};
+use phytomer_sim::clock::{NEVER, Speed, Tick};
+use phytomer_sim::plant::{
+    ApexFate, ApicalBud, AxisId, Cause, EventKind, Form, Kind, NewAxis, NewOrgan, NodeId, Plant,
+};
 use phytomer_sim::random::{Purpose, Stream};
 
 /// The words of one axis: its streams, opened when first read, and the record last read from each.
@@ -25,6 +27,10 @@ pub(super) struct Words {
     pub step: Vec<u32>,
     pub on_node: Vec<u32>,
     pub end: Vec<u32>,
+    /// The ranks from which the axis's trends hold, where it draws them, with their places.
+    pub trends: Vec<(u32, u8)>,
+    /// The ranks of the zones of the growth unit, where it draws them.
+    pub zones: Vec<Ranks>,
 }
 
 impl Words {
@@ -32,10 +38,12 @@ impl Words {
         self.bud = None;
         self.node = None;
         // A quantity without words reads word 0 and does not look at it.
-        self.head.resize(laws.step.head_width.max(1), 0);
+        self.head.resize(laws.head.width.max(1), 0);
         self.step.resize(laws.step.width.max(1), 0);
         self.on_node.resize(laws.node.width.max(1), 0);
         self.end.resize(laws.end.width.max(1), 0);
+        self.trends.clear();
+        self.zones.clear();
     }
 }
 
@@ -68,6 +76,7 @@ pub(super) struct Axis<'a> {
     pub bud: ApicalBud,
     pub tick: Tick,
     dimension: u32,
+    speed: Speed,
     /// The growth units after which the apex ends.
     last_unit: u32,
 }
@@ -80,25 +89,34 @@ impl<'a> Axis<'a> {
     pub fn new(model: &'a BudModel, plant: &'a mut Plant, words: &'a mut Words, bud: ApicalBud) -> Self {
         let laws = model.laws(plant.axes.order[bud.axis.index()]);
         words.of(laws);
-        let mut axis = Self { model, laws, plant, words, bud, tick: bud.age, dimension: 0, last_unit: u32::MAX };
+        let mut axis = Self {
+            model,
+            laws,
+            plant,
+            words,
+            bud,
+            tick: bud.age,
+            dimension: 0,
+            speed: Speed::ONE,
+            last_unit: u32::MAX,
+        };
         axis.read_head();
         axis
     }
 
+    /// What the axis has drawn at its birth, as far as its growth needs it: the same whenever it goes on.
     fn read_head(&mut self) {
-        let Some(units) = &self.laws.step.units else {
-            return;
-        };
-        if self.laws.step.head_width > 0 {
-            let key = self.plant.axes.key[self.bud.axis.index()];
+        let laws = &self.laws.head;
+        let axis = self.bud.axis.index();
+        if laws.guides_growth && laws.width > 0 {
             let random = &self.plant.random;
-            let stream = self.words.bud.get_or_insert_with(|| random.stream(key, Purpose::Bud));
-            read(stream, 0, 0, self.laws.step.head_width, &mut self.words.head);
+            let stream = self.words.bud.insert(random.stream(self.plant.axes.key[axis], Purpose::Bud));
+            stream.read(&mut self.words.head);
         }
-        let birth = self.plant.axes.birth[self.bud.axis.index()];
-        let state = self.plant.axes.state[self.bud.axis.index()];
-        let at = At { age: birth, state, ..At::default() };
-        self.last_unit = units.draw(&self.words.head, 0, at);
+        let at = at_birth(self.plant.axes.birth[axis], self.plant.axes.state[axis]);
+        self.speed = laws.speed.draw(&self.words.head);
+        self.last_unit = laws.units.as_ref().map_or(u32::MAX, |units| units.draw(&self.words.head, 0, at));
+        laws.trends.draw_ranks(&self.words.head, at, &mut self.words.trends);
     }
 
     /// Grows the axis to `age`; the bud as it then is, or `None` where the apex has come to its end.
@@ -107,7 +125,7 @@ impl<'a> Axis<'a> {
         for tick in self.bud.age + 1..=age {
             self.tick = tick;
             self.dimension = tick.saturating_sub(birth);
-            for _ in self.bud.cycle..self.laws.speed.steps_by(self.dimension) {
+            for _ in self.bud.cycle..self.speed.steps_by(self.dimension) {
                 if !self.step()? {
                     return Ok(None);
                 }
@@ -159,7 +177,7 @@ impl<'a> Axis<'a> {
         let random = &self.plant.random;
         let stream = self.words.bud.get_or_insert_with(|| random.stream(key, Purpose::Bud));
         let step = self.bud.cycle - 1;
-        read(stream, self.laws.step.head_width, step, self.laws.step.width, &mut self.words.step);
+        read(stream, self.laws.head.width, step, self.laws.step.width, &mut self.words.step);
     }
 
     /// A growth unit: its type, the number of its nodes, then node by node.
@@ -173,6 +191,9 @@ impl<'a> Axis<'a> {
         };
         let neoformed = if short { 0 } else { laws.neoformed.draw(&self.words.step, unit, at) };
         let nodes = preformed + neoformed;
+        if laws.zone_ranks.are_drawn() {
+            laws.zone_ranks.draw(&self.words.step, unit, at, &mut self.words.zones);
+        }
         for rank in 1..=nodes {
             self.read_node();
             self.node(rank, nodes, short, rank > preformed)?;
@@ -269,28 +290,58 @@ impl<'a> Axis<'a> {
     }
 }
 
+/// Where the laws of the head of an axis are asked.
+fn at_birth(birth: Tick, state: u8) -> At {
+    At { age: birth, state, ..At::default() }
+}
+
+/// Adds an axis, with what it draws once, at its birth, that is not its growth's alone: the time from its death to its
+/// fall, and the trends of its own.
+pub(super) fn add_axis(model: &BudModel, plant: &mut Plant, new: NewAxis) -> AxisId {
+    let laws = &model.laws(new.order).head;
+    let fixed = laws.shed_after.as_ref().map_or(Some(NEVER), |ticks| ticks.fixed());
+    if !laws.marks_birth {
+        return plant.add_axis(NewAxis { shed_after: fixed.unwrap_or(NEVER), ..new });
+    }
+    let words = laws.words(&plant.random, new.key);
+    let at = at_birth(new.birth, new.state);
+    let shed_after = laws.shed_after.as_ref().map_or(NEVER, |ticks| ticks.draw(&words, 0, at));
+    let axis = plant.add_axis(NewAxis { shed_after, ..new });
+    if laws.trends.has_own() {
+        plant.own_trends.give(axis, laws.trends.draw_own(&words, at));
+    }
+    axis
+}
+
 /// A bud at the start of the axis `axis`.
 pub(super) fn first_bud(model: &BudModel, plant: &Plant, axis: AxisId) -> ApicalBud {
     let place = axis.index();
+    let (birth, state) = (plant.axes.birth[place], plant.axes.state[place]);
+    let laws = &model.laws(plant.axes.order[place]).head;
+    let azimuth = laws.first_azimuth.fixed().unwrap_or_else(|| {
+        let words = laws.words(&plant.random, plant.axes.key[place]);
+        laws.first_azimuth.draw(&words, 0, at_birth(birth, state))
+    });
     ApicalBud {
         axis,
-        age: plant.axes.birth[place],
+        age: birth,
         cycle: 0,
         units: 0,
         rank: 0,
         last_node: plant.axes.bearer[place],
-        azimuth: model.laws(plant.axes.order[place]).first_azimuth,
-        state: plant.axes.state[place],
+        azimuth,
+        state,
         dormant: 0,
         bud_spacing: 0.0,
     }
 }
 
-/// The tick at which a leaf falls, by its life length or by the season, and why.
-pub(super) fn leaf_fall(model: &BudModel, birth: Tick, life: Option<u32>) -> (Tick, Cause) {
+/// The tick at which a leaf falls and why, by its life length or by the season: the ticks of a year, and the tick of the
+/// year at which it falls.
+pub(super) fn leaf_fall(season: Option<(u32, u32)>, birth: Tick, life: Option<u32>) -> (Tick, Cause) {
     let aged = life.map_or(NEVER, |life| birth.saturating_add(life.max(1)));
-    let seasonal = model.season.map_or(NEVER, |season| {
-        let (year, fall) = (u64::from(season.ticks_per_year), u64::from(season.leaf_fall));
+    let seasonal = season.map_or(NEVER, |(year, fall)| {
+        let (year, fall) = (u64::from(year), u64::from(fall));
         let wait = (fall + year - u64::from(birth) % year) % year;
         let wait = if wait == 0 { year } else { wait };
         u32::try_from(u64::from(birth) + wait).unwrap_or(NEVER)

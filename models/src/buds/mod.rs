@@ -12,6 +12,8 @@ mod node;
 pub mod params;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_drawn;
 
 pub use compile::BudModel;
 pub use params::{Buds, Order};

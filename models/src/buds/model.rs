@@ -4,14 +4,14 @@
 //! living bud through one. Both call the same step. Absent: the step (`grow`) and the node (`node`).
 
 use super::compile::{BudModel, OrderLaws};
-use super::grow::{Axis, Full, Words, first_bud};
+use super::grow::{Axis, Full, Words, add_axis, first_bud};
 use super::law::At;
 use phytomer_sim::Tick;
+use phytomer_sim::clock::NEVER;
 use phytomer_sim::expectation::Expectation;
-use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
 use phytomer_sim::mechanics::taper;
+use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
 use phytomer_sim::plant::{ApicalBud, AxisId, Habit, LineageKey, NewAxis, Origin, Plant};
-use phytomer_sim::random::Purpose;
 use phytomer_sim::site::Site;
 use std::sync::Arc;
 
@@ -109,13 +109,9 @@ impl GrowthModel for BudModel {
     }
 
     fn sow(&self, plant: &mut Plant) {
-        let laws = self.laws(1);
-        let mut words = vec![0; laws.step.head_width.max(1)];
-        if laws.step.head_width > 0 {
-            let mut stream = plant.random.stream(LineageKey::SEED, Purpose::Bud);
-            words.iter_mut().for_each(|word| *word = stream.word());
-        }
-        let axis = plant.add_axis(NewAxis {
+        let laws = &self.laws(1).head;
+        let words = laws.words(&plant.random, LineageKey::SEED);
+        let new = NewAxis {
             bearer: None,
             key: LineageKey::SEED,
             order: 1,
@@ -125,8 +121,10 @@ impl GrowthModel for BudModel {
             appearance: 0,
             birth: 0,
             azimuth: 0.0,
-            insertion: laws.step.insertion.draw(&words, 0, At::default()),
-        });
+            insertion: laws.insertion.draw(&words, 0, At::default()),
+            shed_after: NEVER,
+        };
+        let axis = add_axis(self, plant, new);
         let bud = first_bud(self, plant, axis);
         plant.buds.push(bud);
     }

@@ -4,9 +4,10 @@
 //! of a node are spread evenly around it, the first at the node's azimuth, each axillary bud in the axil of its leaf.
 
 use super::compile::Branching;
-use super::grow::{Axis, FlowerSite, Full, leaf_fall};
+use super::grow::{Axis, FlowerSite, Full, add_axis, leaf_fall};
 use super::law::At;
 use super::params::ApexEnd;
+use phytomer_sim::clock::NEVER;
 use phytomer_sim::plant::key::Place;
 use phytomer_sim::plant::{EventKind, Kind, NewAxis, NewNode, NewOrgan, NodeId, Origin};
 use phytomer_sim::random::Purpose;
@@ -84,7 +85,7 @@ impl Axis<'_> {
             unit_rank: u16::try_from(rank).unwrap_or(u16::MAX),
             short,
             neoformed,
-            trend: self.laws.trends.at(along),
+            trend: self.laws.head.trends.at(along, &self.words.trends),
             length: length.draw(words, 0, at),
             diameter: laws.diameter.draw(words, 0, at),
             azimuth: self.bud.azimuth,
@@ -105,7 +106,8 @@ impl Axis<'_> {
         let laws = &self.laws.node;
         let words = &self.words.on_node;
         let life = laws.leaf_life.as_ref().map(|life| life.draw(words, nth, at));
-        let (death, cause) = leaf_fall(self.model, self.tick, life);
+        let season = laws.leaf_fall.as_ref().map(|(year, fall)| (*year, fall.draw(words, nth, at)));
+        let (death, cause) = leaf_fall(season, self.tick, life);
         let (length, width) = (laws.leaf.length.draw(words, nth, at), laws.leaf.width.draw(words, nth, at));
         self.plant.add_organ(NewOrgan {
             node,
@@ -117,7 +119,7 @@ impl Axis<'_> {
             form: laws.leaf.form,
             length,
             width,
-            area: length * width * laws.leaf.area_share,
+            area: length * width * laws.leaf.area_share.draw(words, nth, at),
             azimuth,
             insertion: laws.leaf.insertion.draw(words, nth, at),
         });
@@ -138,7 +140,7 @@ impl Axis<'_> {
         let model = self.model;
         let laws = self.laws;
         let order = laws.number + 1;
-        let ramification = laws.node.ramification(rank, nodes).filter(|_| model.has_order(order));
+        let ramification = laws.node.ramification(rank, nodes, &self.words.zones).filter(|_| model.has_order(order));
         self.bud.dormant = 0;
         self.bud.bud_spacing = spacing;
         for position in 0..buds {
@@ -178,14 +180,15 @@ impl Axis<'_> {
     /// What follows the end of an apex: relays from the last node or below, and traumatic reiteration where it died.
     pub(super) fn follow_end(&mut self, end: ApexEnd) -> Result<(), Full> {
         let laws = &self.laws.end;
-        let relayed = laws.is_relayed(end) && self.bud.rank > laws.below;
+        let relayed = laws.is_relayed(end);
         let released = end == ApexEnd::Death && !laws.traumatic.chance.table.is_never();
         let Some(node) = self.own_last_node().filter(|_| relayed || released) else {
             return Ok(());
         };
         self.read_end();
-        if relayed {
-            self.relays(node);
+        let below = laws.below.draw(&self.words.end, 0, self.at(0));
+        if relayed && self.bud.rank > below {
+            self.relays(node, below);
         }
         if released {
             self.release(node);
@@ -201,16 +204,17 @@ impl Axis<'_> {
         }
     }
 
-    fn relays(&mut self, last: NodeId) {
+    /// Relays from the node that stands `below` nodes below the last one.
+    fn relays(&mut self, last: NodeId, below: u32) {
         let laws = self.laws;
         let at = self.at(0);
         // The first relay stands where the first leaf of the node above would: phyllotaxis goes on.
         let (mut node, mut first) = (last, self.bud.azimuth);
-        for _ in 0..laws.end.below {
+        for _ in 0..below {
             first = self.plant.nodes.azimuth[node.index()];
             node = self.plant.nodes.parent[node.index()];
         }
-        let rank = self.bud.rank - laws.end.below;
+        let rank = self.bud.rank - below;
         let count = laws.end.relay.count.draw(&self.words.end, 0, at);
         for position in 0..count {
             let azimuth = first + TURN / count as f32 * position as f32;
@@ -247,7 +251,7 @@ impl Axis<'_> {
             Origin::Traumatic => Place::Relay(64 + position),
             Origin::Relay | Origin::Seed => Place::Relay(position),
         };
-        let axis = self.plant.add_axis(NewAxis {
+        let new = NewAxis {
             bearer: Some(site.node),
             key: self.plant.axes.key[self.bud.axis.index()].child(place.on(site.rank)),
             order: site.order,
@@ -258,7 +262,9 @@ impl Axis<'_> {
             birth: self.tick.saturating_add(laws.delay.draw(words, site.position, at)),
             azimuth: site.azimuth,
             insertion: laws.insertion.draw(words, site.position, at),
-        });
+            shed_after: NEVER,
+        };
+        let axis = add_axis(self.model, self.plant, new);
         self.plant.note(self.tick, axis, event, 1);
     }
 }

@@ -3,8 +3,8 @@
 
 use super::law::{Count, CountForm, Law, LawForm, Normal, Poisson, Variate, VariateForm};
 use super::params::{
-    Apex, ApexEnd, Axillary, Flower, GrowthUnit, Leaf, Pattern, Phase, Phyllotaxis, Reiteration, Relay, Rhythmic,
-    Season, ShortUnit, SpeedText, Transition, Traumatic, Trend, Zone,
+    Apex, ApexEnd, Axillary, Flower, GrowthUnit, Leaf, Pattern, Phase, Phyllotaxis, Quantity, Reiteration, Relay,
+    Rhythmic, Season, ShortUnit, SpeedText, Speeds, Transition, Traumatic, Trend, Zone,
 };
 use super::params::{End, Internode};
 use super::{Buds, Order};
@@ -46,7 +46,7 @@ fn chimera() -> Buds {
         axillary,
         reiteration: Reiteration { buds: Count::from(1), probability: Law::from(0.01), ..Reiteration::default() },
         traumatic: Traumatic { probability: Law::from(0.5), delay: Count::from(1), ..Traumatic::default() },
-        relay: Relay { on: vec![ApexEnd::Flower], count: Count::from(2), below: 1, ..Relay::default() },
+        relay: Relay { on: vec![ApexEnd::Flower], count: Count::from(2), below: Count::from(1), ..Relay::default() },
         flower: Flower {
             terminal: Law::from(0.05),
             fruit_set: Law::from(0.5),
@@ -55,34 +55,38 @@ fn chimera() -> Buds {
         },
         transition: vec![growing_up],
         insertion_deg: normal(3.0, 1.0),
-        shed_after: Some(5),
+        shed_after: Some(Count::from(5)),
         ..Order::default()
     };
     let branch = Order {
-        speed: SpeedText::Ratio("3/2".to_owned()),
+        speed: Speeds::from(SpeedText::Ratio("3/2".to_owned())),
         death: Law::from(0.15),
         insertion_deg: normal(60.0, 8.0),
         phyllotaxis: Phyllotaxis::Named("2/5".to_owned()),
         flower: Flower { lateral: Law::from(0.4), delay: poisson(1.0), fruit_set: Law::from(0.5), ..Flower::default() },
         leaf: Leaf { per_node: poisson(1.0), life: Some(poisson(3.0)), length_cm: normal(5.0, 1.0), ..Leaf::default() },
-        shed_after: Some(2),
+        shed_after: Some(Count::from(2)),
         ..Order::default()
     };
     let states = ["juvenile", "adult", "branch"].map(str::to_owned).to_vec();
-    let season = Some(Season { ticks_per_year: 4, leaf_fall: 3 });
+    let season = Some(Season { ticks_per_year: Quantity::from(4), leaf_fall: Count::from(3) });
     Buds { states, season, wood: None, order: vec![trunk, branch] }
 }
 
 /// Zones from both ends, laws of rank and of state, determinate axes, relays on death and completion, composite trends.
 fn hydra() -> Buds {
-    let zone = |from, first, last, ramification: Option<Law>| Zone { name: None, from, first, last, ramification };
+    let zone = |from, first: u32, last: Option<u32>, ramification: Option<Law>| {
+        let (first, last) = (Count::from(first), last.map(Count::from));
+        Zone { name: None, from, first, last, ramification }
+    };
     let zones = vec![zone(End::Tip, 1, Some(2), None), zone(End::Base, 1, Some(1), Some(expression("0.2 * rank")))];
     let by_state = BTreeMap::from([("long".to_owned(), Law::from(0.1)), ("short".to_owned(), Law::from(0.6))]);
     let pauses = Law::from(LawForm { by_state: Some(by_state), ..LawForm::default() });
-    let phases = vec![
-        Phase { from_rank: 1, inclination_deg: 80.0, share: 0.2 },
-        Phase { from_rank: 4, inclination_deg: 10.0, share: 0.1 },
-    ];
+    let phase = |from_rank: u32, inclination: f64, share: f64| {
+        let (inclination_deg, share) = (Variate::from(inclination), Variate::from(share));
+        Phase { from_rank: Count::from(from_rank), inclination_deg, share }
+    };
+    let phases = vec![phase(1, 80.0, 0.2), phase(4, 10.0, 0.1)];
     let order = Order {
         death: Law::from(0.1),
         pause: pauses,

@@ -102,7 +102,10 @@ fn node(plant: &Plant, i: usize, until: Tick) {
     finite(&measures, "the measures of node", i);
     assert!(measures.iter().all(|&x| x >= 0.0), "lengths and diameters are not negative: node {i}");
     finite(&[nodes.azimuth[i]], "the azimuth of node", i);
-    assert!(usize::from(nodes.trend[i]) < plant.habit.trends.len(), "a node's trend is one of its habit: node {i}");
+    assert!(
+        usize::from(nodes.trend[i]) < plant.trends_of(nodes.axis[i]).len(),
+        "a node's trend is one of its axis or its habit: node {i}"
+    );
 }
 
 fn organ(plant: &Plant, i: usize, until: Tick) {

@@ -60,12 +60,7 @@ impl Gmt1Model {
         Self {
             parameters: parameters.clone(),
             children: [child(r1, h1_deg, left_continues), child(r2, h2_deg, !left_continues)],
-            habit: Arc::new(Habit {
-                trends: vec![Trend::STRAIGHT],
-                shed_after: vec![NEVER],
-                shapes: vec![Shape::Cylinder],
-                wood: None,
-            }),
+            habit: Arc::new(Habit { trends: vec![Trend::STRAIGHT], shapes: vec![Shape::Cylinder], wood: None }),
         }
     }
 
@@ -196,6 +191,7 @@ fn new_axis(mother: &Branch, way: &Child, turn_deg: f64, level: u32, plant: &mut
         birth: birth(level),
         azimuth: radians(around(turn_deg + opposite)) as f32,
         insertion: way.angle.abs() as f32,
+        shed_after: NEVER,
     });
     plant.note(birth(level), axis, EventKind::Branched, 1);
     axis
@@ -231,6 +227,7 @@ impl GrowthModel for Gmt1Model {
             birth: 0,
             azimuth: 0.0,
             insertion: 0.0,
+            shed_after: NEVER,
         });
     }
 

@@ -34,6 +34,7 @@ fn add_axis(plant: &mut Plant, bearer: Option<NodeId>, nodes: u32) -> Vec<NodeId
         birth: 0,
         azimuth,
         insertion,
+        shed_after: NEVER,
     });
     let mut parent = bearer.unwrap_or(NodeId::NONE);
     let mut add = |rank: u32| {
@@ -77,7 +78,7 @@ fn add_organ(plant: &mut Plant, node: NodeId, position: u16) {
 /// A trunk of 5 nodes with a branch that dies at 4 and falls at 8, and an organ of each form at its top.
 fn specimen() -> Plant {
     let trend = Trend { cos_inclination: 1.0, sin_inclination: 0.0, share: 0.1 };
-    let habit = Habit { trends: vec![trend], shed_after: vec![NEVER], shapes: vec![Shape::Cone], wood: None };
+    let habit = Habit { trends: vec![trend], shapes: vec![Shape::Cone], wood: None };
     let seed = Seed { plant: 7, run_seed: 42, component_limit: 1000, keep_events: false };
     let mut plant = Plant::new(&seed, Arc::new(habit));
     let trunk = add_axis(&mut plant, None, 5);
@@ -231,7 +232,8 @@ fn a_failed_write_is_reported_as_it_was() {
 #[test]
 fn files_are_named_by_plant_and_age_and_nothing_is_left_beside_them() {
     let folder = tempfile::tempdir().unwrap();
-    let plot = phytomer_sim::Plot { id: 0, plants: vec![specimen()], site: Default::default(), bench: Default::default() };
+    let plot =
+        phytomer_sim::Plot { id: 0, plants: vec![specimen()], site: Default::default(), bench: Default::default() };
     let meshes = folder.path().join("meshes");
     let mut recorder = MeshRecorder::new(Ply, &meshes, &[3, 6], 42, MeshOptions::default()).unwrap();
     for age in 1..=6 {

@@ -10,13 +10,13 @@ use super::secondary::Above;
 use super::turn::turn;
 use super::uprighting::straighten;
 use super::wood::Wood;
-use crate::site::Fields;
 use crate::clock::Tick;
 use crate::plant::borne::Borne;
 use crate::plant::standing::Standing;
 use crate::plant::{AxisId, EventKind, Plant};
 use crate::pose::bent::{Stance, follow_bends};
 use crate::pose::pose;
+use crate::site::Fields;
 use crate::site::Site;
 use crate::vector::Vector;
 

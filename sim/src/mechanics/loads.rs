@@ -156,8 +156,7 @@ impl Scan<'_> {
         }
         let left = stiffness - 0.5 * near - load.follows;
         let holds = left > LEFT * stiffness;
-        let (pivot, near, past) =
-            if holds { (left, near, 0.5 * whole + load.follows) } else { (stiffness, 0.0, 0.0) };
+        let (pivot, near, past) = if holds { (left, near, 0.5 * whole + load.follows) } else { (stiffness, 0.0, 0.0) };
         let up = Vector::from(frames.up[node]);
         let axes = [up, heading.cross(up)];
         let turn = [0, 1].map(|k| {

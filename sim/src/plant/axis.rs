@@ -92,6 +92,8 @@ pub struct NewAxis {
     pub azimuth: f32,
     /// Between the bearing axis and this one, in radians.
     pub insertion: f32,
+    /// The ticks from the death of its branch to the fall; [`NEVER`] where dead wood stays.
+    pub shed_after: Tick,
 }
 
 /// The columns of the axes.
@@ -119,6 +121,8 @@ pub struct Axes {
     pub azimuth: Vec<f32>,
     /// Insertion angle, radians.
     pub insertion: Vec<f32>,
+    /// The ticks from the death of the branch to its fall; [`NEVER`] where dead wood stays.
+    pub shed_after: Vec<Tick>,
     /// The last node so far; [`NodeId::NONE`] before the first.
     pub last_node: Vec<NodeId>,
     /// The tick at which the apex ended; [`NEVER`] while it lives.
@@ -166,6 +170,7 @@ impl Axes {
         self.birth.push(axis.birth);
         self.azimuth.push(axis.azimuth);
         self.insertion.push(axis.insertion);
+        self.shed_after.push(axis.shed_after);
         self.last_node.push(NodeId::NONE);
         self.apex_end.push(NEVER);
         self.apex_fate.push(ApexFate::Alive);
@@ -193,6 +198,7 @@ impl Axes {
         birth.clear();
         self.azimuth.clear();
         self.insertion.clear();
+        self.shed_after.clear();
         self.last_node.clear();
         self.apex_end.clear();
         self.apex_fate.clear();

@@ -1,10 +1,11 @@
 //! The habit of a species: what pose, shedding and drawing must know of it, shared by all its plants.
 //!
 //! The development trend is de Reffye's (1988 §4, Fig. 15): an axis leaves its bearing axis at the insertion angle and
-//! turns smoothly towards its trend.
+//! turns smoothly towards its trend. Where a trend is a random variable each axis has one of its own ([`OwnTrends`]).
 
-use crate::clock::Tick;
+use super::axis::AxisId;
 use crate::mechanics::{Thickening, Wood};
+use std::ops::Range;
 
 /// The direction that an axis tends to, and how fast it turns there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,10 +35,8 @@ pub enum Shape {
 /// The rules of a species that its plants carry with them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Habit {
-    /// The development trends; each internode names one by its place here.
+    /// The development trends; an internode names one by its place here, unless its axis has trends of its own.
     pub trends: Vec<Trend>,
-    /// After how many ticks a dead branch falls, by order from 1; `NEVER` where dead wood stays.
-    pub shed_after: Vec<Tick>,
     /// The shape of internodes, by order from 1.
     pub shapes: Vec<Shape>,
     /// The mechanics of its wood; `None` where diameters follow the model's law and nothing bends.
@@ -45,11 +44,6 @@ pub struct Habit {
 }
 
 impl Habit {
-    /// The ticks between the death and the fall of a branch of `order`; orders past the last are as the last.
-    pub fn shed_after(&self, order: u8) -> Tick {
-        by_order(&self.shed_after, order).copied().unwrap_or(crate::clock::NEVER)
-    }
-
     /// How internodes gain diameter.
     pub fn thickening(&self) -> Thickening {
         self.wood.as_ref().map_or(Thickening::Law, |wood| wood.thickening)
@@ -57,10 +51,37 @@ impl Habit {
 
     /// The shape of the internodes of `order`; orders past the last are as the last.
     pub fn shape(&self, order: u8) -> Shape {
-        by_order(&self.shapes, order).copied().unwrap_or(Shape::Cylinder)
+        let own = self.shapes.get(usize::from(order).saturating_sub(1));
+        own.or(self.shapes.last()).copied().unwrap_or(Shape::Cylinder)
     }
 }
 
-fn by_order<T>(values: &[T], order: u8) -> Option<&T> {
-    values.get(usize::from(order).saturating_sub(1)).or(values.last())
+/// The trends of the axes that have drawn theirs, beside those of the habit; empty where no order draws any.
+#[derive(Debug, Clone, Default)]
+pub struct OwnTrends {
+    /// Where the trends of each axis stand, up to the last axis that has some.
+    spans: Vec<Range<u32>>,
+    trends: Vec<Trend>,
+}
+
+impl OwnTrends {
+    /// The trends of an axis, from which its internodes name theirs; `None` where they name those of the habit.
+    #[inline]
+    pub fn of(&self, axis: AxisId) -> Option<&[Trend]> {
+        let span = self.spans.get(axis.index()).filter(|span| !span.is_empty())?;
+        Some(&self.trends[span.start as usize..span.end as usize])
+    }
+
+    /// Gives an axis trends of its own, before it has a node.
+    pub fn give(&mut self, axis: AxisId, trends: impl IntoIterator<Item = Trend>) {
+        let start = self.trends.len() as u32;
+        self.trends.extend(trends);
+        self.spans.resize(self.spans.len().max(axis.index() + 1), 0..0);
+        self.spans[axis.index()] = start..self.trends.len() as u32;
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.spans.clear();
+        self.trends.clear();
+    }
 }

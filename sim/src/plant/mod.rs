@@ -18,7 +18,7 @@ pub(crate) mod standing;
 
 pub use axis::{ApexFate, ApicalBud, Axes, AxisId, NewAxis, Origin};
 pub use event::{Event, EventKind};
-pub use habit::{Habit, Shape, Trend};
+pub use habit::{Habit, OwnTrends, Shape, Trend};
 pub use key::LineageKey;
 pub use kind::{Cause, Form, Kind};
 pub use node::{NewNode, NodeId, Nodes};
@@ -58,6 +58,8 @@ pub struct Plant {
     pub events: Option<Vec<Event>>,
     /// The rules of its species that pose, shedding and drawing need.
     pub habit: Arc<Habit>,
+    /// The trends of the axes that have drawn theirs.
+    pub own_trends: OwnTrends,
     /// The source of its draws.
     pub random: PlantRandom,
     /// Where its seed lies in the plot, metres.
@@ -97,6 +99,7 @@ impl Plant {
             strain: Strain::default(),
             events: seed.keep_events.then(Vec::new),
             habit,
+            own_trends: OwnTrends::default(),
             random: PlantRandom::new(seed.run_seed, u64::from(seed.plant)),
             place: [0.0; 3],
             stated_headings: Vec::new(),
@@ -124,6 +127,7 @@ impl Plant {
         self.buds.clear();
         self.frames.clear();
         self.strain.clear();
+        self.own_trends.clear();
         self.stated_headings.clear();
         self.components = 0;
         if let Some(events) = &mut self.events {
@@ -203,6 +207,12 @@ impl Plant {
         let axis = self.nodes.axis[node.index()];
         let place = key::Place::Organ(self.organs.kind[organ.index()] as u8, self.organs.position[organ.index()]);
         self.axes.key[axis.index()].child(place.on(self.nodes.rank[node.index()]))
+    }
+
+    /// The trends from which the internodes of an axis name theirs.
+    #[inline]
+    pub fn trends_of(&self, axis: AxisId) -> &[Trend] {
+        self.own_trends.of(axis).unwrap_or(&self.habit.trends)
     }
 
     /// Whether an apical bud lives at `age`: it has appeared and its axis has not come to its end.

@@ -80,7 +80,8 @@ fn follow_run(plant: &mut Plant, run: &Run, borne: &mut Up<'_>, stances: &mut [S
     let mut straight = run.begins;
     for node in run.nodes() {
         if !straight {
-            if let Some(trend) = plant.habit.trends.get(usize::from(plant.nodes.trend[node])) {
+            let trends = plant.own_trends.of(run.axis).unwrap_or(&plant.habit.trends);
+            if let Some(trend) = trends.get(usize::from(plant.nodes.trend[node])) {
                 stance.slope = if trend.share > 0.0 { stance.slope.turned(trend) } else { stance.slope };
             }
         }

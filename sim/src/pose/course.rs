@@ -8,8 +8,8 @@
 //! keeps its two components in the plane and across it. One square root an internode, no trigonometry.
 
 use super::Frame;
-use crate::vector::Vector;
 use crate::plant::Trend;
+use crate::vector::Vector;
 
 /// Below this sine of the angle to the vertical a heading has no horizontal direction of its own; that of `up` serves.
 const VERTICAL: f64 = 1e-6;

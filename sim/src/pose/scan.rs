@@ -6,10 +6,10 @@
 //! frame of its bearing node: 40 m from the seed that is 2 µm, once an order.
 
 use super::course::{Plane, Slope};
-use crate::vector::Vector;
 use super::{Frames, start_frame};
 use crate::plant::standing::{begins_axis, end_of_run};
 use crate::plant::{AxisId, Nodes, Plant, Trend};
+use crate::vector::Vector;
 use std::ops::Range;
 
 /// Where an axis goes on from.
@@ -38,14 +38,15 @@ pub(super) fn follow_trends(plant: &mut Plant) {
 fn follow_axis(plant: &mut Plant, axis: AxisId, run: Range<usize>) {
     let start = start_frame(plant, axis);
     let (plane, slope) = Plane::of(&start);
-    let Plant { nodes, frames, habit, .. } = plant;
+    let Plant { nodes, frames, habit, own_trends, .. } = plant;
+    let trends = own_trends.of(axis).unwrap_or(&habit.trends);
     let begins = begins_axis(nodes, run.start);
     let tip = if begins { Tip { base: Vector::from(start.base), slope } } else { frames.tips[axis.index()] };
-    frames.tips[axis.index()] = extend(frames, nodes, &habit.trends, &plane, tip, run, begins);
+    frames.tips[axis.index()] = extend(frames, nodes, trends, &plane, tip, run, begins);
 }
 
-/// Writes the frames of a run that goes on from `tip`. The first node of an axis, and one whose trend the habit does
-/// not know, goes straight on.
+/// Writes the frames of a run that goes on from `tip`, on an axis of the given trends. The first node of an axis, and one
+/// whose trend is not among them, goes straight on.
 #[inline]
 fn extend(
     frames: &mut Frames,

@@ -5,9 +5,9 @@
 //! A heading that is missing, or no direction at all, is its parent's.
 
 use super::bearing_frame;
-use crate::vector::Vector;
 use crate::plant::standing::begins_axis;
 use crate::plant::{NodeId, Plant};
+use crate::vector::Vector;
 
 /// Below this square of its length a vector has no direction.
 const NOTHING: f64 = 1e-12;

@@ -155,6 +155,7 @@ fn organs_and_buds_stand_at_the_tip_of_their_node() {
         birth: 3,
         azimuth: 0.0,
         insertion: FRAC_PI_2,
+        shed_after: crate::clock::NEVER,
     });
     let leaf = plant.add_organ(NewOrgan {
         node: NodeId(1),

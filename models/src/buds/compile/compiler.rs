@@ -6,9 +6,10 @@
 
 use super::domain;
 use crate::buds::law::{
-    Count, CountTable, Domain, Law, ProbabilityTable, ValueRange, ValueTable, Variate, VariateTable,
+    Count, CountTable, Domain, Law, ProbabilityTable, Quantity, SpeedTable, ValueRange, ValueTable, Variate,
+    VariateTable,
 };
-use crate::buds::params::{Buds, SpeedText};
+use crate::buds::params::{Buds, Season};
 use crate::fault::{Fault, Path};
 use phytomer_sim::clock::Speed;
 
@@ -16,39 +17,37 @@ use phytomer_sim::clock::Speed;
 const MEASURE: ValueRange = ValueRange { min: 0.0, max: 100_000.0, what: "a measure" };
 /// An angle in degrees.
 const ANGLE: ValueRange = ValueRange { min: -360.0, max: 360.0, what: "an angle in degrees" };
+/// The last rank that can be named.
+const LAST_RANK: u32 = 65_535;
+/// A part of a whole.
+const SHARE: ValueRange = ValueRange { min: 0.0, max: 1.0, what: "a share" };
 
 /// Compiles the laws of one order.
 pub struct Compiler<'a> {
     buds: &'a Buds,
     domain: Domain,
     path: Path,
-    /// The path of the array of orders.
+    /// The path of the species, and of the array of orders.
+    species_path: Path,
     orders_path: Path,
-    /// The clock of the order.
-    pub speed: Speed,
+    /// The clocks of the order's axes.
+    pub speeds: SpeedTable,
     /// What was wrong so far.
     pub faults: Vec<Fault>,
 }
 
 impl<'a> Compiler<'a> {
     /// The compiler of the order at `index` (from 0).
-    pub fn new(buds: &'a Buds, index: usize, until: u32, orders_path: &Path) -> Self {
-        let text = &buds.order[index].speed;
-        let parsed = parse_speed(text);
-        let speed = parsed.unwrap_or(Speed::ONE);
-        let mut compiler = Self {
-            buds,
-            domain: domain(buds, index, until, speed),
-            path: orders_path.index(index),
-            orders_path: orders_path.clone(),
-            speed,
-            faults: Vec::new(),
-        };
-        if parsed.is_none() || compiler.domain.max_cycle > 64 * until.max(1) {
-            let expected = "a positive number or ratio of clock steps per tick such as 1, 0.5 or \"2/3\", at most 64";
-            compiler.fault("speed", format!("the speed is {}", speed_in_words(text)), expected);
-        }
-        compiler
+    pub fn new(buds: &'a Buds, index: usize, until: u32, species_path: &Path) -> Self {
+        let orders_path = species_path.key("order");
+        let path = orders_path.index(index);
+        let mut faults = Vec::new();
+        let speeds = buds.order[index].speed.compile(&path.key("speed")).unwrap_or_else(|found| {
+            faults = found;
+            SpeedTable::always(Speed::ONE)
+        });
+        let domain = domain(buds, index, until, speeds.most_steps_by(until));
+        Self { buds, domain, path, species_path: species_path.clone(), orders_path, speeds, faults }
     }
 
     /// The order's number, from 1.
@@ -88,11 +87,36 @@ impl<'a> Compiler<'a> {
 
     /// A number of things, of which more than `most` is a fault.
     pub fn count(&mut self, count: &Count, keys: &str, most: u32) -> CountTable {
+        self.count_from(0, count, keys, most)
+    }
+
+    /// A rank, from 1: anything else that can be drawn is a fault.
+    pub fn rank(&mut self, count: &Count, keys: &str) -> CountTable {
+        self.count_from(1, count, keys, LAST_RANK)
+    }
+
+    fn count_from(&mut self, least: u32, count: &Count, keys: &str, most: u32) -> CountTable {
         let compiled = count.compile(&self.domain, &self.at(keys));
+        let table = self.accept(compiled).unwrap_or_else(|| CountTable::always(least));
+        let (outside, expected) = match (table.min() < least, table.max() > most) {
+            (true, _) => (table.min(), format!("at least {least}")),
+            (_, true) => (table.max(), format!("at most {most}")),
+            _ => return table,
+        };
+        self.fault(keys, format!("it can be {outside}"), &expected);
+        CountTable::always(least)
+    }
+
+    /// The tick of the year at which leaves fall, in a year of `year` ticks: stated for the species, asked at the nodes of
+    /// this order.
+    pub fn fall_within(&mut self, season: &Season, year: u32) -> CountTable {
+        let path = self.species_path.key("season").key("leaf_fall");
+        let compiled = season.leaf_fall.compile(&self.domain, &path);
         let table = self.accept(compiled).unwrap_or_else(|| CountTable::always(0));
-        if table.max() > most {
-            self.fault(keys, format!("it can be {}", table.max()), &format!("at most {most}"));
-            return CountTable::always(0);
+        if year > 0 && table.max() >= year {
+            let found = format!("the tick {} is not in a year of {year} ticks", table.max());
+            let expected = format!("a tick of the year from 0 to {}", year.saturating_sub(1));
+            self.faults.push(Fault::new(&path, found, expected));
         }
         table
     }
@@ -120,7 +144,13 @@ impl<'a> Compiler<'a> {
         self.accept(compiled).unwrap_or_else(|| VariateTable::always(0.0))
     }
 
-    fn variate(&mut self, variate: &Variate, keys: &str, range: ValueRange) -> VariateTable {
+    /// A share, in [0, 1].
+    pub fn share(&mut self, variate: &Variate, keys: &str) -> VariateTable {
+        self.variate(variate, keys, SHARE)
+    }
+
+    /// A real number in the unit of its key, within `range`.
+    pub fn variate(&mut self, variate: &Variate, keys: &str, range: ValueRange) -> VariateTable {
         let compiled = variate.compile(&self.domain, &self.at(keys), range);
         self.accept(compiled).unwrap_or_else(|| VariateTable::always(0.0))
     }
@@ -130,6 +160,20 @@ impl<'a> Compiler<'a> {
         let domain = Domain { max_cycle: self.domain.until, max_rank: 0, ..self.domain.clone() };
         let compiled = law.compile_value(&domain, &self.at("internode.thickening_mm"), MEASURE);
         self.accept(compiled).unwrap_or_else(|| ValueTable::always(0.0))
+    }
+
+    /// A whole number of a species, from 1 to `most`, which `what` names with an article.
+    pub fn quantity(&mut self, quantity: &Quantity, keys: &str, most: u32, what: (&str, &str)) -> u32 {
+        let value = quantity.value();
+        if (1..=most).contains(&value) {
+            return value;
+        }
+        let keys = match quantity {
+            Quantity::Number(_) => keys.to_owned(),
+            Quantity::Form(_) => format!("{keys}.value"),
+        };
+        self.fault(&keys, format!("{} is {value}", what.0), &format!("{}, from 1 to {most}", what.1));
+        1
     }
 
     /// The number of a named state.
@@ -147,58 +191,5 @@ impl<'a> Compiler<'a> {
 
     fn accept<T>(&mut self, compiled: Result<T, Vec<Fault>>) -> Option<T> {
         compiled.map_err(|mut faults| self.faults.append(&mut faults)).ok()
-    }
-}
-
-fn speed_in_words(text: &SpeedText) -> String {
-    match text {
-        SpeedText::Whole(steps) => steps.to_string(),
-        SpeedText::Decimal(steps) => steps.to_string(),
-        SpeedText::Ratio(ratio) => format!("\"{ratio}\""),
-    }
-}
-
-/// The exact ratio of a speed: a decimal number is taken as the decimal fraction that was typed.
-fn parse_speed(text: &SpeedText) -> Option<Speed> {
-    match text {
-        SpeedText::Whole(steps) => Speed::new(*steps, 1),
-        SpeedText::Decimal(steps) => decimal(*steps),
-        SpeedText::Ratio(ratio) => {
-            let (steps, ticks) = ratio.split_once('/').unwrap_or((ratio, "1"));
-            Speed::new(steps.trim().parse().ok()?, ticks.trim().parse().ok()?)
-        }
-    }
-}
-
-fn decimal(steps: f64) -> Option<Speed> {
-    let digits = (0..=6).find_map(|digits| {
-        let scale = f64::from(10_u32.pow(digits));
-        let scaled = steps * scale;
-        let whole = scaled.round();
-        ((scaled - whole).abs() < 1e-9 * scale).then_some((whole, 10_u32.pow(digits)))
-    });
-    let (whole, scale) = digits?;
-    let fits = whole >= 1.0 && whole <= f64::from(Speed::LIMIT);
-    if fits { Speed::new(whole as u32, scale) } else { None }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_speed_is_exact_however_it_is_typed() {
-        let two_thirds = Speed::new(2, 3);
-        assert_eq!(parse_speed(&SpeedText::Ratio("2/3".into())), two_thirds);
-        assert_eq!(parse_speed(&SpeedText::Ratio(" 4 / 6 ".into())), two_thirds);
-        assert_eq!(parse_speed(&SpeedText::Decimal(0.3)), Speed::new(3, 10));
-        assert_eq!(parse_speed(&SpeedText::Decimal(1.5)), Speed::new(3, 2));
-        assert_eq!(parse_speed(&SpeedText::Whole(2)), Speed::new(2, 1));
-        for wrong in ["0", "1/0", "-1", "a/b", "", "1/2/3"] {
-            assert_eq!(parse_speed(&SpeedText::Ratio(wrong.into())), None, "{wrong}");
-        }
-        assert_eq!(parse_speed(&SpeedText::Decimal(f64::NAN)), None);
-        assert_eq!(parse_speed(&SpeedText::Decimal(1e300)), None);
-        assert_eq!(parse_speed(&SpeedText::Decimal(1.0 / 3.0)), None);
     }
 }

@@ -6,23 +6,27 @@
 
 mod compiler;
 mod geometry;
+mod head;
 mod node;
 mod relay;
 mod step;
+mod trend;
 mod wood;
 pub(super) mod words;
+mod zone;
 
-pub(super) use geometry::Trends;
+pub(super) use head::HeadLaws;
 pub(super) use node::NodeLaws;
 pub(super) use relay::{Branching, EndLaws};
 pub(super) use step::StepLaws;
+pub(super) use zone::{Ranks, Zones};
 
 use super::law::{Domain, ValueTable};
-use super::params::{Buds, Order, Season};
+use super::params::Buds;
 use crate::fault::{Fault, Path};
 use compiler::Compiler;
-use phytomer_sim::clock::{LAST_TICK, NEVER, Speed};
-use phytomer_sim::plant::{Habit, Shape};
+use phytomer_sim::clock::LAST_TICK;
+use phytomer_sim::plant::{Habit, Shape, Trend};
 use std::sync::Arc;
 
 /// The most orders that a species may have.
@@ -32,7 +36,6 @@ const MOST_ORDERS: usize = 16;
 #[derive(Debug, Clone)]
 pub struct BudModel {
     pub(super) orders: Vec<OrderLaws>,
-    pub(super) season: Option<Season>,
     pub(super) states: usize,
     pub(super) until: u32,
     pub(super) habit: Arc<Habit>,
@@ -42,12 +45,10 @@ pub struct BudModel {
 #[derive(Debug, Clone)]
 pub(super) struct OrderLaws {
     pub number: u8,
-    pub speed: Speed,
+    pub head: HeadLaws,
     pub step: StepLaws,
     pub node: NodeLaws,
     pub end: EndLaws,
-    pub trends: Trends,
-    pub first_azimuth: f32,
     /// Metres added to a diameter; asked at the plant's age and the internode's own.
     pub thickening: ValueTable,
 }
@@ -61,9 +62,9 @@ impl Buds {
         let mut faults = self.check(until, path);
         let mut orders = Vec::new();
         let mut trends = Vec::new();
-        for (index, order) in self.order.iter().enumerate().take(MOST_ORDERS) {
-            let mut compiler = Compiler::new(self, index, until.min(LAST_TICK), &path.key("order"));
-            orders.push(compile_order(order, &mut compiler, &mut trends));
+        for index in 0..self.order.len().min(MOST_ORDERS) {
+            let mut compiler = Compiler::new(self, index, until.min(LAST_TICK), path);
+            orders.push(OrderLaws::compile(self, index, &mut compiler, &mut trends));
             faults.append(&mut compiler.faults);
         }
         let wood = wood::compile(self, until.min(LAST_TICK), path, &mut faults);
@@ -72,14 +73,10 @@ impl Buds {
             faults.dedup();
             return Err(faults);
         }
-        let habit = Habit {
-            trends,
-            shed_after: self.order.iter().map(|order| order.shed_after.unwrap_or(NEVER)).collect(),
-            shapes: self.order.iter().map(|order| Shape::from(order.internode.shape)).collect(),
-            wood,
-        };
+        let habit =
+            Habit { trends, shapes: self.order.iter().map(|order| Shape::from(order.internode.shape)).collect(), wood };
         let states = self.states.len().max(1);
-        Ok(BudModel { orders, season: self.season, states, until, habit: Arc::new(habit) })
+        Ok(BudModel { orders, states, until, habit: Arc::new(habit) })
     }
 
     fn check(&self, until: u32, path: &Path) -> Vec<Fault> {
@@ -104,40 +101,40 @@ impl Buds {
                 fault(&path, format!("the state \"{state}\" is empty or named twice"), "a name of its own".to_owned());
             }
         }
-        if let Some(season) = self.season
-            && season.leaf_fall >= season.ticks_per_year
+        if let Some(year) = self.season.as_ref().map(|season| season.ticks_per_year.value())
+            && !(1..=LAST_TICK).contains(&year)
         {
-            let found = format!("the tick {} is not in a year of {} ticks", season.leaf_fall, season.ticks_per_year);
-            let expected = format!("a tick of the year from 0 to {}", season.ticks_per_year.saturating_sub(1));
-            fault(&path.key("season").key("leaf_fall"), found, expected);
+            let path = path.key("season").key("ticks_per_year");
+            fault(&path, format!("the year is of {year} ticks"), format!("from 1 to {LAST_TICK} ticks"));
         }
         faults
     }
 }
 
-fn compile_order(order: &Order, compiler: &mut Compiler, trends: &mut Vec<phytomer_sim::plant::Trend>) -> OrderLaws {
-    let step = StepLaws::compile(order, compiler);
-    let end = EndLaws::compile(order, compiler);
-    compiler.set_max_rank(step.most_nodes().max(1));
-    let (phyllotaxis, first_azimuth) = geometry::phyllotaxis(order, compiler);
-    OrderLaws {
-        number: compiler.order_number(),
-        speed: compiler.speed,
-        node: NodeLaws::compile(order, phyllotaxis, compiler),
-        end,
-        trends: Trends::compile(&order.trend, compiler, trends),
-        first_azimuth,
-        thickening: compiler.thickening(&order.internode.thickening_mm),
-        step,
+impl OrderLaws {
+    fn compile(buds: &Buds, index: usize, compiler: &mut Compiler, habit: &mut Vec<Trend>) -> Self {
+        let order = &buds.order[index];
+        let head = HeadLaws::compile(order, compiler, habit);
+        let step = StepLaws::compile(order, compiler);
+        let end = EndLaws::compile(order, compiler);
+        compiler.set_max_rank(step.most_nodes().max(1));
+        Self {
+            number: compiler.order_number(),
+            head,
+            node: NodeLaws::compile(order, buds.season.as_ref(), &step, compiler),
+            end,
+            thickening: compiler.thickening(&order.internode.thickening_mm),
+            step,
+        }
     }
 }
 
 /// The domain of the laws of an order, before the nodes of its growth units are known.
-fn domain(buds: &Buds, index: usize, until: u32, speed: Speed) -> Domain {
+fn domain(buds: &Buds, index: usize, until: u32, max_cycle: u32) -> Domain {
     Domain {
         order: u8::try_from(index + 1).unwrap_or(u8::MAX),
         until,
-        max_cycle: speed.steps_by(until),
+        max_cycle,
         max_rank: 0,
         states: buds.states.clone(),
     }

@@ -4,11 +4,13 @@
 //! (`buds::node`), and what happens at a clock step (`step`).
 
 use super::compiler::Compiler;
-use super::geometry::DEGREE;
+use super::geometry::{DEGREE, divergence};
 use super::relay::Branching;
+use super::step::StepLaws;
 use super::words::{Chance, Layout, Measure, Number};
+use super::zone::{Ranks, Zones};
 use crate::buds::law::{Count, CountTable, VariateTable};
-use crate::buds::params::{End, Order, Pattern};
+use crate::buds::params::{Order, Season};
 use phytomer_sim::plant::Form;
 
 /// Metres in a centimetre and in a millimetre.
@@ -36,9 +38,11 @@ pub struct NodeLaws {
     pub leaves: Number,
     /// The life length of a leaf; `None`: as long as its branch.
     pub leaf_life: Option<Number>,
+    /// The ticks of a year, and the tick of the year at which a leaf falls; `None`: leaves do not fall together.
+    pub leaf_fall: Option<(u32, Number)>,
     pub leaf: OrganLaws,
     pub axillary: Branching,
-    zones: Option<Vec<ZoneLaw>>,
+    pub zones: Option<Zones>,
     pub reiteration: Branching,
     pub reiteration_order: u8,
     pub flowers: Number,
@@ -58,21 +62,14 @@ pub struct OrganLaws {
     pub width: Measure,
     pub insertion: Measure,
     /// Area of one side as a share of length × width; 0 where area means nothing.
-    pub area_share: f32,
+    pub area_share: Measure,
     pub form: Form,
-}
-
-#[derive(Debug, Clone)]
-struct ZoneLaw {
-    from: End,
-    first: u32,
-    last: u32,
-    chance: Option<Chance>,
 }
 
 impl NodeLaws {
     /// Compiles the laws of a node.
-    pub fn compile(order: &Order, divergence: VariateTable, compiler: &mut Compiler) -> Self {
+    pub fn compile(order: &Order, season: Option<&Season>, step: &StepLaws, compiler: &mut Compiler) -> Self {
+        let divergence = divergence(order, compiler);
         let mut layout = Layout::default();
         let words = &mut layout;
         let short = order.growth_unit.short.as_ref().map(|short| &short.length_cm);
@@ -106,9 +103,9 @@ impl NodeLaws {
             leaf_life: leaf_life(order, compiler, words, most_leaves),
             leaf: leaf(order, compiler, words, most_leaves),
             axillary,
-            zones: zones(order, compiler, words),
+            zones: Zones::compile(order, &step.zone_ranks, compiler, words),
             reiteration,
-            reiteration_order: order.reiteration.order,
+            reiteration_order: reiteration_order(order, compiler),
             flowers: words.number(flowers, 1),
             flower_opens: words.chance(opens, most_flowers),
             flower_delay: words.number(flower_delay, most_flowers),
@@ -117,26 +114,19 @@ impl NodeLaws {
             fruit_life: words.number(fruit_life, most_flowers),
             flower: flower(order, compiler, words, most_flowers),
             fruit: fruit(order, compiler, words, most_flowers),
+            leaf_fall: season.map(|season| leaf_fall(season, compiler, words, most_leaves)),
             width: layout.width(),
         }
     }
 
-    /// The law of ramification of the node at `rank` of a growth unit of `nodes`; `None` where it does not ramify.
+    /// The law of ramification of the node at `rank` of a growth unit of `nodes`; `None` where it does not ramify. `drawn`
+    /// are the ranks of zones that the unit has drawn, if any.
     #[inline]
-    pub fn ramification(&self, rank: u32, nodes: u32) -> Option<&Chance> {
-        let Some(zones) = &self.zones else {
-            return Some(&self.axillary.chance);
-        };
-        let zone = zones.iter().find(|zone| {
-            let rank = if zone.from == End::Base { rank } else { nodes + 1 - rank };
-            (zone.first..=zone.last).contains(&rank)
-        });
-        zone.map(|zone| zone.chance.as_ref().unwrap_or(&self.axillary.chance))
-    }
-
-    /// The laws of ramification of the zones that have one of their own.
-    pub fn zone_chances(&self) -> impl Iterator<Item = &Chance> {
-        self.zones.iter().flatten().filter_map(|zone| zone.chance.as_ref())
+    pub fn ramification(&self, rank: u32, nodes: u32, drawn: &[Ranks]) -> Option<&Chance> {
+        match &self.zones {
+            None => Some(&self.axillary.chance),
+            Some(zones) => zones.ramification(rank, nodes, drawn, &self.axillary.chance),
+        }
     }
 }
 
@@ -156,17 +146,21 @@ fn leaf_life(order: &Order, compiler: &mut Compiler, words: &mut Layout, leaves:
 
 fn leaf(order: &Order, compiler: &mut Compiler, words: &mut Layout, leaves: u32) -> OrganLaws {
     let leaf = &order.leaf;
-    if !(0.0..=1.0).contains(&leaf.area_share) {
-        compiler.fault("leaf.area_share", format!("the share is {}", leaf.area_share), "a share in [0, 1]");
-    }
     let angle = compiler.angle(&leaf.insertion_deg, "leaf.insertion_deg");
     OrganLaws {
         length: words.measure(compiler.measure(&leaf.length_cm, "leaf.length_cm"), CM, leaves),
         width: words.measure(compiler.measure(&leaf.width_cm, "leaf.width_cm"), CM, leaves),
         insertion: words.measure(angle, DEGREE, leaves),
-        area_share: leaf.area_share as f32,
+        area_share: words.measure(compiler.share(&leaf.area_share, "leaf.area_share"), 1.0, leaves),
         form: leaf.form.into(),
     }
+}
+
+/// The ticks of a year and the fall, which must be within it.
+fn leaf_fall(season: &Season, compiler: &mut Compiler, words: &mut Layout, leaves: u32) -> (u32, Number) {
+    let year = season.ticks_per_year.value();
+    let fall = compiler.fall_within(season, year);
+    (year, words.number(fall, leaves))
 }
 
 fn flower(order: &Order, compiler: &mut Compiler, words: &mut Layout, flowers: u32) -> OrganLaws {
@@ -176,7 +170,7 @@ fn flower(order: &Order, compiler: &mut Compiler, words: &mut Layout, flowers: u
         length: words.measure(compiler.measure(&flower.length_cm, "flower.length_cm"), CM, flowers),
         width: words.measure(compiler.measure(&flower.width_cm, "flower.width_cm"), CM, flowers),
         insertion: words.measure(angle, DEGREE, flowers),
-        area_share: 0.0,
+        area_share: words.measure(VariateTable::always(0.0), 1.0, flowers),
         form: flower.form.into(),
     }
 }
@@ -187,7 +181,7 @@ fn fruit(order: &Order, compiler: &mut Compiler, words: &mut Layout, flowers: u3
         length: words.measure(compiler.measure(&order.fruit.length_cm, "fruit.length_cm"), CM, flowers),
         width: words.measure(compiler.measure(&order.fruit.width_cm, "fruit.width_cm"), CM, flowers),
         insertion: words.measure(angle, DEGREE, flowers),
-        area_share: 0.0,
+        area_share: words.measure(VariateTable::always(0.0), 1.0, flowers),
         form: order.fruit.form.into(),
     }
 }
@@ -202,39 +196,19 @@ fn axillary(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branc
     Branching::new(words, count, chance, delay, insertion, state)
 }
 
+fn reiteration_order(order: &Order, compiler: &mut Compiler) -> u8 {
+    let orders = u32::try_from(compiler.orders()).unwrap_or(u32::MAX);
+    let stated = &order.reiteration.order;
+    let order = compiler.quantity(stated, "reiteration.order", orders, ("the order", "an order of the species"));
+    u8::try_from(order).unwrap_or(1)
+}
+
 fn reiteration(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branching {
     let reiteration = &order.reiteration;
-    if !(1..=compiler.orders()).contains(&usize::from(reiteration.order)) {
-        let found = format!("the order is {}", reiteration.order);
-        let expected = format!("an order of the species, from 1 to {}", compiler.orders());
-        compiler.fault("reiteration.order", found, &expected);
-    }
     let count = compiler.count(&reiteration.buds, "reiteration.buds", MOST_BUDS);
     let chance = compiler.probability(&reiteration.probability, "reiteration.probability");
     let delay = compiler.count(&reiteration.delay, "reiteration.delay", LONGEST);
     let angle = compiler.angle(&reiteration.insertion_deg, "reiteration.insertion_deg");
     let state = reiteration.state.as_ref().map_or(0, |state| compiler.state(state, "reiteration.state"));
     Branching::new(words, count, chance, delay, angle, Some(state))
-}
-
-fn zones(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Option<Vec<ZoneLaw>> {
-    let Pattern::Rhythmic(rhythmic) = &order.axillary.pattern else {
-        return None;
-    };
-    let most_buds = compiler.count(&order.axillary.buds, "axillary.buds", MOST_BUDS).max();
-    let mut compiled = Vec::new();
-    for (index, zone) in rhythmic.zones.iter().take(64).enumerate() {
-        let keys = format!("axillary.pattern.zones.{index}");
-        let last = zone.last.unwrap_or(u32::MAX);
-        if zone.first == 0 || last < zone.first {
-            let found = format!("the zone goes from rank {} to rank {last}", zone.first);
-            compiler.fault(&keys, found, "a first rank from 1 and a last rank not before it");
-        }
-        let chance = zone.ramification.as_ref().map(|law| {
-            let table = compiler.probability(law, &format!("{keys}.ramification"));
-            words.chance(table, most_buds)
-        });
-        compiled.push(ZoneLaw { from: zone.from, first: zone.first, last, chance });
-    }
-    Some(compiled)
 }

@@ -49,7 +49,8 @@ pub struct EndLaws {
     /// The words of the record, one an axis, in the relay stream.
     pub width: usize,
     relayed: [bool; 3],
-    pub below: u32,
+    /// How many nodes below the last one the relays stand, once for all of them.
+    pub below: Number,
     pub relay: Branching,
     pub traumatic: Branching,
 }
@@ -60,10 +61,11 @@ impl EndLaws {
         let mut layout = Layout::default();
         let relay = relay(order, compiler, &mut layout);
         let traumatic = traumatic(order, compiler, &mut layout);
+        let below = compiler.count(&order.relay.below, "relay.below", LONGEST);
         let on = |end: ApexEnd| order.relay.on.contains(&end);
         Self {
             relayed: [on(ApexEnd::Death), on(ApexEnd::Flower), on(ApexEnd::Completed)],
-            below: order.relay.below,
+            below: layout.number(below, 1),
             relay,
             traumatic,
             width: layout.width(),

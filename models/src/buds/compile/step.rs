@@ -4,27 +4,21 @@
 //! of words. Absent: what a node bears (`node`), and the clock (`buds::grow`).
 
 use super::compiler::Compiler;
-use super::geometry::DEGREE;
-use super::words::{Chance, Layout, Measure, Number};
-use crate::buds::law::{CountTable, ProbabilityTable, VariateTable};
+use super::words::{Chance, Layout, Number};
+use super::zone::ZoneRanks;
+use crate::buds::law::{CountTable, ProbabilityTable};
 use crate::buds::params::Order;
 
 /// The most growth units of one step.
 const MOST_UNITS: u32 = 64;
 /// The most nodes of a growth unit.
-const MOST_NODES: u32 = 65_535;
+pub const MOST_NODES: u32 = 65_535;
 
 /// The laws of one clock step of an order.
 #[derive(Debug, Clone)]
 pub struct StepLaws {
-    /// The words of the record at the head of the bud stream, one an axis.
-    pub head_width: usize,
     /// The words of a step's record.
     pub width: usize,
-    /// The growth units after which the apex ends (in the head record).
-    pub units: Option<Number>,
-    /// The insertion of an axis out of the seed (in the head record).
-    pub insertion: Measure,
     pub death: Chance,
     pub pause: Chance,
     /// The terminal flower.
@@ -37,21 +31,13 @@ pub struct StepLaws {
     pub neoformed: Number,
     /// The passages out of each state: (from, to, probability), with a word each.
     pub transitions: Vec<(u8, u8, Chance)>,
+    /// The ranks of the zones, once a unit.
+    pub zone_ranks: ZoneRanks,
 }
 
 impl StepLaws {
     /// Compiles the laws of a step.
     pub fn compile(order: &Order, compiler: &mut Compiler) -> Self {
-        let mut head = Layout::default();
-        let units = order.apex.units.as_ref().map(|units| {
-            let table = compiler.count(units, "apex.units", MOST_NODES);
-            head.number(table, 1)
-        });
-        let angle = match compiler.order_number() {
-            1 => compiler.angle(&order.insertion_deg, "insertion_deg"),
-            _ => VariateTable::always(0.0),
-        };
-        let insertion = head.measure(angle, DEGREE, 1);
         let mut layout = Layout::default();
         let death = layout.chance(compiler.probability(&order.death, "death"), 1);
         let pause = layout.chance(compiler.probability(&order.pause, "pause"), 1);
@@ -74,9 +60,6 @@ impl StepLaws {
             compiler.fault("growth_unit.neoformed", found, "at most 65535 nodes, preformed and neoformed together");
         }
         Self {
-            head_width: head.width(),
-            units,
-            insertion,
             death,
             pause,
             flower,
@@ -86,6 +69,7 @@ impl StepLaws {
             short_nodes: layout.number(short_nodes, most_units),
             neoformed: layout.number(neoformed, most_units),
             transitions: transitions(order, compiler, &mut layout),
+            zone_ranks: ZoneRanks::compile(order, compiler, &mut layout, most_units),
             width: layout.width(),
         }
     }

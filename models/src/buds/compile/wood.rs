@@ -20,7 +20,8 @@ const SQUARE_MILLIMETRE: f64 = 1e-6;
 pub fn compile(buds: &Buds, until: u32, path: &Path, faults: &mut Vec<Fault>) -> Option<Wood> {
     let wood = buds.wood.as_ref()?;
     let tissues = buds.order.iter().enumerate().map(|(index, order)| {
-        let place = Place { buds, until, index, species: path.key("wood"), order: path.key("order").index(index).key("wood") };
+        let place =
+            Place { buds, until, index, species: path.key("wood"), order: path.key("order").index(index).key("wood") };
         place.tissue(wood, &order.wood, faults)
     });
     Some(Wood {
@@ -32,10 +33,10 @@ pub fn compile(buds: &Buds, until: u32, path: &Path, faults: &mut Vec<Fault>) ->
             flower: wood.flower_kg_m3 as f32,
             fruit: wood.fruit_kg_m3 as f32,
         },
-        drag: wood.drag.as_ref().map_or_else(Drag::default, |drag| Drag {
-            coefficient: drag.c as f32,
-            exponent: drag.n as f32,
-        }),
+        drag: wood
+            .drag
+            .as_ref()
+            .map_or_else(Drag::default, |drag| Drag { coefficient: drag.c as f32, exponent: drag.n as f32 }),
     })
 }
 
@@ -83,7 +84,8 @@ impl Place<'_> {
         };
         let compiled = law.compile_value(&domain, path, range)?;
         let at = |own| At { age: self.until, dimension: own, cycle: own, rank: 0, state: 0 };
-        let mut table: Vec<f32> = (0..=self.until).map(|own| (f64::from(compiled.value(at(own))) * scale) as f32).collect();
+        let mut table: Vec<f32> =
+            (0..=self.until).map(|own| (f64::from(compiled.value(at(own))) * scale) as f32).collect();
         // Ages past a table's last are as its last.
         while table.len() > 1 && table[table.len() - 1] == table[table.len() - 2] {
             table.pop();
@@ -94,10 +96,9 @@ impl Place<'_> {
 
 fn thickening(rule: &ThickeningRule) -> Thickening {
     match *rule {
-        ThickeningRule::Pipe { mm2_per_leaf, leaves, .. } => Thickening::Pipe {
-            per_leaf: mm2_per_leaf * SQUARE_MILLIMETRE,
-            living: leaves == CountedLeaves::Living,
-        },
+        ThickeningRule::Pipe { mm2_per_leaf, leaves, .. } => {
+            Thickening::Pipe { per_leaf: mm2_per_leaf * SQUARE_MILLIMETRE, living: leaves == CountedLeaves::Living }
+        }
         ThickeningRule::Vinci { exponent, .. } => Thickening::DaVinci { exponent },
         ThickeningRule::Rings { width_mm, mm2_per_leaf_m2, .. } => {
             Thickening::Rings { width: width_mm * 0.001, per_foliage: mm2_per_leaf_m2 * SQUARE_MILLIMETRE }

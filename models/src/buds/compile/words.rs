@@ -1,7 +1,7 @@
 //! Which word of a stream decides what: slots given once per order, in a fixed sequence.
 //!
-//! A stream is read in records of a fixed width: one record a clock step (bud stream), one a node (node stream), one an
-//! axis (relay stream). Quantities that are the same at every point take no word.
+//! A stream is read in records of a fixed width: one record an axis and then one a clock step (bud stream), one a node
+//! (node stream), one an axis (relay stream). Quantities that are the same at every point take no word.
 
 use crate::buds::law::{At, CountTable, ProbabilityTable, VariateTable};
 
@@ -87,6 +87,12 @@ pub struct Number {
 }
 
 impl Number {
+    /// How many, where that is the same at every point and in every draw.
+    #[inline]
+    pub fn fixed(&self) -> Option<u32> {
+        self.fixed
+    }
+
     /// How many, the `nth` time (from 0) in this record.
     #[inline]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> u32 {
@@ -104,6 +110,12 @@ pub struct Measure {
 }
 
 impl Measure {
+    /// The same value at every point and in every draw, where it is so.
+    #[inline]
+    pub fn fixed(&self) -> Option<f32> {
+        self.fixed
+    }
+
     /// The value in SI units or radians, the `nth` time (from 0) in this record.
     #[inline]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> f32 {

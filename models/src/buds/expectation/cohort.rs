@@ -1,13 +1,14 @@
-//! Cohorts: the axes of one order, born at one tick in one state, followed step by step as shares.
+//! Cohorts: the axes of one order and one speed, born at one tick in one state, followed step by step as shares.
 //!
 //! A cohort's shares live, rest, grow or end by the same compiled laws as a bud; what they bear starts cohorts of its
 //! own, at later ticks. Absent: branch deaths and leaf fall, so that what is counted is what has been made.
 
 use super::unit::Unit;
-use crate::buds::compile::{Branching, BudModel, OrderLaws};
+use crate::buds::compile::{Branching, BudModel, OrderLaws, Zones};
 use crate::buds::law::At;
 use crate::buds::params::ApexEnd;
 use phytomer_sim::Tick;
+use phytomer_sim::clock::Speed;
 use phytomer_sim::expectation::{Expectation, OrderExpectation};
 
 /// The most steps of summation: a second or so.
@@ -82,8 +83,9 @@ impl<'a> Cohorts<'a> {
             for order in 0..self.model.orders.len() {
                 for state in 0..self.model.states {
                     let born = self.births[order][state][birth as usize];
-                    if born > 0.0 {
-                        self.follow(order, state as u8, birth, born)?;
+                    let model = self.model;
+                    for (speed, share) in model.orders[order].head.speed.shares().filter(|_| born > 0.0) {
+                        self.follow((order, speed), state as u8, birth, born * share)?;
                     }
                 }
             }
@@ -92,8 +94,8 @@ impl<'a> Cohorts<'a> {
         Some(Expectation { orders: self.expected })
     }
 
-    /// One cohort from its birth to the last age.
-    fn follow(&mut self, order: usize, state: u8, birth: Tick, born: f64) -> Option<()> {
+    /// One cohort, of the axes that drew one speed, from its birth to the last age.
+    fn follow(&mut self, (order, speed): (usize, Speed), state: u8, birth: Tick, born: f64) -> Option<()> {
         let laws = &self.model.orders[order];
         let ends = Completion::of(laws, At { age: birth, state, ..At::default() });
         let mut living = vec![vec![Flow::default(); self.model.states]; ends.stages()];
@@ -101,7 +103,7 @@ impl<'a> Cohorts<'a> {
         let mut cycle = 0;
         for tick in birth + 1..=self.until {
             let dimension = tick - birth;
-            while cycle < laws.speed.steps_by(dimension) {
+            while cycle < speed.steps_by(dimension) {
                 cycle += 1;
                 let at = At { age: tick, dimension, cycle, ..At::default() };
                 living = self.step(order, &living, &ends, at);
@@ -237,9 +239,10 @@ fn steady_unit(model: &BudModel, laws: &OrderLaws) -> Option<Unit> {
 fn is_steady(laws: &OrderLaws) -> bool {
     let (step, node) = (&laws.step, &laws.node);
     let chances = [&step.short, &node.flower_opens, &node.fruit_set, &node.axillary.chance, &node.reiteration.chance];
-    let steady_laterals = node.zone_chances().all(|chance| chance.table.constant().is_some());
+    let mut zone_chances = node.zones.iter().flat_map(Zones::chances);
     chances.iter().all(|chance| chance.table.constant().is_some())
-        && steady_laterals
+        && zone_chances.all(|chance| chance.table.constant().is_some())
+        && step.zone_ranks.is_steady()
         && step.long_nodes.table.is_steady()
         && step.short_nodes.table.is_steady()
         && step.neoformed.table.is_steady()
@@ -257,7 +260,7 @@ struct Completion {
 
 impl Completion {
     fn of(laws: &OrderLaws, at: At) -> Self {
-        let Some(units) = &laws.step.units else {
+        let Some(units) = &laws.head.units else {
             return Self { hazards: Vec::new() };
         };
         let mut pmf = units.table.pmf(at);

@@ -5,8 +5,10 @@
 //! M(o,q)(n) = s_o [M(o,q)(n − 1) + g_o (1{o = q} + k_o a_o M(o+1,q)(n − 1))], M(0) = 0. For laws of age, dimension, cycle
 //! and state the same mean is summed over cohorts: the axes of one order born at one tick in one state, of which each
 //! clock step kills, rests, ends or grows a share. Means are linear, so the sum is exact, whatever the random numbers of
-//! nodes and buds, as long as they are drawn independently, which they are; but for one thing: the delay of a lateral is
-//! asked at rank 1, whatever its node's rank.
+//! nodes and buds, as long as they are drawn independently, which they are. Where an axis draws its speed, a cohort is split
+//! by speeds; where a growth unit draws the ranks of its zones, the mean is taken over them too. One thing is not exact: the
+//! delay of a lateral is asked at rank 1, whatever its node's rank. One has no mean here: relays that can stand below the
+//! last node, since an axis may be too short for them.
 //!
 //! Absent: the deaths of branches. What is counted is what has been made.
 
@@ -20,10 +22,10 @@ use phytomer_sim::expectation::Expectation;
 
 impl BudModel {
     /// The means of what an axis of order `order` and all that it bears have made by each age from 0 to `until`, counted
-    /// from the birth of the axis; `None` where the laws do not allow it (relays below the last node) or the sum would
+    /// from the birth of the axis; `None` where the laws do not allow it (relays that can stand below the last node) or the sum would
     /// take too long.
     pub fn expectation_from(&self, order: u8, until: Tick) -> Option<Expectation> {
-        if !self.has_order(order) || self.orders.iter().any(|laws| laws.end.below > 0) {
+        if !self.has_order(order) || self.orders.iter().any(|laws| laws.end.below.table.max() > 0) {
             return None;
         }
         Cohorts::new(self, until.min(self.until)).sum_from(order)

@@ -3,7 +3,7 @@
 //! They are sums over the distribution of the number of nodes and over ranks, since laws may depend on either. Absent:
 //! the fates of buds, which `cohort` follows.
 
-use crate::buds::compile::{BudModel, NodeLaws, OrderLaws};
+use crate::buds::compile::{BudModel, NodeLaws, OrderLaws, Ranks};
 use crate::buds::law::At;
 
 /// The means of one growth unit.
@@ -64,12 +64,15 @@ impl Unit {
             return;
         }
         let next = model.has_order(laws.number + 1);
+        // What units draw of their zones: nothing of it where ranks are constant.
+        let ranks = &laws.step.zone_ranks;
+        let holding = if ranks.are_drawn() { ranks.holding(At { rank: 0, ..at }) } else { Vec::new() };
         for (count, &probability) in nodes.iter().enumerate().skip(1).filter(|(_, p)| **p > 0.0) {
             let count = count as u32;
             let on_node = |rank| {
                 let at = At { rank, ..at };
-                let chance = laws.node.ramification(rank, count).filter(|_| next);
-                (laws.node.axillary.count.table.mean(at), chance.map_or(0.0, |chance| chance.table.probability(at)))
+                let buds = laws.node.axillary.count.table.mean(at);
+                (buds, if next { ramification(&laws.node, (rank, count), &holding, at) } else { 0.0 })
             };
             self.laterals += probability * (1..=count).map(on_node).map(|(buds, chance)| buds * chance).sum::<f64>();
             let (buds, chance) = on_node(count);
@@ -86,6 +89,14 @@ impl Unit {
         self.empty += share * other.empty;
         self.dormant += share * other.dormant;
         self.work += other.work;
+    }
+}
+
+/// The mean probability that a bud of the node at a rank of a growth unit of so many nodes ramifies.
+fn ramification(node: &NodeLaws, (rank, nodes): Ranks, holding: &[Vec<f64>], at: At) -> f64 {
+    match &node.zones {
+        Some(zones) if !holding.is_empty() => zones.mean_probability((rank, nodes), holding, &node.axillary.chance, at),
+        _ => node.ramification(rank, nodes, &[]).map_or(0.0, |chance| chance.table.probability(at)),
     }
 }
 

@@ -254,6 +254,14 @@ impl CountTable {
         first
     }
 
+    /// The count with the given weights of 0, 1, 2 … at every point.
+    pub(super) fn of_weights(weights: &[f64], path: &Path) -> Result<Self, Vec<Fault>> {
+        check_weights(weights, path, None)?;
+        let kind = Kind::Empirical(Mass::weights(weights));
+        let source = Source { weight: 1.0, kind, parameters: Vec::new(), shift: 0, path: path.clone() };
+        Self::fill(Grid::single(), &[source], path).map_err(|fault| vec![fault])
+    }
+
     /// The same count at every point and in every draw.
     pub fn always(count: u32) -> Self {
         let only = Distribution { start: 0, len: 0, first: count, mean: f64::from(count), variance: 0.0 };

@@ -2,7 +2,8 @@
 //! depend on (de Reffye et al. 1988 §§3–4).
 //!
 //! A [`Law`] gives a number at each point (age, dimension, cycle, rank, state) of an order; a [`Count`] and a
-//! [`Variate`] are random variables whose parameters are laws. All are written in TOML, checked over their whole
+//! [`Variate`] are random variables whose parameters are laws; [`Speeds`] are exact ratios, a [`Quantity`] is a whole
+//! number that is not drawn. All are written in TOML, checked over their whole
 //! [`Domain`] and compiled to tables before the first tick; during growth a draw is one look-up and one comparison.
 //! Absent on purpose: files, spans and the draws themselves (a table is handed one 32-bit word).
 
@@ -17,7 +18,9 @@ mod formula;
 mod mass;
 mod parser;
 mod quantile;
+mod quantity;
 mod range;
+mod speed;
 mod spelling;
 mod table;
 #[cfg(test)]
@@ -32,7 +35,9 @@ pub use count_table::CountTable;
 pub use curves::{Beyond, ExponentialLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw};
 pub use domain::{At, Domain, Variable};
 pub use form::{Law, LawForm};
+pub use quantity::{Quantity, QuantityForm};
 pub use range::ValueRange;
+pub use speed::{SpeedForm, SpeedTable, SpeedText, Speeds};
 pub use table::{ProbabilityTable, ValueTable};
 pub use variate::{Lognormal, Normal, Uniform, Variate, VariateForm};
 pub use variate_table::VariateTable;

@@ -177,6 +177,11 @@ impl VariateTable {
     /// A draw at a point with one uniform 32-bit word; rises with the word, except for observed values.
     #[inline]
     pub fn draw(&self, word: u32, at: At) -> f32 {
+        self.draw_f64(word, at) as f32
+    }
+
+    #[inline]
+    fn draw_f64(&self, word: u32, at: At) -> f64 {
         let [a, b] = self.cells[self.grid.cell(at)];
         let value = match &self.kind {
             Kind::Value => a,
@@ -185,11 +190,16 @@ impl VariateTable {
             Kind::Lognormal => math::exp(a + b * deviate(word)),
             Kind::Empirical(values) => values[pick(word, values.len())],
         };
-        self.clamp(value) as f32
+        self.clamp(value)
     }
 
     /// The value, where it is the same at every point and in every draw.
     pub fn constant(&self) -> Option<f32> {
+        self.exact().map(|value| value as f32)
+    }
+
+    /// The same before it is rounded to single precision.
+    pub fn exact(&self) -> Option<f64> {
         let certain = match (&self.kind, self.cells.as_slice()) {
             _ if self.low == self.high => true,
             (Kind::Value, [_]) => true,
@@ -198,7 +208,7 @@ impl VariateTable {
             (Kind::Empirical(values), _) => values.iter().all(|value| *value == values[0]),
             _ => false,
         };
-        certain.then(|| self.draw(0, At::default()))
+        certain.then(|| self.draw_f64(0, At::default()))
     }
 
     /// The mean of the clamped variable at a point.

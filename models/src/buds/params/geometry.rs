@@ -3,7 +3,7 @@
 //! People type centimetres, millimetres and degrees; compilation makes metres and radians of them. Absent: the pose,
 //! which is the same for every model (`phytomer_sim::pose`).
 
-use crate::buds::law::{Law, Variate};
+use crate::buds::law::{Count, Law, Variate};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -50,8 +50,8 @@ pub enum Phyllotaxis {
     /// `"distichous"` (180°), `"opposite-decussate"` (90°), `"whorled"` (half the angle between two positions of a
     /// node), `"spiral"` (the golden angle), or a Fibonacci fraction of a turn such as `"2/5"` or `"3/8"`.
     Named(String),
-    /// The divergence from one node to the next, degrees.
-    Degrees(f64),
+    /// The divergence from one node to the next, degrees, a number or a random variable.
+    Degrees(Variate),
     /// Divergence as a random variable, and the azimuth of an axis's first leaf.
     Divergence(Divergence),
 }
@@ -68,14 +68,14 @@ impl Default for Phyllotaxis {
 pub struct Divergence {
     /// The divergence from one node to the next, degrees.
     pub divergence_deg: Variate,
-    /// The azimuth of an axis's first leaf from the upper side of the axis, degrees; left out: 90, to the side.
+    /// The azimuth of an axis's first leaf from the upper side of the axis, degrees; drawn once an axis, at its birth.
+    /// Left out: 90, to the side.
     #[serde(default = "to_the_side")]
-    #[schemars(range(min = -360, max = 360))]
-    pub first_deg: f64,
+    pub first_deg: Variate,
 }
 
-fn to_the_side() -> f64 {
-    90.0
+fn to_the_side() -> Variate {
+    Variate::from(90.0)
 }
 
 /// The development trend of an axis (de Reffye 1988 §4, Fig. 15).
@@ -109,28 +109,26 @@ pub enum Orientation {
 }
 
 /// A trend in full.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tended {
     /// The angle to the upward vertical that the axis tends to, degrees: 0 orthotropic, 90 plagiotropic, 180 hanging.
-    #[schemars(range(min = 0, max = 180))]
-    pub inclination_deg: f64,
-    /// The share of the way that each internode turns, in [0, 1].
-    #[schemars(range(min = 0, max = 1))]
-    pub share: f64,
+    /// Drawn once an axis, at its birth.
+    pub inclination_deg: Variate,
+    /// The share of the way that each internode turns, in [0, 1]; drawn once an axis, at its birth.
+    pub share: Variate,
 }
 
 /// One phase of a composite trend.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Phase {
-    /// The node rank along the axis from which the phase holds; the first phase starts at 1.
-    #[schemars(range(min = 1))]
-    pub from_rank: u32,
-    /// The angle to the upward vertical that the axis tends to, degrees.
-    #[schemars(range(min = 0, max = 180))]
-    pub inclination_deg: f64,
-    /// The share of the way that each internode turns, in [0, 1].
-    #[schemars(range(min = 0, max = 1))]
-    pub share: f64,
+    /// The node rank along the axis from which the phase holds, drawn once an axis, at its birth; the first phase starts
+    /// at 1. Of the phases that have begun the one stated last holds, so a phase that begins no earlier than the next one
+    /// is passed over.
+    pub from_rank: Count,
+    /// The angle to the upward vertical that the axis tends to, degrees; drawn once an axis, at its birth.
+    pub inclination_deg: Variate,
+    /// The share of the way that each internode turns, in [0, 1]; drawn once an axis, at its birth.
+    pub share: Variate,
 }

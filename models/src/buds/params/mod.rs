@@ -1,7 +1,8 @@
 //! The parameters of the bud model as a species file states them (de Reffye 1988 §4, the list of parameters).
 //!
 //! One [`Order`] for each order of axes, the trunk first; every probability is a [`Law`] of age, dimension, cycle, rank
-//! and state, every number of things a [`Count`], every measure a [`Variate`]. A species without states, reiteration and
+//! and state, every number of things a [`Count`], every measure a [`Variate`], every speed one of [`Speeds`], and what is
+//! one for a whole species a [`Quantity`]; so each may be bare or say its source. A species without states, reiteration and
 //! relays reads as in 1988. Axes of an order past the last are never made.
 //!
 //! Absent on purpose: what the parameters do, which is in `compile` and `grow`.
@@ -15,6 +16,8 @@ pub use geometry::{Divergence, Internode, Orientation, Phase, Phyllotaxis, Shape
 pub use organs::{Flower, FormName, Fruit, Leaf, Season};
 pub use sympodial::{Apex, ApexEnd, Reiteration, Relay, Transition, Traumatic};
 pub use wood::{CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood};
+
+pub use super::law::{Quantity, SpeedForm, SpeedText, Speeds};
 
 use super::law::{Count, Law, Variate};
 use schemars::JsonSchema;
@@ -43,9 +46,9 @@ pub struct Buds {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Order {
-    /// Clock steps per tick, as an exact ratio: 1, 0.5, "2/3". In de Reffye's Fig. 14 the growth ratio r of order 1 over
-    /// order 2 is 1/speed of order 2.
-    pub speed: SpeedText,
+    /// Clock steps per tick, as an exact ratio: 1, 0.5, "2/3"; or several, of which each axis draws one at its birth. In
+    /// de Reffye's Fig. 14 the growth ratio r of order 1 over order 2 is 1/speed of order 2.
+    pub speed: Speeds,
     /// The probability that a living apical bud dies at a clock step. Tested first.
     pub death: Law,
     /// The probability that a living apical bud makes a pause (a break) at a clock step. Tested second.
@@ -83,16 +86,16 @@ pub struct Order {
     /// What the wood of this order is, where it is not that of the species, and how its axes right themselves.
     #[serde(skip_serializing_if = "OrderWood::is_as_the_species")]
     pub wood: OrderWood,
-    /// After how many ticks a branch falls, all of whose buds are dead; left out: dead wood stays.
+    /// After how many ticks a branch falls, all of whose buds are dead; drawn once an axis, at its birth. Left out: dead
+    /// wood stays.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0, max = 65535))]
-    pub shed_after: Option<u32>,
+    pub shed_after: Option<Count>,
 }
 
 impl Default for Order {
     fn default() -> Self {
         Self {
-            speed: SpeedText::default(),
+            speed: Speeds::default(),
             death: Law::default(),
             pause: Law::default(),
             growth_unit: GrowthUnit::default(),
@@ -226,13 +229,12 @@ pub struct Zone {
     pub name: Option<String>,
     /// From which end of the growth unit ranks are counted.
     pub from: End,
-    /// The first rank of the zone, from 1 at that end.
-    #[schemars(range(min = 1, max = 65535))]
-    pub first: u32,
-    /// The last rank of the zone; left out: the other end.
+    /// The first rank of the zone, from 1 at that end; drawn once a growth unit.
+    pub first: Count,
+    /// The last rank of the zone, drawn once a growth unit; one before the first makes a unit without the zone. Left out:
+    /// the other end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 1, max = 65535))]
-    pub last: Option<u32>,
+    pub last: Option<Count>,
     /// The law of ramification of this zone; left out: that of the order.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ramification: Option<Law>,
@@ -246,22 +248,4 @@ pub enum End {
     Base,
     /// The youngest node.
     Tip,
-}
-
-/// A growth speed: a whole number, a decimal number, or a ratio in quotes such as "2/3".
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum SpeedText {
-    /// Steps per tick.
-    Whole(u32),
-    /// Steps per tick, as a decimal number of at most six digits.
-    Decimal(f64),
-    /// "steps/ticks".
-    Ratio(String),
-}
-
-impl Default for SpeedText {
-    fn default() -> Self {
-        Self::Whole(1)
-    }
 }

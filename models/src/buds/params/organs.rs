@@ -3,21 +3,20 @@
 //! Lateral organs stand in the axils of their node, terminal flowers at the end of their axis. Absent: how organs are
 //! drawn, which is known by their form's name alone.
 
-use crate::buds::law::{Count, Law, Variate};
+use crate::buds::law::{Count, Law, Quantity, Variate};
 use phytomer_sim::plant::Form;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The season of leaf fall.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Season {
-    /// The ticks of a year.
-    #[schemars(range(min = 1, max = 65535))]
-    pub ticks_per_year: u32,
-    /// The tick of the year, from 0, at whose beginning all leaves fall that appeared before it.
-    #[schemars(range(min = 0, max = 65534))]
-    pub leaf_fall: u32,
+    /// The ticks of a year. They are not drawn: the year is the calendar's, and the same for every leaf of a plant.
+    pub ticks_per_year: Quantity,
+    /// The tick of the year, from 0, at whose beginning a leaf falls that appeared before it; drawn once a leaf, with its
+    /// laws asked at the node, so that leaves may fall one after another.
+    pub leaf_fall: Count,
 }
 
 /// The leaves of a node.
@@ -33,9 +32,8 @@ pub struct Leaf {
     pub length_cm: Variate,
     /// Width of the blade, cm.
     pub width_cm: Variate,
-    /// Area of one side, as a share of length × width.
-    #[schemars(range(min = 0, max = 1))]
-    pub area_share: f64,
+    /// Area of one side, as a share of length × width, in [0, 1].
+    pub area_share: Variate,
     /// The angle between the axis and the leaf, degrees.
     pub insertion_deg: Variate,
     /// The form that it is drawn with.
@@ -49,7 +47,7 @@ impl Default for Leaf {
             life: None,
             length_cm: Variate::from(5.0),
             width_cm: Variate::from(2.5),
-            area_share: 0.7,
+            area_share: Variate::from(0.7),
             insertion_deg: Variate::from(60.0),
             form: FormName::Elliptic,
         }

@@ -3,7 +3,7 @@
 //! Passages between states are those of a reference axis (Barczi et al. 2008, AMAPsim): an oriented automaton along the
 //! life of an axis. All of it is optional; a species that states none of it grows as in 1988.
 
-use crate::buds::law::{Count, Law, Variate};
+use crate::buds::law::{Count, Law, Quantity, Variate};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -40,9 +40,9 @@ pub struct Relay {
     pub count: Count,
     /// The probability that a relay bud becomes an axis.
     pub probability: Law,
-    /// How many nodes below the last one the relays stand.
-    #[schemars(range(min = 0, max = 65535))]
-    pub below: u32,
+    /// How many nodes below the last one the relays stand, all on one node; drawn once a set of relays. Where the axis
+    /// has no such node of its own there is no relay.
+    pub below: Count,
     /// The ticks that a relay waits.
     pub delay: Count,
     /// The insertion angle of a relay, degrees; left out: that of the order.
@@ -59,7 +59,7 @@ impl Default for Relay {
             on: Vec::new(),
             count: Count::from(1),
             probability: Law::from(1.0),
-            below: 0,
+            below: Count::from(0),
             delay: Count::from(0),
             insertion_deg: None,
             state: None,
@@ -97,9 +97,9 @@ pub struct Reiteration {
     pub buds: Count,
     /// The probability that a reiteration bud becomes an axis.
     pub probability: Law,
-    /// The order of the new axis.
-    #[schemars(range(min = 1, max = 16))]
-    pub order: u8,
+    /// The order of the new axis. It is not drawn: an order names a table of this file, and to pass from one kind of axis
+    /// to another by chance is what `probability` and the states are for.
+    pub order: Quantity,
     /// The ticks that it waits.
     pub delay: Count,
     /// The insertion angle of the new axis, degrees.
@@ -114,7 +114,7 @@ impl Default for Reiteration {
         Self {
             buds: Count::from(0),
             probability: Law::default(),
-            order: 1,
+            order: Quantity::from(1),
             delay: Count::from(0),
             insertion_deg: Variate::from(45.0),
             state: None,

@@ -47,7 +47,10 @@ fn check(rod: &Rod, [load, x, drop, curvature]: [f64; 4]) {
     assert!((tip_x - x).abs() < TOLERANCE, "load {load}: x {tip_x}, not {x}, after {outcome:?}");
     assert!((-tip_z - drop).abs() < TOLERANCE, "load {load}: drop {}, not {drop}", -tip_z);
     let base = base_curvature(&plant);
-    assert!((base - curvature).abs() < TOLERANCE * curvature.max(1.0), "load {load}: curvature {base}, not {curvature}");
+    assert!(
+        (base - curvature).abs() < TOLERANCE * curvature.max(1.0),
+        "load {load}: curvature {base}, not {curvature}"
+    );
 }
 
 /// The curvature at the clamp, from those in the middles of the first three internodes.

@@ -48,11 +48,16 @@ impl Rod {
             density: vec![(self.weight / section) as f32],
             uprighting: Uprighting::default(),
         };
-        Wood { tissues: vec![tissue], bends: true, organs: OrganMass { leaf: 1.0, ..OrganMass::default() }, ..Wood::default() }
+        Wood {
+            tissues: vec![tissue],
+            bends: true,
+            organs: OrganMass { leaf: 1.0, ..OrganMass::default() },
+            ..Wood::default()
+        }
     }
 
     pub fn plant(&self) -> Plant {
-        let habit = Habit { trends: vec![], shed_after: vec![NEVER], shapes: vec![Shape::Cone], wood: Some(self.wood()) };
+        let habit = Habit { trends: vec![], shapes: vec![Shape::Cone], wood: Some(self.wood()) };
         let seed = Seed { plant: 0, run_seed: 1, component_limit: u32::MAX, keep_events: true };
         let mut plant = Plant::new(&seed, Arc::new(habit));
         let axis = add_axis(&mut plant, None, self.insertion);
@@ -91,6 +96,7 @@ pub fn add_axis(plant: &mut Plant, bearer: Option<NodeId>, insertion: f64) -> Ax
         birth: 0,
         azimuth: 0.0,
         insertion: insertion as f32,
+        shed_after: NEVER,
     })
 }
 

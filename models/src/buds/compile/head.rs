@@ -1,0 +1,99 @@
+//! The laws of what an axis draws once, at its birth: speed, trend, the azimuth of its first leaf, the number of its
+//! growth units, the time from its death to its fall.
+//!
+//! They are asked at the plant's age and the axis's state at its birth, and stand in one record of words at the head of
+//! the axis's bud stream. Absent: the insertion of axes out of buds, which the bearing node or the ended axis draws.
+
+use super::compiler::Compiler;
+use super::geometry::{DEGREE, first_azimuth};
+use super::node::LONGEST;
+use super::step::MOST_NODES;
+use super::trend::Trends;
+use super::words::{Layout, Measure, Number};
+use crate::buds::law::{At, VariateTable};
+use crate::buds::params::Order;
+use phytomer_sim::clock::Speed;
+use phytomer_sim::plant::{LineageKey, Trend};
+use phytomer_sim::random::{PlantRandom, Purpose};
+
+/// The laws of the head of an axis.
+#[derive(Debug, Clone)]
+pub struct HeadLaws {
+    /// The words of the record, one an axis, at the head of the bud stream.
+    pub width: usize,
+    /// Whether growth needs one of the words again, wherever the axis goes on.
+    pub guides_growth: bool,
+    /// Whether the birth of an axis needs one of the words.
+    pub marks_birth: bool,
+    /// The growth units after which the apex ends.
+    pub units: Option<Number>,
+    /// The insertion of an axis out of the seed.
+    pub insertion: Measure,
+    pub speed: SpeedLaws,
+    /// `None`: dead wood stays.
+    pub shed_after: Option<Number>,
+    /// The azimuth of the first leaf.
+    pub first_azimuth: Measure,
+    pub trends: Trends,
+}
+
+/// The speeds of which an axis draws one.
+#[derive(Debug, Clone)]
+pub struct SpeedLaws {
+    speeds: Vec<Speed>,
+    pick: Number,
+}
+
+impl HeadLaws {
+    /// Compiles the laws of the head of an order; its constant trends are added to the habit's.
+    pub fn compile(order: &Order, compiler: &mut Compiler, habit: &mut Vec<Trend>) -> Self {
+        let mut head = Layout::default();
+        let units = order.apex.units.as_ref().map(|units| compiler.count(units, "apex.units", MOST_NODES));
+        let units = units.map(|table| head.number(table, 1));
+        let angle = match compiler.order_number() {
+            1 => compiler.angle(&order.insertion_deg, "insertion_deg"),
+            _ => VariateTable::always(0.0),
+        };
+        let insertion = head.measure(angle, DEGREE, 1);
+        let (speeds, pick) = compiler.speeds.clone().into_parts();
+        let speed = SpeedLaws { speeds, pick: head.number(pick, 1) };
+        let shed_after = order.shed_after.as_ref().map(|ticks| compiler.count(ticks, "shed_after", LONGEST));
+        let shed_after = shed_after.map(|table| head.number(table, 1));
+        let first_azimuth = head.measure(first_azimuth(order, compiler), DEGREE, 1);
+        let trends = Trends::compile(&order.trend, compiler, &mut head, habit);
+        let is_drawn = |number: &Number| number.fixed().is_none();
+        Self {
+            width: head.width(),
+            guides_growth: units.as_ref().is_some_and(is_drawn) || is_drawn(&speed.pick) || trends.has_drawn_ranks(),
+            marks_birth: shed_after.as_ref().is_some_and(is_drawn) || trends.has_own(),
+            units,
+            insertion,
+            speed,
+            shed_after,
+            first_azimuth,
+            trends,
+        }
+    }
+
+    /// The record of the axis with lineage key `key`. A quantity without words reads word 0 and does not look at it.
+    pub fn words(&self, random: &PlantRandom, key: LineageKey) -> Vec<u32> {
+        let mut words = vec![0; self.width.max(1)];
+        if self.width > 0 {
+            random.stream(key, Purpose::Bud).read(&mut words);
+        }
+        words
+    }
+}
+
+impl SpeedLaws {
+    /// The speed of an axis.
+    #[inline]
+    pub fn draw(&self, words: &[u32]) -> Speed {
+        self.speeds[self.pick.draw(words, 0, At::default()) as usize]
+    }
+
+    /// Each speed with the share of the axes that have it.
+    pub fn shares(&self) -> impl Iterator<Item = (Speed, f64)> {
+        self.speeds.iter().copied().zip(self.pick.table.pmf(At::default()))
+    }
+}

@@ -1,0 +1,173 @@
+//! The development trends of an order (de Reffye 1988 §4, Fig. 15), from names and degrees to directions and shares.
+//!
+//! The smoothed shape of Fig. 15 becomes a share of the way to the trend that each internode turns. Constant trends are
+//! the habit's and shared by all axes; where an order draws an inclination or a share, each of its axes has trends of its
+//! own, one a phase. Absent: the turning itself, which is the pose's.
+
+use super::compiler::Compiler;
+use super::words::{Layout, Measure, Number};
+use crate::buds::law::{At, Count, CountTable, ValueRange, Variate, VariateTable};
+use crate::buds::params::{Orientation, Trend};
+use phytomer_sim::math;
+use phytomer_sim::plant::Trend as Tendency;
+
+/// The share of the way to its trend that an internode of a plainly named trend turns. The paper draws the smoothed
+/// shape (Fig. 15) and gives no number; a tenth brings an axis nine tenths of the way in 22 internodes.
+const NAMED_SHARE: f64 = 0.1;
+
+const INCLINATION: ValueRange = ValueRange { min: 0.0, max: 180.0, what: "an angle in degrees" };
+/// The most phases of a composite trend.
+const MOST_PHASES: usize = 64;
+
+/// The trends of an axis by the rank of the node.
+#[derive(Debug, Clone)]
+pub struct Trends {
+    /// From which rank on, and the place of the trend among the habit's or the axis's own; empty where ranks are drawn.
+    phases: Vec<(u32, u8)>,
+    /// The same where a rank is drawn.
+    drawn: Vec<(Number, u8)>,
+    /// Inclination and share of each phase, where axes draw trends of their own.
+    own: Vec<(Measure, Measure)>,
+}
+
+/// A phase, its laws compiled.
+struct Phase {
+    from_rank: CountTable,
+    /// Whether its rank has no fault of its own.
+    is_ranked: bool,
+    inclination: VariateTable,
+    share: VariateTable,
+}
+
+impl Trends {
+    /// Compiles the trends of an order, and adds those that are constant to the habit's.
+    pub fn compile(trend: &Trend, compiler: &mut Compiler, words: &mut Layout, habit: &mut Vec<Tendency>) -> Self {
+        let phases = phases(trend, compiler);
+        let constant: Option<Vec<Tendency>> = phases.iter().map(Phase::constant).collect();
+        let mut measure = |table: &VariateTable| words.measure(table.clone(), 1.0, 1);
+        let own: Vec<_> = match &constant {
+            Some(_) => Vec::new(),
+            None => phases.iter().map(|phase| (measure(&phase.inclination), measure(&phase.share))).collect(),
+        };
+        let places: Vec<u8> = match constant {
+            Some(trends) => trends.into_iter().map(|trend| place(trend, habit, compiler)).collect(),
+            None => (0..phases.len()).map(|place| place as u8).collect(),
+        };
+        let ranks: Option<Vec<u32>> = phases.iter().map(|phase| phase.from_rank.constant()).collect();
+        match ranks {
+            Some(ranks) => Self { phases: ranks.into_iter().zip(places).collect(), drawn: Vec::new(), own },
+            None => {
+                let numbers = phases.into_iter().map(|phase| words.number(phase.from_rank, 1));
+                Self { phases: Vec::new(), drawn: numbers.zip(places).collect(), own }
+            }
+        }
+    }
+
+    /// Whether the phases of an axis start from ranks that it draws.
+    pub fn has_drawn_ranks(&self) -> bool {
+        !self.drawn.is_empty()
+    }
+
+    /// Whether axes draw trends of their own.
+    pub fn has_own(&self) -> bool {
+        !self.own.is_empty()
+    }
+
+    /// The ranks from which the phases of an axis hold, with the places of their trends, where it draws them.
+    pub fn draw_ranks(&self, words: &[u32], at: At, phases: &mut Vec<(u32, u8)>) {
+        phases.clear();
+        phases.extend(self.drawn.iter().map(|(rank, place)| (rank.draw(words, 0, at), *place)));
+    }
+
+    /// The trends that an axis draws, one a phase.
+    pub fn draw_own(&self, words: &[u32], at: At) -> impl Iterator<Item = Tendency> {
+        let draw = move |measure: &Measure| f64::from(measure.draw(words, 0, at));
+        self.own.iter().map(move |(inclination, share)| tendency(draw(inclination), draw(share)))
+    }
+
+    /// The trend of the node at `rank` along the axis; `drawn` are the ranks that the axis has drawn, if any.
+    #[inline]
+    pub fn at(&self, rank: u32, drawn: &[(u32, u8)]) -> u8 {
+        let last = |phases: &[(u32, u8)]| phases.iter().rev().find(|phase| phase.0 <= rank).map_or(0, |phase| phase.1);
+        match self.phases.as_slice() {
+            [only] => only.1,
+            [] => last(drawn),
+            phases => last(phases),
+        }
+    }
+}
+
+impl Phase {
+    fn always(inclination_deg: f64, share: f64) -> Self {
+        Self {
+            from_rank: CountTable::always(1),
+            is_ranked: true,
+            inclination: VariateTable::always(inclination_deg),
+            share: VariateTable::always(share),
+        }
+    }
+
+    fn compile(from_rank: &Count, inclination: &Variate, share: &Variate, keys: &str, compiler: &mut Compiler) -> Self {
+        let faults = compiler.faults.len();
+        Self {
+            from_rank: compiler.rank(from_rank, &format!("{keys}.from_rank")),
+            is_ranked: compiler.faults.len() == faults,
+            inclination: compiler.variate(inclination, &format!("{keys}.inclination_deg"), INCLINATION),
+            share: compiler.share(share, &format!("{keys}.share")),
+        }
+    }
+
+    /// Its trend, where that is the same for every axis.
+    fn constant(&self) -> Option<Tendency> {
+        Some(tendency(self.inclination.exact()?, self.share.exact()?))
+    }
+}
+
+fn phases(trend: &Trend, compiler: &mut Compiler) -> Vec<Phase> {
+    match trend {
+        Trend::Simple(Orientation::Straight) => vec![Phase::always(0.0, 0.0)],
+        Trend::Simple(Orientation::Orthotropic) => vec![Phase::always(0.0, NAMED_SHARE)],
+        Trend::Simple(Orientation::Plagiotropic) => vec![Phase::always(90.0, NAMED_SHARE)],
+        Trend::Tended(t) => {
+            vec![Phase::compile(&Count::from(1), &t.inclination_deg, &t.share, "trend", compiler)]
+        }
+        Trend::Composite(stated) => {
+            let compiled = stated.iter().take(MOST_PHASES).enumerate().map(|(place, phase)| {
+                let keys = format!("trend.{place}");
+                Phase::compile(&phase.from_rank, &phase.inclination_deg, &phase.share, &keys, compiler)
+            });
+            let compiled: Vec<Phase> = compiled.collect();
+            check_ranks(&compiled, stated.len(), compiler);
+            compiled
+        }
+    }
+}
+
+/// The first phase starts at rank 1, and each can begin before the next one.
+fn check_ranks(phases: &[Phase], stated: usize, compiler: &mut Compiler) {
+    let begins = phases.first().is_some_and(|phase| phase.from_rank.constant() == Some(1));
+    let ascending = phases.windows(2).all(|pair| pair[0].from_rank.min() < pair[1].from_rank.max());
+    if phases.iter().all(|phase| phase.is_ranked) && (!begins || !ascending || stated > MOST_PHASES) {
+        let found = "the phases do not start at rank 1 and ascend".to_owned();
+        compiler.fault("trend", found, "at most 64 phases, the first from rank 1, in ascending order");
+    }
+}
+
+fn tendency(inclination_deg: f64, share: f64) -> Tendency {
+    let (sin, cos) = match inclination_deg {
+        90.0 => (1.0, 0.0),
+        degrees => math::sincos(degrees * std::f64::consts::PI / 180.0),
+    };
+    Tendency { cos_inclination: cos as f32, sin_inclination: sin as f32, share: share as f32 }
+}
+
+fn place(tendency: Tendency, habit: &mut Vec<Tendency>, compiler: &mut Compiler) -> u8 {
+    let found = habit.iter().position(|known| *known == tendency).unwrap_or_else(|| {
+        habit.push(tendency);
+        habit.len() - 1
+    });
+    u8::try_from(found).unwrap_or_else(|_| {
+        compiler.fault("trend", "the species has more than 256 trends".to_owned(), "at most 256 trends in all");
+        0
+    })
+}

@@ -1,0 +1,169 @@
+//! Zones of a growth unit: the nodes that ramify in the rhythmic pattern (de Reffye 1988 §2, Fig. 4).
+//!
+//! A node in several zones belongs to the first. The ranks of a zone are constants, or drawn once a growth unit; then the
+//! step's record of words has them ([`ZoneRanks`]) and the node asks what its unit drew. Absent: the test of a bud.
+
+use super::compiler::Compiler;
+use super::node::MOST_BUDS;
+use super::words::{Chance, Layout, Number};
+use crate::buds::law::{At, CountTable};
+use crate::buds::params::{End, Order, Pattern, Zone};
+
+/// The most zones of a growth unit.
+const MOST_ZONES: usize = 64;
+
+/// The first and the last rank of a zone.
+pub type Ranks = (u32, u32);
+
+/// The zones of an order.
+#[derive(Debug, Clone)]
+pub struct Zones(Vec<ZoneLaw>);
+
+#[derive(Debug, Clone)]
+struct ZoneLaw {
+    from: End,
+    /// Where its ranks are constant.
+    ranks: Ranks,
+    /// `None`: that of the order.
+    chance: Option<Chance>,
+}
+
+/// The ranks of each zone: constants, or laws where one of them is drawn.
+#[derive(Debug, Clone)]
+pub struct ZoneRanks {
+    constant: Vec<Ranks>,
+    drawn: Vec<(Number, Option<Number>)>,
+}
+
+fn stated(order: &Order) -> Option<&[Zone]> {
+    match &order.axillary.pattern {
+        Pattern::Rhythmic(rhythmic) => Some(&rhythmic.zones[..rhythmic.zones.len().min(MOST_ZONES)]),
+        Pattern::Named(_) => None,
+    }
+}
+
+impl Zones {
+    /// The zones of an order, their own laws of ramification with words for the buds of a node; `None`: every node.
+    pub fn compile(order: &Order, ranks: &ZoneRanks, compiler: &mut Compiler, words: &mut Layout) -> Option<Self> {
+        let zones = stated(order)?;
+        let most_buds = compiler.count(&order.axillary.buds, "axillary.buds", MOST_BUDS).max();
+        let compiled = zones.iter().enumerate().map(|(index, zone)| {
+            let chance = zone.ramification.as_ref().map(|law| {
+                let table = compiler.probability(law, &format!("axillary.pattern.zones.{index}.ramification"));
+                words.chance(table, most_buds)
+            });
+            // A unit that draws ranks gives those of every zone.
+            ZoneLaw { from: zone.from, ranks: ranks.constant.get(index).copied().unwrap_or_default(), chance }
+        });
+        Some(Self(compiled.collect()))
+    }
+
+    /// The law of ramification of the node at `rank` of a growth unit of `nodes`, where the node is in a zone; `order` is
+    /// that of zones without one of their own, `drawn` the ranks that the unit has drawn, if any.
+    #[inline]
+    pub fn ramification<'a>(&'a self, rank: u32, nodes: u32, drawn: &[Ranks], order: &'a Chance) -> Option<&'a Chance> {
+        let holds = |(place, zone): &(usize, &ZoneLaw)| {
+            let (first, last) = drawn.get(*place).copied().unwrap_or(zone.ranks);
+            (first..=last).contains(&zone.rank(rank, nodes))
+        };
+        let (_, zone) = self.0.iter().enumerate().find(holds)?;
+        Some(zone.chance.as_ref().unwrap_or(order))
+    }
+
+    /// The laws of ramification of the zones that have one of their own.
+    pub fn chances(&self) -> impl Iterator<Item = &Chance> {
+        self.0.iter().filter_map(|zone| zone.chance.as_ref())
+    }
+
+    /// The mean over what units draw of the probability that a bud of the node at `rank` of `nodes` ramifies: of each
+    /// zone, where none before it holds the node. `holding` is [`ZoneRanks::holding`].
+    pub fn mean_probability(&self, (rank, nodes): Ranks, holding: &[Vec<f64>], order: &Chance, at: At) -> f64 {
+        let (mut mean, mut free) = (0.0, 1.0);
+        for (zone, holding) in self.0.iter().zip(holding) {
+            let rank = zone.rank(rank, nodes) as usize;
+            let holds = holding.get(rank).or(holding.last()).copied().unwrap_or(0.0);
+            mean += free * holds * zone.chance.as_ref().unwrap_or(order).table.probability(at);
+            free *= 1.0 - holds;
+        }
+        mean
+    }
+}
+
+impl ZoneLaw {
+    /// The rank of a node from the end from which the zone counts.
+    #[inline]
+    fn rank(&self, rank: u32, nodes: u32) -> u32 {
+        if self.from == End::Base { rank } else { nodes + 1 - rank }
+    }
+}
+
+impl ZoneRanks {
+    /// Compiles and checks the ranks of every zone, with words for `units` growth units.
+    pub fn compile(order: &Order, compiler: &mut Compiler, words: &mut Layout, units: u32) -> Self {
+        let zones = stated(order).unwrap_or_default().iter().enumerate();
+        let compiled: Vec<_> = zones.map(|(index, zone)| ranks(zone, index, compiler)).collect();
+        let constant = |(first, last): &(CountTable, Option<CountTable>)| {
+            Some((first.constant()?, last.as_ref().map_or(Some(u32::MAX), CountTable::constant)?))
+        };
+        if let Some(constant) = compiled.iter().map(constant).collect() {
+            return Self { constant, drawn: Vec::new() };
+        }
+        let mut number = |table: CountTable| words.number(table, units);
+        let drawn = compiled.into_iter().map(|(first, last)| (number(first), last.map(&mut number)));
+        Self { constant: Vec::new(), drawn: drawn.collect() }
+    }
+
+    /// Whether a growth unit draws ranks.
+    #[inline]
+    pub fn are_drawn(&self) -> bool {
+        !self.drawn.is_empty()
+    }
+
+    /// The ranks of the zones of the `unit`-th growth unit of a step.
+    pub fn draw(&self, words: &[u32], unit: u32, at: At, ranks: &mut Vec<Ranks>) {
+        ranks.clear();
+        let last = |last: &Option<Number>| last.as_ref().map_or(u32::MAX, |last| last.draw(words, unit, at));
+        ranks.extend(self.drawn.iter().map(|(first, end)| (first.draw(words, unit, at), last(end))));
+    }
+
+    /// Whether the ranks are distributed alike at every point.
+    pub fn is_steady(&self) -> bool {
+        self.drawn
+            .iter()
+            .all(|(first, last)| first.table.is_steady() && last.as_ref().is_none_or(|last| last.table.is_steady()))
+    }
+
+    /// Of each zone the probability that it holds the node of rank 0, 1, 2 … from its end; the last one goes on.
+    pub fn holding(&self, at: At) -> Vec<Vec<f64>> {
+        let begun = |first: &Number| running(&first.table.pmf(at));
+        let holding = |(first, last): &(Number, Option<Number>)| {
+            let (begun, ended) = (begun(first), last.as_ref().map_or(vec![0.0], |last| running(&last.table.pmf(at))));
+            let upto = |sums: &[f64], rank: usize| sums.get(rank).or(sums.last()).copied().unwrap_or(0.0);
+            // A zone ends before the rank where its last rank is below it.
+            let ended_before = |rank: usize| rank.checked_sub(1).map_or(0.0, |before| upto(&ended, before));
+            (0..=begun.len().max(ended.len())).map(|rank| upto(&begun, rank) * (1.0 - ended_before(rank))).collect()
+        };
+        self.drawn.iter().map(holding).collect()
+    }
+}
+
+/// The sums of the first 1, 2, 3 … probabilities.
+fn running(pmf: &[f64]) -> Vec<f64> {
+    let sum = |sum: &mut f64, p: &f64| {
+        *sum += p;
+        Some(sum.min(1.0))
+    };
+    pmf.iter().scan(0.0, sum).collect()
+}
+
+/// The ranks of a zone, each at least 1 whatever is drawn, and a last one that can come after the first.
+fn ranks(zone: &Zone, index: usize, compiler: &mut Compiler) -> (CountTable, Option<CountTable>) {
+    let keys = format!("axillary.pattern.zones.{index}");
+    let first = compiler.rank(&zone.first, &format!("{keys}.first"));
+    let last = zone.last.as_ref().map(|last| compiler.rank(last, &format!("{keys}.last")));
+    if let Some(last) = last.as_ref().filter(|last| last.max() < first.min()) {
+        let found = format!("the zone goes from rank {} to rank {}", first.min(), last.max());
+        compiler.fault(&keys, found, "a first rank from 1 and a last rank not before it");
+    }
+    (first, last)
+}
