@@ -50,8 +50,8 @@ pub struct Outcome {
     pub steps: u32,
     /// Whether the last step moved nothing any more.
     pub settled: bool,
-    /// Whether the shape held what it carries at every step.
-    pub holds: bool,
+    /// An axis that did not hold what it carries, in the first step that found one: the nearest to the seed.
+    pub yields: Option<AxisId>,
 }
 
 /// Bends `plant` under its weight and the wind of `site`, as it stands at `age`, and poses it. What buckles or does not
@@ -60,7 +60,7 @@ pub fn bend(plant: &mut Plant, age: Tick, site: &Site, bench: &mut Bench) -> Out
     let habit = std::sync::Arc::clone(&plant.habit);
     let Some(wood) = habit.wood.as_ref().filter(|wood| wood.feels(&site.fields(&wood.drag))) else {
         pose(plant);
-        return Outcome { steps: 0, settled: true, holds: true };
+        return Outcome { steps: 0, settled: true, yields: None };
     };
     bench.prepare(plant, age);
     bench.pose(plant);
@@ -100,9 +100,10 @@ impl Bench {
     }
 
     fn settle(&mut self, plant: &mut Plant, wood: &Wood, age: Tick, fields: &Fields) -> Outcome {
-        let mut outcome = Outcome { steps: 0, settled: false, holds: true };
+        let mut outcome = Outcome { steps: 0, settled: false, yields: None };
         while !outcome.settled && outcome.steps < MOST_STEPS {
-            outcome.holds &= self.weigh(plant, wood, age, fields);
+            let yields = self.weigh(plant, wood, age, fields);
+            outcome.yields = outcome.yields.or(yields);
             let turned = turn(plant, &self.standing, &self.laterals, &self.responses, &mut self.turns);
             self.pose(plant);
             outcome.steps += 1;
@@ -116,7 +117,7 @@ impl Bench {
         follow_bends(plant, &self.standing, &self.laterals, &mut self.stances);
     }
 
-    fn weigh(&mut self, plant: &Plant, wood: &Wood, age: Tick, fields: &Fields) -> bool {
+    fn weigh(&mut self, plant: &Plant, wood: &Wood, age: Tick, fields: &Fields) -> Option<AxisId> {
         let Self { natural, loads, responses, .. } = self;
         let scan = Scan { plant, wood, age, fields: *fields, natural, loads, responses };
         scan.weigh(&self.standing, &self.laterals, &self.organs)
@@ -159,10 +160,10 @@ fn each_flexural(plant: &Plant, wood: &Wood, age: Tick, standing: &Standing, mut
 }
 
 fn report(plant: &mut Plant, age: Tick, outcome: Outcome) {
-    if !outcome.holds && !plant.strain.buckled {
-        plant.note(age, AxisId::TRUNK, EventKind::Buckled, 1);
+    if let Some(axis) = outcome.yields.filter(|_| outcome.yields != plant.strain.yields) {
+        plant.note(age, axis, EventKind::Buckled, 1);
     }
-    plant.strain.buckled = !outcome.holds;
+    plant.strain.yields = outcome.yields;
     if !outcome.settled {
         plant.note(age, AxisId::TRUNK, EventKind::Unsettled, outcome.steps);
     }

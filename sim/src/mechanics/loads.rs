@@ -16,9 +16,9 @@
 
 use super::wood::{Tissue, Wood, frustum};
 use crate::clock::Tick;
-use crate::plant::Plant;
 use crate::plant::borne::{Borne, Down};
 use crate::plant::standing::{Run, Standing};
+use crate::plant::{AxisId, Plant};
 use crate::site::Fields;
 use crate::vector::Vector;
 
@@ -80,17 +80,20 @@ impl Load {
 }
 
 impl Scan<'_> {
-    /// Goes over every internode that stands, from the tips down; whether each of them holds what it carries.
-    pub fn weigh(mut self, standing: &Standing, laterals: &Borne, organs: &Borne) -> bool {
+    /// Goes over every internode that stands, from the tips down; the last axis met, nearest to the seed, that does not
+    /// hold what it carries.
+    pub fn weigh(mut self, standing: &Standing, laterals: &Borne, organs: &Borne) -> Option<AxisId> {
         self.loads.clear();
         self.loads.resize(self.plant.axes.len(), Load::default());
         let mut laterals = Down::new(laterals, &self.plant.axes.bearer);
         let mut organs = Down::new(organs, &self.plant.organs.node);
-        let mut holds = true;
+        let mut yields = None;
         for run in standing.runs.iter().rev() {
-            holds &= self.weigh_run(run, &mut laterals, &mut organs);
+            if !self.weigh_run(run, &mut laterals, &mut organs) {
+                yields = Some(run.axis);
+            }
         }
-        holds
+        yields
     }
 
     #[inline]

@@ -3,6 +3,8 @@
 //! Both are taken in the axes of the material, along `up` and along `heading × up` of the internode, so that they keep
 //! their meaning while the branch turns. There is no component along the heading: internodes bend and do not twist.
 
+use crate::plant::AxisId;
+
 /// The state of bending, one entry an internode; empty until a plant bends.
 #[derive(Debug, Clone, Default)]
 pub struct Strain {
@@ -10,8 +12,8 @@ pub struct Strain {
     pub curvature: Vec<[f32; 2]>,
     /// The bending moment at the middle of the internode, N·m, about the two axes.
     pub moment: Vec<[f32; 2]>,
-    /// Whether the plant stands in a shape that its stiffness does not hold.
-    pub buckled: bool,
+    /// The axis nearest to the seed that did not hold what it carries, at the last tick.
+    pub yields: Option<AxisId>,
 }
 
 impl Strain {
@@ -19,7 +21,7 @@ impl Strain {
     pub fn clear(&mut self) {
         self.curvature.clear();
         self.moment.clear();
-        self.buckled = false;
+        self.yields = None;
     }
 
     /// Room for `nodes` internodes; new ones are straight and free of load.

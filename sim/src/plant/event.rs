@@ -32,7 +32,8 @@ pub enum EventKind {
     Pruned = 9,
     /// A dead branch fell, with everything that it bore.
     Shed = 10,
-    /// The plant's stiffness no longer held what it carried.
+    /// Its axis, or one that it bears, did not hold what it carried: the nearest to the seed, noted when it
+    /// changes.
     Buckled = 11,
     /// The bending of the plant found no equilibrium; `count` is the number of steps tried.
     Unsettled = 12,

@@ -1,0 +1,88 @@
+//! Wood at the scale of whole plants: what hangs, hangs by its weight, and no trunk is too slender for its height.
+//!
+//! The equations themselves are held against closed forms in the crate of mechanics. Absent: how it looks.
+
+use phytomer_config::{Kind, Model, presets, validate_species};
+use phytomer_models::buds::params::{Buds, Wood};
+use phytomer_models::fault::Path;
+use phytomer_sim::plant::{AxisId, EventKind, Plant, Seed};
+use phytomer_sim::site::Site;
+use phytomer_sim::{Plot, RecordError, Recorder, Tick, grow};
+
+/// Wants no age: what is looked at is the plant that is left.
+struct Nobody;
+
+impl Recorder for Nobody {
+    fn wants(&self, _: Tick) -> bool {
+        false
+    }
+
+    fn record(&mut self, _: Tick, _: &Plot) -> Result<(), RecordError> {
+        Ok(())
+    }
+}
+
+fn buds(species: &str) -> Option<Buds> {
+    match validate_species(species, 1).expect("a shipped species").species.model {
+        Model::Buds(buds) => Some(buds),
+        Model::Gmt1(_) => None,
+    }
+}
+
+fn grown(buds: &Buds, until: Tick, gravity: f64) -> Plant {
+    let model = buds.compile(until, &Path::root()).expect("a shipped species compiles");
+    let seed = Seed { plant: 0, run_seed: 1988, component_limit: u32::MAX, keep_events: true };
+    let mut plot = Plot::of_one(&model, &seed);
+    plot.site = Site { gravity, ..Site::default() };
+    grow(&model, &mut plot, until, &mut Nobody).expect("nothing is written");
+    plot.plants.remove(0)
+}
+
+/// The share of the living internodes of an order that point below the horizontal.
+fn hanging(plant: &Plant, order: u8) -> f64 {
+    let living = |node: &usize| plant.nodes.death[*node] > plant.age;
+    let of_order = |node: &usize| plant.axes.order[plant.nodes.axis[*node].index()] == order;
+    let twigs: Vec<usize> = (0..plant.nodes.len()).filter(living).filter(of_order).collect();
+    let down = twigs.iter().filter(|&&node| plant.frames.heading[node][2] < 0.0).count();
+    down as f64 / twigs.len() as f64
+}
+
+#[test]
+fn the_willow_weeps_by_its_weight_and_its_slender_wood() {
+    let willow = buds("willow").expect("the willow grows from buds");
+    let until = 71;
+    let weeping = hanging(&grown(&willow, until, 9.80665), 4);
+    let weightless = hanging(&grown(&willow, until, 0.0), 4);
+    let mut of_iron = willow.clone();
+    of_iron.wood.as_mut().expect("it has wood").modulus_gpa = Some(phytomer_models::buds::law::Law::from(200.0));
+    let stiff = hanging(&grown(&of_iron, until, 9.80665), 4);
+    assert!(weeping > 0.5, "{weeping} of its twigs hang");
+    assert!(weightless < 0.25 && stiff < 0.3, "without weight {weightless}, of iron {stiff}");
+}
+
+/// The ages that a shipped species is grown to: those of its scenarios.
+fn last_age(species: &str) -> Tick {
+    let of_species = |name: &&str| {
+        let scenario = phytomer_config::validate(name).ok()?.scenario;
+        (scenario.species == species).then_some(scenario.ages.until)
+    };
+    presets(Kind::Scenario).iter().filter_map(|(name, _)| of_species(name)).max().unwrap_or(20)
+}
+
+/// Greenhill's limit with the whole crown as its load: the stiffness that is left under load stays positive at every age.
+#[test]
+fn the_trunk_of_every_shipped_species_stands_at_every_age() {
+    for (name, _) in presets(Kind::Species) {
+        let Some(mut buds) = buds(name) else { continue };
+        // Those that state no wood are given that of a birch.
+        let wood = buds.wood.get_or_insert_with(Wood::default);
+        wood.bends = true;
+        wood.modulus_gpa.get_or_insert_with(|| 9.9.into());
+        wood.density_kg_m3.get_or_insert_with(|| 900.0.into());
+        let plant = grown(&buds, last_age(name), 9.80665);
+        let events = plant.events.as_ref().expect("events are kept");
+        let buckled = events.iter().find(|event| event.kind == EventKind::Buckled && event.axis == AxisId::TRUNK);
+        assert_eq!(buckled, None, "{name}");
+        assert!(!events.iter().any(|event| event.kind == EventKind::Unsettled), "{name}");
+    }
+}
