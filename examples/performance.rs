@@ -38,7 +38,7 @@ fn main() -> Result<()> {
         let baseline = benches.iter().find(|other| other.group == bench.group && other.is_baseline());
         let ratio = baseline.map_or_else(String::new, |baseline| format!("{:.3}", baseline.seconds / bench.seconds));
         let rate = bench.elements / bench.seconds / 1e6;
-        println!("| {} | {} | {:.2} | {rate:.1} | {ratio} |", bench.group, bench.name, bench.seconds * 1e3);
+        println!("| {} | {} | {:.3} | {rate:.1} | {ratio} |", bench.group, bench.name, bench.seconds * 1e3);
     }
     Ok(())
 }
