@@ -1,10 +1,13 @@
 //! Two bare plants of constant laws, the upper bounds of the engine: a bushy one, four orders with a lateral at nearly
 //! every node, and one of long axes, ten nodes a growth unit and few laterals.
 //!
-//! The shipped species draw lengths, angles, leaves and fruits at random on top of this. Absent: a baseline; the rates
-//! are internodes a second of one core.
+//! The shipped species draw lengths, angles, leaves and fruits at random on top of this. The baselines are plain writes of
+//! the columns that growth and pose make; the rates are internodes a second of one core.
 
-use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+mod specimen;
+
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use phytomer::models::buds::law::{Count, Law};
 use phytomer::models::buds::params::{Axillary, GrowthUnit, Leaf};
 use phytomer::models::buds::{Buds, Order};
@@ -12,6 +15,7 @@ use phytomer::models::fault::Path;
 use phytomer::sim::plant::{MOST_COMPONENTS, Seed};
 use phytomer::sim::pose::pose;
 use phytomer::sim::{GrowthModel, Plot, Tick};
+use specimen::{plain_write_of_frames, plain_write_of_growth};
 use std::hint::black_box;
 
 struct Bare {
@@ -51,16 +55,16 @@ impl Bare {
         let mut plot = Plot::of_one(&model, &seed);
         model.grow_to(self.until, &mut plot.plants, &plot.site).expect("room to grow");
         let internodes = plot.plants[0].nodes.len() as u64;
-        let mut group = criterion.benchmark_group(format!("{} (internodes)", self.name));
-        group.throughput(Throughput::Elements(internodes)).sampling_mode(SamplingMode::Flat).sample_size(40);
-        group.bench_function("growth, axis by axis", |bencher| {
+        let grown = plot.clone();
+        let mut group = self.group(criterion, "growth (internodes)", internodes);
+        group.bench_function("axis by axis", |bencher| {
             bencher.iter(|| {
                 plot.resow(&model, &seed);
                 model.grow_to(self.until, &mut plot.plants, &plot.site).expect("room to grow");
                 black_box(&plot);
             });
         });
-        group.bench_function("growth, tick by tick", |bencher| {
+        group.bench_function("tick by tick", |bencher| {
             bencher.iter(|| {
                 plot.resow(&model, &seed);
                 for age in 1..=self.until {
@@ -69,13 +73,24 @@ impl Bare {
                 black_box(&plot);
             });
         });
-        group.bench_function("frames", |bencher| {
+        plain_write_of_growth(&mut group, &grown.plants[0]);
+        group.finish();
+        pose(&mut plot.plants[0]);
+        let mut group = self.group(criterion, "frames (internodes)", internodes);
+        group.bench_function("pose", |bencher| {
             bencher.iter(|| {
                 plot.plants[0].frames.clear();
                 pose(&mut plot.plants[0]);
             });
         });
+        plain_write_of_frames(&mut group, &plot.plants[0]);
         group.finish();
+    }
+
+    fn group<'a>(&self, criterion: &'a mut Criterion, what: &str, internodes: u64) -> BenchmarkGroup<'a, WallTime> {
+        let mut group = criterion.benchmark_group(format!("{}/{what}", self.name));
+        group.throughput(Throughput::Elements(internodes)).sampling_mode(SamplingMode::Flat).sample_size(40);
+        group
     }
 }
 

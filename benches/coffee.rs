@@ -1,7 +1,6 @@
 //! The coffee tree: a bushy plant with leaves, flowers and fruits, and its population.
 //!
-//! Growth in both orders, and frames. What it is measured against is in `specimen::baseline`; `docs/performance.md` has
-//! the table.
+//! Growth in both orders, and frames, each against a plain write of its columns. `docs/performance.md` has the table.
 
 mod specimen;
 

@@ -4,10 +4,10 @@
 //! cargo bench && cargo run --release --example performance
 //! ```
 //!
-//! Criterion keeps its estimates below `target/criterion`; a bench called a baseline is what the others of its group
-//! are compared with.
+//! Criterion keeps its estimates below `target/criterion`; the one bench of a group that is called a baseline is what the
+//! others are compared with.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,13 +27,18 @@ fn main() -> Result<()> {
     collect(&folder, &mut benches)
         .with_context(|| format!("cannot read {}: run `cargo bench` first", folder.display()))?;
     benches.sort_by(|a, b| (&a.group, a.is_baseline(), &a.name).cmp(&(&b.group, b.is_baseline(), &b.name)));
+    for bench in &benches {
+        let baselines = benches.iter().filter(|other| other.group == bench.group && other.is_baseline()).count();
+        let remedy = format!("remove {}, which may hold older benches, and run `cargo bench`", folder.display());
+        ensure!(baselines == 1, "{} has {baselines} baselines, not one: {remedy}", bench.group);
+    }
     println!("| specimen/what | bench | a run, ms | M elements/s | rate against the baseline |");
     println!("|---|---|---:|---:|---:|");
     for bench in &benches {
         let baseline = benches.iter().find(|other| other.group == bench.group && other.is_baseline());
-        let ratio = baseline.map_or_else(String::new, |baseline| format!("{:.2}", baseline.seconds / bench.seconds));
+        let ratio = baseline.map_or_else(String::new, |baseline| format!("{:.3}", baseline.seconds / bench.seconds));
         let rate = bench.elements / bench.seconds / 1e6;
-        println!("| {} | {} | {:.2} | {rate:.1} | {ratio} |", bench.group, bench.name, bench.seconds * 1e3);
+        println!("| {} | {} | {:.3} | {rate:.1} | {ratio} |", bench.group, bench.name, bench.seconds * 1e3);
     }
     Ok(())
 }

@@ -1,10 +1,14 @@
 //! Bad input ends with exit code 3 and leaves nothing, and whatever somebody types the program never panics.
 //!
 //! The files are those beside whose reports the configuration is tested; then two good scenarios, broken in two hundred
-//! drawn ways. The draws are fixed: a failure names its number and shows its text.
+//! drawn ways: those that the program must tell apart by exit code and stderr. `tests/mutations.rs` has ten thousand, in
+//! process. A failure names its number and shows its text.
 
+#[path = "../config/tests/mutate/mod.rs"]
+mod mutate;
 mod program;
 
+use mutate::{Draw, broken};
 use phytomer::config::{Kind, Resolved, kind_of, validate};
 use program::{Said, data, run as phytomer};
 use std::fs;
@@ -36,29 +40,6 @@ ages = { until = 6, record = [2, 6] }
 limits = { max_components = 20_000, max_memory_mb = 16 }
 output = { compression = "zstd3", plants_per_part = 2, float_precision_m = 1e-4 }
 "#,
-];
-
-const VALUES: [&str; 20] = [
-    "0",
-    "-1",
-    "1",
-    "3",
-    "65536",
-    "4294967296",
-    "1e308",
-    "0.5",
-    "nan",
-    "true",
-    "\"\"",
-    "\"all\"",
-    "\"last\"",
-    "\"coffee\"",
-    "[]",
-    "[1]",
-    "[[1]]",
-    "{}",
-    "{ every = 1 }",
-    "'",
 ];
 
 fn bad_files() -> Vec<PathBuf> {
@@ -98,41 +79,6 @@ fn bad_files_are_refused_and_nothing_is_written() {
     }
 }
 
-/// splitmix64: enough to choose where to break things.
-struct Draw(u64);
-
-impl Draw {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) % n.max(1) as u64) as usize
-    }
-}
-
-/// Drops a few bytes, doubles or drops a line, replaces a byte, or puts another value behind an equals sign.
-fn mutate(text: &mut Vec<u8>, draw: &mut Draw) {
-    let at = draw.below(text.len());
-    match draw.below(6) {
-        0 => _ = text.drain(at..(at + 1 + draw.below(8)).min(text.len())),
-        1 => {
-            let mut lines: Vec<Vec<u8>> = text.split(|byte| *byte == b'\n').map(<[u8]>::to_vec).collect();
-            let line = lines.remove(draw.below(lines.len()));
-            let copies = if draw.below(2) == 0 { 2 } else { 0 };
-            lines.splice(0..0, std::iter::repeat_n(line, copies));
-            *text = lines.join(&b'\n');
-        }
-        2 => text[at] = draw.below(256) as u8,
-        _ => {
-            let Some(equals) = (at..text.len()).find(|i| text[*i] == b'=') else { return };
-            let end = (equals..text.len()).find(|i| b",\n}".contains(&text[*i])).unwrap_or(text.len());
-            let value = VALUES[draw.below(VALUES.len())];
-            text.splice(equals + 1..end, format!(" {value} ").into_bytes());
-        }
-    }
-}
-
 /// Whether a run is so small that a test can wait for it.
 fn is_small(resolved: &Resolved) -> bool {
     let scenario = &resolved.scenario;
@@ -149,9 +95,7 @@ fn broken_scenarios_are_refused_or_grown() {
     let out = home.path().join("out");
     let (mut grown, mut refused) = (0, 0);
     for number in 0..MUTATIONS {
-        let mut draw = Draw(number.wrapping_mul(0x2545_F491_4F6C_DD1D));
-        let mut text = GOOD[number as usize % GOOD.len()].as_bytes().to_vec();
-        (0..=draw.below(2)).for_each(|_| mutate(&mut text, &mut draw));
+        let text = broken(GOOD[number as usize % GOOD.len()].as_bytes(), &mut Draw::of_mutation(number));
         fs::write(&mutant, &text).unwrap();
         let file = mutant.to_str().unwrap();
         let found = validate(file);

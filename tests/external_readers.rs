@@ -1,5 +1,6 @@
 //! Independent readers of what a run leaves: pyarrow, DuckDB and Polars for the tables, plyfile, trimesh, Open3D, meshio
-//! and PyVista for the meshes; and jsonschema for the schemas of species and scenarios.
+//! and PyVista for the meshes; jsonschema for the schemas of species and scenarios, and taplo, which editors use for TOML,
+//! for the line by which a file names its schema.
 //!
 //! They live in `.venv`, which `.ci/run` fills from `tests/readers/requirements.txt`; where they are missing the tests
 //! skip and say so, but never in CI. `PHYTOMER_RUN` names a run folder to read beside the small one grown here.
@@ -36,6 +37,18 @@ fn python() -> Option<PathBuf> {
     None
 }
 
+/// Mistakes in the files of `init`: the file, what stands there, and what somebody types instead.
+const MISTAKES: [(&str, &str, &str); 8] = [
+    ("species.toml", "\npause = ", "\npauze = "),
+    ("species.toml", "model = \"buds\"", "model = \"buts\""),
+    ("species.toml", "per_node = 2", "per_node = -2"),
+    ("species.toml", "share = 0.1 }", "share = 1.1 }"),
+    ("species.toml", "ticks_per_year = 12", "ticks_per_year = 0"),
+    ("scenario.toml", "spacing_m = ", "spacing = "),
+    ("scenario.toml", "plants = 100", "plants = 0"),
+    ("scenario.toml", "until = 48", "until = 65_536"),
+];
+
 /// Grows a scenario into the folder; the run's path.
 fn grow(folder: &Path, scenario: &str) -> String {
     let run = folder.join("run").to_str().expect("a path in UTF-8").to_owned();
@@ -48,6 +61,19 @@ fn phytomer(words: &[&str]) -> Vec<u8> {
     let done = Command::new(env!("CARGO_BIN_EXE_phytomer")).args(words).output().expect("phytomer runs");
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     done.stdout
+}
+
+/// What taplo finds wrong with a TOML file; `None` where it passes.
+fn taplo(python: &Path, file: &Path) -> Option<String> {
+    let done = Command::new(python.with_file_name("taplo"))
+        .args(["check", "--no-auto-config", "--colors", "never"])
+        .arg(file)
+        .env_remove("TAPLO_CONFIG")
+        .output()
+        .expect("taplo runs");
+    let told = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert!(done.status.success() != told.contains("error: "), "{}: {told}", file.display());
+    (!done.status.success()).then_some(told)
 }
 
 fn read(python: &Path, script: &str, arguments: &[&str]) {
@@ -98,6 +124,33 @@ fn an_independent_validator_accepts_every_shipped_file() {
     });
     let presets = Path::new(ROOT).join("config/presets").display().to_string();
     read(&python, "schemas.py", &[&species, &scenario, &presets]);
+}
+
+/// Each mistake is found where the file's first line names the schema, and passes where that line is gone: nothing but
+/// the line can have told of it.
+#[test]
+fn an_independent_editor_obeys_the_schema_line_of_init() {
+    let Some(python) = python() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let init = folder.path().join("my_plant");
+    phytomer(&["init", init.to_str().expect("a path in UTF-8")]);
+    for name in ["species.toml", "scenario.toml"] {
+        assert_eq!(taplo(&python, &init.join(name)), None, "{name} as init has written it");
+    }
+    for (name, right, wrong) in MISTAKES {
+        let text = std::fs::read_to_string(init.join(name)).expect("a file of init");
+        let (line, rest) = text.split_once('\n').expect("several lines");
+        assert_eq!(line, format!("#:schema ./{}", name.replace(".toml", ".schema.json")));
+        assert!(rest.contains(right), "{name} has no `{right}`");
+        let mistaken = rest.replacen(right, wrong, 1);
+        let file = init.join("mistaken.toml");
+        std::fs::write(&file, format!("{line}\n{mistaken}")).expect("a copy");
+        assert!(taplo(&python, &file).is_some(), "{name} with `{wrong}` passes");
+        std::fs::write(&file, mistaken).expect("a copy");
+        assert_eq!(taplo(&python, &file), None, "{name} with `{wrong}` and without its first line");
+    }
 }
 
 #[test]

@@ -1,18 +1,20 @@
 //! What the benches have in common: a shipped scenario as a specimen, its plant, and the baselines beside it.
 //!
-//! A baseline does the same work with everything left out that is ours: the parquet crate fed with ready batches, a plain
-//! write of the same bytes. Rates are elements a second: internodes, vertices, rows or bytes, as the group says.
+//! A baseline does the same work with everything left out that is ours: the same columns or vertices written to memory, the
+//! parquet crate fed with ready batches, a plain write of the same bytes. Rates are elements a second: internodes, vertices, rows or bytes, as the group says.
 
 #![allow(dead_code)]
 
 pub mod baseline;
+pub mod columns;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, SamplingMode, Throughput};
 use phytomer::config::{Resolved, validate};
 use phytomer::outputs::Mode;
-use phytomer::outputs::meshes::{Chunk, MeshOptions, MeshWriter, Ply, Scene};
+use phytomer::outputs::meshes::{Chunk, MeshOptions, MeshWriter, Ply, Scene, Vertex};
 use phytomer::run::{self, Program, Progress, Settings, plan_of, seed_of};
+use phytomer::sim::plant::Plant;
 use phytomer::sim::pose::pose;
 use phytomer::sim::shed::shed;
 use phytomer::sim::{GrowthModel, Plot, Tick};
@@ -20,6 +22,9 @@ use std::fs::File;
 use std::hint::black_box;
 use std::path::PathBuf;
 use std::time::Duration;
+
+/// The name of the baseline of what works in memory.
+pub const PLAIN_WRITE: &str = "plain memory write of the same columns (baseline)";
 
 /// A shipped scenario, and the first of its plants.
 pub struct Specimen {
@@ -68,9 +73,11 @@ impl Specimen {
         group
     }
 
-    /// Growth from the seed to the last age, axis by axis and tick by tick, in internodes a second.
+    /// Growth from the seed to the last age, axis by axis and tick by tick, in internodes a second, against a plain write
+    /// of the columns that it makes.
     pub fn growth(&self, criterion: &mut Criterion, by_the_clock: bool) {
-        let internodes = self.grown().plants[0].nodes.len() as u64;
+        let grown = self.grown();
+        let internodes = grown.plants[0].nodes.len() as u64;
         let mut group = self.group(criterion, "growth (internodes)", Throughput::Elements(internodes));
         let mut plot = self.sown();
         let seed = seed_of(&self.resolved.scenario, 0);
@@ -92,10 +99,11 @@ impl Specimen {
                 });
             });
         }
+        plain_write_of_growth(&mut group, &grown.plants[0]);
         group.finish();
     }
 
-    /// The pose of every internode, against a plain write of as many bytes.
+    /// The pose of every internode, against a plain write of its columns.
     pub fn frames(&self, criterion: &mut Criterion) {
         let mut plot = self.grown();
         let internodes = plot.plants[0].nodes.len();
@@ -106,18 +114,11 @@ impl Specimen {
                 pose(&mut plot.plants[0]);
             });
         });
-        let frames = vec![[0.5_f32; 9]; internodes];
-        let mut copy = vec![[0.0_f32; 9]; internodes];
-        group.bench_function("plain memory write of as many bytes (baseline)", |bencher| {
-            bencher.iter(|| {
-                copy.copy_from_slice(black_box(&frames));
-                black_box(&copy);
-            });
-        });
+        plain_write_of_frames(&mut group, &plot.plants[0]);
         group.finish();
     }
 
-    /// The vertices of a mesh, into reused chunks.
+    /// The vertices of a mesh, into reused chunks, against a plain write of as many vertices into such a chunk.
     pub fn meshing(&self, criterion: &mut Criterion) {
         let plot = self.grown();
         let scene = Scene::new(&plot.plants[0], self.until(), &MeshOptions::default());
@@ -132,6 +133,11 @@ impl Specimen {
                 };
                 scene.vertices(&mut chunk, &mut sink).expect("memory does not fail");
             });
+        });
+        let bytes = scene.counts().vertices as usize * Vertex::BYTES;
+        let (ready, mut kept) = (vec![1_u8; Chunk::BYTES], vec![0_u8; Chunk::BYTES]);
+        group.bench_function("plain memory write of as many vertices (baseline)", |bencher| {
+            bencher.iter(|| baseline::write_chunks(&ready, &mut kept, bytes));
         });
         group.finish();
     }
@@ -175,6 +181,28 @@ impl Specimen {
         group.bench_function("plain memory write of the same columns", |bencher| bencher.iter(|| ready.copy()));
         group.finish();
     }
+}
+
+/// The baseline of growth: the columns of a grown plant, written again.
+pub fn plain_write_of_growth(group: &mut BenchmarkGroup<'_, WallTime>, grown: &Plant) {
+    let mut copy = grown.clone();
+    group.bench_function(PLAIN_WRITE, |bencher| {
+        bencher.iter(|| {
+            columns::write_growth(black_box(grown), &mut copy);
+            black_box(&copy);
+        });
+    });
+}
+
+/// The baseline of the pose: the frames of a posed plant, written again.
+pub fn plain_write_of_frames(group: &mut BenchmarkGroup<'_, WallTime>, posed: &Plant) {
+    let mut copy = posed.frames.clone();
+    group.bench_function(PLAIN_WRITE, |bencher| {
+        bencher.iter(|| {
+            columns::write_frames(black_box(&posed.frames), &mut copy);
+            black_box(&copy);
+        });
+    });
 }
 
 /// A file name in memory-backed storage where there is some, else in the temporary folder.

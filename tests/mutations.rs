@@ -1,0 +1,228 @@
+//! Ten thousand mutations of files that are right, each taken the whole way from its text to a run folder: what comes of
+//! it is a list of faults and no folder at all, or a whole run; never a panic, never a part of a run.
+//!
+//! It is the way of `phytomer grow`: `config::validate`, then `run::run`. A panic anywhere fails the test, and shows the
+//! mutation. The files are the good fixtures and everything that ships. A broken species grows under a small scenario
+//! that is not broken. A broken scenario that is right may still ask for a long run: then plants, ages and components are
+//! made few in the checked scenario, as `--plants` does it, and what is so made is checked again before it grows.
+
+#[path = "../config/tests/mutate/mod.rs"]
+mod mutate;
+mod program;
+
+use mutate::{Draw, broken, corpus};
+use phytomer::config::scenario::{All, MeshAges, MeshPlants, Record};
+use phytomer::config::{Kind, Report, Resolved, kind_of, validate};
+use phytomer::outputs::read::Run;
+use phytomer::outputs::{FileReport, ShardReport, Table};
+use phytomer::run::{self, Outcome, Progress, Settings};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use std::time::{Duration, Instant};
+
+const MUTATIONS: u64 = 10_000;
+/// No answer may be waited for longer than this, in the slowest build on a busy machine.
+const LONGEST: Duration = Duration::from_secs(20);
+
+/// What a mutant that is right may take of each; more is capped.
+const MOST_PLANTS: u32 = 2;
+const MOST_AGES: u32 = 12;
+const MOST_COMPONENTS: u32 = 2_000;
+
+/// The scenario of a broken species.
+const SCENARIO: &str = r#"
+name = "mutant"
+plants = 2
+seed = 7
+ages = { until = 12, record = { every = 4 } }
+meshes = { plants = "all", ages = [6, 12] }
+output = { plants_per_part = 1 }
+"#;
+
+/// How often what came of a mutation.
+#[derive(Default)]
+struct Counts {
+    refused: AtomicU64,
+    grown: AtomicU64,
+    capped: AtomicU64,
+    overgrown: AtomicU64,
+}
+
+/// Tells of the mutation at which its thread panics.
+struct Shown<'a>(u64, &'a str, &'a [u8]);
+
+impl Drop for Shown<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            eprintln!("mutation {} of {}:\n{}", self.0, self.1, String::from_utf8_lossy(self.2));
+        }
+    }
+}
+
+#[test]
+fn a_mutation_is_refused_or_leaves_a_whole_run() {
+    let home = memory_backed();
+    let good = Path::new(env!("CARGO_MANIFEST_DIR")).join("config/tests/good");
+    let files = corpus(&good, home.path());
+    let threads = std::thread::available_parallelism().map_or(2, usize::from);
+    let (next, counts) = (AtomicU64::new(0), Counts::default());
+    std::thread::scope(|scope| {
+        for thread in 0..threads {
+            let bench = Bench::new(home.path(), thread);
+            let (files, next, counts) = (&files, &next, &counts);
+            scope.spawn(move || {
+                while let number @ 0..MUTATIONS = next.fetch_add(1, Relaxed) {
+                    bench.try_mutation(files, number, counts);
+                }
+            });
+        }
+    });
+    let [refused, grown, capped, overgrown] =
+        [&counts.refused, &counts.grown, &counts.capped, &counts.overgrown].map(|count| count.load(Relaxed));
+    println!("{refused} refused, {grown} grown; of these {capped} capped, {overgrown} came to their limit");
+    assert_eq!(refused + grown, MUTATIONS);
+    // If nearly all were refused, or none, or all came to their limits, this would test little.
+    assert!(refused > MUTATIONS / 4 && grown > MUTATIONS / 8, "{refused} refused, {grown} grown");
+    assert!(overgrown < grown / 2, "{overgrown} of {grown} came to their limit");
+}
+
+/// A folder in memory where there is some: a run syncs every file, and a disk would be waited for.
+fn memory_backed() -> tempfile::TempDir {
+    let memory = Path::new("/dev/shm");
+    let folder = if memory.is_dir() { tempfile::tempdir_in(memory) } else { tempfile::tempdir() };
+    folder.expect("a temporary folder")
+}
+
+/// Where one thread tries mutations, one after another.
+struct Bench {
+    mutant: PathBuf,
+    scenario: PathBuf,
+    out: PathBuf,
+}
+
+impl Bench {
+    /// The mutants lie among the good files, which name one another.
+    fn new(home: &Path, thread: usize) -> Self {
+        let mutant = home.join(format!("mutant_{thread}.toml"));
+        let scenario = home.join(format!("scenario_of_mutant_{thread}.toml"));
+        fs::write(&scenario, format!("species = 'mutant_{thread}.toml'\n{SCENARIO}")).expect("a scenario");
+        Self { mutant, scenario, out: home.join(format!("out_{thread}")) }
+    }
+
+    fn try_mutation(&self, files: &[(String, Vec<u8>)], number: u64, counts: &Counts) {
+        let mut draw = Draw::of_mutation(number);
+        let (name, text) = &files[draw.below(files.len())];
+        let kind = kind_of(&self.mutant.with_file_name(name).to_string_lossy());
+        let text = broken(text, &mut draw);
+        let _shown = Shown(number, name, &text);
+        fs::write(&self.mutant, &text).expect("the mutant is written");
+        let begin = Instant::now();
+        self.grow(if kind == Kind::Scenario { &self.mutant } else { &self.scenario }, counts);
+        let spent = begin.elapsed();
+        assert!(spent < LONGEST, "{spent:?}");
+    }
+
+    /// What `phytomer grow` does, in one thread.
+    fn grow(&self, scenario: &Path, counts: &Counts) {
+        let folder = self.out.join("run");
+        let mut resolved = match validate(&scenario.to_string_lossy()) {
+            Ok(resolved) => resolved,
+            Err(report) => {
+                assert_tells(&report);
+                assert!(!self.out.exists(), "a refused scenario leaves something behind");
+                counts.refused.fetch_add(1, Relaxed);
+                return;
+            }
+        };
+        counts.capped.fetch_add(u64::from(cap(&mut resolved)), Relaxed);
+        let settings = Settings { threads: 1, ..Settings::in_folder(&folder) };
+        let outcome = run::run(&resolved, &settings, &Progress::default()).expect("a scenario that is right grows");
+        assert_whole(&folder, &resolved, &outcome);
+        counts.grown.fetch_add(1, Relaxed);
+        counts.overgrown.fetch_add(u64::from(!outcome.report.overgrown.is_empty()), Relaxed);
+        fs::remove_dir_all(&self.out).expect("the run goes");
+    }
+}
+
+fn assert_tells(report: &Report) {
+    assert!(!report.faults.is_empty(), "a report without faults");
+    assert_eq!(report.records().len(), report.faults.len());
+    assert!(report.render(false).ends_with(&format!("{}\n", report.summary())));
+}
+
+/// Makes a long run short, and stops a large plant soon; whether plants or ages were too many.
+fn cap(resolved: &mut Resolved) -> bool {
+    let scenario = &mut resolved.scenario;
+    let asked_for = (scenario.plants, scenario.ages.until);
+    scenario.plants = scenario.plants.min(MOST_PLANTS);
+    scenario.ages.until = scenario.ages.until.min(MOST_AGES);
+    scenario.limits.max_components = scenario.limits.max_components.min(MOST_COMPONENTS);
+    if !scenario.faults().is_empty() {
+        // It names plants or ages that are no more.
+        scenario.ages.record = Record::All(All::All);
+        if let Some(meshes) = &mut scenario.meshes {
+            (meshes.ages, meshes.plants) = (MeshAges::default(), MeshPlants::default());
+        }
+    }
+    assert_eq!(scenario.faults(), []);
+    (scenario.plants, scenario.ages.until) != asked_for
+}
+
+/// Whether a folder holds a run to its end, and nothing else.
+fn assert_whole(folder: &Path, resolved: &Resolved, outcome: &Outcome) {
+    let run = Run::open(folder).expect("run.json");
+    assert!(run.is_complete() && !outcome.is_interrupted(), "{}", run.json());
+    let (scenario, report) = (&resolved.scenario, &outcome.report);
+    assert_eq!(report.living + report.dead, u64::from(scenario.plants));
+    assert_eq!(run.rows().expect("whole Parquet files"), report.rows);
+    assert_eq!(report.rows.len(), scenario.tables.len());
+    if let (Some(rows), true) = (report.rows.get(&Table::Summary), report.overgrown.is_empty()) {
+        assert_eq!(*rows, u64::from(scenario.plants) * scenario.ages.recorded().len() as u64);
+    }
+    let files = listed(run.json());
+    assert_eq!(files, entered(folder, outcome.shards), "run.json and the journal name other files");
+    for file in &files {
+        let path = folder.join(&file.path);
+        assert_eq!(fs::metadata(&path).expect("a file").len(), file.bytes, "{}", file.path);
+        assert_eq!(program::sha256(&path), file.sha256, "{}", file.path);
+    }
+    let own = ["datapackage.json", "journal.jsonl", "run.json", "views.sql"].map(str::to_owned);
+    let expected: BTreeSet<String> = files.into_iter().map(|file| file.path).chain(own).collect();
+    assert_eq!(there(folder), expected, "the files that are there, and those that should be");
+    let package = fs::read(folder.join("datapackage.json")).expect("datapackage.json");
+    serde_json::from_slice::<BTreeMap<String, serde_json::Value>>(&package).expect("JSON");
+}
+
+/// The files that `run.json` lists.
+fn listed(json: &serde_json::Value) -> Vec<FileReport> {
+    serde_json::from_value(json["files"].clone()).expect("a list of files")
+}
+
+/// The files of all shards in the journal, which names each shard once, in order.
+fn entered(folder: &Path, shards: u32) -> Vec<FileReport> {
+    let journal = fs::read_to_string(folder.join("journal.jsonl")).expect("the journal");
+    assert!(journal.ends_with('\n'), "{journal}");
+    let read = |line| serde_json::from_str::<ShardReport>(line).expect("a whole line");
+    let done: Vec<ShardReport> = journal.lines().map(read).collect();
+    assert_eq!(done.iter().map(|shard| shard.shard).collect::<Vec<_>>(), Vec::from_iter(0..shards));
+    done.into_iter().flat_map(|shard| shard.files).collect()
+}
+
+/// Every file below a folder, by its path there.
+fn there(folder: &Path) -> BTreeSet<String> {
+    let mut files = BTreeSet::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(next) = folders.pop() {
+        for path in fs::read_dir(next).expect("a folder").map(|entry| entry.expect("an entry").path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let name = path.strip_prefix(folder).expect("below the run").display().to_string();
+                files.insert(name.replace('\\', "/"));
+            }
+        }
+    }
+    files
+}
