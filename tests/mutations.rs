@@ -36,9 +36,8 @@ const SCENARIO: &str = r#"
 name = "mutant"
 plants = 2
 seed = 7
-ages = { until = 12, record = { every = 4 } }
-meshes = { plants = "all", ages = [6, 12] }
-output = { plants_per_part = 1 }
+ages = { until = 8, record = { every = 4 } }
+meshes = { sides = 3 }
 "#;
 
 /// How often what came of a mutation.
