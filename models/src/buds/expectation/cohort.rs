@@ -12,7 +12,10 @@ use phytomer_sim::clock::Speed;
 use phytomer_sim::expectation::{Expectation, OrderExpectation};
 
 /// The most steps of summation: a second or so.
-const MOST_WORK: u64 = 400_000_000;
+const MOST_WORK: u64 = 40_000_000;
+
+/// A cohort of which less than this is left bears nothing that the sum, in double precision, would show.
+const NOTHING_LEFT: f64 = 1e-30;
 
 /// A share of a cohort.
 #[derive(Debug, Clone, Copy, Default)]
@@ -99,6 +102,7 @@ impl<'a> Cohorts<'a> {
         let laws = &self.model.orders[order];
         let ends = Completion::of(laws, At { age: birth, state, ..At::default() });
         let mut living = vec![vec![Flow::default(); self.model.states]; ends.stages()];
+        let mut after = living.clone();
         living[0][usize::from(state)].apices = born;
         let mut cycle = 0;
         for tick in birth + 1..=self.until {
@@ -106,9 +110,13 @@ impl<'a> Cohorts<'a> {
             while cycle < speed.steps_by(dimension) {
                 cycle += 1;
                 let at = At { age: tick, dimension, cycle, ..At::default() };
-                living = self.step(order, &living, &ends, at);
+                self.step(order, &living, &mut after, &ends, at);
+                std::mem::swap(&mut living, &mut after);
                 if self.work > MOST_WORK {
                     return None;
+                }
+                if living.iter().flatten().all(|flow| flow.apices < NOTHING_LEFT) {
+                    return Some(());
                 }
             }
         }
@@ -116,18 +124,17 @@ impl<'a> Cohorts<'a> {
     }
 
     /// One clock step of a cohort: what is still living after it, by growth units made and by state.
-    fn step(&mut self, order: usize, living: &[Vec<Flow>], ends: &Completion, at: At) -> Vec<Vec<Flow>> {
-        let mut after = vec![vec![Flow::default(); self.model.states]; living.len()];
+    fn step(&mut self, order: usize, living: &[Vec<Flow>], after: &mut [Vec<Flow>], ends: &Completion, at: At) {
+        after.iter_mut().for_each(|states| states.fill(Flow::default()));
         for (made, states) in living.iter().enumerate() {
             for (state, flow) in states.iter().enumerate().filter(|(_, flow)| flow.apices > 0.0) {
                 let at = At { state: state as u8, ..at };
                 let growing = self.fates(order, *flow, &mut after[made][state], at);
                 let unit = self.steady[order].unwrap_or_else(|| Unit::at(self.model, &self.model.orders[order], at));
                 self.work += 1 + unit.work;
-                self.grow(order, growing, (made, ends), &unit, &mut after, at);
+                self.grow(order, growing, (made, ends), &unit, after, at);
             }
         }
-        after
     }
 
     /// Death, pause and terminal flower; what is left to grow.
