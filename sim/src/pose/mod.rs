@@ -27,6 +27,8 @@ pub struct Frames {
     pub up: Vec<[f32; 3]>,
     /// Where each axis goes on from, in double precision: one entry an axis.
     tips: Vec<Tip>,
+    /// How many nodes have their frame, from the first on.
+    posed: usize,
 }
 
 impl Frames {
@@ -37,18 +39,17 @@ impl Frames {
         Frame { base: self.base[node], heading: self.heading[node], up: self.up[node] }
     }
 
-    /// Forgets every frame, so that the next pose makes them all.
+    /// Forgets every frame, so that the next pose makes them all. The columns keep their length, so that the memory that
+    /// the next pose writes is not written twice.
     pub fn clear(&mut self) {
-        self.base.clear();
-        self.heading.clear();
-        self.up.clear();
-        self.tips.clear();
+        self.posed = 0;
     }
 
-    /// Room for the frames of every node and the tip of every axis.
-    fn resize(&mut self, nodes: usize, axes: usize) {
+    /// Room for the frames of every node and the tip of every axis, to be posed now; the first node that had none.
+    fn begin(&mut self, nodes: usize, axes: usize) -> usize {
         self.resize_nodes(nodes);
         self.tips.resize(axes, Tip::default());
+        std::mem::replace(&mut self.posed, nodes)
     }
 
     fn resize_nodes(&mut self, nodes: usize) {

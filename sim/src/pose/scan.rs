@@ -24,8 +24,7 @@ pub(super) struct Tip {
 /// Poses the nodes that have no frame yet, run by run.
 pub(super) fn follow_trends(plant: &mut Plant) {
     let nodes = plant.nodes.len();
-    let mut node = plant.frames.base.len();
-    plant.frames.resize(nodes, plant.axes.len());
+    let mut node = plant.frames.begin(nodes, plant.axes.len());
     while node < nodes {
         let axis = plant.nodes.axis[node];
         let run = node..end_of_run(&plant.nodes, node);

@@ -14,8 +14,7 @@ const NOTHING: f64 = 1e-12;
 
 /// Poses the nodes that have no frame yet, one by one.
 pub(super) fn follow_headings(plant: &mut Plant) {
-    let first = plant.frames.base.len();
-    plant.frames.resize(plant.nodes.len(), plant.axes.len());
+    let first = plant.frames.begin(plant.nodes.len(), plant.axes.len());
     for node in first..plant.nodes.len() {
         follow(plant, node);
     }
