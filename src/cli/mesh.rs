@@ -49,7 +49,7 @@ pub struct Mesh {
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(3..=64))]
     sides: u32,
     /// A gusty wind of so many metres a second, for this mesh alone; the species needs wood that bends. 0 is calm.
-    #[arg(long, value_name = "M/S", value_parser = wind_speed)]
+    #[arg(long, value_name = "M/S", allow_negative_numbers = true, value_parser = wind_speed)]
     wind: Option<f64>,
     /// The direction towards which the wind blows, degrees from the X axis (east) to the Y axis (north).
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, requires = "wind", allow_negative_numbers = true, value_parser = finite)]
