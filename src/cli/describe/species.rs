@@ -5,7 +5,8 @@
 
 use anyhow::Result;
 use phytomer_config::{Model, Species};
-use phytomer_models::buds::{Order, Wood};
+use phytomer_models::buds::Order;
+use phytomer_models::buds::params::Wood;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
