@@ -267,7 +267,7 @@ fn wind_that_can_move_nothing_is_refused_with_words() {
     }
     assert!(wind("gmt1", &["--wind", "8"], 2).contains("only `buds`"));
     let species =
-        format!("name = \"heavy\"\ninherits = '{}'\n[wood]\ndrag = {{ c = 0, n = 0 }}\n", data("willow.toml"));
+        format!("name = \"heavy\"\ninherits = '{}'\n[wood]\ndrag = {{ c = 0, n = 0 }}\n", data("sallow.toml"));
     write(folder.path(), "heavy.toml", &species);
     write(folder.path(), "s.toml", "name = \"s\"\nspecies = \"heavy.toml\"\nplants = 1\nages = { until = 4 }\n");
     let told = wind("s.toml", &["--wind", "8"], 2);
@@ -282,7 +282,7 @@ fn wind_that_can_move_nothing_is_refused_with_words() {
 #[test]
 fn describe_tells_the_wood() {
     let folder = tempdir().unwrap();
-    let told = run(folder.path(), &["describe", &data("willow.toml")]).ending(0).stdout;
+    let told = run(folder.path(), &["describe", &data("sallow.toml")]).ending(0).stdout;
     for words in ["over dimension", "GPa, 900 kg/m³, it bends", "rule pipe"] {
         assert!(told.contains(words), "`{words}` is missing in\n{told}");
     }
