@@ -218,7 +218,77 @@ fn a_mesh_is_that_of_the_run() {
     let (alone, of_run) =
         (folder.path().join("seven.ply"), folder.path().join("runs/small/meshes/plant-00007_age-0012.ply"));
     assert_eq!(program::sha256(&alone), program::sha256(&of_run));
+    // Of a plant that bends: the last of its part, in the memory of those before it.
+    run(folder.path(), &["grow", &data("bending.toml"), "--quiet"]).ending(0);
+    run(folder.path(), &["mesh", "runs/bending", "--plant", "11", "--out", "eleven.ply"]).ending(0);
+    let of_run = folder.path().join("runs/bending/meshes/plant-00011_age-0020.ply");
+    assert_eq!(program::sha256(&folder.path().join("eleven.ply")), program::sha256(&of_run));
     run(folder.path(), &["mesh", "runs/small", "--out", "no/such/folder.ply"]).ending(1);
+}
+
+#[test]
+fn a_calm_moves_nothing_and_a_wind_moves_vertices_alone() {
+    let folder = tempdir().unwrap();
+    let bending = data("bending.toml");
+    let mesh = |out: &str, more: &[&str]| {
+        let words = [&["mesh", &bending, "--age", "12", "--out", out][..], more].concat();
+        run(folder.path(), &words).ending(0);
+        fs::read(folder.path().join(out)).unwrap()
+    };
+    let still = mesh("still.ply", &[]);
+    assert_eq!(still, mesh("calm.ply", &["--wind", "0", "--time", "3"]));
+    let frame =
+        |out: &str, towards: &str, time: &str| mesh(out, &["--wind", "8", "--wind-towards", towards, "--time", time]);
+    let blown = frame("blown.ply", "90", "0.40");
+    assert_eq!(blown, frame("again.ply", "90", "0.40"));
+    let header = |ply: &[u8]| {
+        let end = ply.windows(11).position(|words| words == b"end_header\n").unwrap();
+        String::from_utf8(ply[..end].to_vec()).unwrap()
+    };
+    for other in [&blown, &frame("turned.ply", "-90", "0.40"), &frame("later.ply", "90", "1.60")] {
+        assert_eq!((header(&still), still.len()), (header(other), other.len()), "as many vertices and faces");
+        assert_ne!(&still, other);
+    }
+    assert_ne!(blown, frame("turned.ply", "-90", "0.40"));
+    assert_eq!(frame("start.ply", "90", "0"), frame("round.ply", "90", "8"), "the motion repeats with the gusts");
+}
+
+#[test]
+fn wind_that_can_move_nothing_is_refused_with_words() {
+    let folder = tempdir().unwrap();
+    let wind = |name: &str, more: &[&str], code: i32| {
+        let words = [&["mesh", name, "--out", "m.ply"][..], more].concat();
+        run(folder.path(), &words).ending(code).stderr
+    };
+    let told = wind("coffee", &["--wind", "8"], 2);
+    for word in ["coffee", "no wood that bends", "`[wood]`", "list woods", "inherits"] {
+        assert!(told.contains(word), "`{word}` is missing in {told}");
+    }
+    assert!(wind("gmt1", &["--wind", "8"], 2).contains("only `buds`"));
+    let species =
+        format!("name = \"heavy\"\ninherits = '{}'\n[wood]\ndrag = {{ c = 0, n = 0 }}\n", data("sallow.toml"));
+    write(folder.path(), "heavy.toml", &species);
+    write(folder.path(), "s.toml", "name = \"s\"\nspecies = \"heavy.toml\"\nplants = 1\nages = { until = 4 }\n");
+    let told = wind("s.toml", &["--wind", "8"], 2);
+    assert!(told.contains("heavy.toml") && told.contains("drag"), "{told}");
+    assert!(wind("s.toml", &["--wind", "-1"], 2).contains("from 0 to 100"));
+    assert!(wind("s.toml", &["--wind", "8", "--time", "soon"], 2).contains("a number is expected"));
+    assert!(wind("s.toml", &["--time", "1"], 2).contains("--wind"));
+    assert!(!folder.path().join("m.ply").exists());
+    wind("s.toml", &["--wind", "0"], 0);
+}
+
+#[test]
+fn describe_tells_the_wood() {
+    let folder = tempdir().unwrap();
+    let told = run(folder.path(), &["describe", &data("sallow.toml")]).ending(0).stdout;
+    assert!(told.contains("dimension, start 1") && told.contains("GPa, 900 kg/m³, it bends"), "{told}");
+    assert!(told.contains("rule pipe, mm2_per_leaf 0.8"), "{told}");
+    run(folder.path(), &["init", "mine"]).ending(0);
+    let told = run(folder.path(), &["describe", "mine/species.toml"]).ending(0).stdout;
+    assert!(told.contains("like birch, 9.9 GPa, 900 kg/m³, it bends"), "{told}");
+    let told = run(folder.path(), &["describe", &data("bush.toml")]).ending(0).stdout;
+    assert!(!told.contains("wood"), "{told}");
 }
 
 #[test]
@@ -252,7 +322,13 @@ fn meshes_per_plant_and_per_age_hold_every_scene() {
 fn lists_have_everything_that_ships() {
     let folder = tempdir().unwrap();
     let all = run(folder.path(), &["list", "--json"]).ending(0).json();
-    for (list, name) in [("scenarios", "coffee"), ("species", "gmt1/5a"), ("models", "buds"), ("kinds", "apical_bud")] {
+    for (list, name) in [
+        ("scenarios", "coffee"),
+        ("species", "gmt1/5a"),
+        ("models", "buds"),
+        ("woods", "scots_pine"),
+        ("kinds", "apical_bud"),
+    ] {
         let names: Vec<_> = all[list].as_array().unwrap().iter().map(|entry| entry["name"].as_str().unwrap()).collect();
         assert!(names.contains(&name), "{name} is not in {list}: {names:?}");
         let alone = run(folder.path(), &["list", list]).ending(0).stdout;

@@ -1,6 +1,7 @@
 //! The same scenario gives the same bytes in every table and mesh: on any number of threads, and in debug and release.
 //!
-//! Both profiles run this file against the same hashes (`tests/data/small.sha256`). Where a change of the growth or of a
+//! Both profiles run this file against the same hashes (`tests/data/*.sha256`): of a bush in its pose at rest, and of trees
+//! that bend in a wind, with the columns of mechanics. Where a change of the growth or of a
 //! format is meant, `PHYTOMER_BLESS=1 cargo test --test determinism` writes them anew.
 
 mod program;
@@ -16,6 +17,18 @@ fn one_two_and_seven_threads_write_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let grown = ["1", "2", "7"].map(|threads| {
         phytomer(folder.path(), &["grow", &data("small.toml"), "--threads", threads, "--name", threads]).ending(0);
+        hashes(&folder.path().join("runs").join(threads))
+    });
+    assert_eq!(grown[0].len(), 4 * 3 + 2 * 2, "four tables of three parts, two plants at two ages");
+    assert_eq!(grown[0], grown[1]);
+    assert_eq!(grown[0], grown[2]);
+}
+
+#[test]
+fn plants_that_bend_are_the_same_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let grown = ["1", "2", "7"].map(|threads| {
+        phytomer(folder.path(), &["grow", &data("bending.toml"), "--threads", threads, "--name", threads]).ending(0);
         hashes(&folder.path().join("runs").join(threads))
     });
     assert_eq!(grown[0].len(), 4 * 3 + 2 * 2, "four tables of three parts, two plants at two ages");
@@ -78,13 +91,22 @@ fn another_seed_gives_other_plants() {
 
 #[test]
 fn debug_and_release_write_the_bytes_that_are_known() {
+    writes_the_known_bytes("small");
+}
+
+#[test]
+fn debug_and_release_bend_alike() {
+    writes_the_known_bytes("bending");
+}
+
+fn writes_the_known_bytes(name: &str) {
     let folder = tempfile::tempdir().unwrap();
-    let resolved = validate(&data("small.toml")).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let resolved = validate(&data(&format!("{name}.toml"))).unwrap_or_else(|report| panic!("{}", report.render(false)));
     // The files name their maker; a fixed name keeps the hashes from changing with every commit.
     let maker = Program { version: "0".into(), git_hash: "0".into() };
     let settings = Settings { program: maker, threads: 2, ..Settings::in_folder(folder.path().join("run")) };
     run::run(&resolved, &settings, &Progress::default()).unwrap();
-    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/small.sha256");
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/data/{name}.sha256"));
     let found = hashes(&settings.folder);
     if std::env::var_os("PHYTOMER_BLESS").is_some() {
         let lines: String = found.iter().map(|(file, hash)| format!("{hash}  {file}\n")).collect();

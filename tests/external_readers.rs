@@ -101,6 +101,17 @@ fn independent_readers_agree_on_a_small_run() {
 }
 
 #[test]
+fn independent_readers_agree_on_plants_that_bend() {
+    let Some(python) = python() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let run = grow(folder.path(), &format!("{ROOT}/tests/data/runs/bending.toml"));
+    read(&python, "tables.py", &[&run]);
+    read(&python, "meshes.py", &[&run, "8"]);
+}
+
+#[test]
 fn independent_readers_agree_on_the_shipped_gmt1() {
     let Some(python) = python() else {
         return;

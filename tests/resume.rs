@@ -14,11 +14,13 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 const KILLS: u32 = 20;
+/// Of the scenario whose plants bend.
+const KILLS_OF_BENDING: u32 = 6;
 
 /// What an undisturbed run writes, and how long it takes.
-fn undisturbed(folder: &Path) -> (BTreeMap<String, String>, Duration) {
+fn undisturbed(folder: &Path, scenario: &str) -> (BTreeMap<String, String>, Duration) {
     let start = Instant::now();
-    run(folder, &["grow", &data("parts.toml"), "--name", "undisturbed", "--quiet"]).ending(0);
+    run(folder, &["grow", &data(scenario), "--name", "undisturbed", "--quiet"]).ending(0);
     (hashes(&folder.join("runs/undisturbed")), start.elapsed())
 }
 
@@ -33,13 +35,22 @@ fn moments() -> impl Iterator<Item = f64> {
 
 #[test]
 fn killed_at_twenty_moments_and_resumed() {
+    kill_and_resume("parts.toml", 4 * 6 + 3, KILLS);
+}
+
+#[test]
+fn plants_that_bend_are_resumed_too() {
+    kill_and_resume("bending.toml", 4 * 3 + 2 * 2, KILLS_OF_BENDING);
+}
+
+fn kill_and_resume(scenario: &str, files: usize, kills: u32) {
     let folder = tempfile::tempdir().unwrap();
-    let (whole, time) = undisturbed(folder.path());
-    assert_eq!(whole.len(), 4 * 6 + 3);
+    let (whole, time) = undisturbed(folder.path(), scenario);
+    assert_eq!(whole.len(), files);
     let mut cut_short = 0;
-    for (kill, moment) in (0..KILLS).zip(moments()) {
+    for (kill, moment) in (0..kills).zip(moments()) {
         let name = format!("kill-{kill}");
-        let words = ["grow", &data("parts.toml"), "--name", &name, "--quiet", "--resume"];
+        let words = ["grow", &data(scenario), "--name", &name, "--quiet", "--resume"];
         let mut child = phytomer(folder.path(), &words).stdout(Stdio::null()).spawn().unwrap();
         sleep(time.mul_f64(moment));
         child.kill().unwrap();
@@ -51,13 +62,13 @@ fn killed_at_twenty_moments_and_resumed() {
         run(folder.path(), &words).ending(0);
         assert_eq!(hashes(&folder.path().join("runs").join(&name)), whole, "killed at {moment} of the run");
     }
-    assert!(cut_short >= KILLS / 4, "only {cut_short} of {KILLS} were killed in time");
+    assert!(cut_short >= kills / 4, "only {cut_short} of {kills} were killed in time");
 }
 
 #[test]
 fn ctrl_c_stops_cleanly_and_tells_how_to_go_on() {
     let folder = tempfile::tempdir().unwrap();
-    let (whole, time) = undisturbed(folder.path());
+    let (whole, time) = undisturbed(folder.path(), "parts.toml");
     let words = ["grow", &data("parts.toml"), "--name", "stopped", "--threads", "1"];
     let child = phytomer(folder.path(), &words).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let start = Instant::now();

@@ -103,8 +103,8 @@ impl Loader {
             schema::check(name.file_schema(), node, &mut self.faults);
         }
         let mut node = merge_chain(name.schema(), chain)?;
-        woods::fill(&mut node, &mut self.sources, &mut self.faults);
         let mut refused = Vec::new();
+        woods::fill(&mut node, &mut self.sources, &mut refused);
         schema::check(name.schema(), &node, &mut refused);
         self.faults.extend(refused.iter().cloned());
         let about = self.read(&node, &refused, |json| serde_path_to_error::deserialize(split(json).0));

@@ -16,12 +16,22 @@ use crate::spelling::nearest;
 /// Keys that others refer to: without them, what is left would look wrong.
 const REFERRED_TO: [&str; 2] = [ORDER, "states"];
 
+/// The wood of a species and of its orders: one cannot be judged without the other.
+const WOOD: &str = "wood";
+
+/// What wood can be judged without.
+const BESIDE_STIFFNESS: [&str; 5] = ["drag", "thickening", "leaf_kg_m2", "flower_kg_m3", "fruit_kg_m3"];
+
 /// The tree without the values at which something was refused; `None` where nothing useful is left.
 pub fn without(node: &Node, faults: &[Fault]) -> Option<Node> {
     let mut rest = node.clone();
     for fault in faults {
         match fault.path.0.as_slice() {
             [] => {}
+            [Segment::Key(wood), Segment::Key(key), ..] if wood == WOOD && BESIDE_STIFFNESS.contains(&key.as_str()) => {
+                remove_below(&mut rest, wood, key);
+            }
+            [Segment::Key(key), ..] | [_, _, Segment::Key(key), ..] if key == WOOD => forget_wood(&mut rest),
             [Segment::Key(list), Segment::Index(i), Segment::Key(key), ..] if list == ORDER => {
                 remove_from_item(&mut rest, list, *i, key);
             }
@@ -32,6 +42,13 @@ pub fn without(node: &Node, faults: &[Fault]) -> Option<Node> {
         }
     }
     Some(rest)
+}
+
+fn forget_wood(node: &mut Node) {
+    node.remove(WOOD);
+    if let Some(Value::Array(orders)) = entry_mut(node, ORDER).map(|list| &mut list.value) {
+        orders.iter_mut().for_each(|order| _ = order.remove(WOOD));
+    }
 }
 
 fn entry_mut<'n>(node: &'n mut Node, key: &str) -> Option<&'n mut Node> {

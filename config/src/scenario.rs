@@ -339,6 +339,10 @@ impl Scenario {
             let problem = "this run would write nothing: no table and no mesh is asked for";
             faults.push(Fault::new(&Path::root().key("tables"), problem, "at least one table, or `[meshes]`"));
         }
+        if self.output.mechanics && !self.tables.contains(&Table::Records) {
+            let problem = "the columns of mechanics belong to the table `records`, which is not written";
+            faults.push(Fault::new(&Path::root().key("output").key("mechanics"), problem, "\"records\" in `tables`"));
+        }
         faults
     }
 

@@ -95,6 +95,7 @@ pub enum ArchitecturalModel {
 
 /// Every growth model, with its parameters.
 #[derive(Debug, Clone, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "a run has one of it")]
 pub enum Model {
     /// The bud model of de Reffye et al. 1988.
     Buds(Buds),

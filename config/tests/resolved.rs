@@ -58,7 +58,7 @@ fn inheritance_is_resolved_by_order() {
 #[test]
 fn the_resolved_form_reads_back_as_itself() {
     let folder = tempfile::tempdir().expect("a folder");
-    for name in ["scenario_full", "scenario_lists", "scenario_states"] {
+    for name in ["scenario_full", "scenario_lists", "scenario_states", "scenario_site"] {
         let run = validate(&format!("tests/good/{name}.toml")).expect("it is right");
         let species = folder.path().join("species.toml");
         fs::write(&species, run.species_toml().expect("TOML")).expect("written");

@@ -4,6 +4,7 @@
 //! dies, and its branch falls two ticks later. At tick 6 the trunk bears a flower, at tick 8 it dies.
 
 use crate::{Mode, Provenance, RunFolder, RunPlan, RunReport, ShardReport, Table};
+use phytomer_sim::mechanics::Wood;
 use phytomer_sim::model::Overgrown;
 use phytomer_sim::plant::{
     ApexFate, AxisId, Cause, EventKind, Form, Habit, Kind, LineageKey, NewAxis, NewNode, NewOrgan, NodeId, Origin,
@@ -16,6 +17,9 @@ use std::sync::Arc;
 
 /// The model of the specimen.
 pub struct Sapling;
+
+/// The same with such wood.
+pub struct Wooden(pub Option<Wood>);
 
 const TRUNK_DIES: Tick = 8;
 
@@ -43,6 +47,28 @@ impl GrowthModel for Sapling {
             plant.nodes.diameter[node] = plant.nodes.primary_diameter[node] * (1.0 + 0.1 * years);
             plant.nodes.diameter_tip[node] = plant.nodes.diameter[node] * 0.9;
         }
+    }
+}
+
+impl GrowthModel for Wooden {
+    fn growth(&self) -> Growth {
+        Sapling.growth()
+    }
+
+    fn habit(&self) -> Arc<Habit> {
+        Arc::new(Habit { wood: self.0.clone(), ..(*Sapling.habit()).clone() })
+    }
+
+    fn sow(&self, plant: &mut Plant) {
+        Sapling.sow(plant);
+    }
+
+    fn grow_to(&self, age: Tick, plants: &mut [Plant], site: &Site) -> Result<(), Overgrown> {
+        Sapling.grow_to(age, plants, site)
+    }
+
+    fn thicken(&self, age: Tick, plant: &mut Plant) {
+        Sapling.thicken(age, plant);
     }
 }
 
@@ -145,6 +171,7 @@ pub fn plan(plots: u32, plots_per_part: u32) -> RunPlan {
         plots_per_part,
         compression_level: 1,
         precision_m: None,
+        mechanics: false,
         provenance: Provenance {
             scenario: "Sapling".to_owned(),
             treatment: "control".to_owned(),
@@ -159,15 +186,23 @@ pub fn plan(plots: u32, plots_per_part: u32) -> RunPlan {
 
 /// A sown plot.
 pub fn plot(plant: u32, component_limit: u32) -> Plot {
-    Plot::of_one(&Sapling, &Seed { plant, run_seed: 42, component_limit, keep_events: true })
+    Plot::of_one(&Sapling, &seed(plant, component_limit))
+}
+
+fn seed(plant: u32, component_limit: u32) -> Seed {
+    Seed { plant, run_seed: 42, component_limit, keep_events: true }
 }
 
 /// A grown and ended plot in the shard of a folder.
 pub fn grow_shard(folder: &RunFolder, shard: u32, component_limit: u32) -> ShardReport {
+    grow_shard_of(&Sapling, folder, shard, component_limit)
+}
+
+fn grow_shard_of(model: &dyn GrowthModel, folder: &RunFolder, shard: u32, component_limit: u32) -> ShardReport {
     let mut open = folder.shard(shard).unwrap();
     for id in folder.plan().plots_of(shard) {
-        let mut plot = plot(id, component_limit);
-        let ending = grow(&Sapling, &mut plot, folder.plan().until, &mut open).unwrap();
+        let mut plot = Plot::of_one(model, &seed(id, component_limit));
+        let ending = grow(model, &mut plot, folder.plan().until, &mut open).unwrap();
         assert_eq!(matches!(ending, Ending::Complete), component_limit > 1000);
         open.end_plot(&plot, ending).unwrap();
     }
@@ -176,9 +211,14 @@ pub fn grow_shard(folder: &RunFolder, shard: u32, component_limit: u32) -> Shard
 
 /// A whole run.
 pub fn run(path: &Path, plan: RunPlan) -> RunReport {
+    run_of(&Sapling, path, plan)
+}
+
+/// A whole run of the plants of a model.
+pub fn run_of(model: &dyn GrowthModel, path: &Path, plan: RunPlan) -> RunReport {
     let folder = RunFolder::create(path, plan, Mode::New).unwrap();
     for shard in folder.missing_shards() {
-        grow_shard(&folder, shard, 100_000);
+        grow_shard_of(model, &folder, shard, 100_000);
     }
     folder.finish(&[("growth", 0.5)]).unwrap()
 }

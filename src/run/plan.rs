@@ -54,6 +54,7 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan> {
             scenario::Compression::Zstd3 => 3,
         },
         precision_m: scenario.output.float_precision_m,
+        mechanics: scenario.output.mechanics,
         provenance: Provenance {
             scenario: scenario.name.clone(),
             treatment: "control".to_owned(),

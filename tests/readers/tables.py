@@ -81,6 +81,31 @@ for column, condition in kinds.items():
     """).fetchall()[0][0]
     assert disagreeing == 0, f"{column}: {disagreeing} plants and ages disagree with records"
 
+fields = {field["name"] for field in resources["records"]["schema"]["fields"]}
+if report["resolved_scenario"]["scenario"]["output"].get("mechanics"):
+    records = f"read_parquet('{run}/records/part-*.parquet')"
+    rules = {
+        "the volume of a frustum": """kind in ('internode', 'short_internode') and not abs(wood_volume_m3 / (pi() / 12 *
+            length_m * (diameter_m ** 2 + diameter_m * diameter_tip_m + diameter_tip_m ** 2)) - 1) < 1e-5""",
+        "mass where there is volume": "wood_volume_m3 is not null and not fresh_mass_kg > 0",
+        "nothing for buds": "kind = 'apical_bud' and coalesce(wood_volume_m3, fresh_mass_kg) is not null",
+        "bending of internodes": """kind in ('internode', 'short_internode') <>
+            (curvature_per_m is not null and bending_moment_N_m is not null)""",
+        "sizes": "curvature_per_m < 0 or bending_moment_N_m < 0",
+    }
+    for rule, broken in rules.items():
+        rows = duckdb.sql(f"select count(*) from {records} where {broken}").fetchall()[0][0]
+        assert rows == 0, f"mechanics, {rule}: {rows} rows disagree"
+    # The base of the trunk carries the moment of all that stands; a tip carries almost none.
+    ratio = duckdb.sql(f"""
+        select avg(bending_moment_N_m) filter (where "order" = 1 and rank = 1) / avg(bending_moment_N_m)
+        from {records} where kind = 'internode'
+    """).fetchall()[0][0]
+    assert ratio > 1, f"mechanics: the trunk's base bears {ratio} of the mean moment"
+    print("mechanics: volumes, masses and moments agree")
+else:
+    assert not fields & {"fresh_mass_kg", "curvature_per_m", "bending_moment_N_m"}, fields
+
 con = duckdb.connect()
 con.execute(f"set file_search_path = '{run}'")
 con.execute((run / "views.sql").read_text(encoding="utf-8"))

@@ -99,6 +99,9 @@ fn describe_table(schema: &Json) -> String {
 
 /// The forms in a row; tables that one key names are told together.
 fn describe_forms(root: &Json, schema: &Json, depth: usize) -> String {
+    if let Some((tag, names)) = tag_of(root, forms(schema)) {
+        return format!("a table whose `{tag}` is {}", list_options(&names));
+    }
     let mut words: Vec<String> = Vec::new();
     let mut keys: Vec<&str> = Vec::new();
     let mut named: Vec<&Json> = Vec::new();
@@ -121,6 +124,18 @@ fn describe_forms(root: &Json, schema: &Json, depth: usize) -> String {
         words.push(format!("a table with {}", list_keys(&keys)));
     }
     words.join(", or ")
+}
+
+/// The key that names the form in every form, with what it can be, where there is one.
+fn tag_of<'s>(root: &'s Json, forms: &'s [Json]) -> Option<(&'s str, Vec<&'s Json>)> {
+    let constants = |form| {
+        let properties = resolve(root, form)?.get("properties")?.as_object()?;
+        properties.iter().find_map(|(key, schema)| Some((key.as_str(), schema.get("const")?)))
+    };
+    let named: Option<Vec<(&str, &Json)>> = forms.iter().map(constants).collect();
+    let named = named.filter(|named| named.windows(2).all(|pair| pair[0].0 == pair[1].0))?;
+    let (tag, _) = *named.first()?;
+    Some((tag, named.into_iter().map(|(_, name)| name).collect()))
 }
 
 /// Whether the schema asks for an array of tables.

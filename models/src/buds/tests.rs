@@ -3,8 +3,9 @@
 
 use super::law::{Count, CountForm, Law, LawForm, Normal, Poisson, Variate, VariateForm};
 use super::params::{
-    Apex, ApexEnd, Axillary, Flower, GrowthUnit, Leaf, Pattern, Phase, Phyllotaxis, Quantity, Reiteration, Relay,
-    Rhythmic, Season, ShortUnit, SpeedText, Speeds, Transition, Traumatic, Trend, Zone,
+    Apex, ApexEnd, Axillary, CountedLeaves, DragLaw, Flower, GrowthUnit, Leaf, Pattern, Phase, Phyllotaxis, Quantity,
+    Reiteration, Relay, Rhythmic, Season, ShortUnit, SpeedText, Speeds, ThickeningRule, Transition, Traumatic, Trend,
+    UprightingLaw, Wood, Zone,
 };
 use super::params::{End, Internode};
 use super::{Buds, Order};
@@ -116,6 +117,26 @@ fn the_bud_model_keeps_the_contract_of_growth_models() {
     let simple = Buds { order: vec![Order::default()], ..Buds::default() };
     for (species, until) in [(chimera(), 14), (hydra(), 9), (simple, 6)] {
         contract::check(&species.compile(until, &Path::root()).unwrap(), until, 4);
+    }
+}
+
+/// The chimera in wood that bends, thickens by pipes or rings and rights itself.
+#[test]
+fn species_that_bend_keep_it_too() {
+    let pipe = ThickeningRule::Pipe { mm2_per_leaf: 1.0.into(), leaves: CountedLeaves::Living, source: None };
+    let rings = ThickeningRule::Rings { width_mm: 0.2.into(), mm2_per_leaf_m2: 100.0.into(), source: None };
+    for thickening in [pipe, rings] {
+        let mut species = chimera();
+        species.wood = Some(Wood {
+            modulus_gpa: Some(expression("1 + 0.2 * dimension")),
+            density_kg_m3: Some(Law::from(900.0)),
+            drag: Some(DragLaw { c: 2.0.into(), n: 0.5.into(), source: None, assumed: true }),
+            thickening: Some(thickening),
+            ..Wood::default()
+        });
+        let uprighting = UprightingLaw { strain: 0.002.into(), rate_deg_per_m: 5.0.into(), ..UprightingLaw::default() };
+        species.order[1].wood.uprighting = Some(uprighting);
+        contract::check(&species.compile(14, &Path::root()).unwrap(), 14, 4);
     }
 }
 

@@ -6,12 +6,14 @@
 //! plant depends on nothing but its seed).
 //! Absent on purpose: anything that holds for one model alone; counts from papers stand with the literature tests.
 
+mod bending;
 mod component;
 mod growth;
 mod structure;
 #[cfg(test)]
 mod tests;
 
+pub use bending::bends_alike_ahead_and_by_the_clock;
 pub use component::{Component, components};
 pub use growth::{ages_agree, ahead_equals_the_clock, alone_equals_among_neighbours, limit_holds, memory_is_forgotten};
 pub use structure::{diameters, events_tell_the_plant, poses, structure};
@@ -35,6 +37,9 @@ pub fn check(model: &dyn GrowthModel, until: Tick, seed: u64) {
         diameters(model, &mut plant, until);
         poses(&mut plant);
         ahead_equals_the_clock(model, until, &seed_of(seed, number));
+        if model.habit().wood.as_ref().is_some_and(|wood| wood.bends) {
+            bends_alike_ahead_and_by_the_clock(model, until, &seed_of(seed, number));
+        }
     }
     ages_agree(model, until, &seed_of(seed, 0));
     alone_equals_among_neighbours(model, until, seed);

@@ -105,7 +105,7 @@ fn write_json(path: &Path, value: &Value) -> Result<(), Error> {
 }
 
 fn data_package(plan: &RunPlan, report: &RunReport) -> Value {
-    let resources: Vec<Value> = plan.tables.iter().map(|table| resource(*table, report)).collect();
+    let resources: Vec<Value> = plan.tables.iter().map(|table| resource(plan, *table, report)).collect();
     json!({
         "profile": "data-package",
         "name": slug(&plan.provenance.scenario),
@@ -122,10 +122,11 @@ fn slug(name: &str) -> String {
     name.chars().map(plain).collect()
 }
 
-fn resource(table: Table, report: &RunReport) -> Value {
+fn resource(plan: &RunPlan, table: Table, report: &RunReport) -> Value {
     let paths: Vec<&str> =
         report.files.iter().filter(|file| file.table == Some(table)).map(|file| file.path.as_str()).collect();
-    let mut schema = json!({ "fields": table.columns().iter().map(field).collect::<Vec<_>>(), "missingValues": [] });
+    let fields: Vec<Value> = plan.columns(table).iter().map(field).collect();
+    let mut schema = json!({ "fields": fields, "missingValues": [] });
     if table != Table::Events {
         schema["primaryKey"] = json!(table.sorted_by());
     }
@@ -206,6 +207,14 @@ const MACROS: [(Table, &str, &str); 6] = [
     ),
 ];
 
+/// The macro of a run with the columns of mechanics.
+const MECHANICS: (&str, &str) = (
+    "What each plant weighs at an age, in kg, and where it is bent most, in N m and 1/m.",
+    "mechanics_at(a) AS TABLE SELECT plant_id, sum(wood_volume_m3) AS wood_volume_m3, sum(fresh_mass_kg) AS fresh_mass_kg, \
+     max(bending_moment_N_m) AS bending_moment_N_m, max(curvature_per_m) AS curvature_per_m FROM records WHERE age = a \
+     GROUP BY ALL ORDER BY ALL",
+);
+
 fn views(plan: &RunPlan) -> String {
     let mut sql =
         String::from("-- For DuckDB. Paths are relative: start DuckDB in this folder, then `.read views.sql`.\n");
@@ -214,7 +223,10 @@ fn views(plan: &RunPlan) -> String {
         sql += &format!("\n-- {}\n", table.description());
         sql += &format!("CREATE OR REPLACE VIEW {name} AS SELECT * FROM read_parquet('{name}/part-*.parquet');\n");
     }
-    for (_, comment, body) in MACROS.iter().filter(|(table, ..)| plan.tables.contains(table)) {
+    let wanted =
+        MACROS.iter().filter(|(table, ..)| plan.tables.contains(table)).map(|(_, comment, body)| (*comment, *body));
+    let mechanics = plan.mechanics && plan.tables.contains(&Table::Records);
+    for (comment, body) in wanted.chain(mechanics.then_some(MECHANICS)) {
         sql += &format!("\n-- {comment}\nCREATE OR REPLACE MACRO {body};\n");
     }
     sql

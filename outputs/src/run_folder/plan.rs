@@ -3,6 +3,7 @@
 //! The identity of a plan is everything that the bytes of the tables depend on; limits and threads are not in it.
 
 use crate::tables::Table;
+use crate::tables::schema::Column;
 use phytomer_sim::Tick;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
@@ -25,6 +26,8 @@ pub struct RunPlan {
     pub compression_level: i32,
     /// To what precision positions are rounded, metres; `None` keeps every bit.
     pub precision_m: Option<f64>,
+    /// Whether `records` has the columns of mechanics.
+    pub mechanics: bool,
     /// Where it all comes from.
     pub provenance: Provenance,
 }
@@ -69,6 +72,11 @@ impl RunPlan {
         first..first.saturating_add(self.plots_per_part.max(1)).min(self.plots)
     }
 
+    /// The columns of a table in this run.
+    pub fn columns(&self, table: Table) -> &'static [Column] {
+        table.columns(self.mechanics)
+    }
+
     /// Everything that the bytes of the tables depend on, key by key; the resolved scenario as its hash.
     pub(super) fn identity(&self) -> Map<String, Value> {
         let provenance = &self.provenance;
@@ -89,9 +97,10 @@ impl RunPlan {
             "compression": { "codec": "zstd", "level": self.compression_level },
             "precision_m": self.precision_m,
         });
-        match identity {
-            Value::Object(identity) => identity,
-            _ => Map::new(),
+        let Value::Object(mut identity) = identity else { return Map::new() };
+        if self.mechanics {
+            identity.insert("mechanics".to_owned(), json!(true));
         }
+        identity
     }
 }

@@ -154,7 +154,7 @@ impl<'a> Shard<'a> {
             part.flush_if_full()?;
         }
         let Some(part) = &mut self.parts.records else { return Ok(()) };
-        let scene = Scene { plant, standing: &self.standing, age };
+        let scene = Scene { plant, standing: &self.standing, age, mechanics: self.folder.plan.mechanics };
         let mut next = 0;
         while next < self.standing.len() {
             self.standing.select(age, part.room(), &mut next, &mut self.numbers);

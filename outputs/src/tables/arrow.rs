@@ -18,9 +18,9 @@ use std::sync::Arc;
 /// The dictionary page of a column of [`Encoding::Repeated`] may grow to this many bytes before it is given up.
 const SMALL_DICTIONARY: usize = 64 * 1024;
 
-/// The arrow schema of a table; a field's metadata has its `unit` and its `description`.
-pub fn schema(table: Table) -> SchemaRef {
-    Arc::new(Schema::new(table.columns().iter().map(field).collect::<Vec<_>>()))
+/// The arrow schema of a table with these columns; a field's metadata has its `unit` and its `description`.
+pub fn schema(columns: &[Column]) -> SchemaRef {
+    Arc::new(Schema::new(columns.iter().map(field).collect::<Vec<_>>()))
 }
 
 /// One column as an arrow field.
@@ -54,9 +54,9 @@ pub fn properties(table: Table, plan: &RunPlan) -> Result<WriterProperties, Parq
         .set_max_row_group_row_count(Some(super::ROW_GROUP))
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_dictionary_enabled(false)
-        .set_sorting_columns(Some(sorting(table)))
+        .set_sorting_columns(Some(sorting(table, plan.columns(table))))
         .set_key_value_metadata(Some(key_values(table, plan)));
-    Ok(table.columns().iter().fold(base, encode).build())
+    Ok(plan.columns(table).iter().fold(base, encode).build())
 }
 
 fn encode(properties: WriterPropertiesBuilder, column: &Column) -> WriterPropertiesBuilder {
@@ -73,8 +73,8 @@ fn encode(properties: WriterPropertiesBuilder, column: &Column) -> WriterPropert
     }
 }
 
-fn sorting(table: Table) -> Vec<SortingColumn> {
-    let place = |name: &&str| table.columns().iter().position(|column| column.name == *name);
+fn sorting(table: Table, columns: &[Column]) -> Vec<SortingColumn> {
+    let place = |name: &&str| columns.iter().position(|column| column.name == *name);
     let sorted = |place: usize| SortingColumn { column_idx: place as i32, descending: false, nulls_first: false };
     table.sorted_by().iter().filter_map(place).map(sorted).collect()
 }
@@ -91,13 +91,15 @@ fn key_values(table: Table, plan: &RunPlan) -> Vec<KeyValue> {
         entry("scenario", provenance.scenario.clone()),
         entry("treatment", provenance.treatment.clone()),
         entry("seed", provenance.seed.to_string()),
-        entry(
-            "units",
-            "metres, square metres, cubic metres, radians; ages in ticks since the seed; Z is up".to_owned(),
-        ),
+        entry("units", units(plan.mechanics && table == Table::Records)),
         entry("rounding", rounding(plan)),
         entry("plant_ontology", plant_ontology().to_string()),
     ]
+}
+
+fn units(mechanics: bool) -> String {
+    let of_mechanics = if mechanics { ", kilograms, newton metres" } else { "" };
+    format!("metres, square metres, cubic metres, radians{of_mechanics}; ages in ticks since the seed; Z is up")
 }
 
 fn rounding(plan: &RunPlan) -> String {

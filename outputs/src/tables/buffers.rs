@@ -146,7 +146,7 @@ fn power_of_two_below(value: f32) -> f32 {
     f32::from_bits(value.to_bits() & 0x7f80_0000)
 }
 
-/// A set of buffers, one a column, in the order of the table's columns.
+/// A set of buffers, one a column, in the order of the table's columns; those that a run does not ask for stay empty.
 pub trait Columns: Default {
     /// The rows that are in.
     fn rows(&self) -> usize;

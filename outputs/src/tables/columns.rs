@@ -95,8 +95,11 @@ const AXIS: Column = Column::id("axis_id", "The axis, as the component_id of its
 const ORDER: Column = Column::small("order", "The order of the axis; the trunk is 1.");
 const KIND: Column = Column::word("kind", &KINDS, "What the component is.");
 
+/// The columns of [`RECORDS`] that every run has; those of mechanics follow, where a run asks for them.
+pub const RECORDS_OF_POSE: usize = 25;
+
 /// A row per component that stands at a recorded age, living or dead.
-pub static RECORDS: [Column; 25] = [
+pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
     TREATMENT,
     PLOT,
     PLANT,
@@ -129,6 +132,28 @@ pub static RECORDS: [Column; 25] = [
     Column::float("diameter_tip_m", "m", "Diameter at the tip at this age. Null for organs and buds.").or_null(),
     Column::float("area_m2", "m2", "Area of one side. Null where a component has none.").repeated().or_null(),
     Column::truth("alive", "False for dead wood that still stands: between its branch's death and its fall."),
+    Column::float("wood_volume_m3", "m3", "The frustum of an internode at this age. Null for organs and buds.").or_null(),
+    Column::float(
+        "fresh_mass_kg",
+        "kg",
+        "Fresh mass at this age: of an internode its volume times the green density of its wood, of an organ by the \
+         species' mass of leaves, flowers and fruits. Null for buds, and where the species states no wood or no density.",
+    )
+    .or_null(),
+    Column::float(
+        "curvature_per_m",
+        "1/m",
+        "The size of the curvature that bending has given an internode beyond its pose at rest. Null for organs, buds and \
+         species whose wood does not bend.",
+    )
+    .or_null(),
+    Column::float(
+        "bending_moment_N_m",
+        "N m",
+        "The size of the bending moment in the middle of an internode. Null for organs, buds and species whose wood does \
+         not bend.",
+    )
+    .or_null(),
 ];
 
 /// A row per component that ever lived, by the last age of the run.

@@ -18,6 +18,8 @@ mod standing;
 mod summary;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_mechanics;
 
 pub(crate) use buffers::Columns;
 pub(crate) use components::ComponentColumns;
@@ -72,11 +74,12 @@ impl Table {
         }
     }
 
-    /// Its columns.
-    pub fn columns(self) -> &'static [Column] {
+    /// Its columns in a run with or without those of mechanics.
+    pub fn columns(self, mechanics: bool) -> &'static [Column] {
         match self {
             Self::Components => &columns::COMPONENTS,
-            Self::Records => &columns::RECORDS,
+            Self::Records if mechanics => &columns::RECORDS,
+            Self::Records => &columns::RECORDS[..columns::RECORDS_OF_POSE],
             Self::Events => &columns::EVENTS,
             Self::Summary => &columns::SUMMARY,
         }

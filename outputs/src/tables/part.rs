@@ -26,7 +26,7 @@ const IN_FLIGHT: usize = 2;
 pub struct Part<C> {
     /// The rows of the row group that is being filled; [`Part::flush_if_full`] goes after each row.
     pub columns: C,
-    table: Table,
+    declared: &'static [Column],
     path: PathBuf,
     schema: SchemaRef,
     words: Vec<Arc<StringArray>>,
@@ -54,14 +54,15 @@ pub struct PartReport {
 impl<C: Columns> Part<C> {
     /// Creates the file at `path`, replacing what may be there.
     pub fn create(table: Table, path: &Path, plan: &RunPlan, queue: &Arc<Queue>) -> Result<Self, Error> {
-        let schema = arrow::schema(table);
+        let declared = plan.columns(table);
+        let schema = arrow::schema(declared);
         let properties = arrow::properties(table, plan).map_err(Error::table(path))?;
         let writer = ArrowWriter::try_new(HashingFile::create(path)?, schema.clone(), Some(properties));
         let (file, factory) = writer.and_then(ArrowWriter::into_serialized_writer).map_err(Error::table(path))?;
-        let words = table.columns().iter().map(|column| words_of(column, &plan.provenance.treatment)).collect();
+        let words = declared.iter().map(|column| words_of(column, &plan.provenance.treatment)).collect();
         Ok(Self {
             columns: C::default(),
-            table,
+            declared,
             path: path.to_path_buf(),
             schema,
             words,
@@ -105,7 +106,8 @@ impl<C: Columns> Part<C> {
         self.groups += 1;
         self.rows += self.columns.rows() as u64;
         let group = RowGroup::of(writers.len());
-        let columns = self.table.columns().iter().zip(self.columns.take()).zip(writers);
+        // Buffers past the columns of this run are empty and dropped.
+        let columns = self.declared.iter().zip(self.columns.take()).zip(writers);
         let job = |(place, ((column, values), writer))| Job {
             group: group.clone(),
             place,

@@ -1,10 +1,12 @@
 //! The rows of `records`: de Reffye's record (1988 §6) of each component that stands at an age, with its pose.
 //!
-//! Positions and directions are those of the pose; diameters those of the recorded age. Absent: any formula of growth.
+//! Positions and directions are those of the pose; diameters those of the recorded age. The columns of mechanics are
+//! filled where a run asks for them. Absent: any formula of growth or of bending.
 
 use super::buffers::{NULL, columns};
 use super::columns::KINDS;
 use super::standing::{Component, Standing};
+use phytomer_sim::mechanics::wood_volume;
 use phytomer_sim::plant::{Axes, AxisId, Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::{Frame, node_frame, organ_frame, start_frame};
 use phytomer_sim::{Plot, Tick};
@@ -20,6 +22,7 @@ columns! {
         up_x: Float(f32), up_y: Float(f32), up_z: Float(f32),
         length: Float(f32), diameter: Float(f32), diameter_tip: Float(f32), area: Float(f32),
         alive: Bool(i8),
+        wood_volume: Float(f32), fresh_mass: Float(f32), curvature: Float(f32), moment: Float(f32),
     }
 }
 
@@ -47,6 +50,21 @@ pub struct Scene<'a> {
     pub standing: &'a Standing,
     /// The age.
     pub age: Tick,
+    /// Whether the columns of mechanics are wanted.
+    pub mechanics: bool,
+}
+
+/// What one component puts into the columns of mechanics; NaN is null.
+#[derive(Debug, Clone, Copy)]
+struct Loaded {
+    wood_volume: f32,
+    fresh_mass: f32,
+    curvature: f32,
+    moment: f32,
+}
+
+impl Loaded {
+    const NONE: Self = Self { wood_volume: f32::NAN, fresh_mass: f32::NAN, curvature: f32::NAN, moment: f32::NAN };
 }
 
 impl RecordColumns {
@@ -61,6 +79,9 @@ impl RecordColumns {
         // Column by column out of the cache, which is several times as fast as pushing row by row to 25 columns.
         self.push_identity(rows, &scene.plant.axes);
         self.push_pose(rows);
+        if scene.mechanics {
+            self.push_mechanics(scene, numbers);
+        }
         let rows = self.component.len();
         self.treatment.resize(rows, 0);
         self.plot.resize(rows, plot.id as i32);
@@ -93,6 +114,16 @@ impl RecordColumns {
         self.diameter.extend(rows.iter().map(|row| row.diameter));
         self.diameter_tip.extend(rows.iter().map(|row| row.diameter_tip));
         self.area.extend(rows.iter().map(|row| row.area));
+    }
+
+    fn push_mechanics(&mut self, scene: &Scene<'_>, numbers: &[u32]) {
+        for number in numbers {
+            let loaded = scene.loaded(scene.standing.component(*number));
+            self.wood_volume.push(loaded.wood_volume);
+            self.fresh_mass.push(loaded.fresh_mass);
+            self.curvature.push(loaded.curvature);
+            self.moment.push(loaded.moment);
+        }
     }
 }
 
@@ -156,6 +187,38 @@ impl Scene<'_> {
             area: f32::NAN,
             alive: true,
         }
+    }
+}
+
+impl Scene<'_> {
+    fn loaded(&self, component: Component) -> Loaded {
+        match component {
+            Component::Node(node) => self.loaded_node(node),
+            Component::Organ(organ) => self.loaded_organ(organ),
+            Component::Bud(_) => Loaded::NONE,
+        }
+    }
+
+    fn loaded_node(&self, node: NodeId) -> Loaded {
+        let Plant { nodes, axes, strain, .. } = self.plant;
+        let i = node.index();
+        let volume = wood_volume(self.plant, node);
+        let wood = self.plant.habit.wood.as_ref();
+        let tissue = wood.map(|wood| wood.tissue(axes.order[nodes.axis[i].index()]));
+        let density = tissue.filter(|tissue| !tissue.density.is_empty());
+        let mass = density.map(|tissue| (volume * tissue.density(self.age - nodes.birth[i])) as f32);
+        let bends = wood.is_some_and(|wood| wood.bends);
+        Loaded {
+            wood_volume: volume as f32,
+            fresh_mass: mass.unwrap_or(f32::NAN),
+            curvature: if bends { strain.curvature_of(i) } else { f32::NAN },
+            moment: if bends { strain.moment_of(i) } else { f32::NAN },
+        }
+    }
+
+    fn loaded_organ(&self, organ: OrganId) -> Loaded {
+        let mass = self.plant.habit.wood.as_ref().map(|wood| wood.organs.of(self.plant, organ.index()) as f32);
+        Loaded { fresh_mass: mass.unwrap_or(f32::NAN), ..Loaded::NONE }
     }
 }
 

@@ -11,7 +11,7 @@ use super::bend::Bench;
 use super::wood::{Wood, wood_volume};
 use crate::clock::Tick;
 use crate::math::{exp, sincos};
-use crate::plant::{LineageKey, NodeId, Plant};
+use crate::plant::{Habit, LineageKey, NodeId, Plant};
 use crate::site::{Site, Wind};
 use std::f64::consts::TAU;
 
@@ -51,10 +51,7 @@ pub fn sway(
     bench: &mut Bench,
 ) -> Result<(), Unmoved> {
     let habit = std::sync::Arc::clone(&plant.habit);
-    let wood = habit.wood.as_ref().filter(|wood| wood.bends).ok_or(Unmoved::Stiff)?;
-    if wood.drag.coefficient <= 0.0 {
-        return Err(Unmoved::NoDrag);
-    }
+    let wood = yielding(&habit)?;
     if wind.speed <= 0.0 {
         return Ok(());
     }
@@ -74,6 +71,15 @@ pub fn sway(
     }
     bench.pose(plant);
     Ok(())
+}
+
+/// The wood of plants of this habit, where wind can move it.
+///
+/// # Errors
+/// Where it cannot.
+pub fn yielding(habit: &Habit) -> Result<&Wood, Unmoved> {
+    let wood = habit.wood.as_ref().filter(|wood| wood.bends).ok_or(Unmoved::Stiff)?;
+    if wood.drag.coefficient > 0.0 { Ok(wood) } else { Err(Unmoved::NoDrag) }
 }
 
 /// The first frequency of each axis that stands at `age`, Hz; 0 where it has no length or nothing to swing.

@@ -6,6 +6,7 @@
 use anyhow::Result;
 use phytomer_config::{Model, Species};
 use phytomer_models::buds::Order;
+use phytomer_models::buds::params::Wood;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
@@ -37,6 +38,9 @@ pub fn as_text(species: &Species) -> Result<String> {
     let mut text = heading(species);
     match &species.model {
         Model::Buds(buds) => {
+            if let Some(wood) = &buds.wood {
+                text += &wood_in_words(wood)?;
+            }
             for (number, order) in (1..).zip(&buds.order) {
                 let _ = writeln!(text, "\n  order {number}");
                 laws(order, &mut text)?;
@@ -73,6 +77,25 @@ fn heading(species: &Species) -> String {
         }
     }
     text
+}
+
+/// The wood: what it is like, how stiff and heavy, whether it bends and how it thickens.
+fn wood_in_words(wood: &Wood) -> Result<String> {
+    let stated = serde_json::to_value(wood)?;
+    let with_unit = |(key, unit): (&str, &str)| Some(format!("{} {unit}", amount(stated.get(key)?)));
+    let mut words: Vec<String> = wood.like.iter().map(|like| format!("like {like}")).collect();
+    words.extend([("modulus_gpa", "GPa"), ("density_kg_m3", "kg/m³")].into_iter().filter_map(with_unit));
+    words.push(if wood.bends { "it bends" } else { "it does not bend" }.to_owned());
+    let thickens = match stated.get("thickening") {
+        Some(rule) => in_words(rule),
+        None => "by the law `internode.thickening_mm` of each order".to_owned(),
+    };
+    Ok(format!("  {:<18} {}\n  {:<18} {thickens}\n", "wood", words.join(", "), "thickening"))
+}
+
+/// A number without the note that may stand beside it, or a law.
+fn amount(value: &Value) -> String {
+    in_words(value.get("value").unwrap_or(value))
 }
 
 /// What an order states beyond the defaults.

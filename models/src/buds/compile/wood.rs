@@ -3,9 +3,10 @@
 //! A law of stiffness or density is asked at the last age that the run reaches with the internode's own age as dimension
 //! and cycle: wood knows how old it is, not how old its plant is. Absent: the equations (`phytomer_sim::mechanics`).
 
-use crate::buds::law::{At, Domain, Law, ValueRange};
-use crate::buds::params::{Buds, CountedLeaves, OrderWood, ThickeningRule, UprightingLaw, Wood as WoodParams};
+use crate::buds::law::{At, Constant, Domain, Law, ValueRange};
+use crate::buds::params::{Buds, CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood as WoodParams};
 use crate::fault::{Fault, Path};
+use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::math::{cos, sin};
 use phytomer_sim::mechanics::{Drag, OrganMass, Thickening, Tissue, Uprighting, Wood};
 
@@ -14,30 +15,60 @@ const MODULUS: ValueRange = ValueRange { min: 1e-4, max: 1000.0, what: "a modulu
 /// Green density, kg/m³.
 const DENSITY: ValueRange = ValueRange { min: 0.0, max: 5000.0, what: "a density in kg/m³" };
 
+const LEAF: ValueRange = ValueRange { min: 0.0, max: 100.0, what: "a mass of leaf in kg/m²" };
+/// c of the drag law.
+const DRAG: ValueRange = ValueRange { min: 0.0, max: 100.0, what: "a coefficient of drag" };
+/// n of the drag law: past 2 a stronger wind would push less.
+const STREAMLINING: ValueRange = ValueRange { min: 0.0, max: 2.0, what: "an exponent of drag" };
+const SECTION: ValueRange = ValueRange { min: 0.0, max: 1e6, what: "a section in mm²" };
+/// Δ of da Vinci's rule.
+const FORK: ValueRange = ValueRange { min: 1.0, max: 5.0, what: "an exponent of forks" };
+const RING: ValueRange = ValueRange { min: 0.0, max: 1000.0, what: "the width of a ring in mm" };
+const FOLIAGE: ValueRange = ValueRange { min: 0.0, max: 1e6, what: "a section in mm² for a square metre of leaves" };
+const INCLINATION: ValueRange = ValueRange { min: 0.0, max: 180.0, what: "an angle to the vertical in degrees" };
+/// Δε.
+const STRAIN: ValueRange = ValueRange { min: -0.1, max: 0.1, what: "a difference of maturation strains" };
+const RATE: ValueRange = ValueRange { min: 0.0, max: 36_000.0, what: "a curvature in degrees a metre" };
+
 const SQUARE_MILLIMETRE: f64 = 1e-6;
 
 /// The wood of a species; `None` where it states none.
 pub fn compile(buds: &Buds, until: u32, path: &Path, faults: &mut Vec<Fault>) -> Option<Wood> {
-    let wood = buds.wood.as_ref()?;
+    let Some(wood) = buds.wood.as_ref() else {
+        ownerless(buds, path, faults);
+        return None;
+    };
+    let species = path.key("wood");
     let tissues = buds.order.iter().enumerate().map(|(index, order)| {
-        let place =
-            Place { buds, until, index, species: path.key("wood"), order: path.key("order").index(index).key("wood") };
+        let order_path = path.key("order").index(index).key("wood");
+        let place = Place { buds, until, index, species: species.clone(), order: order_path };
         place.tissue(wood, &order.wood, faults)
     });
+    let tissues = tissues.collect();
+    let mut numbers = Numbers { path: species, faults };
     Some(Wood {
-        tissues: tissues.collect(),
-        thickening: wood.thickening.as_ref().map_or(Thickening::Law, thickening),
+        tissues,
+        thickening: wood
+            .thickening
+            .as_ref()
+            .map_or(Thickening::Law, |rule| numbers.below("thickening").thickening(rule)),
         bends: wood.bends,
         organs: OrganMass {
-            leaf: wood.leaf_kg_m2 as f32,
-            flower: wood.flower_kg_m3 as f32,
-            fruit: wood.fruit_kg_m3 as f32,
+            leaf: numbers.read("leaf_kg_m2", &wood.leaf_kg_m2, LEAF) as f32,
+            flower: numbers.read("flower_kg_m3", &wood.flower_kg_m3, DENSITY) as f32,
+            fruit: numbers.read("fruit_kg_m3", &wood.fruit_kg_m3, DENSITY) as f32,
         },
-        drag: wood
-            .drag
-            .as_ref()
-            .map_or_else(Drag::default, |drag| Drag { coefficient: drag.c as f32, exponent: drag.n as f32 }),
+        drag: wood.drag.as_ref().map_or_else(Drag::default, |drag| numbers.below("drag").drag(drag)),
     })
+}
+
+/// Wood of an order that belongs to no wood of the species would do nothing.
+fn ownerless(buds: &Buds, path: &Path, faults: &mut Vec<Fault>) {
+    for (index, _) in buds.order.iter().enumerate().filter(|(_, order)| !order.wood.is_as_the_species()) {
+        let path = path.key("order").index(index).key("wood");
+        let problem = "the order has wood of its own, and the species has none";
+        faults.push(Fault::new(&path, problem, "a `[wood]` table of the species beside it"));
+    }
 }
 
 /// Where the wood of one order is stated.
@@ -67,11 +98,11 @@ impl Place<'_> {
                 Vec::new()
             })
         };
-        Tissue {
-            modulus: table("modulus_gpa", &own.modulus_gpa, &wood.modulus_gpa, MODULUS, 1e9),
-            density: table("density_kg_m3", &own.density_kg_m3, &wood.density_kg_m3, DENSITY, 1.0),
-            uprighting: own.uprighting.as_ref().map_or_else(Uprighting::default, uprighting),
-        }
+        let modulus = table("modulus_gpa", &own.modulus_gpa, &wood.modulus_gpa, MODULUS, 1e9);
+        let density = table("density_kg_m3", &own.density_kg_m3, &wood.density_kg_m3, DENSITY, 1.0);
+        let mut numbers = Numbers { path: self.order.key("uprighting"), faults };
+        let uprighting = own.uprighting.as_ref().map_or_else(Uprighting::default, |law| numbers.uprighting(law));
+        Tissue { modulus, density, uprighting }
     }
 
     fn by_age(&self, law: &Law, path: &Path, range: ValueRange, scale: f64) -> Result<Vec<f32>, Vec<Fault>> {
@@ -94,25 +125,57 @@ impl Place<'_> {
     }
 }
 
-fn thickening(rule: &ThickeningRule) -> Thickening {
-    match *rule {
-        ThickeningRule::Pipe { mm2_per_leaf, leaves, .. } => {
-            Thickening::Pipe { per_leaf: mm2_per_leaf * SQUARE_MILLIMETRE, living: leaves == CountedLeaves::Living }
-        }
-        ThickeningRule::Vinci { exponent, .. } => Thickening::DaVinci { exponent },
-        ThickeningRule::Rings { width_mm, mm2_per_leaf_m2, .. } => {
-            Thickening::Rings { width: width_mm * 0.001, per_foliage: mm2_per_leaf_m2 * SQUARE_MILLIMETRE }
-        }
-    }
+/// Reads the numbers of one table, noting each that is outside its range.
+struct Numbers<'a> {
+    path: Path,
+    faults: &'a mut Vec<Fault>,
 }
 
-fn uprighting(law: &UprightingLaw) -> Uprighting {
-    let inclination = law.inclination_deg.to_radians();
-    Uprighting {
-        cos_inclination: cos(inclination) as f32,
-        sin_inclination: sin(inclination) as f32,
-        strain: law.strain as f32,
-        rate: law.rate_deg_per_m.to_radians() as f32,
-        young: law.young,
+impl Numbers<'_> {
+    fn below(&mut self, key: &str) -> Numbers<'_> {
+        Numbers { path: self.path.key(key), faults: self.faults }
+    }
+
+    fn read(&mut self, key: &str, number: &Constant, range: ValueRange) -> f64 {
+        number.within(&self.path.key(key), range).unwrap_or_else(|fault| {
+            self.faults.push(fault);
+            range.max
+        })
+    }
+
+    fn drag(&mut self, law: &DragLaw) -> Drag {
+        Drag { coefficient: self.read("c", &law.c, DRAG) as f32, exponent: self.read("n", &law.n, STREAMLINING) as f32 }
+    }
+
+    fn thickening(&mut self, rule: &ThickeningRule) -> Thickening {
+        match rule {
+            ThickeningRule::Pipe { mm2_per_leaf, leaves, .. } => Thickening::Pipe {
+                per_leaf: self.read("mm2_per_leaf", mm2_per_leaf, SECTION) * SQUARE_MILLIMETRE,
+                living: *leaves == CountedLeaves::Living,
+            },
+            ThickeningRule::Vinci { exponent, .. } => {
+                Thickening::DaVinci { exponent: self.read("exponent", exponent, FORK) }
+            }
+            ThickeningRule::Rings { width_mm, mm2_per_leaf_m2, .. } => Thickening::Rings {
+                width: self.read("width_mm", width_mm, RING) * 0.001,
+                per_foliage: self.read("mm2_per_leaf_m2", mm2_per_leaf_m2, FOLIAGE) * SQUARE_MILLIMETRE,
+            },
+        }
+    }
+
+    fn uprighting(&mut self, law: &UprightingLaw) -> Uprighting {
+        let inclination = self.read("inclination_deg", &law.inclination_deg, INCLINATION).to_radians();
+        let young = law.young.value();
+        if young > LAST_TICK {
+            let path = self.path.key("young");
+            self.faults.push(Fault::new(&path, format!("the value is {young}"), format!("at most {LAST_TICK} ticks")));
+        }
+        Uprighting {
+            cos_inclination: cos(inclination) as f32,
+            sin_inclination: sin(inclination) as f32,
+            strain: self.read("strain", &law.strain, STRAIN) as f32,
+            rate: self.read("rate_deg_per_m", &law.rate_deg_per_m, RATE).to_radians() as f32,
+            young,
+        }
     }
 }

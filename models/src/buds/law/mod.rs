@@ -3,11 +3,12 @@
 //!
 //! A [`Law`] gives a number at each point (age, dimension, cycle, rank, state) of an order; a [`Count`] and a
 //! [`Variate`] are random variables whose parameters are laws; [`Speeds`] are exact ratios, a [`Quantity`] is a whole
-//! number that is not drawn. All are written in TOML, checked over their whole
+//! number and a [`Constant`] a real one that is not drawn. All are written in TOML, checked over their whole
 //! [`Domain`] and compiled to tables before the first tick; during growth a draw is one look-up and one comparison.
 //! Absent on purpose: files, spans and the draws themselves (a table is handed one 32-bit word).
 
 mod bare;
+mod constant;
 mod count;
 mod count_table;
 mod curves;
@@ -30,6 +31,7 @@ mod tests_draws;
 mod variate;
 mod variate_table;
 
+pub use constant::{Constant, ConstantForm};
 pub use count::{Binomial, Count, CountComponent, CountForm, NegativeBinomial, Poisson};
 pub use count_table::CountTable;
 pub use curves::{Beyond, ExponentialLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw};

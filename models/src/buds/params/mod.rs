@@ -2,7 +2,7 @@
 //!
 //! One [`Order`] for each order of axes, the trunk first; every probability is a [`Law`] of age, dimension, cycle, rank
 //! and state, every number of things a [`Count`], every measure a [`Variate`], every speed one of [`Speeds`], and what is
-//! one for a whole species a [`Quantity`]; so each may be bare or say its source. A species without states, reiteration and
+//! one for a whole species a [`Quantity`] or a [`Constant`]; so each may be bare or say its source. A species without states, reiteration and
 //! relays reads as in 1988. Axes of an order past the last are never made.
 //!
 //! Absent on purpose: what the parameters do, which is in `compile` and `grow`.
@@ -17,7 +17,7 @@ pub use organs::{Flower, FormName, Fruit, Leaf, Season};
 pub use sympodial::{Apex, ApexEnd, Reiteration, Relay, Transition, Traumatic};
 pub use wood::{CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood};
 
-pub use super::law::{Quantity, SpeedForm, SpeedText, Speeds};
+pub use super::law::{Constant, Quantity, SpeedForm, SpeedText, Speeds};
 
 use super::law::{Count, Law, Variate};
 use schemars::JsonSchema;

@@ -5,7 +5,7 @@
 //! millimetres and degrees; compilation makes SI of them. Absent: the measured table of woods, which `like` names and the
 //! reader of species files fills in.
 
-use crate::buds::law::Law;
+use crate::buds::law::{Constant, Law, Quantity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -32,15 +32,12 @@ pub struct Wood {
     /// How internodes gain diameter; left out: by the law `internode.thickening_mm` of their order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickening: Option<ThickeningRule>,
-    /// The fresh mass of a square metre of leaf, one side, kg/m².
-    #[schemars(range(min = 0, max = 100))]
-    pub leaf_kg_m2: f64,
-    /// The density of a flower as the ellipsoid of its length and width, kg/m³.
-    #[schemars(range(min = 0, max = 5000))]
-    pub flower_kg_m3: f64,
-    /// The density of a fruit, likewise, kg/m³.
-    #[schemars(range(min = 0, max = 5000))]
-    pub fruit_kg_m3: f64,
+    /// The fresh mass of a square metre of leaf, one side, kg/m², in [0, 100].
+    pub leaf_kg_m2: Constant,
+    /// The density of a flower as the ellipsoid of its length and width, kg/m³, in [0, 5000].
+    pub flower_kg_m3: Constant,
+    /// The density of a fruit, likewise, kg/m³, in [0, 5000].
+    pub fruit_kg_m3: Constant,
 }
 
 impl Default for Wood {
@@ -52,9 +49,9 @@ impl Default for Wood {
             density_kg_m3: None,
             drag: None,
             thickening: None,
-            leaf_kg_m2: 0.2,
-            flower_kg_m3: 200.0,
-            fruit_kg_m3: 1000.0,
+            leaf_kg_m2: Constant::from(0.2),
+            flower_kg_m3: Constant::from(200.0),
+            fruit_kg_m3: Constant::from(1000.0),
         }
     }
 }
@@ -63,12 +60,10 @@ impl Default for Wood {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DragLaw {
-    /// c.
-    #[schemars(range(min = 0, max = 100))]
-    pub c: f64,
-    /// n.
-    #[schemars(range(min = 0, max = 2))]
-    pub n: f64,
+    /// c, in [0, 100].
+    pub c: Constant,
+    /// n, in [0, 2]; at 2 the force no longer rises with the wind.
+    pub n: Constant,
     /// Where the numbers come from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<String>,
@@ -83,9 +78,8 @@ pub struct DragLaw {
 pub enum ThickeningRule {
     /// The pipe model (Shinozaki et al. 1964): the section at birth, and a pipe for each leaf above.
     Pipe {
-        /// The section of the pipe of one leaf, mm².
-        #[schemars(range(min = 0, max = 1_000_000))]
-        mm2_per_leaf: f64,
+        /// The section of the pipe of one leaf, mm², in [0, 1000000].
+        mm2_per_leaf: Constant,
         /// Whether every leaf that ever was has its pipe, or the living ones alone.
         #[serde(default)]
         leaves: CountedLeaves,
@@ -95,23 +89,20 @@ pub enum ThickeningRule {
     },
     /// Da Vinci's rule: at a fork, d^Δ below is the sum of d^Δ above.
     Vinci {
-        /// Δ: 2 keeps the sum of the sections; about 2.5 and more in twigs.
-        #[schemars(range(min = 1, max = 5))]
-        exponent: f64,
+        /// Δ, in [1, 5]: 2 keeps the sum of the sections; about 2.5 and more in twigs.
+        exponent: Constant,
         /// Where the numbers come from.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         source: Option<String>,
     },
     /// A ring a tick, as long as the axis lives.
     Rings {
-        /// Its width, mm.
+        /// Its width, mm, in [0, 1000].
         #[serde(default)]
-        #[schemars(range(min = 0, max = 1000))]
-        width_mm: f64,
-        /// The section that a square metre of living leaves above adds in a tick, mm²/m².
+        width_mm: Constant,
+        /// The section that a square metre of living leaves above adds in a tick, mm²/m², in [0, 1000000].
         #[serde(default)]
-        #[schemars(range(min = 0, max = 1_000_000))]
-        mm2_per_leaf_m2: f64,
+        mm2_per_leaf_m2: Constant,
         /// Where the numbers come from.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         source: Option<String>,
@@ -155,18 +146,15 @@ impl OrderWood {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct UprightingLaw {
-    /// The angle to the upward vertical that the axis keeps to, degrees: 0 orthotropic, 90 plagiotropic.
-    #[schemars(range(min = 0, max = 180))]
-    pub inclination_deg: f64,
-    /// The difference of maturation strain between the two sides of new wood, Δε.
-    #[schemars(range(min = -0.1, max = 0.1))]
-    pub strain: f64,
-    /// The curvature that a young internode square to that direction gains in a tick, degrees a metre.
-    #[schemars(range(min = 0, max = 36_000))]
-    pub rate_deg_per_m: f64,
+    /// The angle to the upward vertical that the axis keeps to, degrees in [0, 180]: 0 orthotropic, 90 plagiotropic.
+    pub inclination_deg: Constant,
+    /// The difference of maturation strain between the two sides of new wood, Δε, in [-0.1, 0.1].
+    pub strain: Constant,
+    /// The curvature that a young internode square to that direction gains in a tick, degrees a metre, in
+    /// [0, 36000].
+    pub rate_deg_per_m: Constant,
     /// For how many ticks an internode is young.
-    #[schemars(range(min = 0, max = 65_535))]
-    pub young: u32,
+    pub young: Quantity,
     /// Where the numbers come from.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub source: Option<String>,
@@ -177,6 +165,13 @@ pub struct UprightingLaw {
 
 impl Default for UprightingLaw {
     fn default() -> Self {
-        Self { inclination_deg: 0.0, strain: 0.0, rate_deg_per_m: 0.0, young: 1, source: None, assumed: false }
+        Self {
+            inclination_deg: Constant::from(0.0),
+            strain: Constant::from(0.0),
+            rate_deg_per_m: Constant::from(0.0),
+            young: Quantity::from(1),
+            source: None,
+            assumed: false,
+        }
     }
 }

@@ -22,7 +22,7 @@ fn limit(taper: fn(f64) -> f64) -> f64 {
 
 #[test]
 fn columns_buckle_at_greenhills_height() {
-    let columns: [(&str, fn(f64) -> f64, f64); 5] = [
+    let columns: [(&str, Taper, f64); 5] = [
         ("0", |_| 1.0, 7.837347),
         ("1/4", |s| pow(1.0 - s, 0.25), 13.554342),
         ("1/2", |s| pow(1.0 - s, 0.5), 19.739209),

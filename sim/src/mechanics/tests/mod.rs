@@ -16,6 +16,9 @@ use crate::plant::*;
 use crate::site::Site;
 use std::sync::Arc;
 
+/// A diameter as a share of that at the base, by the height in [0, 1].
+pub type Taper = fn(f64) -> f64;
+
 /// A rod of length 1 m under a gravity of 1 m/s², so that masses are weights.
 pub struct Rod {
     /// How many internodes.
@@ -25,7 +28,7 @@ pub struct Rod {
     /// Diameter at the base, m.
     pub diameter: f64,
     /// The diameter at the height s is `diameter` × taper(s).
-    pub taper: fn(f64) -> f64,
+    pub taper: Taper,
     /// E I at the base, N·m².
     pub flexural: f64,
     /// Weight of a metre of wood at the base, N/m.

@@ -42,7 +42,7 @@ fn at_a_fork_the_powers_of_the_diameters_add_up() {
 fn with_an_exponent_of_2_the_sections_add_up() {
     let mut plant = fork(Thickening::DaVinci { exponent: 2.0 });
     grow_thick(&mut plant, 1, &mut Bench::default());
-    let expected = 0.004_f64.powi(2) + 0.003_f64.powi(2) + 0.005_f64.powi(2) + 0.002_f64.powi(2);
+    let expected = 0.004 * 0.004 + 0.003 * 0.003 + 0.005 * 0.005 + 0.002 * 0.002;
     assert!((power(&plant, 0, 2.0) / expected - 1.0).abs() < 1e-6);
 }
 

@@ -27,8 +27,7 @@ fn uniform_rods() {
 
 #[test]
 fn rods_of_linear_taper() {
-    let tapers: [(f64, fn(f64) -> f64); 3] =
-        [(0.25, |s| 1.0 - 0.75 * s), (0.5, |s| 1.0 - 0.5 * s), (0.8, |s| 1.0 - 0.2 * s)];
+    let tapers: [(f64, Taper); 3] = [(0.25, |s| 1.0 - 0.75 * s), (0.5, |s| 1.0 - 0.5 * s), (0.8, |s| 1.0 - 0.2 * s)];
     for (tau, taper) in tapers {
         let own = (1.0 + 2.0 * tau) / 24.0 * SMALL;
         check("own weight", &Rod { weight: SMALL, taper, ..Rod::level(INTERNODES) }, own);
@@ -38,7 +37,7 @@ fn rods_of_linear_taper() {
 
 #[test]
 fn rods_whose_radius_is_a_power_of_the_distance_to_the_tip() {
-    let powers: [(f64, fn(f64) -> f64); 4] = [
+    let powers: [(f64, Taper); 4] = [
         (0.25, |s| pow(1.0 - s, 0.25)),
         (0.5, |s| pow(1.0 - s, 0.5)),
         (0.75, |s| pow(1.0 - s, 0.75)),
