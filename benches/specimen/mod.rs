@@ -6,6 +6,7 @@
 #![allow(dead_code)]
 
 pub mod baseline;
+pub mod bending;
 pub mod columns;
 
 use criterion::measurement::WallTime;
