@@ -12,7 +12,7 @@ use phytomer::run::{self, Progress, Settings, seed_of};
 use phytomer::sim::plant::{Plant, Seed};
 use phytomer::sim::pose::pose;
 use phytomer::sim::shed::shed;
-use phytomer::sim::{Plot, Tick};
+use phytomer::sim::{Plot, RecordError, Recorder, Tick, grow};
 use std::sync::{Mutex, PoisonError};
 
 #[global_allocator]
@@ -100,4 +100,39 @@ fn the_peak_of_a_population_does_not_depend_on_its_size() {
     let [few, many] = [200, 2_000].map(peak_of);
     assert!(few > 1_000_000, "{few} bytes: nothing is measured");
     assert!(many as f64 <= few as f64 * 1.25, "{few} bytes for 200 plants, {many} for 2,000");
+}
+
+/// Wants no age.
+struct Nobody;
+
+impl Recorder for Nobody {
+    fn wants(&self, _: Tick) -> bool {
+        false
+    }
+
+    fn record(&mut self, _: Tick, _: &Plot) -> Result<(), RecordError> {
+        Ok(())
+    }
+}
+
+/// What a plant keeps of bending from tick to tick; the scratch of a tick is its worker's and does not grow with the
+/// number of plants. It is told, not held.
+#[test]
+fn bending_keeps_at_most_24_bytes_an_internode() {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let resolved = validate("willow").unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let seed = Seed { keep_events: false, ..seed_of(&resolved.scenario, 0) };
+    let mut plot = Plot::of_one(resolved.model.as_ref(), &seed);
+    grow(resolved.model.as_ref(), &mut plot, 60, &mut Nobody).expect("nothing is written");
+    let before = ALLOCATED.current_usage();
+    let bench = std::mem::take(&mut plot.bench);
+    drop(bench);
+    let scratch = before - ALLOCATED.current_usage();
+    let plant = &mut plot.plants[0];
+    let internodes = plant.nodes.len() as f64;
+    let bent = held(plant);
+    plant.strain = Default::default();
+    let kept = (bent - held(plant)) as f64 / internodes;
+    println!("{internodes} internodes: {kept:.1} bytes each kept, {:.1} of scratch", scratch as f64 / internodes);
+    assert!(kept > 0.0 && kept <= 24.0, "{kept:.1} bytes an internode");
 }

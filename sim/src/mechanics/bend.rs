@@ -3,11 +3,12 @@
 //! New wood is laid on the bent shape and is free of stress there, so a tick adds dκ = dM / (E I) with the stiffness of
 //! the tick, never the whole moment over the last stiffness (Ancelin, Fourcaud & Lac 2004). With κ₀ = κ − M / (E I), taken
 //! at the curvature and the moment of the last tick and the stiffness of this one, the equilibrium is M = E I (κ − κ₀).
-//! It is found by Newton steps (`loads`, `turn`), each followed by a pose.
+//! It is found by Newton steps: moments and answers from the tips down (`loads`), curvatures and pose from the base up
+//! (`turn`).
 
 use super::loads::{Load, Response, Scan, second_moment};
 use super::secondary::Above;
-use super::turn::turn;
+use super::turn::{Kept, Turned};
 use super::uprighting::straighten;
 use super::wood::Wood;
 use crate::clock::Tick;
@@ -104,17 +105,28 @@ impl Bench {
         while !outcome.settled && outcome.steps < MOST_STEPS {
             let yields = self.weigh(plant, wood, age, fields);
             outcome.yields = outcome.yields.or(yields);
-            let turned = turn(plant, &self.standing, &self.laterals, &self.responses, &mut self.turns);
-            self.pose(plant);
             outcome.steps += 1;
-            outcome.settled = turned <= SETTLED;
+            outcome.settled = self.turn(plant) <= SETTLED;
         }
         self.load(plant, wood, age);
         outcome
     }
 
+    /// Poses the plant with the curvatures that it has.
     pub(super) fn pose(&mut self, plant: &mut Plant) {
-        follow_bends(plant, &self.standing, &self.laterals, &mut self.stances);
+        let curvature = std::mem::take(&mut plant.strain.curvature);
+        follow_bends(plant, &self.standing, &self.laterals, &mut self.stances, &mut Kept(&curvature));
+        plant.strain.curvature = curvature;
+    }
+
+    /// Turns each internode as it answered, and poses it so; the largest turn, rad.
+    fn turn(&mut self, plant: &mut Plant) -> f64 {
+        let mut curvature = std::mem::take(&mut plant.strain.curvature);
+        let mut turned = Turned::new(&mut curvature, &self.responses, &mut self.turns, plant.axes.len());
+        follow_bends(plant, &self.standing, &self.laterals, &mut self.stances, &mut turned);
+        let largest = turned.largest();
+        plant.strain.curvature = curvature;
+        largest
     }
 
     fn weigh(&mut self, plant: &Plant, wood: &Wood, age: Tick, fields: &Fields) -> Option<AxisId> {
@@ -127,33 +139,34 @@ impl Bench {
     /// lends its memory until [`Self::load`] gives it back.
     fn freeze(&mut self, plant: &mut Plant, wood: &Wood, age: Tick) {
         self.natural = std::mem::take(&mut plant.strain.moment);
-        each_flexural(plant, wood, age, &self.standing, |node, flexural, plant| {
-            let curvature = plant.strain.curvature[node];
-            let natural = &mut self.natural[node];
-            *natural = [0, 1].map(|k| (f64::from(curvature[k]) - f64::from(natural[k]) / flexural) as f32);
+        each_flexural(plant, wood, age, &self.standing, |node, flexural| {
+            let (curvature, moment, pliancy) = (plant.strain.curvature[node], self.natural[node], 1.0 / flexural);
+            let natural = |k: usize| (f64::from(curvature[k]) - f64::from(moment[k]) * pliancy) as f32;
+            self.natural[node] = [natural(0), natural(1)];
         });
     }
 
     /// From the curvature without load to the moments of this tick: M = E I (κ − κ₀).
     fn load(&mut self, plant: &mut Plant, wood: &Wood, age: Tick) {
-        each_flexural(plant, wood, age, &self.standing, |node, flexural, plant| {
-            let curvature = plant.strain.curvature[node];
-            let moment = &mut self.natural[node];
-            *moment = [0, 1].map(|k| (f64::from(curvature[k] - moment[k]) * flexural) as f32);
+        each_flexural(plant, wood, age, &self.standing, |node, flexural| {
+            let (curvature, natural) = (plant.strain.curvature[node], self.natural[node]);
+            let moment = |k: usize| ((f64::from(curvature[k]) - f64::from(natural[k])) * flexural) as f32;
+            self.natural[node] = [moment(0), moment(1)];
         });
         plant.strain.moment = std::mem::take(&mut self.natural);
     }
 }
 
 /// Shows each internode that bends, with its flexural stiffness E I, N·m².
-fn each_flexural(plant: &Plant, wood: &Wood, age: Tick, standing: &Standing, mut show: impl FnMut(usize, f64, &Plant)) {
+#[inline]
+fn each_flexural(plant: &Plant, wood: &Wood, age: Tick, standing: &Standing, mut show: impl FnMut(usize, f64)) {
     for run in &standing.runs {
         let tissue = wood.tissue(plant.axes.order[run.axis.index()]);
         for node in run.nodes() {
             let middle = f64::from(plant.nodes.diameter[node] + plant.nodes.diameter_tip[node]) * 0.5;
             let flexural = tissue.modulus(age - plant.nodes.birth[node]) * second_moment(middle);
             if flexural > 0.0 {
-                show(node, flexural, plant);
+                show(node, flexural);
             }
         }
     }

@@ -1,8 +1,8 @@
 //! The reverse scan: what each internode carries, the moment that this makes in its middle, and how the internode
 //! answers.
 //!
-//! With F the sum of all forces beyond the middle of an internode and N their torque about the origin, the moment there
-//! is M = N − x × F. Turning all that lies beyond by small angles Φ about horizontal axes changes M by the sum of G Φ over the
+//! With F the sum of all forces beyond the middle x of an internode and N their torque about the origin, the moment there
+//! is M = N − x × F; of weights, sums of mass and of its first moments say as much. Turning all that lies beyond by small angles Φ about horizontal axes changes M by the sum of G Φ over the
 //! internodes beyond, with G = −ℓ·F for a chord ℓ that carries F: positive where the load stands on top of it. So the
 //! equations of a Newton step,
 //!
@@ -14,7 +14,7 @@
 //! solution is exact in a vertical plane and nearly so in space, where a second term ℓ (Φ·F) is left out, as is torsion.
 //! The pivot of the elimination is the stiffness that is left under load: where it is not positive the plant buckles.
 
-use super::wood::{Tissue, Wood, frustum};
+use super::wood::{Wood, frustum};
 use crate::clock::Tick;
 use crate::plant::borne::{Borne, Down};
 use crate::plant::standing::{Run, Standing};
@@ -32,14 +32,25 @@ const MOST_TURN: f64 = 1e3;
 /// What lies beyond a point of an axis, as that point feels it.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Load {
-    /// The sum of the forces, N.
-    force: Vector,
-    /// The sum of their torques about the origin, N·m.
-    torque: Vector,
+    /// The mass, kg.
+    mass: f64,
+    /// Its first moments about the origin along x and y, kg·m; weight acts along z.
+    level: [f64; 2],
     /// By how much the moments of all that lies beyond change for a turn here, N·m/rad.
     follows: f64,
     /// By how much they change for the turns beyond that do not depend on the one here, N·m.
     moves: Vector,
+    /// What the wind finds, where there is one.
+    sail: Sail,
+}
+
+/// Area in the wind.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sail {
+    /// m².
+    area: f64,
+    /// Its first moments about the origin, m³.
+    at: Vector,
 }
 
 /// How an internode answers in this step: its turn is `gain` times that of its base, and `turn` about `up` and
@@ -66,30 +77,121 @@ pub(super) struct Scan<'a> {
 impl Load {
     #[inline]
     fn add(&mut self, other: &Self) {
-        self.force = self.force + other.force;
-        self.torque = self.torque + other.torque;
+        self.mass += other.mass;
+        self.level = [self.level[0] + other.level[0], self.level[1] + other.level[1]];
         self.follows += other.follows;
         self.moves = self.moves + other.moves;
+        self.sail.put(other.sail.at, other.sail.area);
     }
 
     #[inline]
-    fn put(&mut self, at: Vector, force: Vector) {
-        self.force = self.force + force;
-        self.torque = self.torque + at.cross(force);
+    fn put(&mut self, at: Vector, mass: f64) {
+        self.mass += mass;
+        self.level = [self.level[0] + at.x * mass, self.level[1] + at.y * mass];
+    }
+
+    /// The moment of the weight about a point, N·m.
+    #[inline]
+    fn moment(&self, about: Vector, gravity: f64) -> Vector {
+        let arm = [self.level[0] - about.x * self.mass, self.level[1] - about.y * self.mass];
+        Vector::new(-arm[1] * gravity, arm[0] * gravity, 0.0)
+    }
+}
+
+impl Sail {
+    /// Adds an area by its first moments.
+    #[inline]
+    fn put(&mut self, moments: Vector, area: f64) {
+        self.area += area;
+        self.at = self.at + moments;
+    }
+
+    /// The moment of the drag about a point, N·m.
+    #[inline]
+    fn moment(&self, about: Vector, drag: Vector) -> Vector {
+        (self.at - about * self.area).cross(drag)
+    }
+}
+
+/// An internode in two halves, as loads meet it from its tip.
+struct Piece {
+    length: f64,
+    heading: Vector,
+    foot: Vector,
+    /// Diameters at the base, in the middle and at the tip, m.
+    diameters: [f64; 3],
+    density: f64,
+}
+
+/// What an internode feels.
+struct Felt {
+    /// The moment in its middle, N·m.
+    moment: Vector,
+    /// G of its outer half, and of the whole of it, N·m/rad.
+    near: f64,
+    whole: f64,
+}
+
+impl Piece {
+    /// Takes up the two halves of an internode.
+    #[inline(always)]
+    fn pass<const WINDY: bool>(&self, load: &mut Load, fields: &Fields) -> Felt {
+        let [base, middle, tip] = self.diameters;
+        let half = 0.5 * self.length;
+        let (outer, inner) = (self.density * frustum(half, middle, tip), self.density * frustum(half, base, middle));
+        let place = |share: f64| self.foot + self.heading * (share * self.length);
+        let beyond = load.mass;
+        load.put(place(0.75), outer);
+        let centre = place(0.5);
+        let moment = load.moment(centre, -fields.gravity.z);
+        load.put(place(0.25), inner);
+        let stands = -fields.gravity.z * self.heading.z * self.length;
+        let near = stands * (0.5 * beyond + 0.25 * outer);
+        let whole = stands * (beyond + 0.75 * outer + 0.25 * inner);
+        let felt = Felt { moment, near, whole };
+        if WINDY { self.pass_sail(&mut load.sail, fields.drag, felt) } else { felt }
+    }
+
+    /// The same for the wind, on top of what the weight does.
+    #[inline]
+    fn pass_sail(&self, sail: &mut Sail, drag: Vector, felt: Felt) -> Felt {
+        let [base, middle, tip] = self.diameters;
+        let half = 0.5 * self.length;
+        let (outer, inner) = (half * 0.5 * (middle + tip), half * 0.5 * (base + middle));
+        let place = |share: f64| self.foot + self.heading * (share * self.length);
+        let beyond = sail.area;
+        sail.put(place(0.75) * outer, outer);
+        let moment = felt.moment + sail.moment(place(0.5), drag);
+        sail.put(place(0.25) * inner, inner);
+        let leans = -self.heading.dot(drag) * self.length;
+        Felt {
+            moment,
+            near: felt.near + leans * (0.5 * beyond + 0.25 * outer),
+            whole: felt.whole + leans * (beyond + 0.75 * outer + 0.25 * inner),
+        }
     }
 }
 
 impl Scan<'_> {
     /// Goes over every internode that stands, from the tips down; the last axis met, nearest to the seed, that does not
     /// hold what it carries.
-    pub fn weigh(mut self, standing: &Standing, laterals: &Borne, organs: &Borne) -> Option<AxisId> {
+    pub fn weigh(self, standing: &Standing, laterals: &Borne, organs: &Borne) -> Option<AxisId> {
+        let calm = self.fields.drag == Vector::default();
+        if calm {
+            self.scan::<false>(standing, laterals, organs)
+        } else {
+            self.scan::<true>(standing, laterals, organs)
+        }
+    }
+
+    fn scan<const WINDY: bool>(mut self, standing: &Standing, laterals: &Borne, organs: &Borne) -> Option<AxisId> {
         self.loads.clear();
         self.loads.resize(self.plant.axes.len(), Load::default());
         let mut laterals = Down::new(laterals, &self.plant.axes.bearer);
         let mut organs = Down::new(organs, &self.plant.organs.node);
         let mut yields = None;
         for run in standing.runs.iter().rev() {
-            if !self.weigh_run(run, &mut laterals, &mut organs) {
+            if !self.weigh_run::<WINDY>(run, &mut laterals, &mut organs) {
                 yields = Some(run.axis);
             }
         }
@@ -97,7 +199,7 @@ impl Scan<'_> {
     }
 
     #[inline]
-    fn weigh_run(&mut self, run: &Run, laterals: &mut Down<'_>, organs: &mut Down<'_>) -> bool {
+    fn weigh_run<const WINDY: bool>(&mut self, run: &Run, laterals: &mut Down<'_>, organs: &mut Down<'_>) -> bool {
         let tissue = self.wood.tissue(self.plant.axes.order[run.axis.index()]);
         let mut load = self.loads[run.axis.index()];
         let mut holds = true;
@@ -108,7 +210,13 @@ impl Scan<'_> {
             while let Some(organ) = organs.on(node) {
                 self.hang(&mut load, node, organ);
             }
-            holds &= self.pass(&mut load, tissue, node);
+            let own_age = self.age - self.plant.nodes.birth[node];
+            let piece = self.piece(node, tissue.density(own_age));
+            let felt = piece.pass::<WINDY>(&mut load, &self.fields);
+            let flexural = tissue.modulus(own_age) * second_moment(piece.diameters[1]);
+            let answered;
+            (load, answered) = self.answer(load, node, &felt, flexural, flexural / piece.length);
+            holds &= answered;
         }
         self.loads[run.axis.index()] = load;
         holds
@@ -121,57 +229,56 @@ impl Scan<'_> {
         if organs.birth[organ] > self.age || organs.death[organ] <= self.age {
             return;
         }
-        let mass = self.wood.organs.of(self.plant, organ);
-        let force = self.fields.gravity * mass + self.fields.drag * f64::from(organs.area[organ]);
         let frames = &self.plant.frames;
         let along = Vector::from(frames.heading[node]) * f64::from(self.plant.nodes.length[node]);
-        load.put(Vector::from(frames.base[node]) + along, force);
+        let at = Vector::from(frames.base[node]) + along;
+        load.put(at, self.wood.organs.of(self.plant, organ));
+        let area = f64::from(organs.area[organ]);
+        load.sail.put(at * area, area);
     }
 
-    /// From the tip of an internode to its base, with its answer; whether it holds.
     #[inline]
-    fn pass(&mut self, load: &mut Load, tissue: &Tissue, node: usize) -> bool {
-        let Plant { nodes, frames, strain, .. } = self.plant;
-        let (length, own_age) = (f64::from(nodes.length[node]), self.age - nodes.birth[node]);
+    fn piece(&self, node: usize, density: f64) -> Piece {
+        let Plant { nodes, frames, .. } = self.plant;
         let (base, tip) = (f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]));
-        let middle = (base + tip) * 0.5;
-        let heading = Vector::from(frames.heading[node]);
-        let foot = Vector::from(frames.base[node]);
-        let weight = self.fields.gravity * tissue.density(own_age);
-        let half = length * 0.5;
-        let outer = weight * frustum(half, middle, tip) + self.fields.drag * (half * (middle + tip) * 0.5);
-        let inner = weight * frustum(half, base, middle) + self.fields.drag * (half * (middle + base) * 0.5);
+        Piece {
+            length: f64::from(nodes.length[node]),
+            heading: Vector::from(frames.heading[node]),
+            foot: Vector::from(frames.base[node]),
+            diameters: [base, 0.5 * (base + tip), tip],
+            density,
+        }
+    }
 
-        let beyond = load.force;
-        load.put(foot + heading * (0.75 * length), outer);
-        let moment = load.torque - (foot + heading * half).cross(load.force);
-        load.put(foot + heading * (0.25 * length), inner);
-        let near = -heading.dot(beyond * half + outer * (0.25 * length));
-        let whole = -heading.dot(beyond * length + outer * (0.75 * length) + inner * (0.25 * length));
-
-        let flexural = tissue.modulus(own_age) * second_moment(middle);
-        let stiffness = flexural / length;
+    /// How an internode of this flexural stiffness, N·m², and this stiffness, N·m/rad, answers; and whether it
+    /// holds. Inlined, so that loads stay in registers.
+    #[inline(always)]
+    fn answer(&mut self, mut load: Load, node: usize, felt: &Felt, flexural: f64, stiffness: f64) -> (Load, bool) {
+        let Felt { moment, near, whole } = *felt;
         if !(stiffness.is_finite() && stiffness > 0.0) {
             // No length, or nothing that bends: it goes with its base.
             load.follows += whole;
             self.responses[node] = Response { gain: 1.0, turn: [0.0; 2] };
-            return true;
+            return (load, true);
         }
         let left = stiffness - 0.5 * near - load.follows;
         let holds = left > LEFT * stiffness;
         let (pivot, near, past) = if holds { (left, near, 0.5 * whole + load.follows) } else { (stiffness, 0.0, 0.0) };
-        let up = Vector::from(frames.up[node]);
+        let Plant { frames, strain, .. } = self.plant;
+        let (heading, up) = (Vector::from(frames.heading[node]), Vector::from(frames.up[node]));
         let axes = [up, heading.cross(up)];
-        let turn = [0, 1].map(|k| {
-            let excess = f64::from(strain.curvature[node][k]) - f64::from(self.natural[node][k]);
-            let turn = ((moment + load.moves).dot(axes[k]) - flexural * excess) / pivot;
-            turn.clamp(-MOST_TURN, MOST_TURN)
-        });
-        let gain = (stiffness + 0.5 * near) / pivot;
+        let (curvature, natural, per_pivot) = (strain.curvature[node], self.natural[node], 1.0 / pivot);
+        let moment = moment + load.moves;
+        let answer = |k: usize| {
+            let excess = f64::from(curvature[k]) - f64::from(natural[k]);
+            ((moment.dot(axes[k]) - flexural * excess) * per_pivot).clamp(-MOST_TURN, MOST_TURN)
+        };
+        let turn = [answer(0), answer(1)];
+        let gain = (stiffness + 0.5 * near) * per_pivot;
         load.moves = load.moves + (axes[0] * turn[0] + axes[1] * turn[1]) * past;
         load.follows = if holds { past * gain + 0.5 * whole } else { 0.0 };
-        self.responses[node] = Response { gain: gain as f32, turn: turn.map(|turn| turn as f32) };
-        holds
+        self.responses[node] = Response { gain: gain as f32, turn: [turn[0] as f32, turn[1] as f32] };
+        (load, holds)
     }
 }
 

@@ -2,7 +2,7 @@
 //! theory of material strength" with Young's modulus).
 //!
 //! Each tick internodes gain diameter (`secondary`), then loads and shape are brought to equilibrium (`bend`: moments in
-//! one reverse scan in `loads`, curvatures in one forward scan in `turn`, the pose in another). What bending leaves is
+//! one reverse scan in `loads`, curvatures and pose in one forward scan in `turn`). What bending leaves is
 //! frozen in the wood (`strain`). Axes right themselves by reaction wood and as young shoots (`uprighting`); `sway` moves a
 //! plant of one age in the wind. Absent: twisting, creep and breaking.
 

@@ -1,64 +1,110 @@
-//! The forward scan of a Newton step: each internode turns as it answered, and its curvature changes by as much.
+//! What a Newton step changes: each internode turns as it answered, and its curvature changes by as much.
 //!
 //! The turn Φ of an internode is that of its base times the gain, plus its own. What it adds across its heading is
-//! curvature; what it would add along the heading is torsion, which internodes do not take.
+//! curvature; what it would add along the heading is torsion, which internodes do not take. The pose asks for the
+//! curvatures while it goes from the base to the tips, so that turning and posing are one scan.
 
 use super::loads::Response;
-use crate::plant::Plant;
-use crate::plant::borne::{Borne, Up};
-use crate::plant::standing::{Run, Standing};
+use crate::pose::bent::Curvature;
 use crate::vector::Vector;
 
 /// The most that any internode turns in one step, rad. Far from rest the step overshoots: a slender branch held out
 /// level would turn by several radians.
 const MOST: f64 = 0.6;
 
-/// Writes the curvatures after one step; the largest turn of any internode, rad. `turns` is scratch, one entry an axis.
-pub(super) fn turn(
-    plant: &mut Plant,
-    standing: &Standing,
-    laterals: &Borne,
-    responses: &[Response],
-    turns: &mut Vec<Vector>,
-) -> f64 {
-    turns.clear();
-    turns.resize(plant.axes.len(), Vector::default());
-    let bearers = std::mem::take(&mut plant.axes.bearer);
-    let mut borne = Up::new(laterals, &bearers);
-    let mut largest = 0.0_f64;
-    for run in &standing.runs {
-        largest = largest.max(turn_run(plant, run, &mut borne, responses, turns));
+/// The curvatures as they are.
+pub(super) struct Kept<'a>(pub &'a [[f32; 2]]);
+
+impl Curvature for Kept<'_> {
+    type Carried = ();
+
+    #[inline]
+    fn enter(&mut self, _: usize) {}
+
+    #[inline]
+    fn next(&mut self, (): (), node: usize, _: f64, _: [f32; 3], _: [f32; 3]) -> ((), [f32; 2]) {
+        ((), self.0[node])
     }
-    plant.axes.bearer = bearers;
-    largest.sqrt()
+
+    #[inline]
+    fn leave(&mut self, (): (), _: usize) {}
 }
 
-/// The square of the largest turn.
-#[inline]
-fn turn_run(plant: &mut Plant, run: &Run, borne: &mut Up<'_>, responses: &[Response], turns: &mut [Vector]) -> f64 {
-    let Plant { frames, nodes, strain, .. } = plant;
-    let mut turned = turns[run.axis.index()];
-    let mut largest = 0.0_f64;
-    for node in run.nodes() {
-        let Response { gain, turn } = responses[node];
-        let (heading, up) = (Vector::from(frames.heading[node]), Vector::from(frames.up[node]));
+/// The curvatures after one step.
+pub(super) struct Turned<'a> {
+    curvature: &'a mut [[f32; 2]],
+    responses: &'a [Response],
+    /// The turn at the base of each axis, or at the end of its last run.
+    turns: &'a mut Vec<Vector>,
+    largest: f64,
+}
+
+/// What is carried along an axis: the turn so far, and the square of the largest.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turn {
+    turn: Vector,
+    largest: f64,
+}
+
+impl<'a> Turned<'a> {
+    /// Of so many axes; `turns` is scratch.
+    pub fn new(
+        curvature: &'a mut [[f32; 2]],
+        responses: &'a [Response],
+        turns: &'a mut Vec<Vector>,
+        axes: usize,
+    ) -> Self {
+        turns.clear();
+        turns.resize(axes, Vector::default());
+        Self { curvature, responses, turns, largest: 0.0 }
+    }
+
+    /// The largest turn of any internode, rad.
+    pub fn largest(&self) -> f64 {
+        self.largest.sqrt()
+    }
+}
+
+impl Curvature for Turned<'_> {
+    type Carried = Turn;
+
+    #[inline]
+    fn enter(&mut self, axis: usize) -> Turn {
+        Turn { turn: self.turns[axis], largest: 0.0 }
+    }
+
+    #[inline]
+    fn next(
+        &mut self,
+        Turn { turn, largest }: Turn,
+        node: usize,
+        length: f64,
+        heading: [f32; 3],
+        up: [f32; 3],
+    ) -> (Turn, [f32; 2]) {
+        let Response { gain, turn: own } = self.responses[node];
+        let (heading, up) = (Vector::from(heading), Vector::from(up));
         let axes = [up, heading.cross(up)];
         let more = f64::from(gain) - 1.0;
-        let own = [0, 1].map(|k| more * turned.dot(axes[k]) + f64::from(turn[k]));
-        let (next, own) = held(turned, axes, own);
-        turned = next;
-        let per_length = 1.0 / f64::from(nodes.length[node]);
-        if per_length.is_finite() {
-            let curvature = &mut strain.curvature[node];
-            *curvature = [0, 1].map(|k| (f64::from(curvature[k]) + own[k] * per_length) as f32);
+        let own = [more * turn.dot(axes[0]) + f64::from(own[0]), more * turn.dot(axes[1]) + f64::from(own[1])];
+        let (turn, own) = held(turn, axes, own);
+        let mut curvature = self.curvature[node];
+        if length > 0.0 {
+            let per_length = 1.0 / length;
+            curvature = [
+                (f64::from(curvature[0]) + own[0] * per_length) as f32,
+                (f64::from(curvature[1]) + own[1] * per_length) as f32,
+            ];
+            self.curvature[node] = curvature;
         }
-        largest = largest.max(turned.dot(turned));
-        while let Some(axis) = borne.on(node) {
-            turns[axis] = turned;
-        }
+        (Turn { turn, largest: largest.max(turn.dot(turn)) }, curvature)
     }
-    turns[run.axis.index()] = turned;
-    largest
+
+    #[inline]
+    fn leave(&mut self, carried: Turn, axis: usize) {
+        self.turns[axis] = carried.turn;
+        self.largest = self.largest.max(carried.largest);
+    }
 }
 
 /// The turn after an internode's own, and the latter, so that the former stays within the most.
@@ -66,10 +112,11 @@ fn turn_run(plant: &mut Plant, run: &Run, borne: &mut Up<'_>, responses: &[Respo
 fn held(base: Vector, axes: [Vector; 2], own: [f64; 2]) -> (Vector, [f64; 2]) {
     let next = base + axes[0] * own[0] + axes[1] * own[1];
     let square = next.dot(next);
-    if square <= MOST * MOST {
-        return (next, own);
-    }
-    let shorter = next * (MOST / square.sqrt()) - base;
-    let own = axes.map(|axis| shorter.dot(axis));
+    if square <= MOST * MOST { (next, own) } else { shortened(base, axes, next * (MOST / square.sqrt())) }
+}
+
+#[cold]
+fn shortened(base: Vector, axes: [Vector; 2], next: Vector) -> (Vector, [f64; 2]) {
+    let own = axes.map(|axis| (next - base).dot(axis));
     (base + axes[0] * own[0] + axes[1] * own[1], own)
 }
