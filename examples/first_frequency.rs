@@ -56,7 +56,7 @@ fn height(plant: &Plant, age: Tick) -> f64 {
 
 /// The diameter of the trunk at 1.3 m, m.
 fn breast_height_diameter(plant: &Plant, age: Tick) -> f64 {
-    let trunk =
+    let mut trunk =
         (0..plant.nodes.len()).filter(|&node| plant.nodes.axis[node].index() == 0 && plant.nodes.birth[node] <= age);
     let below = trunk.rfind(|&node| plant.frames.base[node][2] <= 1.3);
     below.map_or(0.0, |node| f64::from(plant.nodes.diameter[node]))
