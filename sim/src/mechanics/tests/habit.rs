@@ -204,3 +204,43 @@ fn what_has_no_wood_or_no_drag_does_not_sway() {
     let moved = sway::sway(&mut plant, 1, &unit_gravity(), wind, 0.0, &mut Bench::default());
     assert_eq!(moved, Err(sway::Unmoved::Stiff));
 }
+
+#[test]
+fn a_settled_plant_stays_where_it_is() {
+    let (mut plant, mut bench) = (bush(), Bench::default());
+    let outcome = bend(&mut plant, 1, &unit_gravity(), &mut bench);
+    assert!(outcome.settled && (2..MOST_STEPS).contains(&outcome.steps), "{outcome:?}");
+    let stood: Vec<_> =
+        (0..plant.axes.len()).map(|axis| crate::pose::bud_frame(&plant, AxisId(axis as u32)).base).collect();
+    let again = bend(&mut plant, 1, &unit_gravity(), &mut bench);
+    assert_eq!((again.steps, again.settled), (1, true), "{again:?}");
+    // What the tolerance left is far below it: the steps converge faster than linearly.
+    for (axis, stood) in stood.iter().enumerate() {
+        let stands = crate::pose::bud_frame(&plant, AxisId(axis as u32)).base;
+        let moved = (0..3).map(|k| f64::from((stands[k] - stood[k]).abs())).fold(0.0, f64::max);
+        assert!(moved < SETTLED * 0.1, "axis {axis} moved by {moved} m");
+    }
+}
+
+/// A fruit weighs as the ellipsoid of its length and width, bends its branch while it hangs, and lets it go when it falls.
+#[test]
+fn a_branch_springs_back_when_its_fruit_falls() {
+    let rod = Rod { flexural: 0.01, ..Rod::level(40) };
+    let mut plant = rod.plant();
+    let mut wood = rod.wood();
+    wood.organs.fruit = 1000.0;
+    plant.habit = Arc::new(Habit { wood: Some(wood), ..(*plant.habit).clone() });
+    add_leaf(&mut plant, NodeId(39), 0.0);
+    (plant.organs.kind[0], plant.organs.length[0], plant.organs.width[0]) = (Kind::Fruit, 0.03, 0.02);
+    (plant.organs.birth[0], plant.organs.death[0]) = (2, 3);
+    let weight = 1000.0 * std::f64::consts::PI / 6.0 * 0.03 * 0.02 * 0.02;
+    let mut bench = Bench::default();
+    bend(&mut plant, 1, &unit_gravity(), &mut bench);
+    assert!(tip(&plant).1.abs() < 1e-6, "not yet");
+    bend(&mut plant, 2, &unit_gravity(), &mut bench);
+    let base = f64::from(plant.strain.moment_of(0)) / (tip(&plant).0 - 0.5 / 40.0);
+    assert!((base / weight - 1.0).abs() < 1e-3, "{base}, not {weight}");
+    assert!(tip(&plant).1 < -0.05, "it hangs");
+    bend(&mut plant, 3, &unit_gravity(), &mut bench);
+    assert!(tip(&plant).1.abs() < 1e-5, "it springs back, for no wood was laid meanwhile");
+}
