@@ -12,7 +12,7 @@ use phytomer::run::{self, Progress, Settings, seed_of};
 use phytomer::sim::plant::{Plant, Seed};
 use phytomer::sim::pose::pose;
 use phytomer::sim::shed::shed;
-use phytomer::sim::{Plot, RecordError, Recorder, Tick, grow};
+use phytomer::sim::{Plot, Tick, grow};
 use std::sync::{Mutex, PoisonError};
 
 #[global_allocator]
@@ -102,19 +102,6 @@ fn the_peak_of_a_population_does_not_depend_on_its_size() {
     assert!(many as f64 <= few as f64 * 1.25, "{few} bytes for 200 plants, {many} for 2,000");
 }
 
-/// Wants no age.
-struct Nobody;
-
-impl Recorder for Nobody {
-    fn wants(&self, _: Tick) -> bool {
-        false
-    }
-
-    fn record(&mut self, _: Tick, _: &Plot) -> Result<(), RecordError> {
-        Ok(())
-    }
-}
-
 /// What a plant keeps of bending from tick to tick; the scratch of a tick is its worker's and does not grow with the
 /// number of plants. It is told, not held.
 #[test]
@@ -123,7 +110,7 @@ fn bending_keeps_at_most_24_bytes_an_internode() {
     let resolved = validate("willow").unwrap_or_else(|report| panic!("{}", report.render(false)));
     let seed = Seed { keep_events: false, ..seed_of(&resolved.scenario, 0) };
     let mut plot = Plot::of_one(resolved.model.as_ref(), &seed);
-    grow(resolved.model.as_ref(), &mut plot, 60, &mut Nobody).expect("nothing is written");
+    grow(resolved.model.as_ref(), &mut plot, 60, &mut ()).expect("nothing is written");
     let before = ALLOCATED.current_usage();
     let bench = std::mem::take(&mut plot.bench);
     drop(bench);

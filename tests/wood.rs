@@ -7,20 +7,7 @@ use phytomer_models::buds::params::{Buds, Wood};
 use phytomer_models::fault::Path;
 use phytomer_sim::plant::{AxisId, EventKind, Plant, Seed};
 use phytomer_sim::site::Site;
-use phytomer_sim::{Plot, RecordError, Recorder, Tick, grow};
-
-/// Wants no age: what is looked at is the plant that is left.
-struct Nobody;
-
-impl Recorder for Nobody {
-    fn wants(&self, _: Tick) -> bool {
-        false
-    }
-
-    fn record(&mut self, _: Tick, _: &Plot) -> Result<(), RecordError> {
-        Ok(())
-    }
-}
+use phytomer_sim::{Plot, Tick, grow};
 
 fn buds(species: &str) -> Option<Buds> {
     match validate_species(species, 1).expect("a shipped species").species.model {
@@ -34,7 +21,7 @@ fn grown(buds: &Buds, until: Tick, gravity: f64) -> Plant {
     let seed = Seed { plant: 0, run_seed: 1988, component_limit: u32::MAX, keep_events: true };
     let mut plot = Plot::of_one(&model, &seed);
     plot.site = Site { gravity, ..Site::default() };
-    grow(&model, &mut plot, until, &mut Nobody).expect("nothing is written");
+    grow(&model, &mut plot, until, &mut ()).expect("nothing is written");
     plot.plants.remove(0)
 }
 

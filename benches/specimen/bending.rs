@@ -34,19 +34,6 @@ impl Recorder for Before {
     }
 }
 
-/// Wants no age.
-struct Nobody;
-
-impl Recorder for Nobody {
-    fn wants(&self, _: Tick) -> bool {
-        false
-    }
-
-    fn record(&mut self, _: Tick, _: &Plot) -> Result<(), RecordError> {
-        Ok(())
-    }
-}
-
 impl Specimen {
     /// The species with wood that bends.
     fn wooden(&self) -> BudModel {
@@ -101,14 +88,14 @@ impl Specimen {
         let model = self.wooden();
         let seed = seed_of(&self.resolved.scenario, 0);
         let mut plot = Plot::of_one(&model, &seed);
-        grow(&model, &mut plot, until, &mut Nobody).expect("nothing is written");
+        grow(&model, &mut plot, until, &mut ()).expect("nothing is written");
         let internodes = plot.plants[0].nodes.len() as u64;
         let what = format!("{until} ticks of life (internodes)");
         let mut group = self.group(criterion, &what, Throughput::Elements(internodes));
         group.bench_function(format!("growth of {internodes} with bending at every tick"), |bencher| {
             bencher.iter(|| {
                 plot.resow(&model, &seed);
-                grow(&model, &mut plot, until, &mut Nobody).expect("nothing is written");
+                grow(&model, &mut plot, until, &mut ()).expect("nothing is written");
                 black_box(&plot);
             });
         });

@@ -2,7 +2,7 @@
 //!
 //! Where nothing is shared a plot is one plant.
 
-use crate::mechanics::Bench;
+use crate::mechanics::{Bench, Wood};
 use crate::model::GrowthModel;
 use crate::plant::{Plant, Seed};
 use crate::site::Site;
@@ -40,7 +40,7 @@ impl Plot {
 
     /// Whether the shape of its plants at an age depends on those at the ages before, so that each must be gone through.
     pub fn remembers(&self) -> bool {
-        self.plants.iter().any(|plant| plant.habit.wood.is_some())
+        self.plants.iter().any(|plant| plant.habit.wood.as_ref().is_some_and(Wood::remembers))
     }
 
     /// Takes every plant back to its seed.

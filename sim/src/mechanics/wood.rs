@@ -90,6 +90,11 @@ impl Wood {
         &self.tissues[place]
     }
 
+    /// Whether what stands at an age depends on the ages before: on frozen curvature, on rings, on pipes of fallen leaves.
+    pub(crate) fn remembers(&self) -> bool {
+        self.bends || self.thickening != Thickening::Law
+    }
+
     /// Whether axes have cause to bend in these fields of force, or right themselves.
     pub(crate) fn feels(&self, fields: &Fields) -> bool {
         self.bends && (*fields != Fields::NONE || self.tissues.iter().any(|tissue| tissue.uprighting.acts()))
