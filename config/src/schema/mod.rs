@@ -48,11 +48,15 @@ pub fn resolve<'s>(root: &'s Json, mut schema: &'s Json) -> Option<&'s Json> {
     None
 }
 
-/// The inside of an `allOf` of one beside which nothing is asked.
+/// What may stand beside an `allOf` of one without asking anything of a value.
+const ASKS_NOTHING: [&str; 6] = ["allOf", "description", "default", "title", "minimum", "maximum"];
+
+/// The inside of an `allOf` of one beside which nothing is asked. Bounds beside it are for editors, which see the bare
+/// number alone: where the same number may be drawn, the model checks all that can come of it.
 fn wrapped(schema: &Json) -> Option<&Json> {
     let keys = schema.as_object()?;
     let [inner] = keys.get("allOf")?.as_array()?.as_slice() else { return None };
-    keys.keys().all(|key| matches!(key.as_str(), "allOf" | "description" | "default" | "title")).then_some(inner)
+    keys.keys().all(|key| ASKS_NOTHING.contains(&key.as_str())).then_some(inner)
 }
 
 /// The forms that a value may have: the branches of `anyOf` or `oneOf`, none for a value with one form.

@@ -71,6 +71,7 @@ pub struct Divergence {
     /// The azimuth of an axis's first leaf from the upper side of the axis, degrees; drawn once an axis, at its birth.
     /// Left out: 90, to the side.
     #[serde(default = "to_the_side")]
+    #[schemars(extend("minimum" = -360, "maximum" = 360))]
     pub first_deg: Variate,
 }
 
@@ -114,8 +115,10 @@ pub enum Orientation {
 pub struct Tended {
     /// The angle to the upward vertical that the axis tends to, degrees: 0 orthotropic, 90 plagiotropic, 180 hanging.
     /// Drawn once an axis, at its birth.
+    #[schemars(extend("minimum" = 0, "maximum" = 180))]
     pub inclination_deg: Variate,
     /// The share of the way that each internode turns, in [0, 1]; drawn once an axis, at its birth.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub share: Variate,
 }
 
@@ -128,7 +131,9 @@ pub struct Phase {
     /// is passed over.
     pub from_rank: Count,
     /// The angle to the upward vertical that the axis tends to, degrees; drawn once an axis, at its birth.
+    #[schemars(extend("minimum" = 0, "maximum" = 180))]
     pub inclination_deg: Variate,
     /// The share of the way that each internode turns, in [0, 1]; drawn once an axis, at its birth.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub share: Variate,
 }

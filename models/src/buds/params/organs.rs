@@ -33,6 +33,7 @@ pub struct Leaf {
     /// Width of the blade, cm.
     pub width_cm: Variate,
     /// Area of one side, as a share of length × width, in [0, 1].
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub area_share: Variate,
     /// The angle between the axis and the leaf, degrees.
     pub insertion_deg: Variate,
