@@ -60,6 +60,12 @@ pub struct About {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 100_000), extend("exclusiveMinimum" = 0))]
     pub ticks_per_year: Option<f64>,
+    /// The age, in ticks, at which a plant shows its architecture: to which a species is grown that is named without a
+    /// scenario, and at which `validate` looks at a sample of it. Left out: 100, or as much earlier as keeps a plant
+    /// small.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 65_535))]
+    pub shown_at: Option<u32>,
 }
 
 /// The 23 architectural models of tropical trees (Hallé, Oldeman & Tomlinson 1978).

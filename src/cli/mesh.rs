@@ -33,8 +33,8 @@ Examples:
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
 pub struct Mesh {
-    /// A run folder, a shipped scenario by its name, or a scenario file by its path.
-    #[arg(value_name = "RUN|SCENARIO")]
+    /// A run folder, a shipped scenario or species by its name, or a file of one by its path.
+    #[arg(value_name = "RUN|SCENARIO|SPECIES")]
     name: String,
     /// The plant's number, from 0.
     #[arg(long, default_value_t = 0)]
@@ -72,10 +72,9 @@ impl Mesh {
                 self.write(&recorded.scenario, &recorded.species, model.as_ref())
             }
             Named::Scenario(resolved) => self.write(&resolved.scenario, &resolved.species, resolved.model.as_ref()),
-            Named::Species(_) => {
-                let name = &self.name;
-                Err(Misuse(format!("`{name}` is a species: name a scenario or a run, which says how it is grown"))
-                    .into())
+            Named::Species(species) => {
+                let alone = species.alone(&self.name);
+                self.write(&alone.scenario, &alone.species, alone.model.as_ref())
             }
         }
     }
