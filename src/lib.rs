@@ -18,3 +18,4 @@ pub use phytomer_outputs as outputs;
 pub use phytomer_sim as sim;
 
 pub mod run;
+pub mod sample;

@@ -4,14 +4,17 @@
 //! the plant small. Ten ages are recorded, the last one among them, and mechanics where the wood bends.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
+use phytomer_models::fault::Path;
 use phytomer_sim::model::GrowthModel;
 
+use crate::report::{Fault, Report};
 use crate::scenario::{Ages, DEFAULT_SEED, Every, Limits, Output, Record, Scenario, Site, Table};
 use crate::validate::{Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL};
 
 /// A plant of a species that states no age is grown no further than is expected to make it so large.
-const SMALL: f64 = 200_000.0;
+const SMALL: f64 = 60_000.0;
 
 /// Into how many steps of about the same length the recorded ages cut the life of the plant.
 const RECORDED: u32 = 10;
@@ -20,6 +23,13 @@ impl ResolvedSpecies {
     /// The age at which a plant of the species shows its architecture.
     pub fn shown_at(&self) -> u32 {
         self.species.about.shown_at.unwrap_or_else(|| while_small(self.model.as_ref()))
+    }
+
+    /// A fault of the species that only its plants could show, at the place of one of its keys.
+    pub fn fault(self, key: &str, problem: String, expected: String, suggestion: Option<&str>) -> Report {
+        let path = Path::root().key(key);
+        let fault = Fault::new(self.node.locate(&path), &path, problem, expected).suggest(suggestion);
+        Report::new(self.sources, vec![fault])
     }
 
     /// One plant of the species, as a run: `name` is what the species was found by.
@@ -43,8 +53,22 @@ impl ResolvedSpecies {
             limits: Limits::default(),
             output: Output { mechanics, ..Output::default() },
         };
-        let Self { species, model, sources } = self;
-        Resolved { scenario, species, model, sources }
+        let Self { species, model, sources, node } = self;
+        Resolved { scenario, species, model, sources, node }
+    }
+}
+
+impl Resolved {
+    /// The species by itself, compiled for the age at which it is shown; where its laws do not reach so far, for the ages
+    /// of the scenario.
+    pub fn species_alone(&self) -> ResolvedSpecies {
+        let (mut species, sources, node) = (self.species.clone(), self.sources.clone(), self.node.clone());
+        let until = species.about.shown_at.unwrap_or(SPECIES_ALONE_UNTIL);
+        let model = species.model.compile(until.max(self.scenario.ages.until)).unwrap_or_else(|_| {
+            species.about.shown_at = Some(until.min(self.scenario.ages.until));
+            Arc::clone(&self.model)
+        });
+        ResolvedSpecies { species, model, sources, node }
     }
 }
 

@@ -37,6 +37,8 @@ pub struct Resolved {
     pub model: Arc<dyn GrowthModel>,
     /// Every text that was read, for hashes and provenance: the scenario first, then the species and its ancestors.
     pub sources: Sources,
+    /// The species' tree, for faults that are found later.
+    pub(crate) node: Node,
 }
 
 /// A species that can grow.
@@ -48,6 +50,8 @@ pub struct ResolvedSpecies {
     pub model: Arc<dyn GrowthModel>,
     /// The species' text and those of its ancestors.
     pub sources: Sources,
+    /// The species' tree, for faults that are found later.
+    pub(crate) node: Node,
 }
 
 /// Reads and checks a scenario: a shipped one by its name, or a file by its path. A species in its place is one plant of
@@ -62,7 +66,7 @@ pub fn validate(scenario: &str) -> Result<Resolved, Report> {
     let mut loader = Loader::default();
     let mention = Mention { name: scenario.to_owned(), place: None };
     let found = loader.find(Kind::Scenario, &mention).and_then(|source| check_scenario(&mut loader, source));
-    conclude(loader, found, |(scenario, species, model), sources| Resolved { scenario, species, model, sources })
+    conclude(loader, found, |(scenario, species, model, node), sources| Resolved { scenario, species, model, sources, node })
 }
 
 /// Reads and checks a species by itself, over the ages up to `until` and up to that at which it says that it is shown.
@@ -76,7 +80,7 @@ pub fn validate_species(species: &str, until: u32) -> Result<ResolvedSpecies, Re
         Some(about.and_then(|about| about.shown_at).unwrap_or(1).max(until).clamp(1, LAST_TICK))
     };
     let found = check_species(&mut loader, &mention, until);
-    conclude(loader, found, |(species, model), sources| ResolvedSpecies { species, model, sources })
+    conclude(loader, found, |(species, model, node), sources| ResolvedSpecies { species, model, sources, node })
 }
 
 /// Whether a file by its path is a species or a scenario, by the keys that it has; a bare name is a shipped scenario
@@ -115,7 +119,7 @@ fn conclude<T, R>(loader: Loader, found: Option<T>, make: impl FnOnce(T, Sources
     }
 }
 
-type Checked = (Scenario, Species, Arc<dyn GrowthModel>);
+type Checked = (Scenario, Species, Arc<dyn GrowthModel>, Node);
 
 fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let (_, node) = loader.parse(source);
@@ -129,8 +133,8 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     }
     let until = integer_at(&node, &["ages", "until"]).and_then(|n| u32::try_from(n).ok());
     let mention = species_mention(&node)?;
-    let (species, model) = check_species(loader, &mention, |_| until.filter(|n| (1..=LAST_TICK).contains(n)))?;
-    let checked = (scenario?, species, model);
+    let (species, model, of) = check_species(loader, &mention, |_| until.filter(|n| (1..=LAST_TICK).contains(n)))?;
+    let checked = (scenario?, species, model, of);
     check_explosion(loader, &node, &checked);
     Some(checked)
 }
@@ -145,10 +149,10 @@ fn check_species(
     loader: &mut Loader,
     mention: &Mention,
     until: impl Fn(Option<&About>) -> Option<u32>,
-) -> Option<(Species, Arc<dyn GrowthModel>)> {
+) -> Option<(Species, Arc<dyn GrowthModel>, Node)> {
     let Found { about, model, node } = loader.species(mention)?;
     match model.compile(until(about.as_ref())?) {
-        Ok(compiled) => Some((Species { about: about?, model }, compiled)),
+        Ok(compiled) => Some((Species { about: about?, model }, compiled, node)),
         Err(faults) => {
             tell(loader, &node, faults);
             None
@@ -163,7 +167,7 @@ fn tell(loader: &mut Loader, node: &Node, faults: Vec<fault::Fault>) {
 }
 
 /// A plot of which more is expected than it may have would be cut off: better told before the first tick.
-fn check_explosion(loader: &mut Loader, node: &Node, (scenario, species, model): &Checked) {
+fn check_explosion(loader: &mut Loader, node: &Node, (scenario, species, model, _): &Checked) {
     let until = scenario.ages.until;
     let (most, key) = (scenario.limits.components(), scenario.limits.binding());
     let Some(expected) = model.expectation(until).map(|means| means.components(until)) else { return };

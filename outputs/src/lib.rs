@@ -6,6 +6,7 @@
 mod error;
 pub mod meshes;
 pub mod read;
+pub mod rows;
 pub mod run_folder;
 #[cfg(test)]
 mod specimen;

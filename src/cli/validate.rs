@@ -1,4 +1,5 @@
-//! `validate`: every fault of scenarios and species, none of them run.
+//! `validate`: every fault of scenarios and species, none of them run; a small sample of a species that names its
+//! architectural model is grown in memory, and must qualify for it.
 //!
 //! Absent: the checks, which are `phytomer-config`'s.
 
@@ -6,12 +7,27 @@ use super::named::{self, Named};
 use super::{Verdict, amounts, terminal};
 use anyhow::Result;
 use clap::Args;
+use phytomer::sample::check_architecture;
 use phytomer_config::Report;
 use serde_json::{Value, json};
 
 type Found = std::result::Result<Named, Report>;
 
+/// Finds and checks a name, and grows a small sample of a species that names its architectural model.
+fn check(name: &str) -> Found {
+    let found = named::find(name)?;
+    match &found {
+        Named::Scenario(scenario) => check_architecture(scenario.species_alone(), name)?,
+        Named::Species(species) => check_architecture((**species).clone(), name)?,
+        Named::Run(_) => {}
+    }
+    Ok(found)
+}
+
 /// Check scenarios and species, and tell every fault at once.
+///
+/// A species that names its architectural model must have plants of that model: five are grown in memory, to the age that
+/// its key `shown_at` says, and looked at.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -31,7 +47,7 @@ pub struct Validate {
 
 impl Validate {
     pub fn obey(self) -> Result<Verdict> {
-        let found: Vec<(&String, Found)> = self.names.iter().map(|name| (name, named::find(name))).collect();
+        let found: Vec<(&String, Found)> = self.names.iter().map(|name| (name, check(name))).collect();
         let wrong = found.iter().filter(|(_, found)| found.is_err()).count();
         if self.json {
             let files: Vec<Value> = found.iter().map(|(name, found)| as_json(name, found)).collect();

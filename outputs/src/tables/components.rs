@@ -17,7 +17,7 @@ columns! {
         state: Int(i32), position: Int(i32), rank: Int(i32), unit_rank: Int(i32), neoformed: Bool(i8),
         birth: Int(i32), birth_dimension: Int(i32), delay: Int(i32),
         length: Float(f32), birth_diameter: Float(f32), area: Float(f32),
-        death: Int(i32), shed: Int(i32), cause: Word(i8),
+        death: Int(i32), shed: Int(i32), cause: Word(i8), trend: Float(f32),
     }
 }
 
@@ -41,6 +41,7 @@ struct Row {
     death: Tick,
     shed: Tick,
     cause: Cause,
+    trend: f32,
 }
 
 impl ComponentColumns {
@@ -48,7 +49,7 @@ impl ComponentColumns {
     #[inline]
     pub fn add(&mut self, plot: &Plot, plant: &Plant, standing: &Standing, number: u32, last: Tick) {
         let row = match standing.component(number) {
-            Component::Node(node) => of_node(plant, node),
+            Component::Node(node) => of_node(plant, node, standing),
             Component::Organ(organ) => of_organ(plant, organ),
             Component::Bud(axis) => of_bud(plant, axis),
         };
@@ -88,11 +89,12 @@ impl ComponentColumns {
         self.shed.push(known(row.shed, last));
         // Causes are numbered from 1; 0 is "lives".
         self.cause.push(if death == NULL { -1 } else { row.cause as i8 - 1 });
+        self.trend.push(row.trend);
     }
 }
 
 #[inline]
-fn of_node(plant: &Plant, node: NodeId) -> Row {
+fn of_node(plant: &Plant, node: NodeId, standing: &Standing) -> Row {
     let Plant { nodes, axes, .. } = plant;
     let i = node.index();
     let axis = nodes.axis[i];
@@ -115,6 +117,7 @@ fn of_node(plant: &Plant, node: NodeId) -> Row {
         death: nodes.death[i],
         shed: nodes.shed[i],
         cause: Cause::Branch,
+        trend: standing.trend(plant, node),
     }
 }
 
@@ -131,7 +134,8 @@ fn of_organ(plant: &Plant, organ: OrganId) -> Row {
         parent: nodes.component[node] as i32,
         axis,
         kind: organs.kind[i],
-        position: i32::from(organs.position[i]),
+        // That of what stands at the end of an axis is the greatest, which is no place among laterals.
+        position: if organs.position[i] == u16::MAX { NULL } else { i32::from(organs.position[i]) },
         rank: nodes.rank[node] as i32,
         unit_rank: i32::from(nodes.unit_rank[node]),
         neoformed: -1,
@@ -144,6 +148,7 @@ fn of_organ(plant: &Plant, organ: OrganId) -> Row {
         death: end,
         shed: end,
         cause: organs.cause[i],
+        trend: f32::NAN,
     }
 }
 
@@ -171,6 +176,7 @@ fn of_bud(plant: &Plant, axis: AxisId) -> Row {
         death: axes.apex_end[i],
         shed: if axes.apex_end[i] == NEVER { NEVER } else { axes.shed[i] },
         cause: cause_of(axes.apex_fate[i]),
+        trend: f32::NAN,
     }
 }
 
