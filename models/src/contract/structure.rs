@@ -216,7 +216,7 @@ pub(super) fn standing(plant: &Plant, age: Tick) -> impl Iterator<Item = usize> 
 /// # Panics
 /// Where it does not.
 pub fn poses(plant: &mut Plant) {
-    pose(plant);
+    pose(plant, plant.age);
     let frames = &plant.frames;
     for column in [&frames.base, &frames.heading, &frames.up] {
         assert_eq!(column.len(), plant.nodes.len(), "the pose has a frame for each internode");
