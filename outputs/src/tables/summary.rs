@@ -4,6 +4,7 @@
 
 use super::buffers::{NULL, columns};
 use super::standing::{Standing, organ_end};
+use crate::error::Error;
 use phytomer_sim::plant::{AxisId, Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::node_frame;
 use phytomer_sim::{Plot, Tick};
@@ -19,21 +20,46 @@ columns! {
     }
 }
 
-/// One plant at one age; what is null in the table is NaN here.
-#[derive(Debug, Clone, Default)]
+/// One plant at one age.
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Summary {
-    internodes: u32,
-    leaves: u32,
-    flowers: u32,
-    fruits: u32,
-    buds: u32,
-    dead_internodes: u32,
-    axes: u32,
-    max_order: u8,
-    height: f64,
-    crown_width: f64,
-    leaf_area: f64,
-    wood_volume: f64,
+    /// Living internodes.
+    pub internodes: u32,
+    /// Living leaves.
+    pub leaves: u32,
+    /// Open flowers.
+    pub flowers: u32,
+    /// Fruits.
+    pub fruits: u32,
+    /// Living apical buds.
+    pub buds: u32,
+    /// Dead internodes that still stand.
+    pub dead_internodes: u32,
+    /// Axes that stand.
+    pub axes: u32,
+    /// The highest order of them.
+    pub max_order: u8,
+    /// The height of the tip of the highest living internode, m; NaN (null in the table) where none lives.
+    pub height: f64,
+    /// The mean of the widths of what lives along x and y, m; NaN where no internode lives.
+    pub crown_width: f64,
+    /// The area of one side of all leaves, m².
+    pub leaf_area: f64,
+    /// The volume of all internodes that stand, m³.
+    pub wood_volume: f64,
+}
+
+impl Summary {
+    /// Sums up `plant`, posed at `age`.
+    ///
+    /// # Errors
+    /// A plant of more components than fit a table.
+    pub fn of(plant: &Plant, age: Tick) -> Result<Self, Error> {
+        let mut standing = Standing::default();
+        standing.read(plant)?;
+        standing.find_tips(plant, age);
+        Ok(summarise(plant, &standing, age))
+    }
 }
 
 /// Sums up `plant` at `age`; `standing` has the tips of its axes at that age.
