@@ -114,13 +114,21 @@ pub fn pose(plant: &mut Plant, age: Tick) {
     }
 }
 
-/// The pose of an organ on its node, whose frame must be there. The base lies on the line of the axis, at the node;
+/// The pose at `age` of an organ on its node, whose frame must be there: its insertion, turned as far as the habit's trend
+/// for its kind has turned it in the ticks since its birth. The base lies on the line of the axis, at the node;
 /// whoever draws the organ moves it out to the surface of the stem.
 #[inline]
-pub fn organ_frame(plant: &Plant, organ: OrganId) -> Frame {
-    let organs = &plant.organs;
+pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
+    let Plant { organs, nodes, axes, habit, .. } = plant;
     let organ = organ.index();
-    node_frame(plant, organs.node[organ]).inserted(organs.azimuth[organ], organs.insertion[organ])
+    let node = organs.node[organ];
+    let inserted = node_frame(plant, node).inserted(organs.azimuth[organ], organs.insertion[organ]);
+    if habit.organ_trends.is_empty() {
+        return inserted;
+    }
+    let order = axes.order[nodes.axis[node.index()].index()];
+    let trend = habit.organ_trend(order, organs.kind[organ]);
+    trend.map_or(inserted, |trend| course::turned(inserted, &trend.at(age.saturating_sub(organs.birth[organ]))))
 }
 
 /// The frame at the tip of an internode, where its node is: the directions of the internode, its end as the base.

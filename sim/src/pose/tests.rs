@@ -4,9 +4,10 @@
 use super::specimen::{Branch, Growth, LAST, Specimen};
 use super::*;
 use crate::math::{acos, cosf, sinf};
-use crate::plant::{Cause, Form, Kind, LineageKey, NewAxis, NewOrgan, Origin, Trend};
+use crate::plant::{Cause, Form, Habit, Kind, LineageKey, NewAxis, NewOrgan, OrganTrend, OrganTrends, Origin, Trend};
 use crate::random::{PlantRandom, Purpose};
 use std::f32::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 
 fn trend(inclination: f32, share: f32) -> Trend {
     Trend { cos_inclination: cosf(inclination), sin_inclination: sinf(inclination), share }
@@ -178,7 +179,40 @@ fn organs_and_buds_stand_at_the_tip_of_their_node() {
     assert_near(bud.base, [0.0, 0.0, 0.5]);
     assert_near(bud.heading, [-1.0, 0.0, 0.0]);
     assert_near(bud.up, [0.0, 0.0, 1.0]);
-    let leaf = organ_frame(plant, leaf);
+    let leaf = organ_frame(plant, leaf, 1);
     assert_near(leaf.base, [0.0, 0.0, 1.0]);
     assert_near(leaf.heading, [1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn a_leaf_sinks_with_its_age_and_a_fruit_hangs() {
+    let mut specimen = Specimen::grown(&[Branch::trunk(2, 0.5)], &[], Growth::AxisByAxis);
+    let plant = &mut specimen.plant;
+    let sinking = OrganTrend { cos_inclination: -1.0, sin_inclination: 0.0, shares: vec![0.0, 0.5, 1.0] };
+    let of_trunk = OrganTrends { leaf: Some(sinking), ..OrganTrends::default() };
+    plant.habit = Arc::new(Habit { organ_trends: vec![of_trunk], ..(*plant.habit).clone() });
+    let organ = |kind| NewOrgan {
+        node: NodeId(1),
+        kind,
+        position: 0,
+        birth: 3,
+        death: 9,
+        cause: Cause::LifeLength,
+        form: Form::Elliptic,
+        length: 0.1,
+        width: 0.05,
+        area: 0.004,
+        azimuth: PI,
+        insertion: FRAC_PI_2,
+    };
+    let (leaf, flower) = (plant.add_organ(organ(Kind::Leaf)), plant.add_organ(organ(Kind::Flower)));
+    pose(plant);
+    let heading = |age| organ_frame(plant, leaf, age).heading;
+    assert_near(heading(3), [1.0, 0.0, 0.0]);
+    let halfway = std::f32::consts::FRAC_1_SQRT_2;
+    assert_near(heading(4), [halfway, 0.0, -halfway]);
+    assert_near(organ_frame(plant, leaf, 4).up, [halfway, 0.0, halfway]);
+    assert_near(heading(5), [0.0, 0.0, -1.0]);
+    assert_eq!(heading(8), heading(5));
+    assert_near(organ_frame(plant, flower, 8).heading, [1.0, 0.0, 0.0]);
 }
