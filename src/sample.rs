@@ -1,95 +1,155 @@
-//! A sample of a species, grown in memory, and whether it is what its file says that it is: a species that names an
-//! `architectural_model` must have plants that qualify for it (Hallé, Oldeman & Tomlinson 1978).
+//! A sample of a species, grown to be held against what was published of such plants (`[[published]]`).
 //!
-//! Plants are grown to the age at which the species is shown, from the default seed, so that the answer is always the same.
-//! For `validate` alone: a run begins without it, because it takes longer than a start may. Absent: the qualifiers, which
-//! are `phytomer-analysis`'s.
+//! The sample is the same on every machine: plants 0, 1, 2 … of the default seed, on open ground, until there are enough
+//! of them. Means are over the plants that live. Absent: files, and what is done about a sample that does not fit.
 
-use crate::run::seed_of;
-use phytomer_analysis::architecture::{Architecture, Characters, architecture, architectures};
-use phytomer_config::{Report, Resolved, ResolvedSpecies};
-use phytomer_outputs::rows::{PoseRow, components_of, poses_of};
+use phytomer_config::published::{Measure, PUBLISHED, Published, Range};
+use phytomer_config::{Species, scenario::DEFAULT_SEED};
+use phytomer_models::fault::{Fault, Path};
+use phytomer_outputs::tables::Summary;
 use phytomer_sim::plant::Seed;
-use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick, grow};
+use phytomer_sim::{Ending, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
 
-/// How many plants are looked at; more than half of them must qualify, since chance may kill or cripple some.
-pub const SAMPLE: u32 = 5;
+/// The plants of a sample, unless they are large.
+const MOST_PLANTS: u32 = 16;
 
-/// A plant of a sample may have so many components.
-const LIMIT: u32 = 3_000_000;
+/// Of large plants fewer do: their parts already average.
+const FEWEST_PLANTS: u32 = 2;
 
-/// The characters of plants `0..plants` of a scenario at its last age; of those that come to their limit, none.
+/// No further plant is grown once so many components have lived: about a second.
+const ENOUGH_COMPONENTS: u64 = 1_000_000;
+
+/// A plant that is larger is not measured.
+const COMPONENT_LIMIT: u32 = 20_000_000;
+
+/// A measure of the sample beside the range that was published.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Compared {
+    /// Which `[[published]]` of the species, from 0.
+    pub row: usize,
+    /// The age, ticks.
+    pub at_age: Tick,
+    /// What was measured.
+    pub measure: Measure,
+    /// The published range.
+    pub range: Range,
+    /// The sample's mean; NaN where no plant of it lives.
+    pub found: f64,
+    /// The plants of the sample.
+    pub plants: u32,
+}
+
+impl Compared {
+    /// Whether the sample lies in the range.
+    pub fn fits(&self) -> bool {
+        (self.range[0]..=self.range[1]).contains(&self.found)
+    }
+}
+
+/// Grows a sample and holds it against every published range; nothing is grown where there is none.
 ///
 /// # Errors
-/// A plant too large for a table.
-pub fn characters(resolved: &Resolved, plants: u32) -> Result<Vec<Characters>, RecordError> {
-    let mut found = Vec::new();
-    let (model, until) = (resolved.model.as_ref(), resolved.scenario.ages.until);
-    for plant in 0..plants {
-        let seed = Seed { component_limit: LIMIT, keep_events: false, ..seed_of(&resolved.scenario, plant) };
-        let mut plot = Plot::of_one(model, &seed);
-        plot.site = resolved.scenario.site.felt();
-        let ages = if resolved.scenario.output.mechanics { resolved.scenario.ages.recorded() } else { Vec::new() };
-        let mut poses = Poses { ages, rows: Vec::new() };
-        if let Ending::Complete = grow(model, &mut plot, until, &mut poses)? {
-            let components = components_of(&plot, &plot.plants[0], until)?;
-            found.push(Characters::of(&components, &poses.rows));
+/// Laws that do not hold up to the last published age, and a plant too large to be measured.
+pub fn compare(species: &Species) -> Result<Vec<Compared>, Vec<Fault>> {
+    let published = &species.about.published;
+    let Some(last) = published.iter().map(|row| row.at_age).max() else { return Ok(Vec::new()) };
+    let model = species.model.compile(last)?;
+    let sample = Sample::grown(model.as_ref(), published, last).map_err(|problem| {
+        let path = Path::root().key(PUBLISHED);
+        vec![Fault::new(&path, problem, "plants that can be grown to the published age")]
+    })?;
+    let rows = published.iter().enumerate();
+    Ok(rows.flat_map(|(row, published)| sample.held_against(row, published)).collect())
+}
+
+/// What a sample does not fit, each at its place in the species file; the faults of [`compare`] likewise.
+pub fn faults(species: &Species) -> Vec<Fault> {
+    let compared = match compare(species) {
+        Ok(compared) => compared,
+        Err(faults) => return faults,
+    };
+    let misfits = compared.iter().filter(|compared| !compared.fits());
+    misfits.map(|misfit| fault(misfit, &species.about.published[misfit.row])).collect()
+}
+
+fn fault(misfit: &Compared, published: &Published) -> Fault {
+    let Compared { row, at_age, measure, range: [least, most], found, plants } = *misfit;
+    let (name, unit) = (measure.name(), measure.unit());
+    let of = amounts(plants);
+    let problem = match found.is_nan() {
+        true => format!("none of {of} lives at age {at_age}"),
+        false => format!("the {name} of {of} is {found:.3}{unit} on average at age {at_age}"),
+    };
+    let expected = format!("{least} to {most}{unit}: {}", published.source);
+    Fault::new(&Path::root().key(PUBLISHED).index(row).key(measure.key()), problem, expected)
+}
+
+fn amounts(plants: u32) -> String {
+    if plants == 1 { "1 plant".to_owned() } else { format!("{plants} plants") }
+}
+
+/// What stood of each plant of a sample at the published ages.
+struct Sample {
+    plants: u32,
+    /// With whether the plant lived.
+    seen: Vec<(Tick, bool, Summary)>,
+    ages: Vec<Tick>,
+}
+
+impl Sample {
+    fn grown(model: &dyn GrowthModel, published: &[Published], last: Tick) -> Result<Self, String> {
+        let ages = published.iter().map(|row| row.at_age).collect();
+        let mut sample = Self { plants: 0, seen: Vec::new(), ages };
+        let mut components = 0;
+        let seed = |plant| Seed { plant, run_seed: DEFAULT_SEED, component_limit: COMPONENT_LIMIT, keep_events: false };
+        let mut plot = Plot::of_one(model, &seed(0));
+        while sample.plants < MOST_PLANTS && (components < ENOUGH_COMPONENTS || sample.plants < FEWEST_PLANTS) {
+            plot.resow(model, &seed(sample.plants));
+            match grow(model, &mut plot, last, &mut sample) {
+                Ok(Ending::Complete) => {}
+                Ok(Ending::Overgrown { age, .. }) => {
+                    return Err(format!("a plant has more than {COMPONENT_LIMIT} components at age {age}"));
+                }
+                Err(error) => return Err(error.to_string()),
+            }
+            components += u64::from(plot.plants[0].components());
+            sample.plants += 1;
+        }
+        Ok(sample)
+    }
+
+    fn held_against(&self, row: usize, published: &Published) -> Vec<Compared> {
+        let at_age = published.at_age;
+        let ranges = published.ranges();
+        let compared = ranges.map(|(measure, range)| {
+            let found = self.mean(measure, at_age);
+            Compared { row, at_age, measure, range, found, plants: self.plants }
+        });
+        compared.collect()
+    }
+
+    fn mean(&self, measure: Measure, age: Tick) -> f64 {
+        let living: Vec<&Summary> =
+            self.seen.iter().filter(|(at, lives, _)| *at == age && *lives).map(|(_, _, summary)| summary).collect();
+        let mean = |of: fn(&Summary) -> f64| living.iter().map(|s| of(s)).sum::<f64>() / living.len() as f64;
+        match measure {
+            Measure::Height => mean(|s| s.height),
+            Measure::CrownWidth => mean(|s| s.crown_width),
+            Measure::Leaves => mean(|s| f64::from(s.leaves)),
+            Measure::LeafArea => mean(|s| s.leaf_area),
+            Measure::Living => living.len() as f64 / f64::from(self.plants),
         }
     }
-    Ok(found)
 }
 
-/// How the internodes of a plant lie at some ages.
-struct Poses {
-    ages: Vec<Tick>,
-    rows: Vec<PoseRow>,
-}
-
-impl Recorder for Poses {
+impl Recorder for Sample {
     fn wants(&self, age: Tick) -> bool {
-        self.ages.binary_search(&age).is_ok()
+        self.ages.contains(&age)
     }
 
     fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
-        self.rows.extend(poses_of(plot, &plot.plants[0], age)?);
+        let plant = &plot.plants[0];
+        self.seen.push((age, plant.death > age, Summary::of(plant, age)?));
         Ok(())
     }
-}
-
-/// Checks that a sample of the species qualifies for the architectural model that its file names; nothing where it names
-/// none.
-///
-/// # Errors
-/// What the plants lack, at the place of the key.
-pub fn check_architecture(species: ResolvedSpecies, name: &str) -> Result<(), Report> {
-    let Some(model) = species.species.about.architectural_model.and_then(|model| architecture(model.word())) else {
-        return Ok(());
-    };
-    let alone = species.clone().alone(name);
-    let until = alone.scenario.ages.until;
-    let plants = match characters(&alone, SAMPLE) {
-        Ok(plants) if !plants.is_empty() => plants,
-        _ => {
-            let problem = format!("a plant grown to age {until} has more than {LIMIT} components: it cannot be judged");
-            let expected = "an earlier `shown_at`, at which a plant is smaller and shows its architecture".to_owned();
-            return Err(species.fault("shown_at", problem, expected, None));
-        }
-    };
-    judge(model, &plants, until).map_err(|(problem, expected, near)| {
-        species.fault("architectural_model", problem, expected, near)
-    })
-}
-
-type Misfit = (String, String, Option<&'static str>);
-
-fn judge(model: &Architecture, plants: &[Characters], until: Tick) -> Result<(), Misfit> {
-    let lacking: Vec<&str> = plants.iter().filter_map(|plant| model.qualify(plant).err()).collect();
-    let Some(lacks) = lacking.first().filter(|_| 2 * lacking.len() >= plants.len()) else {
-        return Ok(());
-    };
-    let (failed, all, name) = (lacking.len(), plants.len(), model.name);
-    let problem = format!("{failed} of {all} plants grown to age {until} are not of the model `{name}`");
-    let expected = format!("plants of which this holds: {lacks}");
-    let near = plants.first().map(architectures).and_then(|models| models.first().copied());
-    Err((problem, expected, near))
 }

@@ -4,40 +4,26 @@
 //! the plant small. Ten ages are recorded, the last one among them, and mechanics where the wood bends.
 
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
-use phytomer_models::fault::Path;
 use phytomer_sim::model::GrowthModel;
 
-use crate::report::{Fault, Report};
 use crate::scenario::{Ages, DEFAULT_SEED, Every, Limits, Output, Record, Scenario, Site, Table};
+use crate::species::{Model, Species};
 use crate::validate::{Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL};
 
 /// A plant of a species that states no age is grown no further than is expected to make it so large.
-const SMALL: f64 = 60_000.0;
+const SMALL: f64 = 200_000.0;
+
+/// The levels of a geometric model, which doubles its branches at each.
+const LEVELS: u32 = 10;
 
 /// Into how many steps of about the same length the recorded ages cut the life of the plant.
 const RECORDED: u32 = 10;
 
 impl ResolvedSpecies {
-    /// The age at which a plant of the species shows its architecture.
-    pub fn shown_at(&self) -> u32 {
-        self.species.about.shown_at.unwrap_or_else(|| while_small(self.model.as_ref()))
-    }
-
-    /// A fault of the species that only its plants could show, at the place of one of its keys.
-    pub fn fault(self, key: &str, problem: String, expected: String, suggestion: Option<&str>) -> Report {
-        let path = Path::root().key(key);
-        let fault = Fault::new(self.node.locate(&path), &path, problem, expected).suggest(suggestion);
-        Report::new(self.sources, vec![fault])
-    }
-
     /// One plant of the species, as a run: `name` is what the species was found by.
     pub fn alone(self, name: &str) -> Resolved {
-        let until = self.shown_at();
-        let every = until.div_ceil(RECORDED);
-        // Counted back from the last age.
-        let from = until - every * ((until - 1) / every);
+        let until = self.species.shown_at(self.model.as_ref());
         let mechanics = self.model.habit().wood.as_ref().is_some_and(|wood| wood.bends);
         let scenario = Scenario {
             name: self.species.about.name.clone(),
@@ -47,29 +33,38 @@ impl ResolvedSpecies {
             seed: DEFAULT_SEED,
             spacing_m: None,
             site: Site::default(),
-            ages: Ages { until, record: Record::Every(Every { every, from: Some(from) }) },
+            ages: Ages { until, record: Record::Every(recorded(until)) },
             tables: BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary]),
             meshes: None,
             limits: Limits::default(),
             output: Output { mechanics, ..Output::default() },
         };
-        let Self { species, model, sources, node } = self;
-        Resolved { scenario, species, model, sources, node }
+        let Self { species, model, sources, tree } = self;
+        Resolved { scenario, species, model, sources, tree }
     }
 }
 
-impl Resolved {
-    /// The species by itself, compiled for the age at which it is shown; where its laws do not reach so far, for the ages
-    /// of the scenario.
-    pub fn species_alone(&self) -> ResolvedSpecies {
-        let (mut species, sources, node) = (self.species.clone(), self.sources.clone(), self.node.clone());
-        let until = species.about.shown_at.unwrap_or(SPECIES_ALONE_UNTIL);
-        let model = species.model.compile(until.max(self.scenario.ages.until)).unwrap_or_else(|_| {
-            species.about.shown_at = Some(until.min(self.scenario.ages.until));
-            Arc::clone(&self.model)
-        });
-        ResolvedSpecies { species, model, sources, node }
+impl Species {
+    /// The age at which a plant shows its architecture, by its file or by its size; `model` is compiled at least up to that
+    /// of the file, else up to [`SPECIES_ALONE_UNTIL`].
+    pub fn shown_at(&self, model: &dyn GrowthModel) -> u32 {
+        self.about.shown_at.unwrap_or_else(|| match &self.model {
+            Model::Buds(_) => while_small(model),
+            Model::Gmt1(_) => LEVELS,
+        })
     }
+}
+
+/// The ages at which a plant by itself is recorded that is grown to `until`.
+pub fn recorded_alone(until: u32) -> Vec<u32> {
+    Ages { until, record: Record::Every(recorded(until)) }.recorded()
+}
+
+/// About ten ages, the last one among them.
+fn recorded(until: u32) -> Every {
+    let every = until.div_ceil(RECORDED).max(1);
+    // Counted back from the last age.
+    Every { every, from: Some(until - every * (until.saturating_sub(1) / every)) }
 }
 
 /// The last age up to [`SPECIES_ALONE_UNTIL`] at which a plant is expected to be small.

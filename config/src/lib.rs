@@ -11,6 +11,7 @@ mod inherit;
 mod library;
 mod load;
 mod meaning;
+pub mod published;
 mod report;
 pub mod scenario;
 mod schema;
@@ -20,7 +21,9 @@ mod spelling;
 mod validate;
 mod woods;
 
+pub use alone::recorded_alone;
 pub use library::{Kind, presets};
+pub use published::Published;
 pub use report::{Fault, FaultRecord, Report};
 pub use scenario::Scenario;
 pub use source::{Origin, Source, SourceId, Sources, Span};

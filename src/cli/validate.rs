@@ -1,33 +1,21 @@
-//! `validate`: every fault of scenarios and species, none of them run; a small sample of a species that names its
-//! architectural model is grown in memory, and must qualify for it.
+//! `validate`: every fault of scenarios and species, none of them run.
 //!
-//! Absent: the checks, which are `phytomer-config`'s.
+//! Of a species that states what was published of such plants a sample is grown too, once its file is without fault.
+//! Absent: the checks, which are `phytomer-config`'s, `phytomer::sample`'s and
+//! `phytomer::architecture`'s.
 
 use super::named::{self, Named};
 use super::{Verdict, amounts, terminal};
 use anyhow::Result;
 use clap::Args;
-use phytomer::sample::check_architecture;
-use phytomer_config::Report;
+use phytomer::{architecture, sample};
+use phytomer_config::{Report, Species};
+use phytomer_models::fault::Fault;
 use serde_json::{Value, json};
 
 type Found = std::result::Result<Named, Report>;
 
-/// Finds and checks a name, and grows a small sample of a species that names its architectural model.
-fn check(name: &str) -> Found {
-    let found = named::find(name)?;
-    match &found {
-        Named::Scenario(scenario) => check_architecture(scenario.species_alone(), name)?,
-        Named::Species(species) => check_architecture((**species).clone(), name)?,
-        Named::Run(_) => {}
-    }
-    Ok(found)
-}
-
 /// Check scenarios and species, and tell every fault at once.
-///
-/// A species that names its architectural model must have plants of that model: five are grown in memory, to the age that
-/// its key `shown_at` says, and looked at.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -35,6 +23,8 @@ Examples:
   phytomer validate my_plant/scenario.toml my_plant/species.toml
   phytomer validate my_plant/scenario.toml --json
 
+Where a species states published ranges (`[[published]]`), a sample of it is grown and held against them; where it
+names its architectural model, plants grown to the age `shown_at` must qualify for it.
 Exit code 3 where anything is wrong.")]
 pub struct Validate {
     /// Files by their paths, shipped scenarios and species by their names.
@@ -47,7 +37,7 @@ pub struct Validate {
 
 impl Validate {
     pub fn obey(self) -> Result<Verdict> {
-        let found: Vec<(&String, Found)> = self.names.iter().map(|name| (name, check(name))).collect();
+        let found: Vec<(&String, Found)> = self.names.iter().map(|name| (name, find(name))).collect();
         let wrong = found.iter().filter(|(_, found)| found.is_err()).count();
         if self.json {
             let files: Vec<Value> = found.iter().map(|(name, found)| as_json(name, found)).collect();
@@ -59,6 +49,23 @@ impl Validate {
         }
         Ok(if wrong == 0 { Verdict::Done } else { Verdict::Invalid })
     }
+}
+
+/// Finds what a name stands for, and holds plants grown from it against what was published of its species, and against the
+/// architectural model that it names.
+fn find(name: &str) -> Found {
+    let found = named::find(name)?;
+    let report = match &found {
+        Named::Run(_) => None,
+        Named::Scenario(scenario) => wrong(&scenario.species).map(|faults| scenario.report(faults)),
+        Named::Species(species) => wrong(&species.species).map(|faults| species.report(faults)),
+    };
+    report.map_or(Ok(found), Err)
+}
+
+fn wrong(species: &Species) -> Option<Vec<Fault>> {
+    let faults: Vec<Fault> = sample::faults(species).into_iter().chain(architecture::faults(species)).collect();
+    Some(faults).filter(|faults| !faults.is_empty())
 }
 
 fn tell(name: &str, found: &Found) -> Result<()> {

@@ -13,7 +13,7 @@ mod sympodial;
 mod wood;
 
 pub use geometry::{Divergence, Internode, Orientation, Phase, Phyllotaxis, ShapeName, StateTrends, Tended, Trend};
-pub use organs::{Flower, FormName, Fruit, Leaf, Season};
+pub use organs::{Flower, FormName, Fruit, Leaf, OrganTrend, Season};
 pub use sympodial::{Apex, ApexEnd, Fork, Reiteration, Relay, Sibling, Transition, Traumatic};
 pub use wood::{CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood};
 
