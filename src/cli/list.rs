@@ -111,9 +111,8 @@ fn is_model(name: &str) -> bool {
 /// The characters of an architectural model, and plants that follow it.
 fn described(name: &str) -> Entry {
     let about = validate_species(name, 1).ok().map(|species| species.species.about);
-    let (characters, examples) = about.map(|about| (about.description, about.scientific_name)).unwrap_or_default();
-    let characters = first_sentence(&characters.unwrap_or_default());
-    entry(name, &format!("{characters} {}", examples.unwrap_or_default()))
+    let characters = about.and_then(|about| about.description).unwrap_or_default();
+    entry(name, &characters)
 }
 
 fn species(name: &str) -> Entry {

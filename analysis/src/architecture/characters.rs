@@ -60,8 +60,6 @@ pub struct Characters {
     pub flowered_trunks: u32,
     /// Axes of higher orders that ended in a flower.
     pub flowered_branches: u32,
-    /// Axes that bear lateral flowers and also ended in one.
-    pub mixed_flowering: u32,
     /// Of the trunks that came to an end of their own, those that made all their growth units without a flower.
     pub completed_trunks: Share,
     /// Of the branches that came to an end of their own, those that ended in a flower.
@@ -112,7 +110,6 @@ impl Characters {
         self.lateral_flowers += axis.lateral_flowers;
         self.flowered_trunks += u32::from(trunk && axis.flowered());
         self.flowered_branches += u32::from(!trunk && axis.flowered());
-        self.mixed_flowering += u32::from(axis.flowered() && axis.lateral_flowers > 0);
         if axis.finished() {
             let ends = if trunk { &mut self.completed_trunks } else { &mut self.branch_flowers };
             ends.add(axis.flowered() != trunk);

@@ -41,7 +41,7 @@ pub fn lie_of(axes: &[Axis], poses: &[PoseRow]) -> Lie {
             lie.judge(course, &ranks);
         }
         if axis.origin == Origin::Seed {
-            lie.base_erected = base_erected(axis, course);
+            lie.base_erected = ranks.first().is_some_and(|rank| base_erected(axis, course, *rank));
         }
     }
     lie
@@ -63,11 +63,12 @@ impl Lie {
 /// How many nodes past the summit of an arch are still near it.
 const NEAR: u32 = 6;
 
-/// Whether the first internodes, plagiotropic by their trend, have risen and stand erect at the last age.
-fn base_erected(axis: &Axis, course: &Course) -> bool {
+/// Whether the piece of an axis below its relay, laid by its trend, has risen and stands erect at the last age. It is told by
+/// the internode that bears the relay, since the first one of all stands in the ground as the seed set it.
+fn base_erected(axis: &Axis, course: &Course, relay: u32) -> bool {
     let laid = axis.first_trend().is_some_and(is_plagiotropic);
-    let base = |ranks: &BTreeMap<u32, f32>| ranks.first_key_value().map(|(_, dir_z)| *dir_z);
-    let first = course.values().next().and_then(base);
-    let last = course.values().next_back().and_then(base);
-    laid && first.zip(last).is_some_and(|(first, last)| last >= ERECT && last - first >= RISEN)
+    let mut directions = course.values().filter_map(|ranks| ranks.get(&relay));
+    let Some(first) = directions.next() else { return false };
+    let last = directions.next_back().unwrap_or(first);
+    laid && *last >= ERECT && last - first >= RISEN
 }
