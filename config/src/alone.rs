@@ -14,16 +14,21 @@ use crate::validate::{Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL};
 /// A plant of a species that states no age is grown no further than is expected to make it so large.
 const SMALL: f64 = 200_000.0;
 
-/// The levels of a geometric model, which doubles its branches at each.
+/// The growth level at which a geometric model is shown, plus one: that of the figures of Aono & Kunii 1984.
 const LEVELS: u32 = 10;
 
 /// Into how many steps of about the same length the recorded ages cut the life of the plant.
 const RECORDED: u32 = 10;
 
 impl ResolvedSpecies {
+    /// The age at which a plant of the species shows its architecture.
+    pub fn shown_at(&self) -> u32 {
+        self.species.shown_at(self.model.as_ref())
+    }
+
     /// One plant of the species, as a run: `name` is what the species was found by.
     pub fn alone(self, name: &str) -> Resolved {
-        let until = self.species.shown_at(self.model.as_ref());
+        let until = self.shown_at();
         let mechanics = self.model.habit().wood.as_ref().is_some_and(|wood| wood.bends);
         let scenario = Scenario {
             name: self.species.about.name.clone(),

@@ -61,16 +61,16 @@ pub struct About {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 100_000), extend("exclusiveMinimum" = 0))]
     pub ticks_per_year: Option<f64>,
+    /// What has been published about the size and the life of such plants; `validate` grows a sample and holds it against
+    /// the ranges. A species that inherits and states its own has none of its ancestors'.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub published: Vec<Published>,
     /// The age, in ticks, at which a plant shows its architecture: to which a species is grown that is named without a
     /// scenario, and at which `validate` looks at a sample of it. Left out: 100, or as much earlier as keeps a plant
     /// small.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 65_535))]
     pub shown_at: Option<u32>,
-    /// What has been published about the size and the life of such plants; `validate` grows a sample and holds it against
-    /// the ranges. A species that inherits and states its own has none of its ancestors'.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub published: Vec<Published>,
 }
 
 impl About {

@@ -80,9 +80,10 @@ pub fn validate(scenario: &str) -> Result<Resolved, Report> {
 pub fn validate_species(species: &str, until: u32) -> Result<ResolvedSpecies, Report> {
     let mut loader = Loader::default();
     let mention = Mention { name: species.to_owned(), place: None };
-    let shown_at = |about: Option<&About>| about.and_then(|about| about.shown_at).unwrap_or(1);
-    let found =
-        check_species(&mut loader, &mention, |about| Some(shown_at(about).max(until).clamp(1, LAST_TICK)));
+    let until = |about: Option<&About>| {
+        Some(about.and_then(|about| about.shown_at).unwrap_or(1).max(until).clamp(1, LAST_TICK))
+    };
+    let found = check_species(&mut loader, &mention, until);
     conclude(loader, found, |Compiled { species, model, tree }, sources| ResolvedSpecies {
         species,
         model,

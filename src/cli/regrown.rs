@@ -9,12 +9,10 @@ use super::{Misuse, Verdict, refuse};
 use anyhow::{Context, Result};
 use clap::Args;
 use phytomer::run::again::{Again, Air};
-use phytomer_config::{Model, Scenario, Species};
+use phytomer_config::{Model, Resolved, ResolvedSpecies, Scenario, Species};
 use phytomer_sim::mechanics::sway::{Unmoved, yielding};
 use phytomer_sim::site::Wind;
 use phytomer_sim::{GrowthModel, Tick};
-use serde::Deserialize;
-use serde_json::json;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -70,20 +68,17 @@ impl Regrown {
             Named::Scenario(resolved) => {
                 Self { scenario: resolved.scenario, species: resolved.species, model: resolved.model }
             }
-            Named::Species(found) => Self::alone(name, found.species, found.model.as_ref(), ages)?,
+            Named::Species(found) => Self::alone(name, *found, ages)?,
         }))
     }
 
-    fn alone(name: &str, species: Species, model: &dyn GrowthModel, ages: &[Tick]) -> Result<Self> {
-        let until = ages.iter().copied().max().unwrap_or_else(|| species.shown_at(model)).max(1);
-        let scenario = Scenario::deserialize(json!({
-            "name": species.about.name,
-            "species": name,
-            "plants": PLANTS_ALONE,
-            "ages": {"until": until},
-            "limits": {"max_components": MOST_COMPONENTS_ALONE},
-        }))
-        .context("cannot make a scenario for the species")?;
+    /// Grown to the last of `ages`, or as long as it takes to show what it is.
+    fn alone(name: &str, found: ResolvedSpecies, ages: &[Tick]) -> Result<Self> {
+        let until = ages.iter().copied().max().unwrap_or_else(|| found.shown_at()).max(1);
+        let Resolved { mut scenario, species, .. } = found.alone(name);
+        scenario.ages.until = until;
+        scenario.plants = PLANTS_ALONE;
+        scenario.limits.max_components = MOST_COMPONENTS_ALONE;
         let model = species.model.compile(until).map_err(|faults| match faults.into_iter().next() {
             Some(fault) => Misuse(format!("{name} to the age {until}: {fault}")),
             None => Misuse(format!("{name} cannot be grown to the age {until}")),
