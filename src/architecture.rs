@@ -69,7 +69,8 @@ pub fn faults(species: &Species) -> Vec<Fault> {
     match characters(compiled.as_ref(), until, SAMPLE) {
         Ok(plants) if !plants.is_empty() => misfit(model, &plants, until).into_iter().collect(),
         _ => {
-            let problem = format!("plants grown to age {until} have more than {LIMIT} components: none can be looked at");
+            let problem =
+                format!("plants grown to age {until} have more than {LIMIT} components: none can be looked at");
             let expected = "an earlier `shown_at`, at which a plant is smaller and shows its architecture";
             vec![Fault::new(&Path::root().key("architectural_model"), problem, expected)]
         }

@@ -250,8 +250,8 @@ impl<'a> Batch<'a> {
 mod tests {
     use super::*;
     use crate::specimen;
-    use phytomer_sim::pose::pose;
     use phytomer_sim::grow;
+    use phytomer_sim::pose::pose;
 
     #[test]
     fn a_plant_in_memory_and_its_tables_give_the_same_rows() {

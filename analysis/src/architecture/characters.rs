@@ -130,7 +130,8 @@ impl Characters {
     }
 
     fn count_branches(&mut self, axes: &[Axis]) {
-        let of_trunk = |axis: &&Axis| axis.order == 2 && axis.standing == Standing::Own && axis.origin == Origin::Axillary;
+        let of_trunk =
+            |axis: &&Axis| axis.order == 2 && axis.standing == Standing::Own && axis.origin == Origin::Axillary;
         for axis in axes.iter().filter(of_trunk) {
             let Some((_, cause)) = axis.end else { continue };
             let determinate = cause == Cause::Completed;
@@ -161,9 +162,8 @@ fn tiers(axes: &[Axis]) -> Option<bool> {
         for branch in branches {
             let rank = branch.bearer_rank as usize;
             let unit = units.iter().find(|(first, last)| (*first..=*last).contains(&rank));
-            let in_tier = |(first, last): &(usize, usize)| {
-                last - first + 1 >= LEAST_NODES && 2 * (rank - first) >= last - first
-            };
+            let in_tier =
+                |(first, last): &(usize, usize)| last - first + 1 >= LEAST_NODES && 2 * (rank - first) >= last - first;
             outer.add(unit.is_some_and(in_tier));
         }
     }

@@ -51,9 +51,8 @@ pub fn relays_of(axes: &[Axis], asked: impl Fn(u32) -> bool) -> Relays {
     let own = |axis: &&Axis| axis.standing == Standing::Own || axis.standing == Standing::Basal;
     let generations = generations(axes);
     for (place, bearing) in axes.iter().enumerate().filter(|(_, axis)| asked(axis.order) && own(axis)) {
-        let borne = |origin: Origin| {
-            bearing.bears.iter().map(|&place| &axes[place]).filter(move |axis| axis.origin == origin)
-        };
+        let borne =
+            |origin: Origin| bearing.bears.iter().map(|&place| &axes[place]).filter(move |axis| axis.origin == origin);
         let branches: Vec<&Axis> = borne(Origin::Axillary).collect();
         let mut relays: Vec<&Axis> = borne(Origin::Relay).collect();
         relays.sort_by_key(|relay| relay.birth);
