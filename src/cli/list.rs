@@ -1,16 +1,17 @@
 //! `list`: what ships with the program, and the words that files and tables use.
 //!
-//! Scenarios, species, models, woods and kinds of component, each a line. Absent: what they hold, which `describe` tells.
+//! Scenarios, species, models, woods, forms of organs and kinds of component, each a line. Absent: what they hold, which `describe` tells.
 
 use super::{Verdict, terminal};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
 use phytomer_config::{Kind, MODELS, presets, validate, validate_species, woods};
 use phytomer_outputs::tables::columns::PLANT_ONTOLOGY;
+use phytomer_sim::plant::Form;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// List what ships: scenarios, species, growth models, woods, kinds of components.
+/// List what ships: scenarios, species, growth models, woods, forms of organs, kinds of components.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -36,7 +37,9 @@ enum Listed {
     Models,
     /// Woods that a species can be like.
     Woods,
-    /// Kinds of components, as the column `kind` has them.
+    /// Forms that organs can be drawn with.
+    Forms,
+    /// Kinds of components, as the column `kind` has them, with their Plant Ontology terms.
     Kinds,
 }
 
@@ -48,7 +51,7 @@ struct Entry {
 
 impl List {
     pub fn obey(self) -> Result<Verdict> {
-        let all = [Listed::Scenarios, Listed::Species, Listed::Models, Listed::Woods, Listed::Kinds];
+        let all = [Listed::Scenarios, Listed::Species, Listed::Models, Listed::Woods, Listed::Forms, Listed::Kinds];
         let lists = all.into_iter().filter(|list| self.what.is_none_or(|what| what == *list));
         let lists: Vec<(&str, Vec<Entry>)> = lists.map(|list| (list.title(), list.entries())).collect();
         if self.json {
@@ -70,6 +73,7 @@ impl Listed {
             Self::Species => "species",
             Self::Models => "models",
             Self::Woods => "woods",
+            Self::Forms => "forms",
             Self::Kinds => "kinds",
         }
     }
@@ -80,6 +84,10 @@ impl Listed {
             Self::Species => presets(Kind::Species).iter().map(|(name, _)| species(name)).collect(),
             Self::Models => MODELS.map(|model| entry(model.word(), model_in_words(model.word()))).into(),
             Self::Woods => woods().iter().map(|wood| entry(&wood.name, &wood.scientific_name)).collect(),
+            Self::Forms => {
+                let named = |form: &Form| Some(entry(form.name()?, form.words()));
+                Form::LIBRARY.iter().filter_map(named).collect()
+            }
             Self::Kinds => PLANT_ONTOLOGY.iter().map(|(kind, term)| entry(kind.tag(), term)).collect(),
         }
     }

@@ -4,7 +4,8 @@
 
 use super::buffers::{NULL, columns};
 use super::standing::{Standing, organ_end};
-use phytomer_sim::plant::{AxisId, Kind, NodeId, OrganId, Plant};
+use phytomer_sim::mechanics::wood_volume;
+use phytomer_sim::plant::{AxisId, Class, Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::node_frame;
 use phytomer_sim::{Plot, Tick};
 
@@ -53,7 +54,7 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
         if nodes.birth[node] > age || age >= nodes.shed[node] {
             continue;
         }
-        summary.wood_volume += frustum(nodes.length[node], nodes.diameter[node], nodes.diameter_tip[node]);
+        summary.wood_volume += wood_volume(plant, NodeId(node as u32));
         if age >= nodes.death[node] {
             summary.dead_internodes += 1;
             continue;
@@ -71,26 +72,20 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
     summary.crown_width = if lives { (extent(0) + extent(1)) / 2.0 } else { f64::NAN };
 }
 
-fn frustum(length: f32, base: f32, tip: f32) -> f64 {
-    let (length, base, tip) = (f64::from(length), f64::from(base), f64::from(tip));
-    std::f64::consts::PI / 12.0 * length * (base * base + base * tip + tip * tip)
-}
-
 fn count_organs(plant: &Plant, age: Tick, summary: &mut Summary) {
     let organs = &plant.organs;
     for organ in 0..organs.len() {
         if organs.birth[organ] > age || age >= organ_end(plant, OrganId(organ as u32)) {
             continue;
         }
-        match organs.kind[organ] {
-            Kind::Leaf => {
-                summary.leaves += 1;
-                summary.leaf_area += f64::from(organs.area[organ]);
-            }
-            Kind::Flower => summary.flowers += 1,
-            Kind::Fruit => summary.fruits += 1,
-            Kind::Internode | Kind::ShortInternode | Kind::ApicalBud => {}
+        let kind = organs.kind[organ];
+        if kind.is_foliage() {
+            let share = f64::from(plant.expanded(OrganId(organ as u32), age));
+            summary.leaf_area += f64::from(organs.area[organ]) * share * share;
         }
+        summary.leaves += u32::from(kind == Kind::Leaf);
+        summary.flowers += u32::from(kind.class() == Class::Flower);
+        summary.fruits += u32::from(kind.class() == Class::Fruit);
     }
 }
 

@@ -12,7 +12,7 @@
 use super::bend::Bench;
 use crate::clock::Tick;
 use crate::math::pow;
-use crate::plant::{Kind, NodeId, Plant, Shape};
+use crate::plant::{NodeId, Plant};
 use std::f64::consts::PI;
 
 /// How the internodes of a species gain diameter.
@@ -82,7 +82,7 @@ pub(super) struct Above {
 /// Enters what each leaf that has appeared by `age` is worth at its node, by its area and whether it lives.
 fn count_leaves(plant: &Plant, age: Tick, above: &mut [Above], worth: impl Fn(f64, bool) -> f64) {
     let organs = &plant.organs;
-    for organ in (0..organs.len()).filter(|&organ| organs.kind[organ] == Kind::Leaf && organs.birth[organ] <= age) {
+    for organ in (0..organs.len()).filter(|&organ| organs.kind[organ].is_foliage() && organs.birth[organ] <= age) {
         above[organs.node[organ].index()].sum += worth(f64::from(organs.area[organ]), organs.death[organ] > age);
     }
 }
@@ -124,7 +124,7 @@ pub fn taper(plant: &mut Plant, age: Tick) {
         nodes.diameter_tip[node] = nodes.diameter[node];
         let (axis, parent) = (nodes.axis[node], nodes.parent[node]);
         let follows = parent != NodeId::NONE && nodes.axis[parent.index()] == axis && nodes.birth[node] <= age;
-        if follows && habit.shape(axes.order[axis.index()]) == Shape::Cone {
+        if follows && habit.shape(axes.order[axis.index()], axes.state[axis.index()]).narrows() {
             nodes.diameter_tip[parent.index()] = nodes.diameter[node].min(nodes.diameter[parent.index()]);
         }
     }

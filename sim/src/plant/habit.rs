@@ -4,6 +4,7 @@
 //! turns smoothly towards its trend. Where a trend is a random variable each axis has one of its own ([`OwnTrends`]).
 
 use super::axis::AxisId;
+use super::look::Looks;
 use crate::mechanics::{Thickening, Wood};
 use std::ops::Range;
 
@@ -30,15 +31,25 @@ pub enum Shape {
     Cylinder,
     /// The tip has the diameter of the base of the internode that follows it on its axis.
     Cone,
+    /// A plane blade as wide as the diameter, which narrows as a cone does; no wood is in it.
+    Blade,
+}
+
+impl Shape {
+    /// Whether the tip takes the diameter of the internode that follows.
+    #[inline]
+    pub fn narrows(self) -> bool {
+        self != Self::Cylinder
+    }
 }
 
 /// The rules of a species that its plants carry with them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Habit {
     /// The development trends; an internode names one by its place here, unless its axis has trends of its own.
     pub trends: Vec<Trend>,
-    /// The shape of internodes, by order from 1.
-    pub shapes: Vec<Shape>,
+    /// What its components are and look like.
+    pub looks: Looks,
     /// The mechanics of its wood; `None` where diameters follow the model's law and nothing bends.
     pub wood: Option<Wood>,
 }
@@ -49,10 +60,10 @@ impl Habit {
         self.wood.as_ref().map_or(Thickening::Law, |wood| wood.thickening)
     }
 
-    /// The shape of the internodes of `order`; orders past the last are as the last.
-    pub fn shape(&self, order: u8) -> Shape {
-        let own = self.shapes.get(usize::from(order).saturating_sub(1));
-        own.or(self.shapes.last()).copied().unwrap_or(Shape::Cylinder)
+    /// The shape of the internodes of an axis of `order` that started in `state`; orders past the last are as the last.
+    #[inline]
+    pub fn shape(&self, order: u8, state: u8) -> Shape {
+        self.looks.internode(order, state).shape
     }
 }
 

@@ -7,6 +7,7 @@
 mod compiler;
 mod geometry;
 mod head;
+mod look;
 mod node;
 mod relay;
 mod step;
@@ -26,7 +27,7 @@ use super::params::Buds;
 use crate::fault::{Fault, Path};
 use compiler::Compiler;
 use phytomer_sim::clock::LAST_TICK;
-use phytomer_sim::plant::{Habit, Shape, Trend};
+use phytomer_sim::plant::{Habit, Trend};
 use std::sync::Arc;
 
 /// The most orders that a species may have.
@@ -67,14 +68,14 @@ impl Buds {
             orders.push(OrderLaws::compile(self, index, &mut compiler, &mut trends));
             faults.append(&mut compiler.faults);
         }
+        let looks = look::compile(self, until.min(LAST_TICK), path, &mut faults);
         let wood = wood::compile(self, until.min(LAST_TICK), path, &mut faults);
         if !faults.is_empty() {
             faults.sort_by(|a, b| a.path.cmp(&b.path));
             faults.dedup();
             return Err(faults);
         }
-        let habit =
-            Habit { trends, shapes: self.order.iter().map(|order| Shape::from(order.internode.shape)).collect(), wood };
+        let habit = Habit { trends, looks, wood };
         let states = self.states.len().max(1);
         Ok(BudModel { orders, states, until, habit: Arc::new(habit) })
     }
