@@ -45,7 +45,7 @@ pub fn capsule() -> Shape {
 /// A nut in its cup.
 pub fn nut() -> Shape {
     let mut shape = Shape::new(Depth::Width);
-    revolve(&mut shape, &[[0.0, 0.0], [0.06, 0.34], [0.3, 0.5], [0.34, 0.45], [0.2, 0.0]], SIDES, true);
+    revolve(&mut shape, &[[0.0, 0.0], [0.06, 0.34], [0.22, 0.48], [0.34, 0.5], [0.38, 0.4], [0.3, 0.0]], SIDES, true);
     revolve(&mut shape, &[[0.22, 0.0], [0.32, 0.43], [0.62, 0.42], [0.9, 0.2], [1.0, 0.0]], SIDES, false);
     shape
 }
@@ -57,12 +57,21 @@ pub fn drupe() -> Shape {
     shape
 }
 
-/// A finger of five sides, bent upward by nearly its width: a banana.
+/// A finger of five sides, bent upward by a fifth of its width: a banana.
 pub fn finger() -> Shape {
     let mut shape = Shape::new(Depth::Width);
-    let rings =
-        [[0.0, 0.0], [0.02, 0.12], [0.1, 0.16], [0.22, 0.46], [0.5, 0.5], [0.78, 0.44], [0.94, 0.14], [1.0, 0.0]];
-    let bent = rings.map(|[x, r]: [f32; 2]| [x, 3.2 * x * (x - 0.9), r]);
+    let rings = [
+        [0.0, 0.0],
+        [0.02, 0.14],
+        [0.1, 0.2],
+        [0.2, 0.36],
+        [0.34, 0.48],
+        [0.6, 0.49],
+        [0.82, 0.38],
+        [0.95, 0.18],
+        [1.0, 0.0],
+    ];
+    let bent = rings.map(|[x, r]: [f32; 2]| [x, 1.1 * x * (x - 0.9), r]);
     swept(&mut shape, &bent, 5, false);
     shape
 }

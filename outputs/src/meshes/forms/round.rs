@@ -88,21 +88,22 @@ fn meridian_normal(meridian: &[[f32; 2]], row: usize) -> [f32; 2] {
     [normal[0], normal[1]]
 }
 
-/// The same around a curve: rings at places along x, each with the height of the curve there and its radius. Rings stay
+/// The same around a curve: rings at places along x that rise, each with the height of the curve there and its radius. Rings stay
 /// across x, so that the surface leans where the curve rises.
 pub(super) fn swept(shape: &mut Shape, rings: &[[f32; 3]], sides: u16, stalk: bool) {
     let first = shape.points.len();
     let meridian: Vec<[f32; 2]> = rings.iter().map(|&[x, _, r]| [x, r]).collect();
     revolve(shape, &meridian, sides, stalk);
-    let place = |x: f32| {
-        let next = rings.windows(2).find(|ends| x <= ends[1][0]).unwrap_or(&rings[rings.len() - 2..]);
-        let rise = (next[1][1] - next[0][1]) / (next[1][0] - next[0][0]).max(1e-6);
-        (next[0][1] + rise * (x - next[0][0]), rise)
+    // A ring's rise is the mean of its two neighbours'.
+    let rise = |row: usize| {
+        let (before, after) = (rings[row.saturating_sub(1)], rings[(row + 1).min(rings.len() - 1)]);
+        (after[1] - before[1]) / (after[0] - before[0])
     };
     for point in &mut shape.points[first..] {
-        let (height, rise) = place(point.at[0]);
+        let Some(row) = rings.iter().position(|ring| ring[0] == point.at[0]) else { continue };
+        let rise = rise(row);
         let [x, y, z] = point.normal;
-        point.at[2] += height;
+        point.at[2] += rings[row][1];
         // A normal shears against the surface: z' = z + f(x) takes f' times its z from its x.
         point.normal = unit([x - rise * z, y, z]);
     }
