@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 use tempfile::{TempDir, tempdir};
 
-const VERBS: [&str; 7] = ["init", "grow", "validate", "describe", "list", "schema", "mesh"];
+const VERBS: [&str; 8] = ["init", "grow", "validate", "describe", "list", "schema", "mesh", "picture"];
 
 /// A folder with a small finished run in `runs/small`.
 fn grown() -> TempDir {

@@ -10,6 +10,7 @@ mod inherit;
 mod library;
 mod load;
 mod meaning;
+pub mod published;
 mod report;
 pub mod scenario;
 mod schema;
@@ -20,6 +21,7 @@ mod validate;
 mod woods;
 
 pub use library::{Kind, presets};
+pub use published::Published;
 pub use report::{Fault, FaultRecord, Report};
 pub use scenario::Scenario;
 pub use source::{Origin, Source, SourceId, Sources, Span};

@@ -37,6 +37,7 @@ pub struct Resolved {
     pub model: Arc<dyn GrowthModel>,
     /// Every text that was read, for hashes and provenance: the scenario first, then the species and its ancestors.
     pub sources: Sources,
+    tree: Node,
 }
 
 /// A species that can grow.
@@ -48,6 +49,7 @@ pub struct ResolvedSpecies {
     pub model: Arc<dyn GrowthModel>,
     /// The species' text and those of its ancestors.
     pub sources: Sources,
+    tree: Node,
 }
 
 /// Reads and checks a scenario: a shipped one by its name, or a file by its path.
@@ -58,7 +60,13 @@ pub fn validate(scenario: &str) -> Result<Resolved, Report> {
     let mut loader = Loader::default();
     let mention = Mention { name: scenario.to_owned(), place: None };
     let found = loader.find(Kind::Scenario, &mention).and_then(|source| check_scenario(&mut loader, source));
-    conclude(loader, found, |(scenario, species, model), sources| Resolved { scenario, species, model, sources })
+    conclude(loader, found, |(scenario, Compiled { species, model, tree }), sources| Resolved {
+        scenario,
+        species,
+        model,
+        sources,
+        tree,
+    })
 }
 
 /// Reads and checks a species by itself, over the ages up to `until`.
@@ -69,7 +77,12 @@ pub fn validate_species(species: &str, until: u32) -> Result<ResolvedSpecies, Re
     let mut loader = Loader::default();
     let mention = Mention { name: species.to_owned(), place: None };
     let found = check_species(&mut loader, &mention, Some(until.clamp(1, LAST_TICK)));
-    conclude(loader, found, |(species, model), sources| ResolvedSpecies { species, model, sources })
+    conclude(loader, found, |Compiled { species, model, tree }, sources| ResolvedSpecies {
+        species,
+        model,
+        sources,
+        tree,
+    })
 }
 
 /// Whether a file by its path is a species or a scenario, by the keys that it has; a bare name is a shipped scenario
@@ -108,7 +121,14 @@ fn conclude<T, R>(loader: Loader, found: Option<T>, make: impl FnOnce(T, Sources
     }
 }
 
-type Checked = (Scenario, Species, Arc<dyn GrowthModel>);
+/// A species that was checked, with the tree that it was read from.
+struct Compiled {
+    species: Species,
+    model: Arc<dyn GrowthModel>,
+    tree: Node,
+}
+
+type Checked = (Scenario, Compiled);
 
 fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let name = source.name.clone();
@@ -129,8 +149,8 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     }
     let until = integer_at(&node, &["ages", "until"]).and_then(|n| u32::try_from(n).ok());
     let mention = species_mention(&node)?;
-    let (species, model) = check_species(loader, &mention, until.filter(|n| (1..=LAST_TICK).contains(n)))?;
-    let checked = (scenario?, species, model);
+    let species = check_species(loader, &mention, until.filter(|n| (1..=LAST_TICK).contains(n)))?;
+    let checked = (scenario?, species);
     check_explosion(loader, &node, &checked);
     Some(checked)
 }
@@ -141,14 +161,13 @@ fn species_mention(scenario: &Node) -> Option<Mention> {
     Some(Mention { name: name.to_owned(), place: Some((value.span, path_of(&["species"]))) })
 }
 
-fn check_species(
-    loader: &mut Loader,
-    mention: &Mention,
-    until: Option<u32>,
-) -> Option<(Species, Arc<dyn GrowthModel>)> {
+fn check_species(loader: &mut Loader, mention: &Mention, until: Option<u32>) -> Option<Compiled> {
     let Found { about, model, node } = loader.species(mention)?;
+    if let Some(about) = &about {
+        tell(loader, &node, about.faults());
+    }
     match model.compile(until?) {
-        Ok(compiled) => Some((Species { about: about?, model }, compiled)),
+        Ok(compiled) => Some(Compiled { species: Species { about: about?, model }, model: compiled, tree: node }),
         Err(faults) => {
             tell(loader, &node, faults);
             None
@@ -163,7 +182,7 @@ fn tell(loader: &mut Loader, node: &Node, faults: Vec<fault::Fault>) {
 }
 
 /// A plot of which more is expected than it may have would be cut off: better told before the first tick.
-fn check_explosion(loader: &mut Loader, node: &Node, (scenario, species, model): &Checked) {
+fn check_explosion(loader: &mut Loader, node: &Node, (scenario, Compiled { species, model, .. }): &Checked) {
     let until = scenario.ages.until;
     let (most, key) = (scenario.limits.components(), scenario.limits.binding());
     let Some(expected) = model.expectation(until).map(|means| means.components(until)) else { return };
@@ -210,7 +229,25 @@ impl fmt::Debug for ResolvedSpecies {
     }
 }
 
+impl ResolvedSpecies {
+    /// A report of what was found wrong with the species after it was read, such as by growing it: each fault at its
+    /// path from the top of the species file.
+    pub fn report(&self, faults: Vec<fault::Fault>) -> Report {
+        placed(&self.sources, &self.tree, faults)
+    }
+}
+
+fn placed(sources: &Sources, tree: &Node, faults: Vec<fault::Fault>) -> Report {
+    let placed = faults.into_iter().map(|fault| meaning::place(sources, tree, fault)).collect();
+    Report::new(sources.clone(), placed)
+}
+
 impl Resolved {
+    /// A report of what was found wrong with the species after it was read, as [`ResolvedSpecies::report`].
+    pub fn report(&self, faults: Vec<fault::Fault>) -> Report {
+        placed(&self.sources, &self.tree, faults)
+    }
+
     /// The components that a plant is expected to have made by `age`, where the laws give a mean in closed form.
     pub fn expected_components(&self, age: u32) -> Option<f64> {
         self.model.expectation(age).map(|means| means.components(age))
@@ -250,7 +287,9 @@ mod tests {
     /// Editors have one schema for species of all models; it must pass what the program passes.
     #[test]
     fn the_schema_for_editors_passes_good_files() {
-        for name in ["child", "coffee_like", "states", "binary", "minimal_species", "wood_laws", "wood_vinci"] {
+        for name in
+            ["child", "coffee_like", "states", "binary", "minimal_species", "wood_laws", "wood_vinci", "published"]
+        {
             let mut sources = Sources::default();
             let source = find(Kind::Species, &format!("tests/good/{name}.toml"), None).expect("a good file");
             let id = sources.add(source);

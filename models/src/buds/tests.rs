@@ -3,14 +3,15 @@
 
 use super::law::{Count, CountForm, Law, LawForm, Normal, Poisson, Variate, VariateForm};
 use super::params::{
-    Apex, ApexEnd, Axillary, CountedLeaves, DragLaw, Flower, GrowthUnit, Leaf, Pattern, Phase, Phyllotaxis, Quantity,
-    Reiteration, Relay, Rhythmic, Season, ShortUnit, SpeedText, Speeds, ThickeningRule, Transition, Traumatic, Trend,
-    UprightingLaw, Wood, Zone,
+    Apex, ApexEnd, Axillary, CountedLeaves, DragLaw, Flower, Fruit, GrowthUnit, Leaf, OrganTrend, Pattern, Phase,
+    Phyllotaxis, Quantity, Reiteration, Relay, Rhythmic, Season, ShortUnit, SpeedText, Speeds, ThickeningRule,
+    Transition, Traumatic, Trend, UprightingLaw, Wood, Zone,
 };
 use super::params::{End, Internode};
 use super::{Buds, Order};
 use crate::contract;
 use crate::fault::Path;
+use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::{ApexFate, Kind, NodeId, Origin};
 use std::collections::BTreeMap;
 
@@ -25,6 +26,10 @@ fn normal(mean: f64, sd: f64) -> Variate {
 
 fn expression(text: &str) -> Law {
     Law::from(LawForm { expression: Some(text.to_owned()), ..LawForm::default() })
+}
+
+fn turning(inclination: f64, share: &str) -> OrganTrend {
+    OrganTrend { inclination_deg: inclination.into(), share: expression(share) }
 }
 
 /// Random counts, polycyclism, short units, delays, states, reiteration both ways, terminal flowers and relays below.
@@ -104,7 +109,12 @@ fn hydra() -> Buds {
         internode: Internode { length_cm: normal(4.0, 1.0), ..Internode::default() },
         insertion_deg: Variate::from(45.0),
         trend: Trend::Composite(phases),
-        leaf: Leaf { per_node: Count::from(3), ..Leaf::default() },
+        leaf: Leaf {
+            per_node: Count::from(3),
+            trend: Some(turning(150.0, "min(1, 0.25 * dimension)")),
+            ..Leaf::default()
+        },
+        fruit: Fruit { trend: Some(turning(180.0, "1")), ..Fruit::default() },
         flower: Flower { lateral: Law::from(0.2), fruit_set: expression("0.25 * rank"), ..Flower::default() },
         ..Order::default()
     };
@@ -226,4 +236,15 @@ fn a_law_of_rank_where_no_rank_applies_is_refused() {
     assert!(ranked(|order, law| order.internode.thickening_mm = law));
     assert!(ranked(|order, law| order.death = law));
     assert!(!ranked(|order, law| order.axillary.ramification = law));
+}
+
+#[test]
+fn organs_turn_by_their_own_age_and_others_do_not() {
+    let habit = hydra().compile(9, &Path::root()).unwrap().habit();
+    let leaf = habit.organ_trend(1, Kind::Leaf).unwrap();
+    assert_eq!(leaf.shares, [0.0, 0.25, 0.5, 0.75, 1.0], "ages past the last are as the last");
+    assert!((f64::from(leaf.cos_inclination) + 0.75_f64.sqrt()).abs() < 1e-6, "150 degrees");
+    assert_eq!(habit.organ_trend(2, Kind::Fruit).unwrap().shares, [1.0]);
+    assert_eq!(habit.organ_trend(1, Kind::Flower), None);
+    assert!(chimera().compile(9, &Path::root()).unwrap().habit().organ_trends.is_empty());
 }

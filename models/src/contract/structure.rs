@@ -216,7 +216,7 @@ pub(super) fn standing(plant: &Plant, age: Tick) -> impl Iterator<Item = usize> 
 /// # Panics
 /// Where it does not.
 pub fn poses(plant: &mut Plant) {
-    pose(plant);
+    pose(plant, plant.age);
     let frames = &plant.frames;
     for column in [&frames.base, &frames.heading, &frames.up] {
         assert_eq!(column.len(), plant.nodes.len(), "the pose has a frame for each internode");
@@ -225,8 +225,10 @@ pub fn poses(plant: &mut Plant) {
         frame(frames.base[i], frames.heading[i], frames.up[i], "the frame of node", i);
     }
     for i in 0..plant.organs.len() {
-        let posed = organ_frame(plant, OrganId(i as u32));
-        frame(posed.base, posed.heading, posed.up, "the frame of organ", i);
+        for age in [plant.organs.birth[i], plant.age.max(plant.organs.birth[i])] {
+            let posed = organ_frame(plant, OrganId(i as u32), age);
+            frame(posed.base, posed.heading, posed.up, "the frame of organ", i);
+        }
     }
 }
 

@@ -9,11 +9,16 @@ use super::MeshOptions;
 use super::chunk::{Chunk, Face, Sink, Tag, Vertex};
 use super::forms::{Placement, Shape};
 use super::tube::{Frustum, Strip, Tube};
-use super::{About, colour};
+use super::{About, Mesh, colour};
+use bytemuck::Zeroable;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{AxisId, InternodeLook, NodeId, OrganId, Plant, Shape as Stem};
 use phytomer_sim::pose::organ_frame;
 use std::io;
+use std::ops::Range;
+
+/// The entries of a column that one block of a scene goes through.
+const BLOCK: usize = 256;
 
 /// Below this sine of its insertion angle an organ stands on the tip of the stem, not on its side.
 const TERMINAL: f32 = 1e-3;
@@ -113,12 +118,7 @@ impl<'a> Scene<'a> {
     pub fn vertices(&self, chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
         for node in self.nodes() {
             let stem = self.stem(node);
-            let out = chunk.room(stem.vertices(), sink)?;
-            match stem {
-                Drawn::Tube(tube) => tube.write(&self.frustum(node), &self.wood_tag(node), out),
-                Drawn::Strip => Strip::write(&self.frustum(node), &self.wood_tag(node), out),
-                Drawn::Shape(shape) => shape.write(&self.stands(node), &[self.wood_tag(node); 2], out),
-            }
+            self.write_stem(stem, node, chunk.room(stem.vertices(), sink)?);
         }
         for organ in self.organs() {
             let shape = self.shape(organ);
@@ -147,24 +147,58 @@ impl<'a> Scene<'a> {
         sink(chunk)
     }
 
+    /// How many blocks [`Scene::block`] has.
+    pub fn blocks(&self) -> usize {
+        self.plant.nodes.len().div_ceil(BLOCK) + self.plant.organs.len().div_ceil(BLOCK)
+    }
+
+    /// Makes `mesh` the vertices and triangles of one block of neighbouring components, the triangles by the numbers of
+    /// the block's own vertices. All blocks in their order are the mesh of the scene; each can be made by itself, on any
+    /// thread. A block may be empty.
+    pub fn block(&self, block: usize, mesh: &mut Mesh) {
+        mesh.vertices.clear();
+        mesh.faces.clear();
+        let of_nodes = self.plant.nodes.len().div_ceil(BLOCK);
+        if block < of_nodes {
+            self.nodes_of(span(block, self.plant.nodes.len())).for_each(|node| {
+                let stem = self.stem(node);
+                self.write_stem(stem, node, appended(mesh, stem.vertices(), stem.faces()));
+            });
+        } else {
+            self.organs_of(span(block - of_nodes, self.plant.organs.len())).for_each(|organ| {
+                let shape = self.shape(organ);
+                let out = appended(mesh, shape.points.len(), &shape.faces);
+                shape.write(&self.placement(organ), &self.organ_tags(organ), out);
+            });
+        }
+    }
+
     /// The internodes that are drawn.
     fn nodes(&self) -> impl Iterator<Item = NodeId> {
+        self.nodes_of(0..self.plant.nodes.len())
+    }
+
+    fn nodes_of(&self, range: Range<usize>) -> impl Iterator<Item = NodeId> {
         let (plant, age, kinds) = (self.plant, self.age, self.options.kinds);
         let nodes = &plant.nodes;
         let drawn = move |&node: &usize| {
             let stands = nodes.birth[node] <= age && age < nodes.shed[node];
             stands && kinds[plant.kind_of(NodeId(node as u32)) as usize]
         };
-        (0..nodes.len()).filter(drawn).map(|node| NodeId(node as u32))
+        range.filter(drawn).map(|node| NodeId(node as u32))
     }
 
     /// The organs that are drawn.
     fn organs(&self) -> impl Iterator<Item = OrganId> {
+        self.organs_of(0..self.plant.organs.len())
+    }
+
+    fn organs_of(&self, range: Range<usize>) -> impl Iterator<Item = OrganId> {
         let (organs, age, kinds) = (&self.plant.organs, self.age, self.options.kinds);
         let drawn = move |&organ: &usize| {
             organs.birth[organ] <= age && age < organs.death[organ] && kinds[organs.kind[organ] as usize]
         };
-        (0..organs.len()).filter(drawn).map(|organ| OrganId(organ as u32))
+        range.filter(drawn).map(|organ| OrganId(organ as u32))
     }
 
     #[inline]
@@ -179,6 +213,15 @@ impl<'a> Scene<'a> {
         let axis: AxisId = nodes.axis[node.index()];
         let place = habit.looks.place(axes.order[axis.index()], axes.state[axis.index()]);
         &self.stems[place.unwrap_or(self.stems.len() - 1)]
+    }
+
+    #[inline]
+    fn write_stem(&self, stem: &Drawn, node: NodeId, out: &mut [Vertex]) {
+        match stem {
+            Drawn::Tube(tube) => tube.write(&self.frustum(node), &self.wood_tag(node), out),
+            Drawn::Strip => Strip::write(&self.frustum(node), &self.wood_tag(node), out),
+            Drawn::Shape(shape) => shape.write(&self.stands(node), &[self.wood_tag(node); 2], out),
+        }
     }
 
     /// The place of an internode that is drawn as an organ is.
@@ -199,7 +242,7 @@ impl<'a> Scene<'a> {
     }
 
     fn placement(&self, organ: OrganId) -> Placement {
-        let frame = organ_frame(self.plant, organ);
+        let frame = organ_frame(self.plant, organ, self.age);
         let organs = &self.plant.organs;
         let node = organs.node[organ.index()];
         let out = outward(self.plant.frames.heading[node.index()], frame.heading);
@@ -237,6 +280,20 @@ impl<'a> Scene<'a> {
             kind: organs.kind[place] as u8,
         })
     }
+}
+
+/// The entries of a column of `length` that a block goes through.
+fn span(block: usize, length: usize) -> Range<usize> {
+    block * BLOCK..((block + 1) * BLOCK).min(length)
+}
+
+/// Room for more vertices at the end of `mesh`, and their triangles in it.
+#[inline]
+fn appended<'m>(mesh: &'m mut Mesh, vertices: usize, faces: &[[u32; 3]]) -> &'m mut [Vertex] {
+    let first = mesh.vertices.len();
+    mesh.faces.extend(faces.iter().map(|face| Face::new(face.map(|corner| first as u32 + corner))));
+    mesh.vertices.resize(first + vertices, Vertex::zeroed());
+    &mut mesh.vertices[first..]
 }
 
 /// The part of an organ's heading across its stem's, as a unit vector; nothing for an organ on the tip.

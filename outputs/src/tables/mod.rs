@@ -28,6 +28,7 @@ pub(crate) use events::{EventColumns, sort as sort_events};
 pub(crate) use part::{Part, PartReport};
 pub(crate) use records::{RecordColumns, Row as RecordRow, Scene};
 pub(crate) use standing::Standing;
+pub use summary::Summary;
 pub(crate) use summary::{SummaryColumns, summarise};
 
 use schema::Column;

@@ -161,7 +161,7 @@ impl Scene<'_> {
             kind: organs.kind[i],
             rank: nodes.rank[node.index()],
             birth: organs.birth[i],
-            frame: organ_frame(self.plant, organ),
+            frame: organ_frame(self.plant, organ, self.age),
             length: organs.length[i] * share,
             diameter: organs.width[i] * share,
             diameter_tip: f32::NAN,

@@ -4,7 +4,9 @@
 //! turns smoothly towards its trend. Where a trend is a random variable each axis has one of its own ([`OwnTrends`]).
 
 use super::axis::AxisId;
+use super::kind::{Class, Kind};
 use super::look::Looks;
+use crate::clock::Tick;
 use crate::mechanics::{Thickening, Wood};
 use std::ops::Range;
 
@@ -22,6 +24,39 @@ pub struct Trend {
 impl Trend {
     /// An axis that keeps the direction of its insertion.
     pub const STRAIGHT: Self = Self { cos_inclination: 1.0, sin_inclination: 0.0, share: 0.0 };
+}
+
+/// How the organs of one kind turn in the vertical plane in which they stand: leaves that sink, fruits that hang,
+/// inflorescences that stand upright.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OrganTrend {
+    /// Cosine of the angle between the direction tended to and the upward vertical.
+    pub cos_inclination: f32,
+    /// Sine of the same angle.
+    pub sin_inclination: f32,
+    /// The share of the way to that direction that an organ has turned from its insertion, in [0, 1], by its own age in
+    /// ticks; ages past the last are as the last.
+    pub shares: Vec<f32>,
+}
+
+impl OrganTrend {
+    /// The turn of an organ that is `old` ticks old.
+    #[inline]
+    pub fn at(&self, old: Tick) -> Trend {
+        let share = self.shares.get(old as usize).or(self.shares.last()).copied().unwrap_or(0.0);
+        Trend { cos_inclination: self.cos_inclination, sin_inclination: self.sin_inclination, share }
+    }
+}
+
+/// How the organs of one order turn; `None`: they keep their insertion.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct OrganTrends {
+    /// Its leaves.
+    pub leaf: Option<OrganTrend>,
+    /// Its flowers.
+    pub flower: Option<OrganTrend>,
+    /// Its fruits.
+    pub fruit: Option<OrganTrend>,
 }
 
 /// The shape of an internode at rest (de Reffye 1988 §4).
@@ -50,6 +85,8 @@ pub struct Habit {
     pub trends: Vec<Trend>,
     /// What its components are and look like.
     pub looks: Looks,
+    /// How organs turn, by order from 1; empty where none does.
+    pub organ_trends: Vec<OrganTrends>,
     /// The mechanics of its wood; `None` where diameters follow the model's law and nothing bends.
     pub wood: Option<Wood>,
 }
@@ -58,6 +95,18 @@ impl Habit {
     /// How internodes gain diameter.
     pub fn thickening(&self) -> Thickening {
         self.wood.as_ref().map_or(Thickening::Law, |wood| wood.thickening)
+    }
+
+    /// How organs of a kind turn on axes of `order`; `None` where they keep their insertion.
+    #[inline]
+    pub fn organ_trend(&self, order: u8, kind: Kind) -> Option<&OrganTrend> {
+        let of = self.organ_trends.get(usize::from(order).checked_sub(1)?)?;
+        match kind.class() {
+            Class::Leaf => of.leaf.as_ref(),
+            Class::Flower => of.flower.as_ref(),
+            Class::Fruit => of.fruit.as_ref(),
+            Class::Internode | Class::Bud => None,
+        }
     }
 
     /// The shape of the internodes of an axis of `order` that started in `state`; orders past the last are as the last.

@@ -9,6 +9,7 @@ mod geometry;
 mod head;
 mod look;
 mod node;
+mod organs;
 mod relay;
 mod step;
 mod trend;
@@ -27,7 +28,7 @@ use super::params::Buds;
 use crate::fault::{Fault, Path};
 use compiler::Compiler;
 use phytomer_sim::clock::LAST_TICK;
-use phytomer_sim::plant::{Habit, Trend};
+use phytomer_sim::plant::{Habit, OrganTrends, Trend};
 use std::sync::Arc;
 
 /// The most orders that a species may have.
@@ -63,9 +64,11 @@ impl Buds {
         let mut faults = self.check(until, path);
         let mut orders = Vec::new();
         let mut trends = Vec::new();
+        let mut organ_trends = Vec::new();
         for index in 0..self.order.len().min(MOST_ORDERS) {
             let mut compiler = Compiler::new(self, index, until.min(LAST_TICK), path);
             orders.push(OrderLaws::compile(self, index, &mut compiler, &mut trends));
+            organ_trends.push(organs::trends(&self.order[index], &mut compiler));
             faults.append(&mut compiler.faults);
         }
         let looks = look::compile(self, until.min(LAST_TICK), path, &mut faults);
@@ -75,7 +78,10 @@ impl Buds {
             faults.dedup();
             return Err(faults);
         }
-        let habit = Habit { trends, looks, wood };
+        if organ_trends.iter().all(|of| *of == OrganTrends::default()) {
+            organ_trends.clear();
+        }
+        let habit = Habit { trends, looks, organ_trends, wood };
         let states = self.states.len().max(1);
         Ok(BudModel { orders, states, until, habit: Arc::new(habit) })
     }

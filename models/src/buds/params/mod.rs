@@ -20,7 +20,7 @@ pub use colour::{
 };
 pub use geometry::{Divergence, Internode, Orientation, Phase, Phyllotaxis, ShapeName, Tended, Trend};
 pub use looks::{ByState, EachState, FormChoice, FormName, KindName, OwnForm};
-pub use organs::{Flower, Fruit, Leaf, Season};
+pub use organs::{Flower, Fruit, Leaf, OrganTrend, Season};
 pub use sympodial::{Apex, ApexEnd, Reiteration, Relay, Transition, Traumatic};
 pub use wood::{CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood};
 
