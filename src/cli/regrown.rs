@@ -8,13 +8,11 @@ use super::named::{self, Named, Recorded};
 use super::{Misuse, Verdict, refuse};
 use anyhow::{Context, Result};
 use clap::Args;
-use phytomer::run::again::{Again, Air, alone_until};
-use phytomer_config::{Model, Scenario, Species};
+use phytomer::run::again::{Again, Air};
+use phytomer_config::{Model, Resolved, ResolvedSpecies, Scenario, Species};
 use phytomer_sim::mechanics::sway::{Unmoved, yielding};
 use phytomer_sim::site::Wind;
 use phytomer_sim::{GrowthModel, Tick};
-use serde::Deserialize;
-use serde_json::json;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -35,8 +33,6 @@ pub struct Regrown {
     pub species: Species,
     /// The species' model, compiled for all ages of the scenario.
     pub model: Arc<dyn GrowthModel>,
-    /// Whether the scenario was made up for a species by itself.
-    pub alone: bool,
 }
 
 /// The wind of one frame.
@@ -67,30 +63,27 @@ impl Regrown {
             Named::Run(folder) => {
                 let recorded = Recorded::of(&folder)?;
                 let model = recorded.compile()?;
-                Self { scenario: recorded.scenario, species: recorded.species, model, alone: false }
+                Self { scenario: recorded.scenario, species: recorded.species, model }
             }
             Named::Scenario(resolved) => {
-                Self { scenario: resolved.scenario, species: resolved.species, model: resolved.model, alone: false }
+                Self { scenario: resolved.scenario, species: resolved.species, model: resolved.model }
             }
-            Named::Species(found) => Self::alone(name, found.species, found.model.as_ref(), ages)?,
+            Named::Species(found) => Self::alone(name, *found, ages)?,
         }))
     }
 
-    fn alone(name: &str, species: Species, model: &dyn GrowthModel, ages: &[Tick]) -> Result<Self> {
-        let until = ages.iter().copied().max().unwrap_or_else(|| alone_until(&species, model)).max(1);
-        let scenario = Scenario::deserialize(json!({
-            "name": species.about.name,
-            "species": name,
-            "plants": PLANTS_ALONE,
-            "ages": {"until": until},
-            "limits": {"max_components": MOST_COMPONENTS_ALONE},
-        }))
-        .context("cannot make a scenario for the species")?;
+    /// Grown to the last of `ages`, or as long as it takes to show what it is.
+    fn alone(name: &str, found: ResolvedSpecies, ages: &[Tick]) -> Result<Self> {
+        let until = ages.iter().copied().max().unwrap_or_else(|| found.shown_at()).max(1);
+        let Resolved { mut scenario, species, .. } = found.alone(name);
+        scenario.ages.until = until;
+        scenario.plants = PLANTS_ALONE;
+        scenario.limits.max_components = MOST_COMPONENTS_ALONE;
         let model = species.model.compile(until).map_err(|faults| match faults.into_iter().next() {
             Some(fault) => Misuse(format!("{name} to the age {until}: {fault}")),
             None => Misuse(format!("{name} cannot be grown to the age {until}")),
         })?;
-        Ok(Self { scenario, species, model, alone: true })
+        Ok(Self { scenario, species, model })
     }
 
     /// Its plants, grown again in the wind that is asked for.

@@ -6,7 +6,7 @@
 
 use super::{place_of, seed_of};
 use anyhow::Result;
-use phytomer_config::{Model, Scenario, Species};
+use phytomer_config::Scenario;
 use phytomer_sim::mechanics::Bench;
 use phytomer_sim::mechanics::sway::sway;
 use phytomer_sim::plant::{Kind, Plant};
@@ -14,15 +14,6 @@ use phytomer_sim::shed::shed;
 use phytomer_sim::site::Wind;
 use phytomer_sim::{Ending, Growth, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
 use std::borrow::Cow;
-
-/// A species by itself is shown at no later age than this.
-pub const ALONE_UNTIL: Tick = phytomer_config::SPECIES_ALONE_UNTIL;
-
-/// Nor at one at which it is expected to have more components.
-const MOST_ALONE: f64 = 300_000.0;
-
-/// The level of a geometric model that is shown: that of the figures of Aono & Kunii 1984.
-const LEVELS: Tick = 10;
 
 /// Air that moves a plant for one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,16 +119,6 @@ fn last_of_most(lives: impl Iterator<Item = (Tick, Tick, f64)>, last: Tick) -> O
     let most = sums.iter().copied().fold(0.0, f64::max);
     let age = sums.iter().rposition(|sum| *sum >= 0.9 * most)?;
     (most > 0.0).then_some((age as Tick).max(1))
-}
-
-/// The last age of a species that no scenario grows: [`ALONE_UNTIL`], or the last before it is expected to have three
-/// hundred thousand components; ten levels of a geometric model.
-pub fn alone_until(species: &Species, model: &dyn GrowthModel) -> Tick {
-    if let Model::Gmt1(_) = &species.model {
-        return LEVELS;
-    }
-    let Some(means) = model.expectation(ALONE_UNTIL) else { return ALONE_UNTIL };
-    (1..=ALONE_UNTIL).take_while(|age| means.components(*age) <= MOST_ALONE).last().unwrap_or(1)
 }
 
 /// Shows the first plant of a plot at some ages.

@@ -206,7 +206,7 @@ fn a_leaf_sinks_with_its_age_and_a_fruit_hangs() {
         insertion: FRAC_PI_2,
     };
     let (leaf, flower) = (plant.add_organ(organ(Kind::Leaf)), plant.add_organ(organ(Kind::Flower)));
-    pose(plant);
+    pose(plant, LAST);
     let heading = |age| organ_frame(plant, leaf, age).heading;
     assert_near(heading(3), [1.0, 0.0, 0.0]);
     let halfway = std::f32::consts::FRAC_1_SQRT_2;
