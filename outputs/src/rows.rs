@@ -10,7 +10,7 @@ use crate::tables::columns::{CAUSES, KINDS, ORIGINS};
 use crate::tables::{ComponentColumns, RecordColumns, Scene, Standing, Table};
 use arrow_array::types::{Float32Type, Int8Type, Int32Type};
 use arrow_array::{Array, DictionaryArray, PrimitiveArray, RecordBatch, StringArray};
-use phytomer_sim::plant::{Cause, Kind, Origin, Plant};
+use phytomer_sim::plant::{Cause, Class, Kind, Origin, Plant};
 use phytomer_sim::{Plot, Tick};
 use std::path::Path;
 
@@ -106,7 +106,7 @@ pub fn poses_of(plot: &Plot, plant: &Plant, age: Tick) -> Result<Vec<PoseRow>, E
 }
 
 fn is_internode(kind: Kind) -> bool {
-    matches!(kind, Kind::Internode | Kind::ShortInternode)
+    kind.class() == Class::Internode
 }
 
 fn number(value: i32) -> Option<u32> {
@@ -192,11 +192,11 @@ fn poses_in(batch: &Batch<'_>, plants: u32, found: &mut Vec<PoseRow>) -> Result<
     let (kind, dir_z) = (batch.words("kind", &KINDS)?, batch.floats("dir_z")?);
     let curvature = batch.batch.column_by_name("curvature_per_m").and_then(|column| column.as_any().downcast_ref());
     let curvature: Option<&PrimitiveArray<Float32Type>> = curvature;
-    for i in 0..batch.batch.num_rows() {
+    for (i, kind) in kind.iter().enumerate() {
         if value(plant, i) >= Some(plants) {
             return Ok(false);
         }
-        if kind[i].is_some_and(|place| is_internode(Kind::ALL[place])) {
+        if kind.is_some_and(|place| is_internode(Kind::ALL[place])) {
             found.push(PoseRow {
                 plant_id: value(plant, i).unwrap_or_default(),
                 age: value(age, i).unwrap_or_default(),
@@ -265,7 +265,7 @@ mod tests {
         let mut plot = specimen::plot(0, 100_000);
         grow(&specimen::Sapling, &mut plot, last, &mut ()).unwrap();
         assert_eq!(rows, components_of(&plot, &plot.plants[0], last).unwrap());
-        pose(&mut plot.plants[0]);
+        pose(&mut plot.plants[0], last);
         let poses: Vec<_> = run.poses(1).unwrap().into_iter().filter(|row| row.age == last).collect();
         let here = poses_of(&plot, &plot.plants[0], last).unwrap();
         assert_eq!(poses.len(), here.len());

@@ -1,12 +1,13 @@
 //! The axes of one recorded plant, put together from the rows of `components`: who bears whom, which nodes, which flowers.
 //!
+//! Axes that are leaves, inflorescences or parts of flowers by the kind of their internodes are organs and no branches.
 //! Reiterates are told apart here. A reiterate repeats the plant's model on the plant and says nothing of the model itself
 //! (Hallé, Oldeman & Tomlinson 1978), so all that it bears is left aside; but an axis of order 1 out of the base of
 //! another of order 1 is a basal shoot, of which Tomlinson's and McClure's models are made. Absent: any judgement.
 
 use phytomer_outputs::rows::ComponentRow;
 use phytomer_sim::Tick;
-use phytomer_sim::plant::{Cause, Kind, Origin};
+use phytomer_sim::plant::{Cause, Class, Kind, Origin};
 use std::collections::BTreeMap;
 
 /// The share of the nodes of an axis that are its base, and the least number of them.
@@ -31,6 +32,8 @@ pub enum Standing {
     Basal,
     /// It is a reiterate, or borne by one.
     Reiterate,
+    /// It is a leaf, an inflorescence or a part of one that is drawn as an axis.
+    Organ,
 }
 
 /// One axis.
@@ -56,21 +59,30 @@ pub struct Axis {
     pub shed: Option<Tick>,
     /// Its internodes by rank.
     pub nodes: Vec<Node>,
-    /// Flowers that stand on its sides.
+    /// Flowers and inflorescences that stand on its sides.
     pub lateral_flowers: u32,
+    /// Whether it became an inflorescence, or one took the place of its apex.
+    pub blooms: bool,
+    /// The kind of its first internode.
+    kind: Kind,
     /// The axes that it bears, as places in the list.
     pub bears: Vec<usize>,
 }
 
 impl Axis {
+    /// Whether it says something of the model: it is the plant's own, or a basal shoot.
+    pub fn is_judged(&self) -> bool {
+        matches!(self.standing, Standing::Own | Standing::Basal)
+    }
+
     /// Whether its apex became a flower.
     pub fn flowered(&self) -> bool {
-        self.end.is_some_and(|(_, cause)| cause == Cause::Flowered)
+        self.blooms || self.end.is_some_and(|(_, cause)| cause == Cause::Flowered)
     }
 
     /// Whether its apex came to the end that its architecture gives it: a flower, or the last of its growth units.
     pub fn finished(&self) -> bool {
-        self.end.is_some_and(|(_, cause)| matches!(cause, Cause::Flowered | Cause::Completed))
+        self.flowered() || self.end.is_some_and(|(_, cause)| cause == Cause::Completed)
     }
 
     /// Whether its apex lived at `age`, or later.
@@ -109,10 +121,34 @@ pub fn axes_of(rows: &[ComponentRow]) -> Vec<Axis> {
         axes[place].bearing = bearing.get(&axes[place].id).and_then(|bearer| places.get(bearer)).copied();
         axes[place].standing = standing(&axes, place);
         if let Some(bearing) = axes[place].bearing {
-            axes[bearing].bears.push(place);
+            attach(&mut axes, place, bearing);
         }
     }
     axes
+}
+
+/// Tells the bearing axis of what it bears. An inflorescence that is an axis is a flower to it.
+fn attach(axes: &mut [Axis], place: usize, bearing: usize) {
+    let Axis { standing, origin, kind, .. } = axes[place];
+    match standing {
+        Standing::Organ if !is_of_flower(kind) || axes[bearing].standing == Standing::Organ => {}
+        Standing::Organ if matches!(origin, Origin::Relay | Origin::Fork) => axes[bearing].blooms = true,
+        Standing::Organ => axes[bearing].lateral_flowers += 1,
+        _ => axes[bearing].bears.push(place),
+    }
+}
+
+fn is_of_flower(kind: Kind) -> bool {
+    use Kind::{
+        InflorescenceInternode, PedicelInternode, PetalInternode, ReceptacleInternode, SepalInternode, StamenInternode,
+        StigmaInternode,
+    };
+    matches!(kind, InflorescenceInternode | PedicelInternode | ReceptacleInternode | SepalInternode)
+        || matches!(kind, PetalInternode | StamenInternode | StigmaInternode)
+}
+
+fn is_of_leaf(kind: Kind) -> bool {
+    matches!(kind, Kind::PalmInternode | Kind::LeafletInternode)
 }
 
 fn begun(bud: &ComponentRow) -> Axis {
@@ -128,31 +164,40 @@ fn begun(bud: &ComponentRow) -> Axis {
         shed: None,
         nodes: Vec::new(),
         lateral_flowers: 0,
+        blooms: false,
+        kind: Kind::Internode,
         bears: Vec::new(),
     }
 }
 
 /// Rows are in the order of their numbers, in which the nodes of an axis climb.
 fn add(axis: &mut Axis, row: &ComponentRow) {
-    match row.kind {
-        Kind::Internode | Kind::ShortInternode => {
+    match row.kind.class() {
+        Class::Internode => {
+            if axis.nodes.is_empty() {
+                axis.kind = row.kind;
+            }
+            axis.blooms |= is_of_flower(row.kind) && !is_of_flower(axis.kind);
             axis.shed = row.shed_age;
             axis.nodes.push(Node { unit_rank: row.unit_rank.unwrap_or(1), trend: row.trend_deg });
         }
-        Kind::Flower if row.position.is_some() => axis.lateral_flowers += 1,
+        Class::Flower if row.position.is_some() => axis.lateral_flowers += 1,
         _ => {}
     }
 }
 
 fn standing(axes: &[Axis], place: usize) -> Standing {
     let axis = &axes[place];
+    if is_of_leaf(axis.kind) || is_of_flower(axis.kind) {
+        return Standing::Organ;
+    }
     let Some(bearing) = axis.bearing.map(|bearing| &axes[bearing]) else {
         return Standing::Own;
     };
     let base = LEAST_BASE.max((BASE_SHARE * bearing.nodes.len() as f64) as u32);
     let trunks = axis.order == 1 && bearing.order == 1;
     match axis.origin {
-        _ if bearing.standing == Standing::Reiterate => Standing::Reiterate,
+        _ if matches!(bearing.standing, Standing::Reiterate | Standing::Organ) => bearing.standing,
         Origin::Adaptive if trunks && axis.bearer_rank <= base => Standing::Basal,
         Origin::Adaptive | Origin::Traumatic => Standing::Reiterate,
         Origin::Seed | Origin::Axillary | Origin::Relay | Origin::Fork => Standing::Own,

@@ -91,7 +91,8 @@ impl Characters {
         let axes = axes_of(components);
         let lives = components.iter().any(|row| row.kind == Kind::ApicalBud && row.death_age.is_none());
         let mut c = Self { lives, tiers: tiers(&axes), lie: lie_of(&axes, poses), ..Self::default() };
-        for axis in axes.iter().filter(|axis| axis.standing != Standing::Reiterate && !axis.nodes.is_empty()) {
+        let counts = |axis: &&Axis| axis.is_judged() && !axis.nodes.is_empty();
+        for axis in axes.iter().filter(counts) {
             c.count(axis);
         }
         c.count_forks(&axes);

@@ -4,7 +4,7 @@
 //! alone, Troll's are laid by their trend and their bases are erected later (Hallé, Oldeman & Tomlinson 1978). Both need
 //! the recorded columns of mechanics, without which it is not known that anything bent.
 
-use super::axes::{Axis, Standing};
+use super::axes::Axis;
 use super::characters::{Share, is_plagiotropic};
 use super::tolerance::{ERECT, RISEN};
 use phytomer_outputs::rows::PoseRow;
@@ -33,7 +33,7 @@ pub fn lie_of(axes: &[Axis], poses: &[PoseRow]) -> Lie {
         courses.entry(pose.axis_id).or_default().entry(pose.age).or_default().insert(pose.rank, pose.dir_z);
     }
     let mut lie = Lie::default();
-    for axis in axes.iter().filter(|axis| axis.standing != Standing::Reiterate) {
+    for axis in axes.iter().filter(|axis| axis.is_judged()) {
         let Some(course) = courses.get(&axis.id) else { continue };
         let relays = axis.bears.iter().map(|&place| &axes[place]).filter(|relay| relay.origin == Origin::Relay);
         let ranks: Vec<u32> = relays.map(|relay| relay.bearer_rank).collect();

@@ -3,7 +3,7 @@
 //! A set of relays stands on one axis and appears at one tick. By substitution the apex of the bearing axis had ended; by
 //! apposition it lived on (Hallé, Oldeman & Tomlinson 1978). Absent: forks of an apex that divides.
 
-use super::axes::{Axis, Standing};
+use super::axes::Axis;
 use super::characters::{Share, is_plagiotropic};
 use super::tolerance::{FIRST_GENERATIONS, NODES_FROM_TURN};
 use phytomer_sim::plant::Origin;
@@ -48,9 +48,8 @@ struct Set<'a> {
 /// The relays of the axes whose order is asked for.
 pub fn relays_of(axes: &[Axis], asked: impl Fn(u32) -> bool) -> Relays {
     let mut found = Relays::default();
-    let own = |axis: &&Axis| axis.standing == Standing::Own || axis.standing == Standing::Basal;
     let generations = generations(axes);
-    for (place, bearing) in axes.iter().enumerate().filter(|(_, axis)| asked(axis.order) && own(axis)) {
+    for (place, bearing) in axes.iter().enumerate().filter(|(_, axis)| asked(axis.order) && axis.is_judged()) {
         let borne =
             |origin: Origin| bearing.bears.iter().map(|&place| &axes[place]).filter(move |axis| axis.origin == origin);
         let branches: Vec<&Axis> = borne(Origin::Axillary).collect();
@@ -116,7 +115,7 @@ impl Relays {
         self.bears_branches.add(set.branches.iter().filter(plagiotropic).count() >= 2);
         let below = |branch: &&Axis| set.relays.iter().all(|relay| relay.bearer_rank < branch.bearer_rank);
         let older = |branch: &&Axis| set.relays.iter().all(|relay| relay.birth > branch.birth);
-        self.below_older_branches.add(!set.branches.is_empty() && set.branches.iter().all(|b| below(&b) && older(&b)));
+        self.below_older_branches.add(!set.branches.is_empty() && set.branches.iter().all(|b| below(b) && older(b)));
     }
 }
 
