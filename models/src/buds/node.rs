@@ -24,6 +24,8 @@ struct BudSite {
     /// Which of the buds of its kind, from 0.
     position: u32,
     azimuth: f32,
+    /// The state that its zone gives the new axis; `None`: as the branching says.
+    state: Option<u8>,
 }
 
 /// The axillary buds of one node.
@@ -151,8 +153,9 @@ impl Axis<'_> {
                 origin: Origin::Axillary,
                 position,
                 azimuth: azimuth + spacing * position as f32,
+                state: ramification.and_then(|ramification| ramification.state),
             };
-            match ramification.is_some_and(|chance| chance.happens(&self.words.on_node, position, at)) {
+            match ramification.is_some_and(|of| of.chance.happens(&self.words.on_node, position, at)) {
                 true => self.branch(site, &laws.node.axillary, EventKind::Branched, false, at),
                 false => self.bud.dormant |= 1 << position,
             }
@@ -171,6 +174,7 @@ impl Axis<'_> {
                     origin: Origin::Adaptive,
                     position,
                     azimuth: azimuth + spacing * position as f32,
+                    state: None,
                 };
                 self.branch(site, &laws.node.reiteration, EventKind::Reiterated, false, at);
             }
@@ -218,7 +222,7 @@ impl Axis<'_> {
         let count = laws.end.relay.count.draw(&self.words.end, 0, at);
         for position in 0..count {
             let azimuth = first + TURN / count as f32 * position as f32;
-            let site = BudSite { node, rank, order: laws.number, origin: Origin::Relay, position, azimuth };
+            let site = BudSite { node, rank, order: laws.number, origin: Origin::Relay, position, azimuth, state: None };
             if laws.end.relay.chance.happens(&self.words.end, position, at) {
                 self.branch(site, &laws.end.relay, EventKind::Relayed, true, at);
             }
@@ -235,7 +239,8 @@ impl Axis<'_> {
             if laws.end.traumatic.chance.happens(&self.words.end, position, at) {
                 let azimuth = first + spacing * position as f32;
                 let rank = self.bud.rank;
-                let site = BudSite { node, rank, order: laws.number, origin: Origin::Traumatic, position, azimuth };
+                let (order, origin) = (laws.number, Origin::Traumatic);
+                let site = BudSite { node, rank, order, origin, position, azimuth, state: None };
                 self.branch(site, &laws.end.traumatic, EventKind::Reiterated, true, at);
             }
         }
@@ -257,7 +262,7 @@ impl Axis<'_> {
             order: site.order,
             origin: site.origin,
             position,
-            state: laws.state.unwrap_or(self.bud.state),
+            state: site.state.or(laws.state).unwrap_or(self.bud.state),
             appearance: self.tick,
             birth: self.tick.saturating_add(laws.delay.draw(words, site.position, at)),
             azimuth: site.azimuth,

@@ -26,6 +26,16 @@ struct ZoneLaw {
     ranks: Ranks,
     /// `None`: that of the order.
     chance: Option<Chance>,
+    /// The state of its axes; `None`: that of the order's axillary buds.
+    state: Option<u8>,
+}
+
+/// How the buds of a node ramify.
+#[derive(Debug, Clone, Copy)]
+pub struct Ramification<'a> {
+    pub chance: &'a Chance,
+    /// The state of the new axes, where their zone has one.
+    pub state: Option<u8>,
 }
 
 /// The ranks of each zone: constants, or laws where one of them is drawn.
@@ -52,22 +62,30 @@ impl Zones {
                 let table = compiler.probability(law, &format!("axillary.pattern.zones.{index}.ramification"));
                 words.chance(table, most_buds)
             });
+            let state = zone.state.as_ref();
+            let state = state.map(|state| compiler.state(state, &format!("axillary.pattern.zones.{index}.state")));
             // A unit that draws ranks gives those of every zone.
-            ZoneLaw { from: zone.from, ranks: ranks.constant.get(index).copied().unwrap_or_default(), chance }
+            ZoneLaw { from: zone.from, ranks: ranks.constant.get(index).copied().unwrap_or_default(), chance, state }
         });
         Some(Self(compiled.collect()))
     }
 
-    /// The law of ramification of the node at `rank` of a growth unit of `nodes`, where the node is in a zone; `order` is
-    /// that of zones without one of their own, `drawn` the ranks that the unit has drawn, if any.
+    /// How the node at `rank` of a growth unit of `nodes` ramifies, where the node is in a zone; `order` is the law of zones
+    /// without one of their own, `drawn` the ranks that the unit has drawn, if any.
     #[inline]
-    pub fn ramification<'a>(&'a self, rank: u32, nodes: u32, drawn: &[Ranks], order: &'a Chance) -> Option<&'a Chance> {
+    pub fn ramification<'a>(
+        &'a self,
+        rank: u32,
+        nodes: u32,
+        drawn: &[Ranks],
+        order: &'a Chance,
+    ) -> Option<Ramification<'a>> {
         let holds = |(place, zone): &(usize, &ZoneLaw)| {
             let (first, last) = drawn.get(*place).copied().unwrap_or(zone.ranks);
             (first..=last).contains(&zone.rank(rank, nodes))
         };
         let (_, zone) = self.0.iter().enumerate().find(holds)?;
-        Some(zone.chance.as_ref().unwrap_or(order))
+        Some(Ramification { chance: zone.chance.as_ref().unwrap_or(order), state: zone.state })
     }
 
     /// The laws of ramification of the zones that have one of their own.
@@ -75,17 +93,23 @@ impl Zones {
         self.0.iter().filter_map(|zone| zone.chance.as_ref())
     }
 
-    /// The mean over what units draw of the probability that a bud of the node at `rank` of `nodes` ramifies: of each
-    /// zone, where none before it holds the node. `holding` is [`ZoneRanks::holding`].
-    pub fn mean_probability(&self, (rank, nodes): Ranks, holding: &[Vec<f64>], order: &Chance, at: At) -> f64 {
-        let (mut mean, mut free) = (0.0, 1.0);
-        for (zone, holding) in self.0.iter().zip(holding) {
+    /// The means over what units draw of the probability that a bud of the node at `rank` of `nodes` ramifies: of each
+    /// zone, where none before it holds the node, with the zone's state. `holding` is [`ZoneRanks::holding`].
+    pub fn mean_probabilities(
+        &self,
+        (rank, nodes): Ranks,
+        holding: &[Vec<f64>],
+        order: &Chance,
+        at: At,
+    ) -> impl Iterator<Item = (Option<u8>, f64)> {
+        let mut free = 1.0;
+        self.0.iter().zip(holding).map(move |(zone, holding)| {
             let rank = zone.rank(rank, nodes) as usize;
             let holds = holding.get(rank).or(holding.last()).copied().unwrap_or(0.0);
-            mean += free * holds * zone.chance.as_ref().unwrap_or(order).table.probability(at);
+            let mean = free * holds * zone.chance.as_ref().unwrap_or(order).table.probability(at);
             free *= 1.0 - holds;
-        }
-        mean
+            (zone.state, mean)
+        })
     }
 }
 

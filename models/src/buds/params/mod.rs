@@ -238,6 +238,10 @@ pub struct Zone {
     /// The law of ramification of this zone; left out: that of the order.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ramification: Option<Law>,
+    /// The state in which the axes of this zone start, as long shoots at the tip and short ones below; left out: that of the
+    /// order's axillary buds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<String>,
 }
 
 /// An end of a growth unit.
