@@ -6,7 +6,7 @@ use crate::grown::{PLANTS, Sample, compiled, plant, units_by_order};
 use phytomer_models::buds::law::{Count, CountForm, Law, LawForm, Poisson};
 use phytomer_models::buds::params::{
     Apex, ApexEnd, Axillary, End, Flower, GrowthUnit, Pattern, Relay, Rhythmic, SpeedForm, SpeedText, Speeds,
-    Traumatic, Zone,
+    Traumatic, Zone, ZoneState,
 };
 use phytomer_models::buds::{Buds, Order};
 use phytomer_sim::GrowthModel as _;
@@ -189,7 +189,7 @@ fn drawn_species() -> Buds {
             first: weights(&[0.0, 2.0, 1.0]),
             last: Some(weights(&[0.0, 1.0, 1.0, 2.0])),
             ramification: None,
-            state: Some("slender".to_owned()),
+            state: Some(ZoneState::Shares(BTreeMap::from([("slender".to_owned(), 3.0), ("stout".to_owned(), 1.0)]))),
         },
         Zone {
             name: None,

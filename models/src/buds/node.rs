@@ -153,7 +153,7 @@ impl Axis<'_> {
                 origin: Origin::Axillary,
                 position,
                 azimuth: azimuth + spacing * position as f32,
-                state: ramification.and_then(|ramification| ramification.state),
+                state: ramification.and_then(|of| of.state(&self.words.on_node, position, at)),
             };
             match ramification.is_some_and(|of| of.chance.happens(&self.words.on_node, position, at)) {
                 true => self.branch(site, &laws.node.axillary, EventKind::Branched, false, at),

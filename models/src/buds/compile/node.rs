@@ -124,7 +124,7 @@ impl NodeLaws {
     #[inline]
     pub fn ramification(&self, rank: u32, nodes: u32, drawn: &[Ranks]) -> Option<Ramification<'_>> {
         match &self.zones {
-            None => Some(Ramification { chance: &self.axillary.chance, state: None }),
+            None => Some(Ramification::of_order(&self.axillary.chance)),
             Some(zones) => zones.ramification(rank, nodes, drawn, &self.axillary.chance),
         }
     }

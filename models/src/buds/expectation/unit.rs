@@ -3,7 +3,7 @@
 //! They are sums over the distribution of the number of nodes and over ranks, since laws may depend on either. Absent:
 //! the fates of buds, which `cohort` follows.
 
-use crate::buds::compile::{BudModel, NodeLaws, OrderLaws, Ranks};
+use crate::buds::compile::{BudModel, NodeLaws, OrderLaws, Ramification, Ranks};
 use crate::buds::law::At;
 
 /// The means of one growth unit.
@@ -108,14 +108,15 @@ impl Unit {
 /// The mean probabilities that a bud of the node at a rank of a growth unit of so many nodes ramifies, with the state that
 /// a zone gives.
 fn ramification(node: &NodeLaws, (rank, nodes): Ranks, holding: &[Vec<f64>], at: At) -> Vec<(Option<u8>, f64)> {
+    let spread = |(holds, of): (f64, Ramification<'_>)| {
+        let probability = holds * of.chance.table.probability(at);
+        of.shares(at).into_iter().map(move |(state, share)| (state, share * probability))
+    };
     match &node.zones {
         Some(zones) if !holding.is_empty() => {
-            zones.mean_probabilities((rank, nodes), holding, &node.axillary.chance, at).collect()
+            zones.ramifications((rank, nodes), holding, &node.axillary.chance).flat_map(spread).collect()
         }
-        _ => {
-            let of = node.ramification(rank, nodes, &[]);
-            of.map(|of| (of.state, of.chance.table.probability(at))).into_iter().collect()
-        }
+        _ => node.ramification(rank, nodes, &[]).map(|of| (1.0, of)).into_iter().flat_map(spread).collect(),
     }
 }
 
