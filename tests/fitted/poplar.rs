@@ -6,7 +6,7 @@ use crate::measured::{Table, counted};
 use crate::simulated::{drawn, grown, shipped, units};
 use phytomer_models::buds::law::{Binomial, Count, CountComponent, CountForm, Law, NegativeBinomial};
 
-const SPECIES: &str = "rauh";
+const SPECIES: &str = "poplar";
 
 #[test]
 fn growth_units_of_orders_two_to_five() {

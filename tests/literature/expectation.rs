@@ -122,6 +122,7 @@ fn cohorts_follow_laws_of_age_and_random_counts() {
         death: Law::from(0.05),
         apex: Apex {
             units: Some(Count::from(CountForm { empirical: Some(vec![0.0, 1.0, 2.0, 1.0]), ..CountForm::default() })),
+            ..Apex::default()
         },
         ..Order::default()
     };
@@ -219,7 +220,7 @@ fn drawn_species() -> Buds {
     let nodes = Count::from(CountForm { constant: Some(nodes), ..CountForm::default() });
     let branch = Order {
         speed: speeds(&["2/3", "3"], &[3.0, 1.0]),
-        apex: Apex { units },
+        apex: Apex { units, ..Apex::default() },
         growth_unit: GrowthUnit { nodes, ..GrowthUnit::default() },
         ..Order::default()
     };
