@@ -38,6 +38,7 @@ fn short_shoots_of_every_order() {
     let Some(table) = Table::read("nodes_per_growth_unit_histograms.csv") else { return };
     for order in [2, 3, 4] {
         let short = simulated(4, 6, 8, |unit| unit.order == order && unit.state == SHORT);
-        homogeneity(&table.histogram("meri5"), &short, 1).assert_fits(&format!("wild cherry, short shoots of order {order}"));
+        homogeneity(&table.histogram("meri5"), &short, 1)
+            .assert_fits(&format!("wild cherry, short shoots of order {order}"));
     }
 }

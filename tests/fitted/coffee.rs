@@ -54,8 +54,7 @@ fn the_activity_of_each_group_with_its_interval() {
 #[test]
 fn nodes_of_an_axis_in_half_a_year() {
     let Some(table) = Table::read("coffee_orthotropic_nodes_cilas.csv") else { return };
-    let all: Vec<usize> =
-        (1..=GROUPS).flat_map(|group| emitted(&table, group)).map(|nodes| nodes as usize).collect();
+    let all: Vec<usize> = (1..=GROUPS).flat_map(|group| emitted(&table, group)).map(|nodes| nodes as usize).collect();
     let measured = counted(all.iter().copied());
     // A month has 30.4 days: 167 are five cycles for one half of the axes and six for the other.
     let shipped = |cycles| grown(&shipped("coffee", 1), 2000, cycles).into_iter().map(|plant| plant.nodes.len());
@@ -90,11 +89,10 @@ fn least_squares(points: &[(f64, f64)]) -> (f64, f64) {
             right = [right[0] + by_a * off, right[1] + by_beta * off];
         }
         let det = normal[0] * normal[2] - normal[1] * normal[1];
-        let step = [
-            (normal[2] * right[0] - normal[1] * right[1]) / det,
-            (normal[0] * right[1] - normal[1] * right[0]) / det,
-        ];
-        let better = (0..40).map(|k| 0.5_f64.powi(k)).find(|k| sum(a + k * step[0], beta + k * step[1]) < sum(a, beta));
+        let step =
+            [(normal[2] * right[0] - normal[1] * right[1]) / det, (normal[0] * right[1] - normal[1] * right[0]) / det];
+        let halved = std::iter::successors(Some(1.0), |k| Some(k / 2.0)).take(40);
+        let better = halved.into_iter().find(|k| sum(a + k * step[0], beta + k * step[1]) < sum(a, beta));
         let Some(k) = better else { break };
         (a, beta) = (a + k * step[0], beta + k * step[1]);
     }
@@ -115,7 +113,8 @@ fn least_squares_give_the_published_mortality() {
 fn branches_of_the_shipped_species_die_as_measured() {
     let Some(points) = dead_fractions() else { return };
     let branch = shipped("coffee", 2).order.remove(1);
-    let plants = grown(&Buds { order: vec![Order { relay: Default::default(), ..branch }], ..Buds::default() }, 12_000, 47);
+    let plants =
+        grown(&Buds { order: vec![Order { relay: Default::default(), ..branch }], ..Buds::default() }, 12_000, 47);
     let (mut late, mut early) = (0.0, 0.0);
     for &(cycles, fraction) in points.iter().filter(|(cycles, _)| *cycles > 0.0) {
         let dead = plants.iter().filter(|plant| f64::from(plant.axes.apex_end[0]) <= cycles).count() as f64;

@@ -78,8 +78,11 @@ fn shoots_lengthen_with_age() {
     let plants = grown(&shipped("corsican_pine", 1), 1000, YEARS);
     let mut worst: f64 = 0.0;
     for year in 1..=YEARS {
-        let lengths: Vec<f64> =
-            measured.iter().filter(|(age, _)| *age == year).map(|(_, row)| row.number("shoot_length_mm") / 1000.0).collect();
+        let lengths: Vec<f64> = measured
+            .iter()
+            .filter(|(age, _)| *age == year)
+            .map(|(_, row)| row.number("shoot_length_mm") / 1000.0)
+            .collect();
         let (mean, variance) = moments(&lengths);
         let of_year = |plant: &Plant| {
             let nodes = (0..plant.nodes.len()).filter(|node| plant.nodes.birth[*node] == year);

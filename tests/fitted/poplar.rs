@@ -17,11 +17,12 @@ fn growth_units_of_orders_two_to_five() {
     homogeneity(&table.histogram("peup1"), &order_two, 4).assert_fits("poplar, order 2");
     for (order, dataset) in [(3, "peup2"), (4, "peup3"), (5, "peup4")] {
         let nodes = shipped(SPECIES, 5).order[order - 1].growth_unit.nodes.clone();
-        homogeneity(&table.histogram(dataset), &counted(drawn(nodes)), 4).assert_fits(&format!("poplar, order {order}"));
+        homogeneity(&table.histogram(dataset), &counted(drawn(nodes)), 4)
+            .assert_fits(&format!("poplar, order {order}"));
     }
 }
 
-/// r and p as published for the data: they hold for orders 2 and 3, hardly, and not for order 4.
+/// r and p as published for the data: they hold at 1 %, those of orders 3 and 4 not at 5 %; the mixtures shipped do.
 #[test]
 fn the_published_negative_binomials() {
     let Some(table) = Table::read("nodes_per_growth_unit_histograms.csv") else { return };
@@ -32,7 +33,7 @@ fn the_published_negative_binomials() {
     };
     outcome("peup1", 12.0, 0.292).assert_fits("poplar, order 2, NB(12.0, .292)");
     outcome("peup2", 8.18, 0.275).assert_fits("poplar, order 3, NB(8.18, .275)");
-    outcome("peup3", 8.04, 0.368).assert_misfit("poplar, order 4, NB(8.04, .368)");
+    outcome("peup3", 8.04, 0.368).assert_fits("poplar, order 4, NB(8.04, .368)");
 }
 
 /// Two more samples of order 3, that belong to no shipped species: mixtures of two binomials.

@@ -135,7 +135,8 @@ impl<'a> Cohorts<'a> {
             for (state, flow) in states.iter().enumerate().filter(|(_, flow)| flow.apices > 0.0) {
                 let at = At { state: state as u8, ..at };
                 let growing = self.fates(order, *flow, &mut after[made][state], at);
-                let unit = self.steady[order].clone().unwrap_or_else(|| Unit::at(self.model, &self.model.orders[order], at));
+                let unit =
+                    self.steady[order].clone().unwrap_or_else(|| Unit::at(self.model, &self.model.orders[order], at));
                 self.work += 1 + unit.work;
                 self.grow(order, growing, (made, ends), &unit, after, at);
             }
