@@ -66,7 +66,9 @@ pub struct Characters {
     pub branch_flowers: Share,
     /// Of the axes of order 1 that tend somewhere, those that are plagiotropic at first.
     pub plagiotropic_trunks: Share,
-    /// Of the axes of higher orders that tend somewhere, those that are plagiotropic at first.
+    /// Of the axes of order 2 that tend somewhere, those that are plagiotropic at first.
+    pub plagiotropic_limbs: Share,
+    /// Of the axes of all higher orders that tend somewhere, those that are plagiotropic at first.
     pub plagiotropic_branches: Share,
     /// Whether the trunk's branches stand in tiers at the tips of growth units; `None` with fewer than three branches.
     pub tiers: Option<bool>,
@@ -118,6 +120,9 @@ impl Characters {
         if let Some(trend) = axis.first_trend() {
             let trends = if trunk { &mut self.plagiotropic_trunks } else { &mut self.plagiotropic_branches };
             trends.add(is_plagiotropic(trend));
+            if axis.order == 2 {
+                self.plagiotropic_limbs.add(is_plagiotropic(trend));
+            }
         }
     }
 

@@ -107,11 +107,12 @@ fn not_in_tiers(c: &Characters) -> Lacks {
 }
 
 fn plagiotropic_branches(c: &Characters) -> Lacks {
-    must(nearly_all(c.plagiotropic_branches), "branches are plagiotropic")
+    must(nearly_all(c.plagiotropic_limbs) && nearly_all(c.plagiotropic_branches), "branches are plagiotropic")
 }
 
 fn orthotropic_branches(c: &Characters) -> Lacks {
-    must(c.plagiotropic_branches.of > 0 && hardly_any(c.plagiotropic_branches), "branches are orthotropic")
+    let orthotropic = hardly_any(c.plagiotropic_limbs) && hardly_any(c.plagiotropic_branches);
+    must(c.plagiotropic_limbs.of > 0 && orthotropic, "branches are orthotropic")
 }
 
 /// Branches of modules that end in flowers, by substitution.
