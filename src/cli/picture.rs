@@ -6,9 +6,13 @@
 use super::regrown::{Breeze, Regrown, beside, keep};
 use super::{Misuse, Verdict, amounts, terminal};
 use anyhow::{Context, Result};
+use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use phytomer::run::drawing::{Portrait, portrait};
-use phytomer_outputs::pictures::{Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, draw, sheet, write_png};
+use phytomer_outputs::Error;
+use phytomer_outputs::pictures::{
+    Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, colour_columns, draw, sheet, write_png,
+};
 use phytomer_sim::Tick;
 use std::fs::File;
 use std::io::BufWriter;
@@ -25,6 +29,7 @@ Examples:
   phytomer picture willow --ages 17,29,53,71 --size 2400x900 --out life.png
   phytomer picture runs/coffee --plants 0,1,2 --age 48 --view front --out three.png
   phytomer picture my_plant/species.toml --view sheet --out sheet.png
+  phytomer picture coffee --age 60 --colour-by birth_age --out ages.png
   phytomer picture coffee --age 24 --transparent --no-caption --sun 200,30 --out cut-out.png
 
 A plant whose age is not given is drawn in its prime: at the last age at which it bears nine tenths of the largest
@@ -70,6 +75,9 @@ pub struct Picture {
     /// Sides of the tube that an internode is drawn as.
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u8).range(3..=64))]
     sides: u8,
+    /// Colour the components by a column of `records`, with a legend.
+    #[arg(long, value_name = "COLUMN", value_parser = PossibleValuesParser::new(colour_columns()), hide_possible_values = true)]
+    colour_by: Option<String>,
     #[command(flatten)]
     breeze: Breeze,
 }
@@ -113,7 +121,7 @@ impl Picture {
             return Err(Misuse(format!("one picture has at most {MOST_SUBJECTS} plants, counted at each age")).into());
         }
         let portrait = portrait(&again, &regrown.species, plants, &ages)?;
-        let bytes = amounts::bytes(self.save(&self.draw(&portrait), &portrait.note)? as f64);
+        let bytes = amounts::bytes(self.save(&self.draw(&portrait)?, &portrait.note)? as f64);
         let drawn = portrait.subjects.len();
         let whom = if drawn == 1 { format!("plant {}", plants[0]) } else { format!("{drawn} plants") };
         let when = if ages.len() == 1 { format!(" at age {}", ages[0]) } else { String::new() };
@@ -122,7 +130,7 @@ impl Picture {
         Ok(Verdict::Done)
     }
 
-    fn draw(&self, portrait: &Portrait) -> Canvas {
+    fn draw(&self, portrait: &Portrait) -> std::result::Result<Canvas, Error> {
         let view = match self.view {
             From::Perspective => Some(View::Perspective),
             From::Top => Some(View::Top),
@@ -139,6 +147,7 @@ impl Picture {
             caption: !self.no_caption,
             sun: self.sun.map(|sun| sun.map(f32::to_radians)),
             sides: self.sides,
+            colour_by: self.colour_by.clone(),
         };
         let subjects = portrait.subjects();
         if view.is_some() {

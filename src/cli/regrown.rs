@@ -8,24 +8,17 @@ use super::named::{self, Named, Recorded};
 use super::{Misuse, Verdict, refuse};
 use anyhow::{Context, Result};
 use clap::Args;
-use phytomer::run::again::{Again, Air, alone_until};
+use phytomer::run::again::{Again, Air, alone_until, scenario_alone};
 use phytomer_config::{Model, Scenario, Species};
 use phytomer_sim::mechanics::sway::{Unmoved, yielding};
 use phytomer_sim::site::Wind;
 use phytomer_sim::{GrowthModel, Tick};
-use serde::Deserialize;
-use serde_json::json;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The strongest wind that is asked for, m/s: as in a scenario's site.
 const MOST_WIND: f64 = 100.0;
-
-/// Plants of a species by itself: each number below is one of them.
-const PLANTS_ALONE: u32 = 1000;
-/// The most components of such a plant: it may be of any species.
-const MOST_COMPONENTS_ALONE: u32 = 4_000_000;
 
 /// Something whose plants can be grown again.
 pub struct Regrown {
@@ -78,14 +71,7 @@ impl Regrown {
 
     fn alone(name: &str, species: Species, model: &dyn GrowthModel, ages: &[Tick]) -> Result<Self> {
         let until = ages.iter().copied().max().unwrap_or_else(|| alone_until(&species, model)).max(1);
-        let scenario = Scenario::deserialize(json!({
-            "name": species.about.name,
-            "species": name,
-            "plants": PLANTS_ALONE,
-            "ages": {"until": until},
-            "limits": {"max_components": MOST_COMPONENTS_ALONE},
-        }))
-        .context("cannot make a scenario for the species")?;
+        let scenario = scenario_alone(name, &species, until)?;
         let model = species.model.compile(until).map_err(|faults| match faults.into_iter().next() {
             Some(fault) => Misuse(format!("{name} to the age {until}: {fault}")),
             None => Misuse(format!("{name} cannot be grown to the age {until}")),

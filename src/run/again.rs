@@ -5,7 +5,7 @@
 //! the age at which it is shown where nobody says otherwise. Absent: what is made of it.
 
 use super::{place_of, seed_of};
-use anyhow::Result;
+use anyhow::{Context, Result};
 use phytomer_config::{Model, Scenario, Species};
 use phytomer_sim::mechanics::Bench;
 use phytomer_sim::mechanics::sway::sway;
@@ -13,6 +13,8 @@ use phytomer_sim::plant::{Kind, Plant};
 use phytomer_sim::shed::shed;
 use phytomer_sim::site::Wind;
 use phytomer_sim::{Ending, Growth, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
+use serde::Deserialize;
+use serde_json::json;
 use std::borrow::Cow;
 
 /// A species by itself is shown at no later age than this.
@@ -20,6 +22,12 @@ pub const ALONE_UNTIL: Tick = phytomer_config::SPECIES_ALONE_UNTIL;
 
 /// Nor at one at which it is expected to have more components.
 const MOST_ALONE: f64 = 300_000.0;
+
+/// Plants of a species by itself: each number below is one of them.
+const PLANTS_ALONE: u32 = 1000;
+
+/// The most components of such a plant: it may be of any species.
+const MOST_COMPONENTS_ALONE: u32 = 4_000_000;
 
 /// The level of a geometric model that is shown: that of the figures of Aono & Kunii 1984.
 const LEVELS: Tick = 10;
@@ -138,6 +146,21 @@ pub fn alone_until(species: &Species, model: &dyn GrowthModel) -> Tick {
     }
     let Some(means) = model.expectation(ALONE_UNTIL) else { return ALONE_UNTIL };
     (1..=ALONE_UNTIL).take_while(|age| means.components(*age) <= MOST_ALONE).last().unwrap_or(1)
+}
+
+/// A scenario made up for a species by itself, to be grown to an age: a thousand plants to choose from.
+///
+/// # Errors
+/// Where the species' name is none.
+pub fn scenario_alone(name: &str, species: &Species, until: Tick) -> Result<Scenario> {
+    let scenario = Scenario::deserialize(json!({
+        "name": species.about.name,
+        "species": name,
+        "plants": PLANTS_ALONE,
+        "ages": {"until": until},
+        "limits": {"max_components": MOST_COMPONENTS_ALONE},
+    }));
+    scenario.context("cannot make a scenario for the species")
 }
 
 /// Shows the first plant of a plot at some ages.

@@ -54,6 +54,11 @@ impl<'a> Standing<'a> {
         Self { scene, colours, boxes, place: Vec3::from_array(plant.place), offset: Vec3::ZERO, number }
     }
 
+    /// Where it grew.
+    pub fn place(&self) -> Vec3 {
+        self.place
+    }
+
     /// Where it stands on the ground.
     pub fn foot(&self) -> Vec3 {
         self.place + self.offset
@@ -148,7 +153,7 @@ impl<'a> Standing<'a> {
             None if thin => varied([r, g, b], component),
             None => [r, g, b],
         };
-        Paint { colour, thin, subject: self.number }
+        Paint { colour, thin, stained: self.colours.is_some(), subject: self.number }
     }
 
     /// The rows of samples that a block may reach; `None` for one that is empty.
