@@ -5,9 +5,9 @@
 //! and drawn at the age that `phytomer picture` chooses. Nothing is listed here: what ships is what is drawn.
 
 use anyhow::{Context, Result, anyhow};
-use phytomer::config::{Kind, Scenario, Species, presets, validate, validate_species};
+use phytomer::config::{Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, presets, validate, validate_species};
 use phytomer::outputs::pictures::{Canvas, Compression, Picture, Subject, View, draw, write_png};
-use phytomer::run::again::{ALONE_UNTIL, Again, alone_until, scenario_alone};
+use phytomer::run::again::Again;
 use phytomer::run::drawing::{Portrait, portrait};
 use phytomer::sim::{GrowthModel, Tick};
 use std::fmt::Write as _;
@@ -21,7 +21,7 @@ const SIZE: [u32; 2] = [360, 480];
 const STRIP: [u32; 2] = [1600, 460];
 /// Whose life is told, and when it is looked at: robusta coffee, in months.
 const LIFE_OF: &str = "coffee";
-const LIFE: [Tick; 9] = [4, 9, 16, 26, 40, 56, 76, 96, 116];
+const LIFE: [Tick; 9] = [4, 9, 16, 26, 40, 56, 76, 96, 106];
 
 struct Sitter {
     scenario: Scenario,
@@ -33,8 +33,8 @@ fn main() -> Result<()> {
     let folder = std::env::args().nth(1).unwrap_or_else(|| "docs".to_owned());
     let folder = Path::new(&folder);
     let mut page = String::from(
-        "# Gallery\n\nEvery species that ships, drawn by `phytomer picture` in its prime: the last age at which it bears nine \
-         tenths of the\nlargest leaf area that it ever does. `cargo run --release --example gallery` makes this page.\n",
+        "# Gallery\n\nEvery species that ships, drawn by `phytomer picture` at the age that it states, or else in its prime:\nthe last \
+         age at which it bears nine tenths of the largest leaf area that it ever does. `cargo run --release --example gallery` makes this page.\n",
     );
     let mut group = None;
     for (name, _) in presets(Kind::Species) {
@@ -53,7 +53,7 @@ fn main() -> Result<()> {
 fn sit(name: &str, folder: &Path) -> Result<String> {
     let sitter = Sitter::of(name)?;
     let again = sitter.again();
-    let age = again.prime(0)?;
+    let age = again.shown_at(&sitter.species, 0)?;
     let portrait = portrait(&again, &sitter.species, &[0], &[age])?;
     let file = format!("gallery/{name}.png");
     let canvas = drawn(&portrait, SIZE)?;
@@ -72,10 +72,11 @@ impl Sitter {
             let found = validate(name).map_err(|report| anyhow!(report.render(false)))?;
             return Ok(Self { scenario: found.scenario, species: found.species, model: found.model });
         }
-        let found = validate_species(name, ALONE_UNTIL).map_err(|report| anyhow!(report.render(false)))?;
-        let until = alone_until(&found.species, found.model.as_ref());
-        let scenario = scenario_alone(name, &found.species, until)?;
-        Ok(Self { scenario, species: found.species, model: found.model })
+        let found = validate_species(name, SPECIES_ALONE_UNTIL).map_err(|report| anyhow!(report.render(false)))?;
+        let until = found.shown_at();
+        let Resolved { scenario, species, .. } = found.alone(name);
+        let model = species.model.compile(until).map_err(|faults| anyhow!("{faults:?}"))?;
+        Ok(Self { scenario, species, model })
     }
 
     fn again(&self) -> Again<'_> {

@@ -5,11 +5,13 @@
 //! it and gives a run that can begin.
 //! Absent: growth formulas, and anything that runs.
 
+mod alone;
 mod document;
 mod inherit;
 mod library;
 mod load;
 mod meaning;
+pub mod published;
 mod report;
 pub mod scenario;
 mod schema;
@@ -20,6 +22,7 @@ mod validate;
 mod woods;
 
 pub use library::{Kind, presets};
+pub use published::Published;
 pub use report::{Fault, FaultRecord, Report};
 pub use scenario::Scenario;
 pub use source::{Origin, Source, SourceId, Sources, Span};

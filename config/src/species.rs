@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json, json};
 
 use crate::inherit::{EVERY_ORDER, ORDER};
+use crate::published::{PUBLISHED, Published};
 use crate::schema::{join, of_type, partial, resolve};
 
 /// A species, complete: inheritance is resolved.
@@ -60,6 +61,24 @@ pub struct About {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 100_000), extend("exclusiveMinimum" = 0))]
     pub ticks_per_year: Option<f64>,
+    /// What has been published about the size and the life of such plants; `validate` grows a sample and holds it against
+    /// the ranges. A species that inherits and states its own has none of its ancestors'.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub published: Vec<Published>,
+    /// The age, in ticks, at which a plant shows its architecture: to which a species is grown that is named without a
+    /// scenario, and at which `validate` looks at a sample of it. Left out: 100, or as much earlier as keeps a plant
+    /// small.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 65_535))]
+    pub shown_at: Option<u32>,
+}
+
+impl About {
+    /// What the schema cannot say of it.
+    pub(crate) fn faults(&self) -> Vec<Fault> {
+        let path = Path::root().key(PUBLISHED);
+        self.published.iter().enumerate().flat_map(|(i, row)| row.faults(&path.index(i))).collect()
+    }
 }
 
 /// The 23 architectural models of tropical trees (Hallé, Oldeman & Tomlinson 1978).

@@ -14,14 +14,14 @@ use phytomer_sim::model::GrowthModel;
 use serde_json::{Value as Json, json};
 
 use crate::document::Node;
-use crate::library::Kind;
+use crate::library::{self, Kind};
 use crate::load::{Found, Loader, Mention, integer_at, path_of};
 use crate::meaning;
 use crate::report::{Fault, Report};
 use crate::scenario::Scenario;
 use crate::schema;
 use crate::source::{Source, Sources};
-use crate::species::{Species, any_file};
+use crate::species::{About, Species, any_file};
 
 /// The last age over which a species is checked that is not part of a scenario.
 pub const SPECIES_ALONE_UNTIL: u32 = 100;
@@ -37,6 +37,7 @@ pub struct Resolved {
     pub model: Arc<dyn GrowthModel>,
     /// Every text that was read, for hashes and provenance: the scenario first, then the species and its ancestors.
     pub sources: Sources,
+    pub(crate) tree: Node,
 }
 
 /// A species that can grow.
@@ -48,28 +49,47 @@ pub struct ResolvedSpecies {
     pub model: Arc<dyn GrowthModel>,
     /// The species' text and those of its ancestors.
     pub sources: Sources,
+    pub(crate) tree: Node,
 }
 
-/// Reads and checks a scenario: a shipped one by its name, or a file by its path.
+/// Reads and checks a scenario: a shipped one by its name, or a file by its path. A species in its place is one plant of
+/// it ([`ResolvedSpecies::alone`]).
 ///
 /// # Errors
 /// Every fault of the scenario and of its species.
 pub fn validate(scenario: &str) -> Result<Resolved, Report> {
+    if kind_of(scenario) == Kind::Species && library::find(Kind::Species, scenario, None).is_ok() {
+        return validate_species(scenario, SPECIES_ALONE_UNTIL).map(|species| species.alone(scenario));
+    }
     let mut loader = Loader::default();
     let mention = Mention { name: scenario.to_owned(), place: None };
     let found = loader.find(Kind::Scenario, &mention).and_then(|source| check_scenario(&mut loader, source));
-    conclude(loader, found, |(scenario, species, model), sources| Resolved { scenario, species, model, sources })
+    conclude(loader, found, |(scenario, Compiled { species, model, tree }), sources| Resolved {
+        scenario,
+        species,
+        model,
+        sources,
+        tree,
+    })
 }
 
-/// Reads and checks a species by itself, over the ages up to `until`.
+/// Reads and checks a species by itself, over the ages up to `until` and up to that at which it says that it is shown.
 ///
 /// # Errors
 /// Every fault of the species.
 pub fn validate_species(species: &str, until: u32) -> Result<ResolvedSpecies, Report> {
     let mut loader = Loader::default();
     let mention = Mention { name: species.to_owned(), place: None };
-    let found = check_species(&mut loader, &mention, Some(until.clamp(1, LAST_TICK)));
-    conclude(loader, found, |(species, model), sources| ResolvedSpecies { species, model, sources })
+    let until = |about: Option<&About>| {
+        Some(about.and_then(|about| about.shown_at).unwrap_or(1).max(until).clamp(1, LAST_TICK))
+    };
+    let found = check_species(&mut loader, &mention, until);
+    conclude(loader, found, |Compiled { species, model, tree }, sources| ResolvedSpecies {
+        species,
+        model,
+        sources,
+        tree,
+    })
 }
 
 /// Whether a file by its path is a species or a scenario, by the keys that it has; a bare name is a shipped scenario
@@ -77,7 +97,7 @@ pub fn validate_species(species: &str, until: u32) -> Result<ResolvedSpecies, Re
 pub fn kind_of(name: &str) -> Kind {
     let mut loader = Loader::default();
     let is_path = FilePath::new(name).is_file();
-    let found = crate::library::find(Kind::Scenario, name, None);
+    let found = library::find(Kind::Scenario, name, None);
     let Ok(source) = found else { return if is_path { Kind::Scenario } else { Kind::Species } };
     let (_, node) = loader.parse(source);
     if node.is_some_and(|node| looks_like_species(&node)) { Kind::Species } else { Kind::Scenario }
@@ -108,18 +128,18 @@ fn conclude<T, R>(loader: Loader, found: Option<T>, make: impl FnOnce(T, Sources
     }
 }
 
-type Checked = (Scenario, Species, Arc<dyn GrowthModel>);
+/// A species that was checked, with the tree that it was read from.
+struct Compiled {
+    species: Species,
+    model: Arc<dyn GrowthModel>,
+    tree: Node,
+}
+
+type Checked = (Scenario, Compiled);
 
 fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
-    let name = source.name.clone();
     let (_, node) = loader.parse(source);
     let node = node?;
-    if looks_like_species(&node) {
-        let problem = format!("`{name}` is a species and not a scenario");
-        let expected = "a scenario that names it: `species`, `plants` and `ages`";
-        loader.faults.push(Fault::new(node.span, &path_of(&[]), problem, expected));
-        return None;
-    }
     let mut refused = Vec::new();
     schema::check(scenario_schema(), &node, &mut refused);
     loader.faults.extend(refused.iter().cloned());
@@ -129,8 +149,8 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     }
     let until = integer_at(&node, &["ages", "until"]).and_then(|n| u32::try_from(n).ok());
     let mention = species_mention(&node)?;
-    let (species, model) = check_species(loader, &mention, until.filter(|n| (1..=LAST_TICK).contains(n)))?;
-    let checked = (scenario?, species, model);
+    let species = check_species(loader, &mention, |_| until.filter(|n| (1..=LAST_TICK).contains(n)))?;
+    let checked = (scenario?, species);
     check_explosion(loader, &node, &checked);
     Some(checked)
 }
@@ -144,11 +164,14 @@ fn species_mention(scenario: &Node) -> Option<Mention> {
 fn check_species(
     loader: &mut Loader,
     mention: &Mention,
-    until: Option<u32>,
-) -> Option<(Species, Arc<dyn GrowthModel>)> {
+    until: impl Fn(Option<&About>) -> Option<u32>,
+) -> Option<Compiled> {
     let Found { about, model, node } = loader.species(mention)?;
-    match model.compile(until?) {
-        Ok(compiled) => Some((Species { about: about?, model }, compiled)),
+    if let Some(about) = &about {
+        tell(loader, &node, about.faults());
+    }
+    match model.compile(until(about.as_ref())?) {
+        Ok(compiled) => Some(Compiled { species: Species { about: about?, model }, model: compiled, tree: node }),
         Err(faults) => {
             tell(loader, &node, faults);
             None
@@ -163,7 +186,7 @@ fn tell(loader: &mut Loader, node: &Node, faults: Vec<fault::Fault>) {
 }
 
 /// A plot of which more is expected than it may have would be cut off: better told before the first tick.
-fn check_explosion(loader: &mut Loader, node: &Node, (scenario, species, model): &Checked) {
+fn check_explosion(loader: &mut Loader, node: &Node, (scenario, Compiled { species, model, .. }): &Checked) {
     let until = scenario.ages.until;
     let (most, key) = (scenario.limits.components(), scenario.limits.binding());
     let Some(expected) = model.expectation(until).map(|means| means.components(until)) else { return };
@@ -210,7 +233,25 @@ impl fmt::Debug for ResolvedSpecies {
     }
 }
 
+impl ResolvedSpecies {
+    /// A report of what was found wrong with the species after it was read, such as by growing it: each fault at its
+    /// path from the top of the species file.
+    pub fn report(&self, faults: Vec<fault::Fault>) -> Report {
+        placed(&self.sources, &self.tree, faults)
+    }
+}
+
+fn placed(sources: &Sources, tree: &Node, faults: Vec<fault::Fault>) -> Report {
+    let placed = faults.into_iter().map(|fault| meaning::place(sources, tree, fault)).collect();
+    Report::new(sources.clone(), placed)
+}
+
 impl Resolved {
+    /// A report of what was found wrong with the species after it was read, as [`ResolvedSpecies::report`].
+    pub fn report(&self, faults: Vec<fault::Fault>) -> Report {
+        placed(&self.sources, &self.tree, faults)
+    }
+
     /// The components that a plant is expected to have made by `age`, where the laws give a mean in closed form.
     pub fn expected_components(&self, age: u32) -> Option<f64> {
         self.model.expectation(age).map(|means| means.components(age))
@@ -250,7 +291,9 @@ mod tests {
     /// Editors have one schema for species of all models; it must pass what the program passes.
     #[test]
     fn the_schema_for_editors_passes_good_files() {
-        for name in ["child", "coffee_like", "states", "binary", "minimal_species", "wood_laws", "wood_vinci"] {
+        for name in
+            ["child", "coffee_like", "states", "binary", "minimal_species", "wood_laws", "wood_vinci", "published"]
+        {
             let mut sources = Sources::default();
             let source = find(Kind::Species, &format!("tests/good/{name}.toml"), None).expect("a good file");
             let id = sources.add(source);

@@ -30,7 +30,7 @@ impl GrowthModel for Sapling {
 
     fn habit(&self) -> Arc<Habit> {
         let trends = vec![Trend::STRAIGHT];
-        Arc::new(Habit { trends, shapes: vec![Shape::Cone], wood: None })
+        Arc::new(Habit { trends, shapes: vec![Shape::Cone], organ_trends: vec![], wood: None })
     }
 
     fn sow(&self, plant: &mut Plant) {

@@ -4,7 +4,7 @@
 //! plant, which the wind moves for the mesh alone.
 
 use super::regrown::{Breeze, Regrown, beside, keep};
-use super::{Misuse, Verdict, amounts, terminal};
+use super::{Verdict, amounts, terminal};
 use anyhow::Result;
 use clap::Args;
 use phytomer::run::drawing::{options_of, write_mesh};
@@ -21,8 +21,8 @@ Examples:
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
 pub struct Mesh {
-    /// A run folder, a shipped scenario by its name, or a scenario file by its path.
-    #[arg(value_name = "RUN|SCENARIO")]
+    /// A run folder, a shipped scenario or species by its name, or a file of one by its path.
+    #[arg(value_name = "RUN|SCENARIO|SPECIES")]
     name: String,
     /// The plant's number, from 0.
     #[arg(long, default_value_t = 0)]
@@ -43,11 +43,6 @@ pub struct Mesh {
 impl Mesh {
     pub fn obey(self) -> Result<Verdict> {
         match Regrown::find(&self.name, self.age.as_slice())? {
-            Ok(regrown) if regrown.alone => {
-                let name = &self.name;
-                Err(Misuse(format!("`{name}` is a species: name a scenario or a run, which says how it is grown"))
-                    .into())
-            }
             Ok(regrown) => self.write(&regrown),
             Err(verdict) => Ok(verdict),
         }

@@ -32,8 +32,8 @@ Examples:
   phytomer picture coffee --age 60 --colour-by birth_age --out ages.png
   phytomer picture coffee --age 24 --transparent --no-caption --sun 200,30 --out cut-out.png
 
-A plant whose age is not given is drawn in its prime: at the last age at which it bears nine tenths of the largest
-leaf area that it ever does.")]
+A plant whose age is not given is drawn at the age that its species states (shown_at), else in its prime: at the last
+age at which it bears nine tenths of the largest leaf area that it ever does.")]
 pub struct Picture {
     /// A run folder, a scenario or a species: a shipped one by its name, or a file by its path.
     #[arg(value_name = "RUN|SCENARIO|SPECIES")]
@@ -44,7 +44,7 @@ pub struct Picture {
     /// Several plants side by side, by their numbers.
     #[arg(long, value_delimiter = ',', value_name = "N,N,…")]
     plants: Vec<u32>,
-    /// Its age in ticks; its prime if not given.
+    /// Its age in ticks; that of its prime if not given.
     #[arg(long, conflicts_with = "ages")]
     age: Option<Tick>,
     /// Several ages side by side, in one scale.
@@ -115,7 +115,7 @@ impl Picture {
         regrown.check((age_option, &ages), (plant_option, plants))?;
         let again = regrown.again(&self.breeze)?;
         if ages.is_empty() {
-            ages.push(again.prime(plants[0])?);
+            ages.push(again.shown_at(&regrown.species, plants[0])?);
         }
         if ages.len() * plants.len() > MOST_SUBJECTS {
             return Err(Misuse(format!("one picture has at most {MOST_SUBJECTS} plants, counted at each age")).into());

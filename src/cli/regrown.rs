@@ -8,8 +8,8 @@ use super::named::{self, Named, Recorded};
 use super::{Misuse, Verdict, refuse};
 use anyhow::{Context, Result};
 use clap::Args;
-use phytomer::run::again::{Again, Air, alone_until, scenario_alone};
-use phytomer_config::{Model, Scenario, Species};
+use phytomer::run::again::{Again, Air};
+use phytomer_config::{Model, Resolved, ResolvedSpecies, Scenario, Species};
 use phytomer_sim::mechanics::sway::{Unmoved, yielding};
 use phytomer_sim::site::Wind;
 use phytomer_sim::{GrowthModel, Tick};
@@ -20,6 +20,11 @@ use std::sync::Arc;
 /// The strongest wind that is asked for, m/s: as in a scenario's site.
 const MOST_WIND: f64 = 100.0;
 
+/// Plants of a species by itself: each number below is one of them.
+const PLANTS_ALONE: u32 = 1000;
+/// The most components of such a plant: it may be of any species.
+const MOST_COMPONENTS_ALONE: u32 = 4_000_000;
+
 /// Something whose plants can be grown again.
 pub struct Regrown {
     /// How they grow.
@@ -28,8 +33,6 @@ pub struct Regrown {
     pub species: Species,
     /// The species' model, compiled for all ages of the scenario.
     pub model: Arc<dyn GrowthModel>,
-    /// Whether the scenario was made up for a species by itself.
-    pub alone: bool,
 }
 
 /// The wind of one frame.
@@ -60,23 +63,27 @@ impl Regrown {
             Named::Run(folder) => {
                 let recorded = Recorded::of(&folder)?;
                 let model = recorded.compile()?;
-                Self { scenario: recorded.scenario, species: recorded.species, model, alone: false }
+                Self { scenario: recorded.scenario, species: recorded.species, model }
             }
             Named::Scenario(resolved) => {
-                Self { scenario: resolved.scenario, species: resolved.species, model: resolved.model, alone: false }
+                Self { scenario: resolved.scenario, species: resolved.species, model: resolved.model }
             }
-            Named::Species(found) => Self::alone(name, found.species, found.model.as_ref(), ages)?,
+            Named::Species(found) => Self::alone(name, *found, ages)?,
         }))
     }
 
-    fn alone(name: &str, species: Species, model: &dyn GrowthModel, ages: &[Tick]) -> Result<Self> {
-        let until = ages.iter().copied().max().unwrap_or_else(|| alone_until(&species, model)).max(1);
-        let scenario = scenario_alone(name, &species, until)?;
+    /// Grown to the last of `ages`, or as long as it takes to show what it is.
+    fn alone(name: &str, found: ResolvedSpecies, ages: &[Tick]) -> Result<Self> {
+        let until = ages.iter().copied().max().unwrap_or_else(|| found.shown_at()).max(1);
+        let Resolved { mut scenario, species, .. } = found.alone(name);
+        scenario.ages.until = until;
+        scenario.plants = PLANTS_ALONE;
+        scenario.limits.max_components = MOST_COMPONENTS_ALONE;
         let model = species.model.compile(until).map_err(|faults| match faults.into_iter().next() {
             Some(fault) => Misuse(format!("{name} to the age {until}: {fault}")),
             None => Misuse(format!("{name} cannot be grown to the age {until}")),
         })?;
-        Ok(Self { scenario, species, model, alone: true })
+        Ok(Self { scenario, species, model })
     }
 
     /// Its plants, grown again in the wind that is asked for.

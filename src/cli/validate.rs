@@ -1,12 +1,15 @@
 //! `validate`: every fault of scenarios and species, none of them run.
 //!
-//! Absent: the checks, which are `phytomer-config`'s.
+//! Of a species that states what was published of such plants a sample is grown too, once its file is without fault.
+//! Absent: the checks, which are `phytomer-config`'s and `phytomer::sample`'s.
 
 use super::named::{self, Named};
 use super::{Verdict, amounts, terminal};
 use anyhow::Result;
 use clap::Args;
-use phytomer_config::Report;
+use phytomer::sample;
+use phytomer_config::{Report, Species};
+use phytomer_models::fault::Fault;
 use serde_json::{Value, json};
 
 type Found = std::result::Result<Named, Report>;
@@ -19,6 +22,7 @@ Examples:
   phytomer validate my_plant/scenario.toml my_plant/species.toml
   phytomer validate my_plant/scenario.toml --json
 
+Where a species states published ranges (`[[published]]`), a sample of it is grown and held against them.
 Exit code 3 where anything is wrong.")]
 pub struct Validate {
     /// Files by their paths, shipped scenarios and species by their names.
@@ -31,7 +35,7 @@ pub struct Validate {
 
 impl Validate {
     pub fn obey(self) -> Result<Verdict> {
-        let found: Vec<(&String, Found)> = self.names.iter().map(|name| (name, named::find(name))).collect();
+        let found: Vec<(&String, Found)> = self.names.iter().map(|name| (name, find(name))).collect();
         let wrong = found.iter().filter(|(_, found)| found.is_err()).count();
         if self.json {
             let files: Vec<Value> = found.iter().map(|(name, found)| as_json(name, found)).collect();
@@ -43,6 +47,21 @@ impl Validate {
         }
         Ok(if wrong == 0 { Verdict::Done } else { Verdict::Invalid })
     }
+}
+
+/// Finds what a name stands for, and holds plants grown from it against what was published of its species.
+fn find(name: &str) -> Found {
+    let found = named::find(name)?;
+    let report = match &found {
+        Named::Run(_) => None,
+        Named::Scenario(scenario) => wrong(&scenario.species).map(|faults| scenario.report(faults)),
+        Named::Species(species) => wrong(&species.species).map(|faults| species.report(faults)),
+    };
+    report.map_or(Ok(found), Err)
+}
+
+fn wrong(species: &Species) -> Option<Vec<Fault>> {
+    Some(sample::faults(species)).filter(|faults| !faults.is_empty())
 }
 
 fn tell(name: &str, found: &Found) -> Result<()> {

@@ -1,36 +1,19 @@
 //! One plant of a run grown again from its seed, and shown at some ages: what meshes and pictures are made of.
 //!
 //! Draws are keyed by the run's seed and the plant, so it is the same plant, with the same component numbers, that the
-//! run has recorded. In a wind each age is shown as a frame that the wind has moved, for that age alone. A plant's prime is
-//! the age at which it is shown where nobody says otherwise. Absent: what is made of it.
+//! run has recorded. In a wind each age is shown as a frame that the wind has moved, for that age alone. Where nobody says
+//! an age, a plant is shown at that of its species or in its prime. Absent: what is made of it.
 
 use super::{place_of, seed_of};
-use anyhow::{Context, Result};
-use phytomer_config::{Model, Scenario, Species};
+use anyhow::Result;
+use phytomer_config::{Scenario, Species};
 use phytomer_sim::mechanics::Bench;
 use phytomer_sim::mechanics::sway::sway;
 use phytomer_sim::plant::{Kind, Plant};
 use phytomer_sim::shed::shed;
 use phytomer_sim::site::Wind;
 use phytomer_sim::{Ending, Growth, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
-use serde::Deserialize;
-use serde_json::json;
 use std::borrow::Cow;
-
-/// A species by itself is shown at no later age than this.
-pub const ALONE_UNTIL: Tick = phytomer_config::SPECIES_ALONE_UNTIL;
-
-/// Nor at one at which it is expected to have more components.
-const MOST_ALONE: f64 = 300_000.0;
-
-/// Plants of a species by itself: each number below is one of them.
-const PLANTS_ALONE: u32 = 1000;
-
-/// The most components of such a plant: it may be of any species.
-const MOST_COMPONENTS_ALONE: u32 = 4_000_000;
-
-/// The level of a geometric model that is shown: that of the figures of Aono & Kunii 1984.
-const LEVELS: Tick = 10;
 
 /// Air that moves a plant for one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,9 +57,18 @@ impl Again<'_> {
         }
     }
 
-    /// The age at which a plant is shown where nobody says otherwise: the last one of the scenario at which it bears at
-    /// least nine tenths of the largest leaf area that it ever does. Of a plant without leaves internodes and organs are
-    /// counted instead; a geometric model is shown at the last age.
+    /// The age at which a plant is shown where nobody says otherwise: that which its species states (`shown_at`), if the
+    /// scenario has it, else its prime.
+    ///
+    /// # Errors
+    /// As [`Again::prime`].
+    pub fn shown_at(&self, species: &Species, plant: u32) -> Result<Tick> {
+        let until = self.scenario.ages.until;
+        species.about.shown_at.filter(|age| (1..=until).contains(age)).map_or_else(|| self.prime(plant), Ok)
+    }
+
+    /// The last age of the scenario at which a plant bears at least nine tenths of the largest leaf area that it ever does.
+    /// Of a plant without leaves internodes and organs are counted instead; a geometric model has its prime at the last age.
     ///
     /// # Errors
     /// Where it comes to its limit at its first age.
@@ -136,31 +128,6 @@ fn last_of_most(lives: impl Iterator<Item = (Tick, Tick, f64)>, last: Tick) -> O
     let most = sums.iter().copied().fold(0.0, f64::max);
     let age = sums.iter().rposition(|sum| *sum >= 0.9 * most)?;
     (most > 0.0).then_some((age as Tick).max(1))
-}
-
-/// The last age of a species that no scenario grows: [`ALONE_UNTIL`], or the last before it is expected to have three
-/// hundred thousand components; ten levels of a geometric model.
-pub fn alone_until(species: &Species, model: &dyn GrowthModel) -> Tick {
-    if let Model::Gmt1(_) = &species.model {
-        return LEVELS;
-    }
-    let Some(means) = model.expectation(ALONE_UNTIL) else { return ALONE_UNTIL };
-    (1..=ALONE_UNTIL).take_while(|age| means.components(*age) <= MOST_ALONE).last().unwrap_or(1)
-}
-
-/// A scenario made up for a species by itself, to be grown to an age: a thousand plants to choose from.
-///
-/// # Errors
-/// Where the species' name is none.
-pub fn scenario_alone(name: &str, species: &Species, until: Tick) -> Result<Scenario> {
-    let scenario = Scenario::deserialize(json!({
-        "name": species.about.name,
-        "species": name,
-        "plants": PLANTS_ALONE,
-        "ages": {"until": until},
-        "limits": {"max_components": MOST_COMPONENTS_ALONE},
-    }));
-    scenario.context("cannot make a scenario for the species")
 }
 
 /// Shows the first plant of a plot at some ages.

@@ -3,14 +3,15 @@
 
 use super::law::{Count, CountForm, Law, LawForm, Normal, Poisson, Variate, VariateForm};
 use super::params::{
-    Apex, ApexEnd, Axillary, CountedLeaves, DragLaw, Flower, GrowthUnit, Leaf, Pattern, Phase, Phyllotaxis, Quantity,
-    Reiteration, Relay, Rhythmic, Season, ShortUnit, SpeedText, Speeds, ThickeningRule, Transition, Traumatic, Trend,
-    UprightingLaw, Wood, Zone,
+    Apex, ApexEnd, Axillary, CountedLeaves, DragLaw, Flower, Fruit, GrowthUnit, Leaf, OrganTrend, Pattern, Phase,
+    Phyllotaxis, Quantity, Reiteration, Relay, Rhythmic, Season, ShortUnit, SpeedText, Speeds, ThickeningRule,
+    Transition, Traumatic, Trend, UprightingLaw, Wood, Zone,
 };
 use super::params::{End, Internode};
 use super::{Buds, Order};
 use crate::contract;
 use crate::fault::Path;
+use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::{ApexFate, Kind, NodeId, Origin};
 use std::collections::BTreeMap;
 
@@ -27,6 +28,10 @@ fn expression(text: &str) -> Law {
     Law::from(LawForm { expression: Some(text.to_owned()), ..LawForm::default() })
 }
 
+fn turning(inclination: f64, share: &str) -> OrganTrend {
+    OrganTrend { inclination_deg: inclination.into(), share: expression(share) }
+}
+
 /// Random counts, polycyclism, short units, delays, states, reiteration both ways, terminal flowers and relays below.
 fn chimera() -> Buds {
     let short = ShortUnit { probability: Law::from(0.3), nodes: Count::from(1), length_cm: Variate::from(0.2) };
@@ -39,7 +44,13 @@ fn chimera() -> Buds {
         state: Some("branch".to_owned()),
         ..Axillary::default()
     };
-    let growing_up = Transition { from: "juvenile".to_owned(), to: "adult".to_owned(), probability: Law::from(0.2) };
+    let growing_up = Transition {
+        from: "juvenile".to_owned(),
+        to: "adult".to_owned(),
+        probability: Law::from(0.2),
+        sibling: None,
+        relayed: false,
+    };
     let trunk = Order {
         death: Law::from(0.05),
         pause: Law::from(0.2),
@@ -98,13 +109,24 @@ fn hydra() -> Buds {
             pattern: Pattern::Rhythmic(Rhythmic { zones }),
             ..Axillary::default()
         },
-        apex: Apex { units: Some(poisson(3.0)) },
+        apex: Apex { units: Some(poisson(3.0)), ..Apex::default() },
         relay: Relay { on: vec![ApexEnd::Death, ApexEnd::Completed], probability: Law::from(0.4), ..Relay::default() },
-        transition: vec![Transition { from: "long".to_owned(), to: "short".to_owned(), probability: Law::from(0.3) }],
+        transition: vec![Transition {
+            from: "long".to_owned(),
+            to: "short".to_owned(),
+            probability: Law::from(0.3),
+            sibling: None,
+            relayed: false,
+        }],
         internode: Internode { length_cm: normal(4.0, 1.0), ..Internode::default() },
         insertion_deg: Variate::from(45.0),
         trend: Trend::Composite(phases),
-        leaf: Leaf { per_node: Count::from(3), ..Leaf::default() },
+        leaf: Leaf {
+            per_node: Count::from(3),
+            trend: Some(turning(150.0, "min(1, 0.25 * dimension)")),
+            ..Leaf::default()
+        },
+        fruit: Fruit { trend: Some(turning(180.0, "1")), ..Fruit::default() },
         flower: Flower { lateral: Law::from(0.2), fruit_set: expression("0.25 * rank"), ..Flower::default() },
         ..Order::default()
     };
@@ -226,4 +248,15 @@ fn a_law_of_rank_where_no_rank_applies_is_refused() {
     assert!(ranked(|order, law| order.internode.thickening_mm = law));
     assert!(ranked(|order, law| order.death = law));
     assert!(!ranked(|order, law| order.axillary.ramification = law));
+}
+
+#[test]
+fn organs_turn_by_their_own_age_and_others_do_not() {
+    let habit = hydra().compile(9, &Path::root()).unwrap().habit();
+    let leaf = habit.organ_trend(1, Kind::Leaf).unwrap();
+    assert_eq!(leaf.shares, [0.0, 0.25, 0.5, 0.75, 1.0], "ages past the last are as the last");
+    assert!((f64::from(leaf.cos_inclination) + 0.75_f64.sqrt()).abs() < 1e-6, "150 degrees");
+    assert_eq!(habit.organ_trend(2, Kind::Fruit).unwrap().shares, [1.0]);
+    assert_eq!(habit.organ_trend(1, Kind::Flower), None);
+    assert!(chimera().compile(9, &Path::root()).unwrap().habit().organ_trends.is_empty());
 }

@@ -60,7 +60,12 @@ impl Gmt1Model {
         Self {
             parameters: parameters.clone(),
             children: [child(r1, h1_deg, left_continues), child(r2, h2_deg, !left_continues)],
-            habit: Arc::new(Habit { trends: vec![Trend::STRAIGHT], shapes: vec![Shape::Cylinder], wood: None }),
+            habit: Arc::new(Habit {
+                trends: vec![Trend::STRAIGHT],
+                shapes: vec![Shape::Cylinder],
+                organ_trends: vec![],
+                wood: None,
+            }),
         }
     }
 

@@ -174,7 +174,7 @@ impl<'a> Scene<'a> {
     }
 
     fn placement(&self, organ: OrganId) -> Placement {
-        let frame = organ_frame(self.plant, organ);
+        let frame = organ_frame(self.plant, organ, self.age);
         let organs = &self.plant.organs;
         let node = organs.node[organ.index()];
         let out = outward(self.plant.frames.heading[node.index()], frame.heading);

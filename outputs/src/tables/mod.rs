@@ -30,6 +30,7 @@ pub(crate) use part::{Part, PartReport};
 pub(crate) use records::{RecordColumns, Row as RecordRow, Scene};
 pub(crate) use single::record_values;
 pub(crate) use standing::Standing;
+pub use summary::Summary;
 pub(crate) use summary::{SummaryColumns, summarise};
 
 use schema::Column;

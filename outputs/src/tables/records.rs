@@ -160,7 +160,7 @@ impl Scene<'_> {
             kind: organs.kind[i],
             rank: nodes.rank[node.index()],
             birth: organs.birth[i],
-            frame: organ_frame(self.plant, organ),
+            frame: organ_frame(self.plant, organ, self.age),
             length: organs.length[i],
             diameter: organs.width[i],
             diameter_tip: f32::NAN,

@@ -4,6 +4,7 @@
 
 use super::buffers::{NULL, columns};
 use super::standing::{Standing, organ_end};
+use crate::error::Error;
 use phytomer_sim::plant::{AxisId, Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::node_frame;
 use phytomer_sim::{Plot, Tick};
@@ -19,21 +20,46 @@ columns! {
     }
 }
 
-/// One plant at one age; what is null in the table is NaN here.
-#[derive(Debug, Clone, Default)]
+/// One plant at one age.
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Summary {
-    internodes: u32,
-    leaves: u32,
-    flowers: u32,
-    fruits: u32,
-    buds: u32,
-    dead_internodes: u32,
-    axes: u32,
-    max_order: u8,
-    height: f64,
-    crown_width: f64,
-    leaf_area: f64,
-    wood_volume: f64,
+    /// Living internodes.
+    pub internodes: u32,
+    /// Living leaves.
+    pub leaves: u32,
+    /// Open flowers.
+    pub flowers: u32,
+    /// Fruits.
+    pub fruits: u32,
+    /// Living apical buds.
+    pub buds: u32,
+    /// Dead internodes that still stand.
+    pub dead_internodes: u32,
+    /// Axes that stand.
+    pub axes: u32,
+    /// The highest order of them.
+    pub max_order: u8,
+    /// The height of the tip of the highest living internode, m; NaN (null in the table) where none lives.
+    pub height: f64,
+    /// The mean of the widths of what lives along x and y, m; NaN where no internode lives.
+    pub crown_width: f64,
+    /// The area of one side of all leaves, m².
+    pub leaf_area: f64,
+    /// The volume of all internodes that stand, m³.
+    pub wood_volume: f64,
+}
+
+impl Summary {
+    /// Sums up `plant`, posed at `age`.
+    ///
+    /// # Errors
+    /// A plant of more components than fit a table.
+    pub fn of(plant: &Plant, age: Tick) -> Result<Self, Error> {
+        let mut standing = Standing::default();
+        standing.read(plant)?;
+        standing.find_tips(plant, age);
+        Ok(summarise(plant, &standing, age))
+    }
 }
 
 /// Sums up `plant` at `age`; `standing` has the tips of its axes at that age.
@@ -46,23 +72,28 @@ pub fn summarise(plant: &Plant, standing: &Standing, age: Tick) -> Summary {
 }
 
 fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
-    let nodes = &plant.nodes;
+    let Plant { axes, nodes, .. } = plant;
     let mut low = [f32::INFINITY; 3];
     let mut high = [f32::NEG_INFINITY; 3];
-    for node in 0..nodes.len() {
-        if nodes.birth[node] > age || age >= nodes.shed[node] {
+    // The internodes of an axis die and fall together.
+    for run in 0..nodes.runs.len() {
+        let (axis, standing) = nodes.born(run, age);
+        if axes.shed[axis.index()] <= age {
             continue;
         }
-        summary.wood_volume += frustum(nodes.length[node], nodes.diameter[node], nodes.diameter_tip[node]);
-        if age >= nodes.death[node] {
-            summary.dead_internodes += 1;
+        let frusta = standing.clone().map(|i| frustum(nodes.length[i], nodes.diameter[i], nodes.diameter_tip[i]));
+        summary.wood_volume = frusta.fold(summary.wood_volume, |sum, frustum| sum + frustum);
+        if age >= axes.death[axis.index()] {
+            summary.dead_internodes += standing.len() as u32;
             continue;
         }
-        summary.internodes += 1;
-        let tip = node_frame(plant, NodeId(node as u32)).base;
-        for k in 0..3 {
-            low[k] = low[k].min(tip[k]);
-            high[k] = high[k].max(tip[k]);
+        summary.internodes += standing.len() as u32;
+        for node in standing {
+            let tip = node_frame(plant, NodeId(node as u32)).base;
+            for k in 0..3 {
+                low[k] = low[k].min(tip[k]);
+                high[k] = high[k].max(tip[k]);
+            }
         }
     }
     let extent = |k: usize| f64::from(high[k]) - f64::from(low[k]);

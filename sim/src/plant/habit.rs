@@ -4,6 +4,8 @@
 //! turns smoothly towards its trend. Where a trend is a random variable each axis has one of its own ([`OwnTrends`]).
 
 use super::axis::AxisId;
+use super::kind::Kind;
+use crate::clock::Tick;
 use crate::mechanics::{Thickening, Wood};
 use std::ops::Range;
 
@@ -23,6 +25,39 @@ impl Trend {
     pub const STRAIGHT: Self = Self { cos_inclination: 1.0, sin_inclination: 0.0, share: 0.0 };
 }
 
+/// How the organs of one kind turn in the vertical plane in which they stand: leaves that sink, fruits that hang,
+/// inflorescences that stand upright.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OrganTrend {
+    /// Cosine of the angle between the direction tended to and the upward vertical.
+    pub cos_inclination: f32,
+    /// Sine of the same angle.
+    pub sin_inclination: f32,
+    /// The share of the way to that direction that an organ has turned from its insertion, in [0, 1], by its own age in
+    /// ticks; ages past the last are as the last.
+    pub shares: Vec<f32>,
+}
+
+impl OrganTrend {
+    /// The turn of an organ that is `old` ticks old.
+    #[inline]
+    pub fn at(&self, old: Tick) -> Trend {
+        let share = self.shares.get(old as usize).or(self.shares.last()).copied().unwrap_or(0.0);
+        Trend { cos_inclination: self.cos_inclination, sin_inclination: self.sin_inclination, share }
+    }
+}
+
+/// How the organs of one order turn; `None`: they keep their insertion.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct OrganTrends {
+    /// Its leaves.
+    pub leaf: Option<OrganTrend>,
+    /// Its flowers.
+    pub flower: Option<OrganTrend>,
+    /// Its fruits.
+    pub fruit: Option<OrganTrend>,
+}
+
 /// The shape of an internode at rest (de Reffye 1988 §4).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
@@ -39,6 +74,8 @@ pub struct Habit {
     pub trends: Vec<Trend>,
     /// The shape of internodes, by order from 1.
     pub shapes: Vec<Shape>,
+    /// How organs turn, by order from 1; empty where none does.
+    pub organ_trends: Vec<OrganTrends>,
     /// The mechanics of its wood; `None` where diameters follow the model's law and nothing bends.
     pub wood: Option<Wood>,
 }
@@ -47,6 +84,18 @@ impl Habit {
     /// How internodes gain diameter.
     pub fn thickening(&self) -> Thickening {
         self.wood.as_ref().map_or(Thickening::Law, |wood| wood.thickening)
+    }
+
+    /// How organs of a kind turn on axes of `order`; `None` where they keep their insertion.
+    #[inline]
+    pub fn organ_trend(&self, order: u8, kind: Kind) -> Option<&OrganTrend> {
+        let of = self.organ_trends.get(usize::from(order).checked_sub(1)?)?;
+        match kind {
+            Kind::Leaf => of.leaf.as_ref(),
+            Kind::Flower => of.flower.as_ref(),
+            Kind::Fruit => of.fruit.as_ref(),
+            _ => None,
+        }
     }
 
     /// The shape of the internodes of `order`; orders past the last are as the last.

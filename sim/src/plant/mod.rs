@@ -18,7 +18,7 @@ pub(crate) mod standing;
 
 pub use axis::{ApexFate, ApicalBud, Axes, AxisId, NewAxis, Origin};
 pub use event::{Event, EventKind};
-pub use habit::{Habit, OwnTrends, Shape, Trend};
+pub use habit::{Habit, OrganTrend, OrganTrends, OwnTrends, Shape, Trend};
 pub use key::LineageKey;
 pub use kind::{Cause, Form, Kind};
 pub use node::{NewNode, NodeId, Nodes};

@@ -36,6 +36,13 @@ pub(super) struct Slope {
     pub r: f64,
 }
 
+/// What stands in `frame`, turned once.
+pub(super) fn turned(frame: Frame, trend: &Trend) -> Frame {
+    let (plane, slope) = Plane::of(&frame);
+    let slope = slope.turned(trend);
+    Frame { base: frame.base, heading: plane.heading(slope).single(), up: plane.up(slope).single() }
+}
+
 impl Plane {
     /// The plane and the first slope of an axis that starts in `frame`, whose directions need only be nearly unit.
     pub fn of(frame: &Frame) -> (Self, Slope) {

@@ -12,6 +12,7 @@ mod course;
 mod scan;
 mod stated;
 
+use crate::clock::Tick;
 use crate::math::sincosf;
 use crate::plant::{AxisId, NodeId, OrganId, Plant};
 use scan::Tip;
@@ -27,8 +28,8 @@ pub struct Frames {
     pub up: Vec<[f32; 3]>,
     /// Where each axis goes on from, in double precision: one entry an axis.
     tips: Vec<Tip>,
-    /// How many nodes have their frame, from the first on.
-    posed: usize,
+    /// The age before which they are made: what appeared earlier has its frame.
+    posed: Tick,
 }
 
 impl Frames {
@@ -45,17 +46,22 @@ impl Frames {
         self.posed = 0;
     }
 
-    /// Room for the frames of every node and the tip of every axis, to be posed now; the first node that had none.
-    fn begin(&mut self, nodes: usize, axes: usize) -> usize {
+    /// Room for the frames of every node and the tip of every axis, to be posed up to `age`; the age before which they
+    /// were.
+    fn begin(&mut self, nodes: usize, axes: usize, age: Tick) -> Tick {
         self.resize_nodes(nodes);
         self.tips.resize(axes, Tip::default());
-        std::mem::replace(&mut self.posed, nodes)
+        std::mem::replace(&mut self.posed, age + 1)
     }
 
     fn resize_nodes(&mut self, nodes: usize) {
-        self.base.resize(nodes, [0.0; 3]);
-        self.heading.resize(nodes, [0.0; 3]);
-        self.up.resize(nodes, [0.0; 3]);
+        for column in [&mut self.base, &mut self.heading, &mut self.up] {
+            if column.is_empty() {
+                // Zeroed by the system as it comes to be written, instead of twice.
+                *column = vec![[0.0; 3]; nodes];
+            }
+            column.resize(nodes, [0.0; 3]);
+        }
     }
 }
 
@@ -94,24 +100,35 @@ impl Frame {
     }
 }
 
-/// Poses every internode of `plant` that has no frame yet. The frames of the others stay: the pose at rest of a node
-/// depends on the nodes before it alone, and to the last bit neither on the order in which the axes grew nor on how
-/// often the plant was posed.
-pub fn pose(plant: &mut Plant) {
+/// Poses every internode of `plant` that appeared by `age` and has no frame yet. The frames of the others stay: the pose
+/// at rest of a node depends on the nodes before it alone, and to the last bit neither on the order in which the axes grew
+/// nor on how often the plant was posed.
+pub fn pose(plant: &mut Plant, age: Tick) {
+    if age < plant.frames.posed {
+        return;
+    }
     if plant.stated_headings.is_empty() {
-        scan::follow_trends(plant);
+        scan::follow_trends(plant, age);
     } else {
-        stated::follow_headings(plant);
+        stated::follow_headings(plant, age);
     }
 }
 
-/// The pose of an organ on its node, whose frame must be there. The base lies on the line of the axis, at the node;
+/// The pose at `age` of an organ on its node, whose frame must be there: its insertion, turned as far as the habit's trend
+/// for its kind has turned it in the ticks since its birth. The base lies on the line of the axis, at the node;
 /// whoever draws the organ moves it out to the surface of the stem.
 #[inline]
-pub fn organ_frame(plant: &Plant, organ: OrganId) -> Frame {
-    let organs = &plant.organs;
+pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
+    let Plant { organs, nodes, axes, habit, .. } = plant;
     let organ = organ.index();
-    node_frame(plant, organs.node[organ]).inserted(organs.azimuth[organ], organs.insertion[organ])
+    let node = organs.node[organ];
+    let inserted = node_frame(plant, node).inserted(organs.azimuth[organ], organs.insertion[organ]);
+    if habit.organ_trends.is_empty() {
+        return inserted;
+    }
+    let order = axes.order[nodes.axis[node.index()].index()];
+    let trend = habit.organ_trend(order, organs.kind[organ]);
+    trend.map_or(inserted, |trend| course::turned(inserted, &trend.at(age.saturating_sub(organs.birth[organ]))))
 }
 
 /// The frame at the tip of an internode, where its node is: the directions of the internode, its end as the base.

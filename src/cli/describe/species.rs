@@ -4,6 +4,7 @@
 //! the schema has (`phytomer schema species`).
 
 use anyhow::Result;
+use phytomer_config::published::{Measure, Published, Range};
 use phytomer_config::{Model, Species};
 use phytomer_models::buds::Order;
 use phytomer_models::buds::params::Wood;
@@ -76,7 +77,16 @@ fn heading(species: &Species) -> String {
             let _ = writeln!(text, "  {name:<18} {}", value.split_whitespace().collect::<Vec<_>>().join(" "));
         }
     }
+    about.published.iter().for_each(|row| published(row, &mut text));
     text
+}
+
+/// What was published of its plants at one age.
+fn published(row: &Published, text: &mut String) {
+    let range =
+        |(measure, [least, most]): (Measure, Range)| format!("{} {least} to {most}{}", measure.name(), measure.unit());
+    let ranges: Vec<String> = row.ranges().map(range).collect();
+    let _ = writeln!(text, "  {:<18} {}", format!("at age {}", row.at_age), ranges.join(", "));
 }
 
 /// The wood: what it is like, how stiff and heavy, whether it bends and how it thickens.

@@ -6,8 +6,8 @@
 
 use super::domain;
 use crate::buds::law::{
-    Count, CountTable, Domain, Law, ProbabilityTable, Quantity, SpeedTable, ValueRange, ValueTable, Variate,
-    VariateTable,
+    At, Constant, Count, CountTable, Domain, Law, ProbabilityTable, Quantity, SpeedTable, ValueRange, ValueTable,
+    Variate, VariateTable,
 };
 use crate::buds::params::{Buds, Season};
 use crate::fault::{Fault, Path};
@@ -58,6 +58,11 @@ impl<'a> Compiler<'a> {
     /// How many orders the species has.
     pub fn orders(&self) -> usize {
         self.buds.order.len()
+    }
+
+    /// The names of the species's states.
+    pub fn state_names(&self) -> &[String] {
+        &self.buds.states
     }
 
     /// From now on laws may depend on ranks up to `rank`; on none, if that is 0.
@@ -160,6 +165,28 @@ impl<'a> Compiler<'a> {
         let domain = Domain { max_cycle: self.domain.until, max_rank: 0, ..self.domain.clone() };
         let compiled = law.compile_value(&domain, &self.at("internode.thickening_mm"), MEASURE);
         self.accept(compiled).unwrap_or_else(|| ValueTable::always(0.0))
+    }
+
+    /// A share by the own age of a thing, from 0; ages past the last are as the last.
+    pub fn share_by_own_age(&mut self, law: &Law, keys: &str) -> Vec<f32> {
+        let until = self.domain.until;
+        let domain = Domain { max_cycle: until, max_rank: 0, ..self.domain.clone() };
+        let compiled = law.compile_value(&domain, &self.at(keys), SHARE);
+        let table = self.accept(compiled).unwrap_or_else(|| ValueTable::always(0.0));
+        let at = |own| At { age: until, dimension: own, cycle: own, rank: 0, state: 0 };
+        let mut shares: Vec<f32> = (0..=until).map(|own| table.value(at(own))).collect();
+        while shares.len() > 1 && shares[shares.len() - 1] == shares[shares.len() - 2] {
+            shares.pop();
+        }
+        shares
+    }
+
+    /// A number that is not drawn.
+    pub fn constant(&mut self, number: &Constant, keys: &str, range: ValueRange) -> f64 {
+        number.within(&self.at(keys), range).unwrap_or_else(|fault| {
+            self.faults.push(fault);
+            range.min
+        })
     }
 
     /// A whole number of a species, from 1 to `most`, which `what` names with an article.

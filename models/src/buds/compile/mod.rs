@@ -8,6 +8,7 @@ mod compiler;
 mod geometry;
 mod head;
 mod node;
+mod organs;
 mod relay;
 mod step;
 mod trend;
@@ -18,7 +19,7 @@ mod zone;
 pub(super) use head::HeadLaws;
 pub(super) use node::NodeLaws;
 pub(super) use relay::{Branching, EndLaws};
-pub(super) use step::StepLaws;
+pub(super) use step::{Passage, StepLaws};
 pub(super) use zone::{Ranks, Zones};
 
 use super::law::{Domain, ValueTable};
@@ -26,7 +27,7 @@ use super::params::Buds;
 use crate::fault::{Fault, Path};
 use compiler::Compiler;
 use phytomer_sim::clock::LAST_TICK;
-use phytomer_sim::plant::{Habit, Shape, Trend};
+use phytomer_sim::plant::{Habit, OrganTrends, Shape, Trend};
 use std::sync::Arc;
 
 /// The most orders that a species may have.
@@ -62,9 +63,11 @@ impl Buds {
         let mut faults = self.check(until, path);
         let mut orders = Vec::new();
         let mut trends = Vec::new();
+        let mut organ_trends = Vec::new();
         for index in 0..self.order.len().min(MOST_ORDERS) {
             let mut compiler = Compiler::new(self, index, until.min(LAST_TICK), path);
             orders.push(OrderLaws::compile(self, index, &mut compiler, &mut trends));
+            organ_trends.push(organs::trends(&self.order[index], &mut compiler));
             faults.append(&mut compiler.faults);
         }
         let wood = wood::compile(self, until.min(LAST_TICK), path, &mut faults);
@@ -73,8 +76,11 @@ impl Buds {
             faults.dedup();
             return Err(faults);
         }
-        let habit =
-            Habit { trends, shapes: self.order.iter().map(|order| Shape::from(order.internode.shape)).collect(), wood };
+        if organ_trends.iter().all(|of| *of == OrganTrends::default()) {
+            organ_trends.clear();
+        }
+        let shapes = self.order.iter().map(|order| Shape::from(order.internode.shape)).collect();
+        let habit = Habit { trends, shapes, organ_trends, wood };
         let states = self.states.len().max(1);
         Ok(BudModel { orders, states, until, habit: Arc::new(habit) })
     }

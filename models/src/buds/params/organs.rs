@@ -3,7 +3,7 @@
 //! Lateral organs stand in the axils of their node, terminal flowers at the end of their axis. Absent: how organs are
 //! drawn, which is known by their form's name alone.
 
-use crate::buds::law::{Count, Law, Quantity, Variate};
+use crate::buds::law::{Constant, Count, Law, Quantity, Variate};
 use phytomer_sim::plant::Form;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -17,6 +17,19 @@ pub struct Season {
     /// The tick of the year, from 0, at whose beginning a leaf falls that appeared before it; drawn once a leaf, with its
     /// laws asked at the node, so that leaves may fall one after another.
     pub leaf_fall: Count,
+}
+
+/// How organs turn in the vertical plane in which they stand: leaves that sink as they age, fruits that hang,
+/// inflorescences that stand upright.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OrganTrend {
+    /// The angle to the upward vertical that the organ turns to, degrees in [0, 180]: 0 upright, 180 hanging.
+    #[schemars(extend("minimum" = 0, "maximum" = 180))]
+    pub inclination_deg: Constant,
+    /// The share of the way from its insertion to that direction that an organ has turned, in [0, 1]: a law of its own age,
+    /// which is `dimension` and `cycle` here, in ticks; 1 leaves nothing of the insertion but its azimuth.
+    pub share: Law,
 }
 
 /// The leaves of a node.
@@ -37,6 +50,9 @@ pub struct Leaf {
     pub area_share: Variate,
     /// The angle between the axis and the leaf, degrees.
     pub insertion_deg: Variate,
+    /// How a leaf turns as it ages; left out: it keeps its insertion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trend: Option<OrganTrend>,
     /// The form that it is drawn with.
     pub form: FormName,
 }
@@ -50,6 +66,7 @@ impl Default for Leaf {
             width_cm: Variate::from(2.5),
             area_share: Variate::from(0.7),
             insertion_deg: Variate::from(60.0),
+            trend: None,
             form: FormName::Elliptic,
         }
     }
@@ -78,6 +95,9 @@ pub struct Flower {
     pub width_cm: Variate,
     /// The angle between the axis and a lateral flower, degrees.
     pub insertion_deg: Variate,
+    /// How a flower turns as it ages; left out: it keeps its insertion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trend: Option<OrganTrend>,
     /// The form that it is drawn with.
     pub form: FormName,
 }
@@ -94,6 +114,7 @@ impl Default for Flower {
             length_cm: Variate::from(1.0),
             width_cm: Variate::from(1.0),
             insertion_deg: Variate::from(45.0),
+            trend: None,
             form: FormName::Corolla,
         }
     }
@@ -109,6 +130,9 @@ pub struct Fruit {
     pub length_cm: Variate,
     /// Width, cm.
     pub width_cm: Variate,
+    /// How a fruit turns as it ages, from the insertion of its flower; left out: it keeps it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trend: Option<OrganTrend>,
     /// The form that it is drawn with.
     pub form: FormName,
 }
@@ -119,6 +143,7 @@ impl Default for Fruit {
             life: Count::from(1),
             length_cm: Variate::from(1.0),
             width_cm: Variate::from(1.0),
+            trend: None,
             form: FormName::Berry,
         }
     }

@@ -1,0 +1,32 @@
+//! How organs turn with their age, compiled: a share for each tick of an organ's life.
+//!
+//! A trend is asked with the organ's own age as dimension and cycle, at the last age that the run reaches: an organ knows
+//! how old it is, not how old its plant is. Absent: the turning itself, which is the pose's.
+
+use super::compiler::Compiler;
+use crate::buds::law::ValueRange;
+use crate::buds::params::{Order, OrganTrend as Stated};
+use phytomer_sim::math::{cos, sin};
+use phytomer_sim::plant::{OrganTrend, OrganTrends};
+
+const INCLINATION: ValueRange = ValueRange { min: 0.0, max: 180.0, what: "an angle to the vertical in degrees" };
+
+/// How the organs of an order turn.
+pub fn trends(order: &Order, compiler: &mut Compiler) -> OrganTrends {
+    let mut of = |stated: &Option<Stated>, keys| stated.as_ref().map(|stated| trend(stated, keys, compiler));
+    OrganTrends {
+        leaf: of(&order.leaf.trend, "leaf.trend"),
+        flower: of(&order.flower.trend, "flower.trend"),
+        fruit: of(&order.fruit.trend, "fruit.trend"),
+    }
+}
+
+fn trend(stated: &Stated, keys: &str, compiler: &mut Compiler) -> OrganTrend {
+    let inclination = compiler.constant(&stated.inclination_deg, &format!("{keys}.inclination_deg"), INCLINATION);
+    let inclination = inclination.to_radians();
+    OrganTrend {
+        cos_inclination: cos(inclination) as f32,
+        sin_inclination: sin(inclination) as f32,
+        shares: compiler.share_by_own_age(&stated.share, &format!("{keys}.share")),
+    }
+}

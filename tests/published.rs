@@ -1,0 +1,65 @@
+//! What was published of the shipped species holds of grown plants, and `validate` tells where it does not.
+//!
+//! The sample is that of `phytomer::sample`: the default seed, means over the living plants. Absent: laws, whose fit to
+//! measured counts is tested apart, and how a plant looks.
+
+mod program;
+
+use phytomer::sample::compare;
+use phytomer_config::{Kind, presets, validate_species};
+use program::run;
+use std::fs;
+use tempfile::tempdir;
+
+#[test]
+fn grown_plants_of_every_shipped_species_lie_in_the_published_ranges() {
+    let mut wrong = Vec::new();
+    for (name, _) in presets(Kind::Species) {
+        let species = validate_species(name, 1).unwrap_or_else(|report| panic!("{}", report.render(false))).species;
+        for compared in compare(&species).unwrap_or_else(|faults| panic!("{name}: {faults:?}")) {
+            let [least, most] = compared.range;
+            let (measure, unit) = (compared.measure.name(), compared.measure.unit());
+            let told =
+                format!("{name}, age {}: {measure} {:.3}{unit} of {least} to {most}", compared.at_age, compared.found);
+            println!("{told}");
+            if !compared.fits() {
+                wrong.push(told);
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A stem of one internode of 10 cm a tick, which a test can measure in its head.
+fn stem(published: &str) -> String {
+    format!(
+        "name = \"stem\"\nmodel = \"buds\"\ntick = \"one year\"\n{published}\n[[order]]\ninternode = {{ length_cm = 10 }}\n"
+    )
+}
+
+#[test]
+fn validate_tells_where_a_sample_is_not_as_published() {
+    let folder = tempdir().unwrap();
+    let of = |published: &str, code: i32| {
+        fs::write(folder.path().join("stem.toml"), stem(published)).unwrap();
+        run(folder.path(), &["validate", "stem.toml"]).ending(code)
+    };
+    let row = "[[published]]\nat_age = 20\nsource = \"a flora\"\n";
+    of(&format!("{row}height_m = [1.99, 2.01]\nleaves = [20, 20]\nliving = [1, 1]"), 0);
+    let told = of(&format!("{row}height_m = [3, 4]"), 3).stderr;
+    for words in ["height of 16 plants is 2.000 m on average at age 20", "3 to 4 m: a flora", "stem.toml:7:12"] {
+        assert!(told.contains(words), "`{words}` is missing in\n{told}");
+    }
+    let told = of(&format!("{row}living = [0.4, 0.6]"), 3).stderr;
+    assert!(told.contains("share that lives of 16 plants is 1.000 on average"), "{told}");
+}
+
+#[test]
+fn a_law_that_does_not_reach_the_published_age_is_a_fault_of_the_law() {
+    let folder = tempdir().unwrap();
+    let published = "[[published]]\nat_age = 200\nheight_m = [1, 100]\nsource = \"a flora\"\n";
+    let law = "death = { linear = { over = \"age\", start = 0, slope = 0.008 } }\n";
+    fs::write(folder.path().join("stem.toml"), stem(published) + law).unwrap();
+    let told = run(folder.path(), &["validate", "stem.toml"]).ending(3).stderr;
+    assert!(told.contains("death"), "{told}");
+}
