@@ -97,6 +97,7 @@ fn drawn(portrait: &Portrait, size: [u32; 2]) -> Result<Canvas> {
     let style = Picture {
         size,
         view: View::Perspective,
+        turn: None,
         transparent: false,
         ground: true,
         caption: true,

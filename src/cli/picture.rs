@@ -3,7 +3,7 @@
 //! Plants stand side by side in one scale: each plant at each age. Where no age is given a plant is drawn in its prime.
 //! Absent: drawing, which is `phytomer_outputs::pictures`'.
 
-use super::regrown::{Breeze, Regrown, beside, keep};
+use super::regrown::{Breeze, Regrown, beside, finite, keep};
 use super::{Misuse, Verdict, amounts, terminal};
 use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
@@ -56,6 +56,10 @@ pub struct Picture {
     /// From where the plants are seen.
     #[arg(long, value_enum, default_value_t = From::Perspective)]
     view: From,
+    /// Go on around the plants by so many degrees, counterclockwise from above; a flat plant is seen in perspective from
+    /// where it is wide if not given.
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = finite)]
+    turn: Option<f64>,
     /// Width and height, pixels.
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1600x1200", value_parser = size)]
     size: [u32; 2],
@@ -142,6 +146,7 @@ impl Picture {
         let style = Style {
             size: self.size,
             view: view.unwrap_or(View::Front),
+            turn: self.turn.map(|turn| (turn % 360.0).to_radians() as f32),
             transparent: self.transparent,
             ground: !self.no_ground,
             caption: !self.no_caption,

@@ -33,9 +33,10 @@ impl Gaze {
         }
     }
 
-    /// Straight down, the Y axis up the picture.
-    pub fn down() -> Self {
-        Self { right: Vec3::X, up: Vec3::Y, forward: Vec3::NEG_Z }
+    /// Straight down, the Y axis up the picture, turned to the left by an angle.
+    pub fn down(turn: f32) -> Self {
+        let (sin, cos) = sincosf(turn);
+        Self { right: Vec3::new(cos, sin, 0.0), up: Vec3::new(-sin, cos, 0.0), forward: Vec3::NEG_Z }
     }
 }
 

@@ -81,6 +81,17 @@ pub fn scale_bar(canvas: &mut Canvas, scale: f32, room: f32, size: f32, [left, l
     write(canvas, &length_in_words(length), size, [0.5 * (left + right), line - 0.75 * size], Align::Middle);
 }
 
+/// As much of a line of text as fits into `room` pixels.
+pub fn fitting(text: &str, size: f32, room: f32) -> String {
+    let mut fitting = text.to_owned();
+    while width(&fitting, size) > room && fitting.chars().count() > 2 {
+        fitting = fitting.trim_end_matches('…').to_owned();
+        fitting.pop();
+        fitting = format!("{}…", fitting.trim_end());
+    }
+    fitting
+}
+
 /// Writes labels around their places on a line, on a second line above where the first is taken, and not at all where
 /// both are.
 pub fn write_row(canvas: &mut Canvas, labels: &[(f32, &str)], size: f32, line: f32) {

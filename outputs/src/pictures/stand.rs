@@ -69,14 +69,27 @@ impl<'a> Standing<'a> {
         self.boxes.iter().fold([self.place; 2], |[low, high], [a, b]| [low.min(*a), high.max(*b)])
     }
 
-    /// How far it reaches as it grew, to be seen along a gaze within tangents.
-    pub fn extent(&self, gaze: Gaze, tangents: [f32; 4]) -> Extent {
+    /// How wide it is along a direction, about: the boxes of its blocks are.
+    pub fn width(&self, right: Vec3) -> f32 {
+        let full = self.boxes.iter().filter(|[low, high]| low.x <= high.x);
+        let ends = full.fold([0.0_f32; 2], |[least, most], [low, high]| {
+            let (middle, half) = (0.5 * (*low + *high) - self.place, 0.5 * (*high - *low));
+            let (at, reach) = (middle.dot(right), half.dot(right.abs()));
+            [least.min(at - reach), most.max(at + reach)]
+        });
+        ends[1] - ends[0]
+    }
+
+    /// How far it reaches as it grew, to be seen along a gaze within tangents; what lies below its foot counts where it is
+    /// to be seen too.
+    pub fn extent(&self, gaze: Gaze, tangents: [f32; 4], buried: bool) -> Extent {
+        let lowest = if buried { f32::NEG_INFINITY } else { self.place.z };
         let empty = || Extent::new(gaze, tangents);
         let mut extent = self.each_block(
             |_| true,
             |mesh| {
                 let mut extent = empty();
-                mesh.vertices.iter().map(at).for_each(|point| extent.add(point));
+                mesh.vertices.iter().map(at).filter(|point| point.z >= lowest).for_each(|point| extent.add(point));
                 extent
             },
             empty,

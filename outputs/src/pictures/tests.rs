@@ -1,8 +1,8 @@
 //! Pictures against closed forms: where points come to lie, how large a ball and a tube are, which of two triangles is seen,
 //! how long a shadow is, how much an edge covers, how long the scale bar is; and that threads show nowhere.
 
-use super::camera::{Camera, Frame, Gaze, Lens, tangents};
-use super::caption::{INK, bar_length, length_in_words};
+use super::camera::{Camera, Frame, Lens, tangents};
+use super::caption::{INK, bar_length, length_in_words, letter_size};
 use super::extent::Extent;
 use super::film::{Film, Paint};
 use super::raster::{UPRIGHT, Window, cover};
@@ -22,12 +22,27 @@ fn window(width: u32, height: u32) -> Window {
 }
 
 fn picture(size: [u32; 2], view: View) -> Picture {
-    Picture { size, view, transparent: true, ground: false, caption: false, sun: None, sides: 8, colour_by: None }
+    Picture {
+        size,
+        view,
+        turn: None,
+        transparent: true,
+        ground: false,
+        caption: false,
+        sun: None,
+        sides: 8,
+        colour_by: None,
+    }
 }
 
 /// One upright internode.
 fn pole(length: f32, diameter: f32) -> Plant {
-    let habit = Habit { trends: vec![Trend::STRAIGHT], shapes: vec![Shape::Cylinder], wood: None };
+    let habit = Habit {
+        trends: vec![Trend::STRAIGHT],
+        organ_trends: Default::default(),
+        shapes: vec![Shape::Cylinder],
+        wood: None,
+    };
     let mut plant =
         Plant::new(&Seed { plant: 0, run_seed: 1, component_limit: 9, keep_events: false }, Arc::new(habit));
     let axis = plant.add_axis(NewAxis {
@@ -59,7 +74,7 @@ fn pole(length: f32, diameter: f32) -> Plant {
         diameter,
         azimuth,
     });
-    pose(&mut plant);
+    pose(&mut plant, 1);
     plant
 }
 
@@ -76,7 +91,7 @@ fn points_come_to_lie_where_they_should() {
     let seen = camera.project(Vec3::new(2.0, 10.0, 3.0)).unwrap();
     assert!((seen - Vec3::new(60.0, 30.0, 0.05)).length() < 1e-4, "{seen}");
     assert_eq!(camera.project(Vec3::new(0.0, -11.0, 0.0)), None, "behind the eye");
-    let plan = Camera::parallel(Gaze::down(), [0.0, 0.0], [-5.0, 0.0], 8.0, [50.0, 40.0]);
+    let plan = Camera::parallel(Gaze::down(0.0), [0.0, 0.0], [-5.0, 0.0], 8.0, [50.0, 40.0]);
     let seen = plan.project(Vec3::new(1.0, 2.0, 5.0)).unwrap();
     assert!((seen.x, seen.y) == (58.0, 24.0) && seen.z > plan.project(Vec3::ZERO).unwrap().z, "{seen}");
     for camera in [camera, plan] {
