@@ -119,7 +119,10 @@ impl<'a> Cast<'a> {
         let feet = self.plants.iter().map(|plant| camera.project(plant.foot()).map_or(0.0, |foot| foot.x));
         let labels: Vec<(f32, &str)> = feet.zip(self.labels.iter().copied()).collect();
         if let [(x, label)] = labels[..] {
-            let crowded = x + 0.5 * letters::width(label, size) + size > edge - letters::width(&title, size);
+            let half = 0.5 * letters::width(label, size);
+            let x = x.max(half + size).min(width - half - size);
+            let free = [2.6 * size + 0.16 * width, edge - letters::width(&title, size) - size];
+            let crowded = x - half < free[0] || x + half > free[1];
             write(canvas, label, size, [x, if crowded { line - 1.9 * size } else { line }], Align::Middle);
         } else {
             write_row(canvas, &labels, size, line - 2.9 * size);

@@ -14,7 +14,7 @@ use super::sky::Crown;
 use crate::meshes::{Mesh, MeshOptions, Scene, Tag, Vertex};
 use glam::Vec3;
 use phytomer_sim::Tick;
-use phytomer_sim::plant::{Kind, Plant};
+use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
 use rayon::prelude::*;
 
 /// A plant at an age in a picture.
@@ -25,6 +25,7 @@ pub struct Standing<'a> {
     colours: Option<Vec<[u8; 3]>>,
     /// The boxes of its blocks; those of empty ones are inside out.
     boxes: Vec<[Vec3; 2]>,
+    stuff: [Stuff; Kind::ALL.len()],
     /// Where it grew.
     place: Vec3,
     /// From there to where it stands in the picture.
@@ -51,7 +52,15 @@ impl<'a> Standing<'a> {
                 .fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)])
         });
         let boxes = boxes.collect();
-        Self { scene, colours, boxes, place: Vec3::from_array(plant.place), offset: Vec3::ZERO, number }
+        Self {
+            scene,
+            colours,
+            boxes,
+            stuff: stuff(plant),
+            place: Vec3::from_array(plant.place),
+            offset: Vec3::ZERO,
+            number,
+        }
     }
 
     /// Where it grew.
@@ -110,7 +119,7 @@ impl<'a> Standing<'a> {
                     let vertices = face.indices().map(|index| &mesh.vertices[index as usize]);
                     let corners = vertices.map(at);
                     shadow.cast(&corners);
-                    crown.add(&corners, is_thin(&vertices[0].tag()));
+                    crown.add(&corners, self.stuff_of(&vertices[0].tag()).thin);
                 }
             },
             || (),
@@ -138,15 +147,14 @@ impl<'a> Standing<'a> {
     }
 
     fn expose_block(&self, seen: &Seen, film: &Film, window: &Window, painting: bool) {
-        let nowhere = f32::NAN;
         for face in &seen.mesh.faces {
             let indices = face.indices().map(|index| index as usize);
             let corners = indices.map(|index| seen.corners[index]);
             let vertices = indices.map(|index| &seen.mesh.vertices[index]);
             let tag = vertices[0].tag();
-            let thin = is_thin(&tag);
+            let Stuff { thin, closed } = self.stuff_of(&tag);
             // The far side of what is closed is never seen. Corners behind the eye are no numbers and compare as false.
-            if corners[0].x == nowhere || (!thin && is_closed(&tag) && turn(&corners) > 0.0) {
+            if closed && turn(&corners) > 0.0 {
                 continue;
             }
             if painting {
@@ -156,6 +164,11 @@ impl<'a> Standing<'a> {
                 film.deepen(&corners, window);
             }
         }
+    }
+
+    #[inline]
+    fn stuff_of(&self, tag: &Tag) -> Stuff {
+        self.stuff[usize::from(tag.kind) % Kind::ALL.len()]
     }
 
     fn paint(&self, tag: &Tag, thin: bool) -> Paint {
@@ -217,13 +230,30 @@ fn at(vertex: &Vertex) -> Vec3 {
     Vec3::from_array(vertex.position())
 }
 
-fn is_thin(tag: &Tag) -> bool {
-    tag.kind == Kind::Leaf as u8 || tag.kind == Kind::Flower as u8
+/// What the components of each kind are for light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Stuff {
+    /// Light comes through, and both sides are seen: leaves, flowers, internodes that are blades.
+    thin: bool,
+    /// Its far side is never seen: internodes that are tubes and nothing else.
+    closed: bool,
 }
 
-/// Only wood is known to be closed.
-fn is_closed(tag: &Tag) -> bool {
-    tag.kind == Kind::Internode as u8 || tag.kind == Kind::ShortInternode as u8
+/// The stuff of each kind of a plant.
+fn stuff(plant: &Plant) -> [Stuff; Kind::ALL.len()] {
+    let looks = &plant.habit.looks.internodes;
+    Kind::ALL.map(|kind| {
+        let stem = kind.class() == Class::Internode;
+        let look =
+            |look: &&InternodeLook| look.kind == kind || (kind == Kind::ShortInternode && look.kind == Kind::Internode);
+        let thin = if stem { looks.iter().filter(look).any(|look| look.shape == Shape::Blade) } else { is_leafy(kind) };
+        let closed = stem && looks.iter().filter(look).all(|look| look.form.is_none() && look.shape != Shape::Blade);
+        Stuff { thin, closed }
+    })
+}
+
+fn is_leafy(kind: Kind) -> bool {
+    matches!(kind.class(), Class::Leaf | Class::Flower) && kind != Kind::Strobilus
 }
 
 /// A colour made a little lighter or darker, warmer or cooler, as leaves differ; the same for a component at every age.

@@ -11,7 +11,7 @@ use super::sky::{Crown, falling_on};
 use super::*;
 use phytomer_sim::NEVER;
 use phytomer_sim::math::{sincosf, tan};
-use phytomer_sim::plant::{Habit, LineageKey, NewAxis, NewNode, NodeId, Origin, Seed, Shape, Trend};
+use phytomer_sim::plant::{Habit, LineageKey, Looks, NewAxis, NewNode, NodeId, Origin, Seed, Shape, Trend};
 use phytomer_sim::pose::pose;
 use std::sync::Arc;
 
@@ -37,12 +37,8 @@ fn picture(size: [u32; 2], view: View) -> Picture {
 
 /// One upright internode.
 fn pole(length: f32, diameter: f32) -> Plant {
-    let habit = Habit {
-        trends: vec![Trend::STRAIGHT],
-        organ_trends: Default::default(),
-        shapes: vec![Shape::Cylinder],
-        wood: None,
-    };
+    let looks = Looks::of_shape(Shape::Cylinder);
+    let habit = Habit { trends: vec![Trend::STRAIGHT], looks, ..Default::default() };
     let mut plant =
         Plant::new(&Seed { plant: 0, run_seed: 1, component_limit: 9, keep_events: false }, Arc::new(habit));
     let axis = plant.add_axis(NewAxis {
