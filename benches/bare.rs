@@ -75,12 +75,12 @@ impl Bare {
         });
         plain_write_of_growth(&mut group, &grown.plants[0]);
         group.finish();
-        pose(&mut plot.plants[0]);
+        pose(&mut plot.plants[0], self.until);
         let mut group = self.group(criterion, "frames (internodes)", internodes);
         group.bench_function("pose", |bencher| {
             bencher.iter(|| {
                 plot.plants[0].frames.clear();
-                pose(&mut plot.plants[0]);
+                pose(&mut plot.plants[0], self.until);
             });
         });
         plain_write_of_frames(&mut group, &plot.plants[0]);

@@ -1,8 +1,10 @@
-//! Writes the list of shipped presets: every `*.toml` under `presets/species` and `presets/scenarios`.
+//! Writes the list of shipped presets: every `*.toml` under `presets/species`, `presets/halle` and `presets/scenarios`.
 //!
-//! A preset's name is its path below that folder without `.toml` (`gmt1/5a`). The walk is sorted, so that the same
-//! files give the same program. Absent: any reading of them; a preset is checked like a user's file.
+//! A preset's name is its path below `species` or `scenarios` without `.toml` (`gmt1/5a`); the architectural models are
+//! species too and keep their folder's name (`halle/massart`). Names are sorted, so that the same files give the same
+//! program. Absent: any reading of them; a preset is checked like a user's file.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -10,13 +12,20 @@ use std::{env, fs, io};
 fn main() -> io::Result<()> {
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR").map_err(io::Error::other)?).join("presets");
     let mut code = String::new();
-    for (name, folder) in [("SPECIES", "species"), ("SCENARIOS", "scenarios")] {
-        let mut files = Vec::new();
-        walk(&root.join(folder), &mut files)?;
+    for (name, folders) in
+        [("SPECIES", [("species", "species"), ("halle", "")]), ("SCENARIOS", [("scenarios", "scenarios"); 2])]
+    {
+        let mut presets = BTreeMap::new();
+        for (folder, below) in folders {
+            let mut files = Vec::new();
+            walk(&root.join(folder), &mut files)?;
+            for file in files {
+                let path = file.strip_prefix(root.join(below)).map_err(io::Error::other)?.with_extension("");
+                presets.insert(path.to_string_lossy().replace('\\', "/"), file);
+            }
+        }
         let _ = writeln!(code, "static {name}: &[(&str, &str)] = &[");
-        for file in &files {
-            let below = file.strip_prefix(root.join(folder)).map_err(io::Error::other)?.with_extension("");
-            let preset = below.to_string_lossy().replace('\\', "/");
+        for (preset, file) in presets {
             let _ = writeln!(code, "    ({preset:?}, include_str!({:?})),", file.to_string_lossy());
         }
         code.push_str("];\n");

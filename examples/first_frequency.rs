@@ -3,7 +3,7 @@
 //!
 //! cargo run --release --example first_frequency
 //!
-//! The poplar is the shipped `rauh` with green cottonwood (7.0 GPa, *Wood Handbook*; 850 kg/m³ assumed) and no change of
+//! The poplar is the shipped `poplar` with green cottonwood (7.0 GPa, *Wood Handbook*; 850 kg/m³ assumed) and no change of
 //! its diameters; the frequency is that of its trunk as a clamped cylinder that carries the whole crown.
 
 use phytomer_config::{Model, validate_species};
@@ -38,7 +38,7 @@ impl Recorder for Rows {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
-    let species = validate_species("rauh", UNTIL).map_err(|report| report.summary())?.species;
+    let species = validate_species("poplar", UNTIL).map_err(|report| report.summary())?.species;
     let Model::Buds(mut poplar) = species.model else { return Err("the poplar grows from buds".into()) };
     let wood = Wood { modulus_gpa: Some(7.0.into()), density_kg_m3: Some(850.0.into()), ..Wood::default() };
     poplar.wood = Some(wood);

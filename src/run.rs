@@ -7,6 +7,7 @@
 //!
 //! Absent: growth (`sim`, `models`), files (`outputs`), and everything that a person sees (`cli`).
 
+pub mod again;
 pub mod drawing;
 pub mod forecast;
 mod plan;

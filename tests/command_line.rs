@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 use tempfile::{TempDir, tempdir};
 
-const VERBS: [&str; 7] = ["init", "grow", "validate", "describe", "list", "schema", "mesh"];
+const VERBS: [&str; 8] = ["init", "grow", "validate", "describe", "list", "schema", "mesh", "picture"];
 
 /// A folder with a small finished run in `runs/small`.
 fn grown() -> TempDir {
@@ -136,9 +136,10 @@ fn unknown_names_get_the_nearest_spelling() {
     let folder = tempdir().unwrap();
     for (words, meant) in [
         (["grow", "coffe"], "coffee"),
-        (["describe", "leuwenberg"], "leeuwenberg"),
+        (["describe", "frangipany"], "frangipani"),
         (["describe", "poplar_30"], "poplar_30y"),
         (["validate", "gmt1/5q"], "gmt1/5"),
+        (["grow", "massart"], "halle/massart"),
     ] {
         let told = run(folder.path(), &words).ending(3);
         assert!(told.stderr.contains("did you mean") && told.stderr.contains(meant), "{words:?}: {}", told.stderr);
@@ -161,7 +162,7 @@ fn misuse_ends_with_2() {
         vec!["grow", "small", "--plants", "many"],
         vec!["mesh", "runs/small", "--plant", "12", "--out", "m.ply"],
         vec!["mesh", "runs/small", "--age", "25", "--out", "m.ply"],
-        vec!["mesh", "gmt1/5a", "--out", "m.ply"],
+        vec!["mesh", "gmt1/5a", "--age", "101", "--out", "m.ply"],
     ] {
         let told = run(folder.path(), &words).ending(2);
         assert!(told.stdout.is_empty() && !told.stderr.is_empty());
@@ -319,13 +320,30 @@ fn meshes_per_plant_and_per_age_hold_every_scene() {
 }
 
 #[test]
+fn a_species_by_itself_is_one_plant_at_the_age_at_which_it_is_shown() {
+    let folder = tempdir().unwrap();
+    let grown = run(folder.path(), &["grow", "halle/massart", "--json"]).ending(0).json();
+    let run_json: serde_json::Value =
+        serde_json::from_slice(&fs::read(folder.path().join("runs/halle-massart/run.json")).unwrap()).unwrap();
+    let scenario = &run_json["resolved_scenario"]["scenario"];
+    assert_eq!((&scenario["plants"], &scenario["species"]), (&1.into(), &"halle/massart".into()), "{grown}");
+    let ages: Vec<_> = run_json["recorded_ages"].as_array().unwrap().iter().map(|age| age.as_u64().unwrap()).collect();
+    assert_eq!(ages.last(), scenario["ages"]["until"].as_u64().as_ref());
+    run(folder.path(), &["mesh", "halle/massart", "--out", "m.ply"]).ending(0);
+    assert!(folder.path().join("m.ply").is_file());
+    run(folder.path(), &["init", "mine"]).ending(0);
+    run(folder.path(), &["grow", "mine/species.toml", "--quiet"]).ending(0);
+}
+
+#[test]
 fn lists_have_everything_that_ships() {
     let folder = tempdir().unwrap();
     let all = run(folder.path(), &["list", "--json"]).ending(0).json();
     for (list, name) in [
         ("scenarios", "coffee"),
         ("species", "gmt1/5a"),
-        ("models", "buds"),
+        ("models", "halle/massart"),
+        ("growth-models", "buds"),
         ("woods", "scots_pine"),
         ("kinds", "apical_bud"),
     ] {

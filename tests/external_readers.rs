@@ -13,7 +13,7 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 /// A small plant with branches, leaves and dead wood, drawn with eight sides.
 const SCENARIO: &str = r#"
 name = "readers"
-species = "leeuwenberg"
+species = "frangipani"
 plants = 3
 seed = 7
 ages = { until = 10, record = "all" }

@@ -32,7 +32,7 @@ fn grown(scenario: &str, until: Option<Tick>) -> (Plot, usize) {
     resolved.model.grow_to(until, &mut plot.plants, &plot.site).expect("room to grow");
     plot.plants.iter_mut().for_each(shed);
     resolved.model.thicken(until, &mut plot.plants[0]);
-    pose(&mut plot.plants[0]);
+    pose(&mut plot.plants[0], until);
     let allocated = ALLOCATED.current_usage() - before;
     (plot, allocated)
 }

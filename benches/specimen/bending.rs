@@ -59,7 +59,7 @@ impl Specimen {
         group.bench_function("the pose at rest (baseline)", |bencher| {
             bencher.iter(|| {
                 rest.frames.clear();
-                pose(&mut rest);
+                pose(&mut rest, until);
             });
         });
         group.bench_function("one step, in equilibrium", |bencher| {

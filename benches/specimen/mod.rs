@@ -57,7 +57,7 @@ impl Specimen {
         self.model().grow_to(self.until(), &mut plot.plants, &plot.site).expect("room to grow");
         plot.plants.iter_mut().for_each(shed);
         self.model().thicken(self.until(), &mut plot.plants[0]);
-        pose(&mut plot.plants[0]);
+        pose(&mut plot.plants[0], self.until());
         plot
     }
 
@@ -112,7 +112,7 @@ impl Specimen {
         group.bench_function("pose", |bencher| {
             bencher.iter(|| {
                 plot.plants[0].frames.clear();
-                pose(&mut plot.plants[0]);
+                pose(&mut plot.plants[0], self.until());
             });
         });
         plain_write_of_frames(&mut group, &plot.plants[0]);

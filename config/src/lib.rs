@@ -5,6 +5,7 @@
 //! it and gives a run that can begin.
 //! Absent: growth formulas, and anything that runs.
 
+mod alone;
 mod document;
 mod inherit;
 mod library;

@@ -128,7 +128,8 @@ fn unknown(kind: Kind, name: &str) -> NotFound {
     NotFound {
         problem: format!("there is no {} `{name}`", kind.word()),
         expected: format!("a shipped {} (`phytomer list` has them) or the path of a file", kind.word()),
-        suggestion: near_preset(kind, name),
+        // A species in the place of a scenario is grown by itself.
+        suggestion: near_preset(kind, name).or_else(|| near_preset(Kind::Species, name)),
     }
 }
 
@@ -144,6 +145,9 @@ fn near_file(name: &str, path: &FilePath) -> Option<String> {
     Some(format!("{}{near}.toml", name.strip_suffix(typed).unwrap_or_default()))
 }
 
+/// The preset nearest in spelling; of one in a folder the name without the folder is enough (`massart`).
 fn near_preset(kind: Kind, name: &str) -> Option<String> {
-    nearest(name, presets(kind).iter().map(|(preset, _)| *preset)).map(str::to_owned)
+    let names = || presets(kind).iter().map(|(preset, _)| *preset);
+    let without_folder = |preset: &str| preset.rsplit('/').next().is_some_and(|own| own.eq_ignore_ascii_case(name));
+    names().find(|preset| without_folder(preset)).or_else(|| nearest(name, names())).map(str::to_owned)
 }

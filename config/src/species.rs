@@ -65,6 +65,12 @@ pub struct About {
     /// the ranges. A species that inherits and states its own has none of its ancestors'.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub published: Vec<Published>,
+    /// The age, in ticks, at which a plant shows its architecture: to which a species is grown that is named without a
+    /// scenario, and at which `validate` looks at a sample of it. Left out: 100, or as much earlier as keeps a plant
+    /// small.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 65_535))]
+    pub shown_at: Option<u32>,
 }
 
 impl About {

@@ -4,7 +4,10 @@
 //! that a guess is noise. A missing or wrong unit (`insertion` for `insertion_deg`), or a word half written, is always near.
 //! Absent: any dictionary; candidates are the names that would be right at that place.
 
-/// The candidate nearest to `typed`, if one is near enough; of equals the first in alphabetical order.
+use std::cmp::Reverse;
+
+/// The candidate nearest to `typed`, if one is near enough; of equals the one that begins most alike, then the first in
+/// alphabetical order.
 pub fn nearest<'c>(typed: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     // A longer word is no slip of the hand, and distance is quadratic in its length.
     const LONGEST: usize = 64;
@@ -17,10 +20,12 @@ pub fn nearest<'c>(typed: &str, candidates: impl IntoIterator<Item = &'c str>) -
         .into_iter()
         .filter_map(|candidate| {
             let distance = distance(&plain, &fold(candidate));
-            (distance <= cutoff && distance < candidate.chars().count()).then_some((distance, candidate))
+            let alike = plain.chars().zip(candidate.chars()).take_while(|(a, b)| a == b).count();
+            let near = distance <= cutoff && distance < candidate.chars().count();
+            near.then_some((distance, Reverse(alike), candidate))
         })
         .min()
-        .map(|(_, candidate)| candidate)
+        .map(|(_, _, candidate)| candidate)
 }
 
 /// Case, hyphens and spaces are no difference that a person sees.
@@ -53,5 +58,6 @@ mod tests {
         assert_eq!(nearest("colour", keys), None);
         assert_eq!(nearest("", keys), None);
         assert_eq!(nearest("x", ["a"]), None);
+        assert_eq!(nearest("poplar_30", ["poplar", "poplar_30y"]), Some("poplar_30y"));
     }
 }

@@ -14,14 +14,14 @@ use phytomer_sim::model::GrowthModel;
 use serde_json::{Value as Json, json};
 
 use crate::document::Node;
-use crate::library::Kind;
+use crate::library::{self, Kind};
 use crate::load::{Found, Loader, Mention, integer_at, path_of};
 use crate::meaning;
 use crate::report::{Fault, Report};
 use crate::scenario::Scenario;
 use crate::schema;
 use crate::source::{Source, Sources};
-use crate::species::{Species, any_file};
+use crate::species::{About, Species, any_file};
 
 /// The last age over which a species is checked that is not part of a scenario.
 pub const SPECIES_ALONE_UNTIL: u32 = 100;
@@ -37,7 +37,7 @@ pub struct Resolved {
     pub model: Arc<dyn GrowthModel>,
     /// Every text that was read, for hashes and provenance: the scenario first, then the species and its ancestors.
     pub sources: Sources,
-    tree: Node,
+    pub(crate) tree: Node,
 }
 
 /// A species that can grow.
@@ -49,14 +49,18 @@ pub struct ResolvedSpecies {
     pub model: Arc<dyn GrowthModel>,
     /// The species' text and those of its ancestors.
     pub sources: Sources,
-    tree: Node,
+    pub(crate) tree: Node,
 }
 
-/// Reads and checks a scenario: a shipped one by its name, or a file by its path.
+/// Reads and checks a scenario: a shipped one by its name, or a file by its path. A species in its place is one plant of
+/// it ([`ResolvedSpecies::alone`]).
 ///
 /// # Errors
 /// Every fault of the scenario and of its species.
 pub fn validate(scenario: &str) -> Result<Resolved, Report> {
+    if kind_of(scenario) == Kind::Species && library::find(Kind::Species, scenario, None).is_ok() {
+        return validate_species(scenario, SPECIES_ALONE_UNTIL).map(|species| species.alone(scenario));
+    }
     let mut loader = Loader::default();
     let mention = Mention { name: scenario.to_owned(), place: None };
     let found = loader.find(Kind::Scenario, &mention).and_then(|source| check_scenario(&mut loader, source));
@@ -69,14 +73,17 @@ pub fn validate(scenario: &str) -> Result<Resolved, Report> {
     })
 }
 
-/// Reads and checks a species by itself, over the ages up to `until`.
+/// Reads and checks a species by itself, over the ages up to `until` and up to that at which it says that it is shown.
 ///
 /// # Errors
 /// Every fault of the species.
 pub fn validate_species(species: &str, until: u32) -> Result<ResolvedSpecies, Report> {
     let mut loader = Loader::default();
     let mention = Mention { name: species.to_owned(), place: None };
-    let found = check_species(&mut loader, &mention, Some(until.clamp(1, LAST_TICK)));
+    let until = |about: Option<&About>| {
+        Some(about.and_then(|about| about.shown_at).unwrap_or(1).max(until).clamp(1, LAST_TICK))
+    };
+    let found = check_species(&mut loader, &mention, until);
     conclude(loader, found, |Compiled { species, model, tree }, sources| ResolvedSpecies {
         species,
         model,
@@ -90,7 +97,7 @@ pub fn validate_species(species: &str, until: u32) -> Result<ResolvedSpecies, Re
 pub fn kind_of(name: &str) -> Kind {
     let mut loader = Loader::default();
     let is_path = FilePath::new(name).is_file();
-    let found = crate::library::find(Kind::Scenario, name, None);
+    let found = library::find(Kind::Scenario, name, None);
     let Ok(source) = found else { return if is_path { Kind::Scenario } else { Kind::Species } };
     let (_, node) = loader.parse(source);
     if node.is_some_and(|node| looks_like_species(&node)) { Kind::Species } else { Kind::Scenario }
@@ -131,15 +138,8 @@ struct Compiled {
 type Checked = (Scenario, Compiled);
 
 fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
-    let name = source.name.clone();
     let (_, node) = loader.parse(source);
     let node = node?;
-    if looks_like_species(&node) {
-        let problem = format!("`{name}` is a species and not a scenario");
-        let expected = "a scenario that names it: `species`, `plants` and `ages`";
-        loader.faults.push(Fault::new(node.span, &path_of(&[]), problem, expected));
-        return None;
-    }
     let mut refused = Vec::new();
     schema::check(scenario_schema(), &node, &mut refused);
     loader.faults.extend(refused.iter().cloned());
@@ -149,7 +149,7 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     }
     let until = integer_at(&node, &["ages", "until"]).and_then(|n| u32::try_from(n).ok());
     let mention = species_mention(&node)?;
-    let species = check_species(loader, &mention, until.filter(|n| (1..=LAST_TICK).contains(n)))?;
+    let species = check_species(loader, &mention, |_| until.filter(|n| (1..=LAST_TICK).contains(n)))?;
     let checked = (scenario?, species);
     check_explosion(loader, &node, &checked);
     Some(checked)
@@ -161,12 +161,16 @@ fn species_mention(scenario: &Node) -> Option<Mention> {
     Some(Mention { name: name.to_owned(), place: Some((value.span, path_of(&["species"]))) })
 }
 
-fn check_species(loader: &mut Loader, mention: &Mention, until: Option<u32>) -> Option<Compiled> {
+fn check_species(
+    loader: &mut Loader,
+    mention: &Mention,
+    until: impl Fn(Option<&About>) -> Option<u32>,
+) -> Option<Compiled> {
     let Found { about, model, node } = loader.species(mention)?;
     if let Some(about) = &about {
         tell(loader, &node, about.faults());
     }
-    match model.compile(until?) {
+    match model.compile(until(about.as_ref())?) {
         Ok(compiled) => Some(Compiled { species: Species { about: about?, model }, model: compiled, tree: node }),
         Err(faults) => {
             tell(loader, &node, faults);

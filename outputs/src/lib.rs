@@ -5,6 +5,7 @@
 
 mod error;
 pub mod meshes;
+pub mod pictures;
 pub mod read;
 pub mod run_folder;
 #[cfg(test)]

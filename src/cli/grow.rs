@@ -26,11 +26,13 @@ Examples:
   phytomer grow my_plant/scenario.toml --seed 7 --name another_seed
   phytomer grow coffee --plants 20 --out twenty --threads 2
   phytomer grow coffee --resume
+  phytomer grow halle/massart
 
 Exit code 1 where a plant came to its limit or a file could not be written, 3 where the scenario is wrong, 130 after
 Ctrl-C; --resume then goes on and ends with the same bytes.")]
 pub struct Grow {
-    /// A shipped scenario by its name, or a scenario file by its path.
+    /// A shipped scenario by its name, or a scenario file by its path. A species by itself is one plant, grown to the
+    /// age at which its file says that it shows its architecture.
     scenario: String,
     /// Threads; as many as the machine has if not given. No result depends on it.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]

@@ -1,6 +1,7 @@
 //! `list`: what ships with the program, and the words that files and tables use.
 //!
-//! Scenarios, species, models, woods and kinds of component, each a line. Absent: what they hold, which `describe` tells.
+//! Scenarios, species, the 23 architectural models with their characters, growth models, woods and kinds of component,
+//! each a line. Absent: what they hold, which `describe` tells.
 
 use super::{Verdict, terminal};
 use anyhow::Result;
@@ -10,12 +11,13 @@ use phytomer_outputs::tables::columns::PLANT_ONTOLOGY;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// List what ships: scenarios, species, growth models, woods, kinds of components.
+/// List what ships: scenarios, species, architectural models, growth models, woods, kinds of components.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   phytomer list
   phytomer list species
+  phytomer list models
   phytomer list kinds --json")]
 pub struct List {
     /// One list alone.
@@ -32,8 +34,10 @@ enum Listed {
     Scenarios,
     /// Plants that scenarios can name.
     Species,
-    /// Growth models that a species can choose.
+    /// The 23 architectural models (Hallé, Oldeman & Tomlinson 1978): a species of each, to grow by name.
     Models,
+    /// Growth models that a species can choose.
+    GrowthModels,
     /// Woods that a species can be like.
     Woods,
     /// Kinds of components, as the column `kind` has them.
@@ -48,8 +52,7 @@ struct Entry {
 
 impl List {
     pub fn obey(self) -> Result<Verdict> {
-        let all = [Listed::Scenarios, Listed::Species, Listed::Models, Listed::Woods, Listed::Kinds];
-        let lists = all.into_iter().filter(|list| self.what.is_none_or(|what| what == *list));
+        let lists = Listed::value_variants().iter().copied().filter(|list| self.what.is_none_or(|what| what == *list));
         let lists: Vec<(&str, Vec<Entry>)> = lists.map(|list| (list.title(), list.entries())).collect();
         if self.json {
             let object: serde_json::Map<_, _> =
@@ -69,6 +72,7 @@ impl Listed {
             Self::Scenarios => "scenarios",
             Self::Species => "species",
             Self::Models => "models",
+            Self::GrowthModels => "growth-models",
             Self::Woods => "woods",
             Self::Kinds => "kinds",
         }
@@ -77,8 +81,9 @@ impl Listed {
     fn entries(self) -> Vec<Entry> {
         match self {
             Self::Scenarios => presets(Kind::Scenario).iter().map(|(name, _)| scenario(name)).collect(),
-            Self::Species => presets(Kind::Species).iter().map(|(name, _)| species(name)).collect(),
-            Self::Models => MODELS.map(|model| entry(model.word(), model_in_words(model.word()))).into(),
+            Self::Species => named_species().filter(|name| !is_model(name)).map(species).collect(),
+            Self::Models => named_species().filter(|name| is_model(name)).map(model).collect(),
+            Self::GrowthModels => MODELS.map(|model| entry(model.word(), model_in_words(model.word()))).into(),
             Self::Woods => woods().iter().map(|wood| entry(&wood.name, &wood.scientific_name)).collect(),
             Self::Kinds => PLANT_ONTOLOGY.iter().map(|(kind, term)| entry(kind.tag(), term)).collect(),
         }
@@ -92,6 +97,23 @@ fn entry(name: &str, description: &str) -> Entry {
 fn scenario(name: &str) -> Entry {
     let description = validate(name).ok().and_then(|resolved| resolved.scenario.description);
     entry(name, &first_sentence(description.as_deref().unwrap_or_default()))
+}
+
+fn named_species() -> impl Iterator<Item = &'static str> {
+    presets(Kind::Species).iter().map(|(name, _)| *name)
+}
+
+/// Whether a shipped species is there for its architectural model.
+fn is_model(name: &str) -> bool {
+    name.starts_with("halle/")
+}
+
+/// The characters of an architectural model, and plants that follow it.
+fn model(name: &str) -> Entry {
+    let about = validate_species(name, 1).ok().map(|species| species.species.about);
+    let (characters, examples) = about.map(|about| (about.description, about.scientific_name)).unwrap_or_default();
+    let characters = first_sentence(&characters.unwrap_or_default());
+    entry(name, &format!("{characters} {}", examples.unwrap_or_default()))
 }
 
 fn species(name: &str) -> Entry {

@@ -10,6 +10,8 @@ mod init;
 mod list;
 mod mesh;
 mod named;
+mod picture;
+mod regrown;
 mod schema;
 pub mod terminal;
 mod validate;
@@ -31,6 +33,7 @@ Examples:
   phytomer list                                 everything that ships
   phytomer schema species                       the JSON Schema of a species file
   phytomer mesh coffee --plant 0 --age 12 --out coffee.ply
+  phytomer picture coffee --age 48 --out coffee.png
 
 `phytomer help <verb>` has more of each.";
 
@@ -51,6 +54,7 @@ enum Verb {
     List(list::List),
     Schema(schema::Schema),
     Mesh(mesh::Mesh),
+    Picture(picture::Picture),
 }
 
 /// How the program ends, other than by an error.
@@ -93,6 +97,7 @@ impl Cli {
             Verb::List(verb) => verb.obey(),
             Verb::Schema(verb) => verb.obey(),
             Verb::Mesh(verb) => verb.obey(),
+            Verb::Picture(verb) => verb.obey(),
         }
     }
 }

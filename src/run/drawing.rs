@@ -4,11 +4,13 @@
 //! plants at an age are therefore one file where the run has one part, and one a part where it has more.
 //! Absent: forms and formats, which are `phytomer_outputs::meshes`'.
 
+use super::again::Again;
 use anyhow::{Context, Result, ensure};
 use phytomer_config::scenario::{MeshFile, Meshes};
-use phytomer_config::{Resolved, Scenario};
+use phytomer_config::{Resolved, Scenario, Species};
 use phytomer_outputs::Shard;
 use phytomer_outputs::meshes::{Collection, MeshOptions, MeshWriter, Ply, Scene};
+use phytomer_outputs::pictures::Subject;
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::collections::BTreeMap;
@@ -114,5 +116,60 @@ impl<'a> Drawing<'a> {
             collection.finish().with_context(|| format!("cannot write the mesh {path}"))?;
         }
         Ok(())
+    }
+}
+
+/// The plants of one picture, and what is written on it.
+#[derive(Debug)]
+pub struct Portrait {
+    /// Each plant at each age, with what is written below it.
+    pub subjects: Vec<(Plant, Tick, String)>,
+    /// The name of the species.
+    pub title: String,
+    /// What the file says of itself.
+    pub note: String,
+}
+
+impl Portrait {
+    /// The plants as a picture takes them.
+    pub fn subjects(&self) -> Vec<Subject<'_>> {
+        let all = self.subjects.iter();
+        all.map(|(plant, age, label)| Subject { plant, age: *age, label: label.clone() }).collect()
+    }
+}
+
+/// Grows some plants again and keeps each at some ages: plant after plant, each age by age in the order asked for.
+///
+/// # Errors
+/// Those of growing.
+pub fn portrait(again: &Again, species: &Species, plants: &[u32], ages: &[Tick]) -> Result<Portrait> {
+    let about = &species.about;
+    let mut subjects = Vec::new();
+    for &number in plants {
+        let mut seen = BTreeMap::new();
+        again.show(number, ages, &mut |age, plant| {
+            seen.insert(age, plant.clone());
+            Ok(())
+        })?;
+        for age in ages {
+            let whose = if plants.len() > 1 { format!("plant {number}, ") } else { String::new() };
+            let years = about.ticks_per_year.map(|ticks| in_years(*age, ticks)).unwrap_or_default();
+            let Some(plant) = seen.get(age) else { continue };
+            subjects.push((plant.clone(), *age, format!("{whose}age {age}{years}")));
+        }
+    }
+    let title = about.scientific_name.clone().or_else(|| about.common_name.clone()).unwrap_or(about.name.clone());
+    let note = format!("{}: plants {plants:?} at the ages {ages:?} of seed {}", about.name, again.scenario.seed);
+    Ok(Portrait { subjects, title, note })
+}
+
+/// An age in years, where a tick is not one itself.
+fn in_years(age: Tick, ticks_per_year: f64) -> String {
+    let years = f64::from(age) / ticks_per_year;
+    match years {
+        _ if (ticks_per_year - 1.0).abs() < 1e-9 => String::new(),
+        years if (years - years.round()).abs() < 0.05 && (years - 1.0).abs() < 0.05 => " · 1 year".to_owned(),
+        years if (years - years.round()).abs() < 0.05 => format!(" · {years:.0} years"),
+        years => format!(" · {years:.1} years"),
     }
 }

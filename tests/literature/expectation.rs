@@ -121,6 +121,7 @@ fn cohorts_follow_laws_of_age_and_random_counts() {
         death: Law::from(0.05),
         apex: Apex {
             units: Some(Count::from(CountForm { empirical: Some(vec![0.0, 1.0, 2.0, 1.0]), ..CountForm::default() })),
+            ..Apex::default()
         },
         ..Order::default()
     };
@@ -210,6 +211,10 @@ fn drawn_species() -> Buds {
         ..Order::default()
     };
     let units = Some(weights(&[0.0, 0.0, 1.0, 1.0, 1.0]));
-    let branch = Order { speed: speeds(&["2/3", "3"], &[3.0, 1.0]), apex: Apex { units }, ..Order::default() };
+    let branch = Order {
+        speed: speeds(&["2/3", "3"], &[3.0, 1.0]),
+        apex: Apex { units, ..Apex::default() },
+        ..Order::default()
+    };
     Buds { order: vec![trunk, branch], ..Buds::default() }
 }

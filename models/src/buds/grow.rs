@@ -8,12 +8,12 @@
 //! [`Axis::grow`] takes an axis from any age to any later one; whether a plant grows axis by axis to the end or tick by
 //! tick, each axis makes the same draws at the same steps.
 
-use super::compile::{BudModel, OrderLaws, Ranks};
+use super::compile::{BudModel, OrderLaws, Passage, Ranks};
 use super::law::At;
 use super::params::ApexEnd;
 use phytomer_sim::clock::{NEVER, Speed, Tick};
 use phytomer_sim::plant::{
-    ApexFate, ApicalBud, AxisId, Cause, EventKind, Form, Kind, NewAxis, NewOrgan, NodeId, Plant,
+    ApexFate, ApicalBud, AxisId, Cause, EventKind, Form, Kind, NewAxis, NewOrgan, NodeId, Origin, Plant,
 };
 use phytomer_sim::random::{Purpose, Stream};
 
@@ -48,7 +48,7 @@ impl Words {
 }
 
 /// Reads record `number` of `width` words, after a head of `head` words.
-fn read(stream: &mut Stream, head: usize, number: u32, width: usize, words: &mut [u32]) {
+pub(super) fn read(stream: &mut Stream, head: usize, number: u32, width: usize, words: &mut [u32]) {
     stream.seek(head as u64 + u64::from(number) * width as u64);
     stream.read(&mut words[..width]);
 }
@@ -79,6 +79,8 @@ pub(super) struct Axis<'a> {
     speed: Speed,
     /// The growth units after which the apex ends.
     last_unit: u32,
+    /// Whether it is the first of its set of relays, or no relay.
+    leads: bool,
 }
 
 /// The plant has no room left for what a bud would make.
@@ -99,7 +101,9 @@ impl<'a> Axis<'a> {
             dimension: 0,
             speed: Speed::ONE,
             last_unit: u32::MAX,
+            leads: false,
         };
+        axis.leads = leads(axis.plant, axis.bud.axis);
         axis.read_head();
         axis
     }
@@ -165,7 +169,7 @@ impl<'a> Axis<'a> {
                 return self.end(ApexFate::Completed, EventKind::Completed, ApexEnd::Completed);
             }
         }
-        self.pass_state();
+        self.pass_state()?;
         Ok(true)
     }
 
@@ -213,17 +217,21 @@ impl<'a> Axis<'a> {
     }
 
     /// At most one passage between states, by one word a passage in the order in which they are stated.
-    fn pass_state(&mut self) {
+    fn pass_state(&mut self) -> Result<(), Full> {
         let at = self.at(0);
-        let passage = self
-            .laws
-            .step
-            .transitions
-            .iter()
-            .find(|(from, _, chance)| *from == self.bud.state && chance.happens(&self.words.step, 0, at));
-        if let Some(&(_, to, _)) = passage {
-            self.bud.state = to;
+        let (state, leads) = (self.bud.state, self.leads);
+        let laws = self.laws;
+        let happens =
+            |passage: &&Passage| passage.concerns(state, leads) && passage.chance.happens(&self.words.step, 0, at);
+        let Some(passage) = laws.step.transitions.iter().find(happens) else {
+            return Ok(());
+        };
+        // Its relays start in the state that it leaves, unless the species says otherwise.
+        if passage.relayed {
+            self.follow_passage()?;
         }
+        self.bud.state = passage.to;
+        Ok(())
     }
 
     fn end(&mut self, fate: ApexFate, event: EventKind, end: ApexEnd) -> Result<bool, Full> {
@@ -288,6 +296,18 @@ impl<'a> Axis<'a> {
             fruit.death
         })
     }
+}
+
+/// Whether an axis is the first of the relays, or of the forks, that came together, or neither: they are added one after
+/// another.
+fn leads(plant: &Plant, axis: AxisId) -> bool {
+    let axes = &plant.axes;
+    let (this, Some(before)) = (axis.index(), axis.index().checked_sub(1)) else {
+        return true;
+    };
+    let together = axes.bearer[this] == axes.bearer[before] && axes.appearance[this] == axes.appearance[before];
+    let sets = matches!(axes.origin[this], Origin::Relay | Origin::Fork);
+    !(sets && together && axes.origin[this] == axes.origin[before])
 }
 
 /// Where the laws of the head of an axis are asked.

@@ -141,11 +141,13 @@ impl GrowthModel for BudModel {
     fn thicken(&self, age: Tick, plant: &mut Plant) {
         let added = self.thickening_at(age);
         let Plant { axes, nodes, .. } = plant;
-        for node in 0..nodes.len() {
-            let axis = nodes.axis[node].index();
-            let class = (usize::from(axes.order[axis]) - 1) * self.states + usize::from(axes.state[axis]);
-            let own_age = age.saturating_sub(nodes.birth[node]) as usize;
-            nodes.diameter[node] = nodes.primary_diameter[node] + added[class][own_age];
+        for run in 0..nodes.runs.len() {
+            let (axis, born) = nodes.born(run, age);
+            let axis = axis.index();
+            let added = &added[(usize::from(axes.order[axis]) - 1) * self.states + usize::from(axes.state[axis])];
+            for node in born {
+                nodes.diameter[node] = nodes.primary_diameter[node] + added[(age - nodes.birth[node]) as usize];
+            }
         }
         taper(plant, age);
     }

@@ -4,7 +4,7 @@
 //! of a node are spread evenly around it, the first at the node's azimuth, each axillary bud in the axil of its leaf.
 
 use super::compile::Branching;
-use super::grow::{Axis, FlowerSite, Full, add_axis, leaf_fall};
+use super::grow::{Axis, FlowerSite, Full, add_axis, leaf_fall, read};
 use super::law::At;
 use super::params::ApexEnd;
 use phytomer_sim::clock::NEVER;
@@ -18,9 +18,10 @@ const TURN: f32 = 2.0 * std::f32::consts::PI;
 #[derive(Debug, Clone, Copy)]
 struct BudSite {
     node: NodeId,
-    rank: u32,
     order: u8,
     origin: Origin,
+    /// The number of its place, for the lineage key.
+    place: u64,
     /// Which of the buds of its kind, from 0.
     position: u32,
     azimuth: f32,
@@ -85,7 +86,7 @@ impl Axis<'_> {
             unit_rank: u16::try_from(rank).unwrap_or(u16::MAX),
             short,
             neoformed,
-            trend: self.laws.head.trends.at(along, &self.words.trends),
+            trend: self.laws.head.trends.at(along, self.bud.state, &self.words.trends),
             length: length.draw(words, 0, at),
             diameter: laws.diameter.draw(words, 0, at),
             azimuth: self.bud.azimuth,
@@ -146,9 +147,9 @@ impl Axis<'_> {
         for position in 0..buds {
             let site = BudSite {
                 node,
-                rank: self.bud.rank,
                 order,
                 origin: Origin::Axillary,
+                place: Place::Axillary(position as u16).on(self.bud.rank),
                 position,
                 azimuth: azimuth + spacing * position as f32,
             };
@@ -166,9 +167,9 @@ impl Axis<'_> {
             if laws.node.reiteration.chance.happens(&self.words.on_node, position, at) {
                 let site = BudSite {
                     node,
-                    rank: self.bud.rank,
                     order: laws.node.reiteration_order,
                     origin: Origin::Adaptive,
+                    place: Place::Reiteration(position as u16).on(self.bud.rank),
                     position,
                     azimuth: azimuth + spacing * position as f32,
                 };
@@ -182,30 +183,74 @@ impl Axis<'_> {
         let laws = &self.laws.end;
         let relayed = laws.is_relayed(end);
         let released = end == ApexEnd::Death && !laws.traumatic.chance.table.is_never();
-        let Some(node) = self.own_last_node().filter(|_| relayed || released) else {
+        let completed = end == ApexEnd::Completed && (laws.fork.is_some() || laws.persists.is_some());
+        let Some(node) = self.own_last_node().filter(|_| relayed || released || completed) else {
             return Ok(());
         };
-        self.read_end();
-        let below = laws.below.draw(&self.words.end, 0, self.at(0));
+        self.read_end(0);
+        let (rank, below) = (self.bud.rank, laws.below.draw(&self.words.end, 0, self.at(0)));
         if relayed && self.bud.rank > below {
-            self.relays(node, below);
+            self.relays(node, below, |position| Place::Relay(position).on(rank - below));
         }
         if released {
             self.release(node);
         }
+        if end == ApexEnd::Completed {
+            self.fork(node);
+        }
         if self.plant.is_overgrown() { Err(Full) } else { Ok(()) }
     }
 
-    fn read_end(&mut self) {
-        if self.laws.end.width > 0 {
+    /// The relays of an axis that passes into another state and lives on.
+    pub(super) fn follow_passage(&mut self) -> Result<(), Full> {
+        let laws = &self.laws.end;
+        let Some(node) = self.own_last_node() else {
+            return Ok(());
+        };
+        // The record of the end comes first; then one a clock step.
+        self.read_end(self.bud.cycle);
+        let (rank, below) = (self.bud.rank, laws.below.draw(&self.words.end, 0, self.at(0)));
+        if rank > below {
+            // Named by the node at which the axis passed: two passages may put their relays on one node.
+            self.relays(node, below, |position| Place::Passage(position).on(rank));
+        }
+        if self.plant.is_overgrown() { Err(Full) } else { Ok(()) }
+    }
+
+    fn read_end(&mut self, record: u32) {
+        let width = self.laws.end.width;
+        if width > 0 {
             let key = self.plant.axes.key[self.bud.axis.index()];
             let mut stream = self.plant.random.stream(key, Purpose::Relay);
-            self.words.end.iter_mut().for_each(|word| *word = stream.word());
+            read(&mut stream, 0, record, width, &mut self.words.end);
+        }
+    }
+
+    /// The equal axes into which a completed apex divides.
+    fn fork(&mut self, node: NodeId) {
+        let laws = self.laws;
+        let at = self.at(0);
+        let persists = laws.end.persists.as_ref().map_or(0, |ticks| ticks.draw(&self.words.end, 0, at));
+        self.plant.axes.spent[self.bud.axis.index()] = self.tick.saturating_add(persists);
+        let Some(fork) = &laws.end.fork else {
+            return;
+        };
+        let count = fork.count.draw(&self.words.end, 0, at);
+        for position in 0..count {
+            let site = BudSite {
+                node,
+                order: laws.number,
+                origin: Origin::Fork,
+                place: Place::Fork(position as u16).on(self.bud.rank),
+                position,
+                azimuth: self.bud.azimuth + TURN / count as f32 * position as f32,
+            };
+            self.branch(site, fork, EventKind::Forked, true, at);
         }
     }
 
     /// Relays from the node that stands `below` nodes below the last one.
-    fn relays(&mut self, last: NodeId, below: u32) {
+    fn relays(&mut self, last: NodeId, below: u32, place: impl Fn(u16) -> u64) {
         let laws = self.laws;
         let at = self.at(0);
         // The first relay stands where the first leaf of the node above would: phyllotaxis goes on.
@@ -214,11 +259,11 @@ impl Axis<'_> {
             first = self.plant.nodes.azimuth[node.index()];
             node = self.plant.nodes.parent[node.index()];
         }
-        let rank = self.bud.rank - below;
         let count = laws.end.relay.count.draw(&self.words.end, 0, at);
         for position in 0..count {
             let azimuth = first + TURN / count as f32 * position as f32;
-            let site = BudSite { node, rank, order: laws.number, origin: Origin::Relay, position, azimuth };
+            let (order, place) = (laws.number, place(position as u16));
+            let site = BudSite { node, order, origin: Origin::Relay, place, position, azimuth };
             if laws.end.relay.chance.happens(&self.words.end, position, at) {
                 self.branch(site, &laws.end.relay, EventKind::Relayed, true, at);
             }
@@ -234,8 +279,9 @@ impl Axis<'_> {
         for position in (0..32).filter(|position| dormant >> position & 1 == 1) {
             if laws.end.traumatic.chance.happens(&self.words.end, position, at) {
                 let azimuth = first + spacing * position as f32;
-                let rank = self.bud.rank;
-                let site = BudSite { node, rank, order: laws.number, origin: Origin::Traumatic, position, azimuth };
+                let place = Place::Relay(64 + position as u16).on(self.bud.rank);
+                let (order, origin) = (laws.number, Origin::Traumatic);
+                let site = BudSite { node, order, origin, place, position, azimuth };
                 self.branch(site, &laws.end.traumatic, EventKind::Reiterated, true, at);
             }
         }
@@ -245,15 +291,9 @@ impl Axis<'_> {
     fn branch(&mut self, site: BudSite, laws: &Branching, event: EventKind, end: bool, at: At) {
         let words = if end { &self.words.end } else { &self.words.on_node };
         let position = site.position as u16;
-        let place = match site.origin {
-            Origin::Axillary => Place::Axillary(position),
-            Origin::Adaptive => Place::Reiteration(position),
-            Origin::Traumatic => Place::Relay(64 + position),
-            Origin::Relay | Origin::Seed => Place::Relay(position),
-        };
         let new = NewAxis {
             bearer: Some(site.node),
-            key: self.plant.axes.key[self.bud.axis.index()].child(place.on(site.rank)),
+            key: self.plant.axes.key[self.bud.axis.index()].child(site.place),
             order: site.order,
             origin: site.origin,
             position,

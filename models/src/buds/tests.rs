@@ -44,7 +44,13 @@ fn chimera() -> Buds {
         state: Some("branch".to_owned()),
         ..Axillary::default()
     };
-    let growing_up = Transition { from: "juvenile".to_owned(), to: "adult".to_owned(), probability: Law::from(0.2) };
+    let growing_up = Transition {
+        from: "juvenile".to_owned(),
+        to: "adult".to_owned(),
+        probability: Law::from(0.2),
+        sibling: None,
+        relayed: false,
+    };
     let trunk = Order {
         death: Law::from(0.05),
         pause: Law::from(0.2),
@@ -103,9 +109,15 @@ fn hydra() -> Buds {
             pattern: Pattern::Rhythmic(Rhythmic { zones }),
             ..Axillary::default()
         },
-        apex: Apex { units: Some(poisson(3.0)) },
+        apex: Apex { units: Some(poisson(3.0)), ..Apex::default() },
         relay: Relay { on: vec![ApexEnd::Death, ApexEnd::Completed], probability: Law::from(0.4), ..Relay::default() },
-        transition: vec![Transition { from: "long".to_owned(), to: "short".to_owned(), probability: Law::from(0.3) }],
+        transition: vec![Transition {
+            from: "long".to_owned(),
+            to: "short".to_owned(),
+            probability: Law::from(0.3),
+            sibling: None,
+            relayed: false,
+        }],
         internode: Internode { length_cm: normal(4.0, 1.0), ..Internode::default() },
         insertion_deg: Variate::from(45.0),
         trend: Trend::Composite(phases),

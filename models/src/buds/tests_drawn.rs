@@ -68,7 +68,7 @@ fn species(n: &Numbers) -> Buds {
         trend: Trend::Composite(vec![phase(1, 12.3), phase(4, 45.1)]),
         leaf,
         growth_unit: GrowthUnit { nodes: weights(&[0.0, 1.0, 1.0, 2.0]), ..GrowthUnit::default() },
-        apex: Apex { units: Some(weights(&[0.0, 0.0, 1.0, 1.0, 1.0])) },
+        apex: Apex { units: Some(weights(&[0.0, 0.0, 1.0, 1.0, 1.0])), ..Apex::default() },
         relay: Relay { on: vec![ApexEnd::Completed], below: (n.count)(1), ..Relay::default() },
         axillary: Axillary {
             buds: Count::from(1),
@@ -267,7 +267,7 @@ fn a_leaf_draws_its_share_and_its_fall() {
 fn a_unit_draws_its_zones_and_a_set_of_relays_its_node() {
     let order = Order {
         growth_unit: GrowthUnit { nodes: Count::from(5), ..GrowthUnit::default() },
-        apex: Apex { units: Some(Count::from(2)) },
+        apex: Apex { units: Some(Count::from(2)), ..Apex::default() },
         relay: Relay {
             on: vec![ApexEnd::Completed],
             count: Count::from(2),
@@ -311,7 +311,7 @@ fn a_unit_draws_its_zones_and_a_set_of_relays_its_node() {
 fn drawn_numbers_keep_the_contract_of_growth_models() {
     let mut all = drawn();
     all.order[0].speed = speeds(&["1", "1/2"], None);
-    all.order[0].apex = Apex { units: Some(weights(&[0.0, 0.0, 0.0, 1.0, 1.0])) };
+    all.order[0].apex = Apex { units: Some(weights(&[0.0, 0.0, 0.0, 1.0, 1.0])), ..Apex::default() };
     all.order[0].relay = Relay { on: vec![ApexEnd::Completed], below: weights(&[1.0, 1.0, 1.0]), ..Relay::default() };
     all.order[0].growth_unit = GrowthUnit { nodes: weights(&[0.0, 1.0, 1.0, 1.0]), ..GrowthUnit::default() };
     all.order[0].axillary.pattern = zones(weights(&[0.0, 1.0, 1.0]), weights(&[0.0, 1.0, 2.0]));

@@ -78,7 +78,7 @@ fn order(plant: &Plant, i: usize) {
     let right = match plant.axes.origin[i] {
         Origin::Seed | Origin::Adaptive => order >= 1,
         Origin::Axillary => order == bearing + 1,
-        Origin::Relay | Origin::Traumatic => order == bearing,
+        Origin::Relay | Origin::Traumatic | Origin::Fork => order == bearing,
     };
     let origin = plant.axes.origin[i].tag();
     assert!(right, "the order of an axis follows from its origin: axis {i}, {origin}, has {order} on {bearing}");
@@ -164,7 +164,7 @@ pub fn events_tell_the_plant(plant: &Plant, until: Tick) {
         assert!(event.tick >= 1 && past, "events other than a fall lie in 1..={until}: {event:?}");
         match event.kind {
             EventKind::Grew => nodes[axis] += event.count,
-            EventKind::Branched | EventKind::Relayed | EventKind::Reiterated => {
+            EventKind::Branched | EventKind::Relayed | EventKind::Reiterated | EventKind::Forked => {
                 appeared[axis] += 1;
                 assert_eq!(Some(event.kind), appearance_of(plant.axes.origin[axis]), "an axis appears by its origin");
                 assert_eq!(event.tick, plant.axes.appearance[axis], "an axis appears when it does: {event:?}");
@@ -185,6 +185,7 @@ fn appearance_of(origin: Origin) -> Option<EventKind> {
         Origin::Axillary => Some(EventKind::Branched),
         Origin::Relay => Some(EventKind::Relayed),
         Origin::Traumatic | Origin::Adaptive => Some(EventKind::Reiterated),
+        Origin::Fork => Some(EventKind::Forked),
     }
 }
 
@@ -216,7 +217,7 @@ pub(super) fn standing(plant: &Plant, age: Tick) -> impl Iterator<Item = usize> 
 /// # Panics
 /// Where it does not.
 pub fn poses(plant: &mut Plant) {
-    pose(plant);
+    pose(plant, plant.age);
     let frames = &plant.frames;
     for column in [&frames.base, &frames.heading, &frames.up] {
         assert_eq!(column.len(), plant.nodes.len(), "the pose has a frame for each internode");

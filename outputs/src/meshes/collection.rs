@@ -139,7 +139,7 @@ mod tests {
         let mut plot = Plot::of_one(&Sapling, &seed);
         Sapling.grow_to(6, &mut plot.plants, &plot.site).unwrap();
         Sapling.thicken(6, &mut plot.plants[0]);
-        pose(&mut plot.plants[0]);
+        pose(&mut plot.plants[0], 6);
         let scene = Scene::new(&plot.plants[0], 6, &MeshOptions::default());
         let about = scene.about(1);
         let mut alone = Vec::new();

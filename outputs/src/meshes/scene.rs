@@ -9,11 +9,16 @@ use super::MeshOptions;
 use super::chunk::{Chunk, Face, Sink, Tag, Vertex};
 use super::forms::{Placement, Shape, shape};
 use super::tube::{Frustum, Tube};
-use super::{About, colour};
+use super::{About, Mesh, colour};
+use bytemuck::Zeroable;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::organ_frame;
 use std::io;
+use std::ops::Range;
+
+/// The entries of a column that one block of a scene goes through.
+const BLOCK: usize = 256;
 
 /// Below this sine of its insertion angle an organ stands on the tip of the stem, not on its side.
 const TERMINAL: f32 = 1e-3;
@@ -100,24 +105,58 @@ impl<'a> Scene<'a> {
         sink(chunk)
     }
 
+    /// How many blocks [`Scene::block`] has.
+    pub fn blocks(&self) -> usize {
+        self.plant.nodes.len().div_ceil(BLOCK) + self.plant.organs.len().div_ceil(BLOCK)
+    }
+
+    /// Makes `mesh` the vertices and triangles of one block of neighbouring components, the triangles by the numbers of
+    /// the block's own vertices. All blocks in their order are the mesh of the scene; each can be made by itself, on any
+    /// thread. A block may be empty.
+    pub fn block(&self, block: usize, mesh: &mut Mesh) {
+        mesh.vertices.clear();
+        mesh.faces.clear();
+        let of_nodes = self.plant.nodes.len().div_ceil(BLOCK);
+        if block < of_nodes {
+            self.nodes_of(span(block, self.plant.nodes.len())).for_each(|node| {
+                let out = appended(mesh, self.tube.vertices(), self.tube.faces());
+                self.tube.write(&self.frustum(node), &self.wood_tag(node), out);
+            });
+        } else {
+            self.organs_of(span(block - of_nodes, self.plant.organs.len())).for_each(|organ| {
+                let shape = self.shape(organ);
+                let out = appended(mesh, shape.points.len(), &shape.faces);
+                shape.write(&self.placement(organ), &self.organ_tags(organ), out);
+            });
+        }
+    }
+
     /// The internodes that are drawn.
     fn nodes(&self) -> impl Iterator<Item = NodeId> {
+        self.nodes_of(0..self.plant.nodes.len())
+    }
+
+    fn nodes_of(&self, range: Range<usize>) -> impl Iterator<Item = NodeId> {
         let (nodes, age, kinds) = (&self.plant.nodes, self.age, self.options.kinds);
         let drawn = move |&node: &usize| {
             nodes.birth[node] <= age
                 && age < nodes.shed[node]
                 && kinds[node_kind(nodes.formation[node].is_short()) as usize]
         };
-        (0..nodes.len()).filter(drawn).map(|node| NodeId(node as u32))
+        range.filter(drawn).map(|node| NodeId(node as u32))
     }
 
     /// The organs that are drawn.
     fn organs(&self) -> impl Iterator<Item = OrganId> {
+        self.organs_of(0..self.plant.organs.len())
+    }
+
+    fn organs_of(&self, range: Range<usize>) -> impl Iterator<Item = OrganId> {
         let (organs, age, kinds) = (&self.plant.organs, self.age, self.options.kinds);
         let drawn = move |&organ: &usize| {
             organs.birth[organ] <= age && age < organs.death[organ] && kinds[organs.kind[organ] as usize]
         };
-        (0..organs.len()).filter(drawn).map(|organ| OrganId(organ as u32))
+        range.filter(drawn).map(|organ| OrganId(organ as u32))
     }
 
     #[inline]
@@ -172,6 +211,20 @@ impl<'a> Scene<'a> {
             kind: kind as u8,
         })
     }
+}
+
+/// The entries of a column of `length` that a block goes through.
+fn span(block: usize, length: usize) -> Range<usize> {
+    block * BLOCK..((block + 1) * BLOCK).min(length)
+}
+
+/// Room for more vertices at the end of `mesh`, and their triangles in it.
+#[inline]
+fn appended<'m>(mesh: &'m mut Mesh, vertices: usize, faces: &[[u32; 3]]) -> &'m mut [Vertex] {
+    let first = mesh.vertices.len();
+    mesh.faces.extend(faces.iter().map(|face| Face::new(face.map(|corner| first as u32 + corner))));
+    mesh.vertices.resize(first + vertices, Vertex::zeroed());
+    &mut mesh.vertices[first..]
 }
 
 #[inline]

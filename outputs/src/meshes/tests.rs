@@ -57,6 +57,9 @@ fn add_axis(plant: &mut Plant, bearer: Option<NodeId>, nodes: u32) -> Vec<NodeId
     (1..=nodes).map(&mut add).collect()
 }
 
+/// An age at which every node of a specimen is there.
+const LAST: Tick = 20_000;
+
 fn add_organ(plant: &mut Plant, node: NodeId, position: u16) {
     let (form, kind) = FORMS[usize::from(position) % FORMS.len()];
     plant.add_organ(NewOrgan {
@@ -87,7 +90,7 @@ fn specimen() -> Plant {
         plant.nodes.shed[node.index()] = 8;
     }
     (0..8).for_each(|position| add_organ(&mut plant, trunk[4], position));
-    pose(&mut plant);
+    pose(&mut plant, LAST);
     plant
 }
 
@@ -196,7 +199,8 @@ fn a_large_mesh_is_the_same_drawn_ahead_of_its_writing() {
     for _ in 0..10 {
         tip = *add_axis(&mut plant, Some(tip), 1000).last().unwrap();
     }
-    pose(&mut plant);
+    plant.frames.clear();
+    pose(&mut plant, LAST);
     let bytes = written(&plant, 2000, &MeshOptions::default());
     let mesh = mesh_plant(&plant, 2000, &MeshOptions::default());
     let payload: Vec<u8> = [bytemuck::cast_slice(&mesh.vertices), bytemuck::cast_slice(&mesh.faces)].concat();
@@ -221,8 +225,9 @@ impl Write for Full {
 fn a_failed_write_is_reported_as_it_was() {
     let mut plant = specimen();
     add_axis(&mut plant, Some(NodeId(4)), 10_000);
-    pose(&mut plant);
-    let scene = Scene::new(&plant, 20_000, &MeshOptions::default());
+    plant.frames.clear();
+    pose(&mut plant, LAST);
+    let scene = Scene::new(&plant, LAST, &MeshOptions::default());
     for room in [100, 5000, 3 << 20, 15 << 20] {
         let fault = Ply.write(&scene, &scene.about(1), &mut Full(room)).unwrap_err();
         assert_eq!(fault.kind(), io::ErrorKind::StorageFull, "{room}");

@@ -7,6 +7,11 @@ use sha2::{Digest, Sha256};
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::thread::{self, JoinHandle};
+
+/// So many bytes are sent on their way to the disk at a time, while the next ones are made: at its end a large file has
+/// little left to wait for.
+const SENT_AT_ONCE: u64 = 32 << 20;
 
 /// A new file that is hashed as it is written.
 #[derive(Debug)]
@@ -15,19 +20,40 @@ pub struct HashingFile {
     path: PathBuf,
     hash: Sha256,
     bytes: u64,
+    sent: u64,
+    sending: Option<JoinHandle<io::Result<()>>>,
 }
 
 impl HashingFile {
     /// Creates the file, replacing what is there.
     pub fn create(path: &Path) -> Result<Self, Error> {
         let file = File::create(path).map_err(Error::io("create", path))?;
-        Ok(Self { file, path: path.to_path_buf(), hash: Sha256::new(), bytes: 0 })
+        Ok(Self { file, path: path.to_path_buf(), hash: Sha256::new(), bytes: 0, sent: 0, sending: None })
     }
 
     /// Makes sure that the file is on the disk; its bytes and its hash.
-    pub fn finish(self) -> Result<(u64, String), Error> {
-        self.file.sync_all().map_err(Error::io("write to disk", &self.path))?;
+    pub fn finish(mut self) -> Result<(u64, String), Error> {
+        // The system tells of a lost block once: to the first that asks.
+        self.sent().and_then(|()| self.file.sync_all()).map_err(Error::io("write to disk", &self.path))?;
         Ok((self.bytes, hexadecimal(&self.hash.finalize())))
+    }
+
+    /// Sends what is written to the disk, on a thread that only waits; where one is still waiting, later.
+    fn send(&mut self) -> io::Result<()> {
+        if self.sending.as_ref().is_some_and(|sending| !sending.is_finished()) {
+            return Ok(());
+        }
+        self.sent()?;
+        let file = self.file.try_clone()?;
+        self.sending = Some(thread::Builder::new().name("sync".to_owned()).spawn(move || file.sync_data())?);
+        self.sent = self.bytes;
+        Ok(())
+    }
+
+    /// What came of what was sent.
+    fn sent(&mut self) -> io::Result<()> {
+        let Some(sending) = self.sending.take() else { return Ok(()) };
+        sending.join().unwrap_or_else(|_| Err(io::Error::other("the thread that syncs the file has ended")))
     }
 }
 
@@ -36,6 +62,9 @@ impl Write for HashingFile {
         let written = self.file.write(bytes)?;
         self.hash.update(&bytes[..written]);
         self.bytes += written as u64;
+        if self.bytes - self.sent >= SENT_AT_ONCE {
+            self.send()?;
+        }
         Ok(written)
     }
 

@@ -33,8 +33,14 @@ pub static EVENT_TAGS: [&str; EventKind::ALL.len()] = {
 };
 
 /// The tags of [`Origin`], in the order of their numbers.
-pub static ORIGINS: [&str; 5] =
-    [Origin::Seed.tag(), Origin::Axillary.tag(), Origin::Relay.tag(), Origin::Traumatic.tag(), Origin::Adaptive.tag()];
+pub static ORIGINS: [&str; 6] = [
+    Origin::Seed.tag(),
+    Origin::Axillary.tag(),
+    Origin::Relay.tag(),
+    Origin::Traumatic.tag(),
+    Origin::Adaptive.tag(),
+    Origin::Fork.tag(),
+];
 
 /// The causes of death, in the order of their numbers less one.
 pub static CAUSES: [&str; 9] = {

@@ -4,7 +4,7 @@
 //! the same rows.
 
 use super::buffers::columns;
-use phytomer_sim::plant::{Event, Plant};
+use phytomer_sim::plant::{AxisId, Event, EventKind, Plant};
 use phytomer_sim::{Plot, Tick};
 
 columns! {
@@ -34,7 +34,18 @@ impl EventColumns {
 /// Puts the events of `plant` up to the age `last` into `sorted`. Axes climb with the numbers of their buds, and events
 /// of one kind on one axis and tick keep the order in which they were noted.
 pub fn sort(plant: &Plant, last: Tick, sorted: &mut Vec<Event>) {
+    let events = || plant.events.iter().flatten().filter(|event| event.tick <= last);
+    let mut ends = vec![0; last as usize + 1];
+    events().for_each(|event| ends[event.tick as usize] += 1);
+    let mut before = 0;
+    ends.iter_mut().for_each(|end| before += std::mem::replace(end, before));
+    // Dealt to their ticks first: what is noted axis by axis is then nearly in order, and sorted in one pass.
     sorted.clear();
-    sorted.extend(plant.events.iter().flatten().filter(|event| event.tick <= last));
-    sorted.sort_by_key(|event| (event.tick, event.axis, event.kind));
+    sorted.resize(before, Event { tick: 0, axis: AxisId::TRUNK, kind: EventKind::Grew, count: 0 });
+    for event in events() {
+        let end = &mut ends[event.tick as usize];
+        sorted[*end] = *event;
+        *end += 1;
+    }
+    sorted.chunk_by_mut(|a, b| a.tick == b.tick).for_each(|tick| tick.sort_by_key(|event| (event.axis, event.kind)));
 }

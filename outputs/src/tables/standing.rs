@@ -5,8 +5,8 @@
 //! then one straight scan.
 
 use crate::Error;
-use phytomer_sim::Tick;
 use phytomer_sim::plant::{AxisId, NodeId, OrganId, Plant};
+use phytomer_sim::{NEVER, Tick};
 
 /// Components that are looked at in one step of the scan: few enough for their rows to stay in a core's cache.
 const SELECTION: usize = 512;
@@ -33,6 +33,8 @@ pub struct Standing {
     places: Vec<u32>,
     from: Vec<Tick>,
     until: Vec<Tick>,
+    /// Of each [`SELECTION`] components, the tick from which the first of them stands.
+    first: Vec<Tick>,
     tips: Vec<NodeId>,
 }
 
@@ -75,6 +77,9 @@ impl Standing {
             let until = axes.apex_end[axis].min(axes.shed[axis]);
             self.put(axes.component[axis], 2, axis, axes.appearance[axis], until);
         }
+        let first = |from: &[Tick]| from.iter().copied().min().unwrap_or(NEVER);
+        self.first.clear();
+        self.first.extend(self.from.chunks(SELECTION).map(first));
     }
 
     #[inline]
@@ -100,11 +105,17 @@ impl Standing {
     /// Puts into `numbers` the next components that stand at `age`, at most [`SELECTION`] and at most `room`, going on
     /// from `next`. None is left when `next` has come to the plant's number of components.
     pub fn select(&self, age: Tick, room: usize, next: &mut u32, numbers: &mut Vec<u32>) {
-        let start = *next as usize;
+        numbers.clear();
+        let mut start = *next as usize;
+        // What an old plant bears last is many, and not there yet when it is young.
+        while self.first.get(start / SELECTION).is_some_and(|&first| age < first) {
+            start = (start / SELECTION + 1) * SELECTION;
+        }
+        let start = start.min(self.places.len());
         let end = (start + SELECTION.min(room)).min(self.places.len());
         numbers.resize(end - start, 0);
         let mut found = 0;
-        for (number, (from, until)) in (*next..).zip(self.from[start..end].iter().zip(&self.until[start..end])) {
+        for (number, (from, until)) in (start as u32..).zip(self.from[start..end].iter().zip(&self.until[start..end])) {
             // Written always, kept where it stands: no branch to mispredict.
             numbers[found] = number;
             found += usize::from(*from <= age && age < *until);
@@ -122,9 +133,10 @@ impl Standing {
     pub fn find_tips(&mut self, plant: &Plant, age: Tick) {
         self.tips.clear();
         self.tips.resize(plant.axes.len(), NodeId::NONE);
-        for (node, (birth, axis)) in (0..).zip(plant.nodes.birth.iter().zip(&plant.nodes.axis)) {
-            if *birth <= age {
-                self.tips[axis.index()] = NodeId(node);
+        for run in 0..plant.nodes.runs.len() {
+            let (axis, born) = plant.nodes.born(run, age);
+            if !born.is_empty() {
+                self.tips[axis.index()] = NodeId(born.end as u32 - 1);
             }
         }
     }

@@ -72,23 +72,28 @@ pub fn summarise(plant: &Plant, standing: &Standing, age: Tick) -> Summary {
 }
 
 fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
-    let nodes = &plant.nodes;
+    let Plant { axes, nodes, .. } = plant;
     let mut low = [f32::INFINITY; 3];
     let mut high = [f32::NEG_INFINITY; 3];
-    for node in 0..nodes.len() {
-        if nodes.birth[node] > age || age >= nodes.shed[node] {
+    // The internodes of an axis die and fall together.
+    for run in 0..nodes.runs.len() {
+        let (axis, standing) = nodes.born(run, age);
+        if axes.shed[axis.index()] <= age {
             continue;
         }
-        summary.wood_volume += frustum(nodes.length[node], nodes.diameter[node], nodes.diameter_tip[node]);
-        if age >= nodes.death[node] {
-            summary.dead_internodes += 1;
+        let frusta = standing.clone().map(|i| frustum(nodes.length[i], nodes.diameter[i], nodes.diameter_tip[i]));
+        summary.wood_volume = frusta.fold(summary.wood_volume, |sum, frustum| sum + frustum);
+        if age >= axes.death[axis.index()] {
+            summary.dead_internodes += standing.len() as u32;
             continue;
         }
-        summary.internodes += 1;
-        let tip = node_frame(plant, NodeId(node as u32)).base;
-        for k in 0..3 {
-            low[k] = low[k].min(tip[k]);
-            high[k] = high[k].max(tip[k]);
+        summary.internodes += standing.len() as u32;
+        for node in standing {
+            let tip = node_frame(plant, NodeId(node as u32)).base;
+            for k in 0..3 {
+                low[k] = low[k].min(tip[k]);
+                high[k] = high[k].max(tip[k]);
+            }
         }
     }
     let extent = |k: usize| f64::from(high[k]) - f64::from(low[k]);

@@ -60,7 +60,7 @@ pub struct Outcome {
 pub fn bend(plant: &mut Plant, age: Tick, site: &Site, bench: &mut Bench) -> Outcome {
     let habit = std::sync::Arc::clone(&plant.habit);
     let Some(wood) = habit.wood.as_ref().filter(|wood| wood.feels(&site.fields(&wood.drag))) else {
-        pose(plant);
+        pose(plant, age);
         return Outcome { steps: 0, settled: true, yields: None };
     };
     bench.prepare(plant, age);

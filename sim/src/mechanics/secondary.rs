@@ -12,7 +12,7 @@
 use super::bend::Bench;
 use crate::clock::Tick;
 use crate::math::pow;
-use crate::plant::{Kind, NodeId, Plant, Shape};
+use crate::plant::{Kind, Plant, Shape};
 use std::f64::consts::PI;
 
 /// How the internodes of a species gain diameter.
@@ -117,15 +117,19 @@ fn hand_down(plant: &Plant, node: usize, above: &mut [Above], worth: f64) {
 }
 
 /// The tip of a cone has the diameter of the internode that follows it on its axis, where that is thinner; every other
-/// tip has that of its base.
+/// tip has that of its base. What has not appeared by `age` is left as it is.
 pub fn taper(plant: &mut Plant, age: Tick) {
     let Plant { axes, nodes, habit, .. } = plant;
-    for node in 0..nodes.len() {
-        nodes.diameter_tip[node] = nodes.diameter[node];
-        let (axis, parent) = (nodes.axis[node], nodes.parent[node]);
-        let follows = parent != NodeId::NONE && nodes.axis[parent.index()] == axis && nodes.birth[node] <= age;
-        if follows && habit.shape(axes.order[axis.index()]) == Shape::Cone {
-            nodes.diameter_tip[parent.index()] = nodes.diameter[node].min(nodes.diameter[parent.index()]);
+    for run in 0..nodes.runs.len() {
+        let (axis, born) = nodes.born(run, age);
+        let (diameter, tip) = (&nodes.diameter[born.clone()], &mut nodes.diameter_tip[born.clone()]);
+        let Some(&first) = diameter.first() else { continue };
+        tip.copy_from_slice(diameter);
+        if habit.shape(axes.order[axis.index()]) == Shape::Cone {
+            tip.iter_mut().zip(diameter.windows(2)).for_each(|(tip, pair)| *tip = pair[0].min(pair[1]));
+            if let Some(parent) = nodes.parent[born.start].some().filter(|parent| nodes.axis[parent.index()] == axis) {
+                nodes.diameter_tip[parent.index()] = first.min(nodes.diameter[parent.index()]);
+            }
         }
     }
 }

@@ -36,6 +36,8 @@ pub enum Origin {
     Traumatic = 3,
     /// Out of a reiteration bud: a young tree on the old one.
     Adaptive = 4,
+    /// Out of an apex that divided into equal axes of its order.
+    Fork = 5,
 }
 
 impl Origin {
@@ -47,6 +49,7 @@ impl Origin {
             Self::Relay => "relay",
             Self::Traumatic => "traumatic_reiteration",
             Self::Adaptive => "adaptive_reiteration",
+            Self::Fork => "fork",
         }
     }
 }

@@ -22,7 +22,7 @@ pub enum EventKind {
     Completed = 4,
     /// An axillary axis of the next order appeared.
     Branched = 5,
-    /// An axis of the same order took the place of an ended apex.
+    /// An axis of the same order took the place of an apex that had ended, or passed into another state.
     Relayed = 6,
     /// A reiteration began, traumatic or adaptive.
     Reiterated = 7,
@@ -37,11 +37,13 @@ pub enum EventKind {
     Buckled = 11,
     /// The bending of the plant found no equilibrium; `count` is the number of steps tried.
     Unsettled = 12,
+    /// An apex divided, and this axis is one of the equal ones of its order that it became.
+    Forked = 13,
 }
 
 impl EventKind {
     /// Every kind, in the order of their numbers.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Grew,
         Self::Paused,
         Self::Died,
@@ -55,6 +57,7 @@ impl EventKind {
         Self::Shed,
         Self::Buckled,
         Self::Unsettled,
+        Self::Forked,
     ];
 
     /// The event as it stands in tables.
@@ -73,6 +76,7 @@ impl EventKind {
             Self::Shed => "shed",
             Self::Buckled => "buckled",
             Self::Unsettled => "unsettled",
+            Self::Forked => "forked",
         }
     }
 }
@@ -82,7 +86,7 @@ impl EventKind {
 pub struct Event {
     /// When.
     pub tick: Tick,
-    /// The axis whose bud it was; for `Branched`, `Relayed` and `Reiterated` the new axis.
+    /// The axis whose bud it was; for `Branched`, `Relayed`, `Reiterated` and `Forked` the new axis.
     pub axis: AxisId,
     /// What.
     pub kind: EventKind,

@@ -29,6 +29,10 @@ pub enum Place {
     Relay(u16),
     /// A reiteration bud by its position, from 0.
     Reiteration(u16),
+    /// A relay bud of an axis that passed into another state when its last node was this one, by its position, from 0.
+    Passage(u16),
+    /// One of the axes into which the apex divided, by its position, from 0.
+    Fork(u16),
     /// An organ by its kind's number and its position.
     Organ(u8, u16),
 }
@@ -42,6 +46,8 @@ impl Place {
             Self::Axillary(position) => (1, position),
             Self::Relay(position) => (2, position),
             Self::Reiteration(position) => (3, position),
+            Self::Passage(position) => (4, position),
+            Self::Fork(position) => (5, position),
             Self::Organ(kind, position) => (16 + u64::from(kind), position),
         };
         u64::from(rank) << 32 | class << 16 | u64::from(position)

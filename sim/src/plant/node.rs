@@ -5,6 +5,7 @@
 
 use super::axis::AxisId;
 use crate::clock::{NEVER, Tick};
+use std::ops::Range;
 
 /// The place of a node in its plant's columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -86,6 +87,9 @@ pub struct Nodes {
     pub diameter_tip: Vec<f32>,
     /// Azimuth of the first leaf, radians.
     pub azimuth: Vec<f32>,
+    /// The first node of each run: of nodes that follow one another on one axis. An axis grown at once is one run, one
+    /// that grew by the clock, between others, is several. Within a run the node before is the parent.
+    pub runs: Vec<NodeId>,
 }
 
 /// How an internode was formed.
@@ -116,10 +120,28 @@ impl Nodes {
         self.parent.is_empty()
     }
 
+    /// The nodes of a run.
+    #[inline]
+    pub fn run(&self, run: usize) -> Range<usize> {
+        self.runs[run].index()..self.runs.get(run + 1).map_or(self.len(), |next| next.index())
+    }
+
+    /// The axis of a run, and its nodes that appeared by `age`: the older ones come first.
+    #[inline]
+    pub fn born(&self, run: usize, age: Tick) -> (AxisId, Range<usize>) {
+        let Range { start, end } = self.run(run);
+        let whole = self.birth[end - 1] <= age;
+        let born = if whole { end - start } else { self.birth[start..end].partition_point(|&birth| birth <= age) };
+        (self.axis[start], start..start + born)
+    }
+
     #[inline]
     pub(super) fn push(&mut self, node: NewNode, component: u32) -> NodeId {
         let id = NodeId(self.len() as u32);
         debug_assert!(node.parent == NodeId::NONE || node.parent < id, "a parent comes before its child");
+        if self.axis.last() != Some(&node.axis) {
+            self.runs.push(id);
+        }
         self.parent.push(node.parent);
         self.axis.push(node.axis);
         self.component.push(component);
@@ -154,5 +176,6 @@ impl Nodes {
         self.diameter.clear();
         self.diameter_tip.clear();
         self.azimuth.clear();
+        self.runs.clear();
     }
 }

@@ -1,7 +1,6 @@
 //! The internodes that stand at an age, as runs of one axis: what pose and mechanics walk along.
 //!
-//! An axis grown at once is one run; one that grew by the clock, between others, is several. Within a run the node before
-//! is the parent. Runs forward meet a parent before its child, runs backward a child before its parent.
+//! Runs forward meet a parent before its child, runs backward a child before its parent.
 
 use super::{AxisId, Nodes, Plant};
 use crate::clock::Tick;
@@ -39,30 +38,14 @@ impl Standing {
     pub fn find(&mut self, plant: &Plant, age: Tick) {
         self.runs.clear();
         let nodes = &plant.nodes;
-        let mut start = 0;
-        while start < nodes.len() {
-            let end = end_of_run(nodes, start);
-            let axis = nodes.axis[start];
-            let born = if plant.axes.shed[axis.index()] <= age { 0 } else { born_by(nodes, start..end, age) };
-            if born > 0 {
-                let begins = begins_axis(nodes, start);
-                self.runs.push(Run { axis, start: start as u32, end: (start + born) as u32, begins });
+        for run in 0..nodes.runs.len() {
+            let (axis, born) = nodes.born(run, age);
+            if age < plant.axes.shed[axis.index()] && !born.is_empty() {
+                let begins = begins_axis(nodes, born.start);
+                self.runs.push(Run { axis, start: born.start as u32, end: born.end as u32, begins });
             }
-            start = end;
         }
     }
-}
-
-/// How many nodes of a run appeared by `age`: the older ones come first.
-fn born_by(nodes: &Nodes, run: Range<usize>, age: Tick) -> usize {
-    nodes.birth[run].partition_point(|&birth| birth <= age)
-}
-
-/// The first node after `node` that is not the next of the same axis.
-#[inline]
-pub(crate) fn end_of_run(nodes: &Nodes, node: usize) -> usize {
-    let axis = nodes.axis[node];
-    node + nodes.axis[node..].iter().take_while(|&&other| other == axis).count()
 }
 
 /// Whether a node is the first of its axis: its parent is not on it.

@@ -28,8 +28,8 @@ pub struct Frames {
     pub up: Vec<[f32; 3]>,
     /// Where each axis goes on from, in double precision: one entry an axis.
     tips: Vec<Tip>,
-    /// How many nodes have their frame, from the first on.
-    posed: usize,
+    /// The age before which they are made: what appeared earlier has its frame.
+    posed: Tick,
 }
 
 impl Frames {
@@ -46,17 +46,22 @@ impl Frames {
         self.posed = 0;
     }
 
-    /// Room for the frames of every node and the tip of every axis, to be posed now; the first node that had none.
-    fn begin(&mut self, nodes: usize, axes: usize) -> usize {
+    /// Room for the frames of every node and the tip of every axis, to be posed up to `age`; the age before which they
+    /// were.
+    fn begin(&mut self, nodes: usize, axes: usize, age: Tick) -> Tick {
         self.resize_nodes(nodes);
         self.tips.resize(axes, Tip::default());
-        std::mem::replace(&mut self.posed, nodes)
+        std::mem::replace(&mut self.posed, age + 1)
     }
 
     fn resize_nodes(&mut self, nodes: usize) {
-        self.base.resize(nodes, [0.0; 3]);
-        self.heading.resize(nodes, [0.0; 3]);
-        self.up.resize(nodes, [0.0; 3]);
+        for column in [&mut self.base, &mut self.heading, &mut self.up] {
+            if column.is_empty() {
+                // Zeroed by the system as it comes to be written, instead of twice.
+                *column = vec![[0.0; 3]; nodes];
+            }
+            column.resize(nodes, [0.0; 3]);
+        }
     }
 }
 
@@ -95,14 +100,17 @@ impl Frame {
     }
 }
 
-/// Poses every internode of `plant` that has no frame yet. The frames of the others stay: the pose at rest of a node
-/// depends on the nodes before it alone, and to the last bit neither on the order in which the axes grew nor on how
-/// often the plant was posed.
-pub fn pose(plant: &mut Plant) {
+/// Poses every internode of `plant` that appeared by `age` and has no frame yet. The frames of the others stay: the pose
+/// at rest of a node depends on the nodes before it alone, and to the last bit neither on the order in which the axes grew
+/// nor on how often the plant was posed.
+pub fn pose(plant: &mut Plant, age: Tick) {
+    if age < plant.frames.posed {
+        return;
+    }
     if plant.stated_headings.is_empty() {
-        scan::follow_trends(plant);
+        scan::follow_trends(plant, age);
     } else {
-        stated::follow_headings(plant);
+        stated::follow_headings(plant, age);
     }
 }
 

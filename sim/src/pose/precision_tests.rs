@@ -1,7 +1,7 @@
 //! The precision of the f32 pose: against an all-f64 pass by the vector formula, written apart from the code that it
 //! tests, on a 40 m tree of four orders with 2,000 internodes an axis; less than 0.1 mm everywhere.
 
-use super::specimen::{Branch, Growth, Specimen};
+use super::specimen::{Branch, Growth, LAST, Specimen};
 use super::*;
 use crate::math::{cos, sin, sincos};
 use crate::plant::Trend;
@@ -107,7 +107,7 @@ fn worst(plant: &Plant) -> f64 {
 #[test]
 fn positions_on_a_40_m_tree_grown_axis_by_axis() {
     let mut plant = Specimen::grown(&tall_tree(), &trends(), Growth::AxisByAxis).plant;
-    pose(&mut plant);
+    pose(&mut plant, LAST);
     assert!(plant.frames.base[1999][2] > 39.0);
     assert!(worst(&plant) < BOUND, "{} m", worst(&plant));
 }
@@ -116,7 +116,8 @@ fn positions_on_a_40_m_tree_grown_axis_by_axis() {
 fn positions_on_a_40_m_tree_grown_tick_by_tick_and_posed_at_every_tick() {
     let mut specimen = Specimen::new(&tall_tree(), &trends());
     while specimen.tick() {
-        pose(&mut specimen.plant);
+        let age = specimen.plant.age;
+        pose(&mut specimen.plant, age);
     }
     assert_eq!(specimen.plant.nodes.len(), 12_000);
     assert!(worst(&specimen.plant) < BOUND, "{} m", worst(&specimen.plant));

@@ -7,7 +7,8 @@
 
 use super::course::{Plane, Slope};
 use super::{Frames, start_frame};
-use crate::plant::standing::{begins_axis, end_of_run};
+use crate::clock::Tick;
+use crate::plant::standing::begins_axis;
 use crate::plant::{AxisId, Nodes, Plant, Trend};
 use crate::vector::Vector;
 use std::ops::Range;
@@ -21,15 +22,15 @@ pub(super) struct Tip {
     pub slope: Slope,
 }
 
-/// Poses the nodes that have no frame yet, run by run.
-pub(super) fn follow_trends(plant: &mut Plant) {
-    let nodes = plant.nodes.len();
-    let mut node = plant.frames.begin(nodes, plant.axes.len());
-    while node < nodes {
-        let axis = plant.nodes.axis[node];
-        let run = node..end_of_run(&plant.nodes, node);
-        node = run.end;
-        follow_axis(plant, axis, run);
+/// Poses the nodes that appeared by `age` and have no frame yet, run by run.
+pub(super) fn follow_trends(plant: &mut Plant, age: Tick) {
+    let posed = plant.frames.begin(plant.nodes.len(), plant.axes.len(), age);
+    for run in 0..plant.nodes.runs.len() {
+        let (axis, born) = plant.nodes.born(run, age);
+        let first = if posed == 0 { born.start } else { plant.nodes.born(run, posed - 1).1.end };
+        if first < born.end {
+            follow_axis(plant, axis, first..born.end);
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Plants for the tests of the pose, stated axis by axis and built in either order of growth: one axis after another,
 //! as growth runs ahead, or a node of each axis in turn, as growth follows the clock.
 
-use crate::clock::NEVER;
+use crate::clock::{NEVER, Tick};
 use crate::plant::*;
 use std::sync::Arc;
 
@@ -37,6 +37,9 @@ pub enum Growth {
     TickByTick,
 }
 
+/// An age at which every node of a specimen is there.
+pub const LAST: Tick = 1_000_000;
+
 /// A specimen under construction; `node_at[axis][rank - 1]` is where a node came to stand.
 pub struct Specimen {
     pub plant: Plant,
@@ -67,6 +70,7 @@ impl Specimen {
 
     /// A node more on every axis whose bearing node is there; whether any was added.
     pub fn tick(&mut self) -> bool {
+        self.plant.age += 1;
         (0..self.branches.len()).fold(false, |grew, axis| self.add_node(axis) | grew)
     }
 
@@ -81,7 +85,7 @@ impl Specimen {
         let node = self.plant.add_node(NewNode {
             parent,
             axis,
-            birth: rank,
+            birth: rank.max(self.plant.age),
             rank,
             unit_rank: 1,
             short: false,

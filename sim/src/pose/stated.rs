@@ -5,6 +5,7 @@
 //! A heading that is missing, or no direction at all, is its parent's.
 
 use super::bearing_frame;
+use crate::clock::Tick;
 use crate::plant::standing::begins_axis;
 use crate::plant::{NodeId, Plant};
 use crate::vector::Vector;
@@ -12,11 +13,13 @@ use crate::vector::Vector;
 /// Below this square of its length a vector has no direction.
 const NOTHING: f64 = 1e-12;
 
-/// Poses the nodes that have no frame yet, one by one.
-pub(super) fn follow_headings(plant: &mut Plant) {
-    let first = plant.frames.begin(plant.nodes.len(), plant.axes.len());
-    for node in first..plant.nodes.len() {
-        follow(plant, node);
+/// Poses the nodes that appeared by `age` and have no frame yet, one by one.
+pub(super) fn follow_headings(plant: &mut Plant, age: Tick) {
+    let posed = plant.frames.begin(plant.nodes.len(), plant.axes.len(), age);
+    for node in 0..plant.nodes.len() {
+        if (posed..=age).contains(&plant.nodes.birth[node]) {
+            follow(plant, node);
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! What the pose promises: the directions of insertion, the way to the trend, unit and orthogonal frames whatever the
 //! angles, and the same bits in either order of growth.
 
-use super::specimen::{Branch, Growth, Specimen};
+use super::specimen::{Branch, Growth, LAST, Specimen};
 use super::*;
 use crate::math::{acos, cosf, sinf};
 use crate::plant::{Cause, Form, Habit, Kind, LineageKey, NewAxis, NewOrgan, OrganTrend, OrganTrends, Origin, Trend};
@@ -15,7 +15,7 @@ fn trend(inclination: f32, share: f32) -> Trend {
 
 fn posed(branches: &[Branch], trends: &[Trend], growth: Growth) -> Specimen {
     let mut specimen = Specimen::grown(branches, trends, growth);
-    pose(&mut specimen.plant);
+    pose(&mut specimen.plant, LAST);
     specimen
 }
 
@@ -31,7 +31,7 @@ fn assert_near(a: [f32; 3], b: [f32; 3]) {
 fn the_trunk_of_insertion_zero_is_vertical_and_stands_at_the_seed() {
     let mut specimen = Specimen::grown(&[Branch::trunk(4, 0.25)], &[trend(0.0, 0.2)], Growth::AxisByAxis);
     specimen.plant.place = [3.0, -2.0, 0.5];
-    pose(&mut specimen.plant);
+    pose(&mut specimen.plant, LAST);
     let last = specimen.plant.frames.at(NodeId(3));
     assert_eq!(last, Frame { base: [3.0, -2.0, 1.25], heading: [0.0, 0.0, 1.0], up: [-1.0, 0.0, 0.0] });
     assert_eq!(bud_frame(&specimen.plant, AxisId::TRUNK).base, [3.0, -2.0, 1.5]);
@@ -117,7 +117,8 @@ fn the_order_of_growth_does_not_change_a_bit() {
     let ahead = posed(&branches, &composite, Growth::AxisByAxis);
     let mut ticked = Specimen::new(&branches, &composite);
     while ticked.tick() {
-        pose(&mut ticked.plant);
+        let age = ticked.plant.age;
+        pose(&mut ticked.plant, age);
     }
     assert_eq!(ahead.plant.nodes.len(), 600);
     for (a, b) in ahead.node_at.iter().flatten().zip(ticked.node_at.iter().flatten()) {
@@ -130,7 +131,7 @@ fn stated_headings_are_kept_and_up_turns_no_more_than_it_must() {
     let mut specimen = Specimen::grown(&[Branch::trunk(5, 1.0)], &[], Growth::AxisByAxis);
     let slant = [0.6, 0.0, 0.8];
     specimen.plant.stated_headings = vec![[0.0, 0.0, 1.0], slant, [1.0, 0.0, 0.0], [0.0, 0.0, -2.0], [f32::NAN; 3]];
-    pose(&mut specimen.plant);
+    pose(&mut specimen.plant, LAST);
     let frames = &specimen.plant.frames;
     assert_eq!(frames.up[0], [1.0, 0.0, 0.0]);
     assert_near(frames.up[1], [0.8, 0.0, -0.6]);
@@ -172,7 +173,7 @@ fn organs_and_buds_stand_at_the_tip_of_their_node() {
         azimuth: PI,
         insertion: FRAC_PI_2,
     });
-    pose(plant);
+    pose(plant, LAST);
     assert_near(bud_frame(plant, AxisId::TRUNK).base, [0.0, 0.0, 1.0]);
     let bud = bud_frame(plant, waiting);
     assert_near(bud.base, [0.0, 0.0, 0.5]);
@@ -205,7 +206,7 @@ fn a_leaf_sinks_with_its_age_and_a_fruit_hangs() {
         insertion: FRAC_PI_2,
     };
     let (leaf, flower) = (plant.add_organ(organ(Kind::Leaf)), plant.add_organ(organ(Kind::Flower)));
-    pose(plant);
+    pose(plant, LAST);
     let heading = |age| organ_frame(plant, leaf, age).heading;
     assert_near(heading(3), [1.0, 0.0, 0.0]);
     let halfway = std::f32::consts::FRAC_1_SQRT_2;

@@ -60,6 +60,11 @@ impl<'a> Compiler<'a> {
         self.buds.order.len()
     }
 
+    /// The names of the species's states.
+    pub fn state_names(&self) -> &[String] {
+        &self.buds.states
+    }
+
     /// From now on laws may depend on ranks up to `rank`; on none, if that is 0.
     pub fn set_max_rank(&mut self, rank: u32) {
         self.domain.max_rank = rank;

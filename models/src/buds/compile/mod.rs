@@ -19,7 +19,7 @@ mod zone;
 pub(super) use head::HeadLaws;
 pub(super) use node::NodeLaws;
 pub(super) use relay::{Branching, EndLaws};
-pub(super) use step::StepLaws;
+pub(super) use step::{Passage, StepLaws};
 pub(super) use zone::{Ranks, Zones};
 
 use super::law::{Domain, ValueTable};

@@ -8,7 +8,7 @@ use super::geometry::DEGREE;
 use super::node::{LONGEST, MOST_BUDS};
 use super::words::{Chance, Layout, Measure, Number};
 use crate::buds::law::{CountTable, ProbabilityTable, VariateTable};
-use crate::buds::params::{ApexEnd, Order};
+use crate::buds::params::{ApexEnd, Fork, Order};
 
 /// How buds at one place become axes.
 #[derive(Debug, Clone)]
@@ -53,6 +53,10 @@ pub struct EndLaws {
     pub below: Number,
     pub relay: Branching,
     pub traumatic: Branching,
+    /// The axes into which a completed apex divides; `None`: it does not.
+    pub fork: Option<Branching>,
+    /// The ticks for which the branch of a completed apex lives on.
+    pub persists: Option<Number>,
 }
 
 impl EndLaws {
@@ -62,12 +66,17 @@ impl EndLaws {
         let relay = relay(order, compiler, &mut layout);
         let traumatic = traumatic(order, compiler, &mut layout);
         let below = compiler.count(&order.relay.below, "relay.below", LONGEST);
+        let below = layout.number(below, 1);
+        let fork = order.apex.fork.as_ref().map(|of| fork(of, compiler, &mut layout));
+        let persists = order.apex.persists.as_ref().map(|ticks| compiler.count(ticks, "apex.persists", LONGEST));
         let on = |end: ApexEnd| order.relay.on.contains(&end);
         Self {
             relayed: [on(ApexEnd::Death), on(ApexEnd::Flower), on(ApexEnd::Completed)],
-            below: layout.number(below, 1),
+            below,
             relay,
             traumatic,
+            fork,
+            persists: persists.map(|ticks| layout.number(ticks, 1)),
             width: layout.width(),
         }
     }
@@ -85,11 +94,20 @@ fn relay(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branchin
     let delay = compiler.count(&relay.delay, "relay.delay", LONGEST);
     let angle = match &relay.insertion_deg {
         Some(angle) => compiler.angle(angle, "relay.insertion_deg"),
-        None if relay.on.is_empty() => VariateTable::always(0.0),
+        None if relay.on.is_empty() && !order.transition.iter().any(|passage| passage.relayed) => {
+            VariateTable::always(0.0)
+        }
         None => compiler.angle(&order.insertion_deg, "insertion_deg"),
     };
     let state = relay.state.as_ref().map(|state| compiler.state(state, "relay.state"));
     Branching::new(words, count, chance, delay, angle, state)
+}
+
+fn fork(fork: &Fork, compiler: &mut Compiler, words: &mut Layout) -> Branching {
+    let count = compiler.count(&fork.axes, "apex.fork.axes", MOST_BUDS);
+    let angle = compiler.angle(&fork.insertion_deg, "apex.fork.insertion_deg");
+    let always = ProbabilityTable::certain_or_never(true);
+    Branching::new(words, count, always, CountTable::always(0), angle, None)
 }
 
 fn traumatic(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branching {

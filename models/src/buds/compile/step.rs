@@ -7,7 +7,7 @@ use super::compiler::Compiler;
 use super::words::{Chance, Layout, Number};
 use super::zone::ZoneRanks;
 use crate::buds::law::{CountTable, ProbabilityTable};
-use crate::buds::params::Order;
+use crate::buds::params::{Order, Sibling, Transition};
 
 /// The most growth units of one step.
 const MOST_UNITS: u32 = 64;
@@ -29,10 +29,30 @@ pub struct StepLaws {
     pub long_nodes: Number,
     pub short_nodes: Number,
     pub neoformed: Number,
-    /// The passages out of each state: (from, to, probability), with a word each.
-    pub transitions: Vec<(u8, u8, Chance)>,
+    /// The passages between states, with a word each.
+    pub transitions: Vec<Passage>,
     /// The ranks of the zones, once a unit.
     pub zone_ranks: ZoneRanks,
+}
+
+/// A passage between states.
+#[derive(Debug, Clone)]
+pub struct Passage {
+    pub from: u8,
+    pub to: u8,
+    pub chance: Chance,
+    /// Which of the relays of a set pass; `None`: each.
+    pub sibling: Option<Sibling>,
+    /// Whether the axis is then relayed.
+    pub relayed: bool,
+}
+
+impl Passage {
+    /// Whether an axis in `state` may pass that leads its set of relays or does not.
+    #[inline]
+    pub fn concerns(&self, state: u8, leads: bool) -> bool {
+        self.from == state && self.sibling.is_none_or(|sibling| (sibling == Sibling::Leader) == leads)
+    }
 }
 
 impl StepLaws {
@@ -80,14 +100,15 @@ impl StepLaws {
     }
 }
 
-fn transitions(order: &Order, compiler: &mut Compiler, layout: &mut Layout) -> Vec<(u8, u8, Chance)> {
+fn transitions(order: &Order, compiler: &mut Compiler, layout: &mut Layout) -> Vec<Passage> {
     let mut compiled = Vec::new();
     for (index, transition) in order.transition.iter().enumerate() {
         let keys = format!("transition.{index}");
         let from = compiler.state(&transition.from, &format!("{keys}.from"));
         let to = compiler.state(&transition.to, &format!("{keys}.to"));
         let table = compiler.probability(&transition.probability, &format!("{keys}.probability"));
-        compiled.push((from, to, layout.chance(table, 1)));
+        let Transition { sibling, relayed, .. } = *transition;
+        compiled.push(Passage { from, to, chance: layout.chance(table, 1), sibling, relayed });
     }
     compiled
 }

@@ -7,9 +7,10 @@
 use super::compiler::Compiler;
 use super::words::{Layout, Measure, Number};
 use crate::buds::law::{At, Count, CountTable, ValueRange, Variate, VariateTable};
-use crate::buds::params::{Orientation, Trend};
+use crate::buds::params::{Orientation, StateTrends, Tended, Trend};
 use phytomer_sim::math;
 use phytomer_sim::plant::Trend as Tendency;
+use std::collections::BTreeMap;
 
 /// The share of the way to its trend that an internode of a plainly named trend turns. The paper draws the smoothed
 /// shape (Fig. 15) and gives no number; a tenth brings an axis nine tenths of the way in 22 internodes.
@@ -28,6 +29,8 @@ pub struct Trends {
     drawn: Vec<(Number, u8)>,
     /// Inclination and share of each phase, where axes draw trends of their own.
     own: Vec<(Measure, Measure)>,
+    /// Whether there is a phase a state, in the order of the states.
+    by_state: bool,
 }
 
 /// A phase, its laws compiled.
@@ -53,12 +56,13 @@ impl Trends {
             Some(trends) => trends.into_iter().map(|trend| place(trend, habit, compiler)).collect(),
             None => (0..phases.len()).map(|place| place as u8).collect(),
         };
+        let by_state = matches!(trend, Trend::ByState(_));
         let ranks: Option<Vec<u32>> = phases.iter().map(|phase| phase.from_rank.constant()).collect();
         match ranks {
-            Some(ranks) => Self { phases: ranks.into_iter().zip(places).collect(), drawn: Vec::new(), own },
+            Some(ranks) => Self { phases: ranks.into_iter().zip(places).collect(), drawn: Vec::new(), own, by_state },
             None => {
                 let numbers = phases.into_iter().map(|phase| words.number(phase.from_rank, 1));
-                Self { phases: Vec::new(), drawn: numbers.zip(places).collect(), own }
+                Self { phases: Vec::new(), drawn: numbers.zip(places).collect(), own, by_state }
             }
         }
     }
@@ -85,9 +89,13 @@ impl Trends {
         self.own.iter().map(move |(inclination, share)| tendency(draw(inclination), draw(share)))
     }
 
-    /// The trend of the node at `rank` along the axis; `drawn` are the ranks that the axis has drawn, if any.
+    /// The trend of the node at `rank` along the axis, which is in `state`; `drawn` are the ranks that the axis has
+    /// drawn, if any.
     #[inline]
-    pub fn at(&self, rank: u32, drawn: &[(u32, u8)]) -> u8 {
+    pub fn at(&self, rank: u32, state: u8, drawn: &[(u32, u8)]) -> u8 {
+        if self.by_state {
+            return self.phases.get(usize::from(state)).map_or(0, |phase| phase.1);
+        }
         let last = |phases: &[(u32, u8)]| phases.iter().rev().find(|phase| phase.0 <= rank).map_or(0, |phase| phase.1);
         match self.phases.as_slice() {
             [only] => only.1,
@@ -140,7 +148,37 @@ fn phases(trend: &Trend, compiler: &mut Compiler) -> Vec<Phase> {
             check_ranks(&compiled, stated.len(), compiler);
             compiled
         }
+        Trend::ByState(StateTrends { by_state }) => states(by_state, compiler),
     }
+}
+
+/// A phase a state, in the order of the states.
+fn states(stated: &BTreeMap<String, Tended>, compiler: &mut Compiler) -> Vec<Phase> {
+    let names = compiler.state_names().to_vec();
+    for name in stated.keys().filter(|name| !names.contains(name)) {
+        compiler.state(name, &format!("trend.by_state.{name}"));
+    }
+    let missing: Vec<&str> = names.iter().filter(|name| !stated.contains_key(*name)).map(String::as_str).collect();
+    if !missing.is_empty() {
+        let found = format!("it has no trend for {}", missing.join(", "));
+        compiler.fault("trend.by_state", found, "a trend for each of the species's states");
+    }
+    let phases = stated_in_order(&names, stated).map(|(name, tended)| {
+        let keys = format!("trend.by_state.{name}");
+        Phase::compile(&Count::from(1), &tended.inclination_deg, &tended.share, &keys, compiler)
+    });
+    let mut phases: Vec<Phase> = phases.collect();
+    if phases.is_empty() {
+        phases.push(Phase::always(0.0, 0.0));
+    }
+    phases
+}
+
+fn stated_in_order<'a>(
+    names: &'a [String],
+    stated: &'a BTreeMap<String, Tended>,
+) -> impl Iterator<Item = (&'a String, &'a Tended)> {
+    names.iter().filter_map(|name| Some((name, stated.get(name)?)))
 }
 
 /// The first phase starts at rank 1, and each can begin before the next one.

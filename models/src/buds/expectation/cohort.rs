@@ -53,11 +53,13 @@ impl Flow {
 pub struct Cohorts<'a> {
     model: &'a BudModel,
     until: Tick,
-    /// Axes born, by order, state and tick.
+    /// Axes born, by order, class and tick; the class is twice the state, and one more where axes do not lead their sets.
     births: Vec<Vec<Vec<f64>>>,
     expected: Vec<OrderExpectation>,
     /// The growth unit of each order in which it is the same at every point.
     steady: Vec<Option<Unit>>,
+    /// Whether the axes of the cohort that is followed lead their sets of relays.
+    leads: bool,
     work: u64,
 }
 
@@ -68,9 +70,10 @@ impl<'a> Cohorts<'a> {
         Self {
             model,
             until,
-            births: vec![vec![ticks; model.states]; model.orders.len()],
+            births: vec![vec![ticks; 2 * model.states]; model.orders.len()],
             expected: vec![OrderExpectation::zero(until); model.orders.len()],
             steady: model.orders.iter().map(|laws| steady_unit(model, laws)).collect(),
+            leads: true,
             work: 0,
         }
     }
@@ -84,11 +87,11 @@ impl<'a> Cohorts<'a> {
         self.expected[first].axes[0] = 1.0;
         for birth in 0..=self.until {
             for order in 0..self.model.orders.len() {
-                for state in 0..self.model.states {
-                    let born = self.births[order][state][birth as usize];
+                for class in 0..2 * self.model.states {
+                    let born = self.births[order][class][birth as usize];
                     let model = self.model;
                     for (speed, share) in model.orders[order].head.speed.shares().filter(|_| born > 0.0) {
-                        self.follow((order, speed), state as u8, birth, born * share)?;
+                        self.follow((order, speed), class, birth, born * share)?;
                     }
                 }
             }
@@ -98,8 +101,10 @@ impl<'a> Cohorts<'a> {
     }
 
     /// One cohort, of the axes that drew one speed, from its birth to the last age.
-    fn follow(&mut self, (order, speed): (usize, Speed), state: u8, birth: Tick, born: f64) -> Option<()> {
+    fn follow(&mut self, (order, speed): (usize, Speed), class: usize, birth: Tick, born: f64) -> Option<()> {
         let laws = &self.model.orders[order];
+        let state = (class / 2) as u8;
+        self.leads = class.is_multiple_of(2);
         let ends = Completion::of(laws, At { age: birth, state, ..At::default() });
         let mut living = vec![vec![Flow::default(); self.model.states]; ends.stages()];
         let mut after = living.clone();
@@ -197,14 +202,17 @@ impl<'a> Cohorts<'a> {
     }
 
     /// Passages between states: the first that happens, in the order in which they are stated.
-    fn pass(&self, order: usize, flow: Flow, after: &mut [Flow], at: At) {
+    fn pass(&mut self, order: usize, flow: Flow, after: &mut [Flow], at: At) {
         let mut stays = flow;
-        for (from, to, chance) in &self.model.orders[order].step.transitions {
-            if *from == at.state {
-                let passes = chance.table.probability(at);
-                after[usize::from(*to)].add(stays.share(passes));
-                stays = stays.share(1.0 - passes);
+        let (model, leads) = (self.model, self.leads);
+        for passage in model.orders[order].step.transitions.iter().filter(|passage| passage.concerns(at.state, leads)) {
+            let passes = passage.chance.table.probability(at);
+            let passing = stays.share(passes);
+            if passage.relayed {
+                self.relay(order, passing, at);
             }
+            after[usize::from(passage.to)].add(passing);
+            stays = stays.share(1.0 - passes);
         }
         after[usize::from(at.state)].add(stays);
     }
@@ -214,24 +222,52 @@ impl<'a> Cohorts<'a> {
         let model = self.model;
         let laws = &model.orders[order].end;
         if laws.is_relayed(end) {
-            let relays = laws.relay.count.table.mean(at) * laws.relay.chance.table.probability(at);
-            self.bear(order, ended.with_node * relays, &laws.relay, at);
+            self.relay(order, ended, at);
         }
         if end == ApexEnd::Death {
             let released = laws.traumatic.chance.table.probability(at);
             self.bear(order, ended.dormant * released, &laws.traumatic, at);
         }
+        if let Some(fork) = laws.fork.as_ref().filter(|_| end == ApexEnd::Completed) {
+            self.bear_set(order, ended.with_node, fork, at);
+        }
+    }
+
+    /// The relays of apices that have ended or passed into another state.
+    fn relay(&mut self, order: usize, of: Flow, at: At) {
+        let model = self.model;
+        self.bear_set(order, of.with_node, &model.orders[order].end.relay, at);
+    }
+
+    /// Sets of equal axes: in each set with any the first leads.
+    fn bear_set(&mut self, order: usize, sets: f64, branching: &Branching, at: At) {
+        let chance = branching.chance.table.probability(at);
+        let mean = branching.count.table.mean(at) * chance;
+        let mut none_of_so_many = 1.0;
+        let mut none = 0.0;
+        for share in branching.count.table.pmf(at) {
+            none += share * none_of_so_many;
+            none_of_so_many *= 1.0 - chance;
+        }
+        let leaders = (1.0 - none).clamp(0.0, mean);
+        self.bear_class(order, sets * leaders, branching, 0, at);
+        self.bear_class(order, sets * (mean - leaders), branching, 1, at);
     }
 
     /// New axes, after their delay.
     fn bear(&mut self, order: usize, axes: f64, branching: &Branching, at: At) {
+        self.bear_class(order, axes, branching, 0, at);
+    }
+
+    /// The same, of axes that lead their sets (0) or do not (1).
+    fn bear_class(&mut self, order: usize, axes: f64, branching: &Branching, follows: usize, at: At) {
         if axes <= 0.0 || order >= self.births.len() {
             return;
         }
         self.expected[order].axes[at.age as usize] += axes;
-        let state = usize::from(branching.state.unwrap_or(at.state));
+        let class = 2 * usize::from(branching.state.unwrap_or(at.state)) + follows;
         for (delay, share) in branching.delay.table.pmf(at).into_iter().enumerate() {
-            if let Some(births) = self.births[order][state].get_mut(at.age as usize + delay) {
+            if let Some(births) = self.births[order][class].get_mut(at.age as usize + delay) {
                 *births += axes * share;
             }
         }

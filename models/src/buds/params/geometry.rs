@@ -6,6 +6,7 @@
 use crate::buds::law::{Count, Law, Variate};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// The internodes of an order.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -89,6 +90,8 @@ pub enum Trend {
     Tended(Tended),
     /// A composite trend: phases along the axis, each from a rank on.
     Composite(Vec<Phase>),
+    /// A trend for each state.
+    ByState(StateTrends),
 }
 
 impl Default for Trend {
@@ -120,6 +123,15 @@ pub struct Tended {
     /// The share of the way that each internode turns, in [0, 1]; drawn once an axis, at its birth.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub share: Variate,
+}
+
+/// A trend for each state in which the axis may be: what it makes after a passage follows that of its new state.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StateTrends {
+    /// The trend of each of the species's states, by its name.
+    #[schemars(extend("minProperties" = 1))]
+    pub by_state: BTreeMap<String, Tended>,
 }
 
 /// One phase of a composite trend.

@@ -12,9 +12,9 @@ mod organs;
 mod sympodial;
 mod wood;
 
-pub use geometry::{Divergence, Internode, Orientation, Phase, Phyllotaxis, ShapeName, Tended, Trend};
+pub use geometry::{Divergence, Internode, Orientation, Phase, Phyllotaxis, ShapeName, StateTrends, Tended, Trend};
 pub use organs::{Flower, FormName, Fruit, Leaf, OrganTrend, Season};
-pub use sympodial::{Apex, ApexEnd, Reiteration, Relay, Transition, Traumatic};
+pub use sympodial::{Apex, ApexEnd, Fork, Reiteration, Relay, Sibling, Transition, Traumatic};
 pub use wood::{CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood};
 
 pub use super::law::{Constant, Quantity, SpeedForm, SpeedText, Speeds};

@@ -1,4 +1,4 @@
-//! The ends of apices and what follows them: relays, reiteration, and passages between states (de Reffye 1988 §2).
+//! The ends of apices and what follows them: relays, forks, reiteration, and passages between states (de Reffye 1988 §2).
 //!
 //! Passages between states are those of a reference axis (Barczi et al. 2008, AMAPsim): an oriented automaton along the
 //! life of an axis. All of it is optional; a species that states none of it grows as in 1988.
@@ -14,6 +14,24 @@ pub struct Apex {
     /// The growth units after which the apex ends; left out: it never ends of itself.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub units: Option<Count>,
+    /// For how many ticks a branch lives on that has made all its growth units: a determinate branch keeps its leaves
+    /// until it is shed whole. 0 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub persists: Option<Count>,
+    /// The equal axes, of its own order, into which an apex divides that has made all its growth units: 2 is a
+    /// dichotomy. Left out: it does not divide.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fork: Option<Fork>,
+}
+
+/// An apex that divides.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fork {
+    /// The axes into which it divides; at most 32.
+    pub axes: Count,
+    /// The angle between each of them and the axis that ended, degrees.
+    pub insertion_deg: Variate,
 }
 
 /// An end of an apex.
@@ -29,7 +47,8 @@ pub enum ApexEnd {
 }
 
 /// Sympodial growth: relay axes of the same order, from the last node of an ended axis or from one below. Relay buds are
-/// buds of their own beside the axillary ones; an axis that ends before it has a node of its own is not relayed.
+/// buds of their own beside the axillary ones; an axis that ends before it has a node of its own is not relayed. An axis
+/// that passes into another state may be relayed too (`transition.relayed`), while its apex lives on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Relay {
@@ -132,4 +151,20 @@ pub struct Transition {
     pub to: String,
     /// The probability of the passage at a step at which the bud grew.
     pub probability: Law,
+    /// Which relays of a set pass: the leader or the others. Left out: each.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sibling: Option<Sibling>,
+    /// Whether the axis is relayed when it passes, as `relay` says, though its apex lives on: by apposition.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub relayed: bool,
+}
+
+/// A place among the relays of one set, which are equal at their birth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Sibling {
+    /// The first of its set; an axis that is no relay leads as well.
+    Leader,
+    /// Each but the first.
+    Others,
 }

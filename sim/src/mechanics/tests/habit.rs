@@ -20,7 +20,7 @@ fn bush() -> Plant {
 #[test]
 fn without_gravity_every_frame_is_that_at_rest_bit_for_bit() {
     let (mut rest, mut still) = (bush(), bush());
-    pose(&mut rest);
+    pose(&mut rest, 1);
     bend(&mut still, 1, &Site { gravity: 0.0, ..Site::default() }, &mut Bench::default());
     assert_eq!(rest.frames.base, still.frames.base);
     assert_eq!(rest.frames.heading, still.frames.heading);

@@ -1,0 +1,62 @@
+//! A species grown without a scenario: one plant, from its seed to the age at which it shows its architecture.
+//!
+//! The key `shown_at` of a species file says that age. Where it is left out it is 100 ticks, or as much earlier as keeps
+//! the plant small. Ten ages are recorded, the last one among them, and mechanics where the wood bends.
+
+use std::collections::BTreeSet;
+
+use phytomer_sim::model::GrowthModel;
+
+use crate::Model;
+use crate::scenario::{Ages, DEFAULT_SEED, Every, Limits, Output, Record, Scenario, Site, Table};
+use crate::validate::{Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL};
+
+/// A plant of a species that states no age is grown no further than is expected to make it so large.
+const SMALL: f64 = 200_000.0;
+
+/// The growth level at which a geometric model is shown, plus one: that of the figures of Aono & Kunii 1984.
+const LEVELS: u32 = 10;
+
+/// Into how many steps of about the same length the recorded ages cut the life of the plant.
+const RECORDED: u32 = 10;
+
+impl ResolvedSpecies {
+    /// The age at which a plant of the species shows its architecture.
+    pub fn shown_at(&self) -> u32 {
+        self.species.about.shown_at.unwrap_or_else(|| match self.species.model {
+            Model::Gmt1(_) => LEVELS,
+            _ => while_small(self.model.as_ref()),
+        })
+    }
+
+    /// One plant of the species, as a run: `name` is what the species was found by.
+    pub fn alone(self, name: &str) -> Resolved {
+        let until = self.shown_at();
+        let every = until.div_ceil(RECORDED);
+        // Counted back from the last age.
+        let from = until - every * ((until - 1) / every);
+        let mechanics = self.model.habit().wood.as_ref().is_some_and(|wood| wood.bends);
+        let scenario = Scenario {
+            name: self.species.about.name.clone(),
+            description: self.species.about.description.clone(),
+            species: name.to_owned(),
+            plants: 1,
+            seed: DEFAULT_SEED,
+            spacing_m: None,
+            site: Site::default(),
+            ages: Ages { until, record: Record::Every(Every { every, from: Some(from) }) },
+            tables: BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary]),
+            meshes: None,
+            limits: Limits::default(),
+            output: Output { mechanics, ..Output::default() },
+        };
+        let Self { species, model, sources, tree } = self;
+        Resolved { scenario, species, model, sources, tree }
+    }
+}
+
+/// The last age up to [`SPECIES_ALONE_UNTIL`] at which a plant is expected to be small.
+fn while_small(model: &dyn GrowthModel) -> u32 {
+    let Some(expected) = model.expectation(SPECIES_ALONE_UNTIL) else { return SPECIES_ALONE_UNTIL };
+    (1..=SPECIES_ALONE_UNTIL).rev().find(|age| expected.components(*age) <= SMALL).unwrap_or(1)
+}

@@ -1,0 +1,78 @@
+//! What is written on a picture: how large it is, how old its plants are, and what its colours mean.
+//!
+//! The scale bar is the longest of 1, 2 or 5 times a power of ten metres that fits. Under perspective it holds at the foot
+//! of the plants, which stand equally far from the eye.
+
+use super::canvas::Canvas;
+use super::letters::{width, written};
+
+const INK: [u8; 3] = [70, 66, 60];
+
+/// The height of a capital on a picture so tall, pixels.
+pub fn letter_size(height: u32) -> f32 {
+    (height as f32 / 62.0).clamp(7.0, 34.0)
+}
+
+/// How a line of text stands to its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Align {
+    /// Its middle is there.
+    Middle,
+    /// It ends there.
+    Right,
+}
+
+/// Writes a line of text.
+pub fn write(canvas: &mut Canvas, text: &str, size: f32, [x, line]: [f32; 2], align: Align) {
+    let wide = width(text, size);
+    let left = match align {
+        Align::Middle => x - 0.5 * wide,
+        Align::Right => x - wide,
+    };
+    let (strokes, _) = written(text, size, [left, line]);
+    canvas.strokes(&strokes, (0.062 * size).max(0.55), INK);
+}
+
+/// A length that a scale bar stands for, metres, at so many pixels a metre: the longest that fits into `room` pixels.
+pub fn bar_length(scale: f32, room: f32) -> Option<f32> {
+    let most = f64::from(room) / f64::from(scale);
+    let fits = |length: &f64| *length <= most;
+    let lengths = (-4..=4).flat_map(|power: i32| {
+        let ten = if power < 0 { 1.0 / 10_f64.pow_whole(-power) } else { 10_f64.pow_whole(power) };
+        [ten, 2.0 * ten, 5.0 * ten]
+    });
+    lengths.rev().find(fits).map(|length| length as f32)
+}
+
+/// A whole power by multiplication, which is the same everywhere.
+trait PowWhole {
+    fn pow_whole(self, power: i32) -> Self;
+}
+
+impl PowWhole for f64 {
+    fn pow_whole(self, power: i32) -> Self {
+        (0..power).fold(1.0, |product, _| product * self)
+    }
+}
+
+/// A length as people write it: `5 m`, `20 cm`, `2 mm`.
+pub fn length_in_words(metres: f32) -> String {
+    match metres {
+        m if m >= 0.995 => format!("{m:.0} m"),
+        m if m >= 0.0095 => format!("{:.0} cm", m * 100.0),
+        m if m >= 0.00095 => format!("{:.0} mm", m * 1000.0),
+        m => format!("{:.1} mm", m * 1000.0),
+    }
+}
+
+/// Draws a scale bar that begins at a point, and its length in words above it.
+pub fn scale_bar(canvas: &mut Canvas, scale: f32, room: f32, size: f32, [left, line]: [f32; 2]) {
+    let Some(length) = bar_length(scale, room) else { return };
+    let thick = (0.16 * size).max(1.0);
+    let right = left + length * scale;
+    let tick = 0.45 * size;
+    canvas.rectangle([left, line - thick, right, line], INK);
+    canvas.rectangle([left, line - tick, left + thick, line], INK);
+    canvas.rectangle([right - thick, line - tick, right, line], INK);
+    write(canvas, &length_in_words(length), size, [0.5 * (left + right), line - 0.75 * size], Align::Middle);
+}

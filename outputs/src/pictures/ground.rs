@@ -1,0 +1,129 @@
+//! What stands behind and below the plants: a light background, and ground that bears their shadows.
+//!
+//! The ground is paper: near a plant it has a tone of its own, farther off it is the background, so that no horizon cuts
+//! the picture. Shadows only darken it, by the shares of sun and sky that they leave; on a transparent picture they are
+//! the opacity of a dark blue. To a level gaze the ground is a line.
+
+use super::camera::Camera;
+use super::shade::{Light, SKY, SUN};
+use super::sky::falling_on;
+use super::tone;
+use glam::Vec3;
+
+const ZENITH: [u8; 3] = [222, 231, 239];
+const HORIZON: [u8; 3] = [248, 247, 243];
+const EARTH: [u8; 3] = [229, 224, 211];
+/// What is below the line of the ground to a level gaze.
+const SECTION: [u8; 3] = [236, 231, 221];
+const LINE: [u8; 3] = [139, 130, 116];
+/// The colour of a shadow on nothing.
+const SHADE: [u8; 3] = [38, 44, 58];
+
+/// A plant as the ground knows it.
+#[derive(Debug, Clone, Copy)]
+pub struct Footing<'a> {
+    /// Its light.
+    pub light: &'a Light,
+    /// From the place where it was drawn to where it stands.
+    pub offset: Vec3,
+    /// Where it stands.
+    pub foot: Vec3,
+    /// Its size, metres.
+    pub size: f32,
+}
+
+/// What is behind a pixel: the roots of its light, and how much it hides.
+#[derive(Debug, Clone, Copy)]
+pub struct Behind {
+    /// Roots of light.
+    pub roots: Vec3,
+    /// Opacity.
+    pub opacity: f32,
+    /// The depth of the ground; 0 where there is none.
+    pub depth: f32,
+}
+
+/// The background of one picture.
+#[derive(Debug)]
+pub struct Ground<'a> {
+    /// Its camera.
+    pub camera: &'a Camera,
+    /// The plants that stand on it.
+    pub footings: &'a [Footing<'a>],
+    /// The height of the picture.
+    pub height: f32,
+    /// Whether there is ground.
+    pub drawn: bool,
+    /// Whether what is not drawn is left out.
+    pub transparent: bool,
+}
+
+impl Ground<'_> {
+    /// What is behind the pixel around a place.
+    pub fn behind(&self, x: f32, y: f32) -> Behind {
+        let paper = self.paper(y);
+        let none = Behind { roots: paper, opacity: if self.transparent { 0.0 } else { 1.0 }, depth: 0.0 };
+        if !self.drawn {
+            return none;
+        }
+        if !self.camera.sees_ground() {
+            return self.section(x, y, none);
+        }
+        let Some(point) = self.camera.ground(x, y) else { return none };
+        let depth = self.camera.project(point).map_or(0.0, |seen| seen.z);
+        let left = self.left(point);
+        if self.transparent {
+            let opacity = 1.0 - (left.x + left.y + left.z) / 3.0;
+            return Behind { roots: tone::roots(SHADE), opacity, depth };
+        }
+        let earth = paper.lerp(tone::roots(EARTH), self.nearness(point));
+        Behind { roots: earth * left.map(f32::sqrt), opacity: 1.0, depth }
+    }
+
+    fn paper(&self, y: f32) -> Vec3 {
+        tone::roots(ZENITH).lerp(tone::roots(HORIZON), smooth(y / self.height / 0.85))
+    }
+
+    /// The ground as a line, one pixel wide, and what is below it.
+    fn section(&self, x: f32, y: f32, none: Behind) -> Behind {
+        let line = self.camera.project(Vec3::ZERO).map_or(f32::MAX, |seen| seen.y);
+        let _ = x;
+        let below = (y + 0.5 - line).clamp(0.0, 1.0);
+        let width = (self.height / 700.0).max(1.0);
+        let on = (0.5 * width + 0.5 - (y - line).abs()).clamp(0.0, 1.0);
+        if self.transparent {
+            return Behind { roots: tone::roots(LINE), opacity: on, depth: 0.0 };
+        }
+        let roots = none.roots.lerp(tone::roots(SECTION), 0.7 * below).lerp(tone::roots(LINE), on);
+        Behind { roots, ..none }
+    }
+
+    /// How near a point is to what stands on the ground: 1 below it, 0 far away.
+    fn nearness(&self, point: Vec3) -> f32 {
+        let of = |footing: &Footing| {
+            let far = (point - footing.foot).length() / footing.size.max(1e-6);
+            1.0 - smooth((far - 0.15) / 1.35)
+        };
+        self.footings.iter().map(of).fold(0.0, f32::max)
+    }
+
+    /// The share of the light of open ground that the plants leave to a point.
+    fn left(&self, point: Vec3) -> Vec3 {
+        self.footings.iter().fold(Vec3::ONE, |left, footing| {
+            let light = footing.light;
+            let point = point - footing.offset;
+            let high = light.shadow.sun.z;
+            let open = falling_on(light.sky.at(point), Vec3::Z).min(1.0);
+            let near =
+                1.0 - smooth(((point + footing.offset - footing.foot).length() / footing.size.max(1e-6) - 0.6) / 0.6);
+            let sky = 1.0 - (1.0 - open) * near;
+            let gets = SUN * (high * light.shadow.share(point)) + SKY * sky;
+            left * (gets / (SUN * high + SKY))
+        })
+    }
+}
+
+fn smooth(x: f32) -> f32 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}

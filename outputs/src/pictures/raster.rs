@@ -1,0 +1,151 @@
+//! Which samples a triangle covers, and how deep it lies there.
+//!
+//! Samples stand on rows; within the rows of one pixel each row is shifted against the next, so that an edge that runs
+//! nearly upright still meets as many different places as a pixel has samples. A sample on an edge belongs to both
+//! triangles of it. The triangle is walked row by row between its two sides. Absent: clipping against the eye.
+
+use glam::Vec3;
+use std::ops::Range;
+
+/// The samples that are looked at: all columns of some rows of a picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Window {
+    /// Samples in a row.
+    pub width: u32,
+    /// The rows, counted over the whole picture.
+    pub rows: Range<u32>,
+    /// Where the samples of a row stand beyond their columns' middles, in columns; row after row, again and again.
+    pub shifts: &'static [f32],
+}
+
+/// Rows that stand straight below one another.
+pub const UPRIGHT: &[f32] = &[0.0];
+
+impl Window {
+    /// How many samples it has.
+    pub fn len(&self) -> usize {
+        self.width as usize * self.rows.len()
+    }
+
+    /// Where the sample of a column stands on a row, in columns.
+    #[inline]
+    pub fn place(&self, column: u32, row: u32) -> f32 {
+        column as f32 + 0.5 + self.shifts[row as usize % self.shifts.len()]
+    }
+}
+
+/// The plane of a quantity over the picture: its value at a corner and what it gains to the right and down.
+#[derive(Debug, Clone, Copy)]
+pub struct Plane {
+    at: [f32; 2],
+    value: f32,
+    gain: [f32; 2],
+}
+
+impl Plane {
+    /// Through three corners with three values; flat where the corners lie in a line.
+    #[inline]
+    pub fn through(corners: &[Vec3; 3], values: [f32; 3]) -> Self {
+        let [a, b, c] = corners;
+        let (ab, ac) = ([b.x - a.x, b.y - a.y], [c.x - a.x, c.y - a.y]);
+        let area = ab[0] * ac[1] - ab[1] * ac[0];
+        let over = if area.abs() > 1e-12 { 1.0 / area } else { 0.0 };
+        let (vb, vc) = (values[1] - values[0], values[2] - values[0]);
+        let gain = [(vb * ac[1] - vc * ab[1]) * over, (vc * ab[0] - vb * ac[0]) * over];
+        Self { at: [a.x, a.y], value: values[0], gain }
+    }
+
+    /// Its value at a place.
+    #[inline]
+    pub fn at(&self, x: f32, y: f32) -> f32 {
+        self.value + (x - self.at[0]) * self.gain[0] + (y - self.at[1]) * self.gain[1]
+    }
+}
+
+/// A sample that a triangle covers.
+#[derive(Debug, Clone, Copy)]
+pub struct Sample {
+    /// Its number in the window.
+    pub index: usize,
+    /// Its place, in columns and rows.
+    pub x: f32,
+    /// The same, down.
+    pub y: f32,
+    /// How deep the triangle lies there.
+    pub depth: f32,
+}
+
+/// Twice the area of a triangle in the picture, positive where its corners go clockwise as seen (y points down).
+#[inline]
+pub fn turn(corners: &[Vec3; 3]) -> f32 {
+    let [a, b, c] = corners;
+    (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
+}
+
+/// Hands every sample of `window` that the triangle covers to `put`; corners in columns, rows and depth.
+#[inline]
+pub fn cover(corners: &[Vec3; 3], window: &Window, mut put: impl FnMut(Sample)) {
+    let [mut a, mut b, mut c] = *corners;
+    // From top to bottom.
+    if b.y < a.y {
+        std::mem::swap(&mut a, &mut b);
+    }
+    if c.y < b.y {
+        std::mem::swap(&mut b, &mut c);
+        if b.y < a.y {
+            std::mem::swap(&mut a, &mut b);
+        }
+    }
+    let Some(rows) = between(a.y - 0.5, c.y - 0.5, &window.rows) else { return };
+    // A float that is no number leaves no rows, so what follows is finite.
+    let depth = Plane::through(corners, corners.map(|corner| corner.z));
+    let deepest = a.z.min(b.z).min(c.z);
+    let nearest = a.z.max(b.z).max(c.z);
+    let (long, upper, lower) = (Side::new(a, c), Side::new(a, b), Side::new(b, c));
+    for row in rows {
+        let y = row as f32 + 0.5;
+        let ends = [long.at(y), if y < b.y { upper.at(y) } else { lower.at(y) }];
+        let shift = window.shifts[row as usize % window.shifts.len()] + 0.5;
+        let Some(columns) = between(ends[0].min(ends[1]) - shift, ends[0].max(ends[1]) - shift, &(0..window.width))
+        else {
+            continue;
+        };
+        let first = (row - window.rows.start) as usize * window.width as usize;
+        for column in columns {
+            let x = column as f32 + shift;
+            // Rounding may lead a hair beyond the corners.
+            let depth = depth.at(x, y).max(deepest).min(nearest);
+            put(Sample { index: first + column as usize, x, y, depth });
+        }
+    }
+}
+
+/// One side of a triangle, from its upper to its lower end.
+struct Side {
+    x: f32,
+    y: f32,
+    per_row: f32,
+}
+
+impl Side {
+    #[inline]
+    fn new(from: Vec3, to: Vec3) -> Self {
+        let tall = to.y - from.y;
+        let per_row = if tall > 1e-9 { (to.x - from.x) / tall } else { 0.0 };
+        Self { x: from.x, y: from.y, per_row }
+    }
+
+    #[inline]
+    fn at(&self, y: f32) -> f32 {
+        self.x + (y - self.y) * self.per_row
+    }
+}
+
+/// The whole numbers of `within` from `low` to `high`, both included; `None` where there is none.
+#[inline]
+fn between(low: f32, high: f32, within: &Range<u32>) -> Option<Range<u32>> {
+    let start = low.ceil().max(within.start as f32);
+    let last = high.floor().min(within.end as f32 - 1.0);
+    // Not a number compares as false.
+    (start <= last).then(|| start as u32..last as u32 + 1)
+}

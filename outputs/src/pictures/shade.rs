@@ -1,0 +1,60 @@
+//! The light that leaves a face towards the eye: sun, sky, ground, and what comes through leaves.
+//!
+//! Leaves are seen from both sides and lit on both: the sun on the far side shines through, yellower than it is thrown
+//! back. Strengths and tints are by eye, chosen so that a leaf in full light shows the colour that it is given. Absent:
+//! textures, gloss beyond a faint sheen of leaves, and light that is scattered twice, for which there is a small constant.
+
+use super::film::{Paint, Seen};
+use super::shadow::Shadow;
+use super::sky::{Sky, falling_on};
+use super::tone;
+use glam::Vec3;
+
+/// The light of the sun on a face across it.
+pub const SUN: Vec3 = Vec3::new(1.62, 1.48, 1.24);
+/// The light of the whole sky on level ground.
+pub const SKY: Vec3 = Vec3::new(0.62, 0.69, 0.78);
+/// What the ground throws back up.
+const GROUND: Vec3 = Vec3::new(0.17, 0.16, 0.12);
+/// What is left in the deepest shade.
+const LEAST: Vec3 = Vec3::new(0.045, 0.05, 0.045);
+/// The shares of light that leaves throw back and let through.
+const BACK: f32 = 0.78;
+const THROUGH: f32 = 0.5;
+const THROUGH_TINT: Vec3 = Vec3::new(1.15, 1.12, 0.5);
+const SHEEN: f32 = 0.07;
+
+/// The light over one plant.
+#[derive(Debug)]
+pub struct Light {
+    /// That of the sun.
+    pub shadow: Shadow,
+    /// That of the sky.
+    pub sky: Sky,
+}
+
+/// The light that leaves what is seen at `point` towards `back`; the sun by one tap of its disc.
+#[inline]
+pub fn shade(seen: &Seen, point: Vec3, back: Vec3, light: &Light, tap: usize) -> Vec3 {
+    let Paint { colour, thin, .. } = seen.paint;
+    let normal = seen.normal.normalize_or(back);
+    let normal = if thin && normal.dot(back) < 0.0 { -normal } else { normal };
+    let towards_sun = normal.dot(light.shadow.sun);
+    let sky = light.sky.at(point);
+    let (near, far) = (falling_on(sky, normal), falling_on(sky, -normal));
+    let open = (2.0 * sky[0]).min(1.0);
+    let from_ground = GROUND * ((0.5 - 0.5 * normal.z) * (0.25 + 0.75 * open));
+    let around = from_ground + LEAST;
+    let base = tone::light(colour);
+    let facing = if thin || towards_sun > 0.0 { light.shadow.lit(point, normal, tap) } else { false };
+    let sun = if facing { SUN } else { Vec3::ZERO };
+    if !thin {
+        return base * (sun * towards_sun.max(0.0) + SKY * near + around);
+    }
+    let thrown = sun * (BACK * towards_sun.max(0.0)) + SKY * (BACK * near) + around;
+    let through = (sun * (-towards_sun).max(0.0) + SKY * far) * THROUGH * THROUGH_TINT;
+    let half = (light.shadow.sun + back).normalize_or_zero().dot(normal).max(0.0);
+    let gloss = half * half * half * half;
+    let sheen = (sun * (gloss * gloss * gloss) + SKY * (0.5 * near)) * SHEEN * 0.5;
+    base * (thrown + through) + sheen
+}

@@ -1,0 +1,182 @@
+//! How much of the sky a point sees inside a crown: light that falls through a grid of leaf area.
+//!
+//! Light from a direction loses exp(−k · area) on its way, k · area being the mean projected area of what it crosses
+//! (Beer's law in a canopy, Monsi & Saeki 1953). The grid holds that area in each cell; each direction of the sky is swept
+//! through it once, from the top layer down. What arrives is kept as a mean and a vector, the first two bands of spherical
+//! harmonics, from which a face of any direction gets its light. Absent: what leaves scatter, which shading adds by eye.
+
+use glam::Vec3;
+use phytomer_sim::math::{expf, sincosf};
+use rayon::prelude::*;
+use std::f32::consts::{PI, TAU};
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+/// Cells along the longest side of a plant.
+const CELLS: f32 = 72.0;
+/// Cells of air on each side, for what the plant darkens around it.
+const AIR: usize = 10;
+/// Parts of a cell's face that area is counted in: whole numbers add up in any order.
+const PARTS: f32 = 65536.0;
+/// The rings of the sky: elevation in degrees, directions, share of the sky.
+const RINGS: [(f32, u16, f32); 4] = [(22.0, 8, 0.50), (42.0, 7, 0.30), (64.0, 4, 0.16), (90.0, 1, 0.04)];
+/// Directions that are swept at once; fixed, so that sums have one order.
+const AT_ONCE: usize = 4;
+
+/// The area in each cell.
+#[derive(Debug)]
+pub struct Crown {
+    low: Vec3,
+    cell: f32,
+    size: [usize; 3],
+    areas: Vec<AtomicU32>,
+}
+
+/// The light of the sky in each cell.
+#[derive(Debug)]
+pub struct Sky {
+    low: Vec3,
+    cell: f32,
+    size: [usize; 3],
+    light: Vec<[f32; 4]>,
+}
+
+impl Crown {
+    /// Empty air over a box.
+    pub fn over(low: Vec3, high: Vec3) -> Self {
+        let cell = ((high - low).max_element() / CELLS).max(1e-5);
+        let sides = (high - low) / cell;
+        let margin = [2 * AIR, 2 * AIR, 2];
+        let size = [0, 1, 2].map(|k| (sides[k].ceil() as usize).clamp(1, 2 * CELLS as usize) + margin[k]);
+        let low = low - cell * Vec3::new(AIR as f32, AIR as f32, 1.0);
+        let mut areas = Vec::new();
+        areas.resize_with(size.iter().product(), AtomicU32::default);
+        Self { low, cell, size, areas }
+    }
+
+    /// Puts a triangle in. A leaf, which is drawn once, shows half its area to a random direction; a closed surface shows
+    /// a quarter (Cauchy).
+    #[inline]
+    pub fn add(&self, [a, b, c]: &[Vec3; 3], thin: bool) {
+        let (ab, ac) = (*b - *a, *c - *a);
+        let area = 0.5 * ab.cross(ac).length() * if thin { 0.5 } else { 0.25 };
+        let longest = ab.length_squared().max(ac.length_squared()).max((*c - *b).length_squared());
+        let cuts = (longest.sqrt() / self.cell).ceil().clamp(1.0, 12.0) as u16;
+        let pieces = f32::from(cuts * (cuts + 1) / 2);
+        let parts = (area / pieces / (self.cell * self.cell) * PARTS + 0.5) as u32;
+        let at = |i: u16, j: u16| (f32::from(i) + 1.0 / 3.0, f32::from(j) + 1.0 / 3.0);
+        for (i, j) in (0..cuts).flat_map(|i| (0..cuts - i).map(move |j| at(i, j))) {
+            let place = (*a + (ab * i + ac * j) / f32::from(cuts) - self.low) / self.cell;
+            let cell = [place.x, place.y, place.z].map(|x| x.max(0.0) as usize);
+            if cell[0] < self.size[0] && cell[1] < self.size[1] && cell[2] < self.size[2] {
+                let index = (cell[2] * self.size[1] + cell[1]) * self.size[0] + cell[0];
+                self.areas[index].fetch_add(parts, Relaxed);
+            }
+        }
+    }
+
+    /// Lets the light of the sky fall through.
+    pub fn lighten(self) -> Sky {
+        let depths: Vec<f32> = self.areas.iter().map(|parts| parts.load(Relaxed) as f32 / PARTS).collect();
+        let directions = directions();
+        let open: Vec3 = directions.iter().map(|(direction, share)| *direction * *share).sum();
+        // A face that looks straight up under open sky gets all of it.
+        let scale = 0.5 / open.z;
+        let mut light = vec![[0.0; 4]; depths.len()];
+        for some in directions.chunks(AT_ONCE) {
+            let swept: Vec<Vec<f32>> = some.par_iter().map(|(direction, _)| self.sweep(&depths, *direction)).collect();
+            light.par_iter_mut().enumerate().for_each(|(cell, light)| {
+                for ((direction, share), swept) in some.iter().zip(&swept) {
+                    let arrives = swept[cell] * share;
+                    light[0] += 0.5 * arrives;
+                    (0..3).for_each(|k| light[k + 1] += scale * arrives * direction[k]);
+                }
+            });
+        }
+        Sky { low: self.low, cell: self.cell, size: self.size, light }
+    }
+
+    /// What arrives at the middle of each cell of the light of one direction.
+    fn sweep(&self, depths: &[f32], direction: Vec3) -> Vec<f32> {
+        let [width, rows, layers] = self.size;
+        let layer = width * rows;
+        let mut arrives = vec![1.0; depths.len()];
+        let mut leaves = vec![1.0; layer];
+        let (dx, dy) = (direction.x / direction.z, direction.y / direction.z);
+        for z in (0..layers).rev() {
+            let (arrives, depths) = (&mut arrives[z * layer..][..layer], &depths[z * layer..][..layer]);
+            for (row, out) in arrives.chunks_mut(width).enumerate() {
+                for (column, out) in out.iter_mut().enumerate() {
+                    *out = between(&leaves, [width, rows], column as f32 + dx, row as f32 + dy);
+                }
+            }
+            for ((arrives, depth), leaves) in arrives.iter_mut().zip(depths).zip(&mut leaves) {
+                let half = if *depth > 0.0 { expf(-0.5 * depth / direction.z) } else { 1.0 };
+                *arrives *= half;
+                *leaves = *arrives * half;
+            }
+        }
+        arrives
+    }
+}
+
+/// The directions of the sky, and the share of it that each stands for.
+fn directions() -> Vec<(Vec3, f32)> {
+    let mut all = Vec::new();
+    for (ring, (elevation, count, share)) in RINGS.into_iter().enumerate() {
+        let (sin, cos) = sincosf(elevation * PI / 180.0);
+        for k in 0..count {
+            let (y, x) = sincosf(TAU * (f32::from(k) + 0.37 * ring as f32) / f32::from(count));
+            all.push((Vec3::new(cos * x, cos * y, sin), share / f32::from(count)));
+        }
+    }
+    all
+}
+
+/// A value between four of a layer; 1 outside.
+#[inline]
+fn between(layer: &[f32], [width, rows]: [usize; 2], x: f32, y: f32) -> f32 {
+    let (left, top) = (x.floor(), y.floor());
+    let (fx, fy) = (x - left, y - top);
+    let (left, top) = (left as i32, top as i32);
+    let at = |x: i32, y: i32| {
+        let inside = x >= 0 && y >= 0 && (x as usize) < width && (y as usize) < rows;
+        if inside { layer[y as usize * width + x as usize] } else { 1.0 }
+    };
+    let upper = at(left, top) * (1.0 - fx) + at(left + 1, top) * fx;
+    let lower = at(left, top + 1) * (1.0 - fx) + at(left + 1, top + 1) * fx;
+    upper * (1.0 - fy) + lower * fy
+}
+
+impl Sky {
+    /// The light at a point: a mean, and a vector towards where it comes from; that of the nearest cells outside.
+    #[inline]
+    pub fn at(&self, point: Vec3) -> [f32; 4] {
+        let place = (point - self.low) / self.cell - Vec3::splat(0.5);
+        let (mut first, mut share) = ([0; 3], [0.0; 3]);
+        for k in 0..3 {
+            let x = place[k].max(0.0).min(self.size[k] as f32 - 1.001).max(0.0);
+            first[k] = x as usize;
+            share[k] = x - first[k] as f32;
+        }
+        let step = [1, self.size[0], self.size[0] * self.size[1]];
+        let last = [0, 1, 2].map(|k| if first[k] + 1 < self.size[k] { step[k] } else { 0 });
+        let base = first[0] + first[1] * step[1] + first[2] * step[2];
+        let mut sum = [0.0; 4];
+        for corner in 0..8 {
+            let (mut index, mut weight) = (base, 1.0);
+            for k in 0..3 {
+                let beyond = corner >> k & 1 == 1;
+                index += if beyond { last[k] } else { 0 };
+                weight *= if beyond { share[k] } else { 1.0 - share[k] };
+            }
+            (0..4).for_each(|k| sum[k] += weight * self.light[index][k]);
+        }
+        sum
+    }
+}
+
+/// What a face with a unit normal gets of the light at a point; 1 for a level one under open sky.
+#[inline]
+pub fn falling_on(light: [f32; 4], normal: Vec3) -> f32 {
+    (light[0] + light[1] * normal.x + light[2] * normal.y + light[3] * normal.z).max(0.0)
+}

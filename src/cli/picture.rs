@@ -1,0 +1,175 @@
+//! `picture`: plants at ages as one PNG file, grown again from their seeds and drawn without a graphics processor.
+//!
+//! Plants stand side by side in one scale: each plant at each age. Where no age is given a plant is drawn in its prime.
+//! Absent: drawing, which is `phytomer_outputs::pictures`'.
+
+use super::regrown::{Breeze, Regrown, beside, keep};
+use super::{Misuse, Verdict, amounts, terminal};
+use anyhow::{Context, Result};
+use clap::{Args, ValueEnum};
+use phytomer::run::drawing::{Portrait, portrait};
+use phytomer_outputs::pictures::{Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, draw, sheet, write_png};
+use phytomer_sim::Tick;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+/// The most pixels along a side.
+const MOST_PIXELS: u32 = 16_384;
+
+/// Draw plants of a run, a scenario or a species as a PNG picture.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  phytomer picture coffee --age 48 --out coffee.png
+  phytomer picture willow --ages 17,29,53,71 --size 2400x900 --out life.png
+  phytomer picture runs/coffee --plants 0,1,2 --age 48 --view front --out three.png
+  phytomer picture my_plant/species.toml --view sheet --out sheet.png
+  phytomer picture coffee --age 24 --transparent --no-caption --sun 200,30 --out cut-out.png
+
+A plant whose age is not given is drawn in its prime: at the last age at which it bears nine tenths of the largest
+leaf area that it ever does.")]
+pub struct Picture {
+    /// A run folder, a scenario or a species: a shipped one by its name, or a file by its path.
+    #[arg(value_name = "RUN|SCENARIO|SPECIES")]
+    name: String,
+    /// The plant's number, from 0.
+    #[arg(long, conflicts_with = "plants")]
+    plant: Option<u32>,
+    /// Several plants side by side, by their numbers.
+    #[arg(long, value_delimiter = ',', value_name = "N,N,…")]
+    plants: Vec<u32>,
+    /// Its age in ticks; its prime if not given.
+    #[arg(long, conflicts_with = "ages")]
+    age: Option<Tick>,
+    /// Several ages side by side, in one scale.
+    #[arg(long, value_delimiter = ',', value_name = "AGE,AGE,…")]
+    ages: Vec<Tick>,
+    /// The file to write.
+    #[arg(long, value_name = "FILE.png")]
+    out: PathBuf,
+    /// From where the plants are seen.
+    #[arg(long, value_enum, default_value_t = From::Perspective)]
+    view: From,
+    /// Width and height, pixels.
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1600x1200", value_parser = size)]
+    size: [u32; 2],
+    /// Leave the background out; shadows stay, half transparent.
+    #[arg(long)]
+    transparent: bool,
+    /// Draw neither ground nor the shadow on it.
+    #[arg(long)]
+    no_ground: bool,
+    /// Write nothing on the picture, not even the scale bar.
+    #[arg(long)]
+    no_caption: bool,
+    /// Where the sun stands: degrees from the X axis (east) to the Y axis (north), and above the horizon. Over the left
+    /// shoulder of whoever looks if not given.
+    #[arg(long, value_name = "AZIMUTH,ELEVATION", allow_negative_numbers = true, value_parser = sun)]
+    sun: Option<[f32; 2]>,
+    /// Sides of the tube that an internode is drawn as.
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u8).range(3..=64))]
+    sides: u8,
+    #[command(flatten)]
+    breeze: Breeze,
+}
+
+/// The views by their words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum From {
+    /// An eye a little above the ground.
+    Perspective,
+    /// From above, north up.
+    Top,
+    /// From the south.
+    Front,
+    /// From the east.
+    Side,
+    /// From the south-east and above, in parallel projection.
+    Oblique,
+    /// The four parallel views on one sheet, in one scale.
+    Sheet,
+}
+
+impl Picture {
+    pub fn obey(self) -> Result<Verdict> {
+        let ages = if self.ages.is_empty() { self.age.into_iter().collect() } else { self.ages.clone() };
+        let plants = if self.plants.is_empty() { vec![self.plant.unwrap_or(0)] } else { self.plants.clone() };
+        match Regrown::find(&self.name, &ages)? {
+            Ok(regrown) => self.write(&regrown, ages, &plants),
+            Err(verdict) => Ok(verdict),
+        }
+    }
+
+    fn write(&self, regrown: &Regrown, mut ages: Vec<Tick>, plants: &[u32]) -> Result<Verdict> {
+        let options = [(self.ages.is_empty(), "--age", "--ages"), (self.plants.is_empty(), "--plant", "--plants")];
+        let [age_option, plant_option] = options.map(|(one, single, several)| if one { single } else { several });
+        regrown.check((age_option, &ages), (plant_option, plants))?;
+        let again = regrown.again(&self.breeze)?;
+        if ages.is_empty() {
+            ages.push(again.prime(plants[0])?);
+        }
+        if ages.len() * plants.len() > MOST_SUBJECTS {
+            return Err(Misuse(format!("one picture has at most {MOST_SUBJECTS} plants, counted at each age")).into());
+        }
+        let portrait = portrait(&again, &regrown.species, plants, &ages)?;
+        let bytes = amounts::bytes(self.save(&self.draw(&portrait), &portrait.note)? as f64);
+        let drawn = portrait.subjects.len();
+        let whom = if drawn == 1 { format!("plant {}", plants[0]) } else { format!("{drawn} plants") };
+        let when = if ages.len() == 1 { format!(" at age {}", ages[0]) } else { String::new() };
+        let wind = self.breeze.in_words();
+        terminal::put(&format!("{}: {whom}{when}{wind}, {bytes}", self.out.display()))?;
+        Ok(Verdict::Done)
+    }
+
+    fn draw(&self, portrait: &Portrait) -> Canvas {
+        let view = match self.view {
+            From::Perspective => Some(View::Perspective),
+            From::Top => Some(View::Top),
+            From::Front => Some(View::Front),
+            From::Side => Some(View::Side),
+            From::Oblique => Some(View::Oblique),
+            From::Sheet => None,
+        };
+        let style = Style {
+            size: self.size,
+            view: view.unwrap_or(View::Front),
+            transparent: self.transparent,
+            ground: !self.no_ground,
+            caption: !self.no_caption,
+            sun: self.sun.map(|sun| sun.map(f32::to_radians)),
+            sides: self.sides,
+        };
+        let subjects = portrait.subjects();
+        if view.is_some() {
+            draw(&subjects, &portrait.title, &style)
+        } else {
+            sheet(&subjects, &portrait.title, &style)
+        }
+    }
+
+    fn save(&self, canvas: &Canvas, note: &str) -> Result<u64> {
+        let staged = beside(&self.out);
+        write_to(&staged, canvas, note).with_context(|| format!("cannot write the picture {}", self.out.display()))?;
+        keep(&staged, &self.out)
+    }
+}
+
+fn write_to(path: &Path, canvas: &Canvas, note: &str) -> Result<()> {
+    let out = BufWriter::new(File::create(path)?);
+    Ok(write_png(canvas, note, Compression::Balanced, out)?)
+}
+
+fn size(text: &str) -> std::result::Result<[u32; 2], String> {
+    let sides = text.split_once(['x', '×']).and_then(|(a, b)| Some([a.parse().ok()?, b.parse().ok()?]));
+    sides
+        .filter(|sides: &[u32; 2]| sides.iter().all(|side| (16..=MOST_PIXELS).contains(side)))
+        .ok_or_else(|| format!("two sides of 16 to {MOST_PIXELS} pixels are expected, such as 1920x1080"))
+}
+
+fn sun(text: &str) -> std::result::Result<[f32; 2], String> {
+    let angles = text.split_once(',').and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
+    angles
+        .filter(|[azimuth, elevation]: &[f32; 2]| azimuth.is_finite() && (3.0..=90.0).contains(elevation))
+        .ok_or_else(|| "an azimuth and an elevation of 3 to 90 degrees are expected, such as 220,45".to_owned())
+}

@@ -1,0 +1,143 @@
+//! One plant of a run grown again from its seed, and shown at some ages: what meshes and pictures are made of.
+//!
+//! Draws are keyed by the run's seed and the plant, so it is the same plant, with the same component numbers, that the
+//! run has recorded. In a wind each age is shown as a frame that the wind has moved, for that age alone. A plant's prime is
+//! the age at which it is shown where nobody says otherwise. Absent: what is made of it.
+
+use super::{place_of, seed_of};
+use anyhow::Result;
+use phytomer_config::Scenario;
+use phytomer_sim::mechanics::Bench;
+use phytomer_sim::mechanics::sway::sway;
+use phytomer_sim::plant::{Kind, Plant};
+use phytomer_sim::shed::shed;
+use phytomer_sim::site::Wind;
+use phytomer_sim::{Ending, Growth, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
+use std::borrow::Cow;
+
+/// Air that moves a plant for one frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Air {
+    /// Its gusty wind.
+    pub wind: Wind,
+    /// The moment, seconds.
+    pub time: f64,
+}
+
+/// The plants of a scenario, to be grown again.
+#[derive(Clone, Copy)]
+pub struct Again<'a> {
+    /// The scenario.
+    pub scenario: &'a Scenario,
+    /// The species' model, compiled for all its ages.
+    pub model: &'a dyn GrowthModel,
+    /// What moves the plants, if anything does.
+    pub air: Option<Air>,
+}
+
+/// What is done with a plant at an age.
+pub type Show<'a> = dyn FnMut(Tick, &Plant) -> Result<(), RecordError> + 'a;
+
+impl Again<'_> {
+    /// Grows a plant and shows it at `ages`, in their order of time.
+    ///
+    /// # Errors
+    /// What `show` says; a plant that comes to its limit before the last of the ages.
+    pub fn show(&self, plant: u32, ages: &[Tick], show: &mut Show<'_>) -> Result<()> {
+        let mut plot = self.sown(plant);
+        let mut shower = Shower { ages, air: self.air, show };
+        // To the last age of the run, not to the last that is shown: that is what numbers the components.
+        let until = self.scenario.ages.until;
+        let ending = grow(self.model, &mut plot, until, &mut shower).map_err(|error| anyhow::anyhow!(error))?;
+        match (ending, ages.iter().max()) {
+            (Ending::Overgrown { age, limit }, Some(last)) if age <= *last => {
+                anyhow::bail!("{limit} at age {age}, before the age {last} that is asked for")
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The age at which a plant is shown where nobody says otherwise: the last one of the scenario at which it bears at
+    /// least nine tenths of the largest leaf area that it ever does. Of a plant without leaves internodes and organs are
+    /// counted instead; a geometric model is shown at the last age.
+    ///
+    /// # Errors
+    /// Where it comes to its limit at its first age.
+    pub fn prime(&self, plant: u32) -> Result<Tick> {
+        let until = self.scenario.ages.until;
+        if self.model.growth() == Growth::Rebuilds {
+            return Ok(until);
+        }
+        let mut plot = self.sown(plant);
+        let ahead = !plot.site.feeds_back() && self.model.grow_to(until, &mut plot.plants, &plot.site).is_ok();
+        let mut last = until;
+        if ahead {
+            plot.plants.iter_mut().for_each(shed);
+        } else {
+            plot.restart(self.model);
+            let ending = grow(self.model, &mut plot, until, &mut ()).map_err(|error| anyhow::anyhow!(error))?;
+            if let Ending::Overgrown { age, limit } = ending {
+                anyhow::ensure!(age > 1, "{limit} at age {age}");
+                last = age - 1;
+            }
+        }
+        Ok(prime_of(&plot.plants[0], last))
+    }
+
+    fn sown(&self, plant: u32) -> Plot {
+        let mut plot = Plot::of_one(self.model, &seed_of(self.scenario, plant));
+        plot.site = self.scenario.site.felt();
+        plot.plants[0].place = place_of(self.scenario, plant);
+        plot
+    }
+}
+
+/// The prime of a grown plant: the last age up to `last` at which it bears nine tenths of the largest leaf area that it
+/// ever does; of one without leaves, of the largest number of internodes and organs that live.
+fn prime_of(plant: &Plant, last: Tick) -> Tick {
+    let (organs, nodes) = (&plant.organs, &plant.nodes);
+    let leaves = (0..organs.len()).filter(|&k| organs.kind[k] == Kind::Leaf);
+    let areas = leaves.map(|k| (organs.birth[k], organs.death[k], f64::from(organs.area[k])));
+    let all = organs.birth.iter().zip(&organs.death).chain(nodes.birth.iter().zip(&nodes.death));
+    let count = all.map(|(birth, death)| (*birth, *death, 1.0));
+    last_of_most(areas, last).or_else(|| last_of_most(count, last)).unwrap_or(last)
+}
+
+/// The last age at which the weights of what lives, from a birth until before a death, come to nine tenths of their
+/// largest sum; `None` where that is nothing.
+fn last_of_most(lives: impl Iterator<Item = (Tick, Tick, f64)>, last: Tick) -> Option<Tick> {
+    let mut changes = vec![0.0; last as usize + 2];
+    for (birth, death, weight) in lives.filter(|(birth, death, _)| birth < death && *birth <= last) {
+        changes[birth as usize] += weight;
+        changes[death.min(last + 1) as usize] -= weight;
+    }
+    let sums = changes.iter().take(last as usize + 1).scan(0.0, |sum, change| {
+        *sum += change;
+        Some(*sum)
+    });
+    let sums: Vec<f64> = sums.collect();
+    let most = sums.iter().copied().fold(0.0, f64::max);
+    let age = sums.iter().rposition(|sum| *sum >= 0.9 * most)?;
+    (most > 0.0).then_some((age as Tick).max(1))
+}
+
+/// Shows the first plant of a plot at some ages.
+struct Shower<'a, 's> {
+    ages: &'a [Tick],
+    air: Option<Air>,
+    show: &'a mut Show<'s>,
+}
+
+impl Recorder for Shower<'_, '_> {
+    fn wants(&self, age: Tick) -> bool {
+        self.ages.contains(&age)
+    }
+
+    fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
+        let mut plant = Cow::Borrowed(&plot.plants[0]);
+        if let Some(Air { wind, time }) = self.air {
+            sway(plant.to_mut(), age, &plot.site, wind, time, &mut Bench::default())?;
+        }
+        (self.show)(age, &plant)
+    }
+}
