@@ -15,7 +15,7 @@ fn a_minimal_scenario_has_its_defaults() {
     assert_eq!(scenario.limits.max_components, 50_000_000);
     assert!(scenario.mesh_ages().is_empty() && !scenario.draws(0));
     assert_eq!(run.expected_components(10), Some(10.0 + 10.0 + 1.0), "ten internodes, ten leaves, a bud");
-    assert_eq!(run.model.habit().shapes.len(), 1);
+    assert_eq!(run.model.habit().looks.internodes.len(), 1);
 }
 
 #[test]

@@ -7,8 +7,8 @@ use crate::{Mode, Provenance, RunFolder, RunPlan, RunReport, ShardReport, Table}
 use phytomer_sim::mechanics::Wood;
 use phytomer_sim::model::Overgrown;
 use phytomer_sim::plant::{
-    ApexFate, AxisId, Cause, EventKind, Form, Habit, Kind, LineageKey, NewAxis, NewNode, NewOrgan, NodeId, Origin,
-    Plant, Seed, Shape, Trend, key::Place,
+    ApexFate, AxisId, Cause, EventKind, Form, Habit, Kind, LineageKey, Looks, NewAxis, NewNode, NewOrgan, NodeId,
+    Origin, Plant, Seed, Shape, Trend, key::Place,
 };
 use phytomer_sim::site::Site;
 use phytomer_sim::{Ending, Growth, GrowthModel, NEVER, Plot, Tick, grow};
@@ -30,7 +30,7 @@ impl GrowthModel for Sapling {
 
     fn habit(&self) -> Arc<Habit> {
         let trends = vec![Trend::STRAIGHT];
-        Arc::new(Habit { trends, shapes: vec![Shape::Cone], organ_trends: vec![], wood: None })
+        Arc::new(Habit { trends, looks: Looks::of_shape(Shape::Cone), organ_trends: vec![], wood: None })
     }
 
     fn sow(&self, plant: &mut Plant) {

@@ -1,17 +1,18 @@
 //! `list`: what ships with the program, and the words that files and tables use.
 //!
-//! Scenarios, species, the 23 architectural models with their characters, growth models, woods and kinds of component,
-//! each a line. Absent: what they hold, which `describe` tells.
+//! Scenarios, species, the 23 architectural models with their characters, growth models, woods, forms of organs and kinds
+//! of component, each a line. Absent: what they hold, which `describe` tells.
 
 use super::{Verdict, terminal};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
 use phytomer_config::{Kind, MODELS, presets, validate, validate_species, woods};
 use phytomer_outputs::tables::columns::PLANT_ONTOLOGY;
+use phytomer_sim::plant::Form;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// List what ships: scenarios, species, architectural models, growth models, woods, kinds of components.
+/// List what ships: scenarios, species, architectural models, growth models, woods, forms of organs, kinds of components.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -40,7 +41,9 @@ enum Listed {
     GrowthModels,
     /// Woods that a species can be like.
     Woods,
-    /// Kinds of components, as the column `kind` has them.
+    /// Forms that organs can be drawn with.
+    Forms,
+    /// Kinds of components, as the column `kind` has them, with their Plant Ontology terms.
     Kinds,
 }
 
@@ -74,6 +77,7 @@ impl Listed {
             Self::Models => "models",
             Self::GrowthModels => "growth-models",
             Self::Woods => "woods",
+            Self::Forms => "forms",
             Self::Kinds => "kinds",
         }
     }
@@ -85,6 +89,10 @@ impl Listed {
             Self::Models => named_species().filter(|name| is_model(name)).map(model).collect(),
             Self::GrowthModels => MODELS.map(|model| entry(model.word(), model_in_words(model.word()))).into(),
             Self::Woods => woods().iter().map(|wood| entry(&wood.name, &wood.scientific_name)).collect(),
+            Self::Forms => {
+                let named = |form: &Form| Some(entry(form.name()?, form.words()));
+                Form::LIBRARY.iter().filter_map(named).collect()
+            }
             Self::Kinds => PLANT_ONTOLOGY.iter().map(|(kind, term)| entry(kind.tag(), term)).collect(),
         }
     }

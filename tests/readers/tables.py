@@ -4,6 +4,7 @@ The types and units are those of datapackage.json, the counts of living things t
 """
 
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -61,13 +62,23 @@ for table, resource in resources.items():
     assert len(counts) == 1, f"{table}: the readers disagree: {counts}"
     print(f"{table}: {counts.pop()} rows, {len(fields)} columns, three readers agree")
 
+# Every kind that occurs has its Plant Ontology term, in the metadata of the files and in datapackage.json.
+metadata = pyarrow.parquet.ParquetFile(parts("records")[0]).metadata.metadata
+terms = json.loads(metadata[b"phytomer.plant_ontology"])
+kind_field = next(field for field in resources["records"]["schema"]["fields"] if field["name"] == "kind")
+assert kind_field["plantOntology"] == terms and set(kind_field["constraints"]["enum"]) == set(terms)
+assert all(re.fullmatch("PO:[0-9]{7}", term) for term in terms.values()), terms
+occurring = {row[0] for row in duckdb.sql(f"select distinct kind from read_parquet('{run}/records/part-*.parquet')").fetchall()}
+assert occurring <= set(terms), occurring - set(terms)
+print(f"kinds: {', '.join(sorted(occurring))}, each with its term")
+
 summary = duckdb.sql(f"select * from read_parquet('{run}/summary/part-*.parquet')")
 kinds = {
-    "internodes": "kind in ('internode', 'short_internode') and alive",
-    "dead_internodes": "kind in ('internode', 'short_internode') and not alive",
+    "internodes": "ends_with(kind, 'internode') and alive",
+    "dead_internodes": "ends_with(kind, 'internode') and not alive",
     "leaves": "kind = 'leaf'",
-    "flowers": "kind = 'flower'",
-    "fruits": "kind = 'fruit'",
+    "flowers": "kind in ('flower', 'inflorescence', 'spikelet')",
+    "fruits": "kind in ('fruit', 'infructescence', 'strobilus')",
     "buds": "kind = 'apical_bud'",
 }
 for column, condition in kinds.items():

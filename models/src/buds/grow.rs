@@ -268,7 +268,7 @@ impl<'a> Axis<'a> {
         let fall = birth.saturating_add(laws.flower_life.draw(words, nth, at).max(1));
         let sets = laws.fruit_set.happens(words, nth, at);
         let insertion = if position == TERMINAL { 0.0 } else { laws.flower.insertion.draw(words, nth, at) };
-        let organ = |kind, form: Form, birth, death, cause, length, width| NewOrgan {
+        let organ = |kind: Kind, form: Form, birth, death, cause, length, width| NewOrgan {
             node,
             kind,
             position,
@@ -284,11 +284,11 @@ impl<'a> Axis<'a> {
         };
         let (length, width) = (laws.flower.length.draw(words, nth, at), laws.flower.width.draw(words, nth, at));
         let cause = if sets { Cause::FruitSet } else { Cause::LifeLength };
-        let flower = organ(Kind::Flower, laws.flower.form, birth, fall, cause, length, width);
+        let flower = organ(laws.flower.kind, laws.flower.form, birth, fall, cause, length, width);
         let fruit = sets.then(|| {
             let ripe = fall.saturating_add(laws.fruit_life.draw(words, nth, at).max(1));
             let (length, width) = (laws.fruit.length.draw(words, nth, at), laws.fruit.width.draw(words, nth, at));
-            organ(Kind::Fruit, laws.fruit.form, fall, ripe, Cause::LifeLength, length, width)
+            organ(laws.fruit.kind, laws.fruit.form, fall, ripe, Cause::LifeLength, length, width)
         });
         self.plant.add_organ(flower);
         fruit.map_or(fall, |fruit| {

@@ -9,7 +9,7 @@ use super::law::At;
 use super::params::ApexEnd;
 use phytomer_sim::clock::NEVER;
 use phytomer_sim::plant::key::Place;
-use phytomer_sim::plant::{EventKind, Kind, NewAxis, NewNode, NewOrgan, NodeId, Origin};
+use phytomer_sim::plant::{EventKind, NewAxis, NewNode, NewOrgan, NodeId, Origin};
 use phytomer_sim::random::Purpose;
 
 const TURN: f32 = 2.0 * std::f32::consts::PI;
@@ -112,7 +112,7 @@ impl Axis<'_> {
         let (length, width) = (laws.leaf.length.draw(words, nth, at), laws.leaf.width.draw(words, nth, at));
         self.plant.add_organ(NewOrgan {
             node,
-            kind: Kind::Leaf,
+            kind: laws.leaf.kind,
             position: nth as u16,
             birth: self.tick,
             death,

@@ -112,7 +112,12 @@ fn organ(plant: &Plant, i: usize) -> Component {
         death: organs.death[i],
         shed: organs.death[i],
         parent: Some(plant.node_key(organs.node[i])),
-        state: vec![organs.kind[i] as u32, organs.position[i].into(), organs.cause[i] as u32, organs.form[i] as u32],
+        state: vec![
+            organs.kind[i] as u32,
+            organs.position[i].into(),
+            organs.cause[i] as u32,
+            organs.form[i].number() as u32,
+        ],
         measures: bits(&[organs.length[i], organs.width[i], organs.area[i], organs.azimuth[i], organs.insertion[i]]),
     }
 }

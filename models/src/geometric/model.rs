@@ -14,7 +14,7 @@ use phytomer_sim::math;
 use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
 use phytomer_sim::plant::key::Place;
 use phytomer_sim::plant::{
-    AxisId, EventKind, Habit, LineageKey, NewAxis, NewNode, NodeId, Origin, Plant, Shape, Trend,
+    AxisId, EventKind, Habit, LineageKey, Looks, NewAxis, NewNode, NodeId, Origin, Plant, Shape, Trend,
 };
 use phytomer_sim::site::Site;
 use std::f64::consts::PI;
@@ -62,7 +62,7 @@ impl Gmt1Model {
             children: [child(r1, h1_deg, left_continues), child(r2, h2_deg, !left_continues)],
             habit: Arc::new(Habit {
                 trends: vec![Trend::STRAIGHT],
-                shapes: vec![Shape::Cylinder],
+                looks: Looks::of_shape(Shape::Cylinder),
                 organ_trends: vec![],
                 wood: None,
             }),

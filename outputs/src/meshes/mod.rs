@@ -12,6 +12,7 @@ mod file;
 mod forms;
 #[cfg(test)]
 mod measure;
+mod palette;
 mod ply;
 mod scene;
 #[cfg(test)]
@@ -21,26 +22,41 @@ mod tube;
 pub use chunk::{Chunk, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
 pub use file::{MeshError, MeshFile, MeshRecorder, write_mesh};
+pub use forms::own::OwnForms;
 pub use ply::Ply;
 pub use scene::{Counts, Scene};
 
 use phytomer_sim::clock::Tick;
-use phytomer_sim::plant::{Kind, Plant};
+use phytomer_sim::plant::{Form, Kind, Plant};
 use std::io::{self, Write};
+use std::sync::Arc;
 
 /// How plants are drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct MeshOptions {
     /// The sides of an internode's tube, at least 3.
     pub sides: u8,
     /// Which kinds are drawn, by the numbers of [`Kind`].
     pub kinds: [bool; Kind::ALL.len()],
+    /// The meshes of its own that the species names; empty where it names none.
+    pub own: Arc<OwnForms>,
+}
+
+impl MeshOptions {
+    /// The shape of a form.
+    #[inline]
+    pub(crate) fn shape(&self, form: Form) -> &forms::Shape {
+        match form {
+            Form::Own(place) => self.own.shape(place).unwrap_or_else(|| forms::shape(form)),
+            form => forms::shape(form),
+        }
+    }
 }
 
 impl Default for MeshOptions {
     /// Eight sides, every kind.
     fn default() -> Self {
-        Self { sides: 8, kinds: [true; Kind::ALL.len()] }
+        Self { sides: 8, kinds: [true; Kind::ALL.len()], own: Arc::default() }
     }
 }
 

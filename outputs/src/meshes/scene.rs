@@ -7,12 +7,12 @@
 
 use super::MeshOptions;
 use super::chunk::{Chunk, Face, Sink, Tag, Vertex};
-use super::forms::{Placement, Shape, shape};
-use super::tube::{Frustum, Tube};
+use super::forms::{Placement, Shape};
+use super::tube::{Frustum, Strip, Tube};
 use super::{About, Mesh, colour};
 use bytemuck::Zeroable;
 use phytomer_sim::clock::Tick;
-use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
+use phytomer_sim::plant::{AxisId, InternodeLook, NodeId, OrganId, Plant, Shape as Stem};
 use phytomer_sim::pose::organ_frame;
 use std::io;
 use std::ops::Range;
@@ -40,13 +40,51 @@ pub struct Scene<'a> {
     plant: &'a Plant,
     age: Tick,
     options: MeshOptions,
-    tube: Tube,
+    /// How internodes are drawn, by the place of their look in the habit's; at the end those of none.
+    stems: Vec<Drawn>,
+}
+
+/// How an internode is drawn.
+#[derive(Debug)]
+enum Drawn {
+    Tube(Tube),
+    Strip,
+    /// As an organ is, with the internode's length and diameter.
+    Shape(Shape),
+}
+
+impl Drawn {
+    fn of(look: &InternodeLook, options: &MeshOptions) -> Self {
+        match (look.form, look.shape) {
+            (Some(form), _) => Self::Shape(options.shape(form).clone()),
+            (None, Stem::Blade) => Self::Strip,
+            (None, Stem::Cylinder | Stem::Cone) => Self::Tube(Tube::new(look.sides.unwrap_or(options.sides))),
+        }
+    }
+
+    fn vertices(&self) -> usize {
+        match self {
+            Self::Tube(tube) => tube.vertices(),
+            Self::Strip => Strip::VERTICES,
+            Self::Shape(shape) => shape.points.len(),
+        }
+    }
+
+    fn faces(&self) -> &[[u32; 3]] {
+        match self {
+            Self::Tube(tube) => tube.faces(),
+            Self::Strip => &Strip::FACES,
+            Self::Shape(shape) => &shape.faces,
+        }
+    }
 }
 
 impl<'a> Scene<'a> {
     /// What stands of `plant` at `age`; its frames and diameters must be those of that age.
     pub fn new(plant: &'a Plant, age: Tick, options: &MeshOptions) -> Self {
-        Self { plant, age, options: *options, tube: Tube::new(options.sides) }
+        let mut stems: Vec<Drawn> = plant.habit.looks.internodes.iter().map(|look| Drawn::of(look, options)).collect();
+        stems.push(Drawn::Tube(Tube::new(options.sides)));
+        Self { plant, age, options: options.clone(), stems }
     }
 
     /// What a file says of it.
@@ -62,7 +100,10 @@ impl<'a> Scene<'a> {
             counts.vertices += vertices as u64;
             counts.faces += faces as u64;
         };
-        self.nodes().for_each(|_| count(self.tube.vertices(), self.tube.faces().len()));
+        self.nodes().for_each(|node| {
+            let stem = self.stem(node);
+            count(stem.vertices(), stem.faces().len());
+        });
         self.organs().for_each(|organ| {
             let shape = self.shape(organ);
             count(shape.points.len(), shape.faces.len());
@@ -76,8 +117,8 @@ impl<'a> Scene<'a> {
     /// The sink's.
     pub fn vertices(&self, chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
         for node in self.nodes() {
-            let out = chunk.room(self.tube.vertices(), sink)?;
-            self.tube.write(&self.frustum(node), &self.wood_tag(node), out);
+            let stem = self.stem(node);
+            self.write_stem(stem, node, chunk.room(stem.vertices(), sink)?);
         }
         for organ in self.organs() {
             let shape = self.shape(organ);
@@ -93,9 +134,10 @@ impl<'a> Scene<'a> {
     /// The sink's.
     pub fn faces(&self, chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
         let mut first = 0;
-        for _ in self.nodes() {
-            put_faces(first, self.tube.faces(), chunk, sink)?;
-            first += self.tube.vertices() as u32;
+        for node in self.nodes() {
+            let stem = self.stem(node);
+            put_faces(first, stem.faces(), chunk, sink)?;
+            first += stem.vertices() as u32;
         }
         for organ in self.organs() {
             let shape = self.shape(organ);
@@ -119,8 +161,8 @@ impl<'a> Scene<'a> {
         let of_nodes = self.plant.nodes.len().div_ceil(BLOCK);
         if block < of_nodes {
             self.nodes_of(span(block, self.plant.nodes.len())).for_each(|node| {
-                let out = appended(mesh, self.tube.vertices(), self.tube.faces());
-                self.tube.write(&self.frustum(node), &self.wood_tag(node), out);
+                let stem = self.stem(node);
+                self.write_stem(stem, node, appended(mesh, stem.vertices(), stem.faces()));
             });
         } else {
             self.organs_of(span(block - of_nodes, self.plant.organs.len())).for_each(|organ| {
@@ -137,11 +179,11 @@ impl<'a> Scene<'a> {
     }
 
     fn nodes_of(&self, range: Range<usize>) -> impl Iterator<Item = NodeId> {
-        let (nodes, age, kinds) = (&self.plant.nodes, self.age, self.options.kinds);
+        let (plant, age, kinds) = (self.plant, self.age, self.options.kinds);
+        let nodes = &plant.nodes;
         let drawn = move |&node: &usize| {
-            nodes.birth[node] <= age
-                && age < nodes.shed[node]
-                && kinds[node_kind(nodes.formation[node].is_short()) as usize]
+            let stands = nodes.birth[node] <= age && age < nodes.shed[node];
+            stands && kinds[plant.kind_of(NodeId(node as u32)) as usize]
         };
         range.filter(drawn).map(|node| NodeId(node as u32))
     }
@@ -160,8 +202,34 @@ impl<'a> Scene<'a> {
     }
 
     #[inline]
-    fn shape(&self, organ: OrganId) -> &'static Shape {
-        shape(self.plant.organs.form[organ.index()])
+    fn shape(&self, organ: OrganId) -> &Shape {
+        self.options.shape(self.plant.organs.form[organ.index()])
+    }
+
+    /// How an internode is drawn.
+    #[inline]
+    fn stem(&self, node: NodeId) -> &Drawn {
+        let Plant { axes, nodes, habit, .. } = self.plant;
+        let axis: AxisId = nodes.axis[node.index()];
+        let place = habit.looks.place(axes.order[axis.index()], axes.state[axis.index()]);
+        &self.stems[place.unwrap_or(self.stems.len() - 1)]
+    }
+
+    #[inline]
+    fn write_stem(&self, stem: &Drawn, node: NodeId, out: &mut [Vertex]) {
+        match stem {
+            Drawn::Tube(tube) => tube.write(&self.frustum(node), &self.wood_tag(node), out),
+            Drawn::Strip => Strip::write(&self.frustum(node), &self.wood_tag(node), out),
+            Drawn::Shape(shape) => shape.write(&self.stands(node), &[self.wood_tag(node); 2], out),
+        }
+    }
+
+    /// The place of an internode that is drawn as an organ is.
+    fn stands(&self, node: NodeId) -> Placement {
+        let frame = self.plant.frames.at(node);
+        let nodes = &self.plant.nodes;
+        let size = [nodes.length[node.index()], nodes.diameter[node.index()]];
+        Placement { base: frame.base, heading: frame.heading, up: frame.up, size }
     }
 
     #[inline]
@@ -180,35 +248,36 @@ impl<'a> Scene<'a> {
         let out = outward(self.plant.frames.heading[node.index()], frame.heading);
         let radius = 0.5 * self.plant.nodes.diameter_tip[node.index()];
         let base = [0, 1, 2].map(|k| frame.base[k] + radius * out[k]);
-        let size = [organs.length[organ.index()], organs.width[organ.index()]];
+        let share = self.plant.expanded(organ, self.age);
+        let size = [organs.length[organ.index()] * share, organs.width[organ.index()] * share];
         Placement { base, heading: frame.heading, up: frame.up, size }
     }
 
     #[inline]
     fn wood_tag(&self, node: NodeId) -> Tag {
+        let look = self.plant.look_of(self.plant.nodes.axis[node.index()]);
         let nodes = &self.plant.nodes;
         let node = node.index();
         let dead = nodes.death[node] <= self.age;
         Tag {
-            colour: colour::wood((self.age - nodes.birth[node]) as f32, dead),
+            colour: colour::wood(look, self.age - nodes.birth[node], dead),
             birth: nodes.birth[node] as f32,
             death: if dead { nodes.death[node] as f32 } else { f32::INFINITY },
             component: nodes.component[node] as i32,
-            kind: node_kind(nodes.formation[node].is_short()) as u8,
+            kind: look.kind(nodes.formation[node].is_short()) as u8,
         }
     }
 
     /// The tags of an organ and of its stalk.
     fn organ_tags(&self, organ: OrganId) -> [Tag; 2] {
         let organs = &self.plant.organs;
-        let organ = organ.index();
-        let (kind, birth) = (organs.kind[organ], organs.birth[organ]);
-        colour::organ(kind, organs.form[organ], birth, organs.death[organ], self.age).map(|colour| Tag {
+        let place = organ.index();
+        colour::organ(self.plant, organ, self.age).map(|colour| Tag {
             colour,
-            birth: birth as f32,
+            birth: organs.birth[place] as f32,
             death: f32::INFINITY,
-            component: organs.component[organ] as i32,
-            kind: kind as u8,
+            component: organs.component[place] as i32,
+            kind: organs.kind[place] as u8,
         })
     }
 }
@@ -225,11 +294,6 @@ fn appended<'m>(mesh: &'m mut Mesh, vertices: usize, faces: &[[u32; 3]]) -> &'m 
     mesh.faces.extend(faces.iter().map(|face| Face::new(face.map(|corner| first as u32 + corner))));
     mesh.vertices.resize(first + vertices, Vertex::zeroed());
     &mut mesh.vertices[first..]
-}
-
-#[inline]
-fn node_kind(short: bool) -> Kind {
-    if short { Kind::ShortInternode } else { Kind::Internode }
 }
 
 /// The part of an organ's heading across its stem's, as a unit vector; nothing for an organ on the tip.

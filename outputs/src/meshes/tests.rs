@@ -81,7 +81,7 @@ fn add_organ(plant: &mut Plant, node: NodeId, position: u16) {
 /// A trunk of 5 nodes with a branch that dies at 4 and falls at 8, and an organ of each form at its top.
 fn specimen() -> Plant {
     let trend = Trend { cos_inclination: 1.0, sin_inclination: 0.0, share: 0.1 };
-    let habit = Habit { trends: vec![trend], shapes: vec![Shape::Cone], organ_trends: vec![], wood: None };
+    let habit = Habit { trends: vec![trend], looks: Looks::of_shape(Shape::Cone), organ_trends: vec![], wood: None };
     let seed = Seed { plant: 7, run_seed: 42, component_limit: 1000, keep_events: false };
     let mut plant = Plant::new(&seed, Arc::new(habit));
     let trunk = add_axis(&mut plant, None, 5);
@@ -163,7 +163,7 @@ fn kinds_can_be_left_out_and_the_wood_is_closed() {
     let mut kinds = [false; Kind::ALL.len()];
     kinds[Kind::Internode as usize] = true;
     kinds[Kind::ShortInternode as usize] = true;
-    let wood = mesh_plant(&plant, 9, &MeshOptions { sides: 6, kinds });
+    let wood = mesh_plant(&plant, 9, &MeshOptions { sides: 6, kinds, ..MeshOptions::default() });
     assert_eq!((wood.vertices.len(), wood.faces.len()), (5 * 26, 5 * 20));
     super::measure::assert_closed(&wood.vertices[..26], &wood.faces[..20]);
     let area = |d: f64| 6.0 / 2.0 * d * d / 4.0 * 0.75_f64.sqrt();

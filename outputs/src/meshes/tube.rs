@@ -1,4 +1,5 @@
-//! Internodes as closed tubes: frusta with a regular polygon across, as the hexagonal cones of de Reffye 1988 §6.
+//! Internodes as closed tubes, frusta with a regular polygon across, as the hexagonal cones of de Reffye 1988 §6; and as
+//! plane strips, where they are stretches of a petal or of a blade.
 //!
 //! The side has normals that lean with its slope, the two caps axial ones, so each ring stands twice; the side's ring
 //! closes on a vertex of its own, so that the texture runs once around (s) and from base to tip (t). With n sides that
@@ -80,6 +81,47 @@ impl Tube {
     }
 }
 
+/// A plane internode: a strip that narrows from base to tip, in two halves that rise a little from its middle.
+#[derive(Debug, Clone, Copy)]
+pub struct Strip;
+
+impl Strip {
+    /// The vertices of a strip.
+    pub const VERTICES: usize = 8;
+    /// Its triangles, counterclockwise from its upper side.
+    pub const FACES: [[u32; 3]; 4] = [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]];
+    /// How far an edge rises for each part that it stands out.
+    const RISE: f32 = 0.25;
+
+    /// Writes the vertices of one strip; `out` has exactly their number.
+    #[inline]
+    pub fn write(frustum: &Frustum, tag: &Tag, out: &mut [Vertex]) {
+        let Frustum { base, heading: h, up, length, radii } = *frustum;
+        let left = cross(up, h);
+        let tip = [0, 1, 2].map(|i| base[i] + length * h[i]);
+        let scale = 1.0 / (1.0 + Self::RISE * Self::RISE).sqrt();
+        for (half, out) in [-1.0, 1.0].into_iter().zip(out.chunks_exact_mut(4)) {
+            let edge = |from: [f32; 3], radius: f32| {
+                [0, 1, 2].map(|i| from[i] + radius * (half * left[i] + Self::RISE * up[i]))
+            };
+            let normal = [0, 1, 2].map(|i| scale * (up[i] - half * Self::RISE * left[i]));
+            let side = 0.5 + 0.5 * half;
+            let mut corners = [
+                (base, [0.5, 0.0]),
+                (edge(base, radii[0]), [side, 0.0]),
+                (edge(tip, radii[1]), [side, 1.0]),
+                (tip, [0.5, 1.0]),
+            ];
+            if half > 0.0 {
+                corners.reverse();
+            }
+            for ((at, texture), vertex) in corners.into_iter().zip(out) {
+                *vertex = Vertex::new(at, normal, texture, tag);
+            }
+        }
+    }
+}
+
 /// The normal of the side, along the radius and along the axis.
 fn lean(length: f32, narrowing: f32) -> [f32; 2] {
     let norm = (length * length + narrowing * narrowing).sqrt();
@@ -139,6 +181,19 @@ mod tests {
                 let measured = volume(&vertices, &faces);
                 assert!((measured / expected - 1.0).abs() < 1e-5, "{sides} sides {radii:?}: {measured} {expected}");
             }
+        }
+    }
+
+    #[test]
+    fn a_strip_is_two_plane_quadrilaterals_seen_from_above() {
+        for radii in [[0.3, 0.2], [0.2, 0.4], [0.25, 0.0]] {
+            let mut vertices = vec![Vertex::zeroed(); Strip::VERTICES];
+            Strip::write(&leaning(1.5, radii), &TAG, &mut vertices);
+            let faces: Vec<Face> = Strip::FACES.iter().map(|&face| Face::new(face)).collect();
+            assert_unit_normals(&vertices);
+            let area = |face: &Face| outward_share(&vertices, std::slice::from_ref(face));
+            let empty = faces.iter().filter(|face| area(face) == 0.0).count();
+            assert_eq!(empty, if radii[1] == 0.0 { 2 } else { 0 }, "{radii:?}");
         }
     }
 

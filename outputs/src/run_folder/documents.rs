@@ -178,7 +178,7 @@ const MACROS: [(Table, &str, &str); 6] = [
         "The internodes of each order at an age, with their length and wood volume, by plant.",
         "orders_at(a) AS TABLE SELECT plant_id, \"order\", count(*) AS internodes, sum(length_m) AS length_m, \
          sum(pi() / 12 * length_m * (diameter_m ** 2 + diameter_m * diameter_tip_m + diameter_tip_m ** 2)) AS \
-         wood_volume_m3 FROM records WHERE age = a AND kind IN ('internode', 'short_internode') GROUP BY ALL ORDER BY ALL",
+         wood_volume_m3 FROM records WHERE age = a AND ends_with(kind, 'internode') GROUP BY ALL ORDER BY ALL",
     ),
     (
         Table::Components,
@@ -190,7 +190,7 @@ const MACROS: [(Table, &str, &str); 6] = [
         "One row an axis.",
         "axes() AS TABLE SELECT b.plant_id, b.axis_id, b.bearing_axis_id, b.\"order\", b.origin, b.birth_age, b.death_age, \
          count(i.component_id) AS internodes, sum(i.length_m) AS length_m FROM components b LEFT JOIN components i ON \
-         i.plant_id = b.plant_id AND i.axis_id = b.axis_id AND i.kind IN ('internode', 'short_internode') WHERE b.kind = \
+         i.plant_id = b.plant_id AND i.axis_id = b.axis_id AND ends_with(i.kind, 'internode') WHERE b.kind = \
          'apical_bud' GROUP BY ALL ORDER BY ALL",
     ),
     (

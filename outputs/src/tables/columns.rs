@@ -67,8 +67,8 @@ pub static CAUSES: [&str; 9] = {
     tags
 };
 
-/// The Plant Ontology term of each kind; the ontology tells neither short from long internodes nor apical buds from
-/// buds.
+/// The Plant Ontology term of each kind (Planteome, release 20 and later). The ontology tells neither short from long
+/// internodes, nor apical buds from buds, nor a part from the internodes that it is grown of.
 pub static PLANT_ONTOLOGY: [(Kind, &str); Kind::ALL.len()] = [
     (Kind::Internode, "PO:0005005"),
     (Kind::ShortInternode, "PO:0005005"),
@@ -76,6 +76,31 @@ pub static PLANT_ONTOLOGY: [(Kind, &str); Kind::ALL.len()] = [
     (Kind::Flower, "PO:0009046"),
     (Kind::Fruit, "PO:0009001"),
     (Kind::ApicalBud, "PO:0000055"),
+    (Kind::RhizomeInternode, "PO:0025204"),
+    (Kind::CulmInternode, "PO:0020142"),
+    (Kind::TillerInternode, "PO:0005005"),
+    (Kind::PalmInternode, "PO:0020055"),
+    (Kind::LeafletInternode, "PO:0020049"),
+    (Kind::InflorescenceInternode, "PO:0020122"),
+    (Kind::PedicelInternode, "PO:0030112"),
+    (Kind::ReceptacleInternode, "PO:0009064"),
+    (Kind::SepalInternode, "PO:0009031"),
+    (Kind::PetalInternode, "PO:0009032"),
+    (Kind::StamenInternode, "PO:0009029"),
+    (Kind::StigmaInternode, "PO:0009073"),
+    (Kind::Leaflet, "PO:0020049"),
+    (Kind::Bract, "PO:0009055"),
+    (Kind::ScaleLeaf, "PO:0006003"),
+    (Kind::Spine, "PO:0025173"),
+    (Kind::Sepal, "PO:0009031"),
+    (Kind::Petal, "PO:0009032"),
+    (Kind::Tepal, "PO:0009033"),
+    (Kind::Stamen, "PO:0009029"),
+    (Kind::Stigma, "PO:0009073"),
+    (Kind::Inflorescence, "PO:0009049"),
+    (Kind::Spikelet, "PO:0009051"),
+    (Kind::Infructescence, "PO:0006342"),
+    (Kind::Strobilus, "PO:0025083"),
 ];
 
 const TREATMENT: Column = Column::new(
@@ -133,12 +158,12 @@ pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
         .rounded(Rounding::Direction),
     Column::float("up_y", "", "The same, y.").rounded(Rounding::Direction),
     Column::float("up_z", "", "The same, z.").rounded(Rounding::Direction),
-    Column::float("length_m", "m", "Length along its direction. Null for buds.").repeated().or_null(),
+    Column::float("length_m", "m", "Length along its direction at this age. Null for buds.").repeated().or_null(),
     Column::float("diameter_m", "m", "Diameter at the base at this age; width of an organ. Null for buds.").or_null(),
     Column::float("diameter_tip_m", "m", "Diameter at the tip at this age. Null for organs and buds.").or_null(),
     Column::float("area_m2", "m2", "Area of one side. Null where a component has none.").repeated().or_null(),
     Column::truth("alive", "False for dead wood that still stands: between its branch's death and its fall."),
-    Column::float("wood_volume_m3", "m3", "The frustum of an internode at this age. Null for organs and buds.").or_null(),
+    Column::float("wood_volume_m3", "m3", "The frustum of an internode at this age; 0 for a blade. Null for organs and buds.").or_null(),
     Column::float(
         "fresh_mass_kg",
         "kg",
@@ -242,10 +267,10 @@ pub static SUMMARY: [Column; 18] = [
     PLOT,
     PLANT,
     AGE,
-    Column::id("internodes", "Living internodes, long and short."),
-    Column::id("leaves", "Leaves on the plant."),
-    Column::id("flowers", "Flowers on the plant."),
-    Column::id("fruits", "Fruits on the plant."),
+    Column::id("internodes", "Living internodes of every kind: those whose kind ends in `internode`."),
+    Column::id("leaves", "Leaves on the plant, of kind `leaf`; leaflets, bracts and the parts of flowers are none."),
+    Column::id("flowers", "Flowers on the plant, and inflorescences and spikelets that are drawn as one."),
+    Column::id("fruits", "Fruits on the plant, and infructescences and strobili."),
     Column::id("buds", "Living apical buds."),
     Column::id("dead_internodes", "Dead internodes that still stand."),
     Column::id("axes", "Axes with an internode that stands or a living bud."),
@@ -258,8 +283,12 @@ pub static SUMMARY: [Column; 18] = [
         "The mean of the extents along x and y of the tips of living internodes. Null where none lives.",
     )
     .or_null(),
-    Column::double("leaf_area_m2", "m2", "One side of every leaf on the plant."),
-    Column::double("wood_volume_m3", "m3", "The frusta of the internodes that stand, living and dead."),
+    Column::double("leaf_area_m2", "m2", "One side of every leaf and leaflet on the plant."),
+    Column::double(
+        "wood_volume_m3",
+        "m3",
+        "The frusta of the internodes that stand, living and dead; blades have none.",
+    ),
     Column::truth("alive", "Whether a bud lives."),
     Column::tick("death_age", "The age at which the last bud died. Null while one lives.").or_null(),
 ];

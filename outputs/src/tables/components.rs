@@ -3,7 +3,7 @@
 //! Fates later than the last age are not known, whichever way the plant was grown: they are null.
 
 use super::buffers::{NULL, columns, known};
-use super::records::{area_of, kind_of, number_of};
+use super::records::{area_of, number_of};
 use super::standing::{Component, Standing};
 use phytomer_sim::plant::{AxisId, Cause, Kind, LineageKey, NodeId, OrganId, Plant};
 use phytomer_sim::shed::cause_of;
@@ -101,7 +101,7 @@ fn of_node(plant: &Plant, node: NodeId) -> Row {
         key: plant.node_key(node),
         parent: number_of(plant, nodes.parent[i]),
         axis,
-        kind: kind_of(plant, node),
+        kind: plant.kind_of(node),
         position: NULL,
         rank: nodes.rank[i] as i32,
         unit_rank: i32::from(nodes.unit_rank[i]),

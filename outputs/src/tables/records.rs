@@ -136,7 +136,7 @@ impl Scene<'_> {
             component: nodes.component[i],
             parent: number_of(self.plant, nodes.parent[i]),
             axis: nodes.axis[i],
-            kind: kind_of(self.plant, node),
+            kind: self.plant.kind_of(node),
             rank: nodes.rank[i],
             birth: nodes.birth[i],
             frame: self.plant.frames.at(node),
@@ -153,6 +153,7 @@ impl Scene<'_> {
         let Plant { organs, nodes, .. } = self.plant;
         let i = organ.index();
         let node = organs.node[i];
+        let share = self.plant.expanded(organ, self.age);
         Row {
             component: organs.component[i],
             parent: nodes.component[node.index()] as i32,
@@ -161,10 +162,10 @@ impl Scene<'_> {
             rank: nodes.rank[node.index()],
             birth: organs.birth[i],
             frame: organ_frame(self.plant, organ, self.age),
-            length: organs.length[i],
-            diameter: organs.width[i],
+            length: organs.length[i] * share,
+            diameter: organs.width[i] * share,
             diameter_tip: f32::NAN,
-            area: area_of(organs.area[i]),
+            area: area_of(organs.area[i] * share * share),
             alive: true,
         }
     }
@@ -217,7 +218,8 @@ impl Scene<'_> {
     }
 
     fn loaded_organ(&self, organ: OrganId) -> Loaded {
-        let mass = self.plant.habit.wood.as_ref().map(|wood| wood.organs.of(self.plant, organ.index()) as f32);
+        let mass =
+            self.plant.habit.wood.as_ref().map(|wood| wood.organs.of(self.plant, organ.index(), self.age) as f32);
         Loaded { fresh_mass: mass.unwrap_or(f32::NAN), ..Loaded::NONE }
     }
 }
@@ -228,12 +230,6 @@ pub fn number_of(plant: &Plant, node: NodeId) -> i32 {
     node.some().map_or(NULL, |node| plant.nodes.component[node.index()] as i32)
 }
 
-/// Whether an internode is long or short.
-#[inline]
-pub fn kind_of(plant: &Plant, node: NodeId) -> Kind {
-    if plant.nodes.formation[node.index()].is_short() { Kind::ShortInternode } else { Kind::Internode }
-}
-
 /// An area, or what stands for null where area means nothing.
 #[inline]
 pub fn area_of(area: f32) -> f32 {
@@ -241,4 +237,4 @@ pub fn area_of(area: f32) -> f32 {
 }
 
 // A kind's number is its place in the list of words.
-const _: () = assert!(KINDS.len() == Kind::ALL.len() && Kind::ApicalBud as usize == KINDS.len() - 1);
+const _: () = assert!(KINDS.len() == Kind::ALL.len() && Kind::Strobilus as usize == KINDS.len() - 1);

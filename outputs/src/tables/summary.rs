@@ -5,7 +5,8 @@
 use super::buffers::{NULL, columns};
 use super::standing::{Standing, organ_end};
 use crate::error::Error;
-use phytomer_sim::plant::{AxisId, Kind, NodeId, OrganId, Plant};
+use phytomer_sim::mechanics::wood_volume;
+use phytomer_sim::plant::{AxisId, Class, Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::node_frame;
 use phytomer_sim::{Plot, Tick};
 
@@ -81,7 +82,7 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
         if axes.shed[axis.index()] <= age {
             continue;
         }
-        let frusta = standing.clone().map(|i| frustum(nodes.length[i], nodes.diameter[i], nodes.diameter_tip[i]));
+        let frusta = standing.clone().map(|node| wood_volume(plant, NodeId(node as u32)));
         summary.wood_volume = frusta.fold(summary.wood_volume, |sum, frustum| sum + frustum);
         if age >= axes.death[axis.index()] {
             summary.dead_internodes += standing.len() as u32;
@@ -102,26 +103,20 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
     summary.crown_width = if lives { (extent(0) + extent(1)) / 2.0 } else { f64::NAN };
 }
 
-fn frustum(length: f32, base: f32, tip: f32) -> f64 {
-    let (length, base, tip) = (f64::from(length), f64::from(base), f64::from(tip));
-    std::f64::consts::PI / 12.0 * length * (base * base + base * tip + tip * tip)
-}
-
 fn count_organs(plant: &Plant, age: Tick, summary: &mut Summary) {
     let organs = &plant.organs;
     for organ in 0..organs.len() {
         if organs.birth[organ] > age || age >= organ_end(plant, OrganId(organ as u32)) {
             continue;
         }
-        match organs.kind[organ] {
-            Kind::Leaf => {
-                summary.leaves += 1;
-                summary.leaf_area += f64::from(organs.area[organ]);
-            }
-            Kind::Flower => summary.flowers += 1,
-            Kind::Fruit => summary.fruits += 1,
-            Kind::Internode | Kind::ShortInternode | Kind::ApicalBud => {}
+        let kind = organs.kind[organ];
+        if kind.is_foliage() {
+            let share = f64::from(plant.expanded(OrganId(organ as u32), age));
+            summary.leaf_area += f64::from(organs.area[organ]) * share * share;
         }
+        summary.leaves += u32::from(kind == Kind::Leaf);
+        summary.flowers += u32::from(kind.class() == Class::Flower);
+        summary.fruits += u32::from(kind.class() == Class::Fruit);
     }
 }
 

@@ -18,7 +18,7 @@ use super::wood::{Wood, frustum};
 use crate::clock::Tick;
 use crate::plant::borne::{Borne, Down};
 use crate::plant::standing::{Run, Standing};
-use crate::plant::{AxisId, Plant};
+use crate::plant::{AxisId, OrganId, Plant, Shape};
 use crate::site::Fields;
 use crate::vector::Vector;
 
@@ -202,6 +202,7 @@ impl Scan<'_> {
     fn weigh_run<const WINDY: bool>(&mut self, run: &Run, laterals: &mut Down<'_>, organs: &mut Down<'_>) -> bool {
         let tissue = self.wood.tissue(self.plant.axes.order[run.axis.index()]);
         let mut load = self.loads[run.axis.index()];
+        let heavy = f64::from(u8::from(self.plant.look_of(run.axis).shape != Shape::Blade));
         let mut holds = true;
         for node in run.nodes().rev() {
             while let Some(axis) = laterals.on(node) {
@@ -211,7 +212,7 @@ impl Scan<'_> {
                 self.hang(&mut load, node, organ);
             }
             let own_age = self.age - self.plant.nodes.birth[node];
-            let piece = self.piece(node, tissue.density(own_age));
+            let piece = self.piece(node, heavy * tissue.density(own_age));
             let felt = piece.pass::<WINDY>(&mut load, &self.fields);
             let flexural = tissue.modulus(own_age) * second_moment(piece.diameters[1]);
             let answered;
@@ -232,8 +233,9 @@ impl Scan<'_> {
         let frames = &self.plant.frames;
         let along = Vector::from(frames.heading[node]) * f64::from(self.plant.nodes.length[node]);
         let at = Vector::from(frames.base[node]) + along;
-        load.put(at, self.wood.organs.of(self.plant, organ));
-        let area = f64::from(organs.area[organ]);
+        load.put(at, self.wood.organs.of(self.plant, organ, self.age));
+        let share = f64::from(self.plant.expanded(OrganId(organ as u32), self.age));
+        let area = f64::from(organs.area[organ]) * share * share;
         load.sail.put(at * area, area);
     }
 

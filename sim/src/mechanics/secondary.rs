@@ -12,7 +12,7 @@
 use super::bend::Bench;
 use crate::clock::Tick;
 use crate::math::pow;
-use crate::plant::{Kind, Plant, Shape};
+use crate::plant::Plant;
 use std::f64::consts::PI;
 
 /// How the internodes of a species gain diameter.
@@ -82,7 +82,7 @@ pub(super) struct Above {
 /// Enters what each leaf that has appeared by `age` is worth at its node, by its area and whether it lives.
 fn count_leaves(plant: &Plant, age: Tick, above: &mut [Above], worth: impl Fn(f64, bool) -> f64) {
     let organs = &plant.organs;
-    for organ in (0..organs.len()).filter(|&organ| organs.kind[organ] == Kind::Leaf && organs.birth[organ] <= age) {
+    for organ in (0..organs.len()).filter(|&organ| organs.kind[organ].is_foliage() && organs.birth[organ] <= age) {
         above[organs.node[organ].index()].sum += worth(f64::from(organs.area[organ]), organs.death[organ] > age);
     }
 }
@@ -125,7 +125,7 @@ pub fn taper(plant: &mut Plant, age: Tick) {
         let (diameter, tip) = (&nodes.diameter[born.clone()], &mut nodes.diameter_tip[born.clone()]);
         let Some(&first) = diameter.first() else { continue };
         tip.copy_from_slice(diameter);
-        if habit.shape(axes.order[axis.index()]) == Shape::Cone {
+        if habit.shape(axes.order[axis.index()], axes.state[axis.index()]).narrows() {
             tip.iter_mut().zip(diameter.windows(2)).for_each(|(tip, pair)| *tip = pair[0].min(pair[1]));
             if let Some(parent) = nodes.parent[born.start].some().filter(|parent| nodes.axis[parent.index()] == axis) {
                 nodes.diameter_tip[parent.index()] = first.min(nodes.diameter[parent.index()]);

@@ -89,7 +89,7 @@ pub fn frequencies(plant: &Plant, wood: &Wood, age: Tick) -> Vec<f64> {
     for organ in 0..plant.organs.len() {
         let node = plant.organs.node[organ].index();
         if plant.organs.birth[organ] <= age && age < plant.organs.death[organ] && stands(node) {
-            axes[plant.nodes.axis[node].index()].mass += wood.organs.of(plant, organ);
+            axes[plant.nodes.axis[node].index()].mass += wood.organs.of(plant, organ, age);
         }
     }
     for node in (0..plant.nodes.len()).filter(|&node| stands(node)) {

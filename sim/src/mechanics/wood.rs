@@ -5,7 +5,8 @@
 //! the species file, and the equations that use them.
 
 use super::secondary::Thickening;
-use crate::plant::{Kind, NodeId, Plant};
+use crate::clock::Tick;
+use crate::plant::{Class, NodeId, OrganId, Plant, Shape};
 use crate::site::Fields;
 
 /// The mechanical side of a species.
@@ -127,28 +128,32 @@ fn at(table: &[f32], age: u32) -> f64 {
 }
 
 impl OrganMass {
-    /// The fresh mass of an organ, kg.
+    /// The fresh mass of an organ at `age`, kg.
     #[inline]
-    pub fn of(&self, plant: &Plant, organ: usize) -> f64 {
+    pub fn of(&self, plant: &Plant, organ: usize, age: Tick) -> f64 {
         let organs = &plant.organs;
+        let share = f64::from(plant.expanded(OrganId(organ as u32), age));
         let ellipsoid = || {
-            let (length, width) = (f64::from(organs.length[organ]), f64::from(organs.width[organ]));
+            let (length, width) = (share * f64::from(organs.length[organ]), share * f64::from(organs.width[organ]));
             std::f64::consts::PI / 6.0 * length * width * width
         };
-        match organs.kind[organ] {
-            Kind::Leaf => f64::from(self.leaf) * f64::from(organs.area[organ]),
-            Kind::Flower => f64::from(self.flower) * ellipsoid(),
-            Kind::Fruit => f64::from(self.fruit) * ellipsoid(),
-            _ => 0.0,
+        match organs.kind[organ].class() {
+            Class::Leaf => f64::from(self.leaf) * f64::from(organs.area[organ]) * share * share,
+            Class::Flower => f64::from(self.flower) * ellipsoid(),
+            Class::Fruit => f64::from(self.fruit) * ellipsoid(),
+            Class::Internode | Class::Bud => 0.0,
         }
     }
 }
 
-/// The volume of an internode as the frustum of its two diameters, m³.
+/// The volume of an internode as the frustum of its two diameters, m³; 0 for a blade.
 #[inline]
 pub fn wood_volume(plant: &Plant, node: NodeId) -> f64 {
     let nodes = &plant.nodes;
     let node = node.index();
+    if plant.look_of(nodes.axis[node]).shape == Shape::Blade {
+        return 0.0;
+    }
     frustum(f64::from(nodes.length[node]), f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]))
 }
 

@@ -4,7 +4,8 @@
 //! turns smoothly towards its trend. Where a trend is a random variable each axis has one of its own ([`OwnTrends`]).
 
 use super::axis::AxisId;
-use super::kind::Kind;
+use super::kind::{Class, Kind};
+use super::look::Looks;
 use crate::clock::Tick;
 use crate::mechanics::{Thickening, Wood};
 use std::ops::Range;
@@ -65,15 +66,25 @@ pub enum Shape {
     Cylinder,
     /// The tip has the diameter of the base of the internode that follows it on its axis.
     Cone,
+    /// A plane blade as wide as the diameter, which narrows as a cone does; no wood is in it.
+    Blade,
+}
+
+impl Shape {
+    /// Whether the tip takes the diameter of the internode that follows.
+    #[inline]
+    pub fn narrows(self) -> bool {
+        self != Self::Cylinder
+    }
 }
 
 /// The rules of a species that its plants carry with them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Habit {
     /// The development trends; an internode names one by its place here, unless its axis has trends of its own.
     pub trends: Vec<Trend>,
-    /// The shape of internodes, by order from 1.
-    pub shapes: Vec<Shape>,
+    /// What its components are and look like.
+    pub looks: Looks,
     /// How organs turn, by order from 1; empty where none does.
     pub organ_trends: Vec<OrganTrends>,
     /// The mechanics of its wood; `None` where diameters follow the model's law and nothing bends.
@@ -90,18 +101,18 @@ impl Habit {
     #[inline]
     pub fn organ_trend(&self, order: u8, kind: Kind) -> Option<&OrganTrend> {
         let of = self.organ_trends.get(usize::from(order).checked_sub(1)?)?;
-        match kind {
-            Kind::Leaf => of.leaf.as_ref(),
-            Kind::Flower => of.flower.as_ref(),
-            Kind::Fruit => of.fruit.as_ref(),
-            _ => None,
+        match kind.class() {
+            Class::Leaf => of.leaf.as_ref(),
+            Class::Flower => of.flower.as_ref(),
+            Class::Fruit => of.fruit.as_ref(),
+            Class::Internode | Class::Bud => None,
         }
     }
 
-    /// The shape of the internodes of `order`; orders past the last are as the last.
-    pub fn shape(&self, order: u8) -> Shape {
-        let own = self.shapes.get(usize::from(order).saturating_sub(1));
-        own.or(self.shapes.last()).copied().unwrap_or(Shape::Cylinder)
+    /// The shape of the internodes of an axis of `order` that started in `state`; orders past the last are as the last.
+    #[inline]
+    pub fn shape(&self, order: u8, state: u8) -> Shape {
+        self.looks.internode(order, state).shape
     }
 }
 

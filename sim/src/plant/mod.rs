@@ -9,18 +9,22 @@
 mod axis;
 pub(crate) mod borne;
 mod event;
+mod form;
 mod habit;
 pub mod key;
 mod kind;
+mod look;
 mod node;
 mod organ;
 pub(crate) mod standing;
 
 pub use axis::{ApexFate, ApicalBud, Axes, AxisId, NewAxis, Origin};
 pub use event::{Event, EventKind};
+pub use form::Form;
 pub use habit::{Habit, OrganTrend, OrganTrends, OwnTrends, Shape, Trend};
 pub use key::LineageKey;
-pub use kind::{Cause, Form, Kind};
+pub use kind::{Cause, Class, Kind};
+pub use look::{Bark, Colour, InternodeLook, Looks, OrganLook, OrganLooks};
 pub use node::{NewNode, NodeId, Nodes};
 pub use organ::{NewOrgan, OrganId, Organs};
 
@@ -213,6 +217,33 @@ impl Plant {
     #[inline]
     pub fn trends_of(&self, axis: AxisId) -> &[Trend] {
         self.own_trends.of(axis).unwrap_or(&self.habit.trends)
+    }
+
+    /// What the internodes of an axis look like.
+    #[inline]
+    pub fn look_of(&self, axis: AxisId) -> &InternodeLook {
+        self.habit.looks.internode(self.axes.order[axis.index()], self.axes.state[axis.index()])
+    }
+
+    /// The kind of an internode.
+    #[inline]
+    pub fn kind_of(&self, node: NodeId) -> Kind {
+        let node = node.index();
+        self.look_of(self.nodes.axis[node]).kind(self.nodes.formation[node].is_short())
+    }
+
+    /// What the species says of the look of an organ, if it says anything.
+    #[inline]
+    pub fn look_of_organ(&self, organ: OrganId) -> Option<&OrganLook> {
+        let axis = self.nodes.axis[self.organs.node[organ.index()].index()];
+        self.habit.looks.organ(self.axes.order[axis.index()], self.organs.kind[organ.index()].class())
+    }
+
+    /// The share of its full length and width that an organ has at `age`; of its full area the square of that.
+    #[inline]
+    pub fn expanded(&self, organ: OrganId, age: Tick) -> f32 {
+        let own_age = age.saturating_sub(self.organs.birth[organ.index()]);
+        self.look_of_organ(organ).map_or(1.0, |look| look.share(own_age))
     }
 
     /// Whether an apical bud lives at `age`: it has appeared and its axis has not come to its end.

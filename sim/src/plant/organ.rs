@@ -3,7 +3,8 @@
 //! An organ's end is planned at its birth, from its life length and the season; its branch may end earlier. Absent: its
 //! pose, which follows from that of its node.
 
-use super::kind::{Cause, Form, Kind};
+use super::form::Form;
+use super::kind::{Cause, Kind};
 use super::node::NodeId;
 use crate::clock::Tick;
 
@@ -24,7 +25,7 @@ impl OrganId {
 pub struct NewOrgan {
     /// The node that bears it.
     pub node: NodeId,
-    /// Leaf, flower or fruit.
+    /// What it is: a kind of leaf, flower or fruit.
     pub kind: Kind,
     /// Its position among the organs of its kind on the node, from 0.
     pub position: u16,
@@ -36,11 +37,11 @@ pub struct NewOrgan {
     pub cause: Cause,
     /// The form that it is drawn with.
     pub form: Form,
-    /// Length along its own axis, metres.
+    /// Length along its own axis when it is full-grown, metres.
     pub length: f32,
-    /// Width across, metres.
+    /// Width across, likewise.
     pub width: f32,
-    /// Area of one side, square metres; 0 where area means nothing.
+    /// Area of one side, likewise, square metres; 0 where area means nothing.
     pub area: f32,
     /// Around the axis, radians from the axis's reference direction.
     pub azimuth: f32,
@@ -55,7 +56,7 @@ pub struct Organs {
     pub node: Vec<NodeId>,
     /// The component number.
     pub component: Vec<u32>,
-    /// Leaf, flower or fruit.
+    /// What it is: a kind of leaf, flower or fruit.
     pub kind: Vec<Kind>,
     /// The position among the organs of its kind on the node.
     pub position: Vec<u16>,
@@ -67,11 +68,11 @@ pub struct Organs {
     pub cause: Vec<Cause>,
     /// The form that it is drawn with.
     pub form: Vec<Form>,
-    /// Length, metres.
+    /// Length when full-grown, metres.
     pub length: Vec<f32>,
-    /// Width, metres.
+    /// Width, likewise.
     pub width: Vec<f32>,
-    /// Area of one side, square metres.
+    /// Area of one side, likewise, square metres.
     pub area: Vec<f32>,
     /// Azimuth, radians.
     pub azimuth: Vec<f32>,

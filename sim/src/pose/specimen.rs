@@ -50,7 +50,12 @@ pub struct Specimen {
 
 impl Specimen {
     pub fn new(branches: &[Branch], trends: &[Trend]) -> Self {
-        let habit = Habit { trends: trends.to_vec(), shapes: vec![Shape::Cylinder], organ_trends: vec![], wood: None };
+        let habit = Habit {
+            trends: trends.to_vec(),
+            looks: Looks::of_shape(Shape::Cylinder),
+            organ_trends: vec![],
+            wood: None,
+        };
         let seed = Seed { plant: 0, run_seed: 1, component_limit: u32::MAX, keep_events: false };
         let plant = Plant::new(&seed, Arc::new(habit));
         let (node_at, axis_at) = (vec![Vec::new(); branches.len()], vec![None; branches.len()]);

@@ -5,13 +5,15 @@
 //! the laws are for, which `step`, `node` and `relay` know.
 
 use super::domain;
+use super::look::form_of;
 use crate::buds::law::{
     At, Constant, Count, CountTable, Domain, Law, ProbabilityTable, Quantity, SpeedTable, ValueRange, ValueTable,
     Variate, VariateTable,
 };
-use crate::buds::params::{Buds, Season};
+use crate::buds::params::{Buds, FormChoice, Season};
 use crate::fault::{Fault, Path};
 use phytomer_sim::clock::Speed;
+use phytomer_sim::plant::Form;
 
 /// A length or a diameter, in the unit of its key.
 const MEASURE: ValueRange = ValueRange { min: 0.0, max: 100_000.0, what: "a measure" };
@@ -214,6 +216,11 @@ impl<'a> Compiler<'a> {
             self.fault(keys, format!("the state \"{name}\" is not among the species's"), &expected);
         }
         place.and_then(|place| u8::try_from(place).ok()).unwrap_or(0)
+    }
+
+    /// The number of a form.
+    pub fn form(&self, choice: &FormChoice) -> Form {
+        form_of(self.buds, choice)
     }
 
     fn accept<T>(&mut self, compiled: Result<T, Vec<Fault>>) -> Option<T> {

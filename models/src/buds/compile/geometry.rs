@@ -20,6 +20,7 @@ impl From<ShapeName> for Shape {
         match name {
             ShapeName::Cylinder => Self::Cylinder,
             ShapeName::Cone => Self::Cone,
+            ShapeName::Blade => Self::Blade,
         }
     }
 }

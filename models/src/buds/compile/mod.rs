@@ -7,6 +7,7 @@
 mod compiler;
 mod geometry;
 mod head;
+mod look;
 mod node;
 mod organs;
 mod relay;
@@ -27,7 +28,7 @@ use super::params::Buds;
 use crate::fault::{Fault, Path};
 use compiler::Compiler;
 use phytomer_sim::clock::LAST_TICK;
-use phytomer_sim::plant::{Habit, OrganTrends, Shape, Trend};
+use phytomer_sim::plant::{Habit, OrganTrends, Trend};
 use std::sync::Arc;
 
 /// The most orders that a species may have.
@@ -70,6 +71,7 @@ impl Buds {
             organ_trends.push(organs::trends(&self.order[index], &mut compiler));
             faults.append(&mut compiler.faults);
         }
+        let looks = look::compile(self, until.min(LAST_TICK), path, &mut faults);
         let wood = wood::compile(self, until.min(LAST_TICK), path, &mut faults);
         if !faults.is_empty() {
             faults.sort_by(|a, b| a.path.cmp(&b.path));
@@ -79,8 +81,7 @@ impl Buds {
         if organ_trends.iter().all(|of| *of == OrganTrends::default()) {
             organ_trends.clear();
         }
-        let shapes = self.order.iter().map(|order| Shape::from(order.internode.shape)).collect();
-        let habit = Habit { trends, shapes, organ_trends, wood };
+        let habit = Habit { trends, looks, organ_trends, wood };
         let states = self.states.len().max(1);
         Ok(BudModel { orders, states, until, habit: Arc::new(habit) })
     }

@@ -11,7 +11,7 @@ use super::words::{Chance, Layout, Measure, Number};
 use super::zone::{Ranks, Zones};
 use crate::buds::law::{Count, CountTable, VariateTable};
 use crate::buds::params::{Order, Season};
-use phytomer_sim::plant::Form;
+use phytomer_sim::plant::{Form, Kind};
 
 /// Metres in a centimetre and in a millimetre.
 const CM: f32 = 0.01;
@@ -64,6 +64,7 @@ pub struct OrganLaws {
     /// Area of one side as a share of length × width; 0 where area means nothing.
     pub area_share: Measure,
     pub form: Form,
+    pub kind: Kind,
 }
 
 impl NodeLaws {
@@ -152,7 +153,8 @@ fn leaf(order: &Order, compiler: &mut Compiler, words: &mut Layout, leaves: u32)
         width: words.measure(compiler.measure(&leaf.width_cm, "leaf.width_cm"), CM, leaves),
         insertion: words.measure(angle, DEGREE, leaves),
         area_share: words.measure(compiler.share(&leaf.area_share, "leaf.area_share"), 1.0, leaves),
-        form: leaf.form.into(),
+        form: compiler.form(&leaf.form),
+        kind: leaf.kind.into(),
     }
 }
 
@@ -171,7 +173,8 @@ fn flower(order: &Order, compiler: &mut Compiler, words: &mut Layout, flowers: u
         width: words.measure(compiler.measure(&flower.width_cm, "flower.width_cm"), CM, flowers),
         insertion: words.measure(angle, DEGREE, flowers),
         area_share: words.measure(VariateTable::always(0.0), 1.0, flowers),
-        form: flower.form.into(),
+        form: compiler.form(&flower.form),
+        kind: flower.kind.into(),
     }
 }
 
@@ -182,7 +185,8 @@ fn fruit(order: &Order, compiler: &mut Compiler, words: &mut Layout, flowers: u3
         width: words.measure(compiler.measure(&order.fruit.width_cm, "fruit.width_cm"), CM, flowers),
         insertion: words.measure(angle, DEGREE, flowers),
         area_share: words.measure(VariateTable::always(0.0), 1.0, flowers),
-        form: order.fruit.form.into(),
+        form: compiler.form(&order.fruit.form),
+        kind: order.fruit.kind.into(),
     }
 }
 

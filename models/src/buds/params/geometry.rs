@@ -3,7 +3,9 @@
 //! People type centimetres, millimetres and degrees; compilation makes metres and radians of them. Absent: the pose,
 //! which is the same for every model (`phytomer_sim::pose`).
 
-use crate::buds::law::{Count, Law, Variate};
+use super::colour::BarkChoice;
+use super::looks::{ByState, FormChoice, KindName};
+use crate::buds::law::{Count, Law, Quantity, Variate};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -19,8 +21,24 @@ pub struct Internode {
     /// What an internode has added to its diameter, mm: a law in which `age` is the plant's age, `dimension` and `cycle`
     /// the internode's own, in ticks, and the state that in which its axis started.
     pub thickening_mm: Law,
-    /// A cylinder has one diameter; a cone narrows to the diameter of the next internode of its axis.
-    pub shape: ShapeName,
+    /// A cylinder has one diameter; a cone narrows to the diameter of the next internode of its axis, and so does a blade,
+    /// which is plane and without wood. One for all axes, or one for each state in which an axis can start.
+    pub shape: ByState<ShapeName>,
+    /// What its internodes are: `internode` where they are those of a stem, else a kind whose name ends in `internode`. One
+    /// for all axes, or one for each state in which an axis can start.
+    #[serde(skip_serializing_if = "ByState::is_plain_kind")]
+    pub kind: ByState<KindName>,
+    /// The sides of the tubes that they are drawn as, from 3 to 64: 6 for the hexagonal cones of 1988; left out: as many as
+    /// the mesh has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sides: Option<Quantity>,
+    /// A form that they are drawn with instead of tubes, as long as the internode and as wide as its diameter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub form: Option<ByState<FormChoice>>,
+    /// Their colour: `"#rrggbb"`, or colours by the age of the wood. One for all axes, or one for each state in which an
+    /// axis can start. Left out: by kind.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub colour: Option<ByState<BarkChoice>>,
 }
 
 impl Default for Internode {
@@ -29,7 +47,11 @@ impl Default for Internode {
             length_cm: Variate::from(1.0),
             diameter_mm: Variate::from(1.0),
             thickening_mm: Law::default(),
-            shape: ShapeName::Cone,
+            shape: ByState::All(ShapeName::Cone),
+            kind: ByState::All(KindName::Internode),
+            sides: None,
+            form: None,
+            colour: None,
         }
     }
 }
@@ -42,6 +64,8 @@ pub enum ShapeName {
     Cylinder,
     /// A truncated cone.
     Cone,
+    /// A plane blade: a stretch of a petal, a sepal or a leaf that is grown as an axis.
+    Blade,
 }
 
 /// Phyllotaxis: the divergence from one node to the next. The positions of one node are spread evenly around it.

@@ -7,13 +7,20 @@
 //!
 //! Absent on purpose: what the parameters do, which is in `compile` and `grow`.
 
+mod colour;
 mod geometry;
+mod looks;
 mod organs;
 mod sympodial;
 mod wood;
 
+pub use colour::{
+    BarkChoice, BarkColours, ColourText, FlowerChoice, FlowerColours, FruitChoice, FruitColours, LeafChoice,
+    LeafColours,
+};
 pub use geometry::{Divergence, Internode, Orientation, Phase, Phyllotaxis, ShapeName, StateTrends, Tended, Trend};
-pub use organs::{Flower, FormName, Fruit, Leaf, OrganTrend, Season};
+pub use looks::{ByState, EachState, FormChoice, FormName, KindName, OwnForm};
+pub use organs::{Flower, Fruit, Leaf, OrganTrend, Season};
 pub use sympodial::{Apex, ApexEnd, Fork, Reiteration, Relay, Sibling, Transition, Traumatic};
 pub use wood::{CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood};
 

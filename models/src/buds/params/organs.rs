@@ -3,8 +3,9 @@
 //! Lateral organs stand in the axils of their node, terminal flowers at the end of their axis. Absent: how organs are
 //! drawn, which is known by their form's name alone.
 
+use super::colour::{FlowerChoice, FruitChoice, LeafChoice};
+use super::looks::{FormChoice, FormName, KindName};
 use crate::buds::law::{Constant, Count, Law, Quantity, Variate};
-use phytomer_sim::plant::Form;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -53,8 +54,18 @@ pub struct Leaf {
     /// How a leaf turns as it ages; left out: it keeps its insertion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trend: Option<OrganTrend>,
-    /// The form that it is drawn with.
-    pub form: FormName,
+    /// The form that it is drawn with: one of the library (`phytomer list forms`), or `{ mesh = "file.ply" }`.
+    pub form: FormChoice,
+    /// What it is: `leaf`, or another kind that stands as a leaf does: a leaflet, a bract, a scale, a part of a flower.
+    #[serde(skip_serializing_if = "KindName::is_leaf")]
+    pub kind: KindName,
+    /// The share of its full length and width, in [0, 1]: a law in which `dimension` and `cycle` are its own age in ticks.
+    /// Left out: full-grown at its birth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub expansion: Option<Law>,
+    /// Its colour: `"#rrggbb"`, or colours by its age and season. Left out: by kind and form.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub colour: Option<LeafChoice>,
 }
 
 impl Default for Leaf {
@@ -67,7 +78,10 @@ impl Default for Leaf {
             area_share: Variate::from(0.7),
             insertion_deg: Variate::from(60.0),
             trend: None,
-            form: FormName::Elliptic,
+            form: FormName::Elliptic.into(),
+            kind: KindName::Leaf,
+            expansion: None,
+            colour: None,
         }
     }
 }
@@ -98,8 +112,18 @@ pub struct Flower {
     /// How a flower turns as it ages; left out: it keeps its insertion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trend: Option<OrganTrend>,
-    /// The form that it is drawn with.
-    pub form: FormName,
+    /// The form that it is drawn with: one of the library (`phytomer list forms`), or `{ mesh = "file.ply" }`.
+    pub form: FormChoice,
+    /// What it is: `flower`, or an inflorescence or a spikelet.
+    #[serde(skip_serializing_if = "KindName::is_flower")]
+    pub kind: KindName,
+    /// The share of its full length and width, in [0, 1]: a law in which `dimension` and `cycle` are its own age in ticks.
+    /// Left out: full-grown at its birth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub expansion: Option<Law>,
+    /// Its colour: `"#rrggbb"`, or colours by its age. Left out: by kind and form.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub colour: Option<FlowerChoice>,
 }
 
 impl Default for Flower {
@@ -115,7 +139,10 @@ impl Default for Flower {
             width_cm: Variate::from(1.0),
             insertion_deg: Variate::from(45.0),
             trend: None,
-            form: FormName::Corolla,
+            form: FormName::Corolla.into(),
+            kind: KindName::Flower,
+            expansion: None,
+            colour: None,
         }
     }
 }
@@ -133,8 +160,18 @@ pub struct Fruit {
     /// How a fruit turns as it ages, from the insertion of its flower; left out: it keeps it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trend: Option<OrganTrend>,
-    /// The form that it is drawn with.
-    pub form: FormName,
+    /// The form that it is drawn with: one of the library (`phytomer list forms`), or `{ mesh = "file.ply" }`.
+    pub form: FormChoice,
+    /// What it is: `fruit`, or an infructescence or a strobilus.
+    #[serde(skip_serializing_if = "KindName::is_fruit")]
+    pub kind: KindName,
+    /// The share of its full length and width, in [0, 1]: a law in which `dimension` and `cycle` are its own age in ticks.
+    /// Left out: full-grown at its birth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub expansion: Option<Law>,
+    /// Its colour: `"#rrggbb"`, or colours by its age. Left out: by kind and form.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub colour: Option<FruitChoice>,
 }
 
 impl Default for Fruit {
@@ -144,44 +181,10 @@ impl Default for Fruit {
             length_cm: Variate::from(1.0),
             width_cm: Variate::from(1.0),
             trend: None,
-            form: FormName::Berry,
-        }
-    }
-}
-
-/// A form by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum FormName {
-    /// A broad blade, widest in its middle.
-    Elliptic,
-    /// A narrow blade, widest below its middle.
-    Lanceolate,
-    /// A blade as broad as long, as a poplar's.
-    Deltoid,
-    /// A needle.
-    Needle,
-    /// A pinnate palm leaf.
-    Palm,
-    /// An open flower of five petals.
-    Corolla,
-    /// A round fruit.
-    Berry,
-    /// A cone, standing or hanging.
-    Cone,
-}
-
-impl From<FormName> for Form {
-    fn from(name: FormName) -> Self {
-        match name {
-            FormName::Elliptic => Self::Elliptic,
-            FormName::Lanceolate => Self::Lanceolate,
-            FormName::Deltoid => Self::Deltoid,
-            FormName::Needle => Self::Needle,
-            FormName::Palm => Self::Palm,
-            FormName::Corolla => Self::Corolla,
-            FormName::Berry => Self::Berry,
-            FormName::Cone => Self::Cone,
+            form: FormName::Berry.into(),
+            kind: KindName::Fruit,
+            expansion: None,
+            colour: None,
         }
     }
 }

@@ -1,15 +1,21 @@
 //! The library of forms (de Reffye 1988 §6): a small mesh for each form of organ, in a unit box, put in place by scaling.
 //!
 //! In the box x runs from the base (0) to the tip (1) along the organ, y across it to its left (−½ to ½), z to its upper
-//! side. Length scales x, width y, and one of the two z. Triangles are single-sided, counterclockwise as seen from the
+//! side. Length scales x, width y, and one of the two z; a form is parametrised by age through the two. Triangles are single-sided, counterclockwise as seen from the
 //! upper or outer side, with one normal a vertex: the ten readers of the profile draw both sides or let the user choose,
 //! and doubled faces would flicker and count twice in areas. Leaves are assemblies of at most four plane convex
 //! polygons, folded along the midrib. Internodes are tubes ([`super::tube`]); buds are not drawn.
 
+mod arch;
 mod blade;
+mod cluster;
 mod flower;
+mod fruit;
+pub mod own;
 mod palm;
 mod round;
+#[cfg(test)]
+mod tests;
 
 use super::chunk::{Tag, Vertex};
 use phytomer_sim::plant::Form;
@@ -44,6 +50,8 @@ pub struct Shape {
     pub points: Vec<Point>,
     /// Its triangles, by the numbers of its corners.
     pub faces: Vec<[u32; 3]>,
+    /// The plane polygons among it: the first corner and the number of corners of each.
+    polygons: Vec<[u32; 2]>,
     depth: Depth,
 }
 
@@ -60,32 +68,65 @@ pub struct Placement {
     pub size: [f32; 2],
 }
 
-/// The shape of a form.
+/// The shape of a form of the library; of a mesh of the user's that is not at hand, a broad blade.
 pub fn shape(form: Form) -> &'static Shape {
-    static LIBRARY: LazyLock<[Shape; 8]> = LazyLock::new(|| {
-        [
-            blade::elliptic(),
-            blade::lanceolate(),
-            blade::deltoid(),
-            blade::needle(),
-            palm::palm(),
-            flower::corolla(),
-            round::berry(),
-            round::cone(),
-        ]
-    });
-    &LIBRARY[form as usize]
+    static LIBRARY: LazyLock<Vec<Shape>> = LazyLock::new(|| Form::LIBRARY.iter().map(|&form| made(form)).collect());
+    LIBRARY.get(form.number()).unwrap_or(&LIBRARY[0])
+}
+
+/// Makes the shape of a form.
+fn made(form: Form) -> Shape {
+    match form {
+        Form::Elliptic | Form::Own(_) => blade::elliptic(),
+        Form::Lanceolate => blade::lanceolate(),
+        Form::Deltoid => blade::deltoid(),
+        Form::Needle => blade::needle(),
+        Form::Palm => palm::palm(),
+        Form::Corolla => flower::corolla(),
+        Form::Berry => fruit::berry(),
+        Form::Cone => round::cone(),
+        Form::Obovate => blade::obovate(),
+        Form::Cordate => blade::cordate(),
+        Form::Palmate => blade::palmate(),
+        Form::Linear => blade::linear(),
+        Form::Arching => arch::arching(),
+        Form::Paddle => arch::paddle(),
+        Form::Fan => blade::fan(),
+        Form::Pinnate => palm::pinnate(),
+        Form::Leaflet => blade::leaflet(),
+        Form::Fascicle => blade::fascicle(),
+        Form::Scale => blade::scale(),
+        Form::Petal => arch::petal(),
+        Form::Sepal => arch::sepal(),
+        Form::Stamen => flower::stamen(),
+        Form::Pistil => flower::pistil(),
+        Form::Rosette => flower::rosette(),
+        Form::Catkin => round::catkin(),
+        Form::Spikelet => round::spikelet(),
+        Form::Cherry => fruit::cherry(),
+        Form::Apple => fruit::apple(),
+        Form::Capsule => fruit::capsule(),
+        Form::Nut => fruit::nut(),
+        Form::Drupe => fruit::drupe(),
+        Form::Finger => fruit::finger(),
+        Form::Pod => fruit::pod(),
+        Form::Tuft => cluster::tuft(),
+        Form::Spray => cluster::spray(),
+        Form::Panicle => cluster::panicle(),
+        Form::Cyme => cluster::cyme(),
+    }
 }
 
 impl Shape {
     fn new(depth: Depth) -> Self {
-        Self { points: Vec::new(), faces: Vec::new(), depth }
+        Self { points: Vec::new(), faces: Vec::new(), polygons: Vec::new(), depth }
     }
 
     /// Adds a plane convex polygon, its corners counterclockwise as seen from its upper side.
     fn polygon(&mut self, corners: &[[f32; 3]], texture: impl Fn([f32; 3]) -> [f32; 2], stalk: bool) {
         let first = self.points.len() as u32;
         let normal = plane_normal(corners);
+        self.polygons.push([first, corners.len() as u32]);
         self.points.extend(corners.iter().map(|&at| Point { at, normal, texture: texture(at), stalk }));
         self.faces.extend((1..corners.len() as u32 - 1).map(|k| [first, first + k, first + k + 1]));
     }
@@ -140,80 +181,4 @@ fn unit(v: [f32; 3]) -> [f32; 3] {
 /// The texture of a blade: s across, t along.
 fn along([x, y, _]: [f32; 3]) -> [f32; 2] {
     [0.5 + y, x]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::chunk::Face;
-    use super::super::measure::{assert_closed, assert_unit_normals, outward_share, volume};
-    use super::*;
-    use bytemuck::Zeroable;
-    use std::collections::BTreeSet;
-
-    const FORMS: [Form; 8] = [
-        Form::Elliptic,
-        Form::Lanceolate,
-        Form::Deltoid,
-        Form::Needle,
-        Form::Palm,
-        Form::Corolla,
-        Form::Berry,
-        Form::Cone,
-    ];
-
-    fn placed(form: Form, size: [f32; 2]) -> (Vec<Vertex>, Vec<Face>) {
-        let tag = Tag { colour: [0; 4], birth: 0.0, death: 1.0, component: 3, kind: 2 };
-        let place = Placement { base: [1.0, 2.0, 3.0], heading: [0.0, 0.6, 0.8], up: [0.0, -0.8, 0.6], size };
-        let shape = shape(form);
-        let mut vertices = vec![Vertex::zeroed(); shape.points.len()];
-        shape.write(&place, &[tag, tag], &mut vertices);
-        (vertices, shape.faces.iter().map(|&face| Face::new(face)).collect())
-    }
-
-    #[test]
-    fn every_form_fits_its_box_and_its_normals_agree_with_its_triangles() {
-        for form in FORMS {
-            let inside = |p: &Point| p.at[0] >= -0.01 && p.at[0] <= 1.01 && p.at[1].abs() <= 0.51;
-            assert!(shape(form).points.iter().all(inside), "{form:?}");
-            let corners: BTreeSet<u32> = shape(form).faces.iter().flatten().copied().collect();
-            assert!(corners.into_iter().eq(0..shape(form).points.len() as u32), "{form:?}: readers drop idle vertices");
-            for size in [[0.2, 0.08], [0.1, 0.12], [1.0, 1.0]] {
-                let (vertices, faces) = placed(form, size);
-                assert_unit_normals(&vertices);
-                assert_eq!(outward_share(&vertices, &faces), 1.0, "{form:?} {size:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn normals_are_unit_at_any_size() {
-        for (form, size) in
-            FORMS.iter().flat_map(|&form| [(form, [0.0, 0.0]), (form, [1e-6, 1e-6]), (form, [3.0, 0.0])])
-        {
-            assert_unit_normals(&placed(form, size).0);
-        }
-    }
-
-    #[test]
-    fn blades_are_assemblies_of_at_most_four_plane_convex_polygons() {
-        for form in &FORMS[..4] {
-            let points = &shape(*form).points;
-            let mut normals: Vec<_> = points.iter().map(|p| (p.stalk, p.normal.map(f32::to_bits))).collect();
-            normals.dedup();
-            assert!(normals.len() <= 4, "{form:?}");
-        }
-    }
-
-    #[test]
-    fn a_berry_is_closed_and_nearly_a_sphere() {
-        let (vertices, faces) = placed(Form::Berry, [0.02, 0.02]);
-        assert_closed(&vertices, &faces);
-        let ball = std::f64::consts::PI / 6.0 * 8e-6;
-        assert!((0.6..1.0).contains(&(volume(&vertices, &faces) / ball)));
-        assert!(volume(&placed(Form::Cone, [0.1, 0.05]).0, &faces_of(Form::Cone)) > 0.0);
-    }
-
-    fn faces_of(form: Form) -> Vec<Face> {
-        placed(form, [1.0, 1.0]).1
-    }
 }

@@ -1,6 +1,7 @@
-//! A pinnate palm leaf: an arching rachis of four sides, and leaflets in pairs along it, narrow kites that hang a little.
+//! Compound leaves drawn whole: a pinnate palm leaf with an arching rachis of four sides and leaflets in pairs along it,
+//! narrow kites that hang a little; and a pinnate leaf of nine leaflets.
 //!
-//! De Reffye 1988 §5 (Fig. 16) grows a palm as a growth unit of its own; here it is one organ, drawn whole.
+//! De Reffye 1988 §5 (Fig. 16) grows a palm as a growth unit of its own, as species files can; here it is one organ.
 
 use super::{Depth, Point, Shape, along};
 use phytomer_sim::math::sincosf;
@@ -71,4 +72,27 @@ fn leaflet(shape: &mut Shape, place: f32, side: f32) {
     let [base, behind, tip, before] = kite;
     let counterclockwise = if side > 0.0 { [base, before, tip, behind] } else { kite };
     shape.polygon(&counterclockwise, along, false);
+}
+
+/// Four pairs of leaflets and one at the end, each a plane polygon, on a thin rachis: an ash leaf.
+pub fn pinnate() -> Shape {
+    let mut shape = Shape::new(Depth::Width);
+    let rachis = [[0.0, -0.02, 0.0], [0.75, -0.01, 0.0], [0.75, 0.01, 0.0], [0.0, 0.02, 0.0]];
+    shape.polygon(&rachis, along, true);
+    let place = |foot: f32, [cos, sin]: [f32; 2], long: f32, rise: f32| {
+        // An outline along the leaflet and across it, turned by its angle to the rachis.
+        let outline = [[0.04, 0.0], [0.3, -0.16], [0.6, -0.15], [1.0, 0.0], [0.6, 0.15], [0.3, 0.16]];
+        outline.map(|[out, aside]: [f32; 2]| {
+            let [out, aside] = [out * long, aside * long];
+            let y = out * sin + aside * cos;
+            [foot + out * cos - aside * sin, y, rise * y.abs()]
+        })
+    };
+    for (foot, long) in [(0.22, 0.4), (0.38, 0.46), (0.54, 0.44), (0.68, 0.38)] {
+        for side in [1.0, -1.0] {
+            shape.polygon(&place(foot, [0.42, 0.907 * side], long, 0.15), along, false);
+        }
+    }
+    shape.polygon(&place(0.72, [1.0, 0.0], 0.28, 0.0), along, false);
+    shape
 }

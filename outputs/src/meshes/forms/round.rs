@@ -1,30 +1,46 @@
-//! Fruits as solids of revolution with few sides: a berry, and the cone of a conifer.
+//! Solids of revolution with few sides: cones, catkins and spikelets, and what fruits are made of (`fruit`).
 //!
-//! A few rings of triangles are enough at the size of a fruit (de Reffye 1988 §6 draws a few vectors). Absent: stalks.
+//! A few rings of triangles are enough at the size of a fruit (de Reffye 1988 §6 draws a few vectors). A solid may be
+//! bent: its rings then stand on a curve. Every solid here but the tube of a corolla is closed.
 
 use super::{Depth, Point, Shape, unit};
 use phytomer_sim::math::sincosf;
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::TAU;
 
 const SIDES: u16 = 6;
-
-/// A ball of six meridians and four zones.
-pub fn berry() -> Shape {
-    let mut shape = Shape::new(Depth::Width);
-    let meridian: Vec<[f32; 2]> = (0..=4_u8)
-        .map(|k| {
-            let (sin, cos) = sincosf(PI * f32::from(k) / 4.0);
-            [0.5 - 0.5 * cos, if k % 4 == 0 { 0.0 } else { 0.5 * sin }]
-        })
-        .collect();
-    revolve(&mut shape, &meridian, SIDES, false);
-    shape
-}
 
 /// An egg, widest near its base, with a stalk's breadth at neither end.
 pub fn cone() -> Shape {
     let mut shape = Shape::new(Depth::Width);
     revolve(&mut shape, &[[0.0, 0.0], [0.1, 0.36], [0.3, 0.5], [0.7, 0.34], [1.0, 0.0]], SIDES, false);
+    shape
+}
+
+/// A spindle with rings of scales.
+pub fn catkin() -> Shape {
+    let mut shape = Shape::new(Depth::Width);
+    let rings = [
+        [0.0, 0.0],
+        [0.05, 0.32],
+        [0.16, 0.46],
+        [0.22, 0.36],
+        [0.36, 0.5],
+        [0.42, 0.4],
+        [0.56, 0.5],
+        [0.62, 0.38],
+        [0.76, 0.44],
+        [0.82, 0.3],
+        [0.92, 0.3],
+        [1.0, 0.0],
+    ];
+    revolve(&mut shape, &rings, SIDES, false);
+    shape
+}
+
+/// A spindle of four sides.
+pub fn spikelet() -> Shape {
+    let mut shape = Shape::new(Depth::Width);
+    revolve(&mut shape, &[[0.0, 0.0], [0.18, 0.42], [0.42, 0.5], [0.72, 0.3], [1.0, 0.0]], 4, false);
     shape
 }
 
@@ -70,4 +86,25 @@ fn meridian_normal(meridian: &[[f32; 2]], row: usize) -> [f32; 2] {
     }
     let normal = unit([before[1] - after[1], after[0] - before[0], 0.0]);
     [normal[0], normal[1]]
+}
+
+/// The same around a curve: rings at places along x that rise, each with the height of the curve there and its radius. Rings stay
+/// across x, so that the surface leans where the curve rises.
+pub(super) fn swept(shape: &mut Shape, rings: &[[f32; 3]], sides: u16, stalk: bool) {
+    let first = shape.points.len();
+    let meridian: Vec<[f32; 2]> = rings.iter().map(|&[x, _, r]| [x, r]).collect();
+    revolve(shape, &meridian, sides, stalk);
+    // A ring's rise is the mean of its two neighbours'.
+    let rise = |row: usize| {
+        let (before, after) = (rings[row.saturating_sub(1)], rings[(row + 1).min(rings.len() - 1)]);
+        (after[1] - before[1]) / (after[0] - before[0])
+    };
+    for point in &mut shape.points[first..] {
+        let Some(row) = rings.iter().position(|ring| ring[0] == point.at[0]) else { continue };
+        let rise = rise(row);
+        let [x, y, z] = point.normal;
+        point.at[2] += rings[row][1];
+        // A normal shears against the surface: z' = z + f(x) takes f' times its z from its x.
+        point.normal = unit([x - rise * z, y, z]);
+    }
 }

@@ -60,7 +60,12 @@ impl Rod {
     }
 
     pub fn plant(&self) -> Plant {
-        let habit = Habit { trends: vec![], shapes: vec![Shape::Cone], organ_trends: vec![], wood: Some(self.wood()) };
+        let habit = Habit {
+            trends: vec![],
+            looks: Looks::of_shape(Shape::Cone),
+            organ_trends: vec![],
+            wood: Some(self.wood()),
+        };
         let seed = Seed { plant: 0, run_seed: 1, component_limit: u32::MAX, keep_events: true };
         let mut plant = Plant::new(&seed, Arc::new(habit));
         let axis = add_axis(&mut plant, None, self.insertion);

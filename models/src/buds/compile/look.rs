@@ -1,0 +1,292 @@
+//! Kinds, forms and stated colours, compiled: what each order's components are and look like (de Reffye 1988 §6).
+//!
+//! What may differ by state is spread over the states; names become numbers, colours bytes, and the law of an organ's
+//! expansion a table by its own age. Absent: what is drawn where nothing is stated.
+
+use crate::buds::law::{At, Domain, Law, Quantity, ValueRange};
+use crate::buds::params::{
+    BarkChoice, Buds, ByState, ColourText, FlowerChoice, FormChoice, FruitChoice, KindName, LeafChoice, OwnForm,
+};
+use crate::fault::{Fault, Path};
+use phytomer_sim::plant::{Bark, Class, Colour, Form, InternodeLook, Kind, Looks, OrganLook, OrganLooks, Shape};
+
+const SIDES: std::ops::RangeInclusive<u32> = 3..=64;
+/// The most meshes of its own that a species may name.
+const MOST_OWN: usize = 64;
+/// A share of an organ's full size.
+const SHARE: ValueRange = ValueRange { min: 0.0, max: 1.0, what: "a share of the full size" };
+
+/// The looks of a species.
+pub fn compile(buds: &Buds, until: u32, path: &Path, faults: &mut Vec<Fault>) -> Looks {
+    let mut looks = Looks { states: buds.states.len().max(1), ..Looks::default() };
+    if buds.own_forms().len() > MOST_OWN {
+        let found = format!("the species names {} meshes of its own", buds.own_forms().len());
+        faults.push(Fault::new(&path.key("order"), found, format!("at most {MOST_OWN}")));
+    }
+    for index in 0..buds.order.len() {
+        let path = path.key("order").index(index);
+        let mut place = Place { buds, until, index, path, faults };
+        let organs = place.organs();
+        looks.internodes.extend(place.internodes());
+        looks.organs.push(organs);
+    }
+    looks
+}
+
+/// The number of a form: its place in the library, or among the species' own meshes.
+pub fn form_of(buds: &Buds, choice: &FormChoice) -> Form {
+    match choice {
+        FormChoice::Named(name) => Form::from(*name),
+        FormChoice::Own(own) => {
+            let place = buds.own_forms().iter().position(|mesh| *mesh == own.mesh);
+            Form::Own(place.and_then(|place| u8::try_from(place).ok()).unwrap_or(0))
+        }
+    }
+}
+
+impl Buds {
+    /// The meshes of its own that the species names, each once, in the order of their numbers.
+    pub fn own_forms(&self) -> Vec<&str> {
+        let mut meshes: Vec<&str> = Vec::new();
+        for choice in self.order.iter().flat_map(|order| {
+            let internodes = order.internode.form.iter().flat_map(ByState::all);
+            internodes.chain([&order.leaf.form, &order.flower.form, &order.fruit.form])
+        }) {
+            if let FormChoice::Own(OwnForm { mesh }) = choice
+                && !meshes.contains(&mesh.as_str())
+            {
+                meshes.push(mesh);
+            }
+        }
+        meshes
+    }
+}
+
+/// Where the looks of one order are stated.
+struct Place<'a> {
+    buds: &'a Buds,
+    until: u32,
+    index: usize,
+    path: Path,
+    faults: &'a mut Vec<Fault>,
+}
+
+impl Place<'_> {
+    /// One look a state.
+    fn internodes(&mut self) -> Vec<InternodeLook> {
+        let buds = self.buds;
+        let internode = &buds.order[self.index].internode;
+        let path = self.path.key("internode");
+        let mut looks = vec![InternodeLook::of_shape(Shape::Cone); buds.states.len().max(1)];
+        for (look, (shape, _)) in looks.iter_mut().zip(self.spread(&internode.shape, &path.key("shape"))) {
+            look.shape = Shape::from(*shape);
+        }
+        for (look, (kind, path)) in looks.iter_mut().zip(self.spread(&internode.kind, &path.key("kind"))) {
+            look.kind = self.kind(*kind, Class::Internode, &path);
+        }
+        if let Some(stated) = &internode.form {
+            for (look, (form, _)) in looks.iter_mut().zip(self.spread(stated, &path.key("form"))) {
+                look.form = Some(form_of(buds, form));
+            }
+        }
+        if let Some(stated) = &internode.colour {
+            for (look, (bark, path)) in looks.iter_mut().zip(self.spread(stated, &path.key("colour"))) {
+                look.bark = self.bark(bark, &path);
+            }
+        }
+        if let Some(sides) = &internode.sides {
+            let sides = self.sides(sides, &path.key("sides"));
+            looks.iter_mut().for_each(|look| look.sides = Some(sides));
+        }
+        looks
+    }
+
+    /// One thing a state, each with the place where it is stated; fewer, with faults, where some is missing.
+    fn spread<'b, T>(&mut self, stated: &'b ByState<T>, path: &Path) -> Vec<(&'b T, Path)> {
+        let states = &self.buds.states;
+        let each = match stated {
+            ByState::All(one) => return (0..states.len().max(1)).map(|_| (one, path.clone())).collect(),
+            ByState::Each(each) => &each.by_state,
+        };
+        let path = path.key("by_state");
+        if states.is_empty() {
+            self.faults.push(Fault::new(&path, "the species has no states", "one for all, without by_state"));
+            return Vec::new();
+        }
+        for name in each.keys().filter(|name| !states.contains(name)) {
+            let expected = format!("one of {}", states.join(", "));
+            self.faults.push(Fault::new(&path.key(name), format!("unknown state `{name}`"), expected));
+        }
+        let missing = states.iter().filter(|state| !each.contains_key(*state));
+        self.faults.extend(missing.map(|state| {
+            Fault::new(&path, format!("nothing is stated for the state `{state}`"), "one for each state")
+        }));
+        states.iter().filter_map(|state| Some((each.get(state)?, path.key(state)))).collect()
+    }
+
+    fn sides(&mut self, sides: &Quantity, path: &Path) -> u8 {
+        let value = sides.value();
+        if !SIDES.contains(&value) {
+            let path = if matches!(sides, Quantity::Form(_)) { path.key("value") } else { path.clone() };
+            self.faults.push(Fault::new(&path, format!("a tube of {value} sides"), "from 3 to 64 sides"));
+        }
+        value.clamp(*SIDES.start(), *SIDES.end()) as u8
+    }
+
+    /// A kind that can stand in a place of this class.
+    fn kind(&mut self, name: KindName, class: Class, path: &Path) -> Kind {
+        let kind = Kind::from(name);
+        if kind.class() != class {
+            let fitting: Vec<&str> = Kind::ALL
+                .iter()
+                .filter(|kind| kind.class() == class && **kind != Kind::ShortInternode)
+                .map(|kind| kind.tag())
+                .collect();
+            let found = format!("the kind `{}` cannot stand here", kind.tag());
+            self.faults.push(Fault::new(path, found, format!("one of {}", fitting.join(", "))));
+        }
+        kind
+    }
+
+    fn organs(&mut self) -> OrganLooks {
+        let order = &self.buds.order[self.index];
+        for (key, kind, class) in [
+            ("leaf", order.leaf.kind, Class::Leaf),
+            ("flower", order.flower.kind, Class::Flower),
+            ("fruit", order.fruit.kind, Class::Fruit),
+        ] {
+            self.kind(kind, class, &self.path.key(key).key("kind"));
+        }
+        OrganLooks {
+            leaf: OrganLook {
+                expansion: self.expansion(&order.leaf.expansion, "leaf"),
+                ..self.leaf(&order.leaf.colour)
+            },
+            flower: OrganLook {
+                expansion: self.expansion(&order.flower.expansion, "flower"),
+                ..self.flower(&order.flower.colour)
+            },
+            fruit: OrganLook {
+                expansion: self.expansion(&order.fruit.expansion, "fruit"),
+                ..self.fruit(&order.fruit.colour)
+            },
+        }
+    }
+
+    /// The share of the full size by the organ's own age; empty where it is full-grown at birth.
+    fn expansion(&mut self, law: &Option<Law>, key: &str) -> Vec<f32> {
+        let Some(law) = law else { return Vec::new() };
+        let domain = Domain {
+            order: u8::try_from(self.index + 1).unwrap_or(u8::MAX),
+            until: self.until,
+            max_cycle: self.until,
+            max_rank: 0,
+            states: self.buds.states.clone(),
+        };
+        let path = self.path.key(key).key("expansion");
+        let compiled = match law.compile_value(&domain, &path, SHARE) {
+            Ok(compiled) => compiled,
+            Err(mut found) => {
+                self.faults.append(&mut found);
+                return Vec::new();
+            }
+        };
+        let at = |own| At { age: self.until, dimension: own, cycle: own, rank: 0, state: 0 };
+        let mut table: Vec<f32> = (0..=self.until).map(|own| compiled.value(at(own))).collect();
+        while table.len() > 1 && table[table.len() - 1] == table[table.len() - 2] {
+            table.pop();
+        }
+        table
+    }
+
+    fn leaf(&mut self, stated: &Option<LeafChoice>) -> OrganLook {
+        let turns_in = self.buds.season.as_ref().map_or(0, |season| turning_of(season.ticks_per_year.value()));
+        let path = self.path.key("leaf").key("colour");
+        match stated {
+            None => OrganLook { turns_in, ..OrganLook::default() },
+            Some(LeafChoice::One(colour)) => {
+                let colour = self.colour(colour, &path);
+                OrganLook { young: colour, old: colour, turns_in, ..OrganLook::default() }
+            }
+            Some(LeafChoice::Stages(stages)) => OrganLook {
+                young: self.stage(&stages.young, &path, "young"),
+                old: self.stage(&stages.old, &path, "old"),
+                autumn: self.stage(&stages.autumn, &path, "autumn"),
+                stalk: self.stage(&stages.stalk, &path, "stalk"),
+                turns_in: stages.turns_in.as_ref().map_or(turns_in, Quantity::value),
+                ..OrganLook::default()
+            },
+        }
+    }
+
+    fn flower(&mut self, stated: &Option<FlowerChoice>) -> OrganLook {
+        let path = self.path.key("flower").key("colour");
+        match stated {
+            None => OrganLook::default(),
+            Some(FlowerChoice::One(colour)) => {
+                let colour = self.colour(colour, &path);
+                OrganLook { young: colour, old: colour, ..OrganLook::default() }
+            }
+            Some(FlowerChoice::Stages(stages)) => OrganLook {
+                young: self.stage(&stages.young, &path, "young"),
+                old: self.stage(&stages.old, &path, "old"),
+                stalk: self.stage(&stages.stalk, &path, "stalk"),
+                ..OrganLook::default()
+            },
+        }
+    }
+
+    fn fruit(&mut self, stated: &Option<FruitChoice>) -> OrganLook {
+        let path = self.path.key("fruit").key("colour");
+        match stated {
+            None => OrganLook::default(),
+            Some(FruitChoice::One(colour)) => {
+                let colour = self.colour(colour, &path);
+                OrganLook { young: colour, turning: colour, old: colour, ..OrganLook::default() }
+            }
+            Some(FruitChoice::Stages(stages)) => OrganLook {
+                young: self.stage(&stages.young, &path, "young"),
+                turning: self.stage(&stages.turning, &path, "turning"),
+                old: self.stage(&stages.ripe, &path, "ripe"),
+                stalk: self.stage(&stages.stalk, &path, "stalk"),
+                ..OrganLook::default()
+            },
+        }
+    }
+
+    fn bark(&mut self, stated: &BarkChoice, path: &Path) -> Bark {
+        match stated {
+            BarkChoice::One(colour) => {
+                let colour = self.colour(colour, path);
+                Bark { shoot: colour, young: colour, old: colour, ..Bark::default() }
+            }
+            BarkChoice::Stages(stages) => Bark {
+                shoot: self.stage(&stages.shoot, path, "shoot"),
+                young: self.stage(&stages.young, path, "young"),
+                old: self.stage(&stages.old, path, "old"),
+                dead: self.stage(&stages.dead, path, "dead"),
+                forms_in: stages.forms_in.as_ref().map(Quantity::value),
+                darkens_in: stages.darkens_in.as_ref().map(Quantity::value),
+            },
+        }
+    }
+
+    fn stage(&mut self, stated: &Option<ColourText>, path: &Path, key: &str) -> Option<Colour> {
+        stated.as_ref().and_then(|colour| self.colour(colour, &path.key(key)))
+    }
+
+    fn colour(&mut self, text: &ColourText, path: &Path) -> Option<Colour> {
+        let colour = text.rgb();
+        if colour.is_none() {
+            let found = format!("`{}` is no colour", text.0);
+            self.faults.push(Fault::new(path, found, "`#` and six hexadecimal digits, such as \"#7a8646\""));
+        }
+        colour
+    }
+}
+
+/// The ticks over which leaves turn before they fall together, in a year of so many ticks: a sixth of it, rounded; none
+/// where a tick is half a year or more, for then a leaf's last tick is its summer.
+fn turning_of(year: u32) -> u32 {
+    if year > 2 { (year + 3) / 6 } else { 0 }
+}
