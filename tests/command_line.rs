@@ -162,7 +162,6 @@ fn misuse_ends_with_2() {
         vec!["grow", "small", "--plants", "many"],
         vec!["mesh", "runs/small", "--plant", "12", "--out", "m.ply"],
         vec!["mesh", "runs/small", "--age", "25", "--out", "m.ply"],
-        vec!["mesh", "gmt1/5a", "--age", "101", "--out", "m.ply"],
     ] {
         let told = run(folder.path(), &words).ending(2);
         assert!(told.stdout.is_empty() && !told.stderr.is_empty());

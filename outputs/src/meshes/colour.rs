@@ -141,7 +141,7 @@ mod tests {
     /// A plant of one node with an organ that lives from 10 to `death`.
     fn bearing(kind: Kind, form: Form, death: Tick, cause: Cause, looks: OrganLooks) -> Plant {
         let looks = Looks { organs: vec![looks], ..Looks::of_shape(Shape::Cone) };
-        let habit = Habit { trends: vec![Trend::STRAIGHT], looks, wood: None };
+        let habit = Habit { trends: vec![Trend::STRAIGHT], looks, organ_trends: vec![], wood: None };
         let seed = Seed { plant: 0, run_seed: 1, component_limit: 9, keep_events: false };
         let mut plant = Plant::new(&seed, Arc::new(habit));
         let axis = plant.add_axis(NewAxis {
