@@ -65,23 +65,23 @@ pub fn cyme() -> Shape {
     blossom(&mut shape, [0.0, 0.0]);
     for number in 0..6_u8 {
         let (sin, cos) = sincosf(TAU * f32::from(number) / 6.0);
-        blossom(&mut shape, [0.31 * cos, 0.31 * sin]);
+        blossom(&mut shape, [0.3 * cos, 0.3 * sin]);
     }
     shape
 }
 
 /// A five-petalled flower on its stalk, `out` from the axis.
 fn blossom(shape: &mut Shape, [y, z]: [f32; 2]) {
-    let height = 0.9 - 0.8 * (y * y + z * z);
+    let height = 0.76 - 1.2 * (y * y + z * z);
     stem(shape, [0.0, 0.0, 0.0], [height, y, z], 0.02);
     for petal in 0..5_u8 {
         // Turned from the middle of the petal; all four corners rise by the same slope, so that it is plane.
         let at = |turn: f32, out: f32| {
             let (sin, cos) = sincosf(TAU * (f32::from(petal) + turn) / 5.0);
             let (_, within) = sincosf(TAU * turn / 5.0);
-            [height + 0.4 * out * within, y + out * cos, z + out * sin]
+            [height + 1.1 * out * within, y + out * cos, z + out * sin]
         };
-        shape.polygon(&[[height, y, z], at(-0.4, 0.11), at(0.0, 0.18), at(0.4, 0.11)], along, false);
+        shape.polygon(&[[height, y, z], at(-0.55, 0.13), at(0.0, 0.2), at(0.55, 0.13)], along, false);
     }
 }
 
