@@ -91,7 +91,7 @@ pub fn poses_of(plot: &Plot, plant: &Plant, age: Tick) -> Result<Vec<PoseRow>, E
     let mut next = 0;
     while next < standing.len() {
         standing.select(age, usize::MAX, &mut next, &mut numbers);
-        columns.fill(plot, &scene, &numbers, &mut rows);
+        columns.fill(plot.id, &scene, &numbers, &mut rows);
     }
     let c = &columns;
     let row = |i: usize| PoseRow {
