@@ -16,22 +16,30 @@ use phytomer_sim::{Ending, GrowthModel, Plot, RecordError, Recorder, Tick, grow}
 /// How many plants are looked at; more than half of them must qualify, since chance may kill or cripple some.
 pub const SAMPLE: u32 = 5;
 
+/// No further plant is looked at once those before it have so many components: large plants average over their own parts.
+const ENOUGH: u32 = 250_000;
+
 /// A plant that is looked at may have so many components.
 const LIMIT: u32 = 1_000_000;
 
-/// The characters of plants `0..plants` at the age `until`; of those that come to their limit, none.
+/// The characters of the plants from 0 on at the age `until`, `plants` of them unless they are large; of those that come to
+/// their limit, none.
 ///
 /// # Errors
 /// A plant that no table could hold.
 pub fn characters(model: &dyn GrowthModel, until: Tick, plants: u32) -> Result<Vec<Characters>, RecordError> {
     let bends = model.habit().wood.as_ref().is_some_and(|wood| wood.bends);
-    let mut found = Vec::new();
+    let (mut found, mut looked_at) = (Vec::new(), 0);
     for plant in 0..plants {
+        if looked_at >= ENOUGH {
+            break;
+        }
         let seed = Seed { plant, run_seed: DEFAULT_SEED, component_limit: LIMIT, keep_events: false };
         let mut plot = Plot::of_one(model, &seed);
         let mut poses = Poses { ages: if bends { recorded_alone(until) } else { Vec::new() }, rows: Vec::new() };
         if let Ending::Complete = grow(model, &mut plot, until, &mut poses)? {
             let components = components_of(&plot, &plot.plants[0], until)?;
+            looked_at += plot.plants[0].components();
             found.push(Characters::of(&components, &poses.rows));
         }
     }

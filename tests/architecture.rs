@@ -33,7 +33,7 @@ fn plants_of(name: &str) -> Vec<Characters> {
 fn matrix() -> Vec<(&'static str, Vec<usize>)> {
     let row = |model: ArchitecturalModel| {
         let plants = plants_of(&format!("halle/{}", model.word()));
-        assert_eq!(plants.len(), PLANTS as usize, "{}", model.word());
+        assert_eq!(plants.len(), PLANTS as usize, "{}: small plants", model.word());
         let qualify = |of: &phytomer::analysis::architecture::Architecture| {
             plants.iter().filter(|plant| of.qualify(plant).is_ok()).count()
         };

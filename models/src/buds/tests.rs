@@ -3,8 +3,8 @@
 
 use super::law::{Count, CountForm, Law, LawForm, Normal, Poisson, Variate, VariateForm};
 use super::params::{
-    Apex, ApexEnd, Axillary, CountedLeaves, DragLaw, Facing, Flower, Fork, Fruit, GrowthUnit, Leaf, OrganTrend, Pattern,
-    Phase, Phyllotaxis, Quantity, Reiteration, Relay, Rhythmic, Season, ShortUnit, Sibling, SpeedText, Speeds,
+    Apex, ApexEnd, Axillary, CountedLeaves, DragLaw, Facing, Flower, Fork, Fruit, GrowthUnit, Leaf, OrganTrend,
+    Pattern, Phase, Phyllotaxis, Quantity, Reiteration, Relay, Rhythmic, Season, ShortUnit, Sibling, SpeedText, Speeds,
     StateTrends, Tended, ThickeningRule, Transition, Traumatic, Trend, UprightingLaw, Wood, Zone,
 };
 use super::params::{End, Internode};
