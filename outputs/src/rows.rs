@@ -56,7 +56,7 @@ pub fn components_of(plot: &Plot, plant: &Plant, last: Tick) -> Result<Vec<Compo
     let mut standing = Standing::default();
     standing.read(plant)?;
     let mut columns = ComponentColumns::default();
-    (0..standing.len()).for_each(|number| columns.add(plot, plant, &standing, number, last));
+    columns.fill(plot, (plant, &standing), 0..standing.len(), last, &mut Vec::new());
     let c = &columns;
     let row = |i: usize| ComponentRow {
         plant_id: c.plant[i].unsigned_abs(),
