@@ -4,12 +4,15 @@
 //! The confusion matrix has a row a shipped model, several plants each, and a column a qualifier. Pairs that are not told
 //! apart are listed with their reasons, and `docs/architecture-models.md` shows the matrix (`UPDATE_EXPECTED=1` writes it).
 
+mod program;
+
 use phytomer::analysis::architecture::{ARCHITECTURES, Characters, architecture};
 use phytomer::architecture::{characters, faults};
 use phytomer::config::{self, ArchitecturalModel, Resolved, presets, validate, validate_species};
 use phytomer::run::seed_of;
 use phytomer::sim::plant::{Kind, Origin};
 use phytomer::sim::{Plot, grow};
+use program::run as program;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -212,4 +215,39 @@ fn a_species_with_one_law_changed_lacks_the_character_that_the_law_makes() {
         );
     }
     assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn a_species_by_itself_is_one_plant_at_the_age_at_which_it_is_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let grown = program(folder.path(), &["grow", "halle/massart", "--json"]).ending(0).json();
+    let run_json: serde_json::Value =
+        serde_json::from_slice(&fs::read(folder.path().join("runs/halle-massart/run.json")).unwrap()).unwrap();
+    let scenario = &run_json["resolved_scenario"]["scenario"];
+    assert_eq!((&scenario["plants"], &scenario["species"]), (&1.into(), &"halle/massart".into()), "{grown}");
+    let ages: Vec<_> = run_json["recorded_ages"].as_array().unwrap().iter().map(|age| age.as_u64().unwrap()).collect();
+    assert_eq!(ages.last(), scenario["ages"]["until"].as_u64().as_ref());
+    program(folder.path(), &["mesh", "halle/massart", "--out", "m.ply"]).ending(0);
+    assert!(folder.path().join("m.ply").is_file());
+    program(folder.path(), &["init", "mine"]).ending(0);
+    program(folder.path(), &["grow", "mine/species.toml", "--quiet"]).ending(0);
+}
+
+/// `validate` grows a sample of a species that names its architectural model; `grow` asks no such thing.
+#[test]
+fn a_species_must_be_of_the_architectural_model_that_it_names() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(
+        folder.path().join("no_massart.toml"),
+        "inherits = \"halle/rauh\"\nname = \"x\"\narchitectural_model = \"massart\"\n",
+    )
+    .unwrap();
+    let told = program(folder.path(), &["validate", "no_massart.toml"]).ending(3);
+    for part in ["no_massart.toml:3:23", "5 of 5 plants", "branches are plagiotropic", "of rauh"] {
+        assert!(told.stderr.contains(part), "{part} is not in {}", told.stderr);
+    }
+    program(folder.path(), &["grow", "no_massart.toml", "--out", "grown", "--quiet"]).ending(0);
+    let json = program(folder.path(), &["describe", "grown", "--json"]).ending(0).json();
+    assert_eq!(json["architecture"], serde_json::json!({"plants": 1, "models": {"rauh": 1}}));
+    assert!(program(folder.path(), &["describe", "grown"]).ending(0).stdout.contains("rauh (1), of 1 plant looked at"));
 }
