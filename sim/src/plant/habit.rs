@@ -7,6 +7,7 @@ use super::axis::AxisId;
 use super::kind::{Class, Kind};
 use super::look::Looks;
 use crate::clock::Tick;
+use crate::math;
 use crate::mechanics::{Thickening, Wood};
 use std::ops::Range;
 
@@ -24,6 +25,15 @@ pub struct Trend {
 impl Trend {
     /// An axis that keeps the direction of its insertion.
     pub const STRAIGHT: Self = Self { cos_inclination: 1.0, sin_inclination: 0.0, share: 0.0 };
+
+    /// The angle to the upward vertical that the axis tends to, degrees: 0 orthotropic, 90 plagiotropic. `None` where it
+    /// tends nowhere.
+    pub fn inclination_deg(&self) -> Option<f32> {
+        let angle = math::atan2(f64::from(self.sin_inclination), f64::from(self.cos_inclination));
+        // Sine and cosine have 24 bits: a thousandth of a degree is what they hold.
+        let thousandths = (angle * 180_000.0 / std::f64::consts::PI).round();
+        (self.share > 0.0).then_some((thousandths / 1000.0) as f32)
+    }
 }
 
 /// How the organs of one kind turn in the vertical plane in which they stand: leaves that sink, fruits that hang,
@@ -57,6 +67,8 @@ pub struct OrganTrends {
     pub flower: Option<OrganTrend>,
     /// Its fruits.
     pub fruit: Option<OrganTrend>,
+    /// Whether its leaves twist until their upper side faces the sky, as those of plagiotropic axes do.
+    pub leaves_face_the_sky: bool,
 }
 
 /// The shape of an internode at rest (de Reffye 1988 §4).
@@ -107,6 +119,13 @@ impl Habit {
             Class::Fruit => of.fruit.as_ref(),
             Class::Internode | Class::Bud => None,
         }
+    }
+
+    /// Whether leaves on axes of `order` twist towards the sky.
+    #[inline]
+    pub fn faces_the_sky(&self, order: u8, kind: Kind) -> bool {
+        let of = usize::from(order).checked_sub(1).and_then(|order| self.organ_trends.get(order));
+        of.is_some_and(|of| of.leaves_face_the_sky) && kind.class() == Class::Leaf
     }
 
     /// The shape of the internodes of an axis of `order` that started in `state`; orders past the last are as the last.
