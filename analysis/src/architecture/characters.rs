@@ -3,7 +3,7 @@
 //!
 //! Counts and shares over topology, fates and stated trends; no place in space is looked at. Only how axes lie under
 //! weight, and how a trunk's base rights itself, are read from recorded directions, because two models are defined by it.
-//! Absent: the models, which [`super::models`] states over these.
+//! Absent: the models, which `models` states over these.
 
 use super::axes::{Axis, Standing, axes_of};
 use super::lie::{Lie, lie_of};
