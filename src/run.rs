@@ -191,6 +191,10 @@ impl Recorder for Keeper<'_> {
         last || self.shard.wants(age) || self.draws(age)
     }
 
+    fn grown(&mut self, until: Tick, plot: &Plot) -> Result<(), RecordError> {
+        self.shard.grown(until, plot)
+    }
+
     fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
         self.grower.progress.check()?;
         if self.shard.wants(age) {

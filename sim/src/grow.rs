@@ -49,6 +49,9 @@ fn follow_ages(
     recorder: &mut dyn Recorder,
 ) -> Result<Ending, RecordError> {
     let ahead = run_ahead(model, plot, until);
+    if ahead {
+        recorder.grown(until, plot)?;
+    }
     for age in 1..=until {
         plot.site.begin(age);
         if !ahead && follows(model, plot, age, recorder) {

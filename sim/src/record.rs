@@ -1,6 +1,7 @@
 //! What the loop tells of a plot at each age, and to whom.
 //!
-//! A recorder is asked once an age whether it wants it, and shown the plot once. Absent: formats and files.
+//! A recorder is asked once an age whether it wants it, and shown the plot once; and once before, where growth runs ahead.
+//! Absent: formats and files.
 
 use crate::clock::Tick;
 use crate::plot::Plot;
@@ -12,6 +13,15 @@ pub type RecordError = Box<dyn std::error::Error + Send + Sync>;
 pub trait Recorder {
     /// Whether this age is to be recorded.
     fn wants(&self, age: Tick) -> bool;
+
+    /// Growth has run ahead: the lives of all components are known to the age `until`, before the first age is recorded.
+    /// Who has work that needs no more than that can begin with it, while the ages are made ready.
+    ///
+    /// # Errors
+    /// Whatever keeps it from recording; the run then ends.
+    fn grown(&mut self, _until: Tick, _plot: &Plot) -> Result<(), RecordError> {
+        Ok(())
+    }
 
     /// The plot as it stands at `age`, shed, thickened and posed.
     ///

@@ -6,12 +6,13 @@ use crate::grown::{PLANTS, Sample, compiled, plant, units_by_order};
 use phytomer_models::buds::law::{Count, CountForm, Law, LawForm, Poisson};
 use phytomer_models::buds::params::{
     Apex, ApexEnd, Axillary, End, Flower, GrowthUnit, Pattern, Relay, Rhythmic, SpeedForm, SpeedText, Speeds,
-    Traumatic, Zone,
+    Traumatic, Zone, ZoneState,
 };
 use phytomer_models::buds::{Buds, Order};
 use phytomer_sim::GrowthModel as _;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng as _, SeedableRng as _};
+use std::collections::BTreeMap;
 
 #[derive(Debug, Clone, Copy)]
 struct Constant {
@@ -172,7 +173,8 @@ fn cohorts_follow_drawn_speeds_and_zones() {
     }
 }
 
-/// Three speeds; two zones that may overlap, of which the second has a law of its own; released dormant buds.
+/// Three speeds; two zones that may overlap, of which the first has a state and the second a law of its own; released
+/// dormant buds.
 fn drawn_species() -> Buds {
     let weights =
         |weights: &[f64]| Count::from(CountForm { empirical: Some(weights.to_vec()), ..CountForm::default() });
@@ -188,6 +190,7 @@ fn drawn_species() -> Buds {
             first: weights(&[0.0, 2.0, 1.0]),
             last: Some(weights(&[0.0, 1.0, 1.0, 2.0])),
             ramification: None,
+            state: Some(ZoneState::Shares(BTreeMap::from([("slender".to_owned(), 3.0), ("stout".to_owned(), 1.0)]))),
         },
         Zone {
             name: None,
@@ -195,6 +198,7 @@ fn drawn_species() -> Buds {
             first: weights(&[0.0, 1.0, 1.0, 1.0]),
             last: None,
             ramification: Some(of_rank),
+            state: None,
         },
     ];
     let trunk = Order {
@@ -211,10 +215,15 @@ fn drawn_species() -> Buds {
         ..Order::default()
     };
     let units = Some(weights(&[0.0, 0.0, 1.0, 1.0, 1.0]));
+    let by_state = BTreeMap::from([("stout".to_owned(), Law::from(3.0)), ("slender".to_owned(), Law::from(1.0))]);
+    let nodes = Law::from(LawForm { by_state: Some(by_state), ..LawForm::default() });
+    let nodes = Count::from(CountForm { constant: Some(nodes), ..CountForm::default() });
     let branch = Order {
         speed: speeds(&["2/3", "3"], &[3.0, 1.0]),
         apex: Apex { units, ..Apex::default() },
+        growth_unit: GrowthUnit { nodes, ..GrowthUnit::default() },
         ..Order::default()
     };
-    Buds { order: vec![trunk, branch], ..Buds::default() }
+    let states = ["stout", "slender"].map(str::to_owned).to_vec();
+    Buds { states, order: vec![trunk, branch], ..Buds::default() }
 }

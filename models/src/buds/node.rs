@@ -25,6 +25,8 @@ struct BudSite {
     /// Which of the buds of its kind, from 0.
     position: u32,
     azimuth: f32,
+    /// The state that its zone gives the new axis; `None`: as the branching says.
+    state: Option<u8>,
 }
 
 /// The axillary buds of one node.
@@ -152,8 +154,9 @@ impl Axis<'_> {
                 place: Place::Axillary(position as u16).on(self.bud.rank),
                 position,
                 azimuth: azimuth + spacing * position as f32,
+                state: ramification.and_then(|of| of.state(&self.words.on_node, position, at)),
             };
-            match ramification.is_some_and(|chance| chance.happens(&self.words.on_node, position, at)) {
+            match ramification.is_some_and(|of| of.chance.happens(&self.words.on_node, position, at)) {
                 true => self.branch(site, &laws.node.axillary, EventKind::Branched, false, at),
                 false => self.bud.dormant |= 1 << position,
             }
@@ -172,6 +175,7 @@ impl Axis<'_> {
                     place: Place::Reiteration(position as u16).on(self.bud.rank),
                     position,
                     azimuth: azimuth + spacing * position as f32,
+                    state: None,
                 };
                 self.branch(site, &laws.node.reiteration, EventKind::Reiterated, false, at);
             }
@@ -244,6 +248,7 @@ impl Axis<'_> {
                 place: Place::Fork(position as u16).on(self.bud.rank),
                 position,
                 azimuth: self.bud.azimuth + TURN / count as f32 * position as f32,
+                state: None,
             };
             self.branch(site, fork, EventKind::Forked, true, at);
         }
@@ -263,7 +268,7 @@ impl Axis<'_> {
         for position in 0..count {
             let azimuth = first + TURN / count as f32 * position as f32;
             let (order, place) = (laws.number, place(position as u16));
-            let site = BudSite { node, order, origin: Origin::Relay, place, position, azimuth };
+            let site = BudSite { node, order, origin: Origin::Relay, place, position, azimuth, state: None };
             if laws.end.relay.chance.happens(&self.words.end, position, at) {
                 self.branch(site, &laws.end.relay, EventKind::Relayed, true, at);
             }
@@ -281,7 +286,7 @@ impl Axis<'_> {
                 let azimuth = first + spacing * position as f32;
                 let place = Place::Relay(64 + position as u16).on(self.bud.rank);
                 let (order, origin) = (laws.number, Origin::Traumatic);
-                let site = BudSite { node, order, origin, place, position, azimuth };
+                let site = BudSite { node, order, origin, place, position, azimuth, state: None };
                 self.branch(site, &laws.end.traumatic, EventKind::Reiterated, true, at);
             }
         }
@@ -297,7 +302,7 @@ impl Axis<'_> {
             order: site.order,
             origin: site.origin,
             position,
-            state: laws.state.unwrap_or(self.bud.state),
+            state: site.state.or(laws.state).unwrap_or(self.bud.state),
             appearance: self.tick,
             birth: self.tick.saturating_add(laws.delay.draw(words, site.position, at)),
             azimuth: site.azimuth,

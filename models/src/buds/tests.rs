@@ -89,7 +89,7 @@ fn chimera() -> Buds {
 fn hydra() -> Buds {
     let zone = |from, first: u32, last: Option<u32>, ramification: Option<Law>| {
         let (first, last) = (Count::from(first), last.map(Count::from));
-        Zone { name: None, from, first, last, ramification }
+        Zone { name: None, from, first, last, ramification, state: None }
     };
     let zones = vec![zone(End::Tip, 1, Some(2), None), zone(End::Base, 1, Some(1), Some(expression("0.2 * rank")))];
     let by_state = BTreeMap::from([("long".to_owned(), Law::from(0.1)), ("short".to_owned(), Law::from(0.6))]);

@@ -36,7 +36,7 @@ fn speeds(texts: &[&str], weights: Option<&[f64]>) -> Speeds {
 }
 
 fn zones(first: Count, last: Count) -> Pattern {
-    let zone = Zone { name: None, from: End::Base, first, last: Some(last), ramification: None };
+    let zone = Zone { name: None, from: End::Base, first, last: Some(last), ramification: None, state: None };
     Pattern::Rhythmic(Rhythmic { zones: vec![zone] })
 }
 

@@ -36,6 +36,8 @@ pub struct Shard<'a> {
     sorted: Vec<Event>,
     report: ShardReport,
     ended: u32,
+    /// Of the plot whose turn it is: already, because its growth ran ahead.
+    components_written: bool,
 }
 
 impl<'a> Shard<'a> {
@@ -51,6 +53,7 @@ impl<'a> Shard<'a> {
             sorted: Vec::new(),
             report,
             ended: 0,
+            components_written: false,
         };
         let queue = Arc::new(Queue::default());
         new.parts = Parts {
@@ -109,10 +112,13 @@ impl<'a> Shard<'a> {
             self.report.dead += u64::from(dead);
             self.report.living += u64::from(!dead);
             self.report.components += plant.lived_by(last);
-            self.write_components(plot, plant, last)?;
+            if !self.components_written {
+                self.write_components(plot, plant, last)?;
+            }
             self.write_events(plot, plant, last)?;
         }
         self.standing.forget();
+        self.components_written = false;
         self.ended += 1;
         Ok(())
     }
@@ -210,6 +216,16 @@ impl Recorder for Shard<'_> {
     fn wants(&self, age: Tick) -> bool {
         let wanted = self.parts.records.is_some() || self.parts.summary.is_some();
         wanted && self.folder.plan.recorded.binary_search(&age).is_ok()
+    }
+
+    /// The largest table of a plant comes first: other threads encode it while this one makes the first ages ready.
+    fn grown(&mut self, until: Tick, plot: &Plot) -> Result<(), RecordError> {
+        self.check_turn(plot)?;
+        for plant in &plot.plants {
+            self.write_components(plot, plant, until)?;
+        }
+        self.components_written = true;
+        Ok(())
     }
 
     fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {

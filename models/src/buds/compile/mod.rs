@@ -21,7 +21,7 @@ pub(super) use head::HeadLaws;
 pub(super) use node::NodeLaws;
 pub(super) use relay::{Branching, EndLaws};
 pub(super) use step::{Passage, StepLaws};
-pub(super) use zone::{Ranks, Zones};
+pub(super) use zone::{Ramification, Ranks, Zones};
 
 use super::law::{Domain, ValueTable};
 use super::params::Buds;

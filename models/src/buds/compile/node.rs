@@ -8,7 +8,7 @@ use super::geometry::{DEGREE, divergence};
 use super::relay::Branching;
 use super::step::StepLaws;
 use super::words::{Chance, Layout, Measure, Number};
-use super::zone::{Ranks, Zones};
+use super::zone::{Ramification, Ranks, Zones};
 use crate::buds::law::{Count, CountTable, VariateTable};
 use crate::buds::params::{Order, Season};
 use phytomer_sim::plant::{Form, Kind};
@@ -123,9 +123,9 @@ impl NodeLaws {
     /// The law of ramification of the node at `rank` of a growth unit of `nodes`; `None` where it does not ramify. `drawn`
     /// are the ranks of zones that the unit has drawn, if any.
     #[inline]
-    pub fn ramification(&self, rank: u32, nodes: u32, drawn: &[Ranks]) -> Option<&Chance> {
+    pub fn ramification(&self, rank: u32, nodes: u32, drawn: &[Ranks]) -> Option<Ramification<'_>> {
         match &self.zones {
-            None => Some(&self.axillary.chance),
+            None => Some(Ramification::of_order(&self.axillary.chance)),
             Some(zones) => zones.ramification(rank, nodes, drawn, &self.axillary.chance),
         }
     }

@@ -6,8 +6,8 @@
 use super::compiler::Compiler;
 use super::node::MOST_BUDS;
 use super::words::{Chance, Layout, Number};
-use crate::buds::law::{At, CountTable};
-use crate::buds::params::{End, Order, Pattern, Zone};
+use crate::buds::law::{At, Count, CountForm, CountTable};
+use crate::buds::params::{End, Order, Pattern, Zone, ZoneState};
 
 /// The most zones of a growth unit.
 const MOST_ZONES: usize = 64;
@@ -26,6 +26,41 @@ struct ZoneLaw {
     ranks: Ranks,
     /// `None`: that of the order.
     chance: Option<Chance>,
+    /// The states of its axes; `None`: that of the order's axillary buds.
+    states: Option<States>,
+}
+
+/// The states in which the axes of a zone start.
+#[derive(Debug, Clone)]
+pub struct States {
+    of: Vec<u8>,
+    which: Number,
+}
+
+/// How the buds of a node ramify.
+#[derive(Debug, Clone, Copy)]
+pub struct Ramification<'a> {
+    pub chance: &'a Chance,
+    states: Option<&'a States>,
+}
+
+impl<'a> Ramification<'a> {
+    /// By the order's own law, without a zone.
+    pub fn of_order(chance: &'a Chance) -> Self {
+        Self { chance, states: None }
+    }
+
+    /// The state of the axis of the bud at a position, where its zone has one.
+    #[inline]
+    pub fn state(&self, words: &[u32], position: u32, at: At) -> Option<u8> {
+        self.states.and_then(|states| states.of.get(states.which.draw(words, position, at) as usize).copied())
+    }
+
+    /// The states that the axes start in, each with its share; `None`: that of the order's axillary buds.
+    pub fn shares(&self, at: At) -> Vec<(Option<u8>, f64)> {
+        let Some(states) = self.states else { return vec![(None, 1.0)] };
+        states.of.iter().copied().map(Some).zip(states.which.table.pmf(at)).collect()
+    }
 }
 
 /// The ranks of each zone: constants, or laws where one of them is drawn.
@@ -52,22 +87,31 @@ impl Zones {
                 let table = compiler.probability(law, &format!("axillary.pattern.zones.{index}.ramification"));
                 words.chance(table, most_buds)
             });
+            let keys = format!("axillary.pattern.zones.{index}.state");
+            let states = zone.state.as_ref().and_then(|state| states(state, &keys, compiler));
+            let states = states.map(|(of, which)| States { of, which: words.number(which, most_buds) });
             // A unit that draws ranks gives those of every zone.
-            ZoneLaw { from: zone.from, ranks: ranks.constant.get(index).copied().unwrap_or_default(), chance }
+            ZoneLaw { from: zone.from, ranks: ranks.constant.get(index).copied().unwrap_or_default(), chance, states }
         });
         Some(Self(compiled.collect()))
     }
 
-    /// The law of ramification of the node at `rank` of a growth unit of `nodes`, where the node is in a zone; `order` is
-    /// that of zones without one of their own, `drawn` the ranks that the unit has drawn, if any.
+    /// How the node at `rank` of a growth unit of `nodes` ramifies, where the node is in a zone; `order` is the law of zones
+    /// without one of their own, `drawn` the ranks that the unit has drawn, if any.
     #[inline]
-    pub fn ramification<'a>(&'a self, rank: u32, nodes: u32, drawn: &[Ranks], order: &'a Chance) -> Option<&'a Chance> {
+    pub fn ramification<'a>(
+        &'a self,
+        rank: u32,
+        nodes: u32,
+        drawn: &[Ranks],
+        order: &'a Chance,
+    ) -> Option<Ramification<'a>> {
         let holds = |(place, zone): &(usize, &ZoneLaw)| {
             let (first, last) = drawn.get(*place).copied().unwrap_or(zone.ranks);
             (first..=last).contains(&zone.rank(rank, nodes))
         };
         let (_, zone) = self.0.iter().enumerate().find(holds)?;
-        Some(zone.chance.as_ref().unwrap_or(order))
+        Some(zone.ramification(order))
     }
 
     /// The laws of ramification of the zones that have one of their own.
@@ -75,21 +119,49 @@ impl Zones {
         self.0.iter().filter_map(|zone| zone.chance.as_ref())
     }
 
-    /// The mean over what units draw of the probability that a bud of the node at `rank` of `nodes` ramifies: of each
-    /// zone, where none before it holds the node. `holding` is [`ZoneRanks::holding`].
-    pub fn mean_probability(&self, (rank, nodes): Ranks, holding: &[Vec<f64>], order: &Chance, at: At) -> f64 {
-        let (mut mean, mut free) = (0.0, 1.0);
-        for (zone, holding) in self.0.iter().zip(holding) {
+    /// How the node at `rank` of `nodes` ramifies over what units draw: by each zone with the probability that it holds the
+    /// node and none before it does. `holding` is [`ZoneRanks::holding`].
+    pub fn ramifications<'a>(
+        &'a self,
+        (rank, nodes): Ranks,
+        holding: &'a [Vec<f64>],
+        order: &'a Chance,
+    ) -> impl Iterator<Item = (f64, Ramification<'a>)> {
+        let mut free = 1.0;
+        self.0.iter().zip(holding).map(move |(zone, holding)| {
             let rank = zone.rank(rank, nodes) as usize;
             let holds = holding.get(rank).or(holding.last()).copied().unwrap_or(0.0);
-            mean += free * holds * zone.chance.as_ref().unwrap_or(order).table.probability(at);
+            let share = free * holds;
             free *= 1.0 - holds;
-        }
-        mean
+            (share, zone.ramification(order))
+        })
     }
 }
 
+/// The states of a zone, and the law of which of them an axis draws; nothing where they are at fault.
+fn states(state: &ZoneState, keys: &str, compiler: &mut Compiler) -> Option<(Vec<u8>, CountTable)> {
+    let shares = match state {
+        ZoneState::Named(name) => return Some((vec![compiler.state(name, keys)], CountTable::always(0))),
+        ZoneState::Shares(shares) => shares,
+    };
+    let of = shares.keys().map(|name| compiler.state(name, &format!("{keys}.{name}"))).collect();
+    let weights: Vec<f64> = shares.values().copied().collect();
+    let sum: f64 = weights.iter().sum();
+    if !sum.is_finite() || sum <= 0.0 || weights.iter().any(|weight| *weight < 0.0) {
+        compiler.fault(keys, format!("the shares sum to {sum}"), "shares of 0 or more, one of them above 0");
+        return None;
+    }
+    let which = Count::from(CountForm { empirical: Some(weights), ..CountForm::default() });
+    Some((of, compiler.count(&which, keys, u32::MAX)))
+}
+
 impl ZoneLaw {
+    /// How a node of the zone ramifies; `order` is the law of zones without one of their own.
+    #[inline]
+    fn ramification<'a>(&'a self, order: &'a Chance) -> Ramification<'a> {
+        Ramification { chance: self.chance.as_ref().unwrap_or(order), states: self.states.as_ref() }
+    }
+
     /// The rank of a node from the end from which the zone counts.
     #[inline]
     fn rank(&self, rank: u32, nodes: u32) -> u32 {

@@ -135,7 +135,8 @@ impl<'a> Cohorts<'a> {
             for (state, flow) in states.iter().enumerate().filter(|(_, flow)| flow.apices > 0.0) {
                 let at = At { state: state as u8, ..at };
                 let growing = self.fates(order, *flow, &mut after[made][state], at);
-                let unit = self.steady[order].unwrap_or_else(|| Unit::at(self.model, &self.model.orders[order], at));
+                let unit =
+                    self.steady[order].clone().unwrap_or_else(|| Unit::at(self.model, &self.model.orders[order], at));
                 self.work += 1 + unit.work;
                 self.grow(order, growing, (made, ends), &unit, after, at);
             }
@@ -198,6 +199,9 @@ impl<'a> Cohorts<'a> {
         let node = &model.orders[order].node;
         let bearing = At { rank: 1, ..at };
         self.bear(order + 1, apices * unit.laterals, &node.axillary, bearing);
+        for &(state, axes) in &unit.zoned {
+            self.bear_in((state, 0), order + 1, apices * axes, &node.axillary, bearing);
+        }
         self.bear(usize::from(node.reiteration_order) - 1, apices * unit.reiterations, &node.reiteration, bearing);
     }
 
@@ -261,11 +265,16 @@ impl<'a> Cohorts<'a> {
 
     /// The same, of axes that lead their sets (0) or do not (1).
     fn bear_class(&mut self, order: usize, axes: f64, branching: &Branching, follows: usize, at: At) {
+        self.bear_in((branching.state.unwrap_or(at.state), follows), order, axes, branching, at);
+    }
+
+    /// The same, of axes of a given state.
+    fn bear_in(&mut self, (state, follows): (u8, usize), order: usize, axes: f64, branching: &Branching, at: At) {
         if axes <= 0.0 || order >= self.births.len() {
             return;
         }
         self.expected[order].axes[at.age as usize] += axes;
-        let class = 2 * usize::from(branching.state.unwrap_or(at.state)) + follows;
+        let class = 2 * usize::from(state) + follows;
         for (delay, share) in branching.delay.table.pmf(at).into_iter().enumerate() {
             if let Some(births) = self.births[order][class].get_mut(at.age as usize + delay) {
                 *births += axes * share;

@@ -3,18 +3,20 @@
 //! They are sums over the distribution of the number of nodes and over ranks, since laws may depend on either. Absent:
 //! the fates of buds, which `cohort` follows.
 
-use crate::buds::compile::{BudModel, NodeLaws, OrderLaws, Ranks};
+use crate::buds::compile::{BudModel, NodeLaws, OrderLaws, Ramification, Ranks};
 use crate::buds::law::At;
 
 /// The means of one growth unit.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Unit {
     /// Nodes.
     pub nodes: f64,
     /// Leaves, flowers and fruits.
     pub organs: f64,
-    /// Axillary axes.
+    /// Axillary axes that start in the state of the order's axillary buds.
     pub laterals: f64,
+    /// Those that start in the state of their zone.
+    pub zoned: Vec<(u8, f64)>,
     /// Adaptive reiterations.
     pub reiterations: f64,
     /// The probability that it has no node.
@@ -69,15 +71,25 @@ impl Unit {
         let holding = if ranks.are_drawn() { ranks.holding(At { rank: 0, ..at }) } else { Vec::new() };
         for (count, &probability) in nodes.iter().enumerate().skip(1).filter(|(_, p)| **p > 0.0) {
             let count = count as u32;
-            let on_node = |rank| {
-                let at = At { rank, ..at };
-                let buds = laws.node.axillary.count.table.mean(at);
-                (buds, if next { ramification(&laws.node, (rank, count), &holding, at) } else { 0.0 })
-            };
-            self.laterals += probability * (1..=count).map(on_node).map(|(buds, chance)| buds * chance).sum::<f64>();
-            let (buds, chance) = on_node(count);
-            self.dormant += probability * buds * (1.0 - chance);
+            let buds = |rank| laws.node.axillary.count.table.mean(At { rank, ..at });
+            let mut ramified = 0.0;
+            for rank in (1..=count).filter(|_| next) {
+                ramified = 0.0;
+                for (state, chance) in ramification(&laws.node, (rank, count), &holding, At { rank, ..at }) {
+                    ramified += chance;
+                    self.bear(state, probability * buds(rank) * chance);
+                }
+            }
+            self.dormant += probability * buds(count) * (1.0 - ramified);
             self.work += u64::from(count);
+        }
+    }
+
+    fn bear(&mut self, state: Option<u8>, axes: f64) {
+        let Some(state) = state else { return self.laterals += axes };
+        match self.zoned.iter_mut().find(|(known, _)| *known == state) {
+            Some((_, sum)) => *sum += axes,
+            None => self.zoned.push((state, axes)),
         }
     }
 
@@ -85,6 +97,7 @@ impl Unit {
         self.nodes += share * other.nodes;
         self.organs += share * other.organs;
         self.laterals += share * other.laterals;
+        other.zoned.iter().for_each(|(state, axes)| self.bear(Some(*state), share * axes));
         self.reiterations += share * other.reiterations;
         self.empty += share * other.empty;
         self.dormant += share * other.dormant;
@@ -92,11 +105,18 @@ impl Unit {
     }
 }
 
-/// The mean probability that a bud of the node at a rank of a growth unit of so many nodes ramifies.
-fn ramification(node: &NodeLaws, (rank, nodes): Ranks, holding: &[Vec<f64>], at: At) -> f64 {
+/// The mean probabilities that a bud of the node at a rank of a growth unit of so many nodes ramifies, with the state that
+/// a zone gives.
+fn ramification(node: &NodeLaws, (rank, nodes): Ranks, holding: &[Vec<f64>], at: At) -> Vec<(Option<u8>, f64)> {
+    let spread = |(holds, of): (f64, Ramification<'_>)| {
+        let probability = holds * of.chance.table.probability(at);
+        of.shares(at).into_iter().map(move |(state, share)| (state, share * probability))
+    };
     match &node.zones {
-        Some(zones) if !holding.is_empty() => zones.mean_probability((rank, nodes), holding, &node.axillary.chance, at),
-        _ => node.ramification(rank, nodes, &[]).map_or(0.0, |chance| chance.table.probability(at)),
+        Some(zones) if !holding.is_empty() => {
+            zones.ramifications((rank, nodes), holding, &node.axillary.chance).flat_map(spread).collect()
+        }
+        _ => node.ramification(rank, nodes, &[]).map(|of| (1.0, of)).into_iter().flat_map(spread).collect(),
     }
 }
 

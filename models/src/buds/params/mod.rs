@@ -29,6 +29,7 @@ pub use super::law::{Constant, Quantity, SpeedForm, SpeedText, Speeds};
 use super::law::{Count, Law, Variate};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A species of the bud model.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -245,6 +246,20 @@ pub struct Zone {
     /// The law of ramification of this zone; left out: that of the order.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ramification: Option<Law>,
+    /// The state in which the axes of this zone start, as long shoots at the tip and short ones below: one, or a share for
+    /// each; left out: that of the order's axillary buds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<ZoneState>,
+}
+
+/// The state in which the axes of a zone start.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ZoneState {
+    /// The same for all.
+    Named(String),
+    /// The share of each state, drawn once an axis: `{ long = 0.3, short = 0.7 }`; shares need not sum to 1.
+    Shares(BTreeMap<String, f64>),
 }
 
 /// An end of a growth unit.

@@ -1,0 +1,84 @@
+//! The measured counts, read from the folder that stands beside the project; absent elsewhere.
+//!
+//! Nothing of them is copied: a test that finds no folder says so and passes. Absent: what the numbers mean.
+
+use std::path::Path;
+
+/// A table of comma-separated values, its columns by name.
+pub struct Table {
+    names: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+/// A row of a table.
+#[derive(Clone, Copy)]
+pub struct Row<'a> {
+    table: &'a Table,
+    values: &'a [String],
+}
+
+impl Table {
+    /// A file of the measured plants; `None`, with the reason printed, where it is not there.
+    pub fn read(file: &str) -> Option<Self> {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(file);
+        let Ok(text) = std::fs::read_to_string(&path) else {
+            println!("skipped: the measured counts {} are not here", path.display());
+            return None;
+        };
+        let split = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+        let mut lines = text.lines();
+        Some(Self { names: split(lines.next()?), rows: lines.map(split).collect() })
+    }
+
+    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        self.rows.iter().map(|values| Row { table: self, values })
+    }
+
+    /// The number of each count in the rows of a data set: columns `n_nodes` and `count`.
+    pub fn histogram(&self, dataset: &str) -> Vec<f64> {
+        let mut counts = Vec::new();
+        for row in self.rows().filter(|row| row.text("dataset") == dataset) {
+            add(&mut counts, row.number("n_nodes") as usize, row.number("count"));
+        }
+        assert!(!counts.is_empty(), "no data set {dataset}");
+        counts
+    }
+}
+
+impl<'a> Row<'a> {
+    pub fn text(self, column: &str) -> &'a str {
+        let place = self.table.names.iter().position(|name| name == column);
+        &self.values[place.unwrap_or_else(|| panic!("no column {column}"))]
+    }
+
+    pub fn number(self, column: &str) -> f64 {
+        self.maybe(column).unwrap_or_else(|| panic!("{column} is {}", self.text(column)))
+    }
+
+    /// `None` where nothing was measured.
+    pub fn maybe(self, column: &str) -> Option<f64> {
+        self.text(column).parse().ok()
+    }
+}
+
+/// Adds to the cell of a number.
+pub fn add(counts: &mut Vec<f64>, number: usize, count: f64) {
+    if counts.len() <= number {
+        counts.resize(number + 1, 0.0);
+    }
+    counts[number] += count;
+}
+
+/// How often each number occurs.
+pub fn counted(numbers: impl IntoIterator<Item = usize>) -> Vec<f64> {
+    let mut counts = Vec::new();
+    numbers.into_iter().for_each(|number| add(&mut counts, number, 1.0));
+    counts
+}
+
+/// Mean and variance (n − 1) of a sample.
+pub fn moments(sample: &[f64]) -> (f64, f64) {
+    let n = sample.len() as f64;
+    let mean = sample.iter().sum::<f64>() / n;
+    (mean, sample.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (n - 1.0))
+}
