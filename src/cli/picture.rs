@@ -8,11 +8,13 @@ use super::{Misuse, Verdict, amounts, terminal};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use phytomer::run::drawing::{Portrait, portrait};
+use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::pictures::{Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, draw, sheet, write_png};
 use phytomer_sim::Tick;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The most pixels along a side.
 const MOST_PIXELS: u32 = 16_384;
@@ -113,7 +115,7 @@ impl Picture {
             return Err(Misuse(format!("one picture has at most {MOST_SUBJECTS} plants, counted at each age")).into());
         }
         let portrait = portrait(&again, &regrown.species, plants, &ages)?;
-        let bytes = amounts::bytes(self.save(&self.draw(&portrait), &portrait.note)? as f64);
+        let bytes = amounts::bytes(self.save(&self.draw(&portrait, &regrown.forms), &portrait.note)? as f64);
         let drawn = portrait.subjects.len();
         let whom = if drawn == 1 { format!("plant {}", plants[0]) } else { format!("{drawn} plants") };
         let when = if ages.len() == 1 { format!(" at age {}", ages[0]) } else { String::new() };
@@ -122,7 +124,7 @@ impl Picture {
         Ok(Verdict::Done)
     }
 
-    fn draw(&self, portrait: &Portrait) -> Canvas {
+    fn draw(&self, portrait: &Portrait, forms: &Arc<OwnForms>) -> Canvas {
         let view = match self.view {
             From::Perspective => Some(View::Perspective),
             From::Top => Some(View::Top),
@@ -139,6 +141,7 @@ impl Picture {
             caption: !self.no_caption,
             sun: self.sun.map(|sun| sun.map(f32::to_radians)),
             sides: self.sides,
+            own: Arc::clone(forms),
         };
         let subjects = portrait.subjects();
         if view.is_some() {

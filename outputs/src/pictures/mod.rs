@@ -26,7 +26,7 @@ pub use self::png::write_png;
 pub use ::png::Compression;
 pub use canvas::Canvas;
 
-use crate::meshes::MeshOptions;
+use crate::meshes::{MeshOptions, OwnForms};
 use camera::{Camera, Frame, Gaze, tangents};
 use caption::{Align, letter_size, scale_bar, write};
 use draw::Set;
@@ -35,6 +35,7 @@ use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use stand::Standing;
 use std::f32::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 
 /// The most plants of one picture.
 pub const MOST_SUBJECTS: usize = 100;
@@ -96,6 +97,8 @@ pub struct Picture {
     pub sun: Option<[f32; 2]>,
     /// Sides of the tube that an internode is drawn as.
     pub sides: u8,
+    /// The meshes of its own that the species names.
+    pub own: Arc<OwnForms>,
 }
 
 /// A plant at an age, to be drawn.
@@ -111,7 +114,7 @@ pub struct Subject<'a> {
 
 /// Draws plants side by side, in one scale on one ground, `title` written in the corner.
 pub fn draw(subjects: &[Subject], title: &str, picture: &Picture) -> Canvas {
-    let options = MeshOptions { sides: picture.sides, ..MeshOptions::default() };
+    let options = MeshOptions { sides: picture.sides, own: Arc::clone(&picture.own), ..MeshOptions::default() };
     let some = subjects.iter().take(MOST_SUBJECTS).zip(0_u8..);
     let mut plants: Vec<Standing> =
         some.map(|(subject, number)| Standing::new(subject.plant, subject.age, &options, None, number)).collect();

@@ -17,7 +17,7 @@ use super::{Depth, Point, Shape};
 pub const MOST_TRIANGLES: usize = 10_000;
 
 /// The meshes of its own that a species names, in the order of their numbers.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct OwnForms {
     shapes: Vec<Shape>,
 }
