@@ -1,5 +1,5 @@
 //! Independent readers of what a run leaves: pyarrow, DuckDB and Polars for the tables, plyfile, trimesh, Open3D, meshio
-//! and PyVista for the meshes; jsonschema for the schemas of species and scenarios, and taplo, which editors use for TOML,
+//! and PyVista for the meshes; Pillow for pictures; jsonschema for the schemas of species and scenarios, and taplo, which editors use for TOML,
 //! for the line by which a file names its schema.
 //!
 //! They live in `.venv`, which `.ci/run` fills from `tests/readers/requirements.txt`; where they are missing the tests
@@ -121,6 +121,20 @@ fn independent_readers_agree_on_herbs_on_a_rhizome() {
     let run = grow(folder.path(), "meadow_grass");
     read(&python, "tables.py", &[&run]);
     read(&python, "meshes.py", &[&run, "8"]);
+}
+
+#[test]
+fn an_independent_reader_reads_pictures() {
+    let Some(python) = python() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("picture.png").to_str().expect("a path in UTF-8").to_owned();
+    for (kind, option) in [("opaque", &[][..]), ("transparent", &["--transparent"])] {
+        let words = ["picture", "coffee", "--ages", "12,24", "--size", "400x300", "--out", &file];
+        phytomer(&[&words[..], option].concat());
+        read(&python, "pictures.py", &[&file, "400", "300", kind]);
+    }
 }
 
 #[test]

@@ -8,6 +8,7 @@
 pub mod baseline;
 pub mod bending;
 pub mod columns;
+pub mod picture;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, SamplingMode, Throughput};

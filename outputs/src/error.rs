@@ -135,6 +135,21 @@ pub enum Error {
         /// How many.
         missing: usize,
     },
+    /// A picture was to be coloured by a column that `records` does not have.
+    #[error("`records` has no column `{column}` to colour by")]
+    NoSuchColumn {
+        /// The column.
+        column: String,
+    },
+    /// No component that is drawn has a value in the column that a picture was to be coloured by.
+    #[error(
+        "no component has a value of `{column}` to colour by: the columns of mechanics need a species with `[wood]`, and \
+         curvature and moment wood that bends"
+    )]
+    NothingToColour {
+        /// The column.
+        column: &'static str,
+    },
     /// A plant has more components than the tables can hold.
     #[error("plant {plant} has {components} components; tables hold at most {most} a plant: lower max_components")]
     PlantTooLarge {

@@ -3,13 +3,17 @@
 //! Plants stand side by side in one scale: each plant at each age. Where no age is given a plant is drawn in its prime.
 //! Absent: drawing, which is `phytomer_outputs::pictures`'.
 
-use super::regrown::{Breeze, Regrown, beside, keep};
+use super::regrown::{Breeze, Regrown, beside, finite, keep};
 use super::{Misuse, Verdict, amounts, terminal};
 use anyhow::{Context, Result};
+use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use phytomer::run::drawing::{Portrait, portrait};
+use phytomer_outputs::Error;
 use phytomer_outputs::meshes::OwnForms;
-use phytomer_outputs::pictures::{Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, draw, sheet, write_png};
+use phytomer_outputs::pictures::{
+    Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, colour_columns, draw, sheet, write_png,
+};
 use phytomer_sim::Tick;
 use std::fs::File;
 use std::io::BufWriter;
@@ -27,10 +31,11 @@ Examples:
   phytomer picture willow --ages 17,29,53,71 --size 2400x900 --out life.png
   phytomer picture runs/coffee --plants 0,1,2 --age 48 --view front --out three.png
   phytomer picture my_plant/species.toml --view sheet --out sheet.png
+  phytomer picture coffee --age 60 --colour-by birth_age --out ages.png
   phytomer picture coffee --age 24 --transparent --no-caption --sun 200,30 --out cut-out.png
 
-A plant whose age is not given is drawn in its prime: at the last age at which it bears nine tenths of the largest
-leaf area that it ever does.")]
+A plant whose age is not given is drawn at the age that its species states (shown_at), else in its prime: at the last
+age at which it bears nine tenths of the largest leaf area that it ever does.")]
 pub struct Picture {
     /// A run folder, a scenario or a species: a shipped one by its name, or a file by its path.
     #[arg(value_name = "RUN|SCENARIO|SPECIES")]
@@ -41,7 +46,7 @@ pub struct Picture {
     /// Several plants side by side, by their numbers.
     #[arg(long, value_delimiter = ',', value_name = "N,N,…")]
     plants: Vec<u32>,
-    /// Its age in ticks; its prime if not given.
+    /// Its age in ticks; that of its prime if not given.
     #[arg(long, conflicts_with = "ages")]
     age: Option<Tick>,
     /// Several ages side by side, in one scale.
@@ -53,6 +58,10 @@ pub struct Picture {
     /// From where the plants are seen.
     #[arg(long, value_enum, default_value_t = From::Perspective)]
     view: From,
+    /// Go on around the plants by so many degrees, counterclockwise from above; a flat plant is seen in perspective from
+    /// where it is wide if not given.
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = finite)]
+    turn: Option<f64>,
     /// Width and height, pixels.
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1600x1200", value_parser = size)]
     size: [u32; 2],
@@ -72,6 +81,9 @@ pub struct Picture {
     /// Sides of the tube that an internode is drawn as.
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u8).range(3..=64))]
     sides: u8,
+    /// Colour the components by a column of `records`, with a legend.
+    #[arg(long, value_name = "COLUMN", value_parser = PossibleValuesParser::new(colour_columns()), hide_possible_values = true)]
+    colour_by: Option<String>,
     #[command(flatten)]
     breeze: Breeze,
 }
@@ -109,13 +121,13 @@ impl Picture {
         regrown.check((age_option, &ages), (plant_option, plants))?;
         let again = regrown.again(&self.breeze)?;
         if ages.is_empty() {
-            ages.push(again.prime(plants[0])?);
+            ages.push(again.shown_at(&regrown.species, plants[0])?);
         }
         if ages.len() * plants.len() > MOST_SUBJECTS {
             return Err(Misuse(format!("one picture has at most {MOST_SUBJECTS} plants, counted at each age")).into());
         }
         let portrait = portrait(&again, &regrown.species, plants, &ages)?;
-        let bytes = amounts::bytes(self.save(&self.draw(&portrait, &regrown.forms), &portrait.note)? as f64);
+        let bytes = amounts::bytes(self.save(&self.draw(&portrait, &regrown.forms)?, &portrait.note)? as f64);
         let drawn = portrait.subjects.len();
         let whom = if drawn == 1 { format!("plant {}", plants[0]) } else { format!("{drawn} plants") };
         let when = if ages.len() == 1 { format!(" at age {}", ages[0]) } else { String::new() };
@@ -124,7 +136,7 @@ impl Picture {
         Ok(Verdict::Done)
     }
 
-    fn draw(&self, portrait: &Portrait, forms: &Arc<OwnForms>) -> Canvas {
+    fn draw(&self, portrait: &Portrait, forms: &Arc<OwnForms>) -> std::result::Result<Canvas, Error> {
         let view = match self.view {
             From::Perspective => Some(View::Perspective),
             From::Top => Some(View::Top),
@@ -136,12 +148,14 @@ impl Picture {
         let style = Style {
             size: self.size,
             view: view.unwrap_or(View::Front),
+            turn: self.turn.map(|turn| (turn % 360.0).to_radians() as f32),
             transparent: self.transparent,
             ground: !self.no_ground,
             caption: !self.no_caption,
             sun: self.sun.map(|sun| sun.map(f32::to_radians)),
             sides: self.sides,
             own: Arc::clone(forms),
+            colour_by: self.colour_by.clone(),
         };
         let subjects = portrait.subjects();
         if view.is_some() {

@@ -164,7 +164,11 @@ fn wind_speed(text: &str) -> std::result::Result<f64, String> {
     }
 }
 
-fn finite(text: &str) -> std::result::Result<f64, String> {
+/// A number that is one.
+///
+/// # Errors
+/// What is expected.
+pub fn finite(text: &str) -> std::result::Result<f64, String> {
     text.parse::<f64>().ok().filter(|number| number.is_finite()).ok_or_else(|| "a number is expected".to_owned())
 }
 

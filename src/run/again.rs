@@ -1,12 +1,12 @@
 //! One plant of a run grown again from its seed, and shown at some ages: what meshes and pictures are made of.
 //!
 //! Draws are keyed by the run's seed and the plant, so it is the same plant, with the same component numbers, that the
-//! run has recorded. In a wind each age is shown as a frame that the wind has moved, for that age alone. A plant's prime is
-//! the age at which it is shown where nobody says otherwise. Absent: what is made of it.
+//! run has recorded. In a wind each age is shown as a frame that the wind has moved, for that age alone. Where nobody says
+//! an age, a plant is shown at that of its species or in its prime. Absent: what is made of it.
 
 use super::{place_of, seed_of};
 use anyhow::Result;
-use phytomer_config::Scenario;
+use phytomer_config::{Scenario, Species};
 use phytomer_sim::mechanics::Bench;
 use phytomer_sim::mechanics::sway::sway;
 use phytomer_sim::plant::{Kind, Plant};
@@ -57,9 +57,18 @@ impl Again<'_> {
         }
     }
 
-    /// The age at which a plant is shown where nobody says otherwise: the last one of the scenario at which it bears at
-    /// least nine tenths of the largest leaf area that it ever does. Of a plant without leaves internodes and organs are
-    /// counted instead; a geometric model is shown at the last age.
+    /// The age at which a plant is shown where nobody says otherwise: that which its species states (`shown_at`), if the
+    /// scenario has it, else its prime.
+    ///
+    /// # Errors
+    /// As [`Again::prime`].
+    pub fn shown_at(&self, species: &Species, plant: u32) -> Result<Tick> {
+        let until = self.scenario.ages.until;
+        species.about.shown_at.filter(|age| (1..=until).contains(age)).map_or_else(|| self.prime(plant), Ok)
+    }
+
+    /// The last age of the scenario at which a plant bears at least nine tenths of the largest leaf area that it ever does.
+    /// Of a plant without leaves internodes and organs are counted instead; a geometric model has its prime at the last age.
     ///
     /// # Errors
     /// Where it comes to its limit at its first age.

@@ -7,7 +7,7 @@
 use super::again::Again;
 use anyhow::{Context, Result, ensure};
 use phytomer_config::scenario::{MeshFile, Meshes};
-use phytomer_config::{Resolved, Scenario, Species};
+use phytomer_config::{About, Resolved, Scenario, Species};
 use phytomer_outputs::Shard;
 use phytomer_outputs::meshes::{Collection, MeshOptions, MeshWriter, OwnForms, Ply, Scene};
 use phytomer_outputs::pictures::Subject;
@@ -160,9 +160,16 @@ pub fn portrait(again: &Again, species: &Species, plants: &[u32], ages: &[Tick])
             subjects.push((plant.clone(), *age, format!("{whose}age {age}{years}")));
         }
     }
-    let title = about.scientific_name.clone().or_else(|| about.common_name.clone()).unwrap_or(about.name.clone());
+    let title = title_of(about);
     let note = format!("{}: plants {plants:?} at the ages {ages:?} of seed {}", about.name, again.scenario.seed);
     Ok(Portrait { subjects, title, note })
+}
+
+/// What a species is called below its picture: by its scientific name, if it is one and no list of examples.
+fn title_of(about: &About) -> String {
+    let one = about.scientific_name.as_ref().filter(|name| !name.contains(", "));
+    let model = || about.architectural_model.map(|model| format!("{model:?}'s model"));
+    one.or(about.common_name.as_ref()).cloned().or_else(model).unwrap_or_else(|| about.name.clone())
 }
 
 /// An age in years, where a tick is not one itself.

@@ -6,11 +6,13 @@ from pathlib import Path
 
 # Packages that bring a program and no module.
 PROGRAMS = {"taplo"}
+# Packages whose module has another name.
+MODULES = {"pillow": "PIL"}
 
 
 def find(name):
     if name not in PROGRAMS:
-        importlib.import_module(name)
+        importlib.import_module(MODULES.get(name, name))
     elif not Path(sys.executable).with_name(name).is_file():
         raise FileNotFoundError(f"no program beside {sys.executable}")
 

@@ -33,9 +33,10 @@ impl Gaze {
         }
     }
 
-    /// Straight down, the Y axis up the picture.
-    pub fn down() -> Self {
-        Self { right: Vec3::X, up: Vec3::Y, forward: Vec3::NEG_Z }
+    /// Straight down, the Y axis up the picture, turned to the left by an angle.
+    pub fn down(turn: f32) -> Self {
+        let (sin, cos) = sincosf(turn);
+        Self { right: Vec3::new(cos, sin, 0.0), up: Vec3::new(-sin, cos, 0.0), forward: Vec3::NEG_Z }
     }
 }
 
@@ -104,8 +105,8 @@ fn focal(height: f32) -> f32 {
 
 impl Camera {
     /// The camera that sees all of `extent` in `frame`, as large as it can; the extent was taken with the [`tangents`] of
-    /// the same frame.
-    pub fn fitting(extent: &Extent, frame: &Frame, height: f32) -> Self {
+    /// the same frame. A parallel projection has at most `most` pixels a metre.
+    pub fn fitting(extent: &Extent, frame: &Frame, height: f32, most: f32) -> Self {
         let (gaze, [left, right, up, down]) = (extent.gaze, extent.tangents);
         let [west, east, north, south] = extent.most;
         let centre = frame.centre();
@@ -118,7 +119,7 @@ impl Camera {
             return Self { gaze, eye, lens: Lens::Perspective { focal: focal(height) }, centre };
         }
         let (width, tall) = ((west + east).max(1e-6), (north + south).max(1e-6));
-        let scale = ((frame.right - frame.left) / width).min((frame.bottom - frame.top) / tall);
+        let scale = ((frame.right - frame.left) / width).min((frame.bottom - frame.top) / tall).min(most);
         let (across, above) = (0.5 * (east - west), 0.5 * (north - south));
         Self::parallel(gaze, [across, above], extent.depths, scale, centre)
     }
@@ -157,21 +158,18 @@ impl Camera {
         self.eye + self.gaze.forward * w + (self.gaze.right * right - self.gaze.up * down) * per_pixel
     }
 
-    /// Where the ray of a place in the picture meets the ground, z = 0; `None` where it does not ahead of the eye.
+    /// Where the ray of a place in the picture meets the ground, z = 0; `None` where it does not.
     #[inline]
     pub fn ground(&self, x: f32, y: f32) -> Option<Vec3> {
         let (right, down) = (x - self.centre[0], y - self.centre[1]);
-        let (from, along) = match self.lens {
-            Lens::Perspective { focal } => {
-                let along = self.gaze.forward + (self.gaze.right * right - self.gaze.up * down) / focal;
-                (self.eye, along)
-            }
-            Lens::Parallel { scale, .. } => {
-                (self.eye + (self.gaze.right * right - self.gaze.up * down) / scale, self.gaze.forward)
-            }
+        let aside = self.gaze.right * right - self.gaze.up * down;
+        let (from, along, eye) = match self.lens {
+            Lens::Perspective { focal } => (self.eye, self.gaze.forward + aside / focal, true),
+            Lens::Parallel { scale, .. } => (self.eye + aside / scale, self.gaze.forward, false),
         };
         let far = -from.z / along.z;
-        (along.z < -1e-4 && far > 0.0).then(|| from + along * far)
+        // A parallel gaze has no eye that ground could be behind of.
+        (along.z < -1e-4 && (far > 0.0 || !eye)).then(|| from + along * far)
     }
 
     /// Towards the eye from a point.

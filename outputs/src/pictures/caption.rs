@@ -6,7 +6,8 @@
 use super::canvas::Canvas;
 use super::letters::{width, written};
 
-const INK: [u8; 3] = [70, 66, 60];
+/// The colour of what is written.
+pub const INK: [u8; 3] = [70, 66, 60];
 
 /// The height of a capital on a picture so tall, pixels.
 pub fn letter_size(height: u32) -> f32 {
@@ -16,6 +17,8 @@ pub fn letter_size(height: u32) -> f32 {
 /// How a line of text stands to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Align {
+    /// It begins there.
+    Left,
     /// Its middle is there.
     Middle,
     /// It ends there.
@@ -26,6 +29,7 @@ pub enum Align {
 pub fn write(canvas: &mut Canvas, text: &str, size: f32, [x, line]: [f32; 2], align: Align) {
     let wide = width(text, size);
     let left = match align {
+        Align::Left => x,
         Align::Middle => x - 0.5 * wide,
         Align::Right => x - wide,
     };
@@ -75,4 +79,28 @@ pub fn scale_bar(canvas: &mut Canvas, scale: f32, room: f32, size: f32, [left, l
     canvas.rectangle([left, line - tick, left + thick, line], INK);
     canvas.rectangle([right - thick, line - tick, right, line], INK);
     write(canvas, &length_in_words(length), size, [0.5 * (left + right), line - 0.75 * size], Align::Middle);
+}
+
+/// As much of a line of text as fits into `room` pixels.
+pub fn fitting(text: &str, size: f32, room: f32) -> String {
+    let mut fitting = text.to_owned();
+    while width(&fitting, size) > room && fitting.chars().count() > 2 {
+        fitting = fitting.trim_end_matches('…').to_owned();
+        fitting.pop();
+        fitting = format!("{}…", fitting.trim_end());
+    }
+    fitting
+}
+
+/// Writes labels around their places on a line, on a second line above where the first is taken, and not at all where
+/// both are.
+pub fn write_row(canvas: &mut Canvas, labels: &[(f32, &str)], size: f32, line: f32) {
+    let mut ends = [f32::NEG_INFINITY; 2];
+    for (x, label) in labels {
+        let half = 0.5 * width(label, size);
+        let x = x.max(half + size).min(canvas.width as f32 - half - size);
+        let Some(row) = (0..2).find(|row| ends[*row] + size <= x - half) else { continue };
+        ends[row] = x + half;
+        write(canvas, label, size, [x, line - 1.7 * size * row as f32], Align::Middle);
+    }
 }

@@ -17,6 +17,8 @@ pub struct Paint {
     pub colour: [u8; 3],
     /// Whether light comes through, as through leaves and petals.
     pub thin: bool,
+    /// Whether the colour stands for something: light then changes it little.
+    pub stained: bool,
     /// Whose it is: the place of its plant in the picture.
     pub subject: u8,
 }
@@ -40,6 +42,7 @@ pub struct Film {
 }
 
 const THIN: u64 = 1 << 63;
+const STAINED: u64 = 1 << 62;
 
 impl Film {
     /// Makes room for the samples of a window, with nothing seen.
@@ -90,12 +93,13 @@ pub fn keep_nearest(kept: &AtomicU32, depth: f32) {
     }
 }
 
-/// Thin 1 bit, subject 7, colour 24, then the normal in 3 times 10 bits.
+/// Thin and stained 1 bit each, subject 6, colour 24, then the normal in 3 times 10 bits.
 #[inline]
 fn packed(paint: &Paint, normal: Vec3) -> u64 {
     let ten = |x: f32| (x * 511.0 + 512.5).clamp(0.0, 1023.0) as u64;
     let [r, g, b] = paint.colour.map(u64::from);
-    let stuff = if paint.thin { THIN } else { 0 } | u64::from(paint.subject & 127) << 56;
+    let bit = |is: bool, bit: u64| if is { bit } else { 0 };
+    let stuff = bit(paint.thin, THIN) | bit(paint.stained, STAINED) | u64::from(paint.subject & 63) << 56;
     stuff | r << 48 | g << 40 | b << 32 | ten(normal.x) << 20 | ten(normal.y) << 10 | ten(normal.z)
 }
 
@@ -103,6 +107,11 @@ fn packed(paint: &Paint, normal: Vec3) -> u64 {
 fn unpacked(bits: u64, depth: f32) -> Seen {
     let byte = |shift: u32| (bits >> shift & 255) as u8;
     let ten = |shift: u32| ((bits >> shift & 1023) as f32 - 512.0) / 511.0;
-    let paint = Paint { colour: [byte(48), byte(40), byte(32)], thin: bits & THIN != 0, subject: byte(56) & 127 };
+    let paint = Paint {
+        colour: [byte(48), byte(40), byte(32)],
+        thin: bits & THIN != 0,
+        stained: bits & STAINED != 0,
+        subject: byte(56) & 63,
+    };
     Seen { depth, paint, normal: Vec3::new(ten(20), ten(10), ten(0)) }
 }

@@ -67,7 +67,7 @@ impl Ground<'_> {
             return none;
         }
         if !self.camera.sees_ground() {
-            return self.section(x, y, none);
+            return self.section(y, none);
         }
         let Some(point) = self.camera.ground(x, y) else { return none };
         let depth = self.camera.project(point).map_or(0.0, |seen| seen.z);
@@ -85,9 +85,8 @@ impl Ground<'_> {
     }
 
     /// The ground as a line, one pixel wide, and what is below it.
-    fn section(&self, x: f32, y: f32, none: Behind) -> Behind {
+    fn section(&self, y: f32, none: Behind) -> Behind {
         let line = self.camera.project(Vec3::ZERO).map_or(f32::MAX, |seen| seen.y);
-        let _ = x;
         let below = (y + 0.5 - line).clamp(0.0, 1.0);
         let width = (self.height / 700.0).max(1.0);
         let on = (0.5 * width + 0.5 - (y - line).abs()).clamp(0.0, 1.0);
@@ -114,9 +113,7 @@ impl Ground<'_> {
             let point = point - footing.offset;
             let high = light.shadow.sun.z;
             let open = falling_on(light.sky.at(point), Vec3::Z).min(1.0);
-            let near =
-                1.0 - smooth(((point + footing.offset - footing.foot).length() / footing.size.max(1e-6) - 0.6) / 0.6);
-            let sky = 1.0 - (1.0 - open) * near;
+            let sky = 1.0 - (1.0 - open) * light.sky.holds(point);
             let gets = SUN * (high * light.shadow.share(point)) + SKY * sky;
             left * (gets / (SUN * high + SKY))
         })

@@ -9,36 +9,41 @@
 mod camera;
 mod canvas;
 mod caption;
+mod cast;
+mod colouring;
 mod draw;
 mod extent;
 mod film;
 mod ground;
 mod letters;
+mod palette;
 mod png;
 mod raster;
 mod shade;
 mod shadow;
 mod sky;
 mod stand;
+#[cfg(test)]
+mod tests;
 mod tone;
 
 pub use self::png::write_png;
 pub use ::png::Compression;
 pub use canvas::Canvas;
+pub use colouring::colour_columns;
 
-use crate::meshes::{MeshOptions, OwnForms};
-use camera::{Camera, Frame, Gaze, tangents};
-use caption::{Align, letter_size, scale_bar, write};
-use draw::Set;
-use extent::Extent;
+use crate::Error;
+use crate::meshes::OwnForms;
+use camera::Gaze;
+use cast::Cast;
+use glam::Vec3;
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
-use stand::Standing;
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
 /// The most plants of one picture.
-pub const MOST_SUBJECTS: usize = 100;
+pub const MOST_SUBJECTS: usize = 64;
 
 /// From where plants are seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,19 +61,20 @@ pub enum View {
 }
 
 impl View {
-    fn gaze(self) -> Gaze {
+    /// Which way it looks, turned to the left by an angle, radians.
+    fn gaze(self, turn: f32) -> Gaze {
         let degrees = |degrees: f32| degrees * PI / 180.0;
         match self {
-            Self::Perspective => Gaze::towards(degrees(110.0), degrees(7.0)),
-            Self::Top => Gaze::down(),
-            Self::Front => Gaze::towards(FRAC_PI_2, 0.0),
-            Self::Side => Gaze::towards(PI, 0.0),
-            Self::Oblique => Gaze::towards(degrees(120.0), degrees(30.0)),
+            Self::Perspective => Gaze::towards(degrees(110.0) + turn, degrees(7.0)),
+            Self::Top => Gaze::down(turn),
+            Self::Front => Gaze::towards(FRAC_PI_2 + turn, 0.0),
+            Self::Side => Gaze::towards(PI + turn, 0.0),
+            Self::Oblique => Gaze::towards(degrees(120.0) + turn, degrees(30.0)),
         }
     }
 
     /// The sun over the left shoulder of whoever looks, radians.
-    fn sun(self) -> [f32; 2] {
+    fn sun(self, turn: f32) -> [f32; 2] {
         let azimuth: f32 = match self {
             Self::Perspective => 110.0 + 180.0 - 52.0,
             Self::Top => 135.0,
@@ -76,7 +82,7 @@ impl View {
             Self::Side => 360.0 - 48.0,
             Self::Oblique => 120.0 + 180.0 - 60.0,
         };
-        [azimuth * PI / 180.0, 46.0 * PI / 180.0]
+        [azimuth * PI / 180.0 + turn, 46.0 * PI / 180.0]
     }
 }
 
@@ -87,6 +93,9 @@ pub struct Picture {
     pub size: [u32; 2],
     /// From where.
     pub view: View,
+    /// The angle, radians, by which whoever looks goes on around the plants, counterclockwise from above. If not given, a
+    /// flat plant is seen in perspective from where it is wide, any other from the front.
+    pub turn: Option<f32>,
     /// Whether the background is left out.
     pub transparent: bool,
     /// Whether ground and shadow are drawn.
@@ -99,6 +108,8 @@ pub struct Picture {
     pub sides: u8,
     /// The meshes of its own that the species names.
     pub own: Arc<OwnForms>,
+    /// The column of `records` whose values colour the components; their own colours if not given.
+    pub colour_by: Option<String>,
 }
 
 /// A plant at an age, to be drawn.
@@ -113,76 +124,35 @@ pub struct Subject<'a> {
 }
 
 /// Draws plants side by side, in one scale on one ground, `title` written in the corner.
-pub fn draw(subjects: &[Subject], title: &str, picture: &Picture) -> Canvas {
-    let options = MeshOptions { sides: picture.sides, own: Arc::clone(&picture.own), ..MeshOptions::default() };
-    let some = subjects.iter().take(MOST_SUBJECTS).zip(0_u8..);
-    let mut plants: Vec<Standing> =
-        some.map(|(subject, number)| Standing::new(subject.plant, subject.age, &options, None, number)).collect();
-    let camera = aim(&mut plants, picture);
-    let sun = picture.sun.unwrap_or_else(|| picture.view.sun());
-    let lights: Vec<_> = plants.iter().map(|plant| plant.light(sun)).collect();
-    let set =
-        Set { plants: &plants, lights: &lights, camera, ground: picture.ground, transparent: picture.transparent };
-    let mut canvas = draw::draw(&set, picture.size);
-    if picture.caption {
-        write_below(&mut canvas, &plants, subjects, title, &camera);
-    }
-    canvas
+///
+/// # Errors
+/// Where the plants cannot be coloured by the column that is asked for.
+pub fn draw(subjects: &[Subject], title: &str, picture: &Picture) -> Result<Canvas, Error> {
+    let mut cast = Cast::of(subjects, picture)?;
+    let camera = cast.aim(picture, f32::INFINITY);
+    Ok(cast.draw(picture, &camera, title))
 }
 
-/// Draws the four parallel views of plants on one sheet: front and side above, top and oblique below.
-pub fn sheet(subjects: &[Subject], title: &str, picture: &Picture) -> Canvas {
+/// Draws the four parallel views of plants on one sheet, in one scale: front and side above, top and oblique below.
+///
+/// # Errors
+/// As [`draw`].
+pub fn sheet(subjects: &[Subject], title: &str, picture: &Picture) -> Result<Canvas, Error> {
     let [width, height] = picture.size;
+    let mut cast = Cast::of(subjects, picture)?;
     let mut canvas = Canvas::new(width, height);
     let halves = [[width / 2, height / 2], [width - width / 2, height - height / 2]];
-    for (number, view) in [View::Front, View::Side, View::Top, View::Oblique].into_iter().enumerate() {
-        let (column, row) = (number % 2, number / 2);
-        let part = Picture { size: [halves[column][0], halves[row][1]], view, ..picture.clone() };
-        let words = if number == 3 { title } else { "" };
-        canvas.put(&draw(subjects, words, &part), [0, width / 2][column], [0, height / 2][row]);
+    let views = [View::Front, View::Side, View::Top, View::Oblique];
+    let parts = [0, 1, 2, 3].map(|number| {
+        let size = [halves[number % 2][0], halves[number / 2][1]];
+        Picture { size, view: views[number], ..picture.clone() }
+    });
+    let scale = parts.each_ref().map(|part| cast.aim(part, f32::INFINITY).scale_at(Vec3::ZERO));
+    let scale = scale.into_iter().fold(f32::INFINITY, f32::min);
+    for (number, part) in parts.iter().enumerate() {
+        let camera = cast.aim(part, scale);
+        let drawn = cast.draw(part, &camera, if number == 3 { title } else { "" });
+        canvas.put(&drawn, [0, width / 2][number % 2], [0, height / 2][number / 2]);
     }
-    canvas
-}
-
-/// Puts the plants side by side, the first at the left, and finds the camera that sees them all.
-fn aim(plants: &mut [Standing], picture: &Picture) -> Camera {
-    let gaze = picture.view.gaze();
-    let height = picture.size[1] as f32;
-    let frame = frame(picture);
-    let tangents = tangents(&frame, height, picture.view == View::Perspective);
-    let extents: Vec<Extent> = plants.iter().map(|plant| plant.extent(gaze, tangents)).collect();
-    let widest = extents.iter().map(|extent| extent.across[1] - extent.across[0]).fold(0.0, f32::max);
-    let mut all = Extent::new(gaze, tangents);
-    let mut edge = 0.0;
-    for (number, (plant, extent)) in plants.iter_mut().zip(&extents).enumerate() {
-        let home = -plant.foot();
-        let own = extent.moved(home);
-        let along = if number == 0 { 0.0 } else { edge + 0.08 * widest - own.across[0] };
-        edge = along + own.across[1];
-        plant.offset = home + gaze.right * along;
-        all = all.join(&own.moved(gaze.right * along));
-    }
-    Camera::fitting(&all, &frame, height)
-}
-
-/// The part of a picture that plants fill.
-fn frame(picture: &Picture) -> Frame {
-    let [width, height] = picture.size.map(|side| side as f32);
-    let margin = 0.045 * width.min(height);
-    let below = if picture.caption { 4.6 * letter_size(picture.size[1]) } else { margin };
-    Frame { left: margin, top: margin, right: width - margin, bottom: height - margin.max(below) }
-}
-
-fn write_below(canvas: &mut Canvas, plants: &[Standing], subjects: &[Subject], title: &str, camera: &Camera) {
-    let size = letter_size(canvas.height);
-    let (width, height) = (canvas.width as f32, canvas.height as f32);
-    let line = height - 1.4 * size;
-    let scale = plants.first().map_or(1.0, |plant| camera.scale_at(plant.foot()));
-    scale_bar(canvas, scale, 0.16 * width, size, [1.6 * size, line]);
-    write(canvas, title, size, [width - 1.6 * size, line], Align::Right);
-    for (plant, subject) in plants.iter().zip(subjects) {
-        let x = camera.project(plant.foot()).map_or(0.0, |foot| foot.x);
-        let line = if subjects.len() == 1 { line } else { line - 2.0 * size };
-        write(canvas, &subject.label, size, [x, line], Align::Middle);
-    }
+    Ok(canvas)
 }

@@ -23,6 +23,10 @@ const BACK: f32 = 0.78;
 const THROUGH: f32 = 0.5;
 const THROUGH_TINT: Vec3 = Vec3::new(1.15, 1.12, 0.5);
 const SHEEN: f32 = 0.07;
+/// The light of colours that stand for something: what they have anyway, of the sky, of the sun.
+const STAIN: f32 = 0.5;
+const STAIN_SKY: f32 = 0.45;
+const STAIN_SUN: f32 = 0.4;
 
 /// The light over one plant.
 #[derive(Debug)]
@@ -36,7 +40,7 @@ pub struct Light {
 /// The light that leaves what is seen at `point` towards `back`; the sun by one tap of its disc.
 #[inline]
 pub fn shade(seen: &Seen, point: Vec3, back: Vec3, light: &Light, tap: usize) -> Vec3 {
-    let Paint { colour, thin, .. } = seen.paint;
+    let Paint { colour, thin, stained, .. } = seen.paint;
     let normal = seen.normal.normalize_or(back);
     let normal = if thin && normal.dot(back) < 0.0 { -normal } else { normal };
     let towards_sun = normal.dot(light.shadow.sun);
@@ -48,6 +52,10 @@ pub fn shade(seen: &Seen, point: Vec3, back: Vec3, light: &Light, tap: usize) ->
     let base = tone::light(colour);
     let facing = if thin || towards_sun > 0.0 { light.shadow.lit(point, normal, tap) } else { false };
     let sun = if facing { SUN } else { Vec3::ZERO };
+    if stained {
+        let lit = if facing { STAIN_SUN * towards_sun.abs() } else { 0.0 };
+        return base * (STAIN + STAIN_SKY * near.max(far) + lit);
+    }
     if !thin {
         return base * (sun * towards_sun.max(0.0) + SKY * near + around);
     }

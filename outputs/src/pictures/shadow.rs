@@ -16,20 +16,26 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 const TEXELS: f32 = 2048.0;
 /// The half-width of the penumbra, metres for each metre between what throws the shadow and what bears it. The sun's disc
 /// has 0.0047; a hazy sky is softer and pleases more.
-const SOFTNESS: f32 = 0.02;
+const SOFTNESS: f32 = 0.016;
 
 /// How many taps a penumbra has; the samples of a pixel take one each.
 pub const TAPS: usize = 16;
 
+/// And how many that of the ground, which is looked at once a pixel.
+const GROUND_TAPS: usize = 64;
+
+static DISC: LazyLock<[[f32; 2]; TAPS]> = LazyLock::new(disc);
+static GROUND_DISC: LazyLock<[[f32; 2]; GROUND_TAPS]> = LazyLock::new(disc);
+
 /// Places all over the unit disc: Vogel's sunflower spiral.
-pub static DISC: LazyLock<[[f32; 2]; TAPS]> = LazyLock::new(|| {
+fn disc<const N: usize>() -> [[f32; 2]; N] {
     std::array::from_fn(|k| {
-        let radius = ((k as f32 + 0.5) / TAPS as f32).sqrt();
+        let radius = ((k as f32 + 0.5) / N as f32).sqrt();
         // The golden angle, 137.508 degrees.
         let (sin, cos) = sincosf(2.399_963 * k as f32);
         [radius * cos, radius * sin]
     })
-});
+}
 
 /// The sun over one plant.
 #[derive(Debug)]
@@ -122,7 +128,7 @@ impl Shadow {
             return 1.0;
         }
         let radius = (SOFTNESS * sum / count / self.texel).clamp(1.0, search.max(1.0));
-        let dark = DISC.iter().filter(|tap| self.above(seen, **tap, radius).is_some()).count();
-        1.0 - dark as f32 / TAPS as f32
+        let dark = GROUND_DISC.iter().filter(|tap| self.above(seen, **tap, radius).is_some()).count();
+        1.0 - dark as f32 / GROUND_TAPS as f32
     }
 }

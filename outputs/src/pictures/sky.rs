@@ -148,6 +148,14 @@ fn between(layer: &[f32], [width, rows]: [usize; 2], x: f32, y: f32) -> f32 {
 }
 
 impl Sky {
+    /// How much of what is known of the light holds for a point: all inside of the grid, nothing a few cells beyond.
+    pub fn holds(&self, point: Vec3) -> f32 {
+        let place = (point - self.low) / self.cell;
+        let size = Vec3::from_array(self.size.map(|cells| cells as f32));
+        let beyond = (-place).max(place - size).max(Vec3::ZERO).length();
+        (1.0 - beyond / (2 * AIR) as f32).max(0.0)
+    }
+
     /// The light at a point: a mean, and a vector towards where it comes from; that of the nearest cells outside.
     #[inline]
     pub fn at(&self, point: Vec3) -> [f32; 4] {

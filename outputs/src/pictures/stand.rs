@@ -14,7 +14,7 @@ use super::sky::Crown;
 use crate::meshes::{Mesh, MeshOptions, Scene, Tag, Vertex};
 use glam::Vec3;
 use phytomer_sim::Tick;
-use phytomer_sim::plant::{Kind, Plant};
+use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
 use rayon::prelude::*;
 
 /// A plant at an age in a picture.
@@ -25,6 +25,7 @@ pub struct Standing<'a> {
     colours: Option<Vec<[u8; 3]>>,
     /// The boxes of its blocks; those of empty ones are inside out.
     boxes: Vec<[Vec3; 2]>,
+    stuff: [Stuff; Kind::ALL.len()],
     /// Where it grew.
     place: Vec3,
     /// From there to where it stands in the picture.
@@ -51,7 +52,20 @@ impl<'a> Standing<'a> {
                 .fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)])
         });
         let boxes = boxes.collect();
-        Self { scene, colours, boxes, place: Vec3::from_array(plant.place), offset: Vec3::ZERO, number }
+        Self {
+            scene,
+            colours,
+            boxes,
+            stuff: stuff(plant),
+            place: Vec3::from_array(plant.place),
+            offset: Vec3::ZERO,
+            number,
+        }
+    }
+
+    /// Where it grew.
+    pub fn place(&self) -> Vec3 {
+        self.place
     }
 
     /// Where it stands on the ground.
@@ -64,14 +78,27 @@ impl<'a> Standing<'a> {
         self.boxes.iter().fold([self.place; 2], |[low, high], [a, b]| [low.min(*a), high.max(*b)])
     }
 
-    /// How far it reaches as it grew, to be seen along a gaze within tangents.
-    pub fn extent(&self, gaze: Gaze, tangents: [f32; 4]) -> Extent {
+    /// How wide it is along a direction, about: the boxes of its blocks are.
+    pub fn width(&self, right: Vec3) -> f32 {
+        let full = self.boxes.iter().filter(|[low, high]| low.x <= high.x);
+        let ends = full.fold([0.0_f32; 2], |[least, most], [low, high]| {
+            let (middle, half) = (0.5 * (*low + *high) - self.place, 0.5 * (*high - *low));
+            let (at, reach) = (middle.dot(right), half.dot(right.abs()));
+            [least.min(at - reach), most.max(at + reach)]
+        });
+        ends[1] - ends[0]
+    }
+
+    /// How far it reaches as it grew, to be seen along a gaze within tangents; what lies below its foot counts where it is
+    /// to be seen too.
+    pub fn extent(&self, gaze: Gaze, tangents: [f32; 4], buried: bool) -> Extent {
+        let lowest = if buried { f32::NEG_INFINITY } else { self.place.z };
         let empty = || Extent::new(gaze, tangents);
         let mut extent = self.each_block(
             |_| true,
             |mesh| {
                 let mut extent = empty();
-                mesh.vertices.iter().map(at).for_each(|point| extent.add(point));
+                mesh.vertices.iter().map(at).filter(|point| point.z >= lowest).for_each(|point| extent.add(point));
                 extent
             },
             empty,
@@ -92,7 +119,7 @@ impl<'a> Standing<'a> {
                     let vertices = face.indices().map(|index| &mesh.vertices[index as usize]);
                     let corners = vertices.map(at);
                     shadow.cast(&corners);
-                    crown.add(&corners, is_thin(&vertices[0].tag()));
+                    crown.add(&corners, self.stuff_of(&vertices[0].tag()).thin);
                 }
             },
             || (),
@@ -120,15 +147,14 @@ impl<'a> Standing<'a> {
     }
 
     fn expose_block(&self, seen: &Seen, film: &Film, window: &Window, painting: bool) {
-        let nowhere = f32::NAN;
         for face in &seen.mesh.faces {
             let indices = face.indices().map(|index| index as usize);
             let corners = indices.map(|index| seen.corners[index]);
             let vertices = indices.map(|index| &seen.mesh.vertices[index]);
             let tag = vertices[0].tag();
-            let thin = is_thin(&tag);
+            let Stuff { thin, closed } = self.stuff_of(&tag);
             // The far side of what is closed is never seen. Corners behind the eye are no numbers and compare as false.
-            if corners[0].x == nowhere || (!thin && is_closed(&tag) && turn(&corners) > 0.0) {
+            if closed && turn(&corners) > 0.0 {
                 continue;
             }
             if painting {
@@ -140,6 +166,11 @@ impl<'a> Standing<'a> {
         }
     }
 
+    #[inline]
+    fn stuff_of(&self, tag: &Tag) -> Stuff {
+        self.stuff[usize::from(tag.kind) % Kind::ALL.len()]
+    }
+
     fn paint(&self, tag: &Tag, thin: bool) -> Paint {
         let [r, g, b, _] = tag.colour;
         let component = tag.component.unsigned_abs();
@@ -148,7 +179,7 @@ impl<'a> Standing<'a> {
             None if thin => varied([r, g, b], component),
             None => [r, g, b],
         };
-        Paint { colour, thin, subject: self.number }
+        Paint { colour, thin, stained: self.colours.is_some(), subject: self.number }
     }
 
     /// The rows of samples that a block may reach; `None` for one that is empty.
@@ -199,13 +230,30 @@ fn at(vertex: &Vertex) -> Vec3 {
     Vec3::from_array(vertex.position())
 }
 
-fn is_thin(tag: &Tag) -> bool {
-    tag.kind == Kind::Leaf as u8 || tag.kind == Kind::Flower as u8
+/// What the components of each kind are for light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Stuff {
+    /// Light comes through, and both sides are seen: leaves, flowers, internodes that are blades.
+    thin: bool,
+    /// Its far side is never seen: internodes that are tubes and nothing else.
+    closed: bool,
 }
 
-/// Only wood is known to be closed.
-fn is_closed(tag: &Tag) -> bool {
-    tag.kind == Kind::Internode as u8 || tag.kind == Kind::ShortInternode as u8
+/// The stuff of each kind of a plant.
+fn stuff(plant: &Plant) -> [Stuff; Kind::ALL.len()] {
+    let looks = &plant.habit.looks.internodes;
+    Kind::ALL.map(|kind| {
+        let stem = kind.class() == Class::Internode;
+        let look =
+            |look: &&InternodeLook| look.kind == kind || (kind == Kind::ShortInternode && look.kind == Kind::Internode);
+        let thin = if stem { looks.iter().filter(look).any(|look| look.shape == Shape::Blade) } else { is_leafy(kind) };
+        let closed = stem && looks.iter().filter(look).all(|look| look.form.is_none() && look.shape != Shape::Blade);
+        Stuff { thin, closed }
+    })
+}
+
+fn is_leafy(kind: Kind) -> bool {
+    matches!(kind.class(), Class::Leaf | Class::Flower) && kind != Kind::Strobilus
 }
 
 /// A colour made a little lighter or darker, warmer or cooler, as leaves differ; the same for a component at every age.

@@ -164,7 +164,7 @@ impl<'a> Shard<'a> {
         let mut next = 0;
         while next < self.standing.len() {
             self.standing.select(age, part.room(), &mut next, &mut self.numbers);
-            part.columns.fill(plot, &scene, &self.numbers, &mut self.rows);
+            part.columns.fill(plot.id, &scene, &self.numbers, &mut self.rows);
             part.flush_if_full()?;
         }
         Ok(())

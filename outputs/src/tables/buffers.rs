@@ -31,6 +31,19 @@ pub enum Values {
     Word(Vec<i8>),
 }
 
+impl Values {
+    /// Forgets every value and keeps the memory.
+    pub fn clear(&mut self) {
+        match self {
+            Self::Bool(values) | Self::Word(values) => values.clear(),
+            Self::Int(values) => values.clear(),
+            Self::Key(values) => values.clear(),
+            Self::Float(values) => values.clear(),
+            Self::Double(values) => values.clear(),
+        }
+    }
+}
+
 /// The memory of a lent buffer, to be taken back once the array is dropped.
 #[derive(Debug)]
 pub enum Lent {

@@ -14,6 +14,7 @@ mod events;
 mod part;
 mod records;
 pub mod schema;
+mod single;
 mod standing;
 mod summary;
 #[cfg(test)]
@@ -27,6 +28,7 @@ pub(crate) use encode::Queue;
 pub(crate) use events::{EventColumns, sort as sort_events};
 pub(crate) use part::{Part, PartReport};
 pub(crate) use records::{RecordColumns, Row as RecordRow, Scene};
+pub(crate) use single::record_values;
 pub(crate) use standing::Standing;
 pub use summary::Summary;
 pub(crate) use summary::{SummaryColumns, summarise};

@@ -6,10 +6,10 @@
 use super::buffers::{NULL, columns};
 use super::columns::KINDS;
 use super::standing::{Component, Standing};
+use phytomer_sim::Tick;
 use phytomer_sim::mechanics::wood_volume;
 use phytomer_sim::plant::{Axes, AxisId, Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::{Frame, node_frame, organ_frame, start_frame};
-use phytomer_sim::{Plot, Tick};
 
 columns! {
     /// The buffers of `records`.
@@ -68,8 +68,8 @@ impl Loaded {
 }
 
 impl RecordColumns {
-    /// Adds a row for each of the components `numbers`; `rows` is memory to work in.
-    pub fn fill(&mut self, plot: &Plot, scene: &Scene<'_>, numbers: &[u32], rows: &mut Vec<Row>) {
+    /// Adds a row for each of the components `numbers` of a plant in the plot of a number; `rows` is memory to work in.
+    pub fn fill(&mut self, plot: u32, scene: &Scene<'_>, numbers: &[u32], rows: &mut Vec<Row>) {
         rows.clear();
         rows.extend(numbers.iter().map(|&number| match scene.standing.component(number) {
             Component::Node(node) => scene.of_node(node),
@@ -84,7 +84,7 @@ impl RecordColumns {
         }
         let rows = self.component.len();
         self.treatment.resize(rows, 0);
-        self.plot.resize(rows, plot.id as i32);
+        self.plot.resize(rows, plot as i32);
         self.plant.resize(rows, scene.plant.id as i32);
         self.age.resize(rows, scene.age as i32);
     }

@@ -1,0 +1,118 @@
+//! The gallery: every species that ships, drawn in its prime, and the life of one tree as a strip.
+//!
+//! `cargo run --release --example gallery [FOLDER]` writes `gallery.md`, its pictures below `gallery/` and `life.png` into a
+//! folder, `docs` if none is given. A species is grown by the shipped scenario of its name if there is one, else by itself,
+//! and drawn at the age that `phytomer picture` chooses. Nothing is listed here: what ships is what is drawn.
+
+use anyhow::{Context, Result, anyhow};
+use phytomer::config::{Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, presets, validate, validate_species};
+use phytomer::outputs::pictures::{Canvas, Compression, Picture, Subject, View, draw, write_png};
+use phytomer::run::again::Again;
+use phytomer::run::drawing::{Portrait, portrait};
+use phytomer::sim::{GrowthModel, Tick};
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::io::BufWriter;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The size of a picture of the gallery, and of the strip.
+const SIZE: [u32; 2] = [360, 480];
+const STRIP: [u32; 2] = [1600, 460];
+/// Whose life is told, and when it is looked at: robusta coffee, in months.
+const LIFE_OF: &str = "coffee";
+const LIFE: [Tick; 9] = [4, 9, 16, 26, 40, 56, 76, 96, 106];
+
+struct Sitter {
+    scenario: Scenario,
+    species: Species,
+    model: Arc<dyn GrowthModel>,
+}
+
+fn main() -> Result<()> {
+    let folder = std::env::args().nth(1).unwrap_or_else(|| "docs".to_owned());
+    let folder = Path::new(&folder);
+    let mut page = String::from(
+        "# Gallery\n\nEvery species that ships, drawn by `phytomer picture` at the age that it states, or else in its prime:\nthe last \
+         age at which it bears nine tenths of the largest leaf area that it ever does. `cargo run --release --example gallery` makes this page.\n",
+    );
+    let mut group = None;
+    for (name, _) in presets(Kind::Species) {
+        let of = name.rsplit_once('/').map_or("", |(group, _)| group);
+        if group != Some(of) {
+            group = Some(of);
+            write!(page, "\n## {}\n\n", if of.is_empty() { "Plants and examples" } else { of })?;
+        }
+        page += &sit(name, folder).with_context(|| format!("the species {name}"))?;
+    }
+    fs::write(folder.join("gallery.md"), page)?;
+    strip(&folder.join("life.png"))
+}
+
+/// Draws one species and says what is seen.
+fn sit(name: &str, folder: &Path) -> Result<String> {
+    let sitter = Sitter::of(name)?;
+    let again = sitter.again();
+    let age = again.shown_at(&sitter.species, 0)?;
+    let portrait = portrait(&again, &sitter.species, &[0], &[age])?;
+    let file = format!("gallery/{name}.png");
+    let canvas = drawn(&portrait, SIZE)?;
+    save(&canvas, &portrait.note, &folder.join(&file))?;
+    println!("{name}: age {age}");
+    let about = &sitter.species.about;
+    let called = about.common_name.as_deref().unwrap_or(&about.name);
+    let latin = about.scientific_name.as_ref().map(|latin| format!(", *{latin}*")).unwrap_or_default();
+    let model = about.architectural_model.map(|model| format!(", {model:?}'s model")).unwrap_or_default();
+    Ok(format!("![{called}]({file} \"{name}: {called}{latin}{model}, age {age}\")\n"))
+}
+
+impl Sitter {
+    fn of(name: &str) -> Result<Self> {
+        if presets(Kind::Scenario).iter().any(|(scenario, _)| *scenario == name) {
+            let found = validate(name).map_err(|report| anyhow!(report.render(false)))?;
+            return Ok(Self { scenario: found.scenario, species: found.species, model: found.model });
+        }
+        let found = validate_species(name, SPECIES_ALONE_UNTIL).map_err(|report| anyhow!(report.render(false)))?;
+        let until = found.shown_at();
+        let Resolved { scenario, species, .. } = found.alone(name);
+        let model = species.model.compile(until).map_err(|faults| anyhow!("{faults:?}"))?;
+        Ok(Self { scenario, species, model })
+    }
+
+    fn again(&self) -> Again<'_> {
+        Again { scenario: &self.scenario, model: self.model.as_ref(), air: None }
+    }
+}
+
+/// One tree from a seedling to its death.
+fn strip(path: &Path) -> Result<()> {
+    let sitter = Sitter::of(LIFE_OF)?;
+    let mut portrait = portrait(&sitter.again(), &sitter.species, &[0], &LIFE)?;
+    portrait.subjects.iter_mut().for_each(|(_, age, label)| *label = format!("{age}"));
+    portrait.title = format!("{}, ages in months", portrait.title);
+    save(&drawn(&portrait, STRIP)?, &portrait.note, path)
+}
+
+fn drawn(portrait: &Portrait, size: [u32; 2]) -> Result<Canvas> {
+    let style = Picture {
+        size,
+        view: View::Perspective,
+        turn: None,
+        transparent: false,
+        ground: true,
+        caption: true,
+        sun: None,
+        sides: 8,
+        own: Default::default(),
+        colour_by: None,
+    };
+    let subjects: Vec<Subject> = portrait.subjects();
+    Ok(draw(&subjects, &portrait.title, &style)?)
+}
+
+fn save(canvas: &Canvas, note: &str, path: &Path) -> Result<()> {
+    let doing = || format!("cannot write {}", path.display());
+    fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).with_context(doing)?;
+    let out = BufWriter::new(File::create(path).with_context(doing)?);
+    write_png(canvas, note, Compression::High, out).with_context(doing)
+}
