@@ -7,6 +7,7 @@
 use crate::Error;
 use phytomer_sim::plant::{AxisId, NodeId, OrganId, Plant};
 use phytomer_sim::{NEVER, Tick};
+use std::ops::Range;
 
 /// Components that are looked at in one step of the scan: few enough for their rows to stay in a core's cache.
 const SELECTION: usize = 512;
@@ -122,6 +123,13 @@ impl Standing {
         }
         numbers.truncate(found);
         *next = end as u32;
+    }
+
+    /// The next components from `next` on, whether they stand or not: at most [`SELECTION`] and at most `room`.
+    pub fn following(&self, room: usize, next: &mut u32) -> Range<u32> {
+        let start = *next;
+        *next = self.len().min(start + SELECTION.min(room) as u32);
+        start..*next
     }
 
     /// The components of the plant.
