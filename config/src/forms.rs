@@ -41,7 +41,7 @@ fn entry<'n>(node: &'n mut Node, key: &str) -> Option<&'n mut Node> {
 fn of_form(form: &mut Node, path: &Path, sources: &Sources, faults: &mut Vec<Fault>) {
     let Some(mesh) = entry(form, "mesh") else { return };
     let (path, span) = (path.key("mesh"), mesh.span);
-    let Some(name) = mesh.text().map(str::to_owned) else { return };
+    let Some(name) = mesh.text().filter(|name| !name.is_empty()).map(str::to_owned) else { return };
     let Origin::File(file) = &sources.get(span.source).origin else {
         let problem = format!("a species that ships names the file `{name}`");
         return faults.push(Fault::new(span, &path, problem, "a form of the library (`phytomer list forms` has them)"));
