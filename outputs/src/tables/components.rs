@@ -18,7 +18,7 @@ columns! {
         state: Int(i32), position: Int(i32), rank: Int(i32), unit_rank: Int(i32), neoformed: Bool(i8),
         birth: Int(i32), birth_dimension: Int(i32), delay: Int(i32),
         length: Float(f32), birth_diameter: Float(f32), area: Float(f32),
-        death: Int(i32), shed: Int(i32), cause: Word(i8),
+        death: Int(i32), shed: Int(i32), cause: Word(i8), trend: Float(f32),
     }
 }
 
@@ -42,6 +42,7 @@ pub struct Row {
     death: Tick,
     shed: Tick,
     cause: Cause,
+    trend: f32,
 }
 
 impl ComponentColumns {
@@ -57,7 +58,7 @@ impl ComponentColumns {
     ) {
         rows.clear();
         let row_of = |number| match standing.component(number) {
-            Component::Node(node) => of_node(plant, node),
+            Component::Node(node) => of_node(plant, node, standing),
             Component::Organ(organ) => of_organ(plant, organ),
             Component::Bud(axis) => of_bud(plant, axis),
         };
@@ -100,11 +101,12 @@ impl ComponentColumns {
         // Causes are numbered from 1; 0 is "lives".
         let cause = |row: &Row| if known(row.death, last) == NULL { -1 } else { row.cause as i8 - 1 };
         self.cause.extend(rows.iter().map(cause));
+        self.trend.extend(rows.iter().map(|row| row.trend));
     }
 }
 
 #[inline]
-fn of_node(plant: &Plant, node: NodeId) -> Row {
+fn of_node(plant: &Plant, node: NodeId, standing: &Standing) -> Row {
     let Plant { nodes, axes, .. } = plant;
     let i = node.index();
     let axis = nodes.axis[i];
@@ -127,6 +129,7 @@ fn of_node(plant: &Plant, node: NodeId) -> Row {
         death: nodes.death[i],
         shed: nodes.shed[i],
         cause: Cause::Branch,
+        trend: standing.trend(plant, node),
     }
 }
 
@@ -143,7 +146,8 @@ fn of_organ(plant: &Plant, organ: OrganId) -> Row {
         parent: nodes.component[node] as i32,
         axis,
         kind: organs.kind[i],
-        position: i32::from(organs.position[i]),
+        // That of what stands at the end of an axis is the greatest, which is no place among laterals.
+        position: if organs.position[i] == u16::MAX { NULL } else { i32::from(organs.position[i]) },
         rank: nodes.rank[node] as i32,
         unit_rank: i32::from(nodes.unit_rank[node]),
         neoformed: -1,
@@ -156,6 +160,7 @@ fn of_organ(plant: &Plant, organ: OrganId) -> Row {
         death: end,
         shed: end,
         cause: organs.cause[i],
+        trend: f32::NAN,
     }
 }
 
@@ -183,6 +188,7 @@ fn of_bud(plant: &Plant, axis: AxisId) -> Row {
         death: axes.apex_end[i],
         shed: if axes.apex_end[i] == NEVER { NEVER } else { axes.shed[i] },
         cause: cause_of(axes.apex_fate[i]),
+        trend: f32::NAN,
     }
 }
 

@@ -5,7 +5,7 @@
 //! then one straight scan.
 
 use crate::Error;
-use phytomer_sim::plant::{AxisId, NodeId, OrganId, Plant};
+use phytomer_sim::plant::{AxisId, NodeId, OrganId, Plant, Trend};
 use phytomer_sim::{NEVER, Tick};
 use std::ops::Range;
 
@@ -37,6 +37,8 @@ pub struct Standing {
     /// Of each [`SELECTION`] components, the tick from which the first of them stands.
     first: Vec<Tick>,
     tips: Vec<NodeId>,
+    /// The inclinations of the habit's trends, degrees; NaN where a trend tends nowhere.
+    trends: Vec<f32>,
 }
 
 impl Standing {
@@ -63,6 +65,8 @@ impl Standing {
     }
 
     fn lay_out(&mut self, plant: &Plant) {
+        self.trends.clear();
+        self.trends.extend(plant.habit.trends.iter().map(inclination));
         let components = plant.components() as usize;
         for column in [&mut self.places, &mut self.from, &mut self.until] {
             column.resize(components, 0);
@@ -100,6 +104,16 @@ impl Standing {
             0 => Component::Node(NodeId(index)),
             1 => Component::Organ(OrganId(index)),
             _ => Component::Bud(AxisId(index)),
+        }
+    }
+
+    /// The inclination that an internode tends to, degrees; NaN where it tends nowhere.
+    #[inline]
+    pub fn trend(&self, plant: &Plant, node: NodeId) -> f32 {
+        let place = usize::from(plant.nodes.trend[node.index()]);
+        match plant.own_trends.of(plant.nodes.axis[node.index()]) {
+            Some(own) => own.get(place).map_or(f32::NAN, inclination),
+            None => self.trends.get(place).copied().unwrap_or(f32::NAN),
         }
     }
 
@@ -154,6 +168,10 @@ impl Standing {
     pub fn tip(&self, axis: AxisId) -> NodeId {
         self.tips[axis.index()]
     }
+}
+
+fn inclination(trend: &Trend) -> f32 {
+    trend.inclination_deg().unwrap_or(f32::NAN)
 }
 
 /// The tick at which an organ is gone: its own fall, or the fall of its branch if that should come first.
