@@ -155,7 +155,7 @@ pub fn portrait(again: &Again, species: &Species, plants: &[u32], ages: &[Tick])
         })?;
         for age in ages {
             let whose = if plants.len() > 1 { format!("plant {number}, ") } else { String::new() };
-            let years = about.ticks_per_year.map(|ticks| in_years(*age, ticks)).unwrap_or_default();
+            let years = about.ticks_per_year.as_ref().map(|ticks| in_years(*age, ticks.value())).unwrap_or_default();
             let Some(plant) = seen.get(age) else { continue };
             subjects.push((plant.clone(), *age, format!("{whose}age {age}{years}")));
         }

@@ -3,11 +3,11 @@
 //! What may differ by state is spread over the states; names become numbers, colours bytes, and the law of an organ's
 //! expansion a table by its own age. Absent: what is drawn where nothing is stated.
 
-use crate::buds::law::{At, Domain, Law, Quantity, ValueRange};
 use crate::buds::params::{
     BarkChoice, Buds, ByState, ColourText, FlowerChoice, FormChoice, FruitChoice, KindName, LeafChoice, OwnForm,
 };
 use crate::fault::{Fault, Path};
+use crate::law::{At, Domain, Law, Quantity, ValueRange};
 use phytomer_sim::plant::{Bark, Class, Colour, Form, InternodeLook, Kind, Looks, OrganLook, OrganLooks, Shape};
 
 const SIDES: std::ops::RangeInclusive<u32> = 3..=64;
