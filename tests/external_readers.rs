@@ -126,6 +126,18 @@ fn independent_readers_agree_on_plants_that_bend() {
     read(&python, "meshes.py", &[&run, "8"]);
 }
 
+/// Rhizome, shoots and panicle: kinds of their own, each with its Plant Ontology term.
+#[test]
+fn independent_readers_agree_on_herbs_on_a_rhizome() {
+    let Some(python) = python() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let run = grow(folder.path(), "meadow_grass");
+    read(&python, "tables.py", &[&run]);
+    read(&python, "meshes.py", &[&run, "8"]);
+}
+
 #[test]
 fn an_independent_reader_reads_pictures() {
     let Some(python) = python() else {

@@ -264,6 +264,15 @@ impl Model {
         }
     }
 
+    /// The files of the meshes that it names as forms, each once, in the order of their numbers, with the place of the
+    /// first mention.
+    pub fn own_forms(&self) -> Vec<(Path, &str)> {
+        match self {
+            Model::Buds(buds) => buds.own_forms(),
+            Model::Gmt1(_) => Vec::new(),
+        }
+    }
+
     fn to_json(&self) -> serde_json::Result<Json> {
         match self {
             Model::Buds(buds) => serde_json::to_value(buds),

@@ -21,8 +21,8 @@ pub struct Internode {
     /// What an internode has added to its diameter, mm: a law in which `age` is the plant's age, `dimension` and `cycle`
     /// the internode's own, in ticks, and the state that in which its axis started.
     pub thickening_mm: Law,
-    /// A cylinder has one diameter; a cone narrows to the diameter of the next internode of its axis, and so does a blade,
-    /// which is plane and without wood. One for all axes, or one for each state in which an axis can start.
+    /// A cylinder has one diameter; a cone narrows to the diameter of the next internode of its axis; a blade is plane and
+    /// without wood, and its tip is as wide as the next internode. One for all axes, or one for each state in which an axis can start.
     pub shape: ByState<ShapeName>,
     /// What its internodes are: `internode` where they are those of a stem, else a kind whose name ends in `internode`. One
     /// for all axes, or one for each state in which an axis can start.
