@@ -3,8 +3,8 @@
 
 use super::law::{Count, CountForm, Law, LawForm, Normal, Poisson, Variate, VariateForm};
 use super::params::{
-    Apex, ApexEnd, Axillary, CountedLeaves, DragLaw, Flower, Fruit, GrowthUnit, Leaf, OrganTrend, Pattern, Phase,
-    Phyllotaxis, Quantity, Reiteration, Relay, Rhythmic, Season, ShortUnit, SpeedText, Speeds, ThickeningRule,
+    Apex, ApexEnd, Axillary, CountedLeaves, DragLaw, Facing, Flower, Fruit, GrowthUnit, Leaf, OrganTrend, Pattern,
+    Phase, Phyllotaxis, Quantity, Reiteration, Relay, Rhythmic, Season, ShortUnit, SpeedText, Speeds, ThickeningRule,
     Transition, Traumatic, Trend, UprightingLaw, Wood, Zone,
 };
 use super::params::{End, Internode};
@@ -123,6 +123,7 @@ fn hydra() -> Buds {
         trend: Trend::Composite(phases),
         leaf: Leaf {
             per_node: Count::from(3),
+            facing: Facing::Sky,
             trend: Some(turning(150.0, "min(1, 0.25 * dimension)")),
             ..Leaf::default()
         },
@@ -258,5 +259,7 @@ fn organs_turn_by_their_own_age_and_others_do_not() {
     assert!((f64::from(leaf.cos_inclination) + 0.75_f64.sqrt()).abs() < 1e-6, "150 degrees");
     assert_eq!(habit.organ_trend(2, Kind::Fruit).unwrap().shares, [1.0]);
     assert_eq!(habit.organ_trend(1, Kind::Flower), None);
+    assert!(habit.faces_the_sky(1, Kind::Leaf) && !habit.faces_the_sky(1, Kind::Fruit));
+    assert!(habit.faces_the_sky(1, Kind::Leaf) && !habit.faces_the_sky(1, Kind::Fruit));
     assert!(chimera().compile(9, &Path::root()).unwrap().habit().organ_trends.is_empty());
 }

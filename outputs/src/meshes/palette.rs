@@ -73,7 +73,7 @@ fn leaf(kind: Kind, form: Form) -> Tints {
 
 fn blade(form: Form) -> Tints {
     match form {
-        Form::Needle | Form::Scale => {
+        Form::Needle | Form::Scale | Form::Spray | Form::Tuft => {
             Tints { autumn: [206.0, 170.0, 78.0], ..even([74.0, 112.0, 66.0], [44.0, 78.0, 52.0]) }
         }
         Form::Fascicle => Tints { autumn: [206.0, 170.0, 78.0], ..even([96.0, 128.0, 82.0], [62.0, 94.0, 68.0]) },
@@ -89,6 +89,9 @@ fn blade(form: Form) -> Tints {
 fn flower(kind: Kind, form: Form) -> Tints {
     match (kind, form) {
         (_, Form::Cone) => even([104.0, 118.0, 62.0], [104.0, 118.0, 62.0]),
+        (_, Form::Panicle) => {
+            Tints { stalk: [170.0, 140.0, 92.0], ..even([222.0, 206.0, 150.0], [196.0, 150.0, 104.0]) }
+        }
         (_, Form::Catkin) => even([190.0, 188.0, 96.0], [176.0, 150.0, 88.0]),
         (Kind::Spikelet, _) | (_, Form::Spikelet) => even([154.0, 172.0, 104.0], [198.0, 180.0, 124.0]),
         (_, Form::Rosette) => Tints { stalk: [176.0, 178.0, 84.0], ..even(PETAL, PETAL) },

@@ -72,13 +72,21 @@ pub enum Form {
     Finger,
     /// A flat pod.
     Pod,
+    /// A rosette of needles on a short shoot, as a cedar's or a larch's.
+    Tuft,
+    /// A piece of shoot with a row of needles on either side, as a fir's or a yew's.
+    Spray,
+    /// A pyramid of small flowers on side branches, as a mango's.
+    Panicle,
+    /// Some five-petalled flowers on a dome of stalks, as a frangipani's.
+    Cyme,
     /// A mesh of the user's, by its place among those that the species names.
     Own(u8),
 }
 
 impl Form {
     /// Every form of the library, in the order of their numbers.
-    pub const LIBRARY: [Self; 33] = [
+    pub const LIBRARY: [Self; 37] = [
         Self::Elliptic,
         Self::Lanceolate,
         Self::Deltoid,
@@ -112,6 +120,10 @@ impl Form {
         Self::Drupe,
         Self::Finger,
         Self::Pod,
+        Self::Tuft,
+        Self::Spray,
+        Self::Panicle,
+        Self::Cyme,
     ];
 
     /// Its number: the library's come first, then the user's.
@@ -151,6 +163,10 @@ impl Form {
             Self::Drupe => 30,
             Self::Finger => 31,
             Self::Pod => 32,
+            Self::Tuft => 33,
+            Self::Spray => 34,
+            Self::Panicle => 35,
+            Self::Cyme => 36,
             Self::Own(place) => Self::LIBRARY.len() + place as usize,
         }
     }
@@ -191,6 +207,10 @@ impl Form {
             Self::Drupe => "drupe",
             Self::Finger => "finger",
             Self::Pod => "pod",
+            Self::Tuft => "tuft",
+            Self::Spray => "spray",
+            Self::Panicle => "panicle",
+            Self::Cyme => "cyme",
             Self::Own(_) => return None,
         })
     }
@@ -231,6 +251,10 @@ impl Form {
             Self::Drupe => "a fruit longer than broad, as a date or a mango",
             Self::Finger => "a curved fruit of five sides, as a banana",
             Self::Pod => "a flat pod",
+            Self::Tuft => "a rosette of needles on a short shoot, as a cedar's or a larch's",
+            Self::Spray => "a piece of shoot with a row of needles on either side, as a fir's or a yew's",
+            Self::Panicle => "a pyramid of small flowers on side branches, as a mango's",
+            Self::Cyme => "some five-petalled flowers on a dome of stalks, as a frangipani's",
             Self::Own(_) => "a mesh of the user's",
         }
     }

@@ -57,6 +57,8 @@ pub struct OrganTrends {
     pub flower: Option<OrganTrend>,
     /// Its fruits.
     pub fruit: Option<OrganTrend>,
+    /// Whether its leaves twist until their upper side faces the sky, as those of plagiotropic axes do.
+    pub leaves_face_the_sky: bool,
 }
 
 /// The shape of an internode at rest (de Reffye 1988 §4).
@@ -107,6 +109,13 @@ impl Habit {
             Class::Fruit => of.fruit.as_ref(),
             Class::Internode | Class::Bud => None,
         }
+    }
+
+    /// Whether leaves on axes of `order` twist towards the sky.
+    #[inline]
+    pub fn faces_the_sky(&self, order: u8, kind: Kind) -> bool {
+        let of = usize::from(order).checked_sub(1).and_then(|order| self.organ_trends.get(order));
+        of.is_some_and(|of| of.leaves_face_the_sky) && kind.class() == Class::Leaf
     }
 
     /// The shape of the internodes of an axis of `order` that started in `state`; orders past the last are as the last.

@@ -43,6 +43,17 @@ pub(super) fn turned(frame: Frame, trend: &Trend) -> Frame {
     Frame { base: frame.base, heading: plane.heading(slope).single(), up: plane.up(slope).single() }
 }
 
+/// What stands in `frame`, twisted about its heading until its upper side faces the sky; a vertical one stays.
+pub(super) fn facing_the_sky(frame: Frame) -> Frame {
+    const UPRIGHT: f32 = 1e-3;
+    let [x, y, z] = frame.heading;
+    let level = (x * x + y * y).sqrt();
+    if level < UPRIGHT {
+        return frame;
+    }
+    Frame { up: [-z * x / level, -z * y / level, level], ..frame }
+}
+
 impl Plane {
     /// The plane and the first slope of an axis that starts in `frame`, whose directions need only be nearly unit.
     pub fn of(frame: &Frame) -> (Self, Slope) {

@@ -115,7 +115,7 @@ pub fn pose(plant: &mut Plant, age: Tick) {
 }
 
 /// The pose at `age` of an organ on its node, whose frame must be there: its insertion, turned as far as the habit's trend
-/// for its kind has turned it in the ticks since its birth. The base lies on the line of the axis, at the node;
+/// for its kind has turned it in the ticks since its birth, and twisted to face the sky where leaves do. The base lies on the line of the axis, at the node;
 /// whoever draws the organ moves it out to the surface of the stem.
 #[inline]
 pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
@@ -127,8 +127,12 @@ pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
         return inserted;
     }
     let order = axes.order[nodes.axis[node.index()].index()];
-    let trend = habit.organ_trend(order, organs.kind[organ]);
-    trend.map_or(inserted, |trend| course::turned(inserted, &trend.at(age.saturating_sub(organs.birth[organ]))))
+    let kind = organs.kind[organ];
+    let turned = match habit.organ_trend(order, kind) {
+        Some(trend) => course::turned(inserted, &trend.at(age.saturating_sub(organs.birth[organ]))),
+        None => inserted,
+    };
+    if habit.faces_the_sky(order, kind) { course::facing_the_sky(turned) } else { turned }
 }
 
 /// The frame at the tip of an internode, where its node is: the directions of the internode, its end as the base.

@@ -216,3 +216,38 @@ fn a_leaf_sinks_with_its_age_and_a_fruit_hangs() {
     assert_eq!(heading(8), heading(5));
     assert_near(organ_frame(plant, flower, 8).heading, [1.0, 0.0, 0.0]);
 }
+
+/// On an axis that lies along X a leaf to the side stands on edge, until its stalk twists; its heading stays.
+#[test]
+fn leaves_that_face_the_sky_turn_their_upper_side_up() {
+    let mut specimen = Specimen::grown(&[Branch::trunk(2, 0.5)], &[], Growth::AxisByAxis);
+    let plant = &mut specimen.plant;
+    plant.axes.insertion[0] = FRAC_PI_2;
+    let leaf = |azimuth, insertion| NewOrgan {
+        node: NodeId(1),
+        kind: Kind::Leaf,
+        position: 0,
+        birth: 1,
+        death: 9,
+        cause: Cause::LifeLength,
+        form: Form::Elliptic,
+        length: 0.1,
+        width: 0.05,
+        area: 0.004,
+        azimuth,
+        insertion,
+    };
+    let leaves = [plant.add_organ(leaf(FRAC_PI_2, FRAC_PI_2)), plant.add_organ(leaf(0.4, 1.1))];
+    pose(plant, LAST);
+    let before = leaves.map(|leaf| organ_frame(plant, leaf, 5));
+    assert!(before[0].up[2].abs() < 1e-6, "on edge: {:?}", before[0]);
+    let of_trunk = OrganTrends { leaves_face_the_sky: true, ..OrganTrends::default() };
+    plant.habit = Arc::new(Habit { organ_trends: vec![of_trunk], ..(*plant.habit).clone() });
+    for (leaf, before) in leaves.into_iter().zip(before) {
+        let after = organ_frame(plant, leaf, 5);
+        assert_eq!(after.heading, before.heading);
+        let highest = (1.0 - after.heading[2] * after.heading[2]).sqrt();
+        assert!((after.up[2] - highest).abs() < 1e-6, "as high as it can: {after:?}");
+        assert!(dot(after.up, after.heading).abs() < 1e-6 && (dot(after.up, after.up) - 1.0).abs() < 1e-6);
+    }
+}

@@ -5,7 +5,7 @@
 
 use super::compiler::Compiler;
 use crate::buds::law::ValueRange;
-use crate::buds::params::{Order, OrganTrend as Stated};
+use crate::buds::params::{Facing, Order, OrganTrend as Stated};
 use phytomer_sim::math::{cos, sin};
 use phytomer_sim::plant::{OrganTrend, OrganTrends};
 
@@ -18,6 +18,7 @@ pub fn trends(order: &Order, compiler: &mut Compiler) -> OrganTrends {
         leaf: of(&order.leaf.trend, "leaf.trend"),
         flower: of(&order.flower.trend, "flower.trend"),
         fruit: of(&order.fruit.trend, "fruit.trend"),
+        leaves_face_the_sky: order.leaf.facing == Facing::Sky,
     }
 }
 

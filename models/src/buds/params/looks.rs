@@ -103,6 +103,14 @@ pub enum FormName {
     Finger,
     /// A flat pod.
     Pod,
+    /// A rosette of needles on a short shoot, as a cedar's or a larch's.
+    Tuft,
+    /// A piece of shoot with a row of needles on either side, as a fir's or a yew's.
+    Spray,
+    /// A pyramid of small flowers on side branches, as a mango's.
+    Panicle,
+    /// Some five-petalled flowers on a dome of stalks, as a frangipani's.
+    Cyme,
 }
 
 impl From<FormName> for Form {

@@ -20,7 +20,7 @@ pub use colour::{
 };
 pub use geometry::{Divergence, Internode, Orientation, Phase, Phyllotaxis, ShapeName, StateTrends, Tended, Trend};
 pub use looks::{ByState, EachState, FormChoice, FormName, KindName, OwnForm};
-pub use organs::{Flower, Fruit, Leaf, OrganTrend, Season};
+pub use organs::{Facing, Flower, Fruit, Leaf, OrganTrend, Season};
 pub use sympodial::{Apex, ApexEnd, Fork, Reiteration, Relay, Sibling, Transition, Traumatic};
 pub use wood::{CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood};
 

@@ -33,6 +33,23 @@ pub struct OrganTrend {
     pub share: Law,
 }
 
+/// Where the upper side of a leaf faces.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Facing {
+    /// Towards the tip of its axis, as it was laid down.
+    #[default]
+    Axis,
+    /// Towards the sky: stalks twist, as on plagiotropic axes.
+    Sky,
+}
+
+impl Facing {
+    fn is_axis(&self) -> bool {
+        *self == Self::Axis
+    }
+}
+
 /// The leaves of a node.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -54,6 +71,9 @@ pub struct Leaf {
     /// How a leaf turns as it ages; left out: it keeps its insertion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trend: Option<OrganTrend>,
+    /// Where its upper side faces: `axis`, or `sky` where stalks twist.
+    #[serde(skip_serializing_if = "Facing::is_axis")]
+    pub facing: Facing,
     /// The form that it is drawn with: one of the library (`phytomer list forms`), or `{ mesh = "file.ply" }`.
     pub form: FormChoice,
     /// What it is: `leaf`, or another kind that stands as a leaf does: a leaflet, a bract, a scale, a part of a flower.
@@ -78,6 +98,7 @@ impl Default for Leaf {
             area_share: Variate::from(0.7),
             insertion_deg: Variate::from(60.0),
             trend: None,
+            facing: Facing::Axis,
             form: FormName::Elliptic.into(),
             kind: KindName::Leaf,
             expansion: None,

@@ -8,6 +8,7 @@
 
 mod arch;
 mod blade;
+mod cluster;
 mod flower;
 mod fruit;
 pub mod own;
@@ -109,6 +110,10 @@ fn made(form: Form) -> Shape {
         Form::Drupe => fruit::drupe(),
         Form::Finger => fruit::finger(),
         Form::Pod => fruit::pod(),
+        Form::Tuft => cluster::tuft(),
+        Form::Spray => cluster::spray(),
+        Form::Panicle => cluster::panicle(),
+        Form::Cyme => cluster::cyme(),
     }
 }
 

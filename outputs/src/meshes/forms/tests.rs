@@ -6,7 +6,7 @@ use super::*;
 use bytemuck::Zeroable;
 use std::collections::BTreeSet;
 
-const FORMS: [Form; 33] = Form::LIBRARY;
+const FORMS: [Form; 37] = Form::LIBRARY;
 
 /// Blades of one piece: leaves, petals and sepals that are not compound.
 const BLADES: [Form; 16] = [
