@@ -34,7 +34,7 @@ fn main() -> Result<()> {
     let folder = Path::new(&folder);
     let mut page = String::from(
         "# Gallery\n\nEvery species that ships, drawn by `phytomer picture` at the age that it states, or else in its prime:\nthe last \
-         age at which it bears nine tenths of the largest leaf area that it ever does. `cargo run --release --example gallery` makes this page.\n",
+         year with nine tenths of the largest leaf area that it ever bears, as soon as it bears it. `cargo run --release --example gallery` makes this page.\n",
     );
     let mut group = None;
     for (name, _) in presets(Kind::Species) {
