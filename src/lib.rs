@@ -17,5 +17,6 @@ pub use phytomer_models as models;
 pub use phytomer_outputs as outputs;
 pub use phytomer_sim as sim;
 
+pub mod architecture;
 pub mod run;
 pub mod sample;

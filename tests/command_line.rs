@@ -334,6 +334,25 @@ fn a_species_by_itself_is_one_plant_at_the_age_at_which_it_is_shown() {
     run(folder.path(), &["grow", "mine/species.toml", "--quiet"]).ending(0);
 }
 
+/// `validate` grows a sample of a species that names its architectural model; `grow` asks no such thing.
+#[test]
+fn a_species_must_be_of_the_architectural_model_that_it_names() {
+    let folder = tempdir().unwrap();
+    write(
+        folder.path(),
+        "no_massart.toml",
+        "inherits = \"halle/rauh\"\nname = \"x\"\narchitectural_model = \"massart\"\n",
+    );
+    let told = run(folder.path(), &["validate", "no_massart.toml"]).ending(3);
+    for part in ["no_massart.toml:3:23", "5 of 5 plants", "branches are plagiotropic", "of rauh"] {
+        assert!(told.stderr.contains(part), "{part} is not in {}", told.stderr);
+    }
+    run(folder.path(), &["grow", "no_massart.toml", "--out", "grown", "--quiet"]).ending(0);
+    let json = run(folder.path(), &["describe", "grown", "--json"]).ending(0).json();
+    assert_eq!(json["architecture"], serde_json::json!({"plants": 1, "models": {"rauh": 1}}));
+    assert!(run(folder.path(), &["describe", "grown"]).ending(0).stdout.contains("rauh (1), of 1 plant looked at"));
+}
+
 #[test]
 fn lists_have_everything_that_ships() {
     let folder = tempdir().unwrap();

@@ -6,7 +6,12 @@
 mod program;
 
 use phytomer::sample::compare;
-use phytomer_config::{Kind, presets, validate_species};
+use phytomer_config::{Kind, Model, presets, validate_species};
+use phytomer_models::buds::BudModel;
+use phytomer_models::buds::params::Reiteration;
+use phytomer_models::fault::Path;
+use phytomer_sim::plant::Seed;
+use phytomer_sim::{GrowthModel as _, Plot};
 use program::run;
 use std::fs;
 use tempfile::tempdir;
@@ -62,4 +67,38 @@ fn a_law_that_does_not_reach_the_published_age_is_a_fault_of_the_law() {
     fs::write(folder.path().join("stem.toml"), stem(published) + law).unwrap();
     let told = run(folder.path(), &["validate", "stem.toml"]).ending(3).stderr;
     assert!(told.contains("death"), "{told}");
+}
+
+/// The trunks alone, as they die by laws of their own: half of them within the range of years that is told of such stems.
+#[test]
+fn stems_die_at_the_ages_that_are_told() {
+    let told = [
+        ("apple", 30.0, 60.0),
+        ("aspen", 60.0, 100.0),
+        ("coffee", 4.0, 7.0),
+        ("corsican_pine", 150.0, 300.0),
+        ("poplar", 40.0, 70.0),
+        ("wild_cherry", 70.0, 100.0),
+    ];
+    for (name, least, most) in told {
+        let species = validate_species(name, 1).unwrap_or_else(|report| panic!("{}", report.render(false))).species;
+        let year = species.about.ticks_per_year.expect("a year");
+        let Model::Buds(mut buds) = species.model else { panic!("{name}") };
+        buds.order.truncate(1);
+        buds.order[0].reiteration = Reiteration::default();
+        let until = (2.0 * most * year) as u32;
+        let model = buds.compile(until, &Path::root()).unwrap_or_else(|faults| panic!("{name}: {faults:?}"));
+        let mut ends: Vec<u32> = (0..201).map(|plant| end_of_stem(&model, plant, until)).collect();
+        ends.sort_unstable();
+        let median = f64::from(ends[100]) / year;
+        println!("{name}: half of the stems are dead at {median} years");
+        assert!((least..=most).contains(&median), "{name}: {median} years");
+    }
+}
+
+fn end_of_stem(model: &BudModel, plant: u32, until: u32) -> u32 {
+    let seed = Seed { plant, run_seed: 1988, component_limit: u32::MAX, keep_events: false };
+    let mut plot = Plot::of_one(model, &seed);
+    model.grow_to(until, &mut plot.plants, &plot.site).expect("within the limit");
+    plot.plants[0].axes.apex_end[0]
 }

@@ -2,6 +2,7 @@
 //!
 //! Nothing here runs a model; the same measures hold for any tables of the same schema.
 
+pub mod architecture;
 mod population;
 
 pub use population::{AgeOfPopulation, Moments, population};

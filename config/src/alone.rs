@@ -7,8 +7,8 @@ use std::collections::BTreeSet;
 
 use phytomer_sim::model::GrowthModel;
 
-use crate::Model;
 use crate::scenario::{Ages, DEFAULT_SEED, Every, Limits, Output, Record, Scenario, Site, Table};
+use crate::species::{Model, Species};
 use crate::validate::{Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL};
 
 /// A plant of a species that states no age is grown no further than is expected to make it so large.
@@ -23,18 +23,12 @@ const RECORDED: u32 = 10;
 impl ResolvedSpecies {
     /// The age at which a plant of the species shows its architecture.
     pub fn shown_at(&self) -> u32 {
-        self.species.about.shown_at.unwrap_or_else(|| match self.species.model {
-            Model::Gmt1(_) => LEVELS,
-            _ => while_small(self.model.as_ref()),
-        })
+        self.species.shown_at(self.model.as_ref())
     }
 
     /// One plant of the species, as a run: `name` is what the species was found by.
     pub fn alone(self, name: &str) -> Resolved {
         let until = self.shown_at();
-        let every = until.div_ceil(RECORDED);
-        // Counted back from the last age.
-        let from = until - every * ((until - 1) / every);
         let mechanics = self.model.habit().wood.as_ref().is_some_and(|wood| wood.bends);
         let scenario = Scenario {
             name: self.species.about.name.clone(),
@@ -44,7 +38,7 @@ impl ResolvedSpecies {
             seed: DEFAULT_SEED,
             spacing_m: None,
             site: Site::default(),
-            ages: Ages { until, record: Record::Every(Every { every, from: Some(from) }) },
+            ages: Ages { until, record: Record::Every(recorded(until)) },
             tables: BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary]),
             meshes: None,
             limits: Limits::default(),
@@ -53,6 +47,29 @@ impl ResolvedSpecies {
         let Self { species, model, sources, tree } = self;
         Resolved { scenario, species, model, sources, tree }
     }
+}
+
+impl Species {
+    /// The age at which a plant shows its architecture, by its file or by its size; `model` is compiled at least up to that
+    /// of the file, else up to [`SPECIES_ALONE_UNTIL`].
+    pub fn shown_at(&self, model: &dyn GrowthModel) -> u32 {
+        self.about.shown_at.unwrap_or_else(|| match &self.model {
+            Model::Buds(_) => while_small(model),
+            Model::Gmt1(_) => LEVELS,
+        })
+    }
+}
+
+/// The ages at which a plant by itself is recorded that is grown to `until`.
+pub fn recorded_alone(until: u32) -> Vec<u32> {
+    Ages { until, record: Record::Every(recorded(until)) }.recorded()
+}
+
+/// About ten ages, the last one among them.
+fn recorded(until: u32) -> Every {
+    let every = until.div_ceil(RECORDED).max(1);
+    // Counted back from the last age.
+    Every { every, from: Some(until - every * (until.saturating_sub(1) / every)) }
 }
 
 /// The last age up to [`SPECIES_ALONE_UNTIL`] at which a plant is expected to be small.

@@ -21,6 +21,7 @@ mod spelling;
 mod validate;
 mod woods;
 
+pub use alone::recorded_alone;
 pub use library::{Kind, presets};
 pub use published::Published;
 pub use report::{Fault, FaultRecord, Report};

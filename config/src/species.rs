@@ -112,6 +112,64 @@ pub enum ArchitecturalModel {
     Troll,
 }
 
+impl ArchitecturalModel {
+    /// Every model, in the order of Hallé, Oldeman & Tomlinson.
+    pub const ALL: [Self; 23] = [
+        Self::Holttum,
+        Self::Corner,
+        Self::Tomlinson,
+        Self::Schoute,
+        Self::Chamberlain,
+        Self::McClure,
+        Self::Leeuwenberg,
+        Self::Koriba,
+        Self::Prevost,
+        Self::Fagerlind,
+        Self::Petit,
+        Self::Nozeran,
+        Self::Aubreville,
+        Self::Massart,
+        Self::Roux,
+        Self::Cook,
+        Self::Scarrone,
+        Self::Stone,
+        Self::Rauh,
+        Self::Attims,
+        Self::Mangenot,
+        Self::Champagnat,
+        Self::Troll,
+    ];
+
+    /// The word of the key `architectural_model`, and of the shipped species in `halle/`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Holttum => "holttum",
+            Self::Corner => "corner",
+            Self::Tomlinson => "tomlinson",
+            Self::Schoute => "schoute",
+            Self::Chamberlain => "chamberlain",
+            Self::McClure => "mcclure",
+            Self::Leeuwenberg => "leeuwenberg",
+            Self::Koriba => "koriba",
+            Self::Prevost => "prevost",
+            Self::Fagerlind => "fagerlind",
+            Self::Petit => "petit",
+            Self::Nozeran => "nozeran",
+            Self::Aubreville => "aubreville",
+            Self::Massart => "massart",
+            Self::Roux => "roux",
+            Self::Cook => "cook",
+            Self::Scarrone => "scarrone",
+            Self::Stone => "stone",
+            Self::Rauh => "rauh",
+            Self::Attims => "attims",
+            Self::Mangenot => "mangenot",
+            Self::Champagnat => "champagnat",
+            Self::Troll => "troll",
+        }
+    }
+}
+
 /// Every growth model, with its parameters.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "a run has one of it")]

@@ -7,6 +7,7 @@ mod error;
 pub mod meshes;
 pub mod pictures;
 pub mod read;
+pub mod rows;
 pub mod run_folder;
 #[cfg(test)]
 mod specimen;

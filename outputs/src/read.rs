@@ -63,6 +63,11 @@ impl Run {
         Ok(Self { path: path.to_path_buf(), json })
     }
 
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// What `run.json` says.
     pub fn json(&self) -> &Value {
         &self.json

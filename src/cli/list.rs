@@ -6,7 +6,7 @@
 use super::{Verdict, terminal};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use phytomer_config::{Kind, MODELS, presets, validate, validate_species, woods};
+use phytomer_config::{ArchitecturalModel, Kind, MODELS, presets, validate, validate_species, woods};
 use phytomer_outputs::tables::columns::PLANT_ONTOLOGY;
 use phytomer_sim::plant::Form;
 use serde::Serialize;
@@ -86,7 +86,7 @@ impl Listed {
         match self {
             Self::Scenarios => presets(Kind::Scenario).iter().map(|(name, _)| scenario(name)).collect(),
             Self::Species => named_species().filter(|name| !is_model(name)).map(species).collect(),
-            Self::Models => named_species().filter(|name| is_model(name)).map(model).collect(),
+            Self::Models => ArchitecturalModel::ALL.map(|model| described(&format!("halle/{}", model.word()))).into(),
             Self::GrowthModels => MODELS.map(|model| entry(model.word(), model_in_words(model.word()))).into(),
             Self::Woods => woods().iter().map(|wood| entry(&wood.name, &wood.scientific_name)).collect(),
             Self::Forms => {
@@ -117,11 +117,10 @@ fn is_model(name: &str) -> bool {
 }
 
 /// The characters of an architectural model, and plants that follow it.
-fn model(name: &str) -> Entry {
+fn described(name: &str) -> Entry {
     let about = validate_species(name, 1).ok().map(|species| species.species.about);
-    let (characters, examples) = about.map(|about| (about.description, about.scientific_name)).unwrap_or_default();
-    let characters = first_sentence(&characters.unwrap_or_default());
-    entry(name, &format!("{characters} {}", examples.unwrap_or_default()))
+    let characters = about.and_then(|about| about.description).unwrap_or_default();
+    entry(name, &characters)
 }
 
 fn species(name: &str) -> Entry {

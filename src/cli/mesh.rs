@@ -21,8 +21,8 @@ Examples:
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
 pub struct Mesh {
-    /// A run folder, a shipped scenario or species by its name, or a file of one by its path.
-    #[arg(value_name = "RUN|SCENARIO|SPECIES")]
+    /// A run folder, a shipped scenario by its name, or a scenario file by its path.
+    #[arg(value_name = "RUN|SCENARIO")]
     name: String,
     /// The plant's number, from 0.
     #[arg(long, default_value_t = 0)]

@@ -1,13 +1,14 @@
 //! `validate`: every fault of scenarios and species, none of them run.
 //!
 //! Of a species that states what was published of such plants a sample is grown too, once its file is without fault.
-//! Absent: the checks, which are `phytomer-config`'s and `phytomer::sample`'s.
+//! Absent: the checks, which are `phytomer-config`'s, `phytomer::sample`'s and
+//! `phytomer::architecture`'s.
 
 use super::named::{self, Named};
 use super::{Verdict, amounts, terminal};
 use anyhow::Result;
 use clap::Args;
-use phytomer::sample;
+use phytomer::{architecture, sample};
 use phytomer_config::{Report, Species};
 use phytomer_models::fault::Fault;
 use serde_json::{Value, json};
@@ -22,7 +23,8 @@ Examples:
   phytomer validate my_plant/scenario.toml my_plant/species.toml
   phytomer validate my_plant/scenario.toml --json
 
-Where a species states published ranges (`[[published]]`), a sample of it is grown and held against them.
+Where a species states published ranges (`[[published]]`), a sample of it is grown and held against them; where it
+names its architectural model, plants grown to the age `shown_at` must qualify for it.
 Exit code 3 where anything is wrong.")]
 pub struct Validate {
     /// Files by their paths, shipped scenarios and species by their names.
@@ -49,7 +51,8 @@ impl Validate {
     }
 }
 
-/// Finds what a name stands for, and holds plants grown from it against what was published of its species.
+/// Finds what a name stands for, and holds plants grown from it against what was published of its species, and against the
+/// architectural model that it names.
 fn find(name: &str) -> Found {
     let found = named::find(name)?;
     let report = match &found {
@@ -61,7 +64,8 @@ fn find(name: &str) -> Found {
 }
 
 fn wrong(species: &Species) -> Option<Vec<Fault>> {
-    Some(sample::faults(species)).filter(|faults| !faults.is_empty())
+    let faults: Vec<Fault> = sample::faults(species).into_iter().chain(architecture::faults(species)).collect();
+    Some(faults).filter(|faults| !faults.is_empty())
 }
 
 fn tell(name: &str, found: &Found) -> Result<()> {

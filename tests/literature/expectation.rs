@@ -5,8 +5,8 @@
 use crate::grown::{PLANTS, Sample, compiled, plant, units_by_order};
 use phytomer_models::buds::law::{Count, CountForm, Law, LawForm, Poisson};
 use phytomer_models::buds::params::{
-    Apex, ApexEnd, Axillary, End, Flower, GrowthUnit, Pattern, Relay, Rhythmic, SpeedForm, SpeedText, Speeds,
-    Traumatic, Zone, ZoneState,
+    Apex, ApexEnd, Axillary, End, Flower, Fork, GrowthUnit, Pattern, Relay, Rhythmic, Sibling, SpeedForm, SpeedText,
+    Speeds, Transition, Traumatic, Zone, ZoneState,
 };
 use phytomer_models::buds::{Buds, Order};
 use phytomer_sim::GrowthModel as _;
@@ -88,11 +88,6 @@ fn cohorts_equal_the_recursion_and_plants_follow_both() {
 /// Ages, ranks, speeds, relays, traumatic reiteration, random nodes and delays: beyond the recursion, within the cohorts.
 #[test]
 fn cohorts_follow_laws_of_age_and_random_counts() {
-    let expression = |text: &str| Law::from(LawForm { expression: Some(text.to_owned()), ..LawForm::default() });
-    let poisson = |mean: f64| {
-        let poisson = Poisson { mean: Law::from(mean) };
-        Count::from(CountForm { poisson: Some(poisson), ..CountForm::default() })
-    };
     let trunk = Order {
         death: expression("0.004 * dimension"),
         pause: expression("min(0.5, 0.03 * age)"),
@@ -147,6 +142,71 @@ fn cohorts_follow_laws_of_age_and_random_counts() {
         nodes.assert_mean(means.nodes[until as usize], &format!("nodes of order {order}"));
         axes.assert_mean(means.axes[until as usize], &format!("axes of order {order}"));
     }
+}
+
+/// Passages that are relayed, of the leaders of sets or of the others, and apices that divide: cohorts split by who leads.
+#[test]
+fn cohorts_follow_leaders_passages_and_forks() {
+    let until = 9;
+    let weights =
+        |weights: &[f64]| Count::from(CountForm { empirical: Some(weights.to_vec()), ..CountForm::default() });
+    let passage = |from: &str, to: &str, sibling, relayed| Transition {
+        from: from.to_owned(),
+        to: to.to_owned(),
+        probability: expression("0.25 + 0.01 * cycle"),
+        sibling,
+        relayed,
+    };
+    let trunk = Order {
+        death: Law::from(0.08),
+        axillary: Axillary { buds: Count::from(1), ramification: Law::from(0.3), ..Axillary::default() },
+        relay: Relay {
+            on: vec![ApexEnd::Death],
+            count: weights(&[0.0, 1.0, 1.0, 2.0]),
+            probability: Law::from(0.6),
+            delay: poisson(0.5),
+            ..Relay::default()
+        },
+        transition: vec![
+            passage("up", "out", Some(Sibling::Others), true),
+            passage("up", "flat", Some(Sibling::Leader), false),
+            passage("out", "up", None, true),
+        ],
+        pause: by_state(&[("up", 0.1), ("out", 0.5), ("flat", 0.8)]),
+        ..Order::default()
+    };
+    let fork = Fork { axes: weights(&[1.0, 0.0, 3.0]), insertion_deg: 30.0.into() };
+    let branch = Order {
+        apex: Apex { units: Some(weights(&[0.0, 0.0, 1.0, 1.0])), persists: Some(Count::from(3)), fork: Some(fork) },
+        ..Order::default()
+    };
+    let states = ["up", "out", "flat"].map(str::to_owned).to_vec();
+    let model = compiled(&Buds { states, order: vec![trunk, branch], ..Buds::default() }, until);
+    let expected = model.expectation(until).unwrap();
+    let plants: Vec<_> = (0..PLANTS).map(|number| plant(&model, number, until)).collect();
+    for order in [1_u8, 2] {
+        let axes = plants.iter().map(|plant| plant.axes.order.iter().filter(|of| **of == order).count() as f64);
+        let of_order =
+            |plant: &phytomer_sim::Plant, node: usize| plant.axes.order[plant.nodes.axis[node].index()] == order;
+        let nodes =
+            plants.iter().map(|plant| (0..plant.nodes.len()).filter(|&node| of_order(plant, node)).count() as f64);
+        let means = &expected.orders[usize::from(order) - 1];
+        Sample::of(axes).assert_mean(means.axes[until as usize], &format!("axes of order {order}"));
+        Sample::of(nodes).assert_mean(means.nodes[until as usize], &format!("nodes of order {order}"));
+    }
+}
+
+fn expression(text: &str) -> Law {
+    Law::from(LawForm { expression: Some(text.to_owned()), ..LawForm::default() })
+}
+
+fn poisson(mean: f64) -> Count {
+    Count::from(CountForm { poisson: Some(Poisson { mean: Law::from(mean) }), ..CountForm::default() })
+}
+
+fn by_state(laws: &[(&str, f64)]) -> Law {
+    let by_state = laws.iter().map(|(state, law)| ((*state).to_owned(), Law::from(*law))).collect();
+    Law::from(LawForm { by_state: Some(by_state), ..LawForm::default() })
 }
 
 /// Speeds drawn once an axis and zones drawn once a growth unit: cohorts split by speed, and the mean over the zones.

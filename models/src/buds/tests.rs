@@ -3,9 +3,9 @@
 
 use super::law::{Count, CountForm, Law, LawForm, Normal, Poisson, Variate, VariateForm};
 use super::params::{
-    Apex, ApexEnd, Axillary, CountedLeaves, DragLaw, Facing, Flower, Fruit, GrowthUnit, Leaf, OrganTrend, Pattern,
-    Phase, Phyllotaxis, Quantity, Reiteration, Relay, Rhythmic, Season, ShortUnit, SpeedText, Speeds, ThickeningRule,
-    Transition, Traumatic, Trend, UprightingLaw, Wood, Zone,
+    Apex, ApexEnd, Axillary, CountedLeaves, DragLaw, Facing, Flower, Fork, Fruit, GrowthUnit, Leaf, OrganTrend,
+    Pattern, Phase, Phyllotaxis, Quantity, Reiteration, Relay, Rhythmic, Season, ShortUnit, Sibling, SpeedText, Speeds,
+    StateTrends, Tended, ThickeningRule, Transition, Traumatic, Trend, UprightingLaw, Wood, Zone,
 };
 use super::params::{End, Internode};
 use super::{Buds, Order};
@@ -135,10 +135,79 @@ fn hydra() -> Buds {
     Buds { states: vec!["long".to_owned(), "short".to_owned()], season: None, wood: None, order: vec![order, leafless] }
 }
 
+/// Sets of equal axes: relays at passages and at ends, of which the leaders pass on and the others do not, trends by state;
+/// branches that divide, or persist when they are complete.
+fn candelabrum() -> Buds {
+    let tended = |inclination: f64| Tended { inclination_deg: inclination.into(), share: normal(0.2, 0.05) };
+    let by_state = [("up", 0.0), ("out", 80.0)].map(|(state, inclination)| (state.to_owned(), tended(inclination)));
+    let passage = |from: &str, to: &str, sibling, relayed| Transition {
+        from: from.to_owned(),
+        to: to.to_owned(),
+        probability: Law::from(0.35),
+        sibling,
+        relayed,
+    };
+    let trunk = Order {
+        death: Law::from(0.05),
+        axillary: Axillary { buds: Count::from(1), ramification: Law::from(0.2), ..Axillary::default() },
+        relay: Relay {
+            on: vec![ApexEnd::Completed],
+            count: Count::from(3),
+            probability: Law::from(0.6),
+            below: Count::from(1),
+            ..Relay::default()
+        },
+        apex: Apex { units: Some(Count::from(4)), ..Apex::default() },
+        transition: vec![
+            passage("up", "out", Some(Sibling::Others), true),
+            passage("up", "out", None, false),
+            passage("out", "up", Some(Sibling::Leader), true),
+        ],
+        trend: Trend::ByState(StateTrends { by_state: by_state.into() }),
+        ..Order::default()
+    };
+    let fork = Fork {
+        axes: CountForm { empirical: Some(vec![1.0, 0.0, 1.0, 1.0]), ..CountForm::default() }.into(),
+        insertion_deg: normal(30.0, 5.0),
+    };
+    let branch = Order {
+        apex: Apex { units: Some(Count::from(3)), persists: Some(poisson(2.0)), fork: Some(fork) },
+        shed_after: Some(Count::from(1)),
+        insertion_deg: normal(50.0, 5.0),
+        ..Order::default()
+    };
+    Buds { states: vec!["up".to_owned(), "out".to_owned()], season: None, wood: None, order: vec![trunk, branch] }
+}
+
+/// Of each set of relays one leads, and it alone passes on; a passage is relayed while the apex lives; the branch of a
+/// completed apex lives as long as it persists, and what it divides into is of its order.
+#[test]
+fn sets_of_equal_axes_are_told_apart_by_their_leaders() {
+    let model = candelabrum().compile(12, &Path::root()).unwrap();
+    let (mut passages, mut forks, mut persisting) = (0, 0, 0);
+    for number in 0..30 {
+        let plant = contract::grown(&model, 12, &contract::seed_of(4, number));
+        let axes = &plant.axes;
+        for axis in 1..axes.len() {
+            let bearing = plant.nodes.axis[axes.bearer[axis].index()].index();
+            let ended = axes.apex_end[bearing] == axes.appearance[axis];
+            passages += u32::from(axes.origin[axis] == Origin::Relay && !ended);
+            if axes.origin[axis] == Origin::Fork {
+                assert!(ended && axes.apex_fate[bearing] == ApexFate::Completed && axes.order[axis] == 2);
+                assert_eq!(axes.bearer[axis], axes.last_node[bearing], "an apex divides at its tip");
+                forks += 1;
+            }
+        }
+        let completed = |&axis: &usize| axes.order[axis] == 2 && axes.apex_fate[axis] == ApexFate::Completed;
+        persisting += (0..axes.len()).filter(completed).filter(|&axis| axes.spent[axis] > axes.apex_end[axis]).count();
+    }
+    assert!(passages > 20 && forks > 20 && persisting > 20, "{passages} {forks} {persisting}");
+}
+
 #[test]
 fn the_bud_model_keeps_the_contract_of_growth_models() {
     let simple = Buds { order: vec![Order::default()], ..Buds::default() };
-    for (species, until) in [(chimera(), 14), (hydra(), 9), (simple, 6)] {
+    for (species, until) in [(chimera(), 14), (hydra(), 9), (candelabrum(), 10), (simple, 6)] {
         contract::check(&species.compile(until, &Path::root()).unwrap(), until, 4);
     }
 }

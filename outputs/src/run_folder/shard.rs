@@ -7,8 +7,8 @@ use super::journal::{FileReport, OvergrownPlot, ShardReport};
 use super::{RunFolder, durable};
 use crate::Error;
 use crate::tables::{
-    Columns, ComponentColumns, EventColumns, Part, PartReport, Queue, RecordColumns, RecordRow, Scene, Standing,
-    SummaryColumns, Table, sort_events, summarise,
+    Columns, ComponentColumns, ComponentRow, EventColumns, Part, PartReport, Queue, RecordColumns, RecordRow, Scene,
+    Standing, SummaryColumns, Table, sort_events, summarise,
 };
 use phytomer_sim::plant::{Event, Plant};
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick};
@@ -33,6 +33,7 @@ pub struct Shard<'a> {
     standing: Standing,
     numbers: Vec<u32>,
     rows: Vec<RecordRow>,
+    lives: Vec<ComponentRow>,
     sorted: Vec<Event>,
     report: ShardReport,
     ended: u32,
@@ -50,6 +51,7 @@ impl<'a> Shard<'a> {
             standing: Standing::default(),
             numbers: Vec::new(),
             rows: Vec::new(),
+            lives: Vec::new(),
             sorted: Vec::new(),
             report,
             ended: 0,
@@ -135,8 +137,10 @@ impl<'a> Shard<'a> {
     fn write_components(&mut self, plot: &Plot, plant: &Plant, last: Tick) -> Result<(), Error> {
         let Some(part) = &mut self.parts.components else { return Ok(()) };
         self.standing.read(plant)?;
-        for number in 0..self.standing.len() {
-            part.columns.add(plot, plant, &self.standing, number, last);
+        let mut next = 0;
+        while next < self.standing.len() {
+            let numbers = self.standing.following(part.room(), &mut next);
+            part.columns.fill(plot, (plant, &self.standing), numbers, last, &mut self.lives);
             part.flush_if_full()?;
         }
         Ok(())

@@ -8,7 +8,7 @@ use super::schema::{Column, Encoding, Rounding, Type};
 use phytomer_sim::plant::{Cause, EventKind, Kind, Origin};
 
 /// The version of these lists: it changes with a column's name, type or meaning.
-pub const SCHEMA_VERSION: &str = "1";
+pub const SCHEMA_VERSION: &str = "2";
 
 /// The tags of [`Kind`], in the order of their numbers.
 pub static KINDS: [&str; Kind::ALL.len()] = {
@@ -33,32 +33,22 @@ pub static EVENT_TAGS: [&str; EventKind::ALL.len()] = {
 };
 
 /// The tags of [`Origin`], in the order of their numbers.
-pub static ORIGINS: [&str; 6] = [
-    Origin::Seed.tag(),
-    Origin::Axillary.tag(),
-    Origin::Relay.tag(),
-    Origin::Traumatic.tag(),
-    Origin::Adaptive.tag(),
-    Origin::Fork.tag(),
-];
+pub static ORIGINS: [&str; Origin::ALL.len()] = {
+    let mut tags = [""; Origin::ALL.len()];
+    let mut i = 0;
+    while i < tags.len() {
+        tags[i] = Origin::ALL[i].tag();
+        i += 1;
+    }
+    tags
+};
 
 /// The causes of death, in the order of their numbers less one.
-pub static CAUSES: [&str; 9] = {
-    const ALL: [Cause; 9] = [
-        Cause::Mortality,
-        Cause::Flowered,
-        Cause::Completed,
-        Cause::LifeLength,
-        Cause::Season,
-        Cause::Branch,
-        Cause::FruitSet,
-        Cause::Killed,
-        Cause::Pruned,
-    ];
-    let mut tags = [""; 9];
+pub static CAUSES: [&str; Cause::ALL.len()] = {
+    let mut tags = [""; Cause::ALL.len()];
     let mut i = 0;
-    while i < 9 {
-        tags[i] = match ALL[i].tag() {
+    while i < tags.len() {
+        tags[i] = match Cause::ALL[i].tag() {
             Some(tag) => tag,
             None => "",
         };
@@ -188,7 +178,7 @@ pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
 ];
 
 /// A row per component that ever lived, by the last age of the run.
-pub static COMPONENTS: [Column; 25] = [
+pub static COMPONENTS: [Column; 26] = [
     TREATMENT,
     PLOT,
     PLANT,
@@ -209,8 +199,8 @@ pub static COMPONENTS: [Column; 25] = [
     Column::small("state", "The state in which the axis started, as the model numbers them."),
     Column::small(
         "position",
-        "The position among its like on the node, from 0: of an organ, or of the bud that an axis came from. Null for \
-         internodes.",
+        "The position among its like on the node, from 0: of a lateral organ, or of the bud that an axis came from. Null \
+         for internodes, and for the flower and the fruit at the end of an axis.",
     )
     .or_null(),
     Column::id(
@@ -247,6 +237,14 @@ pub static COMPONENTS: [Column; 25] = [
     .or_null(),
     Column::tick("shed_age", "The age at which it left the plant. Null for what stood at the end.").or_null(),
     Column::word("cause_of_death", &CAUSES, "Why it died. Null for what was alive at the end.").or_null(),
+    Column::float(
+        "trend_deg",
+        "deg",
+        "The angle to the upward vertical that the axis tends to at this internode: 0 orthotropic, 90 plagiotropic. Null \
+         for organs and buds, and where the axis keeps its direction.",
+    )
+    .repeated()
+    .or_null(),
 ];
 
 /// A row per fate of a bud or a branch, up to the last age of the run.

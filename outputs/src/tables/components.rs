@@ -8,6 +8,7 @@ use super::standing::{Component, Standing};
 use phytomer_sim::plant::{AxisId, Cause, Kind, LineageKey, NodeId, OrganId, Plant};
 use phytomer_sim::shed::cause_of;
 use phytomer_sim::{NEVER, Plot, Tick};
+use std::ops::Range;
 
 columns! {
     /// The buffers of `components`.
@@ -17,12 +18,12 @@ columns! {
         state: Int(i32), position: Int(i32), rank: Int(i32), unit_rank: Int(i32), neoformed: Bool(i8),
         birth: Int(i32), birth_dimension: Int(i32), delay: Int(i32),
         length: Float(f32), birth_diameter: Float(f32), area: Float(f32),
-        death: Int(i32), shed: Int(i32), cause: Word(i8),
+        death: Int(i32), shed: Int(i32), cause: Word(i8), trend: Float(f32),
     }
 }
 
 /// What one component puts into a row; numbers of −1 and NaN are nulls.
-struct Row {
+pub struct Row {
     component: u32,
     key: LineageKey,
     parent: i32,
@@ -41,58 +42,71 @@ struct Row {
     death: Tick,
     shed: Tick,
     cause: Cause,
+    trend: f32,
 }
 
 impl ComponentColumns {
-    /// Adds the row of component `number` of `plant`, if it ever lived by the age `last`.
-    #[inline]
-    pub fn add(&mut self, plot: &Plot, plant: &Plant, standing: &Standing, number: u32, last: Tick) {
-        let row = match standing.component(number) {
-            Component::Node(node) => of_node(plant, node),
+    /// Adds a row for each of the components `numbers` of `plant` that lived by the age `last`; `rows` is memory to work
+    /// in.
+    pub fn fill(
+        &mut self,
+        plot: &Plot,
+        (plant, standing): (&Plant, &Standing),
+        numbers: Range<u32>,
+        last: Tick,
+        rows: &mut Vec<Row>,
+    ) {
+        rows.clear();
+        let row_of = |number| match standing.component(number) {
+            Component::Node(node) => of_node(plant, node, standing),
             Component::Organ(organ) => of_organ(plant, organ),
             Component::Bud(axis) => of_bud(plant, axis),
         };
-        let never_lived = row.kind != Kind::ApicalBud && row.birth >= row.death;
-        if row.birth <= last && !never_lived {
-            self.push(plot, plant, &row, last);
-        }
+        let lived = |row: &Row| row.birth <= last && (row.kind == Kind::ApicalBud || row.birth < row.death);
+        rows.extend(numbers.map(row_of).filter(lived));
+        self.push_identity(rows, plant);
+        self.push_life(rows, last);
+        let rows = self.component.len();
+        self.treatment.resize(rows, 0);
+        self.plot.resize(rows, plot.id as i32);
+        self.plant.resize(rows, plant.id as i32);
     }
 
-    fn push(&mut self, plot: &Plot, plant: &Plant, row: &Row, last: Tick) {
+    fn push_identity(&mut self, rows: &[Row], plant: &Plant) {
         let axes = &plant.axes;
-        let axis = row.axis.index();
-        let death = known(row.death, last);
-        self.treatment.push(0);
-        self.plot.push(plot.id as i32);
-        self.plant.push(plant.id as i32);
-        self.component.push(row.component as i32);
-        self.key.push(row.key.0 as i64);
-        self.parent.push(row.parent);
-        self.axis.push(axes.component[axis] as i32);
-        self.bearing_axis.push(bearing_axis(plant, row.axis));
-        self.order.push(i32::from(axes.order[axis]));
-        self.kind.push(row.kind as i8);
-        self.origin.push(axes.origin[axis] as i8);
-        self.state.push(i32::from(axes.state[axis]));
-        self.position.push(row.position);
-        self.rank.push(row.rank);
-        self.unit_rank.push(row.unit_rank);
-        self.neoformed.push(row.neoformed);
-        self.birth.push(row.birth as i32);
-        self.birth_dimension.push(row.birth_dimension);
-        self.delay.push(row.delay);
-        self.length.push(row.length);
-        self.birth_diameter.push(row.birth_diameter);
-        self.area.push(row.area);
-        self.death.push(death);
-        self.shed.push(known(row.shed, last));
+        self.component.extend(rows.iter().map(|row| row.component as i32));
+        self.key.extend(rows.iter().map(|row| row.key.0 as i64));
+        self.parent.extend(rows.iter().map(|row| row.parent));
+        self.axis.extend(rows.iter().map(|row| axes.component[row.axis.index()] as i32));
+        self.bearing_axis.extend(rows.iter().map(|row| bearing_axis(plant, row.axis)));
+        self.order.extend(rows.iter().map(|row| i32::from(axes.order[row.axis.index()])));
+        self.kind.extend(rows.iter().map(|row| row.kind as i8));
+        self.origin.extend(rows.iter().map(|row| axes.origin[row.axis.index()] as i8));
+        self.state.extend(rows.iter().map(|row| i32::from(axes.state[row.axis.index()])));
+        self.position.extend(rows.iter().map(|row| row.position));
+        self.rank.extend(rows.iter().map(|row| row.rank));
+        self.unit_rank.extend(rows.iter().map(|row| row.unit_rank));
+        self.neoformed.extend(rows.iter().map(|row| row.neoformed));
+    }
+
+    fn push_life(&mut self, rows: &[Row], last: Tick) {
+        self.birth.extend(rows.iter().map(|row| row.birth as i32));
+        self.birth_dimension.extend(rows.iter().map(|row| row.birth_dimension));
+        self.delay.extend(rows.iter().map(|row| row.delay));
+        self.length.extend(rows.iter().map(|row| row.length));
+        self.birth_diameter.extend(rows.iter().map(|row| row.birth_diameter));
+        self.area.extend(rows.iter().map(|row| row.area));
+        self.death.extend(rows.iter().map(|row| known(row.death, last)));
+        self.shed.extend(rows.iter().map(|row| known(row.shed, last)));
         // Causes are numbered from 1; 0 is "lives".
-        self.cause.push(if death == NULL { -1 } else { row.cause as i8 - 1 });
+        let cause = |row: &Row| if known(row.death, last) == NULL { -1 } else { row.cause as i8 - 1 };
+        self.cause.extend(rows.iter().map(cause));
+        self.trend.extend(rows.iter().map(|row| row.trend));
     }
 }
 
 #[inline]
-fn of_node(plant: &Plant, node: NodeId) -> Row {
+fn of_node(plant: &Plant, node: NodeId, standing: &Standing) -> Row {
     let Plant { nodes, axes, .. } = plant;
     let i = node.index();
     let axis = nodes.axis[i];
@@ -115,6 +129,7 @@ fn of_node(plant: &Plant, node: NodeId) -> Row {
         death: nodes.death[i],
         shed: nodes.shed[i],
         cause: Cause::Branch,
+        trend: standing.trend(plant, node),
     }
 }
 
@@ -131,7 +146,8 @@ fn of_organ(plant: &Plant, organ: OrganId) -> Row {
         parent: nodes.component[node] as i32,
         axis,
         kind: organs.kind[i],
-        position: i32::from(organs.position[i]),
+        // That of what stands at the end of an axis is the greatest, which is no place among laterals.
+        position: if organs.position[i] == u16::MAX { NULL } else { i32::from(organs.position[i]) },
         rank: nodes.rank[node] as i32,
         unit_rank: i32::from(nodes.unit_rank[node]),
         neoformed: -1,
@@ -144,6 +160,7 @@ fn of_organ(plant: &Plant, organ: OrganId) -> Row {
         death: end,
         shed: end,
         cause: organs.cause[i],
+        trend: f32::NAN,
     }
 }
 
@@ -171,6 +188,7 @@ fn of_bud(plant: &Plant, axis: AxisId) -> Row {
         death: axes.apex_end[i],
         shed: if axes.apex_end[i] == NEVER { NEVER } else { axes.shed[i] },
         cause: cause_of(axes.apex_fate[i]),
+        trend: f32::NAN,
     }
 }
 

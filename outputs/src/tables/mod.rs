@@ -23,7 +23,7 @@ mod tests;
 mod tests_mechanics;
 
 pub(crate) use buffers::Columns;
-pub(crate) use components::ComponentColumns;
+pub(crate) use components::{ComponentColumns, Row as ComponentRow};
 pub(crate) use encode::Queue;
 pub(crate) use events::{EventColumns, sort as sort_events};
 pub(crate) use part::{Part, PartReport};

@@ -5,8 +5,9 @@
 //! then one straight scan.
 
 use crate::Error;
-use phytomer_sim::plant::{AxisId, NodeId, OrganId, Plant};
+use phytomer_sim::plant::{AxisId, NodeId, OrganId, Plant, Trend};
 use phytomer_sim::{NEVER, Tick};
+use std::ops::Range;
 
 /// Components that are looked at in one step of the scan: few enough for their rows to stay in a core's cache.
 const SELECTION: usize = 512;
@@ -36,6 +37,8 @@ pub struct Standing {
     /// Of each [`SELECTION`] components, the tick from which the first of them stands.
     first: Vec<Tick>,
     tips: Vec<NodeId>,
+    /// The inclinations of the habit's trends, degrees; NaN where a trend tends nowhere.
+    trends: Vec<f32>,
 }
 
 impl Standing {
@@ -62,6 +65,8 @@ impl Standing {
     }
 
     fn lay_out(&mut self, plant: &Plant) {
+        self.trends.clear();
+        self.trends.extend(plant.habit.trends.iter().map(inclination));
         let components = plant.components() as usize;
         for column in [&mut self.places, &mut self.from, &mut self.until] {
             column.resize(components, 0);
@@ -102,6 +107,16 @@ impl Standing {
         }
     }
 
+    /// The inclination that an internode tends to, degrees; NaN where it tends nowhere.
+    #[inline]
+    pub fn trend(&self, plant: &Plant, node: NodeId) -> f32 {
+        let place = usize::from(plant.nodes.trend[node.index()]);
+        match plant.own_trends.of(plant.nodes.axis[node.index()]) {
+            Some(own) => own.get(place).map_or(f32::NAN, inclination),
+            None => self.trends.get(place).copied().unwrap_or(f32::NAN),
+        }
+    }
+
     /// Puts into `numbers` the next components that stand at `age`, at most [`SELECTION`] and at most `room`, going on
     /// from `next`. None is left when `next` has come to the plant's number of components.
     pub fn select(&self, age: Tick, room: usize, next: &mut u32, numbers: &mut Vec<u32>) {
@@ -122,6 +137,13 @@ impl Standing {
         }
         numbers.truncate(found);
         *next = end as u32;
+    }
+
+    /// The next components from `next` on, whether they stand or not: at most [`SELECTION`] and at most `room`.
+    pub fn following(&self, room: usize, next: &mut u32) -> Range<u32> {
+        let start = *next;
+        *next = self.len().min(start + SELECTION.min(room) as u32);
+        start..*next
     }
 
     /// The components of the plant.
@@ -146,6 +168,10 @@ impl Standing {
     pub fn tip(&self, axis: AxisId) -> NodeId {
         self.tips[axis.index()]
     }
+}
+
+fn inclination(trend: &Trend) -> f32 {
+    trend.inclination_deg().unwrap_or(f32::NAN)
 }
 
 /// The tick at which an organ is gone: its own fall, or the fall of its branch if that should come first.

@@ -41,6 +41,9 @@ pub enum Origin {
 }
 
 impl Origin {
+    /// Every origin, in the order of their numbers.
+    pub const ALL: [Self; 6] = [Self::Seed, Self::Axillary, Self::Relay, Self::Traumatic, Self::Adaptive, Self::Fork];
+
     /// The origin as it stands in tables.
     pub const fn tag(self) -> &'static str {
         match self {

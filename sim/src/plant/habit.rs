@@ -7,6 +7,7 @@ use super::axis::AxisId;
 use super::kind::{Class, Kind};
 use super::look::Looks;
 use crate::clock::Tick;
+use crate::math;
 use crate::mechanics::{Thickening, Wood};
 use std::ops::Range;
 
@@ -24,6 +25,15 @@ pub struct Trend {
 impl Trend {
     /// An axis that keeps the direction of its insertion.
     pub const STRAIGHT: Self = Self { cos_inclination: 1.0, sin_inclination: 0.0, share: 0.0 };
+
+    /// The angle to the upward vertical that the axis tends to, degrees: 0 orthotropic, 90 plagiotropic. `None` where it
+    /// tends nowhere.
+    pub fn inclination_deg(&self) -> Option<f32> {
+        let angle = math::atan2(f64::from(self.sin_inclination), f64::from(self.cos_inclination));
+        // Sine and cosine have 24 bits: a thousandth of a degree is what they hold.
+        let thousandths = (angle * 180_000.0 / std::f64::consts::PI).round();
+        (self.share > 0.0).then_some((thousandths / 1000.0) as f32)
+    }
 }
 
 /// How the organs of one kind turn in the vertical plane in which they stand: leaves that sink, fruits that hang,

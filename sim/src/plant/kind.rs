@@ -231,6 +231,19 @@ pub enum Cause {
 }
 
 impl Cause {
+    /// Every cause of an end, in the order of their numbers.
+    pub const ALL: [Self; 9] = [
+        Self::Mortality,
+        Self::Flowered,
+        Self::Completed,
+        Self::LifeLength,
+        Self::Season,
+        Self::Branch,
+        Self::FruitSet,
+        Self::Killed,
+        Self::Pruned,
+    ];
+
     /// The cause as it stands in tables; `None` for a living component.
     pub const fn tag(self) -> Option<&'static str> {
         Some(match self {

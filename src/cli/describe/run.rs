@@ -1,11 +1,12 @@
-//! What a run folder holds: tables with rows, parts and sizes, ages, plants, seed, version, limits that were met, and the
-//! population at each recorded age.
+//! What a run folder holds: tables with rows, parts and sizes, ages, plants, seed, version, limits that were met, the
+//! architectural models of its first plants, and the population at each recorded age.
 //!
 //! Rows are counted in the Parquet files themselves, so that an unfinished run is told as far as it has come.
 
 use super::super::amounts;
 use super::super::named::Recorded;
 use anyhow::Result;
+use phytomer_analysis::architecture::{Qualified, qualified};
 use phytomer_analysis::{AgeOfPopulation, Moments, population};
 use phytomer_outputs::Table;
 use serde_json::{Value, json};
@@ -21,6 +22,7 @@ pub struct Held {
     tables: BTreeMap<Table, Size>,
     meshes: Size,
     population: BTreeMap<u32, AgeOfPopulation>,
+    architecture: Option<Qualified>,
 }
 
 /// Rows, files and bytes.
@@ -60,7 +62,8 @@ impl Held {
             files.filter(|file| file.extension().is_some_and(|end| end == "ply")).for_each(|file| meshes.add(&file));
         }
         let population = population(&recorded.run)?;
-        Ok(Self { recorded, folder, tables, meshes, population })
+        let architecture = qualified(&recorded.run, recorded.scenario.plants)?;
+        Ok(Self { recorded, folder, tables, meshes, population, architecture })
     }
 
     fn words(&self, key: &str) -> &str {
@@ -99,6 +102,7 @@ impl Held {
             "meshes": self.meshes.as_json(),
             "population": self.population_as_json(),
             "overgrown": run["overgrown"],
+            "architecture": self.architecture.as_ref().map(|of| json!({"plants": of.plants, "models": of.models})),
         })
     }
 
@@ -108,12 +112,15 @@ impl Held {
         let (name, species) = (self.words("scenario"), &self.recorded.species.about.name);
         let mut text = format!("{}: {status} of the scenario `{name}`, species `{species}`\n", self.folder.display());
         let mut line = |name: &str, value: String| {
-            let _ = writeln!(text, "  {name:<11} {value}");
+            let _ = writeln!(text, "  {name:<12} {value}");
         };
         line("plants", self.plants_in_words());
         line("ages", ages_in_words(&scenario.ages.recorded(), scenario.ages.until));
         if let Some(components) = self.number("components") {
             line("components", amounts::count(components));
+        }
+        if let Some(architecture) = &self.architecture {
+            line("architecture", architecture_in_words(architecture));
         }
         line("seed", scenario.seed.to_string());
         line("made by", format!("phytomer {} ({})", self.words("version"), self.words("git_hash")));
@@ -185,6 +192,16 @@ impl Held {
             let _ = writeln!(text, "  {:<11} {:>15} {:>7} {bytes:>9}", "meshes", "", self.meshes.files);
         }
         text
+    }
+}
+
+/// "massart (8 of the 8 plants looked at)".
+fn architecture_in_words(of: &Qualified) -> String {
+    let words: Vec<String> = of.models.iter().map(|(model, plants)| format!("{model} ({plants})")).collect();
+    let looked = amounts::of(of.plants.into(), "plant");
+    match words.len() {
+        0 => format!("none of the 23 models, of {looked} looked at"),
+        _ => format!("{}, of {looked} looked at", words.join(", ")),
     }
 }
 

@@ -46,13 +46,13 @@ pub fn panicle() -> Shape {
     stem(&mut shape, [0.0, 0.0, 0.0], [0.94, 0.0, 0.0], 0.025);
     for whorl in 0..WHORLS {
         let share = f32::from(whorl) / f32::from(WHORLS);
-        let (x, reach) = (0.2 + 0.72 * share, 0.47 * (1.0 - 0.75 * share));
+        let (x, reach) = (0.2 + 0.72 * share, 0.4 * (1.0 - 0.75 * share));
         for number in 0..BRANCHES {
             let (sin, cos) = sincosf(TAU * (f32::from(number) + 0.5 * f32::from(whorl % 2)) / f32::from(BRANCHES));
             let at = |along: f32, out: f32| [x + along, reach * out * cos, reach * out * sin];
             stem(&mut shape, at(0.0, 0.0), at(0.07, 0.9), 0.012);
-            for out in [0.5, 0.94] {
-                flower(&mut shape, at(0.055 * out + 0.02, out), 0.055 * (1.4 - out));
+            for out in [0.45, 0.7, 0.94] {
+                flower(&mut shape, at(0.055 * out + 0.02, out), [sin, cos], 0.08 * (1.35 - 0.5 * out));
             }
         }
     }
@@ -85,9 +85,11 @@ fn blossom(shape: &mut Shape, [y, z]: [f32; 2]) {
     }
 }
 
-/// A small flat flower, square to the axis.
-fn flower(shape: &mut Shape, [x, y, z]: [f32; 3], half: f32) {
-    shape.polygon(&[[x, y - half, z], [x, y, z - half], [x, y + half, z], [x, y, z + half]], along, false);
+/// A small flat flower that faces away from the axis, in the direction around it of that sine and cosine.
+fn flower(shape: &mut Shape, [x, y, z]: [f32; 3], [sin, cos]: [f32; 2], half: f32) {
+    let (aside, across) = (half * sin, half * cos);
+    let corners = [[x - half, y, z], [x, y - aside, z + across], [x + half, y, z], [x, y + aside, z - across]];
+    shape.polygon(&corners, along, false);
 }
 
 /// A stalk as two narrow triangles across one another.

@@ -1,0 +1,191 @@
+//! The characters by which Hallé, Oldeman & Tomlinson 1978 tell their models apart, measured on one recorded plant: where
+//! it branches and when, how axes end, how they are relayed, where they tend, where flowers stand.
+//!
+//! Counts and shares over topology, fates and stated trends; no place in space is looked at. Only how axes lie under
+//! weight, and how a trunk's base rights itself, are read from recorded directions, because two models are defined by it.
+//! Absent: the models, which [`super::models`] states over these.
+
+use super::axes::{Axis, Standing, axes_of};
+use super::lie::{Lie, lie_of};
+use super::relays::{Relays, relays_of};
+use super::tolerance::{PLAGIOTROPIC_DEG, TIER_SHARE};
+use phytomer_outputs::rows::{ComponentRow, PoseRow};
+use phytomer_sim::plant::{Cause, Kind, Origin};
+
+/// How many of those that were asked have a character.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Share {
+    /// Those that have it.
+    pub yes: u32,
+    /// Those that were asked.
+    pub of: u32,
+}
+
+impl Share {
+    /// Counts one more.
+    pub fn add(&mut self, has: bool) {
+        self.yes += u32::from(has);
+        self.of += 1;
+    }
+
+    /// The share; `None` where none was asked.
+    pub fn value(self) -> Option<f64> {
+        (self.of > 0).then(|| f64::from(self.yes) / f64::from(self.of))
+    }
+
+    /// Whether some were asked and at least `least` of them have it.
+    pub fn is_at_least(self, least: f64) -> bool {
+        self.value().is_some_and(|share| share >= least)
+    }
+}
+
+/// The characters of one plant.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Characters {
+    /// Axes that made an internode, without reiterates.
+    pub axes: u32,
+    /// Trunks: axes of order 1 among them.
+    pub trunks: u32,
+    /// Axes of order 1 from the base of another of order 1.
+    pub basal: u32,
+    /// Axes out of axillary buds.
+    pub axillary: u32,
+    /// Of the apices that divided, those that divided into two.
+    pub dichotomies: Share,
+    /// Whether a bud lives at the last age.
+    pub lives: bool,
+    /// Flowers on the sides of axes.
+    pub lateral_flowers: u32,
+    /// Axes of order 1 that ended in a flower.
+    pub flowered_trunks: u32,
+    /// Axes of higher orders that ended in a flower.
+    pub flowered_branches: u32,
+    /// Of the trunks that came to an end of their own, those that made all their growth units without a flower.
+    pub completed_trunks: Share,
+    /// Of the branches that came to an end of their own, those that ended in a flower.
+    pub branch_flowers: Share,
+    /// Of the axes of order 1 that tend somewhere, those that are plagiotropic at first.
+    pub plagiotropic_trunks: Share,
+    /// Of the axes of order 2 that tend somewhere, those that are plagiotropic at first.
+    pub plagiotropic_limbs: Share,
+    /// Of the axes of all higher orders that tend somewhere, those that are plagiotropic at first.
+    pub plagiotropic_branches: Share,
+    /// Whether the trunk's branches stand in tiers at the tips of growth units; `None` with fewer than three branches.
+    pub tiers: Option<bool>,
+    /// Of the axes of order 2 on the trunk, those that are determinate: they made all their growth units.
+    pub determinate_branches: Share,
+    /// Of the axes of order 2 that are determinate, those that bear no axes.
+    pub simple_branches: Share,
+    /// The determinate branches that were shed whole.
+    pub shed_branches: u32,
+    /// The relays of axes of order 1.
+    pub trunk_relays: Relays,
+    /// The relays of axes of higher orders.
+    pub branch_relays: Relays,
+    /// How axes lie.
+    pub lie: Lie,
+}
+
+impl Characters {
+    /// The characters of one plant from its rows of `components`, and from how its internodes lie at the recorded ages
+    /// where that is known.
+    pub fn of(components: &[ComponentRow], poses: &[PoseRow]) -> Self {
+        let axes = axes_of(components);
+        let lives = components.iter().any(|row| row.kind == Kind::ApicalBud && row.death_age.is_none());
+        let mut c = Self { lives, tiers: tiers(&axes), lie: lie_of(&axes, poses), ..Self::default() };
+        let counts = |axis: &&Axis| axis.is_judged() && !axis.nodes.is_empty();
+        for axis in axes.iter().filter(counts) {
+            c.count(axis);
+        }
+        c.count_forks(&axes);
+        c.count_branches(&axes);
+        c.trunk_relays = relays_of(&axes, |order| order == 1);
+        c.branch_relays = relays_of(&axes, |order| order > 1);
+        c
+    }
+
+    fn count(&mut self, axis: &Axis) {
+        let trunk = axis.order == 1;
+        self.axes += 1;
+        self.trunks += u32::from(trunk);
+        self.basal += u32::from(axis.standing == Standing::Basal);
+        self.axillary += u32::from(axis.origin == Origin::Axillary);
+        self.lateral_flowers += axis.lateral_flowers;
+        self.flowered_trunks += u32::from(trunk && axis.flowered());
+        self.flowered_branches += u32::from(!trunk && axis.flowered());
+        if axis.finished() {
+            let ends = if trunk { &mut self.completed_trunks } else { &mut self.branch_flowers };
+            ends.add(axis.flowered() != trunk);
+        }
+        if let Some(trend) = axis.first_trend() {
+            let trends = if trunk { &mut self.plagiotropic_trunks } else { &mut self.plagiotropic_branches };
+            trends.add(is_plagiotropic(trend));
+            if axis.order == 2 {
+                self.plagiotropic_limbs.add(is_plagiotropic(trend));
+            }
+        }
+    }
+
+    fn count_forks(&mut self, axes: &[Axis]) {
+        for bearing in axes {
+            let forked = bearing.bears.iter().filter(|&&axis| axes[axis].origin == Origin::Fork).count();
+            if forked > 0 {
+                self.dichotomies.add(forked == 2);
+            }
+        }
+    }
+
+    fn count_branches(&mut self, axes: &[Axis]) {
+        let of_trunk =
+            |axis: &&Axis| axis.order == 2 && axis.standing == Standing::Own && axis.origin == Origin::Axillary;
+        for axis in axes.iter().filter(of_trunk) {
+            let Some((_, cause)) = axis.end else { continue };
+            let determinate = cause == Cause::Completed;
+            self.determinate_branches.add(determinate);
+            if determinate {
+                self.simple_branches.add(axis.bears.is_empty());
+                self.shed_branches += u32::from(axis.shed.is_some());
+            }
+        }
+    }
+}
+
+/// Whether an axis that tends to such an angle to the vertical, in degrees, is plagiotropic.
+pub fn is_plagiotropic(trend_deg: f32) -> bool {
+    trend_deg > PLAGIOTROPIC_DEG
+}
+
+/// Whether the branches of the trunk stand in the outer halves of growth units. A growth unit of fewer than four nodes has
+/// no tip to speak of: branches on such units stand in no tier.
+fn tiers(axes: &[Axis]) -> Option<bool> {
+    const LEAST_NODES: usize = 4;
+    const LEAST_BRANCHES: u32 = 3;
+    let mut outer = Share::default();
+    for trunk in axes.iter().filter(|axis| axis.order == 1 && axis.standing == Standing::Own) {
+        let units = units_of(trunk);
+        let borne = trunk.bears.iter().map(|&place| &axes[place]);
+        let branches = borne.filter(|axis| axis.origin == Origin::Axillary);
+        for branch in branches {
+            let rank = branch.bearer_rank as usize;
+            let unit = units.iter().find(|(first, last)| (*first..=*last).contains(&rank));
+            let in_tier =
+                |(first, last): &(usize, usize)| last - first + 1 >= LEAST_NODES && 2 * (rank - first) >= last - first;
+            outer.add(unit.is_some_and(in_tier));
+        }
+    }
+    (outer.of >= LEAST_BRANCHES).then(|| outer.is_at_least(TIER_SHARE))
+}
+
+/// The first and the last rank of each growth unit of an axis: one begins where the rank in the unit does not go on.
+fn units_of(axis: &Axis) -> Vec<(usize, usize)> {
+    let mut units: Vec<(usize, usize)> = Vec::new();
+    let mut before = u32::MAX;
+    for (rank, node) in (1..).zip(&axis.nodes) {
+        match units.last_mut() {
+            Some(unit) if node.unit_rank > before => unit.1 = rank,
+            _ => units.push((rank, rank)),
+        }
+        before = node.unit_rank;
+    }
+    units
+}

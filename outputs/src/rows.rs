@@ -1,0 +1,276 @@
+//! Rows of `components` and `records` as analysis takes them: read back from a run, or made of a plant in memory through
+//! the same column buffers, so that both say the same of one plant.
+//!
+//! Of `records` only what tells how internodes lie: their direction and curvature. Absent: every other column, which
+//! readers of Parquet have.
+
+use crate::Error;
+use crate::read::Run;
+use crate::tables::columns::{CAUSES, KINDS, ORIGINS};
+use crate::tables::{ComponentColumns, RecordColumns, Scene, Standing, Table};
+use arrow_array::types::{Float32Type, Int8Type, Int32Type};
+use arrow_array::{Array, DictionaryArray, PrimitiveArray, RecordBatch, StringArray};
+use phytomer_sim::plant::{Cause, Class, Kind, Origin, Plant};
+use phytomer_sim::{Plot, Tick};
+use std::path::Path;
+
+/// One row of `components`, in the terms of its columns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the columns are described in tables::columns::COMPONENTS")]
+pub struct ComponentRow {
+    pub plant_id: u32,
+    pub component_id: u32,
+    pub axis_id: u32,
+    pub bearing_axis_id: Option<u32>,
+    pub order: u32,
+    pub kind: Kind,
+    pub origin: Origin,
+    pub position: Option<u32>,
+    pub rank: Option<u32>,
+    pub unit_rank: Option<u32>,
+    pub birth_age: Tick,
+    pub death_age: Option<Tick>,
+    pub shed_age: Option<Tick>,
+    pub cause_of_death: Option<Cause>,
+    pub trend_deg: Option<f32>,
+}
+
+/// How an internode lies at a recorded age.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the columns are described in tables::columns::RECORDS")]
+pub struct PoseRow {
+    pub plant_id: u32,
+    pub age: Tick,
+    pub axis_id: u32,
+    pub rank: u32,
+    pub dir_z: f32,
+    /// `None` where the run has no columns of mechanics, or nothing bends.
+    pub curvature_per_m: Option<f32>,
+}
+
+/// The rows of `components` of a plant in memory, up to the age `last`.
+///
+/// # Errors
+/// [`Error::PlantTooLarge`].
+pub fn components_of(plot: &Plot, plant: &Plant, last: Tick) -> Result<Vec<ComponentRow>, Error> {
+    let mut standing = Standing::default();
+    standing.read(plant)?;
+    let mut columns = ComponentColumns::default();
+    columns.fill(plot, (plant, &standing), 0..standing.len(), last, &mut Vec::new());
+    let c = &columns;
+    let row = |i: usize| ComponentRow {
+        plant_id: c.plant[i].unsigned_abs(),
+        component_id: c.component[i].unsigned_abs(),
+        axis_id: c.axis[i].unsigned_abs(),
+        bearing_axis_id: number(c.bearing_axis[i]),
+        order: c.order[i].unsigned_abs(),
+        kind: Kind::ALL[c.kind[i] as usize],
+        origin: Origin::ALL[c.origin[i] as usize],
+        position: number(c.position[i]),
+        rank: number(c.rank[i]),
+        unit_rank: number(c.unit_rank[i]),
+        birth_age: c.birth[i].unsigned_abs(),
+        death_age: number(c.death[i]),
+        shed_age: number(c.shed[i]),
+        cause_of_death: usize::try_from(c.cause[i]).ok().map(|cause| Cause::ALL[cause]),
+        trend_deg: real(c.trend[i]),
+    };
+    Ok((0..columns.component.len()).map(row).collect())
+}
+
+/// How the internodes of a plant in memory lie at `age`, at which it was posed.
+///
+/// # Errors
+/// [`Error::PlantTooLarge`].
+pub fn poses_of(plot: &Plot, plant: &Plant, age: Tick) -> Result<Vec<PoseRow>, Error> {
+    let mut standing = Standing::default();
+    standing.read(plant)?;
+    standing.find_tips(plant, age);
+    let (mut columns, mut numbers, mut rows) = (RecordColumns::default(), Vec::new(), Vec::new());
+    let scene = Scene { plant, standing: &standing, age, mechanics: true };
+    let mut next = 0;
+    while next < standing.len() {
+        standing.select(age, usize::MAX, &mut next, &mut numbers);
+        columns.fill(plot.id, &scene, &numbers, &mut rows);
+    }
+    let c = &columns;
+    let row = |i: usize| PoseRow {
+        plant_id: c.plant[i].unsigned_abs(),
+        age,
+        axis_id: c.axis[i].unsigned_abs(),
+        rank: c.rank[i].unsigned_abs(),
+        dir_z: c.dir_z[i],
+        curvature_per_m: real(c.curvature[i]),
+    };
+    Ok((0..c.component.len()).filter(|i| is_internode(Kind::ALL[c.kind[*i] as usize])).map(row).collect())
+}
+
+fn is_internode(kind: Kind) -> bool {
+    kind.class() == Class::Internode
+}
+
+fn number(value: i32) -> Option<u32> {
+    u32::try_from(value).ok()
+}
+
+fn real(value: f32) -> Option<f32> {
+    (!value.is_nan()).then_some(value)
+}
+
+impl Run {
+    /// The rows of `components` of the plants below `plants`; none where the run has no such table.
+    ///
+    /// # Errors
+    /// Where they cannot be read.
+    pub fn components(&self, plants: u32) -> Result<Vec<ComponentRow>, Error> {
+        let mut found = Vec::new();
+        for batch in self.batches(Table::Components)? {
+            let batch = batch?;
+            let columns = Batch { batch: &batch, path: self.path(), table: Table::Components };
+            if !components_in(&columns, plants, &mut found)? {
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// How the internodes of the plants below `plants` lie at each recorded age; none where the run has no `records`.
+    ///
+    /// # Errors
+    /// Where they cannot be read.
+    pub fn poses(&self, plants: u32) -> Result<Vec<PoseRow>, Error> {
+        let mut found = Vec::new();
+        for batch in self.batches(Table::Records)? {
+            let batch = batch?;
+            let columns = Batch { batch: &batch, path: self.path(), table: Table::Records };
+            if !poses_in(&columns, plants, &mut found)? {
+                break;
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// Adds the rows of a batch; `false` where the plants that follow are not wanted.
+fn components_in(batch: &Batch<'_>, plants: u32, found: &mut Vec<ComponentRow>) -> Result<bool, Error> {
+    let int = |name| batch.ints(name);
+    let (plant, component, axis) = (int("plant_id")?, int("component_id")?, int("axis_id")?);
+    let (bearing, order, position) = (int("bearing_axis_id")?, int("order")?, int("position")?);
+    let (rank, unit_rank, birth) = (int("rank")?, int("unit_rank")?, int("birth_age")?);
+    let (death, shed, trend) = (int("death_age")?, int("shed_age")?, batch.floats("trend_deg")?);
+    let (kind, origin) = (batch.words("kind", &KINDS)?, batch.words("origin", &ORIGINS)?);
+    let cause = batch.words("cause_of_death", &CAUSES)?;
+    for i in 0..batch.batch.num_rows() {
+        if value(plant, i) >= Some(plants) {
+            return Ok(false);
+        }
+        found.push(ComponentRow {
+            plant_id: value(plant, i).unwrap_or_default(),
+            component_id: value(component, i).unwrap_or_default(),
+            axis_id: value(axis, i).unwrap_or_default(),
+            bearing_axis_id: value(bearing, i),
+            order: value(order, i).unwrap_or_default(),
+            kind: kind[i].map_or(Kind::Internode, |place| Kind::ALL[place]),
+            origin: origin[i].map_or(Origin::Seed, |place| Origin::ALL[place]),
+            position: value(position, i),
+            rank: value(rank, i),
+            unit_rank: value(unit_rank, i),
+            birth_age: value(birth, i).unwrap_or_default(),
+            death_age: value(death, i),
+            shed_age: value(shed, i),
+            cause_of_death: cause[i].map(|place| Cause::ALL[place]),
+            trend_deg: trend.is_valid(i).then(|| trend.value(i)),
+        });
+    }
+    Ok(true)
+}
+
+/// The same of `records`, which are sorted by plot: a plant whose number is too great ends it.
+fn poses_in(batch: &Batch<'_>, plants: u32, found: &mut Vec<PoseRow>) -> Result<bool, Error> {
+    let (plant, age) = (batch.ints("plant_id")?, batch.ints("age")?);
+    let (axis, rank) = (batch.ints("axis_id")?, batch.ints("rank")?);
+    let (kind, dir_z) = (batch.words("kind", &KINDS)?, batch.floats("dir_z")?);
+    let curvature = batch.batch.column_by_name("curvature_per_m").and_then(|column| column.as_any().downcast_ref());
+    let curvature: Option<&PrimitiveArray<Float32Type>> = curvature;
+    for (i, kind) in kind.iter().enumerate() {
+        if value(plant, i) >= Some(plants) {
+            return Ok(false);
+        }
+        if kind.is_some_and(|place| is_internode(Kind::ALL[place])) {
+            found.push(PoseRow {
+                plant_id: value(plant, i).unwrap_or_default(),
+                age: value(age, i).unwrap_or_default(),
+                axis_id: value(axis, i).unwrap_or_default(),
+                rank: value(rank, i).unwrap_or_default(),
+                dir_z: dir_z.value(i),
+                curvature_per_m: curvature.filter(|of| of.is_valid(i)).map(|of| of.value(i)),
+            });
+        }
+    }
+    Ok(true)
+}
+
+fn value(column: &PrimitiveArray<Int32Type>, row: usize) -> Option<u32> {
+    column.is_valid(row).then(|| column.value(row).unsigned_abs())
+}
+
+/// The columns of a batch by their names.
+struct Batch<'a> {
+    batch: &'a RecordBatch,
+    path: &'a Path,
+    table: Table,
+}
+
+impl<'a> Batch<'a> {
+    fn column<A: 'static>(&self, column: &'static str) -> Result<&'a A, Error> {
+        let array = self.batch.column_by_name(column).and_then(|array| array.as_any().downcast_ref());
+        array.ok_or(Error::Column { path: self.path.join(self.table.name()), column })
+    }
+
+    fn ints(&self, column: &'static str) -> Result<&'a PrimitiveArray<Int32Type>, Error> {
+        self.column(column)
+    }
+
+    fn floats(&self, column: &'static str) -> Result<&'a PrimitiveArray<Float32Type>, Error> {
+        self.column(column)
+    }
+
+    /// The place of each row's word in the list of words; `None` for null.
+    fn words(&self, column: &'static str, words: &[&str]) -> Result<Vec<Option<usize>>, Error> {
+        let array: &DictionaryArray<Int8Type> = self.column(column)?;
+        let missing = || Error::Column { path: self.path.join(self.table.name()), column };
+        let values: &StringArray = array.values().as_any().downcast_ref().ok_or_else(missing)?;
+        let places: Vec<Option<usize>> =
+            values.iter().map(|word| words.iter().position(|known| Some(*known) == word)).collect();
+        Ok(array.keys().iter().map(|key| places.get(usize::try_from(key?).ok()?).copied().flatten()).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::specimen;
+    use phytomer_sim::grow;
+    use phytomer_sim::pose::pose;
+
+    #[test]
+    fn a_plant_in_memory_and_its_tables_give_the_same_rows() {
+        let folder = tempfile::tempdir().unwrap();
+        let plan = specimen::plan(2, 2);
+        let last = plan.until;
+        specimen::run(folder.path(), plan);
+        let run = Run::open(folder.path()).unwrap();
+        let rows = run.components(1).unwrap();
+        assert!(rows.len() > 20 && rows.iter().all(|row| row.plant_id == 0));
+        let mut plot = specimen::plot(0, 100_000);
+        grow(&specimen::Sapling, &mut plot, last, &mut ()).unwrap();
+        assert_eq!(rows, components_of(&plot, &plot.plants[0], last).unwrap());
+        pose(&mut plot.plants[0], last);
+        let poses: Vec<_> = run.poses(1).unwrap().into_iter().filter(|row| row.age == last).collect();
+        let here = poses_of(&plot, &plot.plants[0], last).unwrap();
+        assert_eq!(poses.len(), here.len());
+        for (recorded, here) in poses.iter().zip(&here) {
+            assert_eq!((recorded.axis_id, recorded.rank, recorded.dir_z), (here.axis_id, here.rank, here.dir_z));
+        }
+    }
+}
