@@ -8,10 +8,10 @@ mod specimen;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
-use phytomer::models::buds::law::{Count, Law};
 use phytomer::models::buds::params::{Axillary, GrowthUnit, Leaf};
 use phytomer::models::buds::{Buds, Order};
 use phytomer::models::fault::Path;
+use phytomer::models::law::{Count, Law};
 use phytomer::sim::plant::{MOST_COMPONENTS, Seed};
 use phytomer::sim::pose::pose;
 use phytomer::sim::{GrowthModel, Plot, Tick};

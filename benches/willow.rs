@@ -8,7 +8,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use specimen::Specimen;
 
 fn willow(criterion: &mut Criterion) {
-    Specimen::of("willow").life(criterion, 51);
+    Specimen::of("willow").life(criterion, 69);
 }
 
 criterion_group!(benches, willow);

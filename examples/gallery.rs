@@ -103,6 +103,7 @@ fn drawn(portrait: &Portrait, size: [u32; 2]) -> Result<Canvas> {
         caption: true,
         sun: None,
         sides: 8,
+        own: Default::default(),
         colour_by: None,
     };
     let subjects: Vec<Subject> = portrait.subjects();

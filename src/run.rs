@@ -10,6 +10,7 @@
 pub mod again;
 pub mod drawing;
 pub mod forecast;
+pub mod forms;
 mod plan;
 mod progress;
 
@@ -19,12 +20,14 @@ pub use progress::Progress;
 use anyhow::{Context, Result};
 use drawing::Drawing;
 use phytomer_config::Resolved;
+use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::{Mode, RunFolder, RunReport, Shard, ShardReport};
 use phytomer_sim::{Growth, Plot, RecordError, Recorder, Tick, grow};
 use progress::Stopped;
 use rayon::ThreadPool;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// How a run is made, beside what its scenario says. Nothing here shows in the bytes of a table or a mesh but the
@@ -79,12 +82,13 @@ impl Outcome {
 pub fn run(resolved: &Resolved, settings: &Settings, progress: &Progress) -> Result<Outcome> {
     let start = Instant::now();
     let plan = plan_of(resolved, &settings.program)?;
+    let forms = forms::of(&resolved.species)?;
     let shards = plan.shards();
     let pool = pool(settings.threads)?;
     let folder = RunFolder::create(&settings.folder, plan, settings.mode)?;
     let missing = folder.missing_shards();
     progress.begin(resolved, missing.iter().map(|shard| folder.plan().plots_of(*shard).len() as u64).sum());
-    let grown = pool.install(|| grow_shards(resolved, &folder, &missing, progress))?;
+    let grown = pool.install(|| grow_shards(resolved, &forms, &folder, &missing, progress))?;
     let seconds = start.elapsed().as_secs_f64();
     let components_now = grown.iter().map(|shard| shard.components).sum();
     let grown_now = grown.len() as u32;
@@ -103,6 +107,7 @@ fn pool(threads: usize) -> Result<ThreadPool> {
 /// The shards that were committed; fewer than `missing` after a stop.
 fn grow_shards(
     resolved: &Resolved,
+    forms: &Arc<OwnForms>,
     folder: &RunFolder,
     missing: &[u32],
     progress: &Progress,
@@ -110,7 +115,7 @@ fn grow_shards(
     let grown: Result<Vec<_>> = missing
         .into_par_iter()
         .map(|shard| {
-            let grown = Grower { resolved, folder, progress }.grow_shard(*shard);
+            let grown = Grower { resolved, folder, progress, forms }.grow_shard(*shard);
             // A failed write ends the run: the other shards need not go on.
             grown.inspect_err(|_| progress.stop())
         })
@@ -123,6 +128,8 @@ struct Grower<'a> {
     resolved: &'a Resolved,
     folder: &'a RunFolder,
     progress: &'a Progress,
+    /// The forms of its own that the species names.
+    forms: &'a Arc<OwnForms>,
 }
 
 impl Grower<'_> {
@@ -133,7 +140,7 @@ impl Grower<'_> {
         let scenario = &self.resolved.scenario;
         let mut plot = Plot::of_one(model, &seed_of(scenario, plants.start));
         plot.site = scenario.site.felt();
-        let drawing = Drawing::of(self.resolved, self.folder.plan().shards());
+        let drawing = Drawing::of(self.resolved, self.forms, self.folder.plan().shards());
         let mut keeper = Keeper { shard: self.folder.shard(shard)?, drawing, grower: self, plant: plants.start };
         for plant in plants {
             if self.progress.is_stopped() {

@@ -49,6 +49,21 @@ const MISTAKES: [(&str, &str, &str); 8] = [
     ("scenario.toml", "until = 48", "until = 65_536"),
 ];
 
+/// Mistakes in numbers that may have a source: the good species, what stands there, and what somebody types instead.
+const SOURCED: [(&str, &str, &str); 7] = [
+    ("gmt1_drawn", "diameter_ratio = { value = 0.7,", "diameter_ratio = { valeu = 0.7,"),
+    ("gmt1_drawn", "h2_deg = { uniform = { min = -60, max = -45 }, assumed = true }", "h2_deg = -181"),
+    ("gmt1_drawn", "r2 = { empirical = [0.65, 0.7, 0.72], source = \"a field book\" }", "r2 = 0"),
+    ("gmt1_drawn", "levels = { value = 9,", "levels = { poisson = 9,"),
+    (
+        "gmt1_drawn",
+        "ticks_per_year = { value = 1, assumed = true }",
+        "ticks_per_year = { normal = { mean = 1, sd = 0 } }",
+    ),
+    ("sourced", "{ named = \"2/5\", ", "{ named = 0.4, "),
+    ("sourced", "{ named = \"distichous\", assumed = true }", "{ nammed = \"distichous\", assumed = true }"),
+];
+
 /// Grows a scenario into the folder; the run's path.
 fn grow(folder: &Path, scenario: &str) -> String {
     let run = folder.join("run").to_str().expect("a path in UTF-8").to_owned();
@@ -107,6 +122,18 @@ fn independent_readers_agree_on_plants_that_bend() {
     };
     let folder = tempfile::tempdir().expect("a temporary folder");
     let run = grow(folder.path(), &format!("{ROOT}/tests/data/runs/bending.toml"));
+    read(&python, "tables.py", &[&run]);
+    read(&python, "meshes.py", &[&run, "8"]);
+}
+
+/// Rhizome, shoots and panicle: kinds of their own, each with its Plant Ontology term.
+#[test]
+fn independent_readers_agree_on_herbs_on_a_rhizome() {
+    let Some(python) = python() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let run = grow(folder.path(), "meadow_grass");
     read(&python, "tables.py", &[&run]);
     read(&python, "meshes.py", &[&run, "8"]);
 }
@@ -175,6 +202,27 @@ fn an_independent_editor_obeys_the_schema_line_of_init() {
         assert!(taplo(&python, &file).is_some(), "{name} with `{wrong}` passes");
         std::fs::write(&file, mistaken).expect("a copy");
         assert_eq!(taplo(&python, &file), None, "{name} with `{wrong}` and without its first line");
+    }
+}
+
+/// Numbers with their source, as assumed or drawn, pass in every model; what cannot stand there does not.
+#[test]
+fn an_independent_editor_knows_numbers_with_their_source() {
+    let Some(python) = python() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::write(folder.path().join("species.schema.json"), phytomer(&["schema", "species"])).expect("a schema");
+    let file = folder.path().join("species.toml");
+    let told = |text: &str| {
+        std::fs::write(&file, format!("#:schema ./species.schema.json\n{text}")).expect("a copy");
+        taplo(&python, &file)
+    };
+    for (name, right, wrong) in SOURCED {
+        let text = std::fs::read_to_string(format!("{ROOT}/config/tests/good/{name}.toml")).expect("a good species");
+        assert_eq!(told(&text), None, "{name}");
+        assert!(text.contains(right), "{name} has no `{right}`");
+        assert!(told(&text.replacen(right, wrong, 1)).is_some(), "{name} with `{wrong}` passes");
     }
 }
 

@@ -82,7 +82,7 @@ fn stems_die_at_the_ages_that_are_told() {
     ];
     for (name, least, most) in told {
         let species = validate_species(name, 1).unwrap_or_else(|report| panic!("{}", report.render(false))).species;
-        let year = species.about.ticks_per_year.expect("a year");
+        let year = species.about.ticks_per_year.expect("a year").value();
         let Model::Buds(mut buds) = species.model else { panic!("{name}") };
         buds.order.truncate(1);
         buds.order[0].reiteration = Reiteration::default();

@@ -41,7 +41,7 @@ fn the_willow_weeps_by_its_weight_and_its_slender_wood() {
     let weeping = hanging(&grown(&willow, until, 9.80665), 4);
     let weightless = hanging(&grown(&willow, until, 0.0), 4);
     let mut of_iron = willow.clone();
-    of_iron.wood.as_mut().expect("it has wood").modulus_gpa = Some(phytomer_models::buds::law::Law::from(200.0));
+    of_iron.wood.as_mut().expect("it has wood").modulus_gpa = Some(phytomer_models::law::Law::from(200.0));
     let stiff = hanging(&grown(&of_iron, until, 9.80665), 4);
     assert!(weeping > 0.5, "{weeping} of its twigs hang");
     assert!(weightless < 0.25 && stiff < 0.3, "without weight {weightless}, of iron {stiff}");

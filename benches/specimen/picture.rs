@@ -46,6 +46,7 @@ pub fn picture(specimen: &Specimen, criterion: &mut Criterion) {
         caption: true,
         sun: None,
         sides: 8,
+        own: Default::default(),
         colour_by: None,
     };
     let drawn = || draw(&[Subject { plant: &plant, age, label: format!("age {age}") }], "", &style).expect("a picture");

@@ -7,6 +7,7 @@
 
 mod alone;
 mod document;
+mod forms;
 mod inherit;
 mod library;
 mod load;

@@ -96,7 +96,7 @@ fn read(path: &FilePath) -> io::Result<Source> {
 }
 
 /// The path as people would write it: without `.` and without going down and up again.
-fn shown(path: &FilePath) -> String {
+pub(crate) fn shown(path: &FilePath) -> String {
     let mut parts = PathBuf::new();
     for part in path.components() {
         match part {

@@ -8,6 +8,7 @@ use phytomer_models::fault::{Path, Segment};
 use serde_json::Value as Json;
 
 use crate::document::{self, Node};
+use crate::forms;
 use crate::inherit::merge_chain;
 use crate::library::{self, Kind};
 use crate::meaning;
@@ -105,6 +106,7 @@ impl Loader {
         let mut node = merge_chain(name.schema(), chain)?;
         let mut refused = Vec::new();
         woods::fill(&mut node, &mut self.sources, &mut refused);
+        forms::resolve(&mut node, &self.sources, &mut refused);
         schema::check(name.schema(), &node, &mut refused);
         self.faults.extend(refused.iter().cloned());
         let about = self.read(&node, &refused, |json| serde_path_to_error::deserialize(split(json).0));

@@ -10,6 +10,7 @@ use std::sync::{Arc, OnceLock};
 use phytomer_models::buds::Buds;
 use phytomer_models::fault::{Fault, Path};
 use phytomer_models::geometric::Gmt1;
+use phytomer_models::law::{Constant, ValueRange};
 use phytomer_sim::model::GrowthModel;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -57,10 +58,10 @@ pub struct About {
     /// What one tick of the clock is: "one month", "one growth season".
     #[schemars(length(min = 1))]
     pub tick: String,
-    /// How many ticks make a year, where they do.
+    /// How many ticks make a year, where they do. Not drawn.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(max = 100_000), extend("exclusiveMinimum" = 0))]
-    pub ticks_per_year: Option<f64>,
+    #[schemars(with = "Constant", extend("exclusiveMinimum" = 0, "maximum" = 100_000))]
+    pub ticks_per_year: Option<Constant>,
     /// What has been published about the size and the life of such plants; `validate` grows a sample and holds it against
     /// the ranges. A species that inherits and states its own has none of its ancestors'.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -73,11 +74,17 @@ pub struct About {
     pub shown_at: Option<u32>,
 }
 
+/// The ticks of a year.
+const YEAR: ValueRange = ValueRange { min: f64::MIN_POSITIVE, max: 100_000.0, what: "ticks of a year" };
+
 impl About {
     /// What the schema cannot say of it.
     pub(crate) fn faults(&self) -> Vec<Fault> {
         let path = Path::root().key(PUBLISHED);
-        self.published.iter().enumerate().flat_map(|(i, row)| row.faults(&path.index(i))).collect()
+        let published = self.published.iter().enumerate().flat_map(|(i, row)| row.faults(&path.index(i)));
+        let path = Path::root().key("ticks_per_year");
+        let year = self.ticks_per_year.as_ref().and_then(|ticks| ticks.within(&path, YEAR).err());
+        year.into_iter().chain(published).collect()
     }
 }
 
@@ -172,7 +179,6 @@ impl ArchitecturalModel {
 
 /// Every growth model, with its parameters.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "a run has one of it")]
 pub enum Model {
     /// The bud model of de Reffye et al. 1988.
     Buds(Buds),
@@ -255,6 +261,15 @@ impl Model {
         match self {
             Model::Buds(buds) => Ok(Arc::new(buds.compile(until, &top)?)),
             Model::Gmt1(gmt1) => Ok(Arc::new(gmt1.compile(until, &top)?)),
+        }
+    }
+
+    /// The files of the meshes that it names as forms, each once, in the order of their numbers, with the place of the
+    /// first mention.
+    pub fn own_forms(&self) -> Vec<(Path, &str)> {
+        match self {
+            Model::Buds(buds) => buds.own_forms(),
+            Model::Gmt1(_) => Vec::new(),
         }
     }
 

@@ -291,9 +291,18 @@ mod tests {
     /// Editors have one schema for species of all models; it must pass what the program passes.
     #[test]
     fn the_schema_for_editors_passes_good_files() {
-        for name in
-            ["child", "coffee_like", "states", "binary", "minimal_species", "wood_laws", "wood_vinci", "published"]
-        {
+        for name in [
+            "child",
+            "coffee_like",
+            "states",
+            "binary",
+            "gmt1_drawn",
+            "sourced",
+            "minimal_species",
+            "wood_laws",
+            "wood_vinci",
+            "published",
+        ] {
             let mut sources = Sources::default();
             let source = find(Kind::Species, &format!("tests/good/{name}.toml"), None).expect("a good file");
             let id = sources.add(source);

@@ -20,6 +20,8 @@ pub enum Purpose {
     Node = 1,
     /// What follows the end of an apex: relays and traumatic reiterations.
     Relay = 2,
+    /// What a plant draws once for its whole life, in the stream of the seed's axis.
+    Plant = 3,
 }
 
 /// The words of one ChaCha block.

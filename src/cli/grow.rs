@@ -12,6 +12,7 @@ use anyhow::{Context, Result};
 use clap::Args;
 use phytomer::outputs::Mode;
 use phytomer::run::forecast::Forecast;
+use phytomer::run::forms;
 use phytomer::run::{self, Outcome, Program, Progress, Settings};
 use phytomer_config::{Resolved, validate};
 use std::path::{Path, PathBuf};
@@ -72,6 +73,9 @@ impl Grow {
             Ok(resolved) => resolved,
             Err(report) => return refuse(&report, self.json),
         };
+        if let Err(faults) = forms::read(&resolved.species) {
+            return refuse(&resolved.report(faults), self.json);
+        }
         self.override_scenario(&mut resolved)?;
         if self.dry_run {
             telling::forecast(&resolved, Forecast::of(&resolved).as_ref(), self.json)?;

@@ -53,7 +53,7 @@ impl Mesh {
         regrown.check(("--age", &[age]), ("--plant", &[self.plant]))?;
         let again = regrown.again(&self.breeze)?;
         let staged = beside(&self.out);
-        let options = options_of(self.sides);
+        let options = options_of(self.sides, &regrown.forms);
         let seed = regrown.scenario.seed;
         again.show(self.plant, &[age], &mut |age, plant| Ok(write_mesh(plant, age, seed, &options, &staged)?))?;
         let bytes = amounts::bytes(keep(&staged, &self.out)? as f64);

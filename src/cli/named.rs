@@ -4,6 +4,7 @@
 //! name ships; `runs/coffee` always means the run. Absent: what is told of them.
 
 use anyhow::{Context, Result};
+use phytomer::run::forms;
 use phytomer_config::{
     Kind, Report, Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, Scenario, Species, kind_of, presets, validate,
     validate_species,
@@ -45,10 +46,18 @@ pub fn find(name: &str) -> std::result::Result<Named, Report> {
         return Ok(Named::Run(folder));
     }
     if kind_of(name) == Kind::Scenario {
-        return validate(name).map(|scenario| Named::Scenario(Box::new(scenario)));
+        let scenario = validate(name)?;
+        return match forms::read(&scenario.species) {
+            Ok(_) => Ok(Named::Scenario(Box::new(scenario))),
+            Err(faults) => Err(scenario.report(faults)),
+        };
     }
-    let species = validate_species(name, SPECIES_ALONE_UNTIL).map(|species| Named::Species(Box::new(species)));
-    species.map_err(|report| if is_unknown(&report) { unknown(name, report) } else { report })
+    let species = validate_species(name, SPECIES_ALONE_UNTIL);
+    let species = species.map_err(|report| if is_unknown(&report) { unknown(name, report) } else { report })?;
+    match forms::read(&species.species) {
+        Ok(_) => Ok(Named::Species(Box::new(species))),
+        Err(faults) => Err(species.report(faults)),
+    }
 }
 
 /// Whether the fault is that nothing has this name.

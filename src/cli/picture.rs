@@ -10,6 +10,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use phytomer::run::drawing::{Portrait, portrait};
 use phytomer_outputs::Error;
+use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::pictures::{
     Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, colour_columns, draw, sheet, write_png,
 };
@@ -17,6 +18,7 @@ use phytomer_sim::Tick;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The most pixels along a side.
 const MOST_PIXELS: u32 = 16_384;
@@ -125,7 +127,7 @@ impl Picture {
             return Err(Misuse(format!("one picture has at most {MOST_SUBJECTS} plants, counted at each age")).into());
         }
         let portrait = portrait(&again, &regrown.species, plants, &ages)?;
-        let bytes = amounts::bytes(self.save(&self.draw(&portrait)?, &portrait.note)? as f64);
+        let bytes = amounts::bytes(self.save(&self.draw(&portrait, &regrown.forms)?, &portrait.note)? as f64);
         let drawn = portrait.subjects.len();
         let whom = if drawn == 1 { format!("plant {}", plants[0]) } else { format!("{drawn} plants") };
         let when = if ages.len() == 1 { format!(" at age {}", ages[0]) } else { String::new() };
@@ -134,7 +136,7 @@ impl Picture {
         Ok(Verdict::Done)
     }
 
-    fn draw(&self, portrait: &Portrait) -> std::result::Result<Canvas, Error> {
+    fn draw(&self, portrait: &Portrait, forms: &Arc<OwnForms>) -> std::result::Result<Canvas, Error> {
         let view = match self.view {
             From::Perspective => Some(View::Perspective),
             From::Top => Some(View::Top),
@@ -152,6 +154,7 @@ impl Picture {
             caption: !self.no_caption,
             sun: self.sun.map(|sun| sun.map(f32::to_radians)),
             sides: self.sides,
+            own: Arc::clone(forms),
             colour_by: self.colour_by.clone(),
         };
         let subjects = portrait.subjects();

@@ -9,7 +9,9 @@ use super::{Misuse, Verdict, refuse};
 use anyhow::{Context, Result};
 use clap::Args;
 use phytomer::run::again::{Again, Air};
+use phytomer::run::forms;
 use phytomer_config::{Model, Resolved, ResolvedSpecies, Scenario, Species};
+use phytomer_outputs::meshes::OwnForms;
 use phytomer_sim::mechanics::sway::{Unmoved, yielding};
 use phytomer_sim::site::Wind;
 use phytomer_sim::{GrowthModel, Tick};
@@ -33,6 +35,8 @@ pub struct Regrown {
     pub species: Species,
     /// The species' model, compiled for all ages of the scenario.
     pub model: Arc<dyn GrowthModel>,
+    /// The forms of its own that the species names.
+    pub forms: Arc<OwnForms>,
 }
 
 /// The wind of one frame.
@@ -63,10 +67,12 @@ impl Regrown {
             Named::Run(folder) => {
                 let recorded = Recorded::of(&folder)?;
                 let model = recorded.compile()?;
-                Self { scenario: recorded.scenario, species: recorded.species, model }
+                let forms = forms::of_run(&recorded.species, &recorded.run)?;
+                Self { scenario: recorded.scenario, species: recorded.species, model, forms }
             }
             Named::Scenario(resolved) => {
-                Self { scenario: resolved.scenario, species: resolved.species, model: resolved.model }
+                let forms = forms::of(&resolved.species)?;
+                Self { scenario: resolved.scenario, species: resolved.species, model: resolved.model, forms }
             }
             Named::Species(found) => Self::alone(name, *found, ages)?,
         }))
@@ -83,7 +89,8 @@ impl Regrown {
             Some(fault) => Misuse(format!("{name} to the age {until}: {fault}")),
             None => Misuse(format!("{name} cannot be grown to the age {until}")),
         })?;
-        Ok(Self { scenario, species, model })
+        let forms = forms::of(&species)?;
+        Ok(Self { scenario, species, model, forms })
     }
 
     /// Its plants, grown again in the wind that is asked for.

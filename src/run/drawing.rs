@@ -9,13 +9,14 @@ use anyhow::{Context, Result, ensure};
 use phytomer_config::scenario::{MeshFile, Meshes};
 use phytomer_config::{About, Resolved, Scenario, Species};
 use phytomer_outputs::Shard;
-use phytomer_outputs::meshes::{Collection, MeshOptions, MeshWriter, Ply, Scene};
+use phytomer_outputs::meshes::{Collection, MeshOptions, MeshWriter, OwnForms, Ply, Scene};
 use phytomer_outputs::pictures::Subject;
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The most vertices that 32-bit signed indices reach.
 const MOST_VERTICES: u64 = i32::MAX as u64;
@@ -31,9 +32,10 @@ pub struct Drawing<'a> {
     open: BTreeMap<String, Collection>,
 }
 
-/// The mesh options of a scenario.
-pub fn options_of(sides: u32) -> MeshOptions {
-    MeshOptions { sides: u8::try_from(sides).unwrap_or(u8::MAX).max(3), ..MeshOptions::default() }
+/// The mesh options of a scenario whose species has such forms of its own.
+pub fn options_of(sides: u32, own: &Arc<OwnForms>) -> MeshOptions {
+    let sides = u8::try_from(sides).unwrap_or(u8::MAX).max(3);
+    MeshOptions { sides, own: Arc::clone(own), ..MeshOptions::default() }
 }
 
 /// Writes the mesh of what stands of `plant` at `age` into a new file.
@@ -56,10 +58,10 @@ pub fn write_mesh(plant: &Plant, age: Tick, run_seed: u64, options: &MeshOptions
 
 impl<'a> Drawing<'a> {
     /// What is drawn of a run of so many parts; `None` where the scenario asks for no meshes.
-    pub fn of(resolved: &'a Resolved, parts: u32) -> Option<Self> {
+    pub fn of(resolved: &'a Resolved, own: &Arc<OwnForms>, parts: u32) -> Option<Self> {
         let scenario = &resolved.scenario;
         let meshes = scenario.meshes.as_ref()?;
-        let options = options_of(meshes.sides);
+        let options = options_of(meshes.sides, own);
         Some(Self { scenario, meshes, ages: scenario.mesh_ages(), options, parts, open: BTreeMap::new() })
     }
 
@@ -153,7 +155,7 @@ pub fn portrait(again: &Again, species: &Species, plants: &[u32], ages: &[Tick])
         })?;
         for age in ages {
             let whose = if plants.len() > 1 { format!("plant {number}, ") } else { String::new() };
-            let years = about.ticks_per_year.map(|ticks| in_years(*age, ticks)).unwrap_or_default();
+            let years = about.ticks_per_year.as_ref().map(|ticks| in_years(*age, ticks.value())).unwrap_or_default();
             let Some(plant) = seen.get(age) else { continue };
             subjects.push((plant.clone(), *age, format!("{whose}age {age}{years}")));
         }

@@ -62,7 +62,7 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan> {
             version: program.version.clone(),
             git_hash: program.git_hash.clone(),
             resolved: resolved.to_json().context("cannot write the scenario as JSON")?,
-            inputs: inputs(resolved),
+            inputs: inputs(resolved)?,
         },
     })
 }
@@ -76,9 +76,10 @@ fn table(table: scenario::Table) -> Table {
     }
 }
 
-fn inputs(resolved: &Resolved) -> Vec<Input> {
+fn inputs(resolved: &Resolved) -> Result<Vec<Input>> {
     let hash = |text: &str| Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
-    resolved.sources.iter().map(|source| Input { path: source.name.clone(), sha256: hash(&source.text) }).collect()
+    let texts = resolved.sources.iter().map(|source| Input { path: source.name.clone(), sha256: hash(&source.text) });
+    Ok(texts.chain(super::forms::inputs(&resolved.species)?).collect())
 }
 
 /// How many plants share a part file: as the scenario says, else by the expected work of a plant.

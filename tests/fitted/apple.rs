@@ -8,8 +8,8 @@ use crate::chi2::homogeneity;
 use crate::measured::{Row, Table, add};
 use crate::simulated::{grown, shipped};
 use phytomer_models::buds::Buds;
-use phytomer_models::buds::law::{Binomial, Count, CountForm, Law};
 use phytomer_models::buds::params::{End, Pattern, Rhythmic, Zone, ZoneState};
+use phytomer_models::law::{Binomial, Count, CountForm, Law};
 use phytomer_sim::plant::{AxisId, Plant};
 use std::collections::BTreeMap;
 

@@ -4,7 +4,7 @@
 use crate::chi2::homogeneity;
 use crate::measured::{Table, counted};
 use crate::simulated::drawn;
-use phytomer_models::buds::law::{Binomial, Count, CountForm, Law, NegativeBinomial, Poisson};
+use phytomer_models::law::{Binomial, Count, CountForm, Law, NegativeBinomial, Poisson};
 
 fn binomial(n: f64, p: f64) -> Count {
     let binomial = Some(Binomial { n: Law::from(n), p: Law::from(p) });

@@ -4,8 +4,8 @@
 use crate::chi2::{Outcome, homogeneity, tail};
 use crate::measured::{Table, counted, moments};
 use crate::simulated::{grown, shipped};
-use phytomer_models::buds::law::Law;
 use phytomer_models::buds::{Buds, Order};
+use phytomer_models::law::Law;
 use phytomer_sim::math;
 
 const GROUPS: u32 = 6;

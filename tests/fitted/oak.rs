@@ -5,9 +5,9 @@
 use crate::chi2::homogeneity;
 use crate::measured::{Table, add, counted};
 use crate::simulated::{grown, units};
-use phytomer_models::buds::law::{Count, CountForm};
 use phytomer_models::buds::params::GrowthUnit;
 use phytomer_models::buds::{Buds, Order};
+use phytomer_models::law::{Count, CountForm};
 
 const YEARS: [f64; 3] = [1995.0, 1996.0, 1997.0];
 

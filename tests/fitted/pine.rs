@@ -4,7 +4,7 @@
 use crate::chi2::homogeneity;
 use crate::measured::{Row, Table, add, counted, moments};
 use crate::simulated::{grown, shipped, units};
-use phytomer_models::buds::law::Count;
+use phytomer_models::law::Count;
 use phytomer_sim::plant::{AxisId, Plant};
 use std::collections::BTreeMap;
 

@@ -4,7 +4,7 @@
 use crate::chi2::homogeneity;
 use crate::measured::{Table, counted};
 use crate::simulated::{drawn, grown, shipped, units};
-use phytomer_models::buds::law::{Binomial, Count, CountComponent, CountForm, Law, NegativeBinomial};
+use phytomer_models::law::{Binomial, Count, CountComponent, CountForm, Law, NegativeBinomial};
 
 const SPECIES: &str = "poplar";
 

@@ -3,10 +3,10 @@
 //! Seeds are fixed. Orders that a data set does not need are cut off, as no axis depends on those that it bears.
 
 use phytomer_config::{Model, validate_species};
-use phytomer_models::buds::law::Count;
 use phytomer_models::buds::params::GrowthUnit;
 use phytomer_models::buds::{Buds, Order};
 use phytomer_models::fault::Path;
+use phytomer_models::law::Count;
 use phytomer_sim::plant::{Plant, Seed};
 use phytomer_sim::{GrowthModel as _, Plot, Tick};
 

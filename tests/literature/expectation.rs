@@ -3,12 +3,12 @@
 //! grown plants where laws are richer than the recursion.
 
 use crate::grown::{PLANTS, Sample, compiled, plant, units_by_order};
-use phytomer_models::buds::law::{Count, CountForm, Law, LawForm, Poisson};
 use phytomer_models::buds::params::{
     Apex, ApexEnd, Axillary, End, Flower, Fork, GrowthUnit, Pattern, Relay, Rhythmic, Sibling, SpeedForm, SpeedText,
     Speeds, Transition, Traumatic, Zone, ZoneState,
 };
 use phytomer_models::buds::{Buds, Order};
+use phytomer_models::law::{Count, CountForm, Law, LawForm, Poisson};
 use phytomer_sim::GrowthModel as _;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng as _, SeedableRng as _};

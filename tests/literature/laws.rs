@@ -2,9 +2,9 @@
 
 use crate::grown::{PLANTS, Sample, compiled, plant};
 use phytomer_models::buds::expectation::{extinct_by, extinction};
-use phytomer_models::buds::law::{Count, Law};
 use phytomer_models::buds::params::Reiteration;
 use phytomer_models::buds::{Buds, Order};
+use phytomer_models::law::{Count, Law};
 use phytomer_sim::NEVER;
 
 fn one_order(order: Order) -> Buds {

@@ -49,7 +49,7 @@ pub fn resolve<'s>(root: &'s Json, mut schema: &'s Json) -> Option<&'s Json> {
 }
 
 /// What may stand beside an `allOf` of one without asking anything of a value.
-const ASKS_NOTHING: [&str; 6] = ["allOf", "description", "default", "title", "minimum", "maximum"];
+const ASKS_NOTHING: [&str; 7] = ["allOf", "description", "default", "title", "minimum", "maximum", "exclusiveMinimum"];
 
 /// The inside of an `allOf` of one beside which nothing is asked. Bounds beside it are for editors, which see the bare
 /// number alone: where the same number may be drawn, the model checks all that can come of it.

@@ -9,8 +9,8 @@
 //! tick, each axis makes the same draws at the same steps.
 
 use super::compile::{BudModel, OrderLaws, Passage, Ranks};
-use super::law::At;
 use super::params::ApexEnd;
+use crate::law::At;
 use phytomer_sim::clock::{NEVER, Speed, Tick};
 use phytomer_sim::plant::{
     ApexFate, ApicalBud, AxisId, Cause, EventKind, Form, Kind, NewAxis, NewOrgan, NodeId, Origin, Plant,

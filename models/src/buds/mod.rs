@@ -1,12 +1,11 @@
 //! De Reffye's bud model (de Reffye, Edelin, Françon, Jaeger & Puech 1988, §§2–5).
 //!
-//! [`Buds`] are the parameters as people state them, [`law`] what a probability or a number of nodes may be,
-//! [`BudModel`] the compiled species that grows. [`expectation`] gives the mean of what grows in closed form.
+//! [`Buds`] are the parameters as people state them, in the laws of [`crate::law`]; [`BudModel`] is the compiled species
+//! that grows. [`expectation`] gives the mean of what grows in closed form.
 
 mod compile;
 pub mod expectation;
 mod grow;
-pub mod law;
 mod model;
 mod node;
 pub mod params;
@@ -15,5 +14,7 @@ mod tests;
 #[cfg(test)]
 mod tests_drawn;
 
+#[doc(no_inline)]
+pub use crate::law;
 pub use compile::BudModel;
 pub use params::{Buds, Order};

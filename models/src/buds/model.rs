@@ -5,7 +5,7 @@
 
 use super::compile::{BudModel, OrderLaws};
 use super::grow::{Axis, Full, Words, add_axis, first_bud};
-use super::law::At;
+use crate::law::At;
 use phytomer_sim::Tick;
 use phytomer_sim::clock::NEVER;
 use phytomer_sim::expectation::Expectation;

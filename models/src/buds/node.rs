@@ -5,8 +5,8 @@
 
 use super::compile::Branching;
 use super::grow::{Axis, FlowerSite, Full, add_axis, leaf_fall, read};
-use super::law::At;
 use super::params::ApexEnd;
+use crate::law::At;
 use phytomer_sim::clock::NEVER;
 use phytomer_sim::plant::key::Place;
 use phytomer_sim::plant::{EventKind, NewAxis, NewNode, NewOrgan, NodeId, Origin};

@@ -1,7 +1,6 @@
 //! The bud model under the contract of growth models: two species that between them use everything that it can do, and
 //! the small promises that no closed form covers.
 
-use super::law::{Count, CountForm, Law, LawForm, Normal, Poisson, Variate, VariateForm};
 use super::params::{
     Apex, ApexEnd, Axillary, CountedLeaves, DragLaw, Facing, Flower, Fork, Fruit, GrowthUnit, Leaf, OrganTrend,
     Pattern, Phase, Phyllotaxis, Quantity, Reiteration, Relay, Rhythmic, Season, ShortUnit, Sibling, SpeedText, Speeds,
@@ -11,6 +10,7 @@ use super::params::{End, Internode};
 use super::{Buds, Order};
 use crate::contract;
 use crate::fault::Path;
+use crate::law::{Count, CountForm, Law, LawForm, Normal, Poisson, Variate, VariateForm};
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::{ApexFate, Kind, NodeId, Origin};
 use std::collections::BTreeMap;

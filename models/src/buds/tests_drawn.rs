@@ -4,16 +4,16 @@
 //! is stated. Seeds are fixed; a bound is 4 standard errors of the stated distribution. Absent: the expectation of drawn
 //! speeds and zones, which stands with the literature tests.
 
-use super::law::{
-    Count, CountForm, Law, LawForm, Quantity, QuantityForm, SpeedForm, Speeds, Uniform, Variate, VariateForm,
-};
 use super::params::{
-    Apex, ApexEnd, Axillary, Divergence, End, GrowthUnit, Leaf, Pattern, Phase, Phyllotaxis, Reiteration, Relay,
-    Rhythmic, Season, SpeedText, Tended, Trend, Zone,
+    Apex, ApexEnd, Axillary, Divergence, End, GrowthUnit, Leaf, NamedPhyllotaxis, Pattern, Phase, Phyllotaxis,
+    Reiteration, Relay, Rhythmic, Season, SpeedText, Tended, Trend, Zone,
 };
 use super::{BudModel, Buds, Order};
 use crate::contract;
 use crate::fault::Path;
+use crate::law::{
+    Count, CountForm, Law, LawForm, Quantity, QuantityForm, SpeedForm, Speeds, Uniform, Variate, VariateForm,
+};
 use phytomer_sim::Plant;
 use phytomer_sim::plant::{AxisId, Kind, Origin};
 
@@ -319,4 +319,20 @@ fn drawn_numbers_keep_the_contract_of_growth_models() {
     all.order[1].trend = Trend::Tended(Tended { inclination_deg: uniform(40.0, 80.0), share: uniform(0.0, 0.2) });
     contract::check(&compiled(&all, 12), 12, 5);
     contract::check(&compiled(&drawn(), 12), 12, 6);
+}
+
+#[test]
+fn a_named_phyllotaxis_with_its_source_is_the_name_alone() {
+    for name in ["2/5", "distichous", "whorled", "spiral"] {
+        let way = |phyllotaxis| {
+            let leaf = Leaf { per_node: Count::from(3), ..Leaf::default() };
+            Buds { order: vec![Order { phyllotaxis, leaf, ..Order::default() }], ..Buds::default() }
+        };
+        let named = name.to_owned();
+        let sourced = NamedPhyllotaxis { named, source: Some("ten shoots".to_owned()), assumed: false };
+        let [alone, sourced] = [Phyllotaxis::Named(name.to_owned()), Phyllotaxis::Sourced(sourced)]
+            .map(|phyllotaxis| contract::grown(&compiled(&way(phyllotaxis), 6), 6, &contract::seed_of(1, 0)));
+        assert_eq!(alone.nodes.azimuth, sourced.nodes.azimuth, "{name}");
+        assert!(contract::components(&alone) == contract::components(&sourced), "{name}");
+    }
 }

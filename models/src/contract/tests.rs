@@ -9,15 +9,15 @@ use std::sync::Arc;
 
 fn sound() -> Gmt1Model {
     let tree = Gmt1 {
-        h1_deg: 10.0,
-        h2_deg: -60.0,
-        r1: 0.9,
-        r2: 0.7,
-        diameter_ratio: 0.7,
-        divergence_deg: 140.0,
-        levels: 5,
-        first_length_m: 1.0,
-        first_diameter_m: 0.1,
+        h1_deg: 10.0.into(),
+        h2_deg: (-60.0).into(),
+        r1: 0.9.into(),
+        r2: 0.7.into(),
+        diameter_ratio: 0.7.into(),
+        divergence_deg: 140.0.into(),
+        levels: 5.into(),
+        first_length_m: 1.0.into(),
+        first_diameter_m: 0.1.into(),
     };
     tree.compile(6, &Path::root()).expect("the tree is sound")
 }

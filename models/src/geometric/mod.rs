@@ -1,18 +1,22 @@
 //! Geometric models: trees as repeated branchings, each child a fixed ratio and angle of its mother (Aono & Kunii,
 //! *Botanical Tree Image Generation*, IEEE CG&A 4(5), 1984).
 //!
-//! [`Gmt1`] is the parameter struct, `branching` the paper's equations, `model` the tree that they build, level by
-//! level. Such a model knows no buds and draws nothing at random: it rebuilds the plant at each age, and states the
-//! heading of each internode itself.
+//! [`Gmt1`] is the parameter struct, `laws` what a plant draws of it, `branching` the paper's equations, `tree` a tree
+//! that they build and `model` its growth, level by level. Such a model knows no buds, and no chance once a plant has
+//! its parameters: it rebuilds the plant at each age, and states the heading of each internode itself.
 //! Absent on purpose: the deviators, ternary branching and statistics of GMT2 to GMT4.
 
 mod branching;
 mod gmt1;
+mod laws;
 mod model;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_drawn;
+#[cfg(test)]
 mod tests_parameters;
+mod tree;
 
 pub use branching::{child, left_of};
 pub use gmt1::{Gmt1, MOST_LEVELS};

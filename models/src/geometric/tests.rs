@@ -4,6 +4,7 @@
 use super::{Gmt1, Gmt1Model};
 use crate::contract;
 use crate::fault::Path;
+use crate::law::{Quantity, Variate};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::math;
 use phytomer_sim::model::GrowthModel;
@@ -32,16 +33,26 @@ const TABLE_1: [Row; 15] = [
 ];
 
 fn parameters(&(_, h1_deg, h2_deg, r1, r2, divergence_deg, levels): &Row) -> Gmt1 {
-    let (first_length_m, first_diameter_m) = (1.0, 0.1);
-    Gmt1 { h1_deg, h2_deg, r1, r2, diameter_ratio: 0.7, divergence_deg, levels, first_length_m, first_diameter_m }
+    let [h1_deg, h2_deg, r1, r2, divergence_deg] = [h1_deg, h2_deg, r1, r2, divergence_deg].map(Variate::from);
+    let [diameter_ratio, first_length_m, first_diameter_m] = [0.7, 1.0, 0.1].map(Variate::from);
+    let levels = Quantity::from(levels);
+    Gmt1 { h1_deg, h2_deg, r1, r2, diameter_ratio, divergence_deg, levels, first_length_m, first_diameter_m }
+}
+
+fn with_levels(tree: Gmt1, levels: u32) -> Gmt1 {
+    Gmt1 { levels: Quantity::from(levels), ..tree }
+}
+
+fn table_1(name: &str) -> &'static Row {
+    TABLE_1.iter().find(|row| row.0 == name).expect("a row of Table 1")
 }
 
 fn model(tree: &Gmt1) -> Gmt1Model {
-    tree.compile(tree.levels + 1, &Path::root()).expect("the tree is sound")
+    tree.compile(tree.levels.value() + 1, &Path::root()).expect("the tree is sound")
 }
 
 fn row(name: &str) -> Gmt1 {
-    parameters(TABLE_1.iter().find(|row| row.0 == name).expect("a row of Table 1"))
+    parameters(table_1(name))
 }
 
 fn grown(tree: &Gmt1, age: Tick) -> Plant {
@@ -78,14 +89,15 @@ fn printed_child(a: Point, b: Point, ratio: f64, h: f64, turn: f64) -> Point {
 
 /// The tips of all branches as a recursion makes them, at their places in the order of levels: the children of branch i
 /// are branches 2i + 1 and 2i + 2.
-fn recursion(tree: &Gmt1, branch: usize, [a, b]: [Point; 2], rank: u32, level: u32, tips: &mut [Point]) {
+fn recursion(tree: &Row, branch: usize, [a, b]: [Point; 2], rank: u32, level: u32, tips: &mut [Point]) {
     tips[branch] = b;
-    if level == tree.levels {
+    let &(_, h1_deg, h2_deg, r1, r2, divergence_deg, levels) = tree;
+    if level == levels {
         return;
     }
-    let turn = f64::from(rank - 1) * tree.divergence_deg * PI / 180.0;
-    let main = if tree.h1_deg.abs() <= tree.h2_deg.abs() { 1 } else { 2 };
-    for (i, ratio, h) in [(1, tree.r1, tree.h1_deg), (2, tree.r2, tree.h2_deg)] {
+    let turn = f64::from(rank - 1) * divergence_deg * PI / 180.0;
+    let main = if h1_deg.abs() <= h2_deg.abs() { 1 } else { 2 };
+    for (i, ratio, h) in [(1, r1, h1_deg), (2, r2, h2_deg)] {
         let tip = printed_child(a, b, ratio, h * PI / 180.0, turn);
         let rank = if i == main { rank + 1 } else { 1 };
         recursion(tree, 2 * branch + i, [b, tip], rank, level + 1, tips);
@@ -95,10 +107,9 @@ fn recursion(tree: &Gmt1, branch: usize, [a, b]: [Point; 2], rank: u32, level: u
 #[test]
 fn every_row_of_table_1_stands_where_the_printed_equations_put_it() {
     for row in &TABLE_1 {
-        let tree = parameters(row);
-        let found = tips(&grown(&tree, tree.levels + 1));
+        let found = tips(&grown(&parameters(row), row.6 + 1));
         let mut expected = vec![[0.0; 3]; found.len()];
-        recursion(&tree, 0, [[0.0; 3], [0.0, 0.0, 1.0]], 1, 0, &mut expected);
+        recursion(row, 0, [[0.0; 3], [0.0, 0.0, 1.0]], 1, 0, &mut expected);
         for (i, (f, e)) in found.iter().zip(&expected).enumerate() {
             assert!((0..3).all(|k| (f[k] - e[k]).abs() < 5e-6), "{}, branch {i}: {f:?} is not {e:?}", row.0);
         }
@@ -109,12 +120,12 @@ fn every_row_of_table_1_stands_where_the_printed_equations_put_it() {
 fn a_tree_of_age_n_has_2_to_the_n_less_1_branches_and_its_lengths_their_closed_form() {
     for row in &TABLE_1 {
         let tree = parameters(row);
-        for age in 1..=tree.levels + 1 {
+        for age in 1..=row.6 + 1 {
             let plant = grown(&tree, age);
             assert_eq!(plant.nodes.len(), (1 << age) - 1, "{} at age {age}", row.0);
             assert_eq!(u64::from(plant.components()), tree.components_at(age));
             let sum: f64 = plant.nodes.length.iter().map(|&long| f64::from(long)).sum();
-            let closed: f64 = (0..age).map(|k| math::pow(tree.r1 + tree.r2, f64::from(k))).sum();
+            let closed: f64 = (0..age).map(|k| math::pow(row.3 + row.4, f64::from(k))).sum();
             assert!((sum / closed - 1.0).abs() < 1e-6, "{} at age {age}: {sum} is not {closed}", row.0);
         }
     }
@@ -122,7 +133,7 @@ fn a_tree_of_age_n_has_2_to_the_n_less_1_branches_and_its_lengths_their_closed_f
 
 #[test]
 fn what_is_expected_of_a_tree_is_what_grows() {
-    let tree = Gmt1 { levels: 6, ..row("5f") };
+    let tree = with_levels(row("5f"), 6);
     let expected = model(&tree).expectation(9).expect("counts without chance");
     for age in 0..=9 {
         assert_eq!(expected.components(age), tree.components_at(age) as f64, "at age {age}");
@@ -184,8 +195,7 @@ fn the_smaller_angle_carries_the_axis_on_and_the_other_begins_the_next_order() {
 #[test]
 fn the_kth_lateral_of_an_upright_trunk_stands_at_k_divergence_angles() {
     for name in ["5g", "6a", "7d"] {
-        let tree = row(name);
-        let plant = grown(&tree, tree.levels + 1);
+        let plant = grown(&row(name), table_1(name).6 + 1);
         let on_trunk = |&axis: &usize| plant.axes.order[axis] == 2;
         for (k, axis) in (0..plant.axes.len()).filter(on_trunk).enumerate() {
             let first = (0..plant.nodes.len()).find(|&i| plant.nodes.axis[i].index() == axis).expect("a branch");
@@ -201,7 +211,7 @@ fn the_kth_lateral_of_an_upright_trunk_stands_at_k_divergence_angles() {
 /// Without divergence "all the lateral branches develop near the same plane": of an upright trunk, in x–z.
 #[test]
 fn without_divergence_all_that_a_straight_trunk_bears_first_lies_in_the_front_plane() {
-    let tree = Gmt1 { divergence_deg: 0.0, ..row("5g") };
+    let tree = Gmt1 { divergence_deg: Variate::from(0.0), ..row("5g") };
     let plant = grown(&tree, 10);
     let laterals = (0..plant.nodes.len()).filter(|&i| plant.nodes.rank[i] == 1 && plant.nodes.birth[i] > 1);
     let of_trunk = |&i: &usize| plant.axes.order[plant.nodes.axis[i].index()] == 2;
@@ -216,8 +226,7 @@ fn reach(tip: &Point) -> f64 {
 /// Three shares of a tree's outline: the height of its widest point and the mean height of its branch tips over its
 /// height, and the width of its top tenth over its width.
 fn outline(name: &str) -> [f64; 3] {
-    let tree = row(name);
-    let tips = tips(&grown(&tree, tree.levels + 1));
+    let tips = tips(&grown(&row(name), table_1(name).6 + 1));
     let top = tips.iter().map(|tip| tip[2]).fold(0.0, f64::max);
     let widest = tips.iter().copied().reduce(|a, b| if reach(&b) > reach(&a) { b } else { a }).expect("a branch");
     let mean = tips.iter().map(|tip| tip[2]).sum::<f64>() / tips.len() as f64;
@@ -251,7 +260,7 @@ fn the_cone_becomes_flatter_from_6a_to_6d() {
 #[test]
 fn every_row_keeps_the_contract_of_growth_models() {
     for row in &TABLE_1 {
-        let tree = Gmt1 { levels: 6, ..parameters(row) };
+        let tree = with_levels(parameters(row), 6);
         contract::check(&model(&tree), 8, 11);
     }
 }

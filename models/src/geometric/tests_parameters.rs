@@ -2,19 +2,26 @@
 
 use super::{Gmt1, MOST_LEVELS};
 use crate::fault::Path;
+use crate::law::{Quantity, Variate};
+use serde_json::json;
 
 fn sound() -> Gmt1 {
     Gmt1 {
-        h1_deg: 20.0,
-        h2_deg: -50.0,
-        r1: 0.9,
-        r2: 0.7,
-        diameter_ratio: 0.7,
-        divergence_deg: 140.0,
-        levels: 9,
-        first_length_m: 1.0,
-        first_diameter_m: 0.1,
+        h1_deg: Variate::from(20.0),
+        h2_deg: Variate::from(-50.0),
+        r1: Variate::from(0.9),
+        r2: Variate::from(0.7),
+        diameter_ratio: Variate::from(0.7),
+        divergence_deg: Variate::from(140.0),
+        levels: Quantity::from(9),
+        first_length_m: Variate::from(1.0),
+        first_diameter_m: Variate::from(0.1),
     }
+}
+
+/// A parameter as a file states it.
+fn read<T: serde::de::DeserializeOwned>(stated: serde_json::Value) -> T {
+    serde_json::from_value(stated).expect("it reads")
 }
 
 fn faults(change: fn(&mut Gmt1)) -> Vec<String> {
@@ -29,23 +36,77 @@ fn faults(change: fn(&mut Gmt1)) -> Vec<String> {
 #[test]
 fn sound_parameters_have_no_fault() {
     assert!(faults(|_| ()).is_empty());
-    assert!(faults(|tree| tree.levels = MOST_LEVELS).is_empty());
-    assert!(faults(|tree| (tree.h1_deg, tree.levels) = (0.0, 0)).is_empty());
+    assert!(faults(|tree| tree.levels = MOST_LEVELS.into()).is_empty());
+    assert!(faults(|tree| (tree.h1_deg, tree.levels) = (0.0.into(), 0.into())).is_empty());
+    assert!(faults(|tree| tree.levels = read(json!({ "value": 9, "source": "Table 1" }))).is_empty());
+    assert!(
+        faults(|tree| tree.h1_deg = read(json!({ "normal": { "mean": 0, "sd": 5 }, "source": "a field book" })))
+            .is_empty()
+    );
+    assert!(faults(|tree| tree.first_length_m = read(json!({ "empirical": [0.9, 1.1], "assumed": true }))).is_empty());
 }
 
 #[test]
 fn each_fault_names_its_key_its_value_and_what_was_expected() {
     type Case = (fn(&mut Gmt1), &'static str);
-    let cases: [Case; 9] = [
-        (|tree| (tree.h1_deg, tree.h2_deg) = (0.0, -0.0), "gmt1.h2_deg: h1_deg and h2_deg are both 0; expected h1²"),
-        (|tree| tree.h1_deg = 181.0, "gmt1.h1_deg: h1_deg is 181; expected an angle in [-180, 180] degrees"),
-        (|tree| tree.divergence_deg = f64::NAN, "gmt1.divergence_deg: divergence_deg is NaN; expected an angle in"),
-        (|tree| tree.r1 = 0.0, "gmt1.r1: r1 is 0; expected a ratio above 0, at most 1"),
-        (|tree| tree.r2 = 1.5, "gmt1.r2: r2 is 1.5; expected a ratio above 0, at most 1"),
-        (|tree| tree.first_length_m = -1.0, "gmt1.first_length_m: first_length_m is -1; expected metres above 0"),
-        (|tree| tree.levels = 30, "gmt1.levels: levels is 30: a tree of 2^31 branches; expected at most 28"),
-        (|tree| tree.r2 = 1e-3, "gmt1.r2: after 9 levels a branch is 1.0e-27 m long; expected branches of at least"),
-        (|tree| tree.diameter_ratio = 0.01, "gmt1.diameter_ratio: after 9 levels a branch is 1.0e-19 m thick"),
+    let cases: [Case; 16] = [
+        (
+            |tree| (tree.h1_deg, tree.h2_deg) = (0.0.into(), (-0.0).into()),
+            "gmt1.h2_deg: h1_deg and h2_deg are both 0; expected h1²",
+        ),
+        (
+            |tree| {
+                (tree.h1_deg, tree.h2_deg) = (read(json!({ "normal": { "mean": 0, "sd": 5 }, "min": 0 })), 0.0.into())
+            },
+            "gmt1.h2_deg: h1_deg and h2_deg can both be 0; expected h1²",
+        ),
+        (
+            |tree| (tree.h1_deg, tree.h2_deg) = (0.0.into(), read(json!({ "empirical": [-40, 0, -50] }))),
+            "gmt1.h2_deg: h1_deg and h2_deg can both be 0; expected h1²",
+        ),
+        (
+            |tree| tree.h1_deg = 181.0.into(),
+            "gmt1.h1_deg: the value is 181; expected an angle in degrees in [-180, 180]",
+        ),
+        (
+            |tree| tree.h1_deg = read(json!({ "uniform": { "min": -181, "max": 0 } })),
+            "gmt1.h1_deg.uniform.min: the value is -181; expected an angle in degrees in [-180, 180]",
+        ),
+        (
+            |tree| tree.h1_deg = read(json!({ "normal": { "mean": { "expression": "2 * age" }, "sd": 1 } })),
+            "gmt1.h1_deg.normal.mean: the law depends on age, which does not apply here; expected a number, or a formula",
+        ),
+        (
+            |tree| tree.h1_deg = read(json!({ "value": { "expression": "order" } })),
+            "gmt1.h1_deg.value: the law depends on order, which does not apply here; expected a number, or a formula",
+        ),
+        (
+            |tree| tree.h1_deg = read(json!({ "value": { "by_state": { "young": 3 } } })),
+            "gmt1.h1_deg.value.by_state: the species has no states; expected a law without by_state",
+        ),
+        (
+            |tree| tree.divergence_deg = f64::NAN.into(),
+            "gmt1.divergence_deg: the value is NaN; expected an angle in degrees in [-360, 360]",
+        ),
+        (|tree| tree.r1 = 0.0.into(), "gmt1.r1: the value is 0; expected a ratio above 0 and at most 1"),
+        (|tree| tree.r2 = 1.5.into(), "gmt1.r2: the value is 1.5; expected a ratio above 0 and at most 1"),
+        (
+            |tree| tree.first_length_m = (-1.0).into(),
+            "gmt1.first_length_m: the value is -1; expected metres above 0 and at most 1000",
+        ),
+        (|tree| tree.levels = 30.into(), "gmt1.levels: levels is 30: a tree of 2^31 branches; expected at most 28"),
+        (
+            |tree| tree.levels = read(json!({ "value": 30 })),
+            "gmt1.levels.value: levels is 30: a tree of 2^31 branches; expected at most 28",
+        ),
+        (
+            |tree| tree.r2 = 1e-3.into(),
+            "gmt1.r2: after 9 levels a branch is 1.0e-27 m long; expected branches of at least",
+        ),
+        (
+            |tree| tree.diameter_ratio = read(json!({ "uniform": { "min": 0.01, "max": 0.9 } })),
+            "gmt1.diameter_ratio: after 9 levels a branch can be 1.0e-19 m thick",
+        ),
     ];
     for (change, expected) in cases {
         let found = faults(change);
@@ -56,8 +117,8 @@ fn each_fault_names_its_key_its_value_and_what_was_expected() {
 #[test]
 fn all_faults_are_told_at_once() {
     let found = faults(|tree| {
-        (tree.h1_deg, tree.h2_deg, tree.r1, tree.r2) = (0.0, 0.0, -1.0, f64::INFINITY);
-        (tree.diameter_ratio, tree.levels) = (2.0, u32::MAX);
+        (tree.h1_deg, tree.h2_deg, tree.r1, tree.r2) = (0.0.into(), 0.0.into(), (-1.0).into(), f64::INFINITY.into());
+        (tree.diameter_ratio, tree.levels) = (2.0.into(), u32::MAX.into());
     });
     assert_eq!(found.len(), 5, "{found:?}");
 }
@@ -78,7 +139,8 @@ fn the_schema_has_the_bounds_of_the_check() {
     let schema = schemars::schema_for!(Gmt1);
     let bound = |key: &str, keyword: &str| schema.pointer(&format!("/properties/{key}/{keyword}")).cloned();
     assert_eq!(bound("levels", "maximum"), Some(MOST_LEVELS.into()));
-    assert_eq!(bound("r1", "exclusiveMinimum"), Some(0.0.into()));
-    assert_eq!(bound("first_length_m", "default"), Some(1.0.into()));
+    assert_eq!(bound("r1", "exclusiveMinimum"), Some(0.into()));
+    assert_eq!(bound("h1_deg", "minimum"), Some((-180).into()));
+    assert_eq!(bound("first_length_m", "default"), Some(json!({ "value": 1.0, "assumed": true })));
     assert_eq!(schema.get("additionalProperties"), Some(&false.into()));
 }

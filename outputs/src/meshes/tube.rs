@@ -81,43 +81,28 @@ impl Tube {
     }
 }
 
-/// A plane internode: a strip that narrows from base to tip, in two halves that rise a little from its middle.
+/// A plane internode: a strip as wide as its diameters, seen from its upper side.
 #[derive(Debug, Clone, Copy)]
 pub struct Strip;
 
 impl Strip {
     /// The vertices of a strip.
-    pub const VERTICES: usize = 8;
+    pub const VERTICES: usize = 4;
     /// Its triangles, counterclockwise from its upper side.
-    pub const FACES: [[u32; 3]; 4] = [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]];
-    /// How far an edge rises for each part that it stands out.
-    const RISE: f32 = 0.25;
+    pub const FACES: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
-    /// Writes the vertices of one strip; `out` has exactly their number.
+    /// Writes the vertices of one strip; `out` has exactly their number. Strips of one axis that bends in its own plane
+    /// join without a gap.
     #[inline]
     pub fn write(frustum: &Frustum, tag: &Tag, out: &mut [Vertex]) {
         let Frustum { base, heading: h, up, length, radii } = *frustum;
         let left = cross(up, h);
         let tip = [0, 1, 2].map(|i| base[i] + length * h[i]);
-        let scale = 1.0 / (1.0 + Self::RISE * Self::RISE).sqrt();
-        for (half, out) in [-1.0, 1.0].into_iter().zip(out.chunks_exact_mut(4)) {
-            let edge = |from: [f32; 3], radius: f32| {
-                [0, 1, 2].map(|i| from[i] + radius * (half * left[i] + Self::RISE * up[i]))
-            };
-            let normal = [0, 1, 2].map(|i| scale * (up[i] - half * Self::RISE * left[i]));
-            let side = 0.5 + 0.5 * half;
-            let mut corners = [
-                (base, [0.5, 0.0]),
-                (edge(base, radii[0]), [side, 0.0]),
-                (edge(tip, radii[1]), [side, 1.0]),
-                (tip, [0.5, 1.0]),
-            ];
-            if half > 0.0 {
-                corners.reverse();
-            }
-            for ((at, texture), vertex) in corners.into_iter().zip(out) {
-                *vertex = Vertex::new(at, normal, texture, tag);
-            }
+        let corners = [(base, -radii[0], 0.0), (tip, -radii[1], 1.0), (tip, radii[1], 1.0), (base, radii[0], 0.0)];
+        for ((middle, aside, along), vertex) in corners.into_iter().zip(out) {
+            let at = [0, 1, 2].map(|i| middle[i] + aside * left[i]);
+            let share = if aside < 0.0 { 0.0 } else { 1.0 };
+            *vertex = Vertex::new(at, up, [share, along], tag);
         }
     }
 }
@@ -185,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn a_strip_is_two_plane_quadrilaterals_seen_from_above() {
+    fn a_strip_is_plane_and_seen_from_above() {
         for radii in [[0.3, 0.2], [0.2, 0.4], [0.25, 0.0]] {
             let mut vertices = vec![Vertex::zeroed(); Strip::VERTICES];
             Strip::write(&leaning(1.5, radii), &TAG, &mut vertices);
@@ -193,7 +178,7 @@ mod tests {
             assert_unit_normals(&vertices);
             let area = |face: &Face| outward_share(&vertices, std::slice::from_ref(face));
             let empty = faces.iter().filter(|face| area(face) == 0.0).count();
-            assert_eq!(empty, if radii[1] == 0.0 { 2 } else { 0 }, "{radii:?}");
+            assert_eq!(empty, usize::from(radii[1] == 0.0), "{radii:?}");
         }
     }
 

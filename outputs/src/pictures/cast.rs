@@ -14,6 +14,7 @@ use super::{MOST_SUBJECTS, Picture, Subject, View, letters};
 use crate::Error;
 use crate::meshes::MeshOptions;
 use std::f32::consts::FRAC_PI_2;
+use std::sync::Arc;
 
 /// A plant is flat if it is so many times as wide from elsewhere.
 const FLAT: f32 = 1.4;
@@ -30,7 +31,7 @@ pub struct Cast<'a> {
 impl<'a> Cast<'a> {
     /// The plants of a picture, not yet in their places.
     pub fn of(subjects: &'a [Subject], picture: &Picture) -> Result<Self, Error> {
-        let options = MeshOptions { sides: picture.sides, ..MeshOptions::default() };
+        let options = MeshOptions { sides: picture.sides, own: Arc::clone(&picture.own), ..MeshOptions::default() };
         let subjects = &subjects[..subjects.len().min(MOST_SUBJECTS)];
         let coloured = picture.colour_by.as_ref().map(|column| colours(column, subjects)).transpose()?;
         let (colours, legend) = coloured.unzip();

@@ -33,12 +33,14 @@ pub use canvas::Canvas;
 pub use colouring::colour_columns;
 
 use crate::Error;
+use crate::meshes::OwnForms;
 use camera::Gaze;
 use cast::Cast;
 use glam::Vec3;
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::f32::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 
 /// The most plants of one picture.
 pub const MOST_SUBJECTS: usize = 64;
@@ -104,6 +106,8 @@ pub struct Picture {
     pub sun: Option<[f32; 2]>,
     /// Sides of the tube that an internode is drawn as.
     pub sides: u8,
+    /// The meshes of its own that the species names.
+    pub own: Arc<OwnForms>,
     /// The column of `records` whose values colour the components; their own colours if not given.
     pub colour_by: Option<String>,
 }

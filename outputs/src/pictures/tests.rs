@@ -31,6 +31,7 @@ fn picture(size: [u32; 2], view: View) -> Picture {
         caption: false,
         sun: None,
         sides: 8,
+        own: Default::default(),
         colour_by: None,
     }
 }

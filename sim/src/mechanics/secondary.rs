@@ -12,7 +12,7 @@
 use super::bend::Bench;
 use crate::clock::Tick;
 use crate::math::pow;
-use crate::plant::Plant;
+use crate::plant::{Plant, Shape};
 use std::f64::consts::PI;
 
 /// How the internodes of a species gain diameter.
@@ -116,8 +116,8 @@ fn hand_down(plant: &Plant, node: usize, above: &mut [Above], worth: f64) {
     }
 }
 
-/// The tip of a cone has the diameter of the internode that follows it on its axis, where that is thinner; every other
-/// tip has that of its base. What has not appeared by `age` is left as it is.
+/// The tip of a cone has the diameter of the internode that follows it on its axis, where that is thinner, and the tip
+/// of a blade always; every other tip has that of its base. What has not appeared by `age` is left as it is.
 pub fn taper(plant: &mut Plant, age: Tick) {
     let Plant { axes, nodes, habit, .. } = plant;
     for run in 0..nodes.runs.len() {
@@ -125,10 +125,12 @@ pub fn taper(plant: &mut Plant, age: Tick) {
         let (diameter, tip) = (&nodes.diameter[born.clone()], &mut nodes.diameter_tip[born.clone()]);
         let Some(&first) = diameter.first() else { continue };
         tip.copy_from_slice(diameter);
-        if habit.shape(axes.order[axis.index()], axes.state[axis.index()]).narrows() {
-            tip.iter_mut().zip(diameter.windows(2)).for_each(|(tip, pair)| *tip = pair[0].min(pair[1]));
+        let shape = habit.shape(axes.order[axis.index()], axes.state[axis.index()]);
+        if shape != Shape::Cylinder {
+            let joined = |base: f32, next: f32| if shape == Shape::Cone { base.min(next) } else { next };
+            tip.iter_mut().zip(diameter.windows(2)).for_each(|(tip, pair)| *tip = joined(pair[0], pair[1]));
             if let Some(parent) = nodes.parent[born.start].some().filter(|parent| nodes.axis[parent.index()] == axis) {
-                nodes.diameter_tip[parent.index()] = first.min(nodes.diameter[parent.index()]);
+                nodes.diameter_tip[parent.index()] = joined(nodes.diameter[parent.index()], first);
             }
         }
     }

@@ -78,16 +78,8 @@ pub enum Shape {
     Cylinder,
     /// The tip has the diameter of the base of the internode that follows it on its axis.
     Cone,
-    /// A plane blade as wide as the diameter, which narrows as a cone does; no wood is in it.
+    /// A plane blade as wide as the diameter, its tip as wide as the internode that follows; no wood is in it.
     Blade,
-}
-
-impl Shape {
-    /// Whether the tip takes the diameter of the internode that follows.
-    #[inline]
-    pub fn narrows(self) -> bool {
-        self != Self::Cylinder
-    }
 }
 
 /// The rules of a species that its plants carry with them.

@@ -52,7 +52,7 @@ pub fn as_text(species: &Species) -> Result<String> {
             let about = serde_json::to_value(&species.about)?;
             let own = json.as_object().into_iter().flatten();
             own.filter(|(key, _)| about.get(key).is_none() && *key != "model")
-                .for_each(|(key, value)| law(key, value, &mut text));
+                .for_each(|(key, value)| law(key, value.get("value").unwrap_or(value), &mut text));
         }
     }
     text += &notes_in_words(&notes_of(&json));
@@ -69,6 +69,7 @@ fn heading(species: &Species) -> String {
         ("common", about.common_name.clone()),
         ("architecture", architecture.map(|model| format!("{model} (Hallé & Oldeman)"))),
         ("tick", Some(about.tick.clone())),
+        ("ticks per year", about.ticks_per_year.as_ref().map(|ticks| ticks.value().to_string())),
         ("about", about.description.clone()),
         ("source", about.source.clone()),
     ];

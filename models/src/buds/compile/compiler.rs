@@ -6,12 +6,12 @@
 
 use super::domain;
 use super::look::form_of;
-use crate::buds::law::{
+use crate::buds::params::{Buds, FormChoice, Season};
+use crate::fault::{Fault, Path};
+use crate::law::{
     At, Constant, Count, CountTable, Domain, Law, ProbabilityTable, Quantity, SpeedTable, ValueRange, ValueTable,
     Variate, VariateTable,
 };
-use crate::buds::params::{Buds, FormChoice, Season};
-use crate::fault::{Fault, Path};
 use phytomer_sim::clock::Speed;
 use phytomer_sim::plant::Form;
 

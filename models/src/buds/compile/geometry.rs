@@ -4,8 +4,8 @@
 //! nodes, which is the pose's.
 
 use super::compiler::Compiler;
-use crate::buds::law::{Variate, VariateTable};
 use crate::buds::params::{Order, Phyllotaxis, ShapeName};
+use crate::law::VariateTable;
 use phytomer_sim::plant::Shape;
 
 /// Radians in a degree.
@@ -30,9 +30,9 @@ pub fn divergence(order: &Order, compiler: &mut Compiler) -> VariateTable {
     match &order.phyllotaxis {
         Phyllotaxis::Degrees(degrees) => compiler.angle(degrees, "phyllotaxis"),
         Phyllotaxis::Divergence(stated) => compiler.angle(&stated.divergence_deg, "phyllotaxis.divergence_deg"),
-        Phyllotaxis::Named(name) => {
-            let degrees = named(name, order, compiler);
-            compiler.angle(&Variate::from(degrees), "phyllotaxis")
+        Phyllotaxis::Named(name) => VariateTable::always(named(name, "phyllotaxis", order, compiler)),
+        Phyllotaxis::Sourced(stated) => {
+            VariateTable::always(named(&stated.named, "phyllotaxis.named", order, compiler))
         }
     }
 }
@@ -41,11 +41,12 @@ pub fn divergence(order: &Order, compiler: &mut Compiler) -> VariateTable {
 pub fn first_azimuth(order: &Order, compiler: &mut Compiler) -> VariateTable {
     match &order.phyllotaxis {
         Phyllotaxis::Divergence(stated) => compiler.angle(&stated.first_deg, "phyllotaxis.first_deg"),
-        Phyllotaxis::Named(_) | Phyllotaxis::Degrees(_) => VariateTable::always(90.0),
+        Phyllotaxis::Named(_) | Phyllotaxis::Sourced(_) | Phyllotaxis::Degrees(_) => VariateTable::always(90.0),
     }
 }
 
-fn named(name: &str, order: &Order, compiler: &mut Compiler) -> f64 {
+/// The degrees of a name that stands at `keys` below the order.
+fn named(name: &str, keys: &str, order: &Order, compiler: &mut Compiler) -> f64 {
     match name {
         "spiral" => GOLDEN_ANGLE_DEG,
         "distichous" => 180.0,
@@ -58,7 +59,7 @@ fn named(name: &str, order: &Order, compiler: &mut Compiler) -> f64 {
         fraction => fibonacci(fraction).unwrap_or_else(|| {
             let expected = "\"spiral\", \"distichous\", \"opposite-decussate\", \"whorled\", a Fibonacci fraction of a \
                             turn such as \"2/5\" or \"3/8\", or a divergence in degrees";
-            compiler.fault("phyllotaxis", format!("the phyllotaxis is \"{fraction}\""), expected);
+            compiler.fault(keys, format!("the phyllotaxis is \"{fraction}\""), expected);
             0.0
         }),
     }

@@ -3,11 +3,11 @@
 //! What may differ by state is spread over the states; names become numbers, colours bytes, and the law of an organ's
 //! expansion a table by its own age. Absent: what is drawn where nothing is stated.
 
-use crate::buds::law::{At, Domain, Law, Quantity, ValueRange};
 use crate::buds::params::{
     BarkChoice, Buds, ByState, ColourText, FlowerChoice, FormChoice, FruitChoice, KindName, LeafChoice, OwnForm,
 };
 use crate::fault::{Fault, Path};
+use crate::law::{At, Domain, Law, Quantity, ValueRange};
 use phytomer_sim::plant::{Bark, Class, Colour, Form, InternodeLook, Kind, Looks, OrganLook, OrganLooks, Shape};
 
 const SIDES: std::ops::RangeInclusive<u32> = 3..=64;
@@ -38,24 +38,28 @@ pub fn form_of(buds: &Buds, choice: &FormChoice) -> Form {
     match choice {
         FormChoice::Named(name) => Form::from(*name),
         FormChoice::Own(own) => {
-            let place = buds.own_forms().iter().position(|mesh| *mesh == own.mesh);
+            let place = buds.own_forms().iter().position(|(_, mesh)| *mesh == own.mesh);
             Form::Own(place.and_then(|place| u8::try_from(place).ok()).unwrap_or(0))
         }
     }
 }
 
 impl Buds {
-    /// The meshes of its own that the species names, each once, in the order of their numbers.
-    pub fn own_forms(&self) -> Vec<&str> {
-        let mut meshes: Vec<&str> = Vec::new();
-        for choice in self.order.iter().flat_map(|order| {
-            let internodes = order.internode.form.iter().flat_map(ByState::all);
-            internodes.chain([&order.leaf.form, &order.flower.form, &order.fruit.form])
-        }) {
-            if let FormChoice::Own(OwnForm { mesh }) = choice
-                && !meshes.contains(&mesh.as_str())
-            {
-                meshes.push(mesh);
+    /// The meshes of its own that the species names, each once, in the order of their numbers, with the place of the
+    /// first mention from the top of the species file.
+    pub fn own_forms(&self) -> Vec<(Path, &str)> {
+        let mut meshes: Vec<(Path, &str)> = Vec::new();
+        for (index, order) in self.order.iter().enumerate() {
+            let path = Path::root().key("order").index(index);
+            let of = |key: &str| path.key(key).key("form");
+            let internodes = order.internode.form.iter().flat_map(|forms| forms.places(&of("internode")));
+            let organs = [("leaf", &order.leaf.form), ("flower", &order.flower.form), ("fruit", &order.fruit.form)];
+            for (path, choice) in internodes.chain(organs.map(|(key, form)| (of(key), form))) {
+                if let FormChoice::Own(OwnForm { mesh }) = choice
+                    && meshes.iter().all(|known| known.1 != mesh)
+                {
+                    meshes.push((path.key("mesh"), mesh));
+                }
             }
         }
         meshes

@@ -23,9 +23,9 @@ pub(super) use relay::{Branching, EndLaws};
 pub(super) use step::{Passage, StepLaws};
 pub(super) use zone::{Ramification, Ranks, Zones};
 
-use super::law::{Domain, ValueTable};
 use super::params::Buds;
 use crate::fault::{Fault, Path};
+use crate::law::{Domain, ValueTable};
 use compiler::Compiler;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::plant::{Habit, OrganTrends, Trend};

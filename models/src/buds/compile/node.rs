@@ -9,8 +9,8 @@ use super::relay::Branching;
 use super::step::StepLaws;
 use super::words::{Chance, Layout, Measure, Number};
 use super::zone::{Ramification, Ranks, Zones};
-use crate::buds::law::{Count, CountTable, VariateTable};
 use crate::buds::params::{Order, Season};
+use crate::law::{Count, CountTable, VariateTable};
 use phytomer_sim::plant::{Form, Kind};
 
 /// Metres in a centimetre and in a millimetre.

@@ -4,8 +4,8 @@
 //! how old it is, not how old its plant is. Absent: the turning itself, which is the pose's.
 
 use super::compiler::Compiler;
-use crate::buds::law::ValueRange;
 use crate::buds::params::{Facing, Order, OrganTrend as Stated};
+use crate::law::ValueRange;
 use phytomer_sim::math::{cos, sin};
 use phytomer_sim::plant::{OrganTrend, OrganTrends};
 

@@ -7,8 +7,8 @@ use super::compiler::Compiler;
 use super::geometry::DEGREE;
 use super::node::{LONGEST, MOST_BUDS};
 use super::words::{Chance, Layout, Measure, Number};
-use crate::buds::law::{CountTable, ProbabilityTable, VariateTable};
 use crate::buds::params::{ApexEnd, Fork, Order};
+use crate::law::{CountTable, ProbabilityTable, VariateTable};
 
 /// How buds at one place become axes.
 #[derive(Debug, Clone)]

@@ -6,8 +6,8 @@
 use super::compiler::Compiler;
 use super::words::{Chance, Layout, Number};
 use super::zone::ZoneRanks;
-use crate::buds::law::{CountTable, ProbabilityTable};
 use crate::buds::params::{Order, Sibling, Transition};
+use crate::law::{CountTable, ProbabilityTable};
 
 /// The most growth units of one step.
 const MOST_UNITS: u32 = 64;

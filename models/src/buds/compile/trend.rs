@@ -6,8 +6,8 @@
 
 use super::compiler::Compiler;
 use super::words::{Layout, Measure, Number};
-use crate::buds::law::{At, Count, CountTable, ValueRange, Variate, VariateTable};
 use crate::buds::params::{Orientation, StateTrends, Tended, Trend};
+use crate::law::{At, Count, CountTable, ValueRange, Variate, VariateTable};
 use phytomer_sim::math;
 use phytomer_sim::plant::Trend as Tendency;
 use std::collections::BTreeMap;

@@ -3,9 +3,9 @@
 //! A law of stiffness or density is asked at the last age that the run reaches with the internode's own age as dimension
 //! and cycle: wood knows how old it is, not how old its plant is. Absent: the equations (`phytomer_sim::mechanics`).
 
-use crate::buds::law::{At, Constant, Domain, Law, ValueRange};
 use crate::buds::params::{Buds, CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood as WoodParams};
 use crate::fault::{Fault, Path};
+use crate::law::{At, Constant, Domain, Law, ValueRange};
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::math::{cos, sin};
 use phytomer_sim::mechanics::{Drag, OrganMass, Thickening, Tissue, Uprighting, Wood};

@@ -3,7 +3,7 @@
 //! A stream is read in records of a fixed width: one record an axis and then one a clock step (bud stream), one a node
 //! (node stream), one an axis (relay stream). Quantities that are the same at every point take no word.
 
-use crate::buds::law::{At, CountTable, ProbabilityTable, VariateTable};
+use crate::law::{At, CountTable, ProbabilityTable, VariateTable};
 
 /// Hands out the slots of one record.
 #[derive(Debug, Default)]

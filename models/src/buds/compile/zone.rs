@@ -6,8 +6,8 @@
 use super::compiler::Compiler;
 use super::node::MOST_BUDS;
 use super::words::{Chance, Layout, Number};
-use crate::buds::law::{At, Count, CountForm, CountTable};
 use crate::buds::params::{End, Order, Pattern, Zone, ZoneState};
+use crate::law::{At, Count, CountForm, CountTable};
 
 /// The most zones of a growth unit.
 const MOST_ZONES: usize = 64;

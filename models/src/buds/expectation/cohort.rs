@@ -5,8 +5,8 @@
 
 use super::unit::Unit;
 use crate::buds::compile::{Branching, BudModel, OrderLaws, Zones};
-use crate::buds::law::At;
 use crate::buds::params::ApexEnd;
+use crate::law::At;
 use phytomer_sim::Tick;
 use phytomer_sim::clock::Speed;
 use phytomer_sim::expectation::{Expectation, OrderExpectation};

@@ -4,7 +4,7 @@
 //! the fates of buds, which `cohort` follows.
 
 use crate::buds::compile::{BudModel, NodeLaws, OrderLaws, Ramification, Ranks};
-use crate::buds::law::At;
+use crate::law::At;
 
 /// The means of one growth unit.
 #[derive(Debug, Clone, Default)]

@@ -3,7 +3,7 @@
 //!
 //! Absent: the colours of what states none, which `phytomer_outputs::meshes` knows by kind and form.
 
-use crate::buds::law::Quantity;
+use crate::law::Quantity;
 use phytomer_sim::plant::Colour;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

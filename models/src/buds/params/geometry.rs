@@ -5,7 +5,7 @@
 
 use super::colour::BarkChoice;
 use super::looks::{ByState, FormChoice, KindName};
-use crate::buds::law::{Count, Law, Quantity, Variate};
+use crate::law::{Count, Law, Quantity, Variate};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -21,8 +21,8 @@ pub struct Internode {
     /// What an internode has added to its diameter, mm: a law in which `age` is the plant's age, `dimension` and `cycle`
     /// the internode's own, in ticks, and the state that in which its axis started.
     pub thickening_mm: Law,
-    /// A cylinder has one diameter; a cone narrows to the diameter of the next internode of its axis, and so does a blade,
-    /// which is plane and without wood. One for all axes, or one for each state in which an axis can start.
+    /// A cylinder has one diameter; a cone narrows to the diameter of the next internode of its axis; a blade is plane and
+    /// without wood, and its tip is as wide as the next internode. One for all axes, or one for each state in which an axis can start.
     pub shape: ByState<ShapeName>,
     /// What its internodes are: `internode` where they are those of a stem, else a kind whose name ends in `internode`. One
     /// for all axes, or one for each state in which an axis can start.
@@ -79,6 +79,8 @@ pub enum Phyllotaxis {
     Degrees(Variate),
     /// Divergence as a random variable, and the azimuth of an axis's first leaf.
     Divergence(Divergence),
+    /// A name as above, and where it comes from.
+    Sourced(NamedPhyllotaxis),
 }
 
 impl Default for Phyllotaxis {
@@ -98,6 +100,23 @@ pub struct Divergence {
     #[serde(default = "to_the_side")]
     #[schemars(extend("minimum" = -360, "maximum" = 360))]
     pub first_deg: Variate,
+}
+
+/// A named phyllotaxis, and where it comes from.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(inline)]
+pub struct NamedPhyllotaxis {
+    /// `"distichous"`, `"opposite-decussate"`, `"whorled"`, `"spiral"`, or a Fibonacci fraction of a turn such as `"2/5"`:
+    /// the same as the name alone.
+    pub named: String,
+    /// Where the name comes from: a reference, a data set, an observation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "String")]
+    pub source: Option<String>,
+    /// True where the name is a guess and not an observation.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub assumed: bool,
 }
 
 fn to_the_side() -> Variate {

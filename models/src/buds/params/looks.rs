@@ -3,6 +3,7 @@
 //!
 //! Absent: the forms themselves, which `phytomer_outputs::meshes` draws, the reading of a user's mesh, and colours.
 
+use crate::fault::Path;
 use phytomer_sim::plant::{Form, Kind};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -252,13 +253,13 @@ pub struct EachState<T> {
 }
 
 impl<T> ByState<T> {
-    /// All that is stated.
-    pub(in crate::buds) fn all(&self) -> impl Iterator<Item = &T> {
-        let (one, each) = match self {
-            Self::All(one) => (Some(one), None),
-            Self::Each(each) => (None, Some(each.by_state.values())),
-        };
-        one.into_iter().chain(each.into_iter().flatten())
+    /// All that is stated, each with its place.
+    pub(in crate::buds) fn places(&self, path: &Path) -> Vec<(Path, &T)> {
+        let below = path.key("by_state");
+        match self {
+            Self::All(one) => vec![(path.clone(), one)],
+            Self::Each(each) => each.by_state.iter().map(|(state, one)| (below.key(state), one)).collect(),
+        }
     }
 }
 

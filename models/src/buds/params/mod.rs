@@ -18,15 +18,17 @@ pub use colour::{
     BarkChoice, BarkColours, ColourText, FlowerChoice, FlowerColours, FruitChoice, FruitColours, LeafChoice,
     LeafColours,
 };
-pub use geometry::{Divergence, Internode, Orientation, Phase, Phyllotaxis, ShapeName, StateTrends, Tended, Trend};
+pub use geometry::{
+    Divergence, Internode, NamedPhyllotaxis, Orientation, Phase, Phyllotaxis, ShapeName, StateTrends, Tended, Trend,
+};
 pub use looks::{ByState, EachState, FormChoice, FormName, KindName, OwnForm};
 pub use organs::{Facing, Flower, Fruit, Leaf, OrganTrend, Season};
 pub use sympodial::{Apex, ApexEnd, Fork, Reiteration, Relay, Sibling, Transition, Traumatic};
 pub use wood::{CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood};
 
-pub use super::law::{Constant, Quantity, SpeedForm, SpeedText, Speeds};
+pub use crate::law::{Constant, Quantity, SpeedForm, SpeedText, Speeds};
 
-use super::law::{Count, Law, Variate};
+use crate::law::{Count, Law, Variate};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -5,7 +5,7 @@
 
 use super::colour::{FlowerChoice, FruitChoice, LeafChoice};
 use super::looks::{FormChoice, FormName, KindName};
-use crate::buds::law::{Constant, Count, Law, Quantity, Variate};
+use crate::law::{Constant, Count, Law, Quantity, Variate};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

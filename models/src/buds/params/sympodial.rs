@@ -3,7 +3,7 @@
 //! Passages between states are those of a reference axis (Barczi et al. 2008, AMAPsim): an oriented automaton along the
 //! life of an axis. All of it is optional; a species that states none of it grows as in 1988.
 
-use crate::buds::law::{Count, Law, Quantity, Variate};
+use crate::law::{Count, Law, Quantity, Variate};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -5,7 +5,7 @@
 //! millimetres and degrees; compilation makes SI of them. Absent: the measured table of woods, which `like` names and the
 //! reader of species files fills in.
 
-use crate::buds::law::{Constant, Law, Quantity};
+use crate::law::{Constant, Law, Quantity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

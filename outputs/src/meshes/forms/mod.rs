@@ -22,7 +22,7 @@ use phytomer_sim::plant::Form;
 use std::sync::LazyLock;
 
 /// A corner of a shape, in its unit box.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
     /// Where.
     pub at: [f32; 3],
@@ -44,7 +44,7 @@ pub enum Depth {
 }
 
 /// A mesh in its unit box.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
     /// Its corners.
     pub points: Vec<Point>,

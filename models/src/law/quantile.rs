@@ -117,7 +117,7 @@ mod tests {
         let mut before = f64::NEG_INFINITY;
         for i in 0..200_000_u32 {
             let word = i.wrapping_mul(21_474);
-            let (drawn, exact) = (deviate(word), quantile(crate::buds::law::variate_table::fraction(word)));
+            let (drawn, exact) = (deviate(word), quantile(crate::law::variate_table::fraction(word)));
             assert!((drawn - exact).abs() < 1.2e-5, "{word}: {drawn} is not {exact}");
             assert!(drawn >= before, "{word}");
             before = drawn;

@@ -180,9 +180,15 @@ impl VariateTable {
         self.draw_f64(word, at) as f32
     }
 
+    /// The same before it is rounded to single precision.
     #[inline]
-    fn draw_f64(&self, word: u32, at: At) -> f64 {
-        let [a, b] = self.cells[self.grid.cell(at)];
+    pub fn draw_f64(&self, word: u32, at: At) -> f64 {
+        self.draw_in(self.grid.cell(at), word)
+    }
+
+    #[inline]
+    fn draw_in(&self, cell: usize, word: u32) -> f64 {
+        let [a, b] = self.cells[cell];
         let value = match &self.kind {
             Kind::Value => a,
             Kind::Uniform => a + (b - a) * fraction(word),
@@ -209,6 +215,41 @@ impl VariateTable {
             _ => false,
         };
         certain.then(|| self.draw_f64(0, At::default()))
+    }
+
+    /// The least and the largest value that can be drawn at any point.
+    pub fn extent(&self) -> [f64; 2] {
+        let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut widen = |value: f64| extent = [extent[0].min(value), extent[1].max(value)];
+        match &self.kind {
+            Kind::Empirical(values) => values.iter().for_each(|value| widen(self.clamp(*value))),
+            _ => (0..self.cells.len()).for_each(|cell| {
+                widen(self.draw_in(cell, 0));
+                widen(self.draw_in(cell, u32::MAX));
+            }),
+        }
+        extent
+    }
+
+    /// Whether one of the values that can be drawn at any point is `value`, to the bit.
+    pub fn can_be(&self, value: f64) -> bool {
+        match &self.kind {
+            Kind::Empirical(values) => values.iter().any(|one| self.clamp(*one) == value),
+            _ => (0..self.cells.len()).any(|cell| self.meets(cell, value)),
+        }
+    }
+
+    /// Whether a word draws `value` in a cell: draws rise with the word, so the first that is not below it tells.
+    fn meets(&self, cell: usize, value: f64) -> bool {
+        let (mut low, mut high) = (0, u32::MAX);
+        while low < high {
+            let middle = low + (high - low) / 2;
+            match self.draw_in(cell, middle) < value {
+                true => low = middle + 1,
+                false => high = middle,
+            }
+        }
+        self.draw_in(cell, low) == value
     }
 
     /// The mean of the clamped variable at a point.

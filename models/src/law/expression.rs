@@ -27,6 +27,11 @@ pub(super) struct Expression {
 }
 
 impl Expression {
+    /// Whether it asks for the order of its axis.
+    pub fn names_order(&self) -> bool {
+        self.code.iter().any(|op| matches!(op, Op::Order))
+    }
+
     /// The value at a point of an axis of `order`; NaN where it has none. `stack` is scratch.
     pub fn value(&self, order: u8, at: At, stack: &mut Vec<f64>) -> f64 {
         stack.clear();

@@ -20,6 +20,14 @@ enum Term {
     Code(Expression),
 }
 
+impl Term {
+    /// One of the variables that it names.
+    fn variable(&self, uses: Uses) -> Option<&'static str> {
+        let of_order = matches!(self, Self::Code(code) if code.names_order());
+        uses.first().or(of_order.then_some("order"))
+    }
+}
+
 struct Part {
     term: Term,
     path: Path,
@@ -94,9 +102,13 @@ impl<'a> Formula<'a> {
             Term::Curve(curve) => uses.add(curve.over()),
             Term::Code(code) => uses = code.uses,
         }
-        if uses.has(Variable::Rank) && self.domain.max_rank == 0 {
+        if uses.has(Variable::Rank) && self.domain.max_rank == 0 && self.domain.order > 0 {
             let problem = "the law depends on rank, which does not apply here";
             faults.push(Fault::new(path, problem, "a law of age, dimension or cycle"));
+        }
+        if let (Some(name), 0) = (term.variable(uses), self.domain.order) {
+            let problem = format!("the law depends on {name}, which does not apply here");
+            faults.push(Fault::new(path, problem, "a number, or a formula without variables"));
         }
         self.uses.join(uses);
         if faults.len() == before {

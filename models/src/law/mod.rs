@@ -1,5 +1,5 @@
-//! Laws and distributions of the bud model: what a bud's fate, a growth unit's nodes and an internode's shape
-//! depend on (de Reffye et al. 1988 §§3–4).
+//! Laws and distributions, the numbers that models are stated in: what a bud's fate, a growth unit's nodes and an
+//! internode's shape depend on (de Reffye et al. 1988 §§3–4), or what a plant draws once.
 //!
 //! A [`Law`] gives a number at each point (age, dimension, cycle, rank, state) of an order; a [`Count`] and a
 //! [`Variate`] are random variables whose parameters are laws; [`Speeds`] are exact ratios, a [`Quantity`] is a whole

@@ -269,3 +269,39 @@ fn schemas_are_a_number_or_one_closed_object() {
         assert!(!text.contains("\"null\"") && !text.contains("Null"), "{text}");
     }
 }
+
+#[test]
+fn the_extent_is_that_of_the_draws_and_what_can_be_drawn_is_known() {
+    let table = variate(read!(Variate, { "normal": { "mean": 5, "sd": 1 }, "min": 4 }));
+    let [least, most] = table.extent();
+    assert_eq!(least, 4.0);
+    assert_eq!(most, table.draw_f64(u32::MAX, HERE));
+    assert!((11.33..11.34).contains(&most), "z of 1 − 2⁻³³ is 6.338: {most}");
+    assert!(table.can_be(4.0) && table.can_be(table.draw_f64(123_456_789, HERE)));
+    assert!(!table.can_be(3.9) && !table.can_be(12.0), "beyond the draws");
+    let table = variate(read!(Variate, { "empirical": [3, -1, 8] }));
+    assert_eq!(table.extent(), [-1.0, 8.0]);
+    assert!(table.can_be(3.0) && !table.can_be(0.0));
+    let table = variate(read!(Variate, { "uniform": { "min": -1, "max": { "expression": "if(age > 20, 9, 1)" } } }));
+    assert!((table.extent()[1] - 9.0).abs() < 1e-8, "the largest at any age: {:?}", table.extent());
+    assert!(!table.can_be(0.0), "0 lies between two words");
+    assert_eq!(variate(read!(Variate, 2.5)).extent(), [2.5, 2.5]);
+}
+
+#[test]
+fn what_is_drawn_once_a_plant_depends_on_no_variable() {
+    let once = |given: Result<Variate, _>| -> Result<VariateTable, Vec<Fault>> {
+        let given: Result<Variate, serde::de::value::Error> = given;
+        given.expect("reads").compile(&Domain::ONCE, &root(), ANY)
+    };
+    let of = |text: &str| {
+        let law = Law::from(LawForm { expression: Some(text.to_owned()), ..LawForm::default() });
+        once(Ok(Variate::from(VariateForm { value: Some(law), ..VariateForm::default() })))
+    };
+    assert_eq!(of("2 * 3").map(|table| table.exact()), Ok(Some(6.0)));
+    for (text, name) in [("age", "age"), ("1 + rank", "rank"), ("order", "order"), ("cycle - dimension", "dimension")] {
+        let faults = of(text).expect_err("a variable");
+        assert_eq!(faults.len(), 1, "{faults:?}");
+        assert_eq!(faults[0].problem, format!("the law depends on {name}, which does not apply here"));
+    }
+}

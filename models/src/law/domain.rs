@@ -27,7 +27,7 @@ pub struct At {
 /// The points at which a law can be asked: the order and the range of each variable.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Domain {
-    /// Order of the axis, trunk = 1.
+    /// Order of the axis, trunk = 1; 0 where the law is of no axis, as of what a plant draws once: no variable applies.
     pub order: u8,
     /// Last tick: age runs over 1..=until, dimension over 0..=until.
     pub until: u32,
@@ -92,6 +92,11 @@ impl Uses {
         self.0[variable as usize]
     }
 
+    /// The first of the variables that the law depends on.
+    pub fn first(&self) -> Option<&'static str> {
+        NAMES.into_iter().zip(self.0).find_map(|(name, used)| used.then_some(name))
+    }
+
     pub fn join(&mut self, other: Uses) {
         self.0.iter_mut().zip(other.0).for_each(|(mine, theirs)| *mine |= theirs);
     }
@@ -122,6 +127,9 @@ impl At {
 }
 
 impl Domain {
+    /// Where a law of no axis is asked: once, and of no variable.
+    pub const ONCE: Self = Self { order: 0, until: 0, max_cycle: 0, max_rank: 0, states: Vec::new() };
+
     /// First and last value of `variable`.
     pub fn range(&self, variable: Variable) -> (u32, u32) {
         match variable {
