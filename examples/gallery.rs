@@ -34,11 +34,14 @@ fn main() -> Result<()> {
     let folder = Path::new(&folder);
     let mut page = String::from(
         "# Gallery\n\nEvery species that ships, drawn by `phytomer picture` at the age that it states, or else in its prime:\nthe last \
-         age at which it bears nine tenths of the largest leaf area that it ever does. `cargo run --release --example gallery` makes this page.\n",
+         year with nine tenths of the largest leaf area that it ever bears, as soon as it bears it. `cargo run --release --example gallery` makes this page.\n",
     );
+    let of = |name: &'static str| name.rsplit_once('/').map_or("", |(group, _)| group);
+    let mut names: Vec<&str> = presets(Kind::Species).iter().map(|(name, _)| *name).collect();
+    names.sort_by_key(|name| of(name));
     let mut group = None;
-    for (name, _) in presets(Kind::Species) {
-        let of = name.rsplit_once('/').map_or("", |(group, _)| group);
+    for name in names {
+        let of = of(name);
         if group != Some(of) {
             group = Some(of);
             write!(page, "\n## {}\n\n", if of.is_empty() { "Plants and examples" } else { of })?;

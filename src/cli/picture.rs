@@ -34,8 +34,8 @@ Examples:
   phytomer picture coffee --age 60 --colour-by birth_age --out ages.png
   phytomer picture coffee --age 24 --transparent --no-caption --sun 200,30 --out cut-out.png
 
-A plant whose age is not given is drawn at the age that its species states (shown_at), else in its prime: at the last
-age at which it bears nine tenths of the largest leaf area that it ever does.")]
+A plant whose age is not given is drawn at the age that its species states (shown_at), else in its prime: in its
+last year with nine tenths of the largest leaf area that it ever bears, as soon as it bears it.")]
 pub struct Picture {
     /// A run folder, a scenario or a species: a shipped one by its name, or a file by its path.
     #[arg(value_name = "RUN|SCENARIO|SPECIES")]

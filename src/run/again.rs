@@ -64,15 +64,20 @@ impl Again<'_> {
     /// As [`Again::prime`].
     pub fn shown_at(&self, species: &Species, plant: u32) -> Result<Tick> {
         let until = self.scenario.ages.until;
-        species.about.shown_at.filter(|age| (1..=until).contains(age)).map_or_else(|| self.prime(plant), Ok)
+        species
+            .about
+            .shown_at
+            .filter(|age| (1..=until).contains(age))
+            .map_or_else(|| self.prime(plant, year_of(species)), Ok)
     }
 
-    /// The last age of the scenario at which a plant bears at least nine tenths of the largest leaf area that it ever does.
-    /// Of a plant without leaves internodes and organs are counted instead; a geometric model has its prime at the last age.
+    /// The prime of a plant: its last year with at least nine tenths of the largest leaf area that it ever bears, and in it
+    /// the first age that is so, which is spring where there are seasons. Of a plant without leaves internodes and organs
+    /// are counted instead; a geometric model has its prime at the last age. A year has so many ticks.
     ///
     /// # Errors
     /// Where it comes to its limit at its first age.
-    pub fn prime(&self, plant: u32) -> Result<Tick> {
+    pub fn prime(&self, plant: u32, year: Tick) -> Result<Tick> {
         let until = self.scenario.ages.until;
         if self.model.growth() == Growth::Rebuilds {
             return Ok(until);
@@ -90,7 +95,7 @@ impl Again<'_> {
                 last = age - 1;
             }
         }
-        Ok(prime_of(&plot.plants[0], last))
+        Ok(prime_of(&plot.plants[0], last, year))
     }
 
     fn sown(&self, plant: u32) -> Plot {
@@ -101,20 +106,24 @@ impl Again<'_> {
     }
 }
 
-/// The prime of a grown plant: the last age up to `last` at which it bears nine tenths of the largest leaf area that it
-/// ever does; of one without leaves, of the largest number of internodes and organs that live.
-fn prime_of(plant: &Plant, last: Tick) -> Tick {
+/// The ticks of a year, 1 where none are stated.
+fn year_of(species: &Species) -> Tick {
+    species.about.ticks_per_year.as_ref().map_or(1, |ticks| ticks.value().round().max(1.0) as Tick)
+}
+
+/// The prime of a grown plant of which the ages up to `last` are known.
+fn prime_of(plant: &Plant, last: Tick, year: Tick) -> Tick {
     let (organs, nodes) = (&plant.organs, &plant.nodes);
     let leaves = (0..organs.len()).filter(|&k| organs.kind[k] == Kind::Leaf);
     let areas = leaves.map(|k| (organs.birth[k], organs.death[k], f64::from(organs.area[k])));
     let all = organs.birth.iter().zip(&organs.death).chain(nodes.birth.iter().zip(&nodes.death));
     let count = all.map(|(birth, death)| (*birth, *death, 1.0));
-    last_of_most(areas, last).or_else(|| last_of_most(count, last)).unwrap_or(last)
+    last_of_most(areas, last, year).or_else(|| last_of_most(count, last, year)).unwrap_or(last)
 }
 
-/// The last age at which the weights of what lives, from a birth until before a death, come to nine tenths of their
-/// largest sum; `None` where that is nothing.
-fn last_of_most(lives: impl Iterator<Item = (Tick, Tick, f64)>, last: Tick) -> Option<Tick> {
+/// The last year in which the weights of what lives, from a birth until before a death, come to nine tenths of their largest
+/// sum, and in it the first such age; `None` where that is nothing.
+fn last_of_most(lives: impl Iterator<Item = (Tick, Tick, f64)>, last: Tick, year: Tick) -> Option<Tick> {
     let mut changes = vec![0.0; last as usize + 2];
     for (birth, death, weight) in lives.filter(|(birth, death, _)| birth < death && *birth <= last) {
         changes[birth as usize] += weight;
@@ -126,8 +135,13 @@ fn last_of_most(lives: impl Iterator<Item = (Tick, Tick, f64)>, last: Tick) -> O
     });
     let sums: Vec<f64> = sums.collect();
     let most = sums.iter().copied().fold(0.0, f64::max);
-    let age = sums.iter().rposition(|sum| *sum >= 0.9 * most)?;
-    (most > 0.0).then_some((age as Tick).max(1))
+    if most <= 0.0 {
+        return None;
+    }
+    let full = |age: &usize| sums[*age] >= 0.9 * most;
+    let end = (1..sums.len()).rev().find(full)?;
+    let start = (1..=end).rev().take(year as usize).take_while(full).last()?;
+    Some(start as Tick)
 }
 
 /// Shows the first plant of a plot at some ages.
@@ -148,5 +162,21 @@ impl Recorder for Shower<'_, '_> {
             sway(plant.to_mut(), age, &plot.site, wind, time, &mut Bench::default())?;
         }
         (self.show)(age, &plant)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_prime_is_the_spring_of_the_last_full_year() {
+        // Leaves of ticks 2 to 4 of each year of four, more each year; in the fifth there are fewer again.
+        let lives = (0..5_u32).map(|year| (4 * year + 2, 4 * year + 5, [1.0, 4.0, 10.0, 9.5, 3.0][year as usize]));
+        assert_eq!(last_of_most(lives.clone(), 20, 4), Some(14));
+        assert_eq!(last_of_most(lives.clone(), 11, 4), Some(10), "later ages are not known");
+        assert_eq!(last_of_most(lives, 20, 1), Some(16), "a tick is a year");
+        assert_eq!(last_of_most([(3, 9, 1.0)].into_iter(), 20, 12), Some(3), "less than a year");
+        assert_eq!(last_of_most(std::iter::empty(), 20, 1), None);
     }
 }

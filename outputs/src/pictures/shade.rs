@@ -15,9 +15,9 @@ pub const SUN: Vec3 = Vec3::new(1.62, 1.48, 1.24);
 /// The light of the whole sky on level ground.
 pub const SKY: Vec3 = Vec3::new(0.62, 0.69, 0.78);
 /// What the ground throws back up.
-const GROUND: Vec3 = Vec3::new(0.17, 0.16, 0.12);
+const GROUND: Vec3 = Vec3::new(0.33, 0.305, 0.245);
 /// What is left in the deepest shade.
-const LEAST: Vec3 = Vec3::new(0.045, 0.05, 0.045);
+const LEAST: Vec3 = Vec3::new(0.095, 0.1, 0.088);
 /// The shares of light that leaves throw back and let through.
 const BACK: f32 = 0.78;
 const THROUGH: f32 = 0.5;

@@ -17,6 +17,9 @@ use phytomer_sim::Tick;
 use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
 use rayon::prelude::*;
 
+/// Where nothing is left of a plant, a picture shows the place where it stood, a metre high.
+const EMPTY: Vec3 = Vec3::Z;
+
 /// A plant at an age in a picture.
 #[derive(Debug)]
 pub struct Standing<'a> {
@@ -105,6 +108,9 @@ impl<'a> Standing<'a> {
             |a, b| a.join(&b),
         );
         extent.add(self.place);
+        if self.boxes.iter().all(|[low, high]| low.x > high.x) {
+            extent.add(self.place + EMPTY);
+        }
         extent
     }
 

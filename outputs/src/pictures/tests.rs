@@ -284,3 +284,17 @@ fn threads_show_nowhere() {
     let one = with(1);
     assert!([2, 7, 1].into_iter().all(|threads| with(threads) == one));
 }
+
+#[test]
+fn a_place_where_nothing_is_left_is_drawn_too() {
+    let plant = pole(2.0, 0.1);
+    for view in [View::Perspective, View::Top, View::Front, View::Oblique] {
+        let style = Picture { ground: true, caption: true, transparent: false, ..picture([160, 120], view) };
+        assert!(alone(&plant, 0, &style).pixels.iter().all(|pixel| pixel[3] == 255));
+        let bare = Picture { ground: true, ..picture([160, 120], view) };
+        assert!(view == View::Front || alone(&plant, 0, &bare).pixels.iter().all(|pixel| pixel[3] == 0));
+    }
+    assert!(
+        sheet(&[Subject { plant: &plant, age: 0, label: String::new() }], "", &picture([99, 77], View::Top)).is_ok()
+    );
+}

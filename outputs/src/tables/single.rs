@@ -50,3 +50,63 @@ fn numbers_of(values: &Values) -> Vec<f64> {
         Values::Double(values) => values.clone(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::read::Run;
+    use crate::specimen::{plan, plot, run};
+    use crate::tables::Table;
+    use arrow_array::types::{Float32Type, Int32Type};
+    use arrow_array::{Array, PrimitiveArray};
+    use phytomer_sim::{Plot, RecordError, Recorder, grow};
+    use std::collections::BTreeMap;
+
+    /// Keeps the values of two columns at an age.
+    struct Kept(Tick, [Vec<f64>; 2]);
+
+    impl Recorder for Kept {
+        fn wants(&self, age: Tick) -> bool {
+            age == self.0
+        }
+
+        fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
+            let column = |name: &str| columns::RECORDS.iter().find(|column| column.name == name).unwrap();
+            for (kept, name) in self.1.iter_mut().zip(["diameter_m", "birth_age"]) {
+                *kept = record_values(&plot.plants[0], age, column(name))?;
+            }
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_column_by_itself_is_that_of_the_table() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run");
+        run(&path, plan(1, 1));
+        let mut kept = Kept(7, Default::default());
+        grow(&crate::specimen::Sapling, &mut plot(0, 100_000), 12, &mut kept).unwrap();
+        let mut table = BTreeMap::new();
+        for batch in Run::open(&path).unwrap().batches(Table::Records).unwrap() {
+            let batch = batch.unwrap();
+            let whole = |name: &str| {
+                let array = batch.column_by_name(name).unwrap().as_any();
+                array.downcast_ref::<PrimitiveArray<Int32Type>>().unwrap().clone()
+            };
+            let diameters = batch.column_by_name("diameter_m").unwrap().as_any();
+            let diameters = diameters.downcast_ref::<PrimitiveArray<Float32Type>>().unwrap();
+            let (ages, components, births) = (whole("age"), whole("component_id"), whole("birth_age"));
+            for row in (0..batch.num_rows()).filter(|row| ages.value(*row) == 7) {
+                let diameter = diameters.is_valid(row).then(|| f64::from(diameters.value(row)));
+                table.insert(components.value(row) as usize, (diameter, f64::from(births.value(row))));
+            }
+        }
+        assert!(table.len() > 10);
+        let Kept(_, [diameters, births]) = kept;
+        for (number, (diameter, birth)) in diameters.iter().zip(&births).enumerate() {
+            let (in_table, born) = table.get(&number).copied().unwrap_or((None, f64::NAN));
+            assert_eq!((!diameter.is_nan()).then_some(*diameter), in_table, "component {number}");
+            assert!(*birth == born || birth.is_nan() && born.is_nan(), "component {number}: {birth} {born}");
+        }
+    }
+}
