@@ -1,9 +1,9 @@
 //! Pictures of plants, without a graphics processor: the meshes of [`crate::meshes`] through a small rasteriser of our own.
 //!
 //! No kept crate serves: those in pure Rust draw flat shapes, or are studies of one person that fix their own mesh in
-//! memory. What happens: plants are put side by side ([`stand`]), a camera is fitted to them ([`camera`], [`extent`]), sun
-//! and sky are let fall on each ([`shadow`], [`sky`]), triangles are covered with samples ([`raster`], [`film`]), samples
-//! are shaded and averaged ([`shade`], [`ground`], [`draw`]), and what they show is written below ([`caption`]).
+//! memory. What happens: plants are put side by side (`stand`), a camera is fitted to them (`camera`, `extent`), sun
+//! and sky are let fall on each (`shadow`, `sky`), triangles are covered with samples (`raster`, `film`), samples
+//! are shaded and averaged (`shade`, `ground`, `draw`), and what they show is written below (`caption`).
 //! The same plants and the same [`Picture`] give the same bytes on any number of threads. Absent: films; textures.
 
 mod camera;
