@@ -1,7 +1,8 @@
 //! The light that leaves a face towards the eye: sun, sky, ground, and what comes through leaves.
 //!
 //! Leaves are seen from both sides and lit on both: the sun on the far side shines through, yellower than it is thrown
-//! back. Strengths and tints are by eye, chosen so that a leaf in full light shows the colour that it is given. Absent:
+//! back. What is pale, as petals are, hardly tints what it lets through, and its neighbours pass light on that never reaches
+//! the shade of dark leaves: so a tree in blossom is white in its own shadow. Strengths and tints are by eye, chosen so that a leaf in full light shows the colour that it is given. Absent:
 //! textures, gloss beyond a faint sheen of leaves, and light that is scattered twice, for which there is a small constant.
 
 use super::film::{Paint, Seen};
@@ -23,6 +24,9 @@ const BACK: f32 = 0.78;
 const THROUGH: f32 = 0.5;
 const THROUGH_TINT: Vec3 = Vec3::new(1.15, 1.12, 0.5);
 const SHEEN: f32 = 0.07;
+/// The shares of the sky that is hidden and of the sun that is cut off which white neighbours pass on to a white face.
+const PASSED_SKY: f32 = 0.5;
+const PASSED_SUN: f32 = 0.25;
 /// The light of colours that stand for something: what they have anyway, of the sky, of the sun.
 const STAIN: f32 = 0.5;
 const STAIN_SKY: f32 = 0.45;
@@ -59,8 +63,11 @@ pub fn shade(seen: &Seen, point: Vec3, back: Vec3, light: &Light, tap: usize) ->
     if !thin {
         return base * (sun * towards_sun.max(0.0) + SKY * near + around);
     }
-    let thrown = sun * (BACK * towards_sun.max(0.0)) + SKY * (BACK * near) + around;
-    let through = (sun * (-towards_sun).max(0.0) + SKY * far) * THROUGH * THROUGH_TINT;
+    let pale = base.min_element();
+    let passed = SKY * (PASSED_SKY * pale * (1.0 - near).max(0.0)) + (SUN - sun) * (PASSED_SUN * pale);
+    let thrown = sun * (BACK * towards_sun.max(0.0)) + SKY * (BACK * near) + around + passed;
+    let tint = THROUGH_TINT.lerp(Vec3::ONE, pale);
+    let through = (sun * (-towards_sun).max(0.0) + SKY * far) * THROUGH * tint;
     let half = (light.shadow.sun + back).normalize_or_zero().dot(normal).max(0.0);
     let gloss = half * half * half * half;
     let sheen = (sun * (gloss * gloss * gloss) + SKY * (0.5 * near)) * SHEEN * 0.5;
