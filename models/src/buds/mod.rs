@@ -14,7 +14,5 @@ mod tests;
 #[cfg(test)]
 mod tests_drawn;
 
-#[doc(no_inline)]
-pub use crate::law;
 pub use compile::BudModel;
 pub use params::{Buds, Order};
