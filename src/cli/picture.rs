@@ -28,7 +28,7 @@ const MOST_PIXELS: u32 = 16_384;
 #[command(after_help = "\
 Examples:
   phytomer picture coffee --age 48 --out coffee.png
-  phytomer picture willow --ages 17,29,53,71 --size 2400x900 --out life.png
+  phytomer picture willow --ages 44,68,92 --size 2400x900 --out life.png
   phytomer picture runs/coffee --plants 0,1,2 --age 48 --view front --out three.png
   phytomer picture my_plant/species.toml --view sheet --out sheet.png
   phytomer picture coffee --age 60 --colour-by birth_age --out ages.png
