@@ -290,9 +290,9 @@ impl CountTable {
         }
     }
 
-    /// Whether the distribution is the same at every point.
-    pub fn is_steady(&self) -> bool {
-        self.cells.len() == 1
+    /// Whether the distribution depends on rank and state at most.
+    pub fn is_timeless(&self) -> bool {
+        self.grid.is_timeless()
     }
 
     /// The mean at a point.

@@ -181,6 +181,11 @@ impl Grid {
         self.len as usize
     }
 
+    /// Whether age, dimension and cycle do not matter.
+    pub fn is_timeless(&self) -> bool {
+        [Variable::Age, Variable::Dimension, Variable::Cycle].iter().all(|&time| self.stride[time as usize] == 0)
+    }
+
     /// The cell of a point, clamped to the grid.
     #[inline]
     pub fn cell(&self, at: At) -> usize {

@@ -91,6 +91,11 @@ impl ProbabilityTable {
         self.constant
     }
 
+    /// Whether the probability depends on rank and state at most.
+    pub fn is_timeless(&self) -> bool {
+        self.grid.is_timeless()
+    }
+
     /// Whether it happens at no point, so that no draw is needed.
     pub fn is_never(&self) -> bool {
         self.constant == Some(0.0)

@@ -114,9 +114,12 @@ impl Zones {
         Some(zone.ramification(order))
     }
 
-    /// The laws of ramification of the zones that have one of their own.
-    pub fn chances(&self) -> impl Iterator<Item = &Chance> {
-        self.0.iter().filter_map(|zone| zone.chance.as_ref())
+    /// Whether how a node ramifies depends on its rank and the state of its axis at most.
+    pub fn are_timeless(&self) -> bool {
+        self.0.iter().all(|zone| {
+            zone.chance.as_ref().is_none_or(|chance| chance.table.is_timeless())
+                && zone.states.as_ref().is_none_or(|states| states.which.table.is_timeless())
+        })
     }
 
     /// How the node at `rank` of `nodes` ramifies over what units draw: by each zone with the probability that it holds the
@@ -198,11 +201,10 @@ impl ZoneRanks {
         ranks.extend(self.drawn.iter().map(|(first, end)| (first.draw(words, unit, at), last(end))));
     }
 
-    /// Whether the ranks are distributed alike at every point.
-    pub fn is_steady(&self) -> bool {
-        self.drawn
-            .iter()
-            .all(|(first, last)| first.table.is_steady() && last.as_ref().is_none_or(|last| last.table.is_steady()))
+    /// Whether the distributions of the ranks depend on the state at most.
+    pub fn are_timeless(&self) -> bool {
+        let mut tables = self.drawn.iter().flat_map(|(first, last)| std::iter::once(first).chain(last));
+        tables.all(|number| number.table.is_timeless())
     }
 
     /// Of each zone the probability that it holds the node of rank 0, 1, 2 … from its end; the last one goes on.

@@ -10,6 +10,7 @@ use crate::law::At;
 use phytomer_sim::Tick;
 use phytomer_sim::clock::Speed;
 use phytomer_sim::expectation::{Expectation, OrderExpectation};
+use std::rc::Rc;
 
 /// The most steps of summation: a second or so.
 const MOST_WORK: u64 = 40_000_000;
@@ -56,8 +57,8 @@ pub struct Cohorts<'a> {
     /// Axes born, by order, class and tick; the class is twice the state, and one more where axes do not lead their sets.
     births: Vec<Vec<Vec<f64>>>,
     expected: Vec<OrderExpectation>,
-    /// The growth unit of each order in which it is the same at every point.
-    steady: Vec<Option<Unit>>,
+    /// The growth unit of each order by state, where nothing but the state matters.
+    timeless: Vec<Option<Rc<[Unit]>>>,
     /// Whether the axes of the cohort that is followed lead their sets of relays.
     leads: bool,
     work: u64,
@@ -72,7 +73,7 @@ impl<'a> Cohorts<'a> {
             until,
             births: vec![vec![ticks; 2 * model.states]; model.orders.len()],
             expected: vec![OrderExpectation::zero(until); model.orders.len()],
-            steady: model.orders.iter().map(|laws| steady_unit(model, laws)).collect(),
+            timeless: model.orders.iter().map(|laws| timeless_units(model, laws)).collect(),
             leads: true,
             work: 0,
         }
@@ -131,14 +132,21 @@ impl<'a> Cohorts<'a> {
     /// One clock step of a cohort: what is still living after it, by growth units made and by state.
     fn step(&mut self, order: usize, living: &[Vec<Flow>], after: &mut [Vec<Flow>], ends: &Completion, at: At) {
         after.iter_mut().for_each(|states| states.fill(Flow::default()));
+        let known = self.timeless[order].clone();
+        let mut summed;
         for (made, states) in living.iter().enumerate() {
             for (state, flow) in states.iter().enumerate().filter(|(_, flow)| flow.apices > 0.0) {
                 let at = At { state: state as u8, ..at };
                 let growing = self.fates(order, *flow, &mut after[made][state], at);
-                let unit =
-                    self.steady[order].clone().unwrap_or_else(|| Unit::at(self.model, &self.model.orders[order], at));
+                let unit = match &known {
+                    Some(units) => &units[state],
+                    None => {
+                        summed = Unit::at(self.model, &self.model.orders[order], at);
+                        &summed
+                    }
+                };
                 self.work += 1 + unit.work;
-                self.grow(order, growing, (made, ends), &unit, after, at);
+                self.grow(order, growing, (made, ends), unit, after, at);
             }
         }
     }
@@ -283,25 +291,29 @@ impl<'a> Cohorts<'a> {
     }
 }
 
-/// The means of a growth unit, summed once, where it is the same at every point.
-fn steady_unit(model: &BudModel, laws: &OrderLaws) -> Option<Unit> {
-    is_steady(laws).then(|| Unit::at(model, laws, At::default()))
+/// The means of a growth unit in each state, summed once, where they depend on nothing else.
+fn timeless_units(model: &BudModel, laws: &OrderLaws) -> Option<Rc<[Unit]>> {
+    let in_state = |state: usize| Unit::at(model, laws, At { state: state as u8, ..At::default() });
+    is_timeless(laws).then(|| (0..model.states).map(in_state).collect())
 }
 
-fn is_steady(laws: &OrderLaws) -> bool {
+fn is_timeless(laws: &OrderLaws) -> bool {
     let (step, node) = (&laws.step, &laws.node);
     let chances = [&step.short, &node.flower_opens, &node.fruit_set, &node.axillary.chance, &node.reiteration.chance];
-    let mut zone_chances = node.zones.iter().flat_map(Zones::chances);
-    chances.iter().all(|chance| chance.table.constant().is_some())
-        && zone_chances.all(|chance| chance.table.constant().is_some())
-        && step.zone_ranks.is_steady()
-        && step.long_nodes.table.is_steady()
-        && step.short_nodes.table.is_steady()
-        && step.neoformed.table.is_steady()
-        && node.leaves.table.is_steady()
-        && node.flowers.table.is_steady()
-        && node.axillary.count.table.is_steady()
-        && node.reiteration.count.table.is_steady()
+    let mut zones = node.zones.iter();
+    let counts = [
+        &step.long_nodes,
+        &step.short_nodes,
+        &step.neoformed,
+        &node.leaves,
+        &node.flowers,
+        &node.axillary.count,
+        &node.reiteration.count,
+    ];
+    chances.iter().all(|chance| chance.table.is_timeless())
+        && counts.iter().all(|count| count.table.is_timeless())
+        && step.zone_ranks.are_timeless()
+        && zones.all(Zones::are_timeless)
 }
 
 /// When apices end by having made all their growth units: the number is drawn once an axis.
