@@ -152,6 +152,8 @@ impl Grower<'_> {
                 return Ok(None);
             }
         }
+        // A large plant takes as long to give back its memory as a file to reach the disk.
+        rayon::spawn(move || drop(plot));
         keeper.commit().map(Some)
     }
 }

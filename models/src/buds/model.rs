@@ -140,12 +140,11 @@ impl GrowthModel for BudModel {
     /// Diameter at birth plus the thickening of the internode's order at the plant's age and its own.
     fn thicken(&self, age: Tick, plant: &mut Plant) {
         let added = self.thickening_at(age);
-        let Plant { axes, nodes, .. } = plant;
-        for run in 0..nodes.runs.len() {
-            let (axis, born) = nodes.born(run, age);
-            let axis = axis.index();
+        let Plant { axes, nodes, appeared, .. } = plant;
+        for stretch in appeared.by(age, nodes) {
+            let axis = stretch.axis.index();
             let added = &added[(usize::from(axes.order[axis]) - 1) * self.states + usize::from(axes.state[axis])];
-            for node in born {
+            for node in stretch.nodes() {
                 nodes.diameter[node] = nodes.primary_diameter[node] + added[(age - nodes.birth[node]) as usize];
             }
         }

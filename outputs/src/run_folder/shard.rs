@@ -149,9 +149,12 @@ impl<'a> Shard<'a> {
     fn write_events(&mut self, plot: &Plot, plant: &Plant, last: Tick) -> Result<(), Error> {
         let Some(part) = &mut self.parts.events else { return Ok(()) };
         sort_events(plant, last, &mut self.sorted);
-        for event in &self.sorted {
-            part.columns.add(plot, plant, event);
+        let mut left = &self.sorted[..];
+        while !left.is_empty() {
+            let (events, others) = left.split_at(left.len().min(part.room()));
+            part.columns.fill(plot, plant, events);
             part.flush_if_full()?;
+            left = others;
         }
         Ok(())
     }

@@ -16,18 +16,18 @@ columns! {
 }
 
 impl EventColumns {
-    /// Adds the row of one event.
-    #[inline]
-    pub fn add(&mut self, plot: &Plot, plant: &Plant, event: &Event) {
-        let bud = plant.axes.component[event.axis.index()] as i32;
-        self.treatment.push(0);
-        self.plot.push(plot.id as i32);
-        self.plant.push(plant.id as i32);
-        self.age.push(event.tick as i32);
-        self.component.push(bud);
-        self.axis.push(bud);
-        self.event.push(event.kind as i8);
-        self.count.push(event.count as i32);
+    /// Adds a row for each of the events of a plant, column by column.
+    pub fn fill(&mut self, plot: &Plot, plant: &Plant, events: &[Event]) {
+        let before = self.component.len();
+        self.age.extend(events.iter().map(|event| event.tick as i32));
+        self.component.extend(events.iter().map(|event| plant.axes.component[event.axis.index()] as i32));
+        self.axis.extend_from_slice(&self.component[before..]);
+        self.event.extend(events.iter().map(|event| event.kind as i8));
+        self.count.extend(events.iter().map(|event| event.count as i32));
+        let rows = self.component.len();
+        self.treatment.resize(rows, 0);
+        self.plot.resize(rows, plot.id as i32);
+        self.plant.resize(rows, plant.id as i32);
     }
 }
 

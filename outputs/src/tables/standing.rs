@@ -155,11 +155,8 @@ impl Standing {
     pub fn find_tips(&mut self, plant: &Plant, age: Tick) {
         self.tips.clear();
         self.tips.resize(plant.axes.len(), NodeId::NONE);
-        for run in 0..plant.nodes.runs.len() {
-            let (axis, born) = plant.nodes.born(run, age);
-            if !born.is_empty() {
-                self.tips[axis.index()] = NodeId(born.end as u32 - 1);
-            }
+        for stretch in plant.stretches(age).iter() {
+            self.tips[stretch.axis.index()] = NodeId(stretch.nodes().end as u32 - 1);
         }
     }
 

@@ -73,12 +73,12 @@ pub fn summarise(plant: &Plant, standing: &Standing, age: Tick) -> Summary {
 }
 
 fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
-    let Plant { axes, nodes, .. } = plant;
+    let axes = &plant.axes;
     let mut low = [f32::INFINITY; 3];
     let mut high = [f32::NEG_INFINITY; 3];
     // The internodes of an axis die and fall together.
-    for run in 0..nodes.runs.len() {
-        let (axis, standing) = nodes.born(run, age);
+    for stretch in plant.stretches(age).iter() {
+        let (axis, standing) = (stretch.axis, stretch.nodes());
         if axes.shed[axis.index()] <= age {
             continue;
         }

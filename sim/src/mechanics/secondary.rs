@@ -119,18 +119,17 @@ fn hand_down(plant: &Plant, node: usize, above: &mut [Above], worth: f64) {
 /// The tip of a cone has the diameter of the internode that follows it on its axis, where that is thinner, and the tip
 /// of a blade always; every other tip has that of its base. What has not appeared by `age` is left as it is.
 pub fn taper(plant: &mut Plant, age: Tick) {
-    let Plant { axes, nodes, habit, .. } = plant;
-    for run in 0..nodes.runs.len() {
-        let (axis, born) = nodes.born(run, age);
+    let Plant { axes, nodes, appeared, habit, .. } = plant;
+    for stretch in appeared.by(age, nodes) {
+        let (axis, born) = (stretch.axis, stretch.nodes());
         let (diameter, tip) = (&nodes.diameter[born.clone()], &mut nodes.diameter_tip[born.clone()]);
-        let Some(&first) = diameter.first() else { continue };
         tip.copy_from_slice(diameter);
         let shape = habit.shape(axes.order[axis.index()], axes.state[axis.index()]);
         if shape != Shape::Cylinder {
             let joined = |base: f32, next: f32| if shape == Shape::Cone { base.min(next) } else { next };
             tip.iter_mut().zip(diameter.windows(2)).for_each(|(tip, pair)| *tip = joined(pair[0], pair[1]));
             if let Some(parent) = nodes.parent[born.start].some().filter(|parent| nodes.axis[parent.index()] == axis) {
-                nodes.diameter_tip[parent.index()] = joined(nodes.diameter[parent.index()], first);
+                nodes.diameter_tip[parent.index()] = joined(nodes.diameter[parent.index()], nodes.diameter[born.start]);
             }
         }
     }

@@ -6,6 +6,7 @@
 //! writes the death and the fall of branches, the model's `thicken` or secondary growth the diameters,
 //! [`crate::mechanics`] the curvature, [`crate::pose`] the frames.
 
+mod appeared;
 mod axis;
 pub(crate) mod borne;
 mod event;
@@ -18,6 +19,7 @@ mod node;
 mod organ;
 pub(crate) mod standing;
 
+pub use appeared::{Appeared, Stretch};
 pub use axis::{ApexFate, ApicalBud, Axes, AxisId, NewAxis, Origin};
 pub use event::{Event, EventKind};
 pub use form::Form;
@@ -32,6 +34,7 @@ use crate::clock::{NEVER, Tick};
 use crate::mechanics::Strain;
 use crate::pose::Frames;
 use crate::random::PlantRandom;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// The most components that one plant may have: tables give two bits of 32 to the class of a component.
@@ -50,6 +53,8 @@ pub struct Plant {
     pub axes: Axes,
     /// Its internodes with their nodes.
     pub nodes: Nodes,
+    /// The internodes that have appeared by the age that is looked at.
+    pub appeared: Appeared,
     /// Its leaves, flowers and fruits.
     pub organs: Organs,
     /// The living apical buds, in the order of their axes.
@@ -97,6 +102,7 @@ impl Plant {
             death: NEVER,
             axes: Axes::default(),
             nodes: Nodes::default(),
+            appeared: Appeared::default(),
             organs: Organs::default(),
             buds: Vec::new(),
             frames: Frames::default(),
@@ -127,6 +133,7 @@ impl Plant {
         self.death = NEVER;
         self.axes.clear();
         self.nodes.clear();
+        self.appeared.clear();
         self.organs.clear();
         self.buds.clear();
         self.frames.clear();
@@ -244,6 +251,11 @@ impl Plant {
     pub fn expanded(&self, organ: OrganId, age: Tick) -> f32 {
         let own_age = age.saturating_sub(self.organs.birth[organ.index()]);
         self.look_of_organ(organ).map_or(1.0, |look| look.share(own_age))
+    }
+
+    /// The internodes that have appeared by `age`, along their axes.
+    pub fn stretches(&self, age: Tick) -> Cow<'_, [Stretch]> {
+        self.appeared.read(age, &self.nodes)
     }
 
     /// Whether an apical bud lives at `age`: it has appeared and its axis has not come to its end.

@@ -126,15 +126,6 @@ impl Nodes {
         self.runs[run].index()..self.runs.get(run + 1).map_or(self.len(), |next| next.index())
     }
 
-    /// The axis of a run, and its nodes that appeared by `age`: the older ones come first.
-    #[inline]
-    pub fn born(&self, run: usize, age: Tick) -> (AxisId, Range<usize>) {
-        let Range { start, end } = self.run(run);
-        let whole = self.birth[end - 1] <= age;
-        let born = if whole { end - start } else { self.birth[start..end].partition_point(|&birth| birth <= age) };
-        (self.axis[start], start..start + born)
-    }
-
     #[inline]
     pub(super) fn push(&mut self, node: NewNode, component: u32) -> NodeId {
         let id = NodeId(self.len() as u32);

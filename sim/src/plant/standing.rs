@@ -36,15 +36,14 @@ pub(crate) struct Standing {
 impl Standing {
     /// Finds the runs of the internodes of `plant` that appeared by `age` and have not been shed.
     pub fn find(&mut self, plant: &Plant, age: Tick) {
+        let stretches = plant.stretches(age);
+        let standing = stretches.iter().filter(|stretch| age < plant.axes.shed[stretch.axis.index()]);
         self.runs.clear();
-        let nodes = &plant.nodes;
-        for run in 0..nodes.runs.len() {
-            let (axis, born) = nodes.born(run, age);
-            if age < plant.axes.shed[axis.index()] && !born.is_empty() {
-                let begins = begins_axis(nodes, born.start);
-                self.runs.push(Run { axis, start: born.start as u32, end: born.end as u32, begins });
-            }
-        }
+        self.runs.extend(standing.map(|stretch| {
+            let Range { start, end } = stretch.nodes();
+            let begins = begins_axis(&plant.nodes, start);
+            Run { axis: stretch.axis, start: start as u32, end: end as u32, begins }
+        }));
     }
 }
 

@@ -25,13 +25,16 @@ pub(super) struct Tip {
 /// Poses the nodes that appeared by `age` and have no frame yet, run by run.
 pub(super) fn follow_trends(plant: &mut Plant, age: Tick) {
     let posed = plant.frames.begin(plant.nodes.len(), plant.axes.len(), age);
-    for run in 0..plant.nodes.runs.len() {
-        let (axis, born) = plant.nodes.born(run, age);
-        let first = if posed == 0 { born.start } else { plant.nodes.born(run, posed - 1).1.end };
-        if first < born.end {
-            follow_axis(plant, axis, first..born.end);
+    let mut appeared = std::mem::take(&mut plant.appeared);
+    for stretch in appeared.by(age, &plant.nodes) {
+        let born = stretch.nodes();
+        let birth = &plant.nodes.birth[born.clone()];
+        let old = if birth[0] < posed { birth.partition_point(|&birth| birth < posed) } else { 0 };
+        if old < born.len() {
+            follow_axis(plant, stretch.axis, born.start + old..born.end);
         }
     }
+    plant.appeared = appeared;
 }
 
 #[inline]
