@@ -5,7 +5,7 @@
 use phytomer_config::{Kind, Model, presets, validate_species};
 use phytomer_models::buds::params::{Buds, Wood};
 use phytomer_models::fault::Path;
-use phytomer_sim::plant::{AxisId, EventKind, Plant, Seed};
+use phytomer_sim::plant::{AxisId, EventKind, NodeId, Plant, Seed};
 use phytomer_sim::site::Site;
 use phytomer_sim::{Plot, Tick, grow};
 
@@ -27,7 +27,7 @@ fn grown(buds: &Buds, until: Tick, gravity: f64) -> Plant {
 
 /// The share of the living internodes of an order that point below the horizontal.
 fn hanging(plant: &Plant, order: u8) -> f64 {
-    let living = |node: &usize| plant.nodes.death[*node] > plant.age;
+    let living = |node: &usize| plant.death_of(NodeId(*node as u32)) > plant.age;
     let of_order = |node: &usize| plant.axes.order[plant.nodes.axis[*node].index()] == order;
     let twigs: Vec<usize> = (0..plant.nodes.len()).filter(living).filter(of_order).collect();
     let down = twigs.iter().filter(|&&node| plant.frames.heading[node][2] < 0.0).count();

@@ -11,6 +11,7 @@ use phytomer::models::fault::Path;
 use phytomer::run::seed_of;
 use phytomer::sim::mechanics::{Strain, bend};
 use phytomer::sim::pose::pose;
+use phytomer::sim::plant::NodeId;
 use phytomer::sim::{GrowthModel, Plot, RecordError, Recorder, Tick, grow};
 use std::cell::RefCell;
 use std::hint::black_box;
@@ -52,8 +53,8 @@ impl Specimen {
         let mut plot = Plot::of_one(&model, &seed_of(&self.resolved.scenario, 0));
         let mut before = Before::default();
         grow(&model, &mut plot, until, &mut before).expect("nothing is written");
-        let stood: u64 =
-            (0..plot.plants[0].nodes.len()).map(|node| u64::from(plot.plants[0].nodes.shed[node] > until)).sum();
+        let plant = &plot.plants[0];
+        let stood = (0..plant.nodes.len() as u32).filter(|&node| plant.stands(NodeId(node), until)).count() as u64;
         let mut rest = plot.plants[0].clone();
         let mut group = self.group(criterion, "bending (internodes)", Throughput::Elements(stood));
         group.bench_function("the pose at rest (baseline)", |bencher| {

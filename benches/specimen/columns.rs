@@ -28,7 +28,7 @@ fn write_axes(from: &Axes, into: &mut Axes) {
 }
 
 fn write_nodes(from: &Nodes, into: &mut Nodes) {
-    rewrite!(Nodes, from, into; parent, axis, component, birth, death, shed, rank, unit_rank, formation, trend, length,
+    rewrite!(Nodes, from, into; parent, axis, component, birth, rank, unit_rank, formation, trend, length,
         primary_diameter, diameter, diameter_tip, azimuth, runs);
 }
 

@@ -12,17 +12,11 @@ use crate::plant::{ApexFate, AxisId, Cause, Event, EventKind, Plant};
 pub fn shed(plant: &mut Plant) {
     kill_branches(plant);
     drop_branches(plant);
-    let Plant { axes, nodes, organs, .. } = plant;
-    for node in 0..nodes.len() {
-        let axis = nodes.axis[node].index();
-        nodes.death[node] = axes.death[axis];
-        nodes.shed[node] = axes.shed[axis];
-    }
-    for organ in 0..organs.len() {
-        let death = nodes.death[organs.node[organ].index()];
-        if death < organs.death[organ] {
-            organs.death[organ] = death;
-            organs.cause[organ] = Cause::Branch;
+    for organ in 0..plant.organs.len() {
+        let death = plant.death_of(plant.organs.node[organ]);
+        if death < plant.organs.death[organ] {
+            plant.organs.death[organ] = death;
+            plant.organs.cause[organ] = Cause::Branch;
         }
     }
     plant.death = plant.axes.death.first().copied().unwrap_or(NEVER);

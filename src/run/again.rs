@@ -9,7 +9,7 @@ use anyhow::Result;
 use phytomer_config::{Scenario, Species};
 use phytomer_sim::mechanics::Bench;
 use phytomer_sim::mechanics::sway::sway;
-use phytomer_sim::plant::{Kind, Plant};
+use phytomer_sim::plant::{Kind, NodeId, Plant};
 use phytomer_sim::shed::shed;
 use phytomer_sim::site::Wind;
 use phytomer_sim::{Ending, Growth, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
@@ -116,8 +116,8 @@ fn prime_of(plant: &Plant, last: Tick, year: Tick) -> Tick {
     let (organs, nodes) = (&plant.organs, &plant.nodes);
     let leaves = (0..organs.len()).filter(|&k| organs.kind[k] == Kind::Leaf);
     let areas = leaves.map(|k| (organs.birth[k], organs.death[k], f64::from(organs.area[k])));
-    let all = organs.birth.iter().zip(&organs.death).chain(nodes.birth.iter().zip(&nodes.death));
-    let count = all.map(|(birth, death)| (*birth, *death, 1.0));
+    let stems = (0..nodes.len()).map(|k| (nodes.birth[k], plant.death_of(NodeId(k as u32)), 1.0));
+    let count = organs.birth.iter().zip(&organs.death).map(|(birth, death)| (*birth, *death, 1.0)).chain(stems);
     last_of_most(areas, last, year).or_else(|| last_of_most(count, last, year)).unwrap_or(last)
 }
 

@@ -71,7 +71,7 @@ fn facts(plant: &Plant) -> BTreeMap<LineageKey, Facts> {
         facts.insert(axes.key[a], (key_of(axes.bearer[a]), of));
     }
     for n in 0..nodes.len() {
-        let mut of = vec![nodes.birth[n], nodes.death[n], nodes.shed[n], nodes.rank[n], u32::from(nodes.unit_rank[n])];
+        let mut of = vec![nodes.birth[n], nodes.rank[n], u32::from(nodes.unit_rank[n])];
         of.extend([u32::from(nodes.formation[n].is_short()), u32::from(nodes.formation[n].is_neoformed())]);
         of.extend([u32::from(nodes.trend[n]), nodes.length[n].to_bits(), nodes.primary_diameter[n].to_bits()]);
         of.push(nodes.azimuth[n].to_bits());

@@ -82,8 +82,8 @@ fn node(plant: &Plant, i: usize) -> Component {
         key: plant.node_key(NodeId(i as u32)),
         what: "node",
         birth: nodes.birth[i],
-        death: nodes.death[i],
-        shed: nodes.shed[i],
+        death: plant.death_of(NodeId(i as u32)),
+        shed: plant.shed_of(NodeId(i as u32)),
         parent: nodes.parent[i].some().map(|parent| plant.node_key(parent)),
         state: vec![
             nodes.rank[i],

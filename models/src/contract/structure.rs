@@ -207,8 +207,7 @@ pub fn diameters(model: &dyn GrowthModel, plant: &mut Plant, until: Tick) {
 
 /// The internodes that stand at `age`.
 pub(super) fn standing(plant: &Plant, age: Tick) -> impl Iterator<Item = usize> + use<> {
-    let nodes = &plant.nodes;
-    let stands: Vec<usize> = (0..nodes.len()).filter(|&i| nodes.birth[i] <= age && age < nodes.shed[i]).collect();
+    let stands: Vec<usize> = (0..plant.nodes.len()).filter(|&i| plant.stands(NodeId(i as u32), age)).collect();
     stands.into_iter()
 }
 

@@ -180,12 +180,8 @@ impl<'a> Scene<'a> {
 
     fn nodes_of(&self, range: Range<usize>) -> impl Iterator<Item = NodeId> {
         let (plant, age, kinds) = (self.plant, self.age, self.options.kinds);
-        let nodes = &plant.nodes;
-        let drawn = move |&node: &usize| {
-            let stands = nodes.birth[node] <= age && age < nodes.shed[node];
-            stands && kinds[plant.kind_of(NodeId(node as u32)) as usize]
-        };
-        range.filter(drawn).map(|node| NodeId(node as u32))
+        let drawn = move |&node: &NodeId| plant.stands(node, age) && kinds[plant.kind_of(node) as usize];
+        range.map(|node| NodeId(node as u32)).filter(drawn)
     }
 
     /// The organs that are drawn.
@@ -257,12 +253,13 @@ impl<'a> Scene<'a> {
     fn wood_tag(&self, node: NodeId) -> Tag {
         let look = self.plant.look_of(self.plant.nodes.axis[node.index()]);
         let nodes = &self.plant.nodes;
+        let death = self.plant.death_of(node);
         let node = node.index();
-        let dead = nodes.death[node] <= self.age;
+        let dead = death <= self.age;
         Tag {
             colour: colour::wood(look, self.age - nodes.birth[node], dead),
             birth: nodes.birth[node] as f32,
-            death: if dead { nodes.death[node] as f32 } else { f32::INFINITY },
+            death: if dead { death as f32 } else { f32::INFINITY },
             component: nodes.component[node] as i32,
             kind: look.kind(nodes.formation[node].is_short()) as u8,
         }

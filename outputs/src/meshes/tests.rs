@@ -85,10 +85,9 @@ fn specimen() -> Plant {
     let seed = Seed { plant: 7, run_seed: 42, component_limit: 1000, keep_events: false };
     let mut plant = Plant::new(&seed, Arc::new(habit));
     let trunk = add_axis(&mut plant, None, 5);
-    for node in add_axis(&mut plant, Some(trunk[2]), 3) {
-        plant.nodes.death[node.index()] = 4;
-        plant.nodes.shed[node.index()] = 8;
-    }
+    add_axis(&mut plant, Some(trunk[2]), 3);
+    plant.axes.death[1] = 4;
+    plant.axes.shed[1] = 8;
     (0..8).for_each(|position| add_organ(&mut plant, trunk[4], position));
     pose(&mut plant, LAST);
     plant

@@ -126,8 +126,8 @@ fn of_node(plant: &Plant, node: NodeId, standing: &Standing) -> Row {
         length: nodes.length[i],
         birth_diameter: nodes.primary_diameter[i],
         area: f32::NAN,
-        death: nodes.death[i],
-        shed: nodes.shed[i],
+        death: axes.death[axis.index()],
+        shed: axes.shed[axis.index()],
         cause: Cause::Branch,
         trend: standing.trend(plant, node),
     }

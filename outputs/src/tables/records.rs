@@ -144,7 +144,7 @@ impl Scene<'_> {
             diameter: nodes.diameter[i],
             diameter_tip: nodes.diameter_tip[i],
             area: f32::NAN,
-            alive: self.age < nodes.death[i],
+            alive: self.age < self.plant.death_of(node),
         }
     }
 

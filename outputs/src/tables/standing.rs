@@ -73,7 +73,7 @@ impl Standing {
         }
         let Plant { axes, nodes, organs, .. } = plant;
         for node in 0..nodes.len() {
-            self.put(nodes.component[node], 0, node, nodes.birth[node], nodes.shed[node]);
+            self.put(nodes.component[node], 0, node, nodes.birth[node], plant.shed_of(NodeId(node as u32)));
         }
         for organ in 0..organs.len() {
             self.put(organs.component[organ], 1, organ, organs.birth[organ], organ_end(plant, OrganId(organ as u32)));
@@ -174,6 +174,5 @@ fn inclination(trend: &Trend) -> f32 {
 /// The tick at which an organ is gone: its own fall, or the fall of its branch if that should come first.
 #[inline]
 pub fn organ_end(plant: &Plant, organ: OrganId) -> Tick {
-    let node = plant.organs.node[organ.index()];
-    plant.organs.death[organ.index()].min(plant.nodes.shed[node.index()])
+    plant.organs.death[organ.index()].min(plant.shed_of(plant.organs.node[organ.index()]))
 }

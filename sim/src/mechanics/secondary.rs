@@ -12,7 +12,7 @@
 use super::bend::Bench;
 use crate::clock::Tick;
 use crate::math::pow;
-use crate::plant::{Plant, Shape};
+use crate::plant::{NodeId, Plant, Shape};
 use std::f64::consts::PI;
 
 /// How the internodes of a species gain diameter.
@@ -63,7 +63,7 @@ pub fn thicken(plant: &mut Plant, age: Tick, rule: Thickening, bench: &mut Bench
             count_leaves(plant, age, above, |area, lives| if lives { per_foliage * area } else { 0.0 });
             downwards(plant, age, above, |plant, node, above| {
                 let diameter = plant.nodes.diameter[node];
-                let grows = plant.nodes.birth[node] < age && age < plant.nodes.death[node];
+                let grows = plant.nodes.birth[node] < age && age < plant.death_of(NodeId(node as u32));
                 if grows { (square(diameter) + above.sum * 4.0 / PI).sqrt() + 2.0 * width } else { f64::from(diameter) }
             });
         }

@@ -85,7 +85,7 @@ pub fn yielding(habit: &Habit) -> Result<&Wood, Unmoved> {
 /// The first frequency of each axis that stands at `age`, Hz; 0 where it has no length or nothing to swing.
 pub fn frequencies(plant: &Plant, wood: &Wood, age: Tick) -> Vec<f64> {
     let mut axes = vec![Beam::default(); plant.axes.len()];
-    let stands = |node: usize| plant.nodes.birth[node] <= age && age < plant.nodes.shed[node];
+    let stands = |node: usize| plant.stands(NodeId(node as u32), age);
     for organ in 0..plant.organs.len() {
         let node = plant.organs.node[organ].index();
         if plant.organs.birth[organ] <= age && age < plant.organs.death[organ] && stands(node) {

@@ -207,6 +207,24 @@ impl Plant {
         }
     }
 
+    /// The tick at which an internode died: with its axis.
+    #[inline]
+    pub fn death_of(&self, node: NodeId) -> Tick {
+        self.axes.death[self.nodes.axis[node.index()].index()]
+    }
+
+    /// The tick at which an internode left the plant: with its axis.
+    #[inline]
+    pub fn shed_of(&self, node: NodeId) -> Tick {
+        self.axes.shed[self.nodes.axis[node.index()].index()]
+    }
+
+    /// Whether an internode is on the plant at `age`, living or dead.
+    #[inline]
+    pub fn stands(&self, node: NodeId, age: Tick) -> bool {
+        self.nodes.birth[node.index()] <= age && age < self.shed_of(node)
+    }
+
     /// The lineage key of a node: it depends on its axis and its rank alone.
     pub fn node_key(&self, node: NodeId) -> LineageKey {
         self.axes.key[self.nodes.axis[node.index()].index()].child(key::Place::Node.on(self.nodes.rank[node.index()]))

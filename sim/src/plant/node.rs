@@ -4,7 +4,7 @@
 //! the curvature that mechanics will write.
 
 use super::axis::AxisId;
-use crate::clock::{NEVER, Tick};
+use crate::clock::Tick;
 use std::ops::Range;
 
 /// The place of a node in its plant's columns.
@@ -65,10 +65,6 @@ pub struct Nodes {
     pub component: Vec<u32>,
     /// The tick of appearance.
     pub birth: Vec<Tick>,
-    /// The tick at which its branch died; written by [`crate::shed`].
-    pub death: Vec<Tick>,
-    /// The tick at which it left the plant; written by [`crate::shed`].
-    pub shed: Vec<Tick>,
     /// The rank along the axis, from 1.
     pub rank: Vec<u32>,
     /// The rank in the growth unit, from 1.
@@ -137,8 +133,6 @@ impl Nodes {
         self.axis.push(node.axis);
         self.component.push(component);
         self.birth.push(node.birth);
-        self.death.push(NEVER);
-        self.shed.push(NEVER);
         self.rank.push(node.rank);
         self.unit_rank.push(node.unit_rank);
         self.formation.push(Formation(u8::from(node.short) | u8::from(node.neoformed) << 1));
@@ -156,8 +150,6 @@ impl Nodes {
         self.axis.clear();
         self.component.clear();
         self.birth.clear();
-        self.death.clear();
-        self.shed.clear();
         self.rank.clear();
         self.unit_rank.clear();
         self.formation.clear();
