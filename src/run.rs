@@ -22,6 +22,7 @@ use drawing::Drawing;
 use phytomer_config::Resolved;
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::{Mode, RunFolder, RunReport, Shard, ShardReport};
+use phytomer_sim::plant::Hands;
 use phytomer_sim::{Growth, Plot, RecordError, Recorder, Tick, grow};
 use progress::Stopped;
 use rayon::ThreadPool;
@@ -140,6 +141,7 @@ impl Grower<'_> {
         let scenario = &self.resolved.scenario;
         let mut plot = Plot::of_one(model, &seed_of(scenario, plants.start));
         plot.site = scenario.site.felt();
+        plot.plants[0].hands = self.hands();
         let drawing = Drawing::of(self.resolved, self.forms, self.folder.plan().shards());
         let mut keeper = Keeper { shard: self.folder.shard(shard)?, drawing, grower: self, plant: plants.start };
         for plant in plants {
@@ -155,6 +157,13 @@ impl Grower<'_> {
         // A large plant takes as long to give back its memory as a file to reach the disk.
         rayon::spawn(move || drop(plot));
         keeper.commit().map(Some)
+    }
+
+    /// The threads for which there is no shard help with the plants of the others. Where every thread has a shard of its own
+    /// none helps: one that waits for its helper would begin with a further shard meanwhile, and keep two plants.
+    fn hands(&self) -> Hands {
+        let shards = self.folder.plan().shards() as usize;
+        Hands { threads: (rayon::current_num_threads() / shards).max(1), ..Hands::default() }
     }
 }
 

@@ -5,7 +5,7 @@
 use crate::grown::compiled;
 use phytomer_config::{Kind, Model, presets};
 use phytomer_models::buds::BudModel;
-use phytomer_sim::plant::{ApicalBud, AxisId, EventKind, LineageKey, NodeId, OrganId, Seed};
+use phytomer_sim::plant::{ApicalBud, AxisId, EventKind, Hands, LineageKey, NodeId, OrganId, Seed};
 use phytomer_sim::{GrowthModel, Plant, Plot, Tick};
 use std::collections::BTreeMap;
 
@@ -50,8 +50,10 @@ fn by_the_clock(model: &BudModel, until: Tick) -> Plant {
     plot.plants.remove(0)
 }
 
+/// Ahead, its axes shared out among three threads wherever two of them wait.
 fn ahead(model: &BudModel, until: Tick) -> Plant {
     let mut plot = Plot::of_one(model, &seed());
+    plot.plants[0].hands = Hands { threads: 3, worth: 2 };
     model.grow_to(until, &mut plot.plants, &plot.site).expect("within the limit");
     plot.plants.iter_mut().for_each(phytomer_sim::shed::shed);
     plot.plants.remove(0)

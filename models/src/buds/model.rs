@@ -11,8 +11,9 @@ use phytomer_sim::clock::NEVER;
 use phytomer_sim::expectation::Expectation;
 use phytomer_sim::mechanics::taper;
 use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
-use phytomer_sim::plant::{ApicalBud, AxisId, Habit, LineageKey, NewAxis, Origin, Plant};
+use phytomer_sim::plant::{ApicalBud, AxisId, Habit, Hands, LineageKey, NewAxis, Origin, Plant};
 use phytomer_sim::site::Site;
+use std::ops::Range;
 use std::sync::Arc;
 
 impl BudModel {
@@ -89,14 +90,64 @@ impl BudModel {
         living.truncate(kept);
         let mut next = first_new;
         while next < plant.axes.len() {
-            let bud = first_bud(self, plant, AxisId(next as u32));
-            living.extend(self.grow_with(plant, bud, age, &mut words)?);
-            next += 1;
+            let waiting = next..plant.axes.len();
+            next = waiting.end;
+            living.append(&mut self.grow_waiting(plant, waiting, age, plant.hands)?);
         }
         plant.buds = living;
         plant.age = age;
         Ok(())
     }
+
+    /// The living buds of the axes `waiting` after all their ticks. Many axes are grown by several threads, to the same
+    /// plant: those of the second half in a fragment of their own.
+    fn grow_waiting(
+        &self,
+        plant: &mut Plant,
+        waiting: Range<usize>,
+        age: Tick,
+        hands: Hands,
+    ) -> Result<Vec<ApicalBud>, Overgrown> {
+        if !hands.share(waiting.len()) {
+            return self.grow_in_turn(plant, waiting, age);
+        }
+        let (first, second) = hands.parted();
+        let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
+        let middle = middle_of(&plant.axes.birth, waiting.clone(), age);
+        let mut fragment = plant.fragment(middle..waiting.end);
+        let rest = fragment.waiting();
+        let (mine, theirs) = rayon::join(
+            || self.grow_waiting(plant, waiting.start..middle, age, first),
+            || self.grow_waiting(&mut fragment.plant, rest, age, second),
+        );
+        // The limit of a fragment is what the whole has left.
+        let (mut living, mut others) = mine.and_then(|mine| Ok((mine, theirs?))).map_err(|_| limit)?;
+        plant.join(fragment, &mut others);
+        living.append(&mut others);
+        if plant.is_overgrown() { Err(limit) } else { Ok(living) }
+    }
+
+    fn grow_in_turn(&self, plant: &mut Plant, waiting: Range<usize>, age: Tick) -> Result<Vec<ApicalBud>, Overgrown> {
+        let mut words = Words::default();
+        let mut living = Vec::new();
+        for axis in waiting {
+            let bud = first_bud(self, plant, AxisId(axis as u32));
+            living.extend(self.grow_with(plant, bud, age, &mut words)?);
+        }
+        Ok(living)
+    }
+}
+
+/// Where the axes `waiting` have half of their ticks before them; neither side is empty.
+fn middle_of(births: &[Tick], waiting: Range<usize>, age: Tick) -> usize {
+    let ticks = |axis: usize| u64::from(age.saturating_sub(births[axis]));
+    let half = waiting.clone().map(ticks).sum::<u64>() / 2;
+    let mut before = 0;
+    let middle = waiting.clone().find(|&axis| {
+        before += ticks(axis);
+        before > half
+    });
+    middle.unwrap_or(waiting.end).clamp(waiting.start + 1, waiting.end - 1)
 }
 
 impl GrowthModel for BudModel {

@@ -1,5 +1,5 @@
 //! The clauses that two growths of one plant show side by side: ahead or by the clock, alone or among neighbours, in
-//! fresh or in used memory, with or without room.
+//! fresh or in used memory, by one thread or by several, with or without room.
 //!
 //! All rest on draws that are keyed by lineage and on ticks that are columns (design of `sim::random` and `sim::grow`).
 //! Absent on purpose: what one plant shows by itself (`structure`).
@@ -9,8 +9,9 @@ use super::structure::standing;
 use super::{grown, grown_by_the_clock, seed_of, site_at, sown};
 use phytomer_sim::clock::{NEVER, Tick};
 use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
-use phytomer_sim::plant::{NodeId, Plant, Seed};
+use phytomer_sim::plant::{Hands, NodeId, Plant, Seed};
 use phytomer_sim::shed::shed;
+use std::slice;
 
 /// Growing ahead to `until` equals growing tick by tick, component for component and event for event; a model that
 /// rebuilds numbers its components alike too.
@@ -121,6 +122,36 @@ pub fn memory_is_forgotten(model: &dyn GrowthModel, until: Tick, seed: u64) {
     same_plant("a plant taken back to its seed grows again as it did", &fresh, &used);
 }
 
+/// A plant whose axes are shared out among several threads, wherever two of them wait, is the one that a single thread
+/// grows, to every place in its columns: at once, in two legs, and where it has no room.
+///
+/// # Panics
+/// At the first difference.
+pub fn hands_leave_no_trace(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
+    let legs = |threads: usize, ages: &[Tick], component_limit: u32| {
+        let mut plant = sown(model, &Seed { component_limit, ..seed.clone() });
+        plant.hands = Hands { threads, worth: 2 };
+        let done = ages.iter().try_for_each(|&age| model.grow_to(age, slice::from_mut(&mut plant), &site_at(age)));
+        (plant, done)
+    };
+    let needs = grown(model, until, seed).components();
+    for (threads, ages) in [(2, vec![until]), (3, vec![until]), (7, vec![until.div_ceil(2), until])] {
+        let rule = format!("{threads} threads grow the plant that one grows");
+        let ((mut one, _), (mut many, done)) = (legs(1, &ages, needs), legs(threads, &ages, needs));
+        assert_eq!(done, Ok(()), "{rule}: it fits");
+        assert!(
+            one.axes == many.axes && one.nodes == many.nodes && one.organs == many.organs,
+            "{rule}, place by place"
+        );
+        assert!(one.buds == many.buds && one.events == many.events, "{rule}, to its buds and events in their order");
+        shed(&mut one);
+        shed(&mut many);
+        same_plant(&rule, &one, &many);
+        let (one, many) = (legs(1, &ages, needs - 1).1, legs(threads, &ages, needs - 1).1);
+        assert_eq!(one, many, "{rule}, and say alike where it has no room");
+    }
+}
+
 fn same_plant(rule: &str, one: &Plant, other: &Plant) {
     assert_same(rule, &components(one), &components(other));
     assert!(numbered(one) == numbered(other), "{rule}, to the numbers of its components");
@@ -138,7 +169,7 @@ pub fn limit_holds(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
     let first = sown(model, seed).components();
     let limited = |component_limit| Seed { component_limit, ..seed.clone() };
     let mut full = sown(model, &limited(needs));
-    let done = model.grow_to(until, std::slice::from_mut(&mut full), &site_at(until));
+    let done = model.grow_to(until, slice::from_mut(&mut full), &site_at(until));
     assert_eq!(done, Ok(()), "a plant that needs {needs} components grows with a limit of {needs}");
     let between = first + (needs - first) / 2;
     for limit in [first, between, needs - 1].into_iter().filter(|limit| (first..needs).contains(limit)) {
@@ -151,7 +182,7 @@ fn overgrows(model: &dyn GrowthModel, ages: std::ops::RangeInclusive<Tick>, seed
     let limit = seed.component_limit;
     let mut plant = sown(model, seed);
     for age in ages {
-        let done = model.grow_to(age, std::slice::from_mut(&mut plant), &site_at(age));
+        let done = model.grow_to(age, slice::from_mut(&mut plant), &site_at(age));
         let fits = done.is_err() || plant.components() <= limit;
         assert!(fits, "a plant never passes its limit of {limit} unsaid: {}", plant.components());
         if let Err(overgrown) = done {

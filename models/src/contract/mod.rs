@@ -15,7 +15,10 @@ mod tests;
 
 pub use bending::bends_alike_ahead_and_by_the_clock;
 pub use component::{Component, components};
-pub use growth::{ages_agree, ahead_equals_the_clock, alone_equals_among_neighbours, limit_holds, memory_is_forgotten};
+pub use growth::{
+    ages_agree, ahead_equals_the_clock, alone_equals_among_neighbours, hands_leave_no_trace, limit_holds,
+    memory_is_forgotten,
+};
 pub use structure::{diameters, events_tell_the_plant, poses, structure};
 
 use phytomer_sim::clock::Tick;
@@ -37,6 +40,7 @@ pub fn check(model: &dyn GrowthModel, until: Tick, seed: u64) {
         diameters(model, &mut plant, until);
         poses(&mut plant);
         ahead_equals_the_clock(model, until, &seed_of(seed, number));
+        hands_leave_no_trace(model, until, &seed_of(seed, number));
         if model.habit().wood.as_ref().is_some_and(|wood| wood.bends) {
             bends_alike_ahead_and_by_the_clock(model, until, &seed_of(seed, number));
         }

@@ -3,9 +3,11 @@
 //! Orders count from the trunk, 1. Monopodial and sympodial growth are told apart by the origin of an axis. Absent: the
 //! laws by which apices end, and the pose of axes.
 
+use super::fragment::Joint;
 use super::key::LineageKey;
 use super::node::NodeId;
 use crate::clock::{NEVER, Tick};
+use std::ops::Range;
 
 /// The place of an axis in its plant's columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -103,7 +105,7 @@ pub struct NewAxis {
 }
 
 /// The columns of the axes.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Axes {
     /// The bearing node; [`NodeId::NONE`] for the axis of the seed.
     pub bearer: Vec<NodeId>,
@@ -191,6 +193,60 @@ impl Axes {
         self.last_node[axis.index()] = node;
     }
 
+    /// Copies of some of the axes.
+    pub(super) fn copied(&self, taken: Range<usize>) -> Self {
+        Self {
+            bearer: self.bearer[taken.clone()].to_vec(),
+            component: self.component[taken.clone()].to_vec(),
+            key: self.key[taken.clone()].to_vec(),
+            order: self.order[taken.clone()].to_vec(),
+            origin: self.origin[taken.clone()].to_vec(),
+            position: self.position[taken.clone()].to_vec(),
+            state: self.state[taken.clone()].to_vec(),
+            appearance: self.appearance[taken.clone()].to_vec(),
+            birth: self.birth[taken.clone()].to_vec(),
+            azimuth: self.azimuth[taken.clone()].to_vec(),
+            insertion: self.insertion[taken.clone()].to_vec(),
+            shed_after: self.shed_after[taken.clone()].to_vec(),
+            last_node: self.last_node[taken.clone()].to_vec(),
+            apex_end: self.apex_end[taken.clone()].to_vec(),
+            apex_fate: self.apex_fate[taken.clone()].to_vec(),
+            spent: self.spent[taken.clone()].to_vec(),
+            death: self.death[taken.clone()].to_vec(),
+            shed: self.shed[taken].to_vec(),
+        }
+    }
+
+    /// Takes from a fragment what has become of the axes that it was given, and adds those that arose in it. The first of
+    /// those given was only looked at.
+    pub(super) fn join(&mut self, more: &Self, taken: Range<usize>, joint: &Joint) {
+        let new = taken.len()..more.len();
+        for (axis, grown) in taken.zip(0..).skip(1) {
+            self.last_node[axis] = joint.node(more.last_node[grown]);
+            self.apex_end[axis] = more.apex_end[grown];
+            self.apex_fate[axis] = more.apex_fate[grown];
+            self.spent[axis] = more.spent[grown];
+        }
+        self.bearer.extend(more.bearer[new.clone()].iter().map(|&node| joint.node(node)));
+        self.component.extend(more.component[new.clone()].iter().map(|&component| joint.component(component)));
+        self.key.extend_from_slice(&more.key[new.clone()]);
+        self.order.extend_from_slice(&more.order[new.clone()]);
+        self.origin.extend_from_slice(&more.origin[new.clone()]);
+        self.position.extend_from_slice(&more.position[new.clone()]);
+        self.state.extend_from_slice(&more.state[new.clone()]);
+        self.appearance.extend_from_slice(&more.appearance[new.clone()]);
+        self.birth.extend_from_slice(&more.birth[new.clone()]);
+        self.azimuth.extend_from_slice(&more.azimuth[new.clone()]);
+        self.insertion.extend_from_slice(&more.insertion[new.clone()]);
+        self.shed_after.extend_from_slice(&more.shed_after[new.clone()]);
+        self.last_node.extend(more.last_node[new.clone()].iter().map(|&node| joint.node(node)));
+        self.apex_end.extend_from_slice(&more.apex_end[new.clone()]);
+        self.apex_fate.extend_from_slice(&more.apex_fate[new.clone()]);
+        self.spent.extend_from_slice(&more.spent[new.clone()]);
+        self.death.extend_from_slice(&more.death[new.clone()]);
+        self.shed.extend_from_slice(&more.shed[new]);
+    }
+
     pub(super) fn clear(&mut self) {
         let Self { bearer, component, key, order, origin, position, state, appearance, birth, .. } = self;
         bearer.clear();
@@ -215,7 +271,7 @@ impl Axes {
 }
 
 /// A living apical bud: what its axis needs in order to grow on.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ApicalBud {
     /// Its axis.
     pub axis: AxisId,

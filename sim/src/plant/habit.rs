@@ -151,6 +151,14 @@ impl OwnTrends {
         self.spans[axis.index()] = start..self.trends.len() as u32;
     }
 
+    /// Adds the trends of the axes of a fragment, by what those axes have become.
+    pub(super) fn join(&mut self, more: Self, axis: impl Fn(AxisId) -> AxisId) {
+        for (place, span) in more.spans.iter().enumerate().filter(|(_, span)| !span.is_empty()) {
+            let trends = &more.trends[span.start as usize..span.end as usize];
+            self.give(axis(AxisId(place as u32)), trends.iter().copied());
+        }
+    }
+
     pub(super) fn clear(&mut self) {
         self.spans.clear();
         self.trends.clear();

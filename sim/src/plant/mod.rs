@@ -11,6 +11,7 @@ mod axis;
 pub(crate) mod borne;
 mod event;
 mod form;
+mod fragment;
 mod habit;
 pub mod key;
 mod kind;
@@ -23,6 +24,7 @@ pub use appeared::{Appeared, Stretch};
 pub use axis::{ApexFate, ApicalBud, Axes, AxisId, NewAxis, Origin};
 pub use event::{Event, EventKind};
 pub use form::Form;
+pub use fragment::{Fragment, Hands};
 pub use habit::{Habit, OrganTrend, OrganTrends, OwnTrends, Shape, Trend};
 pub use key::LineageKey;
 pub use kind::{Cause, Class, Kind};
@@ -76,6 +78,8 @@ pub struct Plant {
     /// The stated headings of a plant that a geometric model has built, one an internode, as unit vectors in the frame
     /// of the plant; empty where insertion, phyllotaxis and trend make the headings.
     pub stated_headings: Vec<[f32; 3]>,
+    /// Who may grow it; no trace of them is left in it.
+    pub hands: Hands,
     components: u32,
     component_limit: u32,
 }
@@ -113,6 +117,7 @@ impl Plant {
             random: PlantRandom::new(seed.run_seed, u64::from(seed.plant)),
             place: [0.0; 3],
             stated_headings: Vec::new(),
+            hands: Hands::default(),
             components: 0,
             component_limit: seed.component_limit.min(MOST_COMPONENTS),
         }

@@ -4,6 +4,7 @@
 //! the curvature that mechanics will write.
 
 use super::axis::AxisId;
+use super::fragment::Joint;
 use crate::clock::Tick;
 use std::ops::Range;
 
@@ -55,7 +56,7 @@ pub struct NewNode {
 }
 
 /// The columns of the nodes.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Nodes {
     /// The node at the base of the internode.
     pub parent: Vec<NodeId>,
@@ -125,7 +126,6 @@ impl Nodes {
     #[inline]
     pub(super) fn push(&mut self, node: NewNode, component: u32) -> NodeId {
         let id = NodeId(self.len() as u32);
-        debug_assert!(node.parent == NodeId::NONE || node.parent < id, "a parent comes before its child");
         if self.axis.last() != Some(&node.axis) {
             self.runs.push(id);
         }
@@ -143,6 +143,33 @@ impl Nodes {
         self.diameter_tip.push(node.diameter);
         self.azimuth.push(node.azimuth);
         id
+    }
+
+    /// Adds the nodes of a fragment, half of the columns on another thread where one is free.
+    pub(super) fn join(&mut self, more: &Self, joint: &Joint) {
+        let Self { parent, axis, component, birth, rank, runs, .. } = self;
+        let Self { unit_rank, formation, trend, length, primary_diameter, diameter, diameter_tip, azimuth, .. } = self;
+        let topology = || {
+            let below =
+                |(place, &parent): (usize, &NodeId)| joint.below(parent, more.axis[place], more.rank[place] - 1);
+            runs.extend(more.runs.iter().map(|&first| joint.node(first)));
+            parent.extend(more.parent.iter().enumerate().map(below));
+            axis.extend(more.axis.iter().map(|&axis| joint.axis(axis)));
+            component.extend(more.component.iter().map(|&component| joint.component(component)));
+            birth.extend_from_slice(&more.birth);
+            rank.extend_from_slice(&more.rank);
+        };
+        let measures = || {
+            unit_rank.extend_from_slice(&more.unit_rank);
+            formation.extend_from_slice(&more.formation);
+            trend.extend_from_slice(&more.trend);
+            length.extend_from_slice(&more.length);
+            primary_diameter.extend_from_slice(&more.primary_diameter);
+            diameter.extend_from_slice(&more.diameter);
+            diameter_tip.extend_from_slice(&more.diameter_tip);
+            azimuth.extend_from_slice(&more.azimuth);
+        };
+        rayon::join(topology, measures);
     }
 
     pub(super) fn clear(&mut self) {

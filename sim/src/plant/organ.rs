@@ -4,6 +4,7 @@
 //! pose, which follows from that of its node.
 
 use super::form::Form;
+use super::fragment::Joint;
 use super::kind::{Cause, Kind};
 use super::node::NodeId;
 use crate::clock::Tick;
@@ -50,7 +51,7 @@ pub struct NewOrgan {
 }
 
 /// The columns of the organs.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Organs {
     /// The bearing node.
     pub node: Vec<NodeId>,
@@ -109,6 +110,23 @@ impl Organs {
         self.azimuth.push(organ.azimuth);
         self.insertion.push(organ.insertion);
         id
+    }
+
+    /// Adds the organs of a fragment.
+    pub(super) fn join(&mut self, more: &Self, joint: &Joint) {
+        self.node.extend(more.node.iter().map(|&node| joint.node(node)));
+        self.component.extend(more.component.iter().map(|&component| joint.component(component)));
+        self.kind.extend_from_slice(&more.kind);
+        self.position.extend_from_slice(&more.position);
+        self.birth.extend_from_slice(&more.birth);
+        self.death.extend_from_slice(&more.death);
+        self.cause.extend_from_slice(&more.cause);
+        self.form.extend_from_slice(&more.form);
+        self.length.extend_from_slice(&more.length);
+        self.width.extend_from_slice(&more.width);
+        self.area.extend_from_slice(&more.area);
+        self.azimuth.extend_from_slice(&more.azimuth);
+        self.insertion.extend_from_slice(&more.insertion);
     }
 
     pub(super) fn clear(&mut self) {

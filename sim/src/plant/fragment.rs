@@ -1,0 +1,141 @@
+//! Fragments: axes of a plant that have yet to grow, taken apart so that another thread can grow them meanwhile.
+//!
+//! Axes that wait have no nodes, and none needs to know what the others do. A fragment is a plant that starts with copies
+//! of some of them; joined again, the whole is what it would be had they grown after the axes before them: the numbers of
+//! axes, nodes, organs and components follow on. Until then its handles and component numbers are its own, but for the
+//! nodes that bear the axes that it took: those are the whole plant's, and nobody may look them up.
+
+use super::{ApicalBud, Appeared, AxisId, Event, NodeId, OwnTrends, Plant};
+use crate::clock::NEVER;
+use crate::mechanics::Strain;
+use crate::pose::Frames;
+use std::ops::Range;
+
+/// Who may grow one plant at once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Hands {
+    /// How many threads: more than one where the others would have nothing to do.
+    pub threads: usize,
+    /// The fewest axes of which it is worth while to give another thread half.
+    pub worth: usize,
+}
+
+impl Default for Hands {
+    fn default() -> Self {
+        Self { threads: 1, worth: 4096 }
+    }
+}
+
+impl Hands {
+    /// Whether so many axes are to be shared out.
+    pub fn share(self, axes: usize) -> bool {
+        self.threads > 1 && axes >= self.worth.max(2)
+    }
+
+    /// The hands of either half.
+    pub fn parted(self) -> (Self, Self) {
+        let first = self.threads / 2;
+        (Self { threads: first, ..self }, Self { threads: self.threads - first, ..self })
+    }
+}
+
+/// Some of the axes of a plant that wait to grow.
+#[derive(Debug)]
+pub struct Fragment {
+    /// The fragment as a plant.
+    pub plant: Plant,
+    joint: Joint,
+}
+
+/// How the handles of a fragment become those of the whole.
+#[derive(Debug, Clone)]
+pub(super) struct Joint {
+    /// The axes of the whole that the fragment starts with: one to be looked at, then those that grow.
+    taken: Range<usize>,
+    /// The axes, nodes and components that the whole has when the fragment is joined to it.
+    axes: usize,
+    nodes: usize,
+    components: u32,
+}
+
+impl Joint {
+    fn is_taken(&self, axis: AxisId) -> bool {
+        axis.index() < self.taken.len()
+    }
+
+    pub(super) fn axis(&self, axis: AxisId) -> AxisId {
+        let start = if self.is_taken(axis) { self.taken.start } else { self.axes - self.taken.len() };
+        AxisId((start + axis.index()) as u32)
+    }
+
+    pub(super) fn node(&self, node: NodeId) -> NodeId {
+        node.some().map_or(node, |node| NodeId((self.nodes + node.index()) as u32))
+    }
+
+    /// The node on which an axis goes on when it has made so many: the bearers of the axes that were taken are the whole's.
+    pub(super) fn below(&self, node: NodeId, axis: AxisId, made: u32) -> NodeId {
+        if made == 0 && self.is_taken(axis) { node } else { self.node(node) }
+    }
+
+    pub(super) fn component(&self, component: u32) -> u32 {
+        self.components + component
+    }
+
+    fn bud(&self, bud: ApicalBud) -> ApicalBud {
+        let last_node = self.below(bud.last_node, bud.axis, bud.rank);
+        ApicalBud { axis: self.axis(bud.axis), last_node, ..bud }
+    }
+}
+
+impl Fragment {
+    /// The axes that are to grow, as the fragment numbers them.
+    pub fn waiting(&self) -> Range<usize> {
+        1..self.joint.taken.len()
+    }
+}
+
+impl Plant {
+    /// A fragment of the axes `waiting`, which have no nodes; the axis of the seed is not among them.
+    pub fn fragment(&self, waiting: Range<usize>) -> Fragment {
+        let taken = waiting.start - 1..waiting.end;
+        let plant = Self {
+            id: self.id,
+            age: self.age,
+            death: NEVER,
+            axes: self.axes.copied(taken.clone()),
+            nodes: Default::default(),
+            appeared: Appeared::default(),
+            organs: Default::default(),
+            buds: Vec::new(),
+            frames: Frames::default(),
+            strain: Strain::default(),
+            events: self.events.as_ref().map(|_| Vec::new()),
+            habit: self.habit.clone(),
+            own_trends: OwnTrends::default(),
+            random: self.random.clone(),
+            place: self.place,
+            stated_headings: Vec::new(),
+            hands: self.hands,
+            components: 0,
+            component_limit: self.component_limit.saturating_sub(self.components),
+        };
+        Fragment { plant, joint: Joint { taken, axes: 0, nodes: 0, components: 0 } }
+    }
+
+    /// Joins a fragment that has grown, after everything that the plant has; `buds` are the living ones of the fragment, and
+    /// become the plant's.
+    pub fn join(&mut self, fragment: Fragment, buds: &mut [ApicalBud]) {
+        let Fragment { plant, joint } = fragment;
+        let (axes, nodes, components) = (self.axes.len(), self.nodes.len(), self.components);
+        let joint = Joint { axes, nodes, components, ..joint };
+        self.own_trends.join(plant.own_trends, |axis| joint.axis(axis));
+        self.nodes.join(&plant.nodes, &joint);
+        self.organs.join(&plant.organs, &joint);
+        if let (Some(events), Some(more)) = (&mut self.events, plant.events) {
+            events.extend(more.into_iter().map(|event| Event { axis: joint.axis(event.axis), ..event }));
+        }
+        self.axes.join(&plant.axes, joint.taken.clone(), &joint);
+        self.components += plant.components;
+        buds.iter_mut().for_each(|bud| *bud = joint.bud(*bud));
+    }
+}
