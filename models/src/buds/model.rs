@@ -16,6 +16,9 @@ use phytomer_sim::site::Site;
 use std::ops::Range;
 use std::sync::Arc;
 
+/// The ticks of growth that cost as much as the beginning of an axis: measured, and of use only for equal halves.
+const BEGINNING: u64 = 12;
+
 impl BudModel {
     /// The last age for which the model's laws are compiled.
     pub fn until(&self) -> Tick {
@@ -138,9 +141,9 @@ impl BudModel {
     }
 }
 
-/// Where the axes `waiting` have half of their ticks before them; neither side is empty.
+/// Where half of the work on the axes `waiting` lies on either side, by their ticks to come; neither side is empty.
 fn middle_of(births: &[Tick], waiting: Range<usize>, age: Tick) -> usize {
-    let ticks = |axis: usize| u64::from(age.saturating_sub(births[axis]));
+    let ticks = |axis: usize| BEGINNING + u64::from(age.saturating_sub(births[axis]));
     let half = waiting.clone().map(ticks).sum::<u64>() / 2;
     let mut before = 0;
     let middle = waiting.clone().find(|&axis| {
