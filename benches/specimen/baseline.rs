@@ -55,7 +55,7 @@ impl Ready {
     /// Writes each table as one file by the parquet crate, its columns on all threads.
     pub fn write(&self, folder: &Path) {
         for (table, plan, batches) in self.tables.iter().filter(|(_, _, batches)| !batches.is_empty()) {
-            write_table(&folder.join("alone.parquet"), *table, plan, batches);
+            write_table(&folder.join(table.name()), *table, plan, batches);
         }
     }
 

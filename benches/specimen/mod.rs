@@ -11,9 +11,8 @@ pub mod columns;
 pub mod picture;
 
 use criterion::measurement::WallTime;
-use criterion::{BenchmarkGroup, Criterion, SamplingMode, Throughput};
+use criterion::{BatchSize, BenchmarkGroup, Criterion, SamplingMode, Throughput};
 use phytomer::config::{Resolved, validate};
-use phytomer::outputs::Mode;
 use phytomer::outputs::meshes::{Chunk, MeshOptions, MeshWriter, Ply, Scene, Vertex};
 use phytomer::run::{self, Program, Progress, Settings, plan_of, seed_of};
 use phytomer::sim::plant::Plant;
@@ -22,7 +21,7 @@ use phytomer::sim::shed::shed;
 use phytomer::sim::{GrowthModel, Plot, Tick};
 use std::fs::File;
 use std::hint::black_box;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// The name of the baseline of what works in memory.
@@ -166,19 +165,27 @@ impl Specimen {
     }
 
     /// The whole `grow` of a scenario into its run folder, against the parquet crate alone on ready batches of the same
-    /// rows, with the same settings and threads.
+    /// rows, with the same settings and threads. Either finds its folder empty: removing the files of the last time is no
+    /// part of it.
     pub fn records(&self, criterion: &mut Criterion) {
         let home = tempfile::tempdir().expect("a folder");
-        let settings = Settings { mode: Mode::Overwrite, ..Settings::in_folder(home.path().join("run")) };
+        let (ours, theirs) = (home.path().join("run"), home.path().join("alone"));
+        let settings = Settings::in_folder(&ours);
         let grow = || run::run(&self.resolved, &settings, &Progress::default()).expect("a run");
         let outcome = grow();
         let rows = outcome.report.rows.values().sum();
         let plan = plan_of(&self.resolved, &Program::default()).expect("a plan");
-        let ready = baseline::ready_batches(&home.path().join("run"), &plan);
+        let ready = baseline::ready_batches(&ours, &plan);
+        let empty = |folder: &Path| {
+            let _ = std::fs::remove_dir_all(folder);
+            std::fs::create_dir(folder).expect("a folder");
+        };
         let mut group = self.group(criterion, "records (rows)", Throughput::Elements(rows));
-        group.bench_function("whole grow", |bencher| bencher.iter(grow));
+        group.bench_function("whole grow", |bencher| {
+            bencher.iter_batched(|| empty(&ours), |()| grow(), BatchSize::PerIteration);
+        });
         group.bench_function("the parquet crate alone on ready batches (baseline)", |bencher| {
-            bencher.iter(|| ready.write(home.path()));
+            bencher.iter_batched(|| empty(&theirs), |()| ready.write(&theirs), BatchSize::PerIteration);
         });
         group.bench_function("plain memory write of the same columns", |bencher| bencher.iter(|| ready.copy()));
         group.finish();

@@ -8,7 +8,7 @@ use super::columns::KINDS;
 use super::standing::{Component, Standing};
 use phytomer_sim::Tick;
 use phytomer_sim::mechanics::wood_volume;
-use phytomer_sim::plant::{Axes, AxisId, Kind, NodeId, OrganId, Plant};
+use phytomer_sim::plant::{AxisId, InternodeLook, Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::{Frame, node_frame, organ_frame, start_frame};
 
 columns! {
@@ -30,7 +30,8 @@ columns! {
 pub struct Row {
     component: u32,
     parent: i32,
-    axis: AxisId,
+    axis: u32,
+    order: u8,
     kind: Kind,
     rank: u32,
     birth: Tick,
@@ -71,13 +72,14 @@ impl RecordColumns {
     /// Adds a row for each of the components `numbers` of a plant in the plot of a number; `rows` is memory to work in.
     pub fn fill(&mut self, plot: u32, scene: &Scene<'_>, numbers: &[u32], rows: &mut Vec<Row>) {
         rows.clear();
+        let mut bearing = Bearing::of(scene, AxisId::TRUNK);
         rows.extend(numbers.iter().map(|&number| match scene.standing.component(number) {
-            Component::Node(node) => scene.of_node(node),
-            Component::Organ(organ) => scene.of_organ(organ),
+            Component::Node(node) => scene.of_node(node, &mut bearing),
+            Component::Organ(organ) => scene.of_organ(organ, &mut bearing),
             Component::Bud(axis) => scene.of_bud(axis),
         }));
         // Column by column out of the cache, which is several times as fast as pushing row by row to 25 columns.
-        self.push_identity(rows, &scene.plant.axes);
+        self.push_identity(rows);
         self.push_pose(rows);
         if scene.mechanics {
             self.push_mechanics(scene, numbers);
@@ -89,11 +91,11 @@ impl RecordColumns {
         self.age.resize(rows, scene.age as i32);
     }
 
-    fn push_identity(&mut self, rows: &[Row], axes: &Axes) {
+    fn push_identity(&mut self, rows: &[Row]) {
         self.component.extend(rows.iter().map(|row| row.component as i32));
         self.parent.extend(rows.iter().map(|row| row.parent));
-        self.axis.extend(rows.iter().map(|row| axes.component[row.axis.index()] as i32));
-        self.order.extend(rows.iter().map(|row| i32::from(axes.order[row.axis.index()])));
+        self.axis.extend(rows.iter().map(|row| row.axis as i32));
+        self.order.extend(rows.iter().map(|row| i32::from(row.order)));
         self.kind.extend(rows.iter().map(|row| row.kind as i8));
         self.rank.extend(rows.iter().map(|row| row.rank as i32));
         self.birth.extend(rows.iter().map(|row| row.birth as i32));
@@ -127,16 +129,47 @@ impl RecordColumns {
     }
 }
 
-impl Scene<'_> {
+/// What the components of one axis share. Most follow one of the same axis.
+struct Bearing<'a> {
+    axis: AxisId,
+    component: u32,
+    order: u8,
+    look: &'a InternodeLook,
+    alive: bool,
+}
+
+impl<'a> Bearing<'a> {
+    fn of(scene: &Scene<'a>, axis: AxisId) -> Self {
+        let axes = &scene.plant.axes;
+        Self {
+            axis,
+            component: axes.component[axis.index()],
+            order: axes.order[axis.index()],
+            look: scene.plant.look_of(axis),
+            alive: scene.age < axes.death[axis.index()],
+        }
+    }
+
     #[inline]
-    fn of_node(&self, node: NodeId) -> Row {
+    fn turn_to(&mut self, scene: &Scene<'a>, axis: AxisId) {
+        if self.axis != axis {
+            *self = Self::of(scene, axis);
+        }
+    }
+}
+
+impl<'a> Scene<'a> {
+    #[inline]
+    fn of_node(&self, node: NodeId, bearing: &mut Bearing<'a>) -> Row {
         let nodes = &self.plant.nodes;
         let i = node.index();
+        bearing.turn_to(self, nodes.axis[i]);
         Row {
             component: nodes.component[i],
             parent: number_of(self.plant, nodes.parent[i]),
-            axis: nodes.axis[i],
-            kind: self.plant.kind_of(node),
+            axis: bearing.component,
+            order: bearing.order,
+            kind: bearing.look.kind(nodes.formation[i].is_short()),
             rank: nodes.rank[i],
             birth: nodes.birth[i],
             frame: self.plant.frames.at(node),
@@ -144,20 +177,22 @@ impl Scene<'_> {
             diameter: nodes.diameter[i],
             diameter_tip: nodes.diameter_tip[i],
             area: f32::NAN,
-            alive: self.age < self.plant.death_of(node),
+            alive: bearing.alive,
         }
     }
 
     #[inline]
-    fn of_organ(&self, organ: OrganId) -> Row {
+    fn of_organ(&self, organ: OrganId, bearing: &mut Bearing<'a>) -> Row {
         let Plant { organs, nodes, .. } = self.plant;
         let i = organ.index();
         let node = organs.node[i];
+        bearing.turn_to(self, nodes.axis[node.index()]);
         let share = self.plant.expanded(organ, self.age);
         Row {
             component: organs.component[i],
             parent: nodes.component[node.index()] as i32,
-            axis: nodes.axis[node.index()],
+            axis: bearing.component,
+            order: bearing.order,
             kind: organs.kind[i],
             rank: nodes.rank[node.index()],
             birth: organs.birth[i],
@@ -177,7 +212,8 @@ impl Scene<'_> {
         Row {
             component: axes.component[axis.index()],
             parent: number_of(self.plant, axes.bearer[axis.index()]),
-            axis,
+            axis: axes.component[axis.index()],
+            order: axes.order[axis.index()],
             kind: Kind::ApicalBud,
             rank: tip.map_or(0, |tip| nodes.rank[tip.index()]),
             birth: axes.appearance[axis.index()],
