@@ -165,8 +165,8 @@ impl Specimen {
     }
 
     /// The whole `grow` of a scenario into its run folder, against the parquet crate alone on ready batches of the same
-    /// rows, with the same settings and threads. Either finds its folder empty: removing the files of the last time is no
-    /// part of it.
+    /// rows, with the same settings and threads. Either finds its folder empty: removing the files of the last time, and
+    /// the disk's work with that, is no part of it.
     pub fn records(&self, criterion: &mut Criterion) {
         let home = tempfile::tempdir().expect("a folder");
         let (ours, theirs) = (home.path().join("run"), home.path().join("alone"));
@@ -179,6 +179,7 @@ impl Specimen {
         let empty = |folder: &Path| {
             let _ = std::fs::remove_dir_all(folder);
             std::fs::create_dir(folder).expect("a folder");
+            File::open(folder).and_then(|folder| folder.sync_all()).expect("a folder on the disk");
         };
         let mut group = self.group(criterion, "records (rows)", Throughput::Elements(rows));
         group.bench_function("whole grow", |bencher| {
