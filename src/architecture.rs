@@ -12,11 +12,12 @@ use phytomer_models::fault::{Fault, Path};
 use phytomer_outputs::rows::{PoseRow, components_of, poses_of};
 use phytomer_sim::plant::Seed;
 use phytomer_sim::{Ending, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// How many plants are looked at; more than half of them must qualify, since chance may kill or cripple some.
 pub const SAMPLE: u32 = 5;
 
-/// No further plant is looked at once those before it have so many components: large plants average over their own parts.
+/// No more plants are looked at than have about so many components: large plants average over their own parts.
 const ENOUGH: u32 = 250_000;
 
 /// A plant that is looked at may have so many components.
@@ -28,22 +29,22 @@ const LIMIT: u32 = 1_000_000;
 /// # Errors
 /// A plant that no table could hold.
 pub fn characters(model: &dyn GrowthModel, until: Tick, plants: u32) -> Result<Vec<Characters>, RecordError> {
+    let first = characters_of(0, model, until)?;
+    let size = first.as_ref().map_or(ENOUGH, |(_, components)| *components);
+    let others = (1..plants.min(ENOUGH.div_ceil(size.max(1)))).into_par_iter();
+    let others = others.map(|plant| characters_of(plant, model, until)).collect::<Result<Vec<_>, _>>()?;
+    Ok(std::iter::once(first).chain(others).flatten().map(|(characters, _)| characters).collect())
+}
+
+/// The characters of one plant at the age `until`, and its components; nothing where it comes to its limit.
+fn characters_of(plant: u32, model: &dyn GrowthModel, until: Tick) -> Result<Option<(Characters, u32)>, RecordError> {
+    let seed = Seed { plant, run_seed: DEFAULT_SEED, component_limit: LIMIT, keep_events: false };
+    let mut plot = Plot::of_one(model, &seed);
     let bends = model.habit().wood.as_ref().is_some_and(|wood| wood.bends);
-    let (mut found, mut looked_at) = (Vec::new(), 0);
-    for plant in 0..plants {
-        if looked_at >= ENOUGH {
-            break;
-        }
-        let seed = Seed { plant, run_seed: DEFAULT_SEED, component_limit: LIMIT, keep_events: false };
-        let mut plot = Plot::of_one(model, &seed);
-        let mut poses = Poses { ages: if bends { recorded_alone(until) } else { Vec::new() }, rows: Vec::new() };
-        if let Ending::Complete = grow(model, &mut plot, until, &mut poses)? {
-            let components = components_of(&plot, &plot.plants[0], until)?;
-            looked_at += plot.plants[0].components();
-            found.push(Characters::of(&components, &poses.rows));
-        }
-    }
-    Ok(found)
+    let mut poses = Poses { ages: if bends { recorded_alone(until) } else { Vec::new() }, rows: Vec::new() };
+    let Ending::Complete = grow(model, &mut plot, until, &mut poses)? else { return Ok(None) };
+    let components = components_of(&plot, &plot.plants[0], until)?;
+    Ok(Some((Characters::of(&components, &poses.rows), plot.plants[0].components())))
 }
 
 /// How the internodes of a plant lie at some ages.

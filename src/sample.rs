@@ -1,7 +1,7 @@
 //! A sample of a species, grown to be held against what was published of such plants (`[[published]]`).
 //!
-//! The sample is the same on every machine: plants 0, 1, 2 … of the default seed, on open ground, until there are enough
-//! of them. Means are over the plants that live. Absent: files, and what is done about a sample that does not fit.
+//! The sample is the same on every machine: plants 0, 1, 2 … of the default seed, on open ground, as many as the size
+//! of the first ones allows. Means are over the plants that live. Absent: files, and what is done about a sample that does not fit.
 
 use phytomer_config::published::{Measure, PUBLISHED, Published, Range};
 use phytomer_config::{Species, scenario::DEFAULT_SEED};
@@ -9,6 +9,7 @@ use phytomer_models::fault::{Fault, Path};
 use phytomer_outputs::tables::Summary;
 use phytomer_sim::plant::Seed;
 use phytomer_sim::{Ending, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// The plants of a sample, unless they are large.
 const MOST_PLANTS: u32 = 16;
@@ -16,8 +17,11 @@ const MOST_PLANTS: u32 = 16;
 /// Of large plants fewer do: their parts already average.
 const FEWEST_PLANTS: u32 = 2;
 
-/// No further plant is grown once so many components have lived: about a second.
-const ENOUGH_COMPONENTS: u64 = 1_000_000;
+/// No more plants are grown than come to about so many components: about a second.
+const ENOUGH_WORK: u64 = 1_000_000;
+
+/// So many ticks of a plant that bends take as long again as its growth.
+const TICKS_OF_BENDING: u64 = 8;
 
 /// A plant that is larger is not measured.
 const COMPONENT_LIMIT: u32 = 20_000_000;
@@ -91,31 +95,24 @@ fn amounts(plants: u32) -> String {
 /// What stood of each plant of a sample at the published ages.
 struct Sample {
     plants: u32,
-    /// With whether the plant lived.
-    seen: Vec<(Tick, bool, Summary)>,
-    ages: Vec<Tick>,
+    seen: Vec<Seen>,
 }
 
+/// What stood of one plant at an age, and whether it lived.
+type Seen = (Tick, bool, Summary);
+
 impl Sample {
+    /// The first plants tell how many more there are to be; they grow side by side.
     fn grown(model: &dyn GrowthModel, published: &[Published], last: Tick) -> Result<Self, String> {
-        let ages = published.iter().map(|row| row.at_age).collect();
-        let mut sample = Self { plants: 0, seen: Vec::new(), ages };
-        let mut components = 0;
-        let seed = |plant| Seed { plant, run_seed: DEFAULT_SEED, component_limit: COMPONENT_LIMIT, keep_events: false };
-        let mut plot = Plot::of_one(model, &seed(0));
-        while sample.plants < MOST_PLANTS && (components < ENOUGH_COMPONENTS || sample.plants < FEWEST_PLANTS) {
-            plot.resow(model, &seed(sample.plants));
-            match grow(model, &mut plot, last, &mut sample) {
-                Ok(Ending::Complete) => {}
-                Ok(Ending::Overgrown { age, .. }) => {
-                    return Err(format!("a plant has more than {COMPONENT_LIMIT} components at age {age}"));
-                }
-                Err(error) => return Err(error.to_string()),
-            }
-            components += u64::from(plot.plants[0].components());
-            sample.plants += 1;
-        }
-        Ok(sample)
+        let ages: Vec<Tick> = published.iter().map(|row| row.at_age).collect();
+        let grown = |from: u32, to: u32| -> Result<Vec<_>, String> {
+            (from..to).into_par_iter().map(|plant| seen_of(plant, model, &ages, last)).collect()
+        };
+        let mut views = grown(0, FEWEST_PLANTS)?;
+        let work = views.iter().map(|(_, work)| work).sum::<u64>().max(1);
+        let enough = (ENOUGH_WORK * u64::from(FEWEST_PLANTS)).div_ceil(work).min(MOST_PLANTS.into()) as u32;
+        views.extend(grown(FEWEST_PLANTS, enough)?);
+        Ok(Self { plants: views.len() as u32, seen: views.into_iter().flat_map(|(seen, _)| seen).collect() })
     }
 
     fn held_against(&self, row: usize, published: &Published) -> Vec<Compared> {
@@ -142,7 +139,30 @@ impl Sample {
     }
 }
 
-impl Recorder for Sample {
+/// Grows one plant of a sample; what was seen of it, and what that cost, in components.
+fn seen_of(plant: u32, model: &dyn GrowthModel, ages: &[Tick], last: Tick) -> Result<(Vec<Seen>, u64), String> {
+    let seed = Seed { plant, run_seed: DEFAULT_SEED, component_limit: COMPONENT_LIMIT, keep_events: false };
+    let mut plot = Plot::of_one(model, &seed);
+    let mut view = View { ages, seen: Vec::new() };
+    match grow(model, &mut plot, last, &mut view) {
+        Ok(Ending::Complete) => {
+            let times = if plot.remembers() { u64::from(last).div_ceil(TICKS_OF_BENDING) } else { 1 };
+            Ok((view.seen, u64::from(plot.plants[0].components()) * times))
+        }
+        Ok(Ending::Overgrown { age, .. }) => {
+            Err(format!("a plant has more than {COMPONENT_LIMIT} components at age {age}"))
+        }
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// What is seen of one plant.
+struct View<'a> {
+    ages: &'a [Tick],
+    seen: Vec<Seen>,
+}
+
+impl Recorder for View<'_> {
     fn wants(&self, age: Tick) -> bool {
         self.ages.contains(&age)
     }

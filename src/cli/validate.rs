@@ -64,7 +64,8 @@ fn find(name: &str) -> Found {
 }
 
 fn wrong(species: &Species) -> Option<Vec<Fault>> {
-    let faults: Vec<Fault> = sample::faults(species).into_iter().chain(architecture::faults(species)).collect();
+    let (mut faults, others) = rayon::join(|| sample::faults(species), || architecture::faults(species));
+    faults.extend(others);
     Some(faults).filter(|faults| !faults.is_empty())
 }
 
