@@ -30,7 +30,7 @@ const LIMIT: u32 = 1_000_000;
 /// A plant that no table could hold.
 pub fn characters(model: &dyn GrowthModel, until: Tick, plants: u32) -> Result<Vec<Characters>, RecordError> {
     let first = characters_of(0, model, until)?;
-    let size = first.as_ref().map_or(ENOUGH, |(_, components)| *components);
+    let size = first.as_ref().map_or(0, |(_, components)| *components);
     let others = (1..plants.min(ENOUGH.div_ceil(size.max(1)))).into_par_iter();
     let others = others.map(|plant| characters_of(plant, model, until)).collect::<Result<Vec<_>, _>>()?;
     Ok(std::iter::once(first).chain(others).flatten().map(|(characters, _)| characters).collect())
