@@ -146,12 +146,16 @@ fn flatten<'s>(root: &'s Json, branches: &'s [Json], depth: usize) -> Vec<&'s Js
     flat
 }
 
-/// How well a table's shape fits a form: constants that agree, known keys, then required keys that are there.
+/// How well a table's shape fits a form: constants that agree, keys that are known or nearly so, then required keys that
+/// are there.
 fn score(root: &Json, form: &Json, entries: &[Entry]) -> (isize, usize, isize) {
     let mut constants = 0;
     let mut known = 0;
     for entry in entries {
-        let Some(key) = property(form, &entry.key) else { continue };
+        let Some(key) = property(form, &entry.key) else {
+            known += usize::from(nearest(&entry.key, known_keys(form)).is_some());
+            continue;
+        };
         known += 1;
         let key = key.and_then(|schema| resolve(root, schema));
         if let Some(options) = key.and_then(options) {
