@@ -6,8 +6,10 @@
 
 mod program;
 
-use phytomer::config::{Kind, presets, validate};
-use phytomer::run::{self, Program, Progress, Settings};
+use phytomer::config::{Kind, Resolved, presets, validate};
+use phytomer::run::{self, Program, Progress, Settings, seed_of};
+use phytomer::sim::Plot;
+use phytomer::sim::plant::Hands;
 use program::{data, hashes, run as phytomer};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -36,17 +38,28 @@ fn plants_that_bend_are_the_same_on_any_number_of_threads() {
     assert_eq!(grown[0], grown[2]);
 }
 
+/// One plant, of which so many axes wait that threads without a part of their own help to grow it.
 #[test]
 fn a_single_plant_is_the_same_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let grown = ["1", "2", "7"].map(|threads| {
-        let words =
-            ["grow", &data("small.toml"), "--plants", "8", "--seed", "3", "--threads", threads, "--name", threads];
-        phytomer(folder.path(), &words).ending(0);
+        phytomer(folder.path(), &["grow", &data("large.toml"), "--threads", threads, "--name", threads]).ending(0);
         hashes(&folder.path().join("runs").join(threads))
     });
+    assert_eq!(grown[0].len(), 3, "three tables of one part");
+    assert!(most_waiting("large.toml") >= Hands::default().worth, "axes enough to be shared out");
     assert_eq!(grown[0], grown[1]);
     assert_eq!(grown[0], grown[2]);
+}
+
+/// The most axes of one order of the first plant of a scenario: where order is borne by order, they wait at once.
+fn most_waiting(name: &str) -> usize {
+    let Resolved { scenario, model, .. } =
+        validate(&data(name)).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let mut plot = Plot::of_one(model.as_ref(), &seed_of(&scenario, 0));
+    model.grow_to(scenario.ages.until, &mut plot.plants, &plot.site).unwrap();
+    let orders = &plot.plants[0].axes.order;
+    (1..=4).map(|order| orders.iter().filter(|of| **of == order).count()).max().unwrap()
 }
 
 /// A shipped scenario with so many plants in parts of two, so that several threads have work.
