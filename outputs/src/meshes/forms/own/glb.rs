@@ -12,8 +12,10 @@ const BINARY: &[u8] = b"BIN\0";
 
 /// Nodes within nodes deeper than this are a mistake, or a circle.
 const DEEPEST: usize = 32;
-/// Nodes visited in all: a node may stand in several places.
-const MOST_NODES: usize = 4096;
+/// Nodes and primitives visited in all: a node may stand in several places.
+const MOST_VISITED: usize = 4096;
+/// Vertices in all, with those that primitives share and do not use: a small file can name the same ones again and again.
+const MOST_POINTS: usize = 30 * MOST_TRIANGLES;
 
 /// Four columns of a transform.
 type Matrix = [[f32; 4]; 4];
@@ -77,36 +79,49 @@ struct Accessor<'a> {
 impl<'a> Reading<'a> {
     /// The nodes of the default scene; every mesh once where there is no scene.
     fn scene(&mut self) -> Read<()> {
-        let scene = self.json["scene"].as_u64().unwrap_or(0) as usize;
-        let roots = self.json["scenes"].get(scene).and_then(|scene| scene["nodes"].as_array());
+        let json = self.json;
+        let scene = json["scene"].as_u64().unwrap_or(0) as usize;
+        let roots = json["scenes"].get(scene).and_then(|scene| scene["nodes"].as_array());
         match roots {
-            Some(roots) => roots.clone().iter().try_for_each(|node| self.node(node, &IDENTITY, 0)),
+            Some(roots) => roots.iter().try_for_each(|node| self.node(node, &IDENTITY, 0)),
             None => {
-                let meshes = self.json["meshes"].as_array().map_or(0, Vec::len);
-                (0..meshes.min(MOST_NODES)).try_for_each(|mesh| self.mesh(mesh, &IDENTITY))
+                let meshes = json["meshes"].as_array().map_or(0, Vec::len);
+                (0..meshes).try_for_each(|mesh| self.mesh(mesh, &IDENTITY))
             }
         }
     }
 
+    /// Counts one more node or primitive.
+    fn visit(&mut self, place: &str) -> Read<()> {
+        self.visited += 1;
+        if self.visited > MOST_VISITED {
+            let problem = format!("more than {MOST_VISITED} nodes and primitives");
+            return Err(MeshFault::new(place, problem, "a mesh of fewer parts, each where it stands"));
+        }
+        Ok(())
+    }
+
     fn node(&mut self, number: &Value, above: &Matrix, depth: usize) -> Read<()> {
+        let json = self.json;
         let index = number.as_u64().map(|index| index as usize);
         let place = || format!("node {number}");
-        let node = index.and_then(|index| self.json["nodes"].get(index));
+        let node = index.and_then(|index| json["nodes"].get(index));
         let node = node.ok_or_else(|| MeshFault::new(place(), "a node that is not there", "one of `nodes`"))?;
-        self.visited += 1;
-        if depth > DEEPEST || self.visited > MOST_NODES {
+        if depth > DEEPEST {
             return Err(MeshFault::new(place(), "nodes within nodes without end", "a tree of nodes"));
         }
+        self.visit(&place())?;
         let own = times(above, &transform(node));
         if let Some(mesh) = node["mesh"].as_u64() {
             self.mesh(mesh as usize, &own)?;
         }
-        let children = node["children"].as_array().cloned().unwrap_or_default();
+        let children = node["children"].as_array().map(Vec::as_slice).unwrap_or_default();
         children.iter().try_for_each(|child| self.node(child, &own, depth + 1))
     }
 
     fn mesh(&mut self, number: usize, transform: &Matrix) -> Read<()> {
-        let primitives = self.json["meshes"].get(number).and_then(|mesh| mesh["primitives"].as_array());
+        let json = self.json;
+        let primitives = json["meshes"].get(number).and_then(|mesh| mesh["primitives"].as_array());
         let primitives = primitives.ok_or_else(|| {
             MeshFault::new(format!("mesh {number}"), "a mesh that is not there", "one of `meshes`, with `primitives`")
         })?;
@@ -114,6 +129,7 @@ impl<'a> Reading<'a> {
     }
 
     fn primitive(&mut self, primitive: &Value, place: &str, transform: &Matrix) -> Read<()> {
+        self.visit(place)?;
         if primitive["mode"].as_u64().unwrap_or(4) != 4 {
             return Err(MeshFault::new(place, "points, lines, strips or fans", "triangles (mode 4)"));
         }
@@ -138,6 +154,10 @@ impl<'a> Reading<'a> {
                     })?
             }
         };
+        if self.soup.points.len() + positions.count > MOST_POINTS {
+            let problem = format!("more than {MOST_POINTS} vertices in all, used or not");
+            return Err(MeshFault::new(place, problem, "primitives with vertices of their own"));
+        }
         let first = self.soup.points.len() as u32;
         self.soup.points.extend((0..positions.count).map(|k| placed(transform, positions.vector(k))));
         let whole = corners.chunks_exact(3);

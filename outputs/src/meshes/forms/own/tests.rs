@@ -166,6 +166,23 @@ fn bad_meshes_give_their_messages() {
     assert!(with("\"asset\"", "asset").starts_with("the JSON chunk: "));
 }
 
+/// A small file cannot ask for much memory or time by naming the same part again and again.
+#[test]
+fn a_part_that_is_named_again_and_again_is_a_fault() {
+    let idle = GLTF
+        .replace("\"count\":5", "\"count\":30000")
+        .replace("\"byteLength\":60}", "\"byteLength\":60,\"byteStride\":0}")
+        .replace("\"count\":9", "\"count\":0");
+    let nodes = idle.replace("\"children\":[1]", &format!("\"children\":[{}]", ["1"; 4000].join(",")));
+    let told = fault("x.glb", &glb(&nodes, &binary_of_glb()));
+    assert!(told.starts_with("mesh 0: more than 300000 vertices in all"), "{told}");
+    let primitive = "{\"attributes\":{\"POSITION\":0},\"indices\":1}";
+    let none = idle.replace("\"count\":30000", "\"count\":0");
+    let primitives = none.replace(primitive, &[primitive; 5000].join(","));
+    let told = fault("x.glb", &glb(&primitives, &binary_of_glb()));
+    assert!(told.starts_with("mesh 0: more than 4096 nodes and primitives"), "{told}");
+}
+
 /// Bytes are changed, doubled and cut, by draws that are fixed: whatever comes of it is a mesh or a fault, soon.
 #[test]
 fn no_broken_file_panics_or_hangs() {
