@@ -17,11 +17,8 @@ const MOST_PLANTS: u32 = 16;
 /// Of large plants fewer do: their parts already average.
 const FEWEST_PLANTS: u32 = 2;
 
-/// No more plants are grown than come to about so many components: about a second.
-const ENOUGH_WORK: u64 = 1_000_000;
-
-/// So many ticks of a plant that bends take as long again as its growth.
-const TICKS_OF_BENDING: u64 = 8;
+/// No more plants are grown than come to about so many components.
+const ENOUGH_COMPONENTS: u64 = 1_000_000;
 
 /// A plant that is larger is not measured.
 const COMPONENT_LIMIT: u32 = 20_000_000;
@@ -109,8 +106,8 @@ impl Sample {
             (from..to).into_par_iter().map(|plant| seen_of(plant, model, &ages, last)).collect()
         };
         let mut views = grown(0, FEWEST_PLANTS)?;
-        let work = views.iter().map(|(_, work)| work).sum::<u64>().max(1);
-        let enough = (ENOUGH_WORK * u64::from(FEWEST_PLANTS)).div_ceil(work).min(MOST_PLANTS.into()) as u32;
+        let components = views.iter().map(|(_, components)| components).sum::<u64>().max(1);
+        let enough = (ENOUGH_COMPONENTS * u64::from(FEWEST_PLANTS)).div_ceil(components).min(MOST_PLANTS.into()) as u32;
         views.extend(grown(FEWEST_PLANTS, enough)?);
         Ok(Self { plants: views.len() as u32, seen: views.into_iter().flat_map(|(seen, _)| seen).collect() })
     }
@@ -139,16 +136,13 @@ impl Sample {
     }
 }
 
-/// Grows one plant of a sample; what was seen of it, and what that cost, in components.
+/// Grows one plant of a sample; what was seen of it, and its components.
 fn seen_of(plant: u32, model: &dyn GrowthModel, ages: &[Tick], last: Tick) -> Result<(Vec<Seen>, u64), String> {
     let seed = Seed { plant, run_seed: DEFAULT_SEED, component_limit: COMPONENT_LIMIT, keep_events: false };
     let mut plot = Plot::of_one(model, &seed);
     let mut view = View { ages, seen: Vec::new() };
     match grow(model, &mut plot, last, &mut view) {
-        Ok(Ending::Complete) => {
-            let times = if plot.remembers() { u64::from(last).div_ceil(TICKS_OF_BENDING) } else { 1 };
-            Ok((view.seen, u64::from(plot.plants[0].components()) * times))
-        }
+        Ok(Ending::Complete) => Ok((view.seen, u64::from(plot.plants[0].components()))),
         Ok(Ending::Overgrown { age, .. }) => {
             Err(format!("a plant has more than {COMPONENT_LIMIT} components at age {age}"))
         }
