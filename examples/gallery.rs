@@ -6,7 +6,7 @@
 
 use anyhow::{Context, Result, anyhow};
 use phytomer::config::{Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, presets, validate, validate_species};
-use phytomer::outputs::pictures::{Canvas, Compression, Picture, Subject, View, draw, write_png};
+use phytomer::outputs::pictures::{Canvas, Compression, Picture, Subject, draw, write_png};
 use phytomer::run::again::Again;
 use phytomer::run::drawing::{Portrait, portrait};
 use phytomer::sim::{GrowthModel, Tick};
@@ -97,18 +97,7 @@ fn strip(path: &Path) -> Result<()> {
 }
 
 fn drawn(portrait: &Portrait, size: [u32; 2]) -> Result<Canvas> {
-    let style = Picture {
-        size,
-        view: View::Perspective,
-        turn: None,
-        transparent: false,
-        ground: true,
-        caption: true,
-        sun: None,
-        sides: 8,
-        own: Default::default(),
-        colour_by: None,
-    };
+    let style = Picture { size, ..Picture::default() };
     let subjects: Vec<Subject> = portrait.subjects();
     Ok(draw(&subjects, &portrait.title, &style)?)
 }

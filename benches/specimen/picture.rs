@@ -6,7 +6,7 @@
 use super::Specimen;
 use criterion::{Criterion, Throughput};
 use phytomer::outputs::meshes::{Mesh, MeshOptions, Scene};
-use phytomer::outputs::pictures::{Canvas, Compression, Picture, Subject, View, draw, write_png};
+use phytomer::outputs::pictures::{Canvas, Compression, Picture, Subject, draw, write_png};
 use phytomer::run::again::Again;
 use phytomer::sim::Tick;
 use phytomer::sim::plant::Plant;
@@ -37,18 +37,7 @@ pub fn picture(specimen: &Specimen, criterion: &mut Criterion) {
     let (plant, age) = large(specimen);
     let scene = Scene::new(&plant, age, &MeshOptions::default());
     let mut group = specimen.group(criterion, "picture (triangles)", Throughput::Elements(scene.counts().faces));
-    let style = Picture {
-        size: [1920, 1080],
-        view: View::Perspective,
-        turn: None,
-        transparent: false,
-        ground: true,
-        caption: true,
-        sun: None,
-        sides: 8,
-        own: Default::default(),
-        colour_by: None,
-    };
+    let style = Picture { size: [1920, 1080], ..Picture::default() };
     let drawn = || draw(&[Subject { plant: &plant, age, label: format!("age {age}") }], "", &style).expect("a picture");
     let encoded =
         |canvas: &Canvas| write_png(canvas, "", Compression::Balanced, Vec::new()).expect("memory does not fail");

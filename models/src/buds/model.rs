@@ -7,11 +7,10 @@ use super::compile::{BudModel, OrderLaws};
 use super::grow::{Axis, Full, Words, add_axis, first_bud};
 use crate::law::At;
 use phytomer_sim::Tick;
-use phytomer_sim::clock::NEVER;
 use phytomer_sim::expectation::Expectation;
 use phytomer_sim::mechanics::taper;
 use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
-use phytomer_sim::plant::{ApicalBud, AxisId, Habit, Hands, LineageKey, NewAxis, Origin, Plant};
+use phytomer_sim::plant::{ApicalBud, AxisId, Habit, Hands, LineageKey, NewAxis, Plant};
 use phytomer_sim::site::Site;
 use std::ops::Range;
 use std::sync::Arc;
@@ -165,19 +164,7 @@ impl GrowthModel for BudModel {
     fn sow(&self, plant: &mut Plant) {
         let laws = &self.laws(1).head;
         let words = laws.words(&plant.random, LineageKey::SEED);
-        let new = NewAxis {
-            bearer: None,
-            key: LineageKey::SEED,
-            order: 1,
-            origin: Origin::Seed,
-            position: 0,
-            state: 0,
-            appearance: 0,
-            birth: 0,
-            azimuth: 0.0,
-            insertion: laws.insertion.draw(&words, 0, At::default()),
-            shed_after: NEVER,
-        };
+        let new = NewAxis { insertion: laws.insertion.draw(&words, 0, At::default()), ..NewAxis::OF_THE_SEED };
         let axis = add_axis(self, plant, new);
         let bud = first_bud(self, plant, axis);
         plant.buds.push(bud);

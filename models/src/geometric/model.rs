@@ -8,10 +8,10 @@
 use super::gmt1::Gmt1;
 use super::laws::Laws;
 use super::tree::birth;
-use phytomer_sim::clock::{NEVER, Tick};
+use phytomer_sim::clock::Tick;
 use phytomer_sim::expectation::{Expectation, OrderExpectation};
 use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
-use phytomer_sim::plant::{Habit, LineageKey, Looks, NewAxis, Origin, Plant, Shape, Trend};
+use phytomer_sim::plant::{Habit, Looks, NewAxis, Plant, Shape, Trend};
 use phytomer_sim::site::Site;
 use std::sync::Arc;
 
@@ -93,19 +93,7 @@ impl GrowthModel for Gmt1Model {
     }
 
     fn sow(&self, plant: &mut Plant) {
-        plant.add_axis(NewAxis {
-            bearer: None,
-            key: LineageKey::SEED,
-            order: 1,
-            origin: Origin::Seed,
-            position: 0,
-            state: 0,
-            appearance: 0,
-            birth: 0,
-            azimuth: 0.0,
-            insertion: 0.0,
-            shed_after: NEVER,
-        });
+        plant.add_axis(NewAxis::OF_THE_SEED);
     }
 
     fn grow_to(&self, age: Tick, plants: &mut [Plant], _site: &Site) -> Result<(), Overgrown> {

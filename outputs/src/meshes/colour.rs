@@ -100,8 +100,8 @@ fn opaque(colour: Rgb) -> [u8; 4] {
 mod tests {
     use super::*;
     use phytomer_sim::plant::{
-        Bark, Form, Habit, InternodeLook, Kind, LineageKey, Looks, NewAxis, NewNode, NewOrgan, NodeId, OrganLooks,
-        Origin, Seed, Shape, Trend,
+        Bark, Form, Habit, InternodeLook, Kind, Looks, NewAxis, NewNode, NewOrgan, NodeId, OrganLooks, Seed, Shape,
+        Trend,
     };
     use std::sync::Arc;
 
@@ -144,19 +144,7 @@ mod tests {
         let habit = Habit { trends: vec![Trend::STRAIGHT], looks, organ_trends: vec![], wood: None };
         let seed = Seed { plant: 0, run_seed: 1, component_limit: 9, keep_events: false };
         let mut plant = Plant::new(&seed, Arc::new(habit));
-        let axis = plant.add_axis(NewAxis {
-            bearer: None,
-            key: LineageKey::SEED,
-            order: 1,
-            origin: Origin::Seed,
-            position: 0,
-            state: 0,
-            appearance: 0,
-            birth: 0,
-            azimuth: 0.0,
-            insertion: 0.0,
-            shed_after: NEVER,
-        });
+        let axis = plant.add_axis(NewAxis::OF_THE_SEED);
         let node = plant.add_node(NewNode {
             parent: NodeId::NONE,
             axis,

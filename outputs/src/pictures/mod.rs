@@ -112,6 +112,24 @@ pub struct Picture {
     pub colour_by: Option<String>,
 }
 
+impl Default for Picture {
+    /// In perspective and sunshine, on ground, with its captions, 1600 by 1200 pixels.
+    fn default() -> Self {
+        Self {
+            size: [1600, 1200],
+            view: View::Perspective,
+            turn: None,
+            transparent: false,
+            ground: true,
+            caption: true,
+            sun: None,
+            sides: 8,
+            own: Arc::default(),
+            colour_by: None,
+        }
+    }
+}
+
 /// A plant at an age, to be drawn.
 #[derive(Debug, Clone)]
 pub struct Subject<'a> {

@@ -9,9 +9,8 @@ use super::raster::{UPRIGHT, Window, cover};
 use super::shadow::Shadow;
 use super::sky::{Crown, falling_on};
 use super::*;
-use phytomer_sim::NEVER;
 use phytomer_sim::math::{sincosf, tan};
-use phytomer_sim::plant::{Habit, LineageKey, Looks, NewAxis, NewNode, NodeId, Origin, Seed, Shape, Trend};
+use phytomer_sim::plant::{Habit, Looks, NewAxis, NewNode, NodeId, Seed, Shape, Trend};
 use phytomer_sim::pose::pose;
 use std::sync::Arc;
 
@@ -22,18 +21,7 @@ fn window(width: u32, height: u32) -> Window {
 }
 
 fn picture(size: [u32; 2], view: View) -> Picture {
-    Picture {
-        size,
-        view,
-        turn: None,
-        transparent: true,
-        ground: false,
-        caption: false,
-        sun: None,
-        sides: 8,
-        own: Default::default(),
-        colour_by: None,
-    }
+    Picture { size, view, transparent: true, ground: false, caption: false, ..Picture::default() }
 }
 
 /// One upright internode.
@@ -42,19 +30,7 @@ fn pole(length: f32, diameter: f32) -> Plant {
     let habit = Habit { trends: vec![Trend::STRAIGHT], looks, ..Default::default() };
     let mut plant =
         Plant::new(&Seed { plant: 0, run_seed: 1, component_limit: 9, keep_events: false }, Arc::new(habit));
-    let axis = plant.add_axis(NewAxis {
-        bearer: None,
-        key: LineageKey::SEED,
-        order: 1,
-        origin: Origin::Seed,
-        position: 0,
-        state: 0,
-        appearance: 0,
-        birth: 0,
-        azimuth: 0.0,
-        insertion: 0.0,
-        shed_after: NEVER,
-    });
+    let axis = plant.add_axis(NewAxis::OF_THE_SEED);
     let parent = NodeId::NONE;
     let (birth, rank, unit_rank, trend, azimuth) = (1, 1, 1, 0, 0.0);
     let (short, neoformed) = (false, false);

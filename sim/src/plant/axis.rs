@@ -104,6 +104,23 @@ pub struct NewAxis {
     pub shed_after: Tick,
 }
 
+impl NewAxis {
+    /// The axis that grows out of the seed, straight up; its wood stays.
+    pub const OF_THE_SEED: Self = Self {
+        bearer: None,
+        key: LineageKey::SEED,
+        order: 1,
+        origin: Origin::Seed,
+        position: 0,
+        state: 0,
+        appearance: 0,
+        birth: 0,
+        azimuth: 0.0,
+        insertion: 0.0,
+        shed_after: NEVER,
+    };
+}
+
 /// The columns of the axes.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Axes {

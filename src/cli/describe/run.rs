@@ -195,7 +195,7 @@ impl Held {
     }
 }
 
-/// "massart (8 of the 8 plants looked at)".
+/// "massart (8), of 8 plants looked at".
 fn architecture_in_words(of: &Qualified) -> String {
     let words: Vec<String> = of.models.iter().map(|(model, plants)| format!("{model} ({plants})")).collect();
     let looked = amounts::of(of.plants.into(), "plant");
