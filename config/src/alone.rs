@@ -14,9 +14,6 @@ use crate::validate::{Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL};
 /// A plant of a species that states no age is grown no further than is expected to make it so large.
 const SMALL: f64 = 200_000.0;
 
-/// The growth level at which a geometric model is shown, plus one: that of the figures of Aono & Kunii 1984.
-const LEVELS: u32 = 10;
-
 /// Into how many steps of about the same length the recorded ages cut the life of the plant.
 const RECORDED: u32 = 10;
 
@@ -55,7 +52,8 @@ impl Species {
     pub fn shown_at(&self, model: &dyn GrowthModel) -> u32 {
         self.about.shown_at.unwrap_or_else(|| match &self.model {
             Model::Buds(_) => while_small(model),
-            Model::Gmt1(_) => LEVELS,
+            // Fully grown, as in the figures of Aono & Kunii 1984: growth level 0 is age 1.
+            Model::Gmt1(gmt1) => while_small(model).min(gmt1.levels.value() + 1),
         })
     }
 }

@@ -117,3 +117,11 @@ fn the_schemas_for_editors_are_of_draft_7() {
     let forms = schema_of(Kind::Species)["anyOf"].as_array().map(Vec::len);
     assert_eq!(forms, Some(phytomer_config::MODELS.len()));
 }
+
+#[test]
+fn a_row_of_table_1_is_shown_at_its_growth_level() {
+    for (row, level) in [("gmt1/5g", 9), ("gmt1/6a", 10), ("gmt1/7d", 10)] {
+        let species = validate_species(row, 100).expect("it is right");
+        assert_eq!(species.shown_at(), level + 1, "{row}: age 1 is growth level 0");
+    }
+}

@@ -46,7 +46,7 @@ fn assert_totals(name: &str, totals: &[f64]) {
     let plants: Vec<_> = (0..PLANTS).map(|number| plant(&model, number, until)).collect();
     for (age, &total) in (1..).zip(totals) {
         let closed: f64 = expected.orders.iter().map(|order| order.units[age as usize]).sum();
-        assert!((closed - total).abs() < 1e-9, "{name} at age {age}: closed form {closed}, published {total}");
+        assert!((closed - total).abs() < 1e-9, "{name} at age {age}: closed form {closed}, by hand {total}");
         let sample = Sample::of(plants.iter().map(|plant| units_by_order(plant, age).iter().sum::<u64>() as f64));
         sample.assert_mean(total, &format!("{name} at age {age}"));
     }
@@ -66,7 +66,7 @@ fn example_4_grows_at_the_ratio_of_figure_14() {
     for (name, mean) in figures {
         let model = shipped(name, 20);
         let closed = model.expectation(20).unwrap().orders[1].units[20];
-        assert!((closed - mean).abs() < 1e-9, "{name}: closed form {closed}, published {mean}");
+        assert!((closed - mean).abs() < 1e-9, "{name}: closed form {closed}, by hand {mean}");
         let units = (0..PLANTS).map(|number| units_by_order(&plant(&model, number, 20), 20)[1] as f64);
         let sample = Sample::of(units);
         sample.assert_mean(mean, name);

@@ -2,7 +2,8 @@
 //! plyfile, three.js, ply-rs-bw): a form for each component (de Reffye 1988 §6), in metres, Z up.
 //!
 //! A [`Scene`] is what stands of a plant at an age; it hands out vertices and triangles in chunks of packed bytes, and a
-//! [`MeshWriter`] puts them into a file. A new format touches two places: its file and the line that names it here.
+//! [`MeshWriter`] puts them into a file. A new format is one file and the line that names it here;
+//! what a run and `phytomer mesh` write is chosen where they call it.
 //! Vertices are not shared between components. Absent: buds, which have no form; curvature, which is the pose's.
 
 mod chunk;

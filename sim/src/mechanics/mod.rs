@@ -1,5 +1,5 @@
-//! Wood, weight and wind: how internodes thicken, and how axes bend under what they bear (de Reffye 1988 §5, "by the
-//! theory of material strength" with Young's modulus).
+//! Wood, weight and wind: how internodes thicken, and how axes bend under what they bear (de Reffye 1988 §5, by the
+//! theory of the strength of materials, with Young's modulus).
 //!
 //! Each tick internodes gain diameter (`secondary`), then loads and shape are brought to equilibrium (`bend`: moments in
 //! one reverse scan in `loads`, curvatures and pose in one forward scan in `turn`). What bending leaves is

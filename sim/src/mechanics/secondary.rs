@@ -1,6 +1,6 @@
 //! Secondary growth: how internodes gain diameter, in one reverse scan.
 //!
-//! - The law of age is the model's own (de Reffye 1988 §5).
+//! - The law of age is the model's own (de Reffye 1988 §4).
 //! - The pipe model (Shinozaki et al. 1964): each leaf above adds a pipe of one section. Pipes stay in the wood when
 //!   their leaves fall.
 //! - Da Vinci's rule (Prusinkiewicz & Lindenmayer 1990 §2, "da Vinci's postulate"): at a fork d^Δ is the sum of d^Δ above.

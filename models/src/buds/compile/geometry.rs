@@ -1,6 +1,7 @@
-//! Phyllotaxis from names and degrees (de Reffye 1988 §4, Fig. 3), and the shape of internodes.
+//! Phyllotaxis from names and degrees (de Reffye 1988 §2, Fig. 3), and the shape of internodes.
 //!
-//! The named phyllotaxes are those of the paper and of Aono & Kunii 1984. Absent: trends (`trend`), and the turning of
+//! The named fractions are those of the paper and of Aono & Kunii 1984; the opposite-decussate and the whorled
+//! arrangement are the botanists' common terms. Absent: trends (`trend`), and the turning of
 //! nodes, which is the pose's.
 
 use super::compiler::Compiler;

@@ -1,5 +1,6 @@
-//! The ends of apices and what follows them: relays, forks, reiteration, and passages between states (de Reffye 1988 §2).
+//! The ends of apices and what follows them: relays and reiteration (de Reffye 1988 §2), forks, and passages between states.
 //!
+//! Forks are the dichotomy of Hallé, Oldeman & Tomlinson 1978 (Schoute's model).
 //! Passages between states are those of a reference axis (Barczi et al. 2008, AMAPsim): an oriented automaton along the
 //! life of an axis. All of it is optional; a species that states none of it grows as in 1988.
 

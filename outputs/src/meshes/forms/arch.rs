@@ -1,7 +1,7 @@
 //! Blades that bend along their length: grass and banana leaves, petals and sepals, each of at most four plane polygons.
 //!
 //! A blade that arches is four stretches of a strip, one after another; its length runs along the bend. A petal is two
-//! stretches folded along the middle, hollow as a hand (de Reffye 1988 §6). Absent: stalks.
+//! stretches folded along the middle, hollow above (plane polygons, as in de Reffye 1988 §6). Absent: stalks.
 
 use super::{Depth, Shape, along};
 use phytomer_sim::math::sincosf;
