@@ -81,9 +81,9 @@ impl NodeLaws {
         };
         let diameter = compiler.measure(&order.internode.diameter_mm, "internode.diameter_mm");
         let leaves = compiler.count(&order.leaf.per_node, "leaf.per_node", MOST_ORGANS);
-        let most_leaves = leaves.max();
+        let most_leaves = leaves.max_in_any_run();
         let flowers = lateral_flowers(order, compiler);
-        let most_flowers = flowers.max().max(1);
+        let most_flowers = flowers.max_in_any_run().max(1);
         let opens = compiler.probability(&order.flower.lateral, "flower.lateral");
         let sets = compiler.probability(&order.flower.fruit_set, "flower.fruit_set");
         let mut flower_count = |count: &Count, keys: &str| compiler.count(count, keys, LONGEST);

@@ -32,7 +32,7 @@ impl Branching {
         insertion: VariateTable,
         state: Option<u8>,
     ) -> Self {
-        let most = count.max();
+        let most = count.max_in_any_run();
         Self {
             count: words.number(count, 1),
             chance: words.chance(chance, most),
@@ -117,7 +117,7 @@ fn traumatic(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Bran
         true => CountTable::always(0),
         false => compiler.count(&order.axillary.buds, "axillary.buds", MOST_BUDS),
     };
-    let most = CountTable::always(count.max());
+    let most = CountTable::always(count.max_in_any_run());
     let delay = compiler.count(&traumatic.delay, "traumatic.delay", LONGEST);
     let angle = compiler.angle(&traumatic.insertion_deg, "traumatic.insertion_deg");
     let state = traumatic.state.as_ref().map(|state| compiler.state(state, "traumatic.state"));
