@@ -64,13 +64,27 @@ struct Source<'a> {
 impl Count {
     /// Compiles a count over a domain, or tells every fault found.
     pub fn compile(&self, domain: &Domain, path: &Path) -> Result<CountTable, Vec<Fault>> {
+        self.compile_and(false, domain, path)
+    }
+
+    /// The same, and looks for the largest count in a run of any length: of what has a place each in a stream of words.
+    pub fn compile_places(&self, domain: &Domain, path: &Path) -> Result<CountTable, Vec<Fault>> {
+        self.compile_and(true, domain, path)
+    }
+
+    fn compile_and(&self, look_ahead: bool, domain: &Domain, path: &Path) -> Result<CountTable, Vec<Fault>> {
         let sources = match self {
             Self::Number(number) => vec![Source::constant(*number, path)?],
             Self::Form(form) => sources(form, domain, path)?,
         };
         let formulas: Vec<&Formula> = sources.iter().flat_map(|source| &source.parameters).collect();
         let grid = formula::grid(&formulas, domain, path)?;
-        CountTable::fill(grid, &sources, path).map_err(|fault| vec![fault])
+        let mut table = CountTable::fill(grid, &sources, path).map_err(|fault| vec![fault])?;
+        if sources.iter().flat_map(|source| &source.parameters).any(Formula::goes_on) {
+            let most = if look_ahead { most_in_any_run(&sources, path) } else { MAX_COUNT };
+            table.goes_on_to = Some(most.max(table.max()));
+        }
+        Ok(table)
     }
 }
 
@@ -223,9 +237,6 @@ impl CountTable {
             table.grid = Grid::single();
             table.cells.truncate(1);
         }
-        if sources.iter().flat_map(|source| &source.parameters).any(Formula::goes_on) {
-            table.goes_on_to = Some(most_in_any_run(sources, path).max(table.max()));
-        }
         Ok(table)
     }
 
@@ -334,8 +345,8 @@ impl CountTable {
         self.distributions.iter().map(|distribution| distribution.first + distribution.len).max().unwrap_or(0)
     }
 
-    /// The largest count that can be drawn in a run of any length, or [`MAX_COUNT`] where that would take too long to find:
-    /// for so many there is a place in a stream of words.
+    /// The largest count that can be drawn in a run of any length, or [`MAX_COUNT`] where nothing has looked for it or that
+    /// would take too long: for so many there is a place in a stream of words.
     pub fn max_in_any_run(&self) -> u32 {
         self.goes_on_to.unwrap_or_else(|| self.max())
     }

@@ -14,6 +14,7 @@ use crate::law::{
 };
 use phytomer_sim::clock::{LAST_TICK, Speed};
 use phytomer_sim::plant::Form;
+use std::ops::RangeInclusive;
 
 /// A length or a diameter, in the unit of its key.
 const MEASURE: ValueRange = ValueRange { min: 0.0, max: 100_000.0, what: "a measure" };
@@ -129,6 +130,12 @@ impl<'a> Compiler<'a> {
         self.count_from(0, count, keys, most)
     }
 
+    /// The same for things that have a place each in a stream of words.
+    pub fn places(&mut self, count: &Count, keys: &str, most: u32) -> CountTable {
+        let compiled = count.compile_places(&self.domain, &self.at(keys));
+        self.accept_count(compiled, keys, 0..=most)
+    }
+
     /// A rank, from 1: anything else that can be drawn is a fault.
     pub fn rank(&mut self, count: &Count, keys: &str) -> CountTable {
         self.count_from(1, count, keys, LAST_RANK)
@@ -136,6 +143,16 @@ impl<'a> Compiler<'a> {
 
     fn count_from(&mut self, least: u32, count: &Count, keys: &str, most: u32) -> CountTable {
         let compiled = count.compile(&self.domain, &self.at(keys));
+        self.accept_count(compiled, keys, least..=most)
+    }
+
+    fn accept_count(
+        &mut self,
+        compiled: Result<CountTable, Vec<Fault>>,
+        keys: &str,
+        within: RangeInclusive<u32>,
+    ) -> CountTable {
+        let (least, most) = (*within.start(), *within.end());
         let table = self.accept(compiled).unwrap_or_else(|| CountTable::always(least));
         self.asks_the_bud |= table.asks_the_bud();
         let (outside, expected) = match (table.min() < least, table.max() > most) {

@@ -62,7 +62,7 @@ impl StepLaws {
         let mut layout = Layout::default();
         let unit = &order.growth_unit;
         compiler.set_units([MOST_UNITS; 2], last);
-        let per_step = compiler.count(&unit.per_step, "growth_unit.per_step", MOST_UNITS);
+        let per_step = compiler.places(&unit.per_step, "growth_unit.per_step", MOST_UNITS);
         let most_units = per_step.max_in_any_run();
         compiler.set_units([per_step.max(), most_units], last);
         let death = layout.chance(compiler.probability(&order.death, "death"), 1);

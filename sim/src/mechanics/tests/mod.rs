@@ -133,7 +133,6 @@ pub fn add_leaf(plant: &mut Plant, node: NodeId, area: f32) {
         node,
         kind: Kind::Leaf,
         position: 0,
-        follows: false,
         birth: 1,
         death: NEVER,
         cause: Cause::None,
