@@ -145,7 +145,7 @@ impl<'a> Axis<'a> {
     /// Where laws are asked now, for the node at `rank` of its growth unit; 0 for the bud itself.
     pub fn at(&self, rank: u32) -> At {
         let ApicalBud { cycle, units: unit, birth: bud_birth, state, .. } = self.bud;
-        let bud_dimension = bud_birth - self.birth;
+        let bud_dimension = bud_birth.saturating_sub(self.birth);
         At { age: self.tick, dimension: self.dimension, cycle, rank, bud_birth, bud_dimension, unit, state }
     }
 

@@ -14,8 +14,8 @@ use super::bare::{self, BareOr};
 use super::curves::{ExponentialLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw};
 use crate::fault::{Fault, Path};
 
-/// A law: a number as a function of age, dimension, cycle, rank, bud_birth, bud_dimension, unit and state. Written as a bare number, or as a table
-/// with exactly one kind, for example `{ value = 0.1 }` or `{ expression = "min(1, 0.01 * dimension)" }`.
+/// A law: a number as a function of age, dimension, cycle, rank, bud_birth, bud_dimension, unit and state. Written as a
+/// bare number, or as a table with exactly one kind, for example `{ value = 0.1 }` or `{ expression = "min(1, 0.01 * dimension)" }`.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Law {
