@@ -115,6 +115,7 @@ fn axis(plant: &mut Plant, bearer: Option<NodeId>, tick: Tick) -> AxisId {
         order: if bearer.is_some() { 2 } else { 1 },
         origin: if bearer.is_some() { Origin::Axillary } else { Origin::Seed },
         position: 0,
+        follows: false,
         state: 0,
         appearance: tick,
         birth: tick,

@@ -13,7 +13,7 @@ use super::params::ApexEnd;
 use crate::law::At;
 use phytomer_sim::clock::{NEVER, Speed, Tick};
 use phytomer_sim::plant::{
-    ApexFate, ApicalBud, AxisId, Cause, EventKind, Form, Kind, NewAxis, NewOrgan, NodeId, Origin, Plant,
+    ApexFate, ApicalBud, AxisId, Cause, EventKind, Form, Kind, NewAxis, NewOrgan, NodeId, Plant,
 };
 use phytomer_sim::random::{Purpose, Stream};
 
@@ -79,8 +79,10 @@ pub(super) struct Axis<'a> {
     speed: Speed,
     /// The growth units after which the apex ends.
     last_unit: u32,
-    /// Whether it is the first of its set of relays, or no relay.
+    /// Whether it is the first of its set of relays or forks, or of no set.
     leads: bool,
+    /// The tick from which dimensions count.
+    birth: Tick,
 }
 
 /// The plant has no room left for what a bud would make.
@@ -102,8 +104,10 @@ impl<'a> Axis<'a> {
             speed: Speed::ONE,
             last_unit: u32::MAX,
             leads: false,
+            birth: 0,
         };
-        axis.leads = leads(axis.plant, axis.bud.axis);
+        let place = axis.bud.axis.index();
+        (axis.leads, axis.birth) = (!axis.plant.axes.follows[place], axis.plant.axes.birth[place]);
         axis.read_head();
         axis
     }
@@ -117,7 +121,7 @@ impl<'a> Axis<'a> {
             let stream = self.words.bud.insert(random.stream(self.plant.axes.key[axis], Purpose::Bud));
             stream.read(&mut self.words.head);
         }
-        let at = at_birth(self.plant.axes.birth[axis], self.plant.axes.state[axis]);
+        let at = at_birth(self.birth, self.plant.axes.state[axis]);
         self.speed = laws.speed.draw(&self.words.head);
         self.last_unit = laws.units.as_ref().map_or(u32::MAX, |units| units.draw(&self.words.head, 0, at));
         laws.trends.draw_ranks(&self.words.head, at, &mut self.words.trends);
@@ -125,10 +129,9 @@ impl<'a> Axis<'a> {
 
     /// Grows the axis to `age`; the bud as it then is, or `None` where the apex has come to its end.
     pub fn grow(mut self, age: Tick) -> Result<Option<ApicalBud>, Full> {
-        let birth = self.plant.axes.birth[self.bud.axis.index()];
         for tick in self.bud.age + 1..=age {
             self.tick = tick;
-            self.dimension = tick.saturating_sub(birth);
+            self.dimension = tick.saturating_sub(self.birth);
             for _ in self.bud.cycle..self.speed.steps_by(self.dimension) {
                 if !self.step()? {
                     return Ok(None);
@@ -141,7 +144,9 @@ impl<'a> Axis<'a> {
 
     /// Where laws are asked now, for the node at `rank` of its growth unit; 0 for the bud itself.
     pub fn at(&self, rank: u32) -> At {
-        At { age: self.tick, dimension: self.dimension, cycle: self.bud.cycle, rank, state: self.bud.state }
+        let ApicalBud { cycle, units: unit, birth: bud_birth, state, .. } = self.bud;
+        let bud_dimension = bud_birth.saturating_sub(self.birth);
+        At { age: self.tick, dimension: self.dimension, cycle, rank, bud_birth, bud_dimension, unit, state }
     }
 
     /// One clock step of the apical bud; false where it ended.
@@ -160,11 +165,13 @@ impl<'a> Axis<'a> {
         if laws.flower.happens(&self.words.step, 0, at) {
             let ended = self.end(ApexFate::Flowered, EventKind::Flowered, ApexEnd::Flower);
             self.terminal_flower();
-            return ended;
+            return if self.plant.is_overgrown() { Err(Full) } else { ended };
         }
         for unit in 0..laws.per_step.draw(&self.words.step, 0, at) {
             self.growth_unit(unit)?;
+            // It leaves a new bud at its tip.
             self.bud.units += 1;
+            self.bud.birth = self.tick;
             if self.bud.units >= self.last_unit {
                 return self.end(ApexFate::Completed, EventKind::Completed, ApexEnd::Completed);
             }
@@ -249,8 +256,8 @@ impl<'a> Axis<'a> {
         };
         // The record of the node that this bud will never make.
         self.read_node();
-        let past =
-            self.flower(FlowerSite { node, nth: 0, birth: self.tick, azimuth: 0.0, position: TERMINAL }, self.at(0));
+        let at = self.at(self.plant.nodes.unit_rank[node.index()].into());
+        let past = self.flower(FlowerSite { node, nth: 0, birth: self.tick, azimuth: 0.0, position: TERMINAL }, at);
         self.plant.axes.spent[self.bud.axis.index()] = past;
     }
 
@@ -260,7 +267,7 @@ impl<'a> Axis<'a> {
     }
 
     /// A flower, and the fruit that it may set; the tick at which the last of them falls. A terminal flower stands in the
-    /// direction of its axis, and its laws are asked at rank 0, which is no node's.
+    /// direction of its axis, and its laws are asked at the rank of the node that bears it.
     pub fn flower(&mut self, site: FlowerSite, at: At) -> Tick {
         let FlowerSite { node, nth, birth, azimuth, position } = site;
         let laws = &self.laws.node;
@@ -296,18 +303,6 @@ impl<'a> Axis<'a> {
             fruit.death
         })
     }
-}
-
-/// Whether an axis is the first of the relays, or of the forks, that came together, or neither: they are added one after
-/// another.
-fn leads(plant: &Plant, axis: AxisId) -> bool {
-    let axes = &plant.axes;
-    let (this, Some(before)) = (axis.index(), axis.index().checked_sub(1)) else {
-        return true;
-    };
-    let together = axes.bearer[this] == axes.bearer[before] && axes.appearance[this] == axes.appearance[before];
-    let sets = matches!(axes.origin[this], Origin::Relay | Origin::Fork);
-    !(sets && together && axes.origin[this] == axes.origin[before])
 }
 
 /// Where the laws of the head of an axis are asked.
@@ -347,6 +342,8 @@ pub(super) fn first_bud(model: &BudModel, plant: &Plant, axis: AxisId) -> Apical
         age: birth,
         cycle: 0,
         units: 0,
+        birth,
+        passages: 0,
         rank: 0,
         last_node: plant.axes.bearer[place],
         azimuth,

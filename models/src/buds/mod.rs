@@ -13,6 +13,10 @@ pub mod params;
 mod tests;
 #[cfg(test)]
 mod tests_drawn;
+#[cfg(test)]
+mod tests_sets;
+#[cfg(test)]
+mod tests_variables;
 
 pub use compile::BudModel;
 pub use params::{Buds, Order};

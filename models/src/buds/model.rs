@@ -29,6 +29,12 @@ impl BudModel {
         self.orders.len()
     }
 
+    /// Whether one of the laws names `bud_birth`, `bud_dimension` or `unit`, which move with growth units alone: sums over
+    /// the ages and the cycles of axes do not know them.
+    pub fn asks_the_bud(&self) -> bool {
+        self.orders.iter().any(|laws| laws.asks_the_bud)
+    }
+
     pub(super) fn has_order(&self, order: u8) -> bool {
         (1..=self.orders.len()).contains(&usize::from(order))
     }
@@ -59,7 +65,7 @@ impl BudModel {
     fn thickening_at(&self, age: Tick) -> Vec<Vec<f32>> {
         let classes = self.orders.iter().flat_map(|laws| (0..self.states).map(move |state| (laws, state as u8)));
         let by_own_age = |(laws, state): (&OrderLaws, u8)| {
-            let at = |own| At { age, dimension: own, cycle: own, rank: 0, state };
+            let at = |own| At { age, dimension: own, cycle: own, state, ..At::default() };
             (0..=age).map(|own| laws.thickening.value(at(own)) * 0.001).collect()
         };
         classes.map(by_own_age).collect()
@@ -175,7 +181,7 @@ impl GrowthModel for BudModel {
     }
 
     fn expectation(&self, until: Tick) -> Option<Expectation> {
-        self.expectation_from(1, until)
+        if self.asks_the_bud() { None } else { self.expectation_from(1, until) }
     }
 
     /// Diameter at birth plus the thickening of the internode's order at the plant's age and its own.

@@ -25,6 +25,8 @@ struct BudSite {
     /// Which of the buds of its kind, from 0.
     position: u32,
     azimuth: f32,
+    /// Whether another axis of its set of relays or forks came before it.
+    follows: bool,
     /// The state that its zone gives the new axis; `None`: as the branching says.
     state: Option<u8>,
 }
@@ -101,6 +103,7 @@ impl Axis<'_> {
             within => within,
         };
         self.bud.rank = along;
+        self.bud.passages = 0;
         self.bud.last_node = self.plant.add_node(new);
         self.bud.last_node
     }
@@ -154,6 +157,7 @@ impl Axis<'_> {
                 place: Place::Axillary(position as u16).on(self.bud.rank),
                 position,
                 azimuth: azimuth + spacing * position as f32,
+                follows: false,
                 state: ramification.and_then(|of| of.state(&self.words.on_node, position, at)),
             };
             match ramification.is_some_and(|of| of.chance.happens(&self.words.on_node, position, at)) {
@@ -175,6 +179,7 @@ impl Axis<'_> {
                     place: Place::Reiteration(position as u16).on(self.bud.rank),
                     position,
                     azimuth: azimuth + spacing * position as f32,
+                    follows: false,
                     state: None,
                 };
                 self.branch(site, &laws.node.reiteration, EventKind::Reiterated, false, at);
@@ -215,8 +220,11 @@ impl Axis<'_> {
         self.read_end(self.bud.cycle);
         let (rank, below) = (self.bud.rank, laws.below.draw(&self.words.end, 0, self.at(0)));
         if rank > below {
-            // Named by the node at which the axis passed: two passages may put their relays on one node.
-            self.relays(node, below, |position| Place::Passage(position).on(rank));
+            // Named by the node at which the axis passed, since relays of two passages may stand on one node; and by the
+            // passages before at that node, since a step need not make one.
+            let before = self.bud.passages;
+            let some = self.relays(node, below, |position| Place::Passage(before, position).on(rank));
+            self.bud.passages += u32::from(some);
         }
         if self.plant.is_overgrown() { Err(Full) } else { Ok(()) }
     }
@@ -248,14 +256,15 @@ impl Axis<'_> {
                 place: Place::Fork(position as u16).on(self.bud.rank),
                 position,
                 azimuth: self.bud.azimuth + TURN / count as f32 * position as f32,
+                follows: position > 0,
                 state: None,
             };
             self.branch(site, fork, EventKind::Forked, true, at);
         }
     }
 
-    /// Relays from the node that stands `below` nodes below the last one.
-    fn relays(&mut self, last: NodeId, below: u32, place: impl Fn(u16) -> u64) {
+    /// Relays from the node that stands `below` nodes below the last one; whether there are any.
+    fn relays(&mut self, last: NodeId, below: u32, place: impl Fn(u16) -> u64) -> bool {
         let laws = self.laws;
         let at = self.at(0);
         // The first relay stands where the first leaf of the node above would: phyllotaxis goes on.
@@ -265,14 +274,17 @@ impl Axis<'_> {
             node = self.plant.nodes.parent[node.index()];
         }
         let count = laws.end.relay.count.draw(&self.words.end, 0, at);
+        let mut follows = false;
         for position in 0..count {
             let azimuth = first + TURN / count as f32 * position as f32;
             let (order, place) = (laws.number, place(position as u16));
-            let site = BudSite { node, order, origin: Origin::Relay, place, position, azimuth, state: None };
+            let site = BudSite { node, order, origin: Origin::Relay, place, position, azimuth, follows, state: None };
             if laws.end.relay.chance.happens(&self.words.end, position, at) {
+                follows = true;
                 self.branch(site, &laws.end.relay, EventKind::Relayed, true, at);
             }
         }
+        follows
     }
 
     /// Traumatic reiteration: the dormant axillary buds of the last node, at this axis's order.
@@ -284,9 +296,9 @@ impl Axis<'_> {
         for position in (0..32).filter(|position| dormant >> position & 1 == 1) {
             if laws.end.traumatic.chance.happens(&self.words.end, position, at) {
                 let azimuth = first + spacing * position as f32;
-                let place = Place::Relay(64 + position as u16).on(self.bud.rank);
+                let place = Place::Released(position as u16).on(self.bud.rank);
                 let (order, origin) = (laws.number, Origin::Traumatic);
-                let site = BudSite { node, order, origin, place, position, azimuth, state: None };
+                let site = BudSite { node, order, origin, place, position, azimuth, follows: false, state: None };
                 self.branch(site, &laws.end.traumatic, EventKind::Reiterated, true, at);
             }
         }
@@ -302,6 +314,7 @@ impl Axis<'_> {
             order: site.order,
             origin: site.origin,
             position,
+            follows: site.follows,
             state: site.state.or(laws.state).unwrap_or(self.bud.state),
             appearance: self.tick,
             birth: self.tick.saturating_add(laws.delay.draw(words, site.position, at)),

@@ -31,7 +31,8 @@ pub fn bends_alike_ahead_and_by_the_clock(model: &dyn GrowthModel, until: Tick, 
     }
 }
 
-fn bent(model: &dyn GrowthModel, until: Tick, seed: &Seed, ahead: bool) -> Plant {
+/// A plant bent at each age up to `until`, grown ahead or by the clock.
+pub(super) fn bent(model: &dyn GrowthModel, until: Tick, seed: &Seed, ahead: bool) -> Plant {
     let mut plant = sown(model, seed);
     let mut bench = Bench::default();
     if ahead {

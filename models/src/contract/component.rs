@@ -3,6 +3,7 @@
 //! Numbers are compared bit for bit; they are kept as bits. Absent on purpose: component numbers and places in columns,
 //! which differ between growing ahead and growing by the clock.
 
+use std::collections::BTreeSet;
 use std::fmt::Debug;
 
 use phytomer_sim::clock::Tick;
@@ -39,6 +40,21 @@ pub fn components(plant: &Plant) -> Vec<Component> {
     components
 }
 
+/// As [`components`], of a plant of that age: without what axes draw once at their birth, the time to their fall and trends
+/// of their own, where that is still to come.
+pub(super) fn born_by(plant: &Plant, age: Tick) -> Vec<Component> {
+    let unborn = |i: &usize| plant.axes.birth[*i] > age;
+    let waiting: BTreeSet<LineageKey> = (0..plant.axes.len()).filter(unborn).map(|i| plant.axes.key[i]).collect();
+    let mut components = components(plant);
+    for axis in components.iter_mut().filter(|component| waiting.contains(&component.key)) {
+        axis.measures.truncate(ANGLES);
+    }
+    components
+}
+
+/// The angles that an axis has from its bud; what it draws at its birth follows.
+const ANGLES: usize = 2;
+
 /// As [`components`], in the order of their numbers, each with its number.
 pub(super) fn numbered(plant: &Plant) -> Vec<(u32, Component)> {
     let axes = (0..plant.axes.len()).map(|i| (plant.axes.component[i], axis(plant, i)));
@@ -65,6 +81,7 @@ fn axis(plant: &Plant, i: usize) -> Component {
             axes.order[i].into(),
             axes.origin[i] as u32,
             axes.position[i].into(),
+            axes.follows[i].into(),
             axes.state[i].into(),
             axes.birth[i],
             axes.apex_end[i],

@@ -1,6 +1,7 @@
 //! The contract: what every growth model keeps, whatever it grows, as a test suite that each model instantiates.
 //!
-//! [`check`] runs all of it; the finer functions hold one clause each. They are for tests: each panics with the rule
+//! [`check`] runs all of it that one model can show, and [`the_length_of_the_run_leaves_no_trace`] what takes a second one,
+//! compiled for a longer run; the finer functions hold one clause each. They are for tests: each panics with the rule
 //! that was broken, the model's plant and the component, and returns nothing. The clauses are those of the plant's
 //! columns (`sim::plant`), of the loop (`sim::grow`: growing ahead equals growing by the clock) and of keyed draws (a
 //! plant depends on nothing but its seed).
@@ -9,6 +10,7 @@
 mod bending;
 mod component;
 mod growth;
+mod length;
 mod structure;
 #[cfg(test)]
 mod tests;
@@ -19,6 +21,7 @@ pub use growth::{
     ages_agree, ahead_equals_the_clock, alone_equals_among_neighbours, hands_leave_no_trace, limit_holds,
     memory_is_forgotten,
 };
+pub use length::the_length_of_the_run_leaves_no_trace;
 pub use structure::{diameters, events_tell_the_plant, poses, structure};
 
 use phytomer_sim::clock::Tick;

@@ -113,6 +113,20 @@ fn a_plant_that_depends_on_more_than_its_seed_is_caught() {
     breaks(&Spoilt { tells_limit: false, ..spoilt(regrown) }, "needs more than its limit");
 }
 
+#[test]
+fn a_plant_that_depends_on_the_length_of_the_run_is_caught() {
+    let spoils: [fn(Tick, &mut [Plant]); 2] =
+        [|_, p| set(&mut p[0].nodes.azimuth, 4, 1.0), |_, p| set(&mut p[0].nodes.primary_diameter, 4, 1.0)];
+    let seed = seed_of(1, 0);
+    the_length_of_the_run_leaves_no_trace(&sound(), &spoilt(|_, _| ()), 6, &seed);
+    for spoil in spoils {
+        let caught = || the_length_of_the_run_leaves_no_trace(&sound(), &spoilt(spoil), 6, &seed);
+        let failure = std::panic::catch_unwind(caught).expect_err("it is caught");
+        let message = failure.downcast::<String>().expect("a message");
+        assert!(message.contains("does not depend on how long the run lasts"), "{message}");
+    }
+}
+
 /// What an overgrown plant must not hide: it stands at the age asked for.
 fn regrown(age: Tick, plants: &mut [Plant]) {
     plants.iter_mut().for_each(|plant| plant.age = age);

@@ -140,6 +140,7 @@ fn new_axis(mother: &Branch, way: &Child, turn_deg: f64, level: u32, plant: &mut
         order: plant.axes.order[bearing] + 1,
         origin: Origin::Axillary,
         position: 0,
+        follows: false,
         state: 0,
         appearance: birth(level),
         birth: birth(level),

@@ -40,6 +40,8 @@ pub struct CountTable {
     cells: Vec<u32>,
     distributions: Vec<Distribution>,
     thresholds: Vec<u32>,
+    /// The largest count that can be drawn in a run of any length, where its parameters can be others in a longer run.
+    goes_on_to: Option<u32>,
 }
 
 enum Kind {
@@ -62,13 +64,27 @@ struct Source<'a> {
 impl Count {
     /// Compiles a count over a domain, or tells every fault found.
     pub fn compile(&self, domain: &Domain, path: &Path) -> Result<CountTable, Vec<Fault>> {
+        self.compile_and(false, domain, path)
+    }
+
+    /// The same, and looks for the largest count in a run of any length: of what has a place each in a stream of words.
+    pub fn compile_places(&self, domain: &Domain, path: &Path) -> Result<CountTable, Vec<Fault>> {
+        self.compile_and(true, domain, path)
+    }
+
+    fn compile_and(&self, look_ahead: bool, domain: &Domain, path: &Path) -> Result<CountTable, Vec<Fault>> {
         let sources = match self {
             Self::Number(number) => vec![Source::constant(*number, path)?],
             Self::Form(form) => sources(form, domain, path)?,
         };
         let formulas: Vec<&Formula> = sources.iter().flat_map(|source| &source.parameters).collect();
         let grid = formula::grid(&formulas, domain, path)?;
-        CountTable::fill(grid, &sources, path).map_err(|fault| vec![fault])
+        let mut table = CountTable::fill(grid, &sources, path).map_err(|fault| vec![fault])?;
+        if sources.iter().flat_map(|source| &source.parameters).any(Formula::goes_on) {
+            let most = if look_ahead { most_in_any_run(&sources, path) } else { MAX_COUNT };
+            table.goes_on_to = Some(most.max(table.max()));
+        }
+        Ok(table)
     }
 }
 
@@ -163,6 +179,16 @@ impl<'a> Source<'a> {
         if faults.is_empty() { Ok(Self { weight, kind, parameters, shift, path }) } else { Err(faults) }
     }
 
+    /// The end of the values of the parameter at `place` at which counts are largest, within what it may be.
+    fn end(&self, place: usize, (low, high): (f64, f64)) -> f64 {
+        let probability = |p: f64| p.clamp(SUCCESS.min, SUCCESS.max);
+        match (&self.kind, place) {
+            (Kind::NegativeBinomial, 1) => probability(low),
+            (Kind::Binomial, 1) => probability(high),
+            _ => high.clamp(0.0, f64::from(MAX_COUNT)),
+        }
+    }
+
     /// Its probabilities, given its parameters.
     fn mass(&self, parameters: &[f64]) -> Result<Mass, Fault> {
         let mass = match (&self.kind, parameters) {
@@ -183,7 +209,7 @@ impl<'a> Source<'a> {
 
 impl CountTable {
     fn fill(grid: Grid, sources: &[Source], path: &Path) -> Result<Self, Fault> {
-        let mut table = Self { grid, cells: Vec::new(), distributions: Vec::new(), thresholds: Vec::new() };
+        let mut table = Self::empty(grid);
         table.cells.reserve_exact(table.grid.len());
         let mut known: BTreeMap<Vec<u64>, u32> = BTreeMap::new();
         let (mut stack, mut parameters, mut work) = (Vec::new(), Vec::new(), 0);
@@ -212,6 +238,10 @@ impl CountTable {
             table.cells.truncate(1);
         }
         Ok(table)
+    }
+
+    fn empty(grid: Grid) -> Self {
+        Self { grid, cells: Vec::new(), distributions: Vec::new(), thresholds: Vec::new(), goes_on_to: None }
     }
 
     /// Adds the distribution of all sources together, given their parameters; the number of steps that it took.
@@ -265,7 +295,7 @@ impl CountTable {
     /// The same count at every point and in every draw.
     pub fn always(count: u32) -> Self {
         let only = Distribution { start: 0, len: 0, first: count, mean: f64::from(count), variance: 0.0 };
-        Self { grid: Grid::single(), cells: vec![0], distributions: vec![only], thresholds: Vec::new() }
+        Self { cells: vec![0], distributions: vec![only], ..Self::empty(Grid::single()) }
     }
 
     #[inline]
@@ -282,10 +312,10 @@ impl CountTable {
         distribution.first + thresholds.partition_point(|&threshold| threshold <= word) as u32
     }
 
-    /// The count, where it is the same at every point and in every draw.
+    /// The count, where it is the same at every point and in every draw, in a run of any length.
     pub fn constant(&self) -> Option<u32> {
         match self.distributions.as_slice() {
-            [only] if only.len == 0 => Some(only.first),
+            [only] if only.len == 0 && self.goes_on_to.is_none() => Some(only.first),
             _ => None,
         }
     }
@@ -293,6 +323,11 @@ impl CountTable {
     /// Whether the distribution depends on rank and state at most.
     pub fn is_timeless(&self) -> bool {
         self.grid.is_timeless()
+    }
+
+    /// Whether it names a variable that moves only when the bud makes a growth unit.
+    pub fn asks_the_bud(&self) -> bool {
+        self.grid.asks_the_bud()
     }
 
     /// The mean at a point.
@@ -310,6 +345,22 @@ impl CountTable {
         self.distributions.iter().map(|distribution| distribution.first + distribution.len).max().unwrap_or(0)
     }
 
+    /// The largest count that can be drawn in a run of any length, or [`MAX_COUNT`] where nothing has looked for it or that
+    /// would take too long: for so many there is a place in a stream of words.
+    pub fn max_in_any_run(&self) -> u32 {
+        self.goes_on_to.unwrap_or_else(|| self.max())
+    }
+
+    /// The same count where more than `most` are refused, in whatever run.
+    pub fn at_most(self, most: u32) -> Self {
+        Self { goes_on_to: self.goes_on_to.map(|ever| ever.min(most)), ..self }
+    }
+
+    /// Whether its distribution can be another one in a longer run.
+    pub fn goes_on(&self) -> bool {
+        self.goes_on_to.is_some()
+    }
+
     /// The smallest count that can be drawn at any point.
     pub fn min(&self) -> u32 {
         self.distributions.iter().map(|distribution| distribution.first).min().unwrap_or(0)
@@ -325,5 +376,22 @@ impl CountTable {
             before = words;
         }
         pmf
+    }
+}
+
+/// The largest count that sources can draw together in a run of any length: that of their distributions where each
+/// parameter stands at the end that makes counts larger, since each kind grows with its parameters, but the negative
+/// binomial with a smaller p. [`MAX_COUNT`] where a law has too many points to look at.
+fn most_in_any_run(sources: &[Source], path: &Path) -> u32 {
+    let ends = |source: &Source| -> Option<Vec<f64>> {
+        let parameters = source.parameters.iter().enumerate();
+        let end = parameters.map(|(place, law)| Some(source.end(place, law.extremes_in_any_run()?)));
+        end.collect()
+    };
+    let parameters: Option<Vec<Vec<f64>>> = sources.iter().map(ends).collect();
+    let mut top = CountTable::empty(Grid::single());
+    match parameters.map(|ends| top.add(sources, &ends.concat(), path)) {
+        Some(Ok(_)) => top.max(),
+        _ => MAX_COUNT,
     }
 }

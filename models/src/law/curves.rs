@@ -10,7 +10,8 @@ use phytomer_sim::math;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
-use super::domain::{Domain, Variable};
+use super::domain::Domain;
+use super::variable::Variable;
 use crate::fault::{Fault, Path};
 
 /// A curve of one variable.

@@ -1,13 +1,12 @@
-//! Where a law is asked: the variables that it may depend on, the range of each, and the grid of a compiled table.
+//! Where a law is asked: the ranges of the variables that it may depend on, and the grid of a compiled table.
 //!
-//! Words as in de Reffye et al. 1988 §3: `age` counts from the seed, `dimension` from the birth of the axis. A
-//! variable that a law does not use has stride 0, so a constant is one cell. Points outside the range are clamped.
+//! A variable that a law does not use has stride 0, so a constant is one cell. Points outside the range are clamped.
 //! An axis is never older than its plant, so a point with dimension > age cannot occur; it is read as dimension = age.
-
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Deserialize, Serialize};
+//! Absent: what the variables mean and who can know them (`variable`).
 
 use super::MAX_CELLS;
+use super::variable::{Asked, Variable};
+use phytomer_sim::clock::LAST_TICK;
 
 /// The point at which a law is asked, as of the moment of the draw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,6 +19,12 @@ pub struct At {
     pub cycle: u32,
     /// Rank of the node in its growth unit, from 1; 0 where it does not apply.
     pub rank: u32,
+    /// The tick at which the apical bud came to be.
+    pub bud_birth: u32,
+    /// The same in ticks since the birth of the axis.
+    pub bud_dimension: u32,
+    /// The growth units that the axis has made.
+    pub unit: u32,
     /// Index of the physiological state in [`Domain::states`].
     pub state: u8,
 }
@@ -33,47 +38,38 @@ pub struct Domain {
     pub until: u32,
     /// Last step of the axis's own clock, from 0.
     pub max_cycle: u32,
+    /// The most growth units that an axis can have made.
+    pub max_unit: u32,
     /// Highest rank of a node in its growth unit, from 1; 0 where rank does not apply.
     pub max_rank: u32,
     /// Names of the physiological states; empty means one unnamed state.
     pub states: Vec<String>,
+    /// What laws are asked for there, and so which variables they can know.
+    pub asked: Asked,
+    /// The longest run that there can be.
+    pub longest: Longest,
 }
 
-/// A variable that a law is a function of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Variable {
-    /// Ticks since the seed, from 1.
-    Age,
-    /// Ticks since the birth of the axis, from 0.
-    Dimension,
-    /// Steps of the axis's own clock, from 0.
-    Cycle,
-    /// Rank of the node in its growth unit, from 1.
-    Rank,
+/// How far variables go in the longest run that there can be. What a stream of words has a place for must not depend on
+/// how long the run at hand lasts, or a plant would.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Longest {
+    /// The most steps of an axis's own clock.
+    pub max_cycle: u32,
+    /// The most growth units of an axis.
+    pub max_unit: u32,
+    /// The highest rank; where it is above that of the domain, the ranks that occur depend on the length of the run.
+    pub max_rank: u32,
+    /// Whether the number of nodes of a growth unit depends on a variable that goes on with time.
+    pub ranks_go_on: bool,
 }
 
-impl JsonSchema for Variable {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "Variable".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "type": "string",
-            "enum": ["age", "dimension", "cycle", "rank"],
-            "description": "A variable: `age`, ticks since the seed, from 1; `dimension`, ticks since the birth of the \
-                axis, from 0; `cycle`, steps of the axis's own clock, from 0; `rank`, rank of the node in its growth \
-                unit, from 1.",
-        })
-    }
-}
-
-/// The number of variables of a grid: the four of [`Variable`] and the state.
-const AXES: usize = 5;
+/// The number of variables of a grid: those of [`Variable`] and the state.
+const AXES: usize = 8;
 /// The place of the state among the variables of a grid.
-const STATE: usize = 4;
-const NAMES: [&str; STATE] = ["age", "dimension", "cycle", "rank"];
+const STATE: usize = 7;
+/// The place of the first of the variables of the bud, which few laws name.
+const OF_THE_BUD: usize = 4;
 
 /// Which variables a law depends on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -92,9 +88,9 @@ impl Uses {
         self.0[variable as usize]
     }
 
-    /// The first of the variables that the law depends on.
-    pub fn first(&self) -> Option<&'static str> {
-        NAMES.into_iter().zip(self.0).find_map(|(name, used)| used.then_some(name))
+    /// The variables that the law depends on, without the state.
+    pub fn variables(self) -> impl Iterator<Item = Variable> {
+        Variable::ALL.into_iter().filter(move |variable| self.has(*variable))
     }
 
     pub fn join(&mut self, other: Uses) {
@@ -110,15 +106,14 @@ impl At {
 
     #[inline]
     fn all(&self) -> [u32; AXES] {
-        [self.age, self.dimension, self.cycle, self.rank, u32::from(self.state)]
+        let (bud_birth, bud_dimension) = (self.bud_birth, self.bud_dimension);
+        [self.age, self.dimension, self.cycle, self.rank, bud_birth, bud_dimension, self.unit, u32::from(self.state)]
     }
 
     /// "age 3, dimension 27, state adult": the variables in `uses` only; empty where there is none.
     pub(super) fn describe(&self, uses: Uses, domain: &Domain) -> String {
-        let mut words: Vec<String> = (0..STATE)
-            .filter(|&axis| uses.0[axis])
-            .map(|axis| format!("{} {}", NAMES[axis], self.all()[axis]))
-            .collect();
+        let mut words: Vec<String> =
+            uses.variables().map(|variable| format!("{} {}", variable.name(), self.get(variable))).collect();
         if let (true, Some(state)) = (uses.0[STATE], domain.states.get(usize::from(self.state))) {
             words.push(format!("state {state}"));
         }
@@ -128,16 +123,48 @@ impl At {
 
 impl Domain {
     /// Where a law of no axis is asked: once, and of no variable.
-    pub const ONCE: Self = Self { order: 0, until: 0, max_cycle: 0, max_rank: 0, states: Vec::new() };
+    pub const ONCE: Self = Self {
+        order: 0,
+        until: 0,
+        max_cycle: 0,
+        max_unit: 0,
+        max_rank: 0,
+        states: Vec::new(),
+        asked: Asked::Once,
+        longest: Longest { max_cycle: 0, max_unit: 0, max_rank: 0, ranks_go_on: false },
+    };
+
+    /// Where a thing of an axis of `order` is asked that knows its own age alone, from 0 to `until` ticks.
+    pub fn of_own_age(order: u8, until: u32) -> Self {
+        Self { order, until, max_cycle: until, asked: Asked::OwnAge, ..Self::default() }
+    }
 
     /// First and last value of `variable`.
     pub fn range(&self, variable: Variable) -> (u32, u32) {
         match variable {
             Variable::Age => (1, self.until.max(1)),
-            Variable::Dimension => (0, self.until),
+            Variable::Dimension | Variable::BudBirth | Variable::BudDimension => (0, self.until),
             Variable::Cycle => (0, self.max_cycle),
             Variable::Rank => (self.max_rank.min(1), self.max_rank),
+            Variable::Unit => (0, self.max_unit),
         }
+    }
+
+    /// The same domain in the longest run that there can be.
+    pub(super) fn in_the_longest_run(&self) -> Self {
+        let Longest { max_cycle, max_unit, max_rank, .. } = self.longest;
+        Self {
+            until: LAST_TICK.max(self.until),
+            max_cycle: max_cycle.max(self.max_cycle),
+            max_unit: max_unit.max(self.max_unit),
+            max_rank: max_rank.max(self.max_rank),
+            ..self.clone()
+        }
+    }
+
+    /// Whether a law of such variables can have other values in a longer run.
+    pub(super) fn goes_on(&self, uses: Uses) -> bool {
+        uses.variables().any(|variable| variable.goes_on_with_time() || self.longest.ranks_go_on)
     }
 }
 
@@ -148,6 +175,8 @@ pub(super) struct Grid {
     span: [u32; AXES],
     stride: [u32; AXES],
     len: u32,
+    /// Whether one of its variables is of the bud.
+    asks_the_bud: bool,
 }
 
 impl Grid {
@@ -160,11 +189,12 @@ impl Grid {
     pub fn over(uses: Uses, domain: &Domain) -> Result<Self, u64> {
         let mut grid = Self::single();
         let mut cells: u64 = 1;
-        let ranges = [Variable::Age, Variable::Dimension, Variable::Cycle, Variable::Rank].map(|v| domain.range(v));
+        let ranges = Variable::ALL.map(|variable| domain.range(variable));
         let states = (0, u32::try_from(domain.states.len().saturating_sub(1)).unwrap_or(u32::MAX));
-        let [age, dimension, cycle, rank] = ranges;
+        let [age, dimension, cycle, rank, bud_birth, bud_dimension, unit] = ranges;
         // The rank runs fastest and the state slowest.
-        for (axis, (first, last)) in [(3, rank), (2, cycle), (1, dimension), (0, age), (STATE, states)] {
+        let of_time = [(2, cycle), (6, unit), (5, bud_dimension), (1, dimension), (4, bud_birth), (0, age)];
+        for (axis, (first, last)) in [(3, rank)].into_iter().chain(of_time).chain([(STATE, states)]) {
             if !uses.0[axis] {
                 continue;
             }
@@ -174,6 +204,7 @@ impl Grid {
             cells = cells.saturating_mul(u64::from(last - first) + 1);
         }
         grid.len = u32::try_from(cells).unwrap_or(0);
+        grid.asks_the_bud = uses.variables().any(Variable::is_of_the_bud);
         if cells > MAX_CELLS { Err(cells) } else { Ok(grid) }
     }
 
@@ -181,9 +212,15 @@ impl Grid {
         self.len as usize
     }
 
-    /// Whether age, dimension and cycle do not matter.
+    /// Whether rank and state alone matter.
     pub fn is_timeless(&self) -> bool {
-        [Variable::Age, Variable::Dimension, Variable::Cycle].iter().all(|&time| self.stride[time as usize] == 0)
+        let mut of_time = Variable::ALL.into_iter().filter(|variable| variable.goes_on_with_time());
+        of_time.all(|time| self.stride[time as usize] == 0)
+    }
+
+    /// Whether one of its variables moves only when the bud makes a growth unit.
+    pub fn asks_the_bud(&self) -> bool {
+        self.asks_the_bud
     }
 
     /// The cell of a point, clamped to the grid.
@@ -192,25 +229,41 @@ impl Grid {
         if self.len == 1 {
             return 0;
         }
-        let mut cell = 0;
-        for (axis, x) in at.all().into_iter().enumerate() {
-            cell += x.saturating_sub(self.first[axis]).min(self.span[axis]) * self.stride[axis];
+        let at = at.all();
+        let along = |axis: usize| at[axis].saturating_sub(self.first[axis]).min(self.span[axis]) * self.stride[axis];
+        let mut cell = along(STATE);
+        (0..OF_THE_BUD).for_each(|axis| cell += along(axis));
+        if self.asks_the_bud {
+            (OF_THE_BUD..STATE).for_each(|axis| cell += along(axis));
         }
         cell as usize
     }
 
-    /// The point of a cell. Unused variables stand at 0; a dimension above the age is lowered to it.
+    /// The point of a cell. Unused variables stand at 0. What cannot be together is brought to what can: an axis and its bud
+    /// are not older than the plant, nor the bud than its axis.
     pub fn point(&self, cell: usize) -> At {
         let cell = u32::try_from(cell).unwrap_or(u32::MAX);
         let value = |axis: usize| match self.stride[axis] {
             0 => 0,
             stride => self.first[axis] + cell / stride % (self.span[axis] + 1),
         };
-        let (age, mut dimension) = (value(0), value(1));
-        if self.stride[0] != 0 {
+        let used = |variable: Variable| self.stride[variable as usize] != 0;
+        let [age, mut dimension, cycle, rank, mut bud_birth, mut bud_dimension, unit, state] =
+            std::array::from_fn(value);
+        if used(Variable::Age) {
             dimension = dimension.min(age);
+            bud_birth = bud_birth.min(age);
+            if used(Variable::Dimension) && used(Variable::BudBirth) {
+                bud_birth = bud_birth.max(age - dimension);
+            }
         }
-        let state = u8::try_from(value(STATE)).unwrap_or(u8::MAX);
-        At { age, dimension, cycle: value(2), rank: value(3), state }
+        if used(Variable::Dimension) {
+            bud_dimension = bud_dimension.min(dimension);
+        }
+        if used(Variable::BudBirth) {
+            bud_dimension = bud_dimension.min(bud_birth);
+        }
+        let state = u8::try_from(state).unwrap_or(u8::MAX);
+        At { age, dimension, cycle, rank, bud_birth, bud_dimension, unit, state }
     }
 }

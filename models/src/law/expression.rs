@@ -5,7 +5,8 @@
 
 use phytomer_sim::math;
 
-use super::domain::{At, Uses, Variable};
+use super::domain::{At, Uses};
+use super::variable::Variable;
 
 /// One step of the postfix code.
 #[derive(Clone, Copy, Debug)]
@@ -91,14 +92,19 @@ pub(super) const FUNCTIONS: [(&str, Function); 9] = [
     ("if", Function::If),
 ];
 
-/// The variables by name.
-pub(super) const VARIABLES: [(&str, Op); 5] = [
-    ("order", Op::Order),
-    ("age", Op::Load(Variable::Age)),
-    ("dimension", Op::Load(Variable::Dimension)),
-    ("cycle", Op::Load(Variable::Cycle)),
-    ("rank", Op::Load(Variable::Rank)),
-];
+/// The names of the variables, and `order`.
+pub(super) fn names() -> impl Iterator<Item = &'static str> + Clone {
+    std::iter::once(ORDER).chain(Variable::ALL.into_iter().map(Variable::name))
+}
+
+/// The name of the order.
+const ORDER: &str = "order";
+
+/// The step that loads what has this name.
+pub(super) fn named(name: &str) -> Option<Op> {
+    let variable = Variable::ALL.into_iter().find(|variable| variable.name() == name).map(Op::Load);
+    if name == ORDER { Some(Op::Order) } else { variable }
+}
 
 /// An operator between two operands.
 pub(super) struct Infix {

@@ -14,8 +14,9 @@ use super::bare::{self, BareOr};
 use super::curves::{ExponentialLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw};
 use crate::fault::{Fault, Path};
 
-/// A law: a number as a function of age, dimension, cycle, rank and state. Written as a bare number, or as a table
-/// with exactly one kind, for example `{ value = 0.1 }` or `{ expression = "min(1, 0.01 * dimension)" }`.
+/// A law: a number as a function of age, dimension, cycle, rank, bud_birth, bud_dimension, unit and state. Written as a
+/// bare number, or as a table with exactly one kind, for example `{ value = 0.1 }` or
+/// `{ expression = "min(1, 0.01 * dimension)" }`.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Law {
@@ -62,8 +63,8 @@ pub struct LawForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "RobustaLaw")]
     pub robusta: Option<RobustaLaw>,
-    /// A formula of order, age, dimension, cycle and rank: + - * / ^, comparisons (0 or 1), and, or, not, min, max,
-    /// exp, log (natural), pow, sqrt, abs, floor, if(condition, then, else).
+    /// A formula of order, age, dimension, cycle, rank, bud_birth, bud_dimension and unit: + - * / ^, comparisons (0 or 1),
+    /// and, or, not, min, max, exp, log (natural), pow, sqrt, abs, floor, if(condition, then, else).
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub expression: Option<String>,

@@ -6,12 +6,16 @@
 use std::collections::BTreeMap;
 
 use super::curves::Curve;
-use super::domain::{At, Domain, Grid, Uses, Variable};
+use super::domain::{At, Domain, Grid, Uses};
 use super::expression::Expression;
 use super::form::{Law, LawForm};
 use super::range::ValueRange;
+use super::variable::Variable;
 use super::{MAX_CELLS, MAX_WORK, parser, spelling};
 use crate::fault::{Fault, Path};
+
+/// The most steps of evaluation by which a law is looked at beyond the run at hand: a few milliseconds.
+const MOST_LOOKING_AHEAD: u64 = 1 << 23;
 
 /// What gives a law's value at a point of one state.
 enum Term {
@@ -21,10 +25,24 @@ enum Term {
 }
 
 impl Term {
-    /// One of the variables that it names.
-    fn variable(&self, uses: Uses) -> Option<&'static str> {
-        let of_order = matches!(self, Self::Code(code) if code.names_order());
-        uses.first().or(of_order.then_some("order"))
+    fn uses(&self) -> Uses {
+        match self {
+            Self::Value(_) => Uses::default(),
+            Self::Curve(curve) => {
+                let mut uses = Uses::default();
+                uses.add(curve.over());
+                uses
+            }
+            Self::Code(code) => code.uses,
+        }
+    }
+
+    /// What it names that cannot be known where it is asked.
+    fn unknown(&self, domain: &Domain) -> Option<&'static str> {
+        let has_ranks = domain.max_rank > 0;
+        let variable = self.uses().variables().find(|variable| !domain.asked.knows(*variable, has_ranks));
+        let of_order = matches!(self, Self::Code(code) if code.names_order()) && !domain.asked.knows_order();
+        variable.map(Variable::name).or(of_order.then_some("order"))
     }
 }
 
@@ -72,6 +90,10 @@ impl<'a> Formula<'a> {
 
     fn add_states(&mut self, laws: &BTreeMap<String, Law>, path: &Path, faults: &mut Vec<Fault>) {
         let states = &self.domain.states;
+        if !self.domain.asked.knows_state() && self.domain.asked.knows_order() {
+            let problem = "the law depends on the state of the axis, which is not known here";
+            return faults.push(Fault::new(path, problem, "a law without by_state"));
+        }
         if states.is_empty() {
             return faults.push(Fault::new(path, "the species has no states", "a law without by_state"));
         }
@@ -96,19 +118,9 @@ impl<'a> Formula<'a> {
             Law::Form(form) => self.term(form, path, faults),
         };
         let Some(term) = term else { return };
-        let mut uses = Uses::default();
-        match &term {
-            Term::Value(_) => {}
-            Term::Curve(curve) => uses.add(curve.over()),
-            Term::Code(code) => uses = code.uses,
-        }
-        if uses.has(Variable::Rank) && self.domain.max_rank == 0 && self.domain.order > 0 {
-            let problem = "the law depends on rank, which does not apply here";
-            faults.push(Fault::new(path, problem, "a law of age, dimension or cycle"));
-        }
-        if let (Some(name), 0) = (term.variable(uses), self.domain.order) {
-            let problem = format!("the law depends on {name}, which does not apply here");
-            faults.push(Fault::new(path, problem, "a number, or a formula without variables"));
+        let uses = term.uses();
+        if let Some(name) = term.unknown(self.domain) {
+            faults.push(self.domain.asked.fault(name, path));
         }
         self.uses.join(uses);
         if faults.len() == before {
@@ -194,6 +206,27 @@ impl<'a> Formula<'a> {
     /// Which of the parts holds at a point.
     fn state(&self, at: At) -> usize {
         usize::from(at.state).min(self.parts.len().saturating_sub(1))
+    }
+
+    /// Whether it can have other values in a longer run.
+    pub fn goes_on(&self) -> bool {
+        self.domain.goes_on(self.uses)
+    }
+
+    /// The least and the largest value in the longest run that there can be; `None` where there are too many points to look
+    /// at. Points without a value do not count.
+    pub fn extremes_in_any_run(&self) -> Option<(f64, f64)> {
+        let grid = Grid::over(self.uses, &self.domain.in_the_longest_run()).ok()?;
+        if self.steps().saturating_mul(grid.len() as u64) > MOST_LOOKING_AHEAD {
+            return None;
+        }
+        let mut stack = Vec::new();
+        let values = (0..grid.len()).map(|cell| self.value(grid.point(cell), &mut stack));
+        Some(
+            values
+                .filter(|value| !value.is_nan())
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value))),
+        )
     }
 
     fn steps(&self) -> u64 {

@@ -1,7 +1,7 @@
 //! Laws and distributions, the numbers that models are stated in: what a bud's fate, a growth unit's nodes and an
 //! internode's shape depend on (de Reffye et al. 1988 §§3–4), or what a plant draws once.
 //!
-//! A [`Law`] gives a number at each point (age, dimension, cycle, rank, state) of an order; a [`Count`] and a
+//! A [`Law`] gives a number at each point (the [`Variable`]s and the state) of an order; a [`Count`] and a
 //! [`Variate`] are random variables whose parameters are laws; [`Speeds`] are exact ratios, a [`Quantity`] is a whole
 //! number and a [`Constant`] a real one that is not drawn. All are written in TOML, checked over their whole
 //! [`Domain`] and compiled to tables before the first tick; during growth a draw is one look-up and one comparison.
@@ -17,6 +17,7 @@ mod expression;
 mod form;
 mod formula;
 mod mass;
+mod own_age;
 mod parser;
 mod quantile;
 mod quantity;
@@ -28,6 +29,7 @@ mod table;
 mod tests;
 #[cfg(test)]
 mod tests_draws;
+mod variable;
 mod variate;
 mod variate_table;
 
@@ -35,12 +37,13 @@ pub use constant::{Constant, ConstantForm};
 pub use count::{Binomial, Count, CountComponent, CountForm, NegativeBinomial, Poisson};
 pub use count_table::CountTable;
 pub use curves::{Beyond, ExponentialLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw};
-pub use domain::{At, Domain, Variable};
+pub use domain::{At, Domain, Longest};
 pub use form::{Law, LawForm};
 pub use quantity::{Quantity, QuantityForm};
 pub use range::ValueRange;
 pub use speed::{SpeedForm, SpeedTable, SpeedText, Speeds};
 pub use table::{ProbabilityTable, ValueTable};
+pub use variable::{Asked, Variable};
 pub use variate::{Lognormal, Normal, Uniform, Variate, VariateForm};
 pub use variate_table::VariateTable;
 

@@ -6,7 +6,7 @@
 
 use super::domain::Uses;
 use super::expression::{
-    COMPARISON, Expression, FUNCTIONS, Function, INFIXES, Infix, MINUS, NOT, Op, POWER, VARIABLES, is_true, truth,
+    COMPARISON, Expression, FUNCTIONS, Function, INFIXES, Infix, MINUS, NOT, Op, POWER, is_true, named, names, truth,
 };
 use super::spelling;
 
@@ -197,13 +197,13 @@ impl Parser {
     }
 
     fn variable(&mut self, name: &str, column: usize) -> Result<(), ParseError> {
-        let Some((_, op)) = VARIABLES.iter().find(|(known, _)| *known == name) else {
+        let Some(op) = named(name) else {
             return error(column, format!("unknown name `{}`", spelling::clip(name)), expected_name(name));
         };
         if let Op::Load(variable) = op {
-            self.uses.add(*variable);
+            self.uses.add(variable);
         }
-        self.code.push(*op);
+        self.code.push(op);
         Ok(())
     }
 
@@ -254,6 +254,6 @@ impl Parser {
 }
 
 fn expected_name(name: &str) -> String {
-    let names = VARIABLES.iter().map(|known| known.0).chain(FUNCTIONS.iter().map(|known| known.0));
-    spelling::expected(name, names.chain(["and", "or", "not"]), "a variable or a function")
+    let all = names().chain(FUNCTIONS.iter().map(|known| known.0));
+    spelling::expected(name, all.chain(["and", "or", "not"]), "a variable or a function")
 }

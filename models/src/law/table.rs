@@ -20,6 +20,8 @@ pub struct ProbabilityTable {
     grid: Grid,
     thresholds: Vec<u32>,
     constant: Option<f64>,
+    /// Whether it can be another one in a longer run.
+    goes_on: bool,
 }
 
 /// A law of values (lengths, diameters, angles), compiled.
@@ -34,16 +36,16 @@ impl Law {
     pub fn compile_probability(&self, domain: &Domain, path: &Path) -> Result<ProbabilityTable, Vec<Fault>> {
         let mut constant = None;
         let mut same = true;
-        let (mut grid, mut thresholds) =
-            Formula::new(self, domain, path)?.tabulate(path, &ValueRange::PROBABILITY, false, |p| {
-                same &= *constant.get_or_insert(p) == p;
-                threshold(p)
-            })?;
+        let formula = Formula::new(self, domain, path)?;
+        let (mut grid, mut thresholds) = formula.tabulate(path, &ValueRange::PROBABILITY, false, |p| {
+            same &= *constant.get_or_insert(p) == p;
+            threshold(p)
+        })?;
         if same {
             grid = Grid::single();
             thresholds.truncate(1);
         }
-        Ok(ProbabilityTable { grid, thresholds, constant: constant.filter(|_| same) })
+        Ok(ProbabilityTable { grid, thresholds, constant: constant.filter(|_| same), goes_on: formula.goes_on() })
     }
 
     /// Compiles a law of values over a domain, each within `range`, or tells every fault.
@@ -67,7 +69,7 @@ impl ProbabilityTable {
     /// The same probability at every point.
     pub fn certain_or_never(certain: bool) -> Self {
         let p = f64::from(u8::from(certain));
-        Self { grid: Grid::single(), thresholds: vec![threshold(p)], constant: Some(p) }
+        Self { grid: Grid::single(), thresholds: vec![threshold(p)], constant: Some(p), goes_on: false }
     }
 
     /// Whether it happens at a point, drawn with one uniform 32-bit word.
@@ -96,14 +98,19 @@ impl ProbabilityTable {
         self.grid.is_timeless()
     }
 
-    /// Whether it happens at no point, so that no draw is needed.
-    pub fn is_never(&self) -> bool {
-        self.constant == Some(0.0)
+    /// Whether it names a variable that moves only when the bud makes a growth unit.
+    pub fn asks_the_bud(&self) -> bool {
+        self.grid.asks_the_bud()
     }
 
-    /// Whether it happens at every point, so that no draw is needed.
+    /// Whether it happens at no point of a run of any length, so that no draw is needed.
+    pub fn is_never(&self) -> bool {
+        self.constant == Some(0.0) && !self.goes_on
+    }
+
+    /// Whether it happens at every point of a run of any length, so that no draw is needed.
     pub fn is_certain(&self) -> bool {
-        self.constant == Some(1.0)
+        self.constant == Some(1.0) && !self.goes_on
     }
 }
 

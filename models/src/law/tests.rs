@@ -19,7 +19,7 @@ pub(super) use read;
 
 pub(super) fn domain() -> Domain {
     let states = vec!["juvenile".to_owned(), "adult".to_owned()];
-    Domain { order: 2, until: 50, max_cycle: 60, max_rank: 12, states }
+    Domain { order: 2, until: 50, max_cycle: 60, max_unit: 60, max_rank: 12, states, ..Domain::default() }
 }
 
 pub(super) fn root() -> Path {
@@ -64,7 +64,7 @@ fn constants_are_one_cell() {
 
 #[test]
 fn curves_follow_their_formulas() {
-    let at = |x| At { age: 50, dimension: x, cycle: x, rank: x, state: 0 };
+    let at = |x| At { age: 50, dimension: x, cycle: x, rank: x, ..At::default() };
     let step = probability(law(read!(Law, { "step": { "over": "rank", "at": 5, "before": 0.25, "after": 1 } })));
     assert_eq!((step.probability(at(4)), step.probability(at(5))), (0.25, 1.0));
     assert!(step.happens(u32::MAX, at(5)));
@@ -185,14 +185,14 @@ fn states_and_points_beyond_are_clamped() {
     assert_eq!(table.probability(at(50, 255)), 0.5);
     let four = expression("(age + dimension + cycle + rank) / 1000");
     let table = four.compile_probability(&domain(), &root()).expect("compiles");
-    let all = At { age: 20, dimension: 7, cycle: 9, rank: 3, state: 0 };
+    let all = At { age: 20, dimension: 7, cycle: 9, rank: 3, ..At::default() };
     assert!((table.probability(all) - 0.039).abs() < 1e-9);
     assert!((table.probability(At { rank: 0, ..all }) - 0.037).abs() < 1e-9);
 }
 
 #[test]
 fn expressions_bind_as_on_paper() {
-    let at = At { age: 7, dimension: 3, cycle: 2, rank: 5, state: 0 };
+    let at = At { age: 7, dimension: 3, cycle: 2, rank: 5, ..At::default() };
     let cases = [
         ("1 + 2 * 3 ^ 2", 19.0),
         ("-2 ^ 2", -4.0),

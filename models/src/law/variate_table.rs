@@ -35,6 +35,8 @@ pub struct VariateTable {
     cells: Vec<[f64; 2]>,
     low: f64,
     high: f64,
+    /// Whether its parameters can be others in a longer run.
+    goes_on: bool,
 }
 
 impl Variate {
@@ -95,7 +97,10 @@ impl VariateForm {
         // Draws stay within what a 32-bit float holds.
         let low = self.min.unwrap_or(range.min).max(f64::from(f32::MIN));
         let high = self.max.unwrap_or(range.max).min(f64::from(f32::MAX));
-        VariateTable { grid, kind, cells: Vec::new(), low, high }.fill(&formulas, &path).map_err(|fault| vec![fault])
+        let goes_on = formulas.iter().any(Formula::goes_on);
+        VariateTable { grid, kind, cells: Vec::new(), low, high, goes_on }
+            .fill(&formulas, &path)
+            .map_err(|fault| vec![fault])
     }
 
     /// Faults of `min` and `max`.
@@ -128,7 +133,8 @@ fn value_faults(values: &[f64], path: &Path, range: &ValueRange) -> Vec<Fault> {
 
 impl VariateTable {
     fn single(number: f64) -> Self {
-        Self { grid: Grid::single(), kind: Kind::Value, cells: vec![[number, 0.0]], low: number, high: number }
+        let cells = vec![[number, 0.0]];
+        Self { grid: Grid::single(), kind: Kind::Value, cells, low: number, high: number, goes_on: false }
     }
 
     fn fill(mut self, formulas: &[Formula], path: &Path) -> Result<Self, Fault> {
@@ -163,7 +169,12 @@ impl VariateTable {
         Self::single(value)
     }
 
-    /// Whether a draw at one point can differ from another there.
+    /// Whether it names a variable that moves only when the bud makes a growth unit.
+    pub fn asks_the_bud(&self) -> bool {
+        self.grid.asks_the_bud()
+    }
+
+    /// Whether a draw at one point can differ from another there, in a run of some length.
     pub fn is_random(&self) -> bool {
         let spread = |&[a, b]: &[f64; 2]| match &self.kind {
             Kind::Value => false,
@@ -171,7 +182,8 @@ impl VariateTable {
             Kind::Normal | Kind::Lognormal => b != 0.0,
             Kind::Empirical(values) => values.iter().any(|value| *value != values[0]),
         };
-        self.low != self.high && self.cells.iter().any(spread)
+        let may_spread = self.goes_on && self.kind != Kind::Value;
+        self.low != self.high && (may_spread || self.cells.iter().any(spread))
     }
 
     /// A draw at a point with one uniform 32-bit word; rises with the word, except for observed values.
@@ -199,7 +211,7 @@ impl VariateTable {
         self.clamp(value)
     }
 
-    /// The value, where it is the same at every point and in every draw.
+    /// The value, where it is the same at every point and in every draw, in a run of any length.
     pub fn constant(&self) -> Option<f32> {
         self.exact().map(|value| value as f32)
     }
@@ -208,6 +220,7 @@ impl VariateTable {
     pub fn exact(&self) -> Option<f64> {
         let certain = match (&self.kind, self.cells.as_slice()) {
             _ if self.low == self.high => true,
+            _ if self.goes_on => false,
             (Kind::Value, [_]) => true,
             (Kind::Uniform, [[a, b]]) => a == b,
             (Kind::Normal | Kind::Lognormal, [[_, sd]]) => *sd == 0.0,

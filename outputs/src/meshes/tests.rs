@@ -29,6 +29,7 @@ fn add_axis(plant: &mut Plant, bearer: Option<NodeId>, nodes: u32) -> Vec<NodeId
         order: 1 + u8::from(bearer.is_some()),
         origin: Origin::Axillary,
         position: 0,
+        follows: false,
         state: 0,
         appearance: 0,
         birth: 0,

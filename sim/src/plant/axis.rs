@@ -90,6 +90,8 @@ pub struct NewAxis {
     pub origin: Origin,
     /// Its position among the buds of its node, from 0.
     pub position: u16,
+    /// Whether it came as one of a set of relays or forks of which another was the first.
+    pub follows: bool,
     /// The named state in which it starts, as the model numbers them.
     pub state: u8,
     /// The tick at which its bud appeared.
@@ -112,6 +114,7 @@ impl NewAxis {
         order: 1,
         origin: Origin::Seed,
         position: 0,
+        follows: false,
         state: 0,
         appearance: 0,
         birth: 0,
@@ -136,6 +139,8 @@ pub struct Axes {
     pub origin: Vec<Origin>,
     /// The position among the buds of the bearing node.
     pub position: Vec<u16>,
+    /// Whether the axis came as one of a set of relays or forks of which another was the first: it does not lead its set.
+    pub follows: Vec<bool>,
     /// The state in which the axis started.
     pub state: Vec<u8>,
     /// The tick at which the bud appeared.
@@ -190,6 +195,7 @@ impl Axes {
         self.order.push(axis.order);
         self.origin.push(axis.origin);
         self.position.push(axis.position);
+        self.follows.push(axis.follows);
         self.state.push(axis.state);
         self.appearance.push(axis.appearance);
         self.birth.push(axis.birth);
@@ -219,6 +225,7 @@ impl Axes {
             order: self.order[taken.clone()].to_vec(),
             origin: self.origin[taken.clone()].to_vec(),
             position: self.position[taken.clone()].to_vec(),
+            follows: self.follows[taken.clone()].to_vec(),
             state: self.state[taken.clone()].to_vec(),
             appearance: self.appearance[taken.clone()].to_vec(),
             birth: self.birth[taken.clone()].to_vec(),
@@ -234,11 +241,10 @@ impl Axes {
         }
     }
 
-    /// Takes from a fragment what has become of the axes that it was given, and adds those that arose in it. The first of
-    /// those given was only looked at.
+    /// Takes from a fragment what has become of the axes that it was given, and adds those that arose in it.
     pub(super) fn join(&mut self, more: &Self, taken: Range<usize>, joint: &Joint) {
         let new = taken.len()..more.len();
-        for (axis, grown) in taken.zip(0..).skip(1) {
+        for (axis, grown) in taken.zip(0..) {
             self.last_node[axis] = joint.node(more.last_node[grown]);
             self.apex_end[axis] = more.apex_end[grown];
             self.apex_fate[axis] = more.apex_fate[grown];
@@ -250,6 +256,7 @@ impl Axes {
         self.order.extend_from_slice(&more.order[new.clone()]);
         self.origin.extend_from_slice(&more.origin[new.clone()]);
         self.position.extend_from_slice(&more.position[new.clone()]);
+        self.follows.extend_from_slice(&more.follows[new.clone()]);
         self.state.extend_from_slice(&more.state[new.clone()]);
         self.appearance.extend_from_slice(&more.appearance[new.clone()]);
         self.birth.extend_from_slice(&more.birth[new.clone()]);
@@ -275,6 +282,7 @@ impl Axes {
         state.clear();
         appearance.clear();
         birth.clear();
+        self.follows.clear();
         self.azimuth.clear();
         self.insertion.clear();
         self.shed_after.clear();
@@ -298,6 +306,10 @@ pub struct ApicalBud {
     pub cycle: u32,
     /// The growth units that it has made.
     pub units: u32,
+    /// The tick at which the bud came to be: that of the last growth unit, or the birth of its axis.
+    pub birth: Tick,
+    /// The passages into other states that have made relays since the last node of its axis.
+    pub passages: u32,
     /// The nodes that it has made.
     pub rank: u32,
     /// The node at its base: the last of its axis, or the bearing node.

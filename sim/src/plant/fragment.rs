@@ -51,7 +51,7 @@ pub struct Fragment {
 /// How the handles of a fragment become those of the whole.
 #[derive(Debug, Clone)]
 pub(super) struct Joint {
-    /// The axes of the whole that the fragment starts with: one to be looked at, then those that grow.
+    /// The axes of the whole that the fragment starts with.
     taken: Range<usize>,
     /// The axes, nodes and components that the whole has when the fragment is joined to it.
     axes: usize,
@@ -91,14 +91,14 @@ impl Joint {
 impl Fragment {
     /// The axes that are to grow, as the fragment numbers them.
     pub fn waiting(&self) -> Range<usize> {
-        1..self.joint.taken.len()
+        0..self.joint.taken.len()
     }
 }
 
 impl Plant {
     /// A fragment of the axes `waiting`, which have no nodes; the axis of the seed is not among them.
     pub fn fragment(&self, waiting: Range<usize>) -> Fragment {
-        let taken = waiting.start - 1..waiting.end;
+        let taken = waiting;
         let plant = Self {
             id: self.id,
             age: self.age,

@@ -117,6 +117,7 @@ impl Specimen {
                 order: 1,
                 origin: Origin::Axillary,
                 position: 0,
+                follows: false,
                 state: 0,
                 appearance: 0,
                 birth: 0,

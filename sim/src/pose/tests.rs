@@ -152,6 +152,7 @@ fn organs_and_buds_stand_at_the_tip_of_their_node() {
         order: 2,
         origin: Origin::Axillary,
         position: 0,
+        follows: false,
         state: 0,
         appearance: 1,
         birth: 3,

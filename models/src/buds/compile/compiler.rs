@@ -9,11 +9,12 @@ use super::look::form_of;
 use crate::buds::params::{Buds, FormChoice, Season};
 use crate::fault::{Fault, Path};
 use crate::law::{
-    At, Constant, Count, CountTable, Domain, Law, ProbabilityTable, Quantity, SpeedTable, ValueRange, ValueTable,
+    Asked, Constant, Count, CountTable, Domain, Law, ProbabilityTable, Quantity, SpeedTable, ValueRange, ValueTable,
     Variate, VariateTable,
 };
-use phytomer_sim::clock::Speed;
+use phytomer_sim::clock::{LAST_TICK, Speed};
 use phytomer_sim::plant::Form;
+use std::ops::RangeInclusive;
 
 /// A length or a diameter, in the unit of its key.
 const MEASURE: ValueRange = ValueRange { min: 0.0, max: 100_000.0, what: "a measure" };
@@ -23,6 +24,17 @@ const ANGLE: ValueRange = ValueRange { min: -360.0, max: 360.0, what: "an angle 
 const LAST_RANK: u32 = 65_535;
 /// A part of a whole.
 const SHARE: ValueRange = ValueRange { min: 0.0, max: 1.0, what: "a share" };
+
+/// The most nodes that a growth unit can have.
+#[derive(Debug, Clone, Copy)]
+pub struct Ranks {
+    /// In the run at hand.
+    pub now: u32,
+    /// In a run of any length.
+    pub ever: u32,
+    /// Whether the numbers of nodes depend on a variable that goes on with time.
+    pub go_on: bool,
+}
 
 /// Compiles the laws of one order.
 pub struct Compiler<'a> {
@@ -34,6 +46,8 @@ pub struct Compiler<'a> {
     orders_path: Path,
     /// The clocks of the order's axes.
     pub speeds: SpeedTable,
+    /// Whether a law that depends on more than the clock was compiled: on a variable that moves with growth units alone.
+    pub asks_the_bud: bool,
     /// What was wrong so far.
     pub faults: Vec<Fault>,
 }
@@ -48,8 +62,10 @@ impl<'a> Compiler<'a> {
             faults = found;
             SpeedTable::always(Speed::ONE)
         });
-        let domain = domain(buds, index, until, speeds.most_steps_by(until));
-        Self { buds, domain, path, species_path: species_path.clone(), orders_path, speeds, faults }
+        let mut domain = domain(buds, index, until, speeds.most_steps_by(until));
+        domain.longest.max_cycle = speeds.most_steps_by(LAST_TICK);
+        let species_path = species_path.clone();
+        Self { buds, domain, path, species_path, orders_path, speeds, asks_the_bud: false, faults }
     }
 
     /// The order's number, from 1.
@@ -67,9 +83,24 @@ impl<'a> Compiler<'a> {
         &self.buds.states
     }
 
-    /// From now on laws may depend on ranks up to `rank`; on none, if that is 0.
-    pub fn set_max_rank(&mut self, rank: u32) {
-        self.domain.max_rank = rank;
+    /// From now on laws are asked for this.
+    pub fn ask(&mut self, asked: Asked) {
+        self.domain.asked = asked;
+    }
+
+    /// From now on an axis makes at most so many growth units a step, and at most `last` in all, in the run at hand and in
+    /// a run of any length.
+    pub fn set_units(&mut self, [now, ever]: [u32; 2], last: [u32; 2]) {
+        let domain = &mut self.domain;
+        domain.max_unit = domain.max_cycle.saturating_mul(now).min(last[0]);
+        domain.longest.max_unit = domain.longest.max_cycle.saturating_mul(ever).min(last[1]);
+    }
+
+    /// From now on laws may depend on ranks, of which the numbers of nodes that a growth unit can have are the last.
+    pub fn set_ranks(&mut self, nodes: Ranks) {
+        self.domain.max_rank = nodes.now.max(1);
+        self.domain.longest.max_rank = nodes.ever.max(1);
+        self.domain.longest.ranks_go_on = nodes.go_on;
     }
 
     /// Notes a fault at a dotted path below the order.
@@ -89,12 +120,20 @@ impl<'a> Compiler<'a> {
     /// A law as a probability.
     pub fn probability(&mut self, law: &Law, keys: &str) -> ProbabilityTable {
         let compiled = law.compile_probability(&self.domain, &self.at(keys));
-        self.accept(compiled).unwrap_or_else(|| ProbabilityTable::certain_or_never(false))
+        let table = self.accept(compiled).unwrap_or_else(|| ProbabilityTable::certain_or_never(false));
+        self.asks_the_bud |= table.asks_the_bud();
+        table
     }
 
     /// A number of things, of which more than `most` is a fault.
     pub fn count(&mut self, count: &Count, keys: &str, most: u32) -> CountTable {
         self.count_from(0, count, keys, most)
+    }
+
+    /// The same for things that have a place each in a stream of words.
+    pub fn places(&mut self, count: &Count, keys: &str, most: u32) -> CountTable {
+        let compiled = count.compile_places(&self.domain, &self.at(keys));
+        self.accept_count(compiled, keys, 0..=most)
     }
 
     /// A rank, from 1: anything else that can be drawn is a fault.
@@ -104,11 +143,22 @@ impl<'a> Compiler<'a> {
 
     fn count_from(&mut self, least: u32, count: &Count, keys: &str, most: u32) -> CountTable {
         let compiled = count.compile(&self.domain, &self.at(keys));
+        self.accept_count(compiled, keys, least..=most)
+    }
+
+    fn accept_count(
+        &mut self,
+        compiled: Result<CountTable, Vec<Fault>>,
+        keys: &str,
+        within: RangeInclusive<u32>,
+    ) -> CountTable {
+        let (least, most) = (*within.start(), *within.end());
         let table = self.accept(compiled).unwrap_or_else(|| CountTable::always(least));
+        self.asks_the_bud |= table.asks_the_bud();
         let (outside, expected) = match (table.min() < least, table.max() > most) {
             (true, _) => (table.min(), format!("at least {least}")),
             (_, true) => (table.max(), format!("at most {most}")),
-            _ => return table,
+            _ => return table.at_most(most),
         };
         self.fault(keys, format!("it can be {outside}"), &expected);
         CountTable::always(least)
@@ -120,6 +170,7 @@ impl<'a> Compiler<'a> {
         let path = self.species_path.key("season").key("leaf_fall");
         let compiled = season.leaf_fall.compile(&self.domain, &path);
         let table = self.accept(compiled).unwrap_or_else(|| CountTable::always(0));
+        self.asks_the_bud |= table.asks_the_bud();
         if year > 0 && table.max() >= year {
             let found = format!("the tick {} is not in a year of {year} ticks", table.max());
             let expected = format!("a tick of the year from 0 to {}", year.saturating_sub(1));
@@ -148,7 +199,7 @@ impl<'a> Compiler<'a> {
         let domain = Domain { order: self.domain.order + 1, ..self.domain.clone() };
         let path = self.orders_path.index(next).key("insertion_deg");
         let compiled = order.insertion_deg.compile(&domain, &path, ANGLE);
-        self.accept(compiled).unwrap_or_else(|| VariateTable::always(0.0))
+        self.accept_variate(compiled)
     }
 
     /// A share, in [0, 1].
@@ -159,28 +210,27 @@ impl<'a> Compiler<'a> {
     /// A real number in the unit of its key, within `range`.
     pub fn variate(&mut self, variate: &Variate, keys: &str, range: ValueRange) -> VariateTable {
         let compiled = variate.compile(&self.domain, &self.at(keys), range);
-        self.accept(compiled).unwrap_or_else(|| VariateTable::always(0.0))
+        self.accept_variate(compiled)
+    }
+
+    fn accept_variate(&mut self, compiled: Result<VariateTable, Vec<Fault>>) -> VariateTable {
+        let table = self.accept(compiled).unwrap_or_else(|| VariateTable::always(0.0));
+        self.asks_the_bud |= table.asks_the_bud();
+        table
     }
 
     /// The thickening of internodes, mm.
     pub fn thickening(&mut self, law: &Law) -> ValueTable {
-        let domain = Domain { max_cycle: self.domain.until, max_rank: 0, ..self.domain.clone() };
+        let max_cycle = self.domain.until;
+        let domain = Domain { max_cycle, max_rank: 0, asked: Asked::Internode, ..self.domain.clone() };
         let compiled = law.compile_value(&domain, &self.at("internode.thickening_mm"), MEASURE);
         self.accept(compiled).unwrap_or_else(|| ValueTable::always(0.0))
     }
 
     /// A share by the own age of a thing, from 0; ages past the last are as the last.
     pub fn share_by_own_age(&mut self, law: &Law, keys: &str) -> Vec<f32> {
-        let until = self.domain.until;
-        let domain = Domain { max_cycle: until, max_rank: 0, ..self.domain.clone() };
-        let compiled = law.compile_value(&domain, &self.at(keys), SHARE);
-        let table = self.accept(compiled).unwrap_or_else(|| ValueTable::always(0.0));
-        let at = |own| At { age: until, dimension: own, cycle: own, rank: 0, state: 0 };
-        let mut shares: Vec<f32> = (0..=until).map(|own| table.value(at(own))).collect();
-        while shares.len() > 1 && shares[shares.len() - 1] == shares[shares.len() - 2] {
-            shares.pop();
-        }
-        shares
+        let compiled = law.by_own_age(self.domain.order, self.domain.until, &self.at(keys), SHARE);
+        self.accept(compiled).unwrap_or_else(|| vec![0.0])
     }
 
     /// A number that is not drawn.

@@ -53,8 +53,8 @@ fn named(name: &str, keys: &str, order: &Order, compiler: &mut Compiler) -> f64 
         "distichous" => 180.0,
         "opposite-decussate" => 90.0,
         "whorled" => {
-            let leaves = compiler.count(&order.leaf.per_node, "leaf.per_node", 64).max();
-            let buds = compiler.count(&order.axillary.buds, "axillary.buds", 32).max();
+            let leaves = compiler.places(&order.leaf.per_node, "leaf.per_node", 64).max_in_any_run();
+            let buds = compiler.places(&order.axillary.buds, "axillary.buds", 32).max_in_any_run();
             180.0 / f64::from(leaves.max(buds).max(1))
         }
         fraction => fibonacci(fraction).unwrap_or_else(|| {

@@ -3,11 +3,12 @@
 //! What may differ by state is spread over the states; names become numbers, colours bytes, and the law of an organ's
 //! expansion a table by its own age. Absent: what is drawn where nothing is stated.
 
+use super::order_of;
 use crate::buds::params::{
     BarkChoice, Buds, ByState, ColourText, FlowerChoice, FormChoice, FruitChoice, KindName, LeafChoice, OwnForm,
 };
 use crate::fault::{Fault, Path};
-use crate::law::{At, Domain, Law, Quantity, ValueRange};
+use crate::law::{Law, Quantity, ValueRange};
 use phytomer_sim::plant::{Bark, Class, Colour, Form, InternodeLook, Kind, Looks, OrganLook, OrganLooks, Shape};
 
 const SIDES: std::ops::RangeInclusive<u32> = 3..=64;
@@ -180,27 +181,11 @@ impl Place<'_> {
     /// The share of the full size by the organ's own age; empty where it is full-grown at birth.
     fn expansion(&mut self, law: &Option<Law>, key: &str) -> Vec<f32> {
         let Some(law) = law else { return Vec::new() };
-        let domain = Domain {
-            order: u8::try_from(self.index + 1).unwrap_or(u8::MAX),
-            until: self.until,
-            max_cycle: self.until,
-            max_rank: 0,
-            states: self.buds.states.clone(),
-        };
         let path = self.path.key(key).key("expansion");
-        let compiled = match law.compile_value(&domain, &path, SHARE) {
-            Ok(compiled) => compiled,
-            Err(mut found) => {
-                self.faults.append(&mut found);
-                return Vec::new();
-            }
-        };
-        let at = |own| At { age: self.until, dimension: own, cycle: own, rank: 0, state: 0 };
-        let mut table: Vec<f32> = (0..=self.until).map(|own| compiled.value(at(own))).collect();
-        while table.len() > 1 && table[table.len() - 1] == table[table.len() - 2] {
-            table.pop();
-        }
-        table
+        law.by_own_age(order_of(self.index), self.until, &path, SHARE).unwrap_or_else(|mut found| {
+            self.faults.append(&mut found);
+            Vec::new()
+        })
     }
 
     fn leaf(&mut self, stated: &Option<LeafChoice>) -> OrganLook {

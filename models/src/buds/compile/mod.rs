@@ -25,7 +25,7 @@ pub(super) use zone::{Ramification, Ranks, Zones};
 
 use super::params::Buds;
 use crate::fault::{Fault, Path};
-use crate::law::{Domain, ValueTable};
+use crate::law::{Asked, Domain, ValueTable};
 use compiler::Compiler;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::plant::{Habit, OrganTrends, Trend};
@@ -51,6 +51,8 @@ pub(super) struct OrderLaws {
     pub step: StepLaws,
     pub node: NodeLaws,
     pub end: EndLaws,
+    /// Whether one of the laws names a variable that moves with growth units alone.
+    pub asks_the_bud: bool,
     /// Metres added to a diameter; asked at the plant's age and the internode's own.
     pub thickening: ValueTable,
 }
@@ -121,28 +123,30 @@ impl Buds {
 impl OrderLaws {
     fn compile(buds: &Buds, index: usize, compiler: &mut Compiler, habit: &mut Vec<Trend>) -> Self {
         let order = &buds.order[index];
+        compiler.ask(Asked::Birth);
         let head = HeadLaws::compile(order, compiler, habit);
-        let step = StepLaws::compile(order, compiler);
+        compiler.ask(Asked::Bud);
+        let step = StepLaws::compile(order, head.most_units(), compiler);
         let end = EndLaws::compile(order, compiler);
-        compiler.set_max_rank(step.most_nodes().max(1));
+        compiler.set_ranks(step.most_nodes());
         Self {
             number: compiler.order_number(),
             head,
             node: NodeLaws::compile(order, buds.season.as_ref(), &step, compiler),
             end,
             thickening: compiler.thickening(&order.internode.thickening_mm),
+            asks_the_bud: compiler.asks_the_bud,
             step,
         }
     }
 }
 
+/// The order at `index`.
+fn order_of(index: usize) -> u8 {
+    u8::try_from(index + 1).unwrap_or(u8::MAX)
+}
+
 /// The domain of the laws of an order, before the nodes of its growth units are known.
 fn domain(buds: &Buds, index: usize, until: u32, max_cycle: u32) -> Domain {
-    Domain {
-        order: u8::try_from(index + 1).unwrap_or(u8::MAX),
-        until,
-        max_cycle,
-        max_rank: 0,
-        states: buds.states.clone(),
-    }
+    Domain { order: order_of(index), until, max_cycle, states: buds.states.clone(), ..Domain::default() }
 }

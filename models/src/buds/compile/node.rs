@@ -80,10 +80,10 @@ impl NodeLaws {
             None => VariateTable::always(0.0),
         };
         let diameter = compiler.measure(&order.internode.diameter_mm, "internode.diameter_mm");
-        let leaves = compiler.count(&order.leaf.per_node, "leaf.per_node", MOST_ORGANS);
-        let most_leaves = leaves.max();
+        let leaves = compiler.places(&order.leaf.per_node, "leaf.per_node", MOST_ORGANS);
+        let most_leaves = leaves.max_in_any_run();
         let flowers = lateral_flowers(order, compiler);
-        let most_flowers = flowers.max().max(1);
+        let most_flowers = flowers.max_in_any_run().max(1);
         let opens = compiler.probability(&order.flower.lateral, "flower.lateral");
         let sets = compiler.probability(&order.flower.fruit_set, "flower.fruit_set");
         let mut flower_count = |count: &Count, keys: &str| compiler.count(count, keys, LONGEST);
@@ -133,7 +133,7 @@ impl NodeLaws {
 
 /// The lateral flowers of a node; none where none can open, so that they take no words.
 fn lateral_flowers(order: &Order, compiler: &mut Compiler) -> CountTable {
-    let flowers = compiler.count(&order.flower.per_node, "flower.per_node", MOST_ORGANS);
+    let flowers = compiler.places(&order.flower.per_node, "flower.per_node", MOST_ORGANS);
     match compiler.probability(&order.flower.lateral, "flower.lateral").is_never() {
         true => CountTable::always(0),
         false => flowers,
@@ -192,7 +192,7 @@ fn fruit(order: &Order, compiler: &mut Compiler, words: &mut Layout, flowers: u3
 
 fn axillary(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branching {
     let axillary = &order.axillary;
-    let count = compiler.count(&axillary.buds, "axillary.buds", MOST_BUDS);
+    let count = compiler.places(&axillary.buds, "axillary.buds", MOST_BUDS);
     let chance = compiler.probability(&axillary.ramification, "axillary.ramification");
     let delay = compiler.count(&axillary.delay, "axillary.delay", LONGEST);
     let state = axillary.state.as_ref().map(|state| compiler.state(state, "axillary.state"));
@@ -209,7 +209,7 @@ fn reiteration_order(order: &Order, compiler: &mut Compiler) -> u8 {
 
 fn reiteration(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branching {
     let reiteration = &order.reiteration;
-    let count = compiler.count(&reiteration.buds, "reiteration.buds", MOST_BUDS);
+    let count = compiler.places(&reiteration.buds, "reiteration.buds", MOST_BUDS);
     let chance = compiler.probability(&reiteration.probability, "reiteration.probability");
     let delay = compiler.count(&reiteration.delay, "reiteration.delay", LONGEST);
     let angle = compiler.angle(&reiteration.insertion_deg, "reiteration.insertion_deg");

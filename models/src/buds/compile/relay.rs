@@ -32,7 +32,7 @@ impl Branching {
         insertion: VariateTable,
         state: Option<u8>,
     ) -> Self {
-        let most = count.max();
+        let most = count.max_in_any_run();
         Self {
             count: words.number(count, 1),
             chance: words.chance(chance, most),
@@ -89,7 +89,7 @@ impl EndLaws {
 
 fn relay(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branching {
     let relay = &order.relay;
-    let count = compiler.count(&relay.count, "relay.count", MOST_BUDS);
+    let count = compiler.places(&relay.count, "relay.count", MOST_BUDS);
     let chance = compiler.probability(&relay.probability, "relay.probability");
     let delay = compiler.count(&relay.delay, "relay.delay", LONGEST);
     let angle = match &relay.insertion_deg {
@@ -104,7 +104,7 @@ fn relay(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branchin
 }
 
 fn fork(fork: &Fork, compiler: &mut Compiler, words: &mut Layout) -> Branching {
-    let count = compiler.count(&fork.axes, "apex.fork.axes", MOST_BUDS);
+    let count = compiler.places(&fork.axes, "apex.fork.axes", MOST_BUDS);
     let angle = compiler.angle(&fork.insertion_deg, "apex.fork.insertion_deg");
     let always = ProbabilityTable::certain_or_never(true);
     Branching::new(words, count, always, CountTable::always(0), angle, None)
@@ -115,9 +115,9 @@ fn traumatic(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Bran
     let chance = compiler.probability(&traumatic.probability, "traumatic.probability");
     let count = match chance.is_never() {
         true => CountTable::always(0),
-        false => compiler.count(&order.axillary.buds, "axillary.buds", MOST_BUDS),
+        false => compiler.places(&order.axillary.buds, "axillary.buds", MOST_BUDS),
     };
-    let most = CountTable::always(count.max());
+    let most = CountTable::always(count.max_in_any_run());
     let delay = compiler.count(&traumatic.delay, "traumatic.delay", LONGEST);
     let angle = compiler.angle(&traumatic.insertion_deg, "traumatic.insertion_deg");
     let state = traumatic.state.as_ref().map(|state| compiler.state(state, "traumatic.state"));

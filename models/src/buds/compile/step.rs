@@ -3,7 +3,7 @@
 //! De Reffye 1988 §4: the mortality test, the break test, then the growth unit. Each has its slot in the step's record
 //! of words. Absent: what a node bears (`node`), and the clock (`buds::grow`).
 
-use super::compiler::Compiler;
+use super::compiler::{Compiler, Ranks};
 use super::words::{Chance, Layout, Number};
 use super::zone::ZoneRanks;
 use crate::buds::params::{Order, Sibling, Transition};
@@ -56,15 +56,18 @@ impl Passage {
 }
 
 impl StepLaws {
-    /// Compiles the laws of a step.
-    pub fn compile(order: &Order, compiler: &mut Compiler) -> Self {
+    /// Compiles the laws of a step of an axis that makes at most `last` growth units in all, in the run at hand and in a
+    /// run of any length.
+    pub fn compile(order: &Order, last: [u32; 2], compiler: &mut Compiler) -> Self {
         let mut layout = Layout::default();
+        let unit = &order.growth_unit;
+        compiler.set_units([MOST_UNITS; 2], last);
+        let per_step = compiler.places(&unit.per_step, "growth_unit.per_step", MOST_UNITS);
+        let most_units = per_step.max_in_any_run();
+        compiler.set_units([per_step.max(), most_units], last);
         let death = layout.chance(compiler.probability(&order.death, "death"), 1);
         let pause = layout.chance(compiler.probability(&order.pause, "pause"), 1);
         let flower = layout.chance(compiler.probability(&order.flower.terminal, "flower.terminal"), 1);
-        let unit = &order.growth_unit;
-        let per_step = compiler.count(&unit.per_step, "growth_unit.per_step", MOST_UNITS);
-        let most_units = per_step.max();
         let per_step = layout.number(per_step, 1);
         let (short, short_nodes) = match &unit.short {
             Some(short) => (
@@ -95,8 +98,14 @@ impl StepLaws {
     }
 
     /// The most nodes that a growth unit can have.
-    pub fn most_nodes(&self) -> u32 {
-        (self.long_nodes.table.max() + self.neoformed.table.max()).max(self.short_nodes.table.max())
+    pub fn most_nodes(&self) -> Ranks {
+        let tables = [&self.long_nodes, &self.neoformed, &self.short_nodes].map(|number| &number.table);
+        let most = |of: fn(&CountTable) -> u32| (of(tables[0]) + of(tables[1])).max(of(tables[2]));
+        Ranks {
+            now: most(CountTable::max),
+            ever: most(CountTable::max_in_any_run),
+            go_on: tables.iter().any(|table| table.goes_on()),
+        }
     }
 }
 

@@ -1,11 +1,12 @@
 //! The wood of a species, compiled: tables of stiffness and density by the age of the internode, SI units.
 //!
-//! A law of stiffness or density is asked at the last age that the run reaches with the internode's own age as dimension
-//! and cycle: wood knows how old it is, not how old its plant is. Absent: the equations (`phytomer_sim::mechanics`).
+//! A law of stiffness or density is one of the internode's own age: wood knows how old it is, not how old its plant is.
+//! Absent: the equations (`phytomer_sim::mechanics`).
 
+use super::order_of;
 use crate::buds::params::{Buds, CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood as WoodParams};
 use crate::fault::{Fault, Path};
-use crate::law::{At, Constant, Domain, Law, ValueRange};
+use crate::law::{Constant, Law, ValueRange};
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::math::{cos, sin};
 use phytomer_sim::mechanics::{Drag, OrganMass, Thickening, Tissue, Uprighting, Wood};
@@ -41,7 +42,7 @@ pub fn compile(buds: &Buds, until: u32, path: &Path, faults: &mut Vec<Fault>) ->
     let species = path.key("wood");
     let tissues = buds.order.iter().enumerate().map(|(index, order)| {
         let order_path = path.key("order").index(index).key("wood");
-        let place = Place { buds, until, index, species: species.clone(), order: order_path };
+        let place = Place { until, index, species: species.clone(), order: order_path };
         place.tissue(wood, &order.wood, faults)
     });
     let tissues = tissues.collect();
@@ -72,15 +73,14 @@ fn ownerless(buds: &Buds, path: &Path, faults: &mut Vec<Fault>) {
 }
 
 /// Where the wood of one order is stated.
-struct Place<'a> {
-    buds: &'a Buds,
+struct Place {
     until: u32,
     index: usize,
     species: Path,
     order: Path,
 }
 
-impl Place<'_> {
+impl Place {
     fn tissue(&self, wood: &WoodParams, own: &OrderWood, faults: &mut Vec<Fault>) -> Tissue {
         let mut table = |key: &str, own: &Option<Law>, shared: &Option<Law>, range, scale: f64| {
             let (law, path) = match (own, shared) {
@@ -106,22 +106,8 @@ impl Place<'_> {
     }
 
     fn by_age(&self, law: &Law, path: &Path, range: ValueRange, scale: f64) -> Result<Vec<f32>, Vec<Fault>> {
-        let domain = Domain {
-            order: u8::try_from(self.index + 1).unwrap_or(u8::MAX),
-            until: self.until,
-            max_cycle: self.until,
-            max_rank: 0,
-            states: self.buds.states.clone(),
-        };
-        let compiled = law.compile_value(&domain, path, range)?;
-        let at = |own| At { age: self.until, dimension: own, cycle: own, rank: 0, state: 0 };
-        let mut table: Vec<f32> =
-            (0..=self.until).map(|own| (f64::from(compiled.value(at(own))) * scale) as f32).collect();
-        // Ages past a table's last are as its last.
-        while table.len() > 1 && table[table.len() - 1] == table[table.len() - 2] {
-            table.pop();
-        }
-        Ok(table)
+        let table = law.by_own_age(order_of(self.index), self.until, path, range)?;
+        Ok(table.into_iter().map(|value| (f64::from(value) * scale) as f32).collect())
     }
 }
 

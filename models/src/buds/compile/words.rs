@@ -1,7 +1,8 @@
 //! Which word of a stream decides what: slots given once per order, in a fixed sequence.
 //!
 //! A stream is read in records of a fixed width: one record an axis and then one a clock step (bud stream), one a node
-//! (node stream), one an axis (relay stream). Quantities that are the same at every point take no word.
+//! (node stream), one an axis (relay stream). Quantities that are the same at every point take no word. The layout of a
+//! record does not depend on how long the run lasts: what a longer run could draw has its words in a shorter one too.
 
 use crate::law::{At, CountTable, ProbabilityTable, VariateTable};
 

@@ -81,7 +81,7 @@ impl Zones {
     /// The zones of an order, their own laws of ramification with words for the buds of a node; `None`: every node.
     pub fn compile(order: &Order, ranks: &ZoneRanks, compiler: &mut Compiler, words: &mut Layout) -> Option<Self> {
         let zones = stated(order)?;
-        let most_buds = compiler.count(&order.axillary.buds, "axillary.buds", MOST_BUDS).max();
+        let most_buds = compiler.places(&order.axillary.buds, "axillary.buds", MOST_BUDS).max_in_any_run();
         let compiled = zones.iter().enumerate().map(|(index, zone)| {
             let chance = zone.ramification.as_ref().map(|law| {
                 let table = compiler.probability(law, &format!("axillary.pattern.zones.{index}.ramification"));

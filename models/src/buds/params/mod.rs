@@ -1,9 +1,9 @@
 //! The parameters of the bud model as a species file states them (de Reffye 1988 §4, the list of parameters).
 //!
-//! One [`Order`] for each order of axes, the trunk first; every probability is a [`Law`] of age, dimension, cycle, rank
-//! and state, every number of things a [`Count`], every measure a [`Variate`], every speed one of [`Speeds`], and what is
-//! one for a whole species a [`Quantity`] or a [`Constant`]; so each may be bare or say its source. A species without states, reiteration and
-//! relays reads as in 1988. Axes of an order past the last are never made.
+//! One [`Order`] for each order of axes, the trunk first; every probability is a [`Law`] of state and the variables of
+//! [`crate::law`], every number of things a [`Count`], every measure a [`Variate`], every speed one of [`Speeds`], and what
+//! is one for a whole species a [`Quantity`] or a [`Constant`]; so each may be bare or say its source. A species without
+//! states, reiteration and relays reads as in 1988. Axes of an order past the last are never made.
 //!
 //! Absent on purpose: what the parameters do, which is in `compile` and `grow`.
 
@@ -96,8 +96,8 @@ pub struct Order {
     /// What the wood of this order is, where it is not that of the species, and how its axes right themselves.
     #[serde(skip_serializing_if = "OrderWood::is_as_the_species")]
     pub wood: OrderWood,
-    /// After how many ticks a branch falls, all of whose buds are dead; drawn once an axis, at its birth. Left out: dead
-    /// wood stays.
+    /// After how many ticks a branch falls, all of whose buds are dead; drawn once an axis, at its birth, where a law of
+    /// it knows the `age` of the plant. Left out: dead wood stays.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shed_after: Option<Count>,
 }

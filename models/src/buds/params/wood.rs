@@ -19,8 +19,8 @@ pub struct Wood {
     pub like: Option<String>,
     /// Whether axes bend under what they bear.
     pub bends: bool,
-    /// Young's modulus of green wood, GPa: a law in which `age` is the plant's age, `dimension` and `cycle` the internode's
-    /// own, in ticks. Orders may state their own.
+    /// Young's modulus of green wood, GPa: a law in which `dimension` and `cycle` are the internode's own age in ticks.
+    /// Orders may state their own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modulus_gpa: Option<Law>,
     /// Green density, kg/m³; a law of the same variables.

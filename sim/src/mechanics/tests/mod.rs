@@ -99,6 +99,7 @@ pub fn add_axis(plant: &mut Plant, bearer: Option<NodeId>, insertion: f64) -> Ax
         order: 1,
         origin: Origin::Axillary,
         position: 0,
+        follows: false,
         state: 0,
         appearance: 0,
         birth: 0,
