@@ -13,6 +13,8 @@ pub mod params;
 mod tests;
 #[cfg(test)]
 mod tests_drawn;
+#[cfg(test)]
+mod tests_faults;
 
 pub use compile::BudModel;
 pub use params::{Buds, Order};

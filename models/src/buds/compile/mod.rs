@@ -24,7 +24,7 @@ pub(super) use step::{Passage, StepLaws};
 pub(super) use zone::{Ramification, Ranks, Zones};
 
 use super::params::Buds;
-use crate::fault::{Fault, Path};
+use crate::fault::{self, Fault, Path};
 use crate::law::{Domain, ValueTable};
 use compiler::Compiler;
 use phytomer_sim::clock::LAST_TICK;
@@ -70,12 +70,12 @@ impl Buds {
             orders.push(OrderLaws::compile(self, index, &mut compiler, &mut trends));
             organ_trends.push(organs::trends(&self.order[index], &mut compiler));
             faults.append(&mut compiler.faults);
+            fault::tell_once(&mut faults, compiler.asked_again);
         }
         let looks = look::compile(self, until.min(LAST_TICK), path, &mut faults);
         let wood = wood::compile(self, until.min(LAST_TICK), path, &mut faults);
         if !faults.is_empty() {
             faults.sort_by(|a, b| a.path.cmp(&b.path));
-            faults.dedup();
             return Err(faults);
         }
         if organ_trends.iter().all(|of| *of == OrganTrends::default()) {
@@ -123,12 +123,14 @@ impl OrderLaws {
         let order = &buds.order[index];
         let head = HeadLaws::compile(order, compiler, habit);
         let step = StepLaws::compile(order, compiler);
-        let end = EndLaws::compile(order, compiler);
         compiler.set_max_rank(step.most_nodes().max(1));
+        let node = NodeLaws::compile(order, buds.season.as_ref(), &step, compiler);
+        compiler.set_max_rank(0);
+        let end = EndLaws::compile(order, node.axillary.count.table.max(), &head.insertion.table, compiler);
         Self {
             number: compiler.order_number(),
             head,
-            node: NodeLaws::compile(order, buds.season.as_ref(), &step, compiler),
+            node,
             end,
             thickening: compiler.thickening(&order.internode.thickening_mm),
             step,

@@ -4,7 +4,7 @@
 //! and cycle: wood knows how old it is, not how old its plant is. Absent: the equations (`phytomer_sim::mechanics`).
 
 use crate::buds::params::{Buds, CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood as WoodParams};
-use crate::fault::{Fault, Path};
+use crate::fault::{self, Fault, Path};
 use crate::law::{At, Constant, Domain, Law, ValueRange};
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::math::{cos, sin};
@@ -42,7 +42,11 @@ pub fn compile(buds: &Buds, until: u32, path: &Path, faults: &mut Vec<Fault>) ->
     let tissues = buds.order.iter().enumerate().map(|(index, order)| {
         let order_path = path.key("order").index(index).key("wood");
         let place = Place { buds, until, index, species: species.clone(), order: order_path };
-        place.tissue(wood, &order.wood, faults)
+        let mut found = Vec::new();
+        let tissue = place.tissue(wood, &order.wood, &mut found);
+        // Laws of the species are asked in each order.
+        fault::tell_once(faults, found);
+        tissue
     });
     let tissues = tissues.collect();
     let mut numbers = Numbers { path: species, faults };
