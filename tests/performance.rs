@@ -34,7 +34,8 @@ fn cargo_is_asked_for_its_target_folder() {
     fs::create_dir_all(package.join(".cargo")).unwrap();
     fs::create_dir_all(package.join("src")).unwrap();
     fs::write(package.join("src/lib.rs"), "").unwrap();
-    fs::write(package.join("Cargo.toml"), "[package]\nname = \"p\"\nversion = \"0.0.0\"\nedition = \"2024\"\n").unwrap();
+    fs::write(package.join("Cargo.toml"), "[package]\nname = \"p\"\nversion = \"0.0.0\"\nedition = \"2024\"\n")
+        .unwrap();
     fs::write(package.join(".cargo/config.toml"), "[build]\ntarget-dir = \"built\"\n").unwrap();
     assert_eq!(found(&package, &[]), package.join("built/criterion").display().to_string());
 }

@@ -165,7 +165,9 @@ fn fewer_plants_leave_out_their_meshes() {
     let (twenty, told) = meshes("twenty", &["example2", "--plants", "20"]);
     assert!(twenty.len() == 12 && twenty[..3] == three && !told.contains("left out"), "{told}");
     let listed = |plants: &str| {
-        let text = format!("name = \"s\"\nspecies = \"example1\"\nplants = 4\nages = {{ until = 3 }}\nmeshes = {{ plants = {plants} }}\n");
+        let text = format!(
+            "name = \"s\"\nspecies = \"example1\"\nplants = 4\nages = {{ until = 3 }}\nmeshes = {{ plants = {plants} }}\n"
+        );
         fs::write(folder.path().join("s.toml"), text).unwrap();
         "s.toml"
     };

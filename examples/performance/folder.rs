@@ -13,14 +13,21 @@ pub fn of_benches(package: &Path, variable: impl Fn(&str) -> Option<OsString>) -
         return package.join(home);
     }
     let target = variable("CARGO_TARGET_DIR").map(PathBuf::from);
-    let target = target.or_else(|| told_by_cargo(package, variable("CARGO"))).unwrap_or_else(|| PathBuf::from("target"));
+    let target =
+        target.or_else(|| told_by_cargo(package, variable("CARGO"))).unwrap_or_else(|| PathBuf::from("target"));
     package.join(target).join("criterion")
 }
 
 /// The target folder by cargo's own word, which knows its configuration files.
 fn told_by_cargo(package: &Path, cargo: Option<OsString>) -> Option<PathBuf> {
     let mut command = Command::new(cargo.unwrap_or_else(|| OsString::from("cargo")));
-    command.current_dir(package).env_remove("CARGO_TARGET_DIR").args(["metadata", "--format-version", "1", "--no-deps", "--offline"]);
+    command.current_dir(package).env_remove("CARGO_TARGET_DIR").args([
+        "metadata",
+        "--format-version",
+        "1",
+        "--no-deps",
+        "--offline",
+    ]);
     let told: serde_json::Value = serde_json::from_slice(&command.output().ok()?.stdout).ok()?;
     told["target_directory"].as_str().map(PathBuf::from)
 }

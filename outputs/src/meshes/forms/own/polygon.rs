@@ -4,6 +4,9 @@
 //! (Meisters 1975, "Polygons have ears"), in that coordinate plane in which the polygon is largest.
 //! At most n² tests of a corner against a triangle. Absent: holes; a polygon that crosses itself stays a fan.
 
+/// So small a share of a polygon may a fan cover twice: corners in a line are never quite so in 32 bits.
+const FLAT: f64 = 1e-6;
+
 /// A point of the polygon in the plane.
 type Flat = [f64; 2];
 
@@ -14,8 +17,9 @@ pub fn triangles(points: &[[f32; 3]]) -> Vec<[usize; 3]> {
         return fan();
     }
     let flat = flattened(points);
-    let covered = (2..flat.len()).all(|corner| turn([flat[0], flat[corner - 1], flat[corner]]) >= 0.0);
-    if covered { fan() } else { ears(&flat).unwrap_or_else(fan) }
+    let turns: Vec<f64> = (2..flat.len()).map(|corner| turn([flat[0], flat[corner - 1], flat[corner]])).collect();
+    let least = -FLAT * turns.iter().sum::<f64>();
+    if turns.iter().all(|turn| *turn >= least) { fan() } else { ears(&flat).unwrap_or_else(fan) }
 }
 
 /// The corners in the plane, seen from the side to which the polygon is counterclockwise.
@@ -99,6 +103,16 @@ mod tests {
         assert_eq!(triangles(&hexagon), [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]]);
         let back: Vec<_> = hexagon.into_iter().rev().collect();
         assert_eq!(triangles(&back), [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]]);
+    }
+
+    #[test]
+    fn corners_in_a_line_leave_a_convex_polygon_a_fan() {
+        // A square with a corner in the middle of each side, turned by an angle that 32 bits round.
+        let (sin, cos) = phytomer_sim::math::sincos(0.3);
+        let turned = |[x, y]: [f64; 2]| [(x * cos - y * sin) as f32, (x * sin + y * cos) as f32, 0.0];
+        let square = [[0.0, 0.0], [1.5, 0.0], [3.0, 0.0], [3.0, 1.5], [3.0, 3.0], [1.5, 3.0], [0.0, 3.0], [0.0, 1.5]]
+            .map(turned);
+        assert_eq!(triangles(&square), (2..8).map(|corner| [0, corner - 1, corner]).collect::<Vec<_>>());
     }
 
     #[test]
