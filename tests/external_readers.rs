@@ -5,6 +5,9 @@
 //! They live in `.venv`, which `.ci/run` fills from `tests/readers/requirements.txt`; where they are missing the tests
 //! skip and say so, but never in CI. `PHYTOMER_RUN` names a run folder to read beside the small one grown here.
 
+#[path = "program/absent.rs"]
+mod absent;
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -32,8 +35,8 @@ fn python() -> Option<PathBuf> {
         Ok(found) => String::from_utf8_lossy(&found.stderr).trim().to_owned(),
         Err(error) => format!("{}: {error}", python.display()),
     };
-    assert!(std::env::var_os("CI").is_none(), "CI must have the readers: {reason}");
-    eprintln!("skipped: no independent readers here ({reason}); .ci/run installs them");
+    assert!(!absent::in_ci(), "CI must have the readers: {reason}");
+    absent::skip(&format!("no independent readers here ({reason}); .ci/run installs them"));
     None
 }
 
@@ -229,7 +232,7 @@ fn an_independent_editor_knows_numbers_with_their_source() {
 #[test]
 fn independent_readers_agree_on_a_given_run() {
     let Some(run) = std::env::var_os("PHYTOMER_RUN") else {
-        eprintln!("skipped: PHYTOMER_RUN names no run folder to read");
+        absent::skip("PHYTOMER_RUN names no run folder to read");
         return;
     };
     let Some(python) = python() else {

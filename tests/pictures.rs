@@ -66,6 +66,8 @@ fn what_cannot_be_drawn_is_refused_with_words() {
         (vec!["coffee", "--sun", "10,95"], 2, "3 to 90 degrees"),
         (vec!["coffee", "--view", "below"], 2, "perspective"),
         (vec!["coffee", "--wind", "8"], 2, "no wood that bends"),
+        (vec!["example1", "--colour-by", "area_m2"], 1, "nothing that stands has an area, as leaves have"),
+        (vec!["example1", "--colour-by", "bending_moment_N_m"], 1, "the species states no `[wood]`"),
         (vec!["coffeee"], 3, "did you mean `coffee`?"),
         (vec!["coffee", "--age", "2", "--out", "no/folder.png"], 1, "cannot write"),
     ] {

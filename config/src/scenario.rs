@@ -4,8 +4,10 @@
 //! are refused like any unknown key, so that nobody believes they did something.
 //! Absent: the species, which is a file of its own, and where the run folder goes, which the command line says.
 
+mod meshes;
 mod site;
 
+pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use site::{Site, Wind};
 
 use std::collections::BTreeSet;
@@ -17,6 +19,9 @@ use serde::{Deserialize, Serialize};
 
 /// The seed of a run that names none: the year of the paper. Printed and recorded like any other.
 pub const DEFAULT_SEED: u64 = 1988;
+
+/// The largest seed, 2⁶³ − 1: TOML has no larger whole number, and every seed must be one that a scenario can state.
+pub const MOST_SEED: u64 = i64::MAX as u64;
 
 /// Bytes that a component takes in memory, about: topology, fates and pose together.
 pub const BYTES_A_COMPONENT: u64 = 96;
@@ -37,10 +42,13 @@ pub struct Scenario {
     /// How many plants grow.
     #[schemars(range(min = 1, max = 1_000_000_000))]
     pub plants: u32,
-    /// The seed of every draw: the same seed gives the same bytes. 1988 if not given.
+    /// The seed of every draw: the same seed gives the same bytes. From 0 to 2⁶³ − 1; 1988 if not given.
     #[serde(default = "default_seed")]
+    #[schemars(range(min = 0, max = MOST_SEED))]
     pub seed: u64,
-    /// The plants stand on a square grid this far apart, metres. If not given, each grows at the origin of its own.
+    /// The plants stand on a square grid this far apart, metres: plant 0 at the origin, and shell after shell around it, along
+    /// x = s and back along y = s of the s-th. A plant keeps its place however many grow, and the first n² fill a square. If
+    /// not given, each grows at the origin of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 1000.0), extend("exclusiveMinimum" = 0))]
     pub spacing_m: Option<f64>,
@@ -128,82 +136,6 @@ pub enum Table {
     Summary,
 }
 
-/// Which meshes are written.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Meshes {
-    /// The ages: `"last"`, `"all"` recorded ages, or a list. The last if not given.
-    #[serde(default)]
-    pub ages: MeshAges,
-    /// The plants: `"all"`, how many from the first, or a list of numbers from 0. The first if not given.
-    #[serde(default)]
-    pub plants: MeshPlants,
-    /// Sides of the tube that an internode is drawn as.
-    #[serde(default = "default_sides")]
-    #[schemars(range(min = 3, max = 64))]
-    pub sides: u32,
-    /// What one file holds: a plant at an age, a plant at all its ages, or all plants at an age.
-    #[serde(default)]
-    pub per: MeshFile,
-}
-
-/// The ages of the meshes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum MeshAges {
-    /// By a word.
-    Word(MeshAgesWord),
-    /// These ages.
-    List(#[schemars(length(min = 1))] BTreeSet<u32>),
-}
-
-/// The ages of the meshes by a word.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum MeshAgesWord {
-    /// The last age.
-    Last,
-    /// Every recorded age.
-    All,
-}
-
-impl Default for MeshAges {
-    fn default() -> Self {
-        Self::Word(MeshAgesWord::Last)
-    }
-}
-
-/// The plants of the meshes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum MeshPlants {
-    /// Every plant, by the word.
-    All(All),
-    /// So many, from the first.
-    First(#[schemars(range(min = 1))] u32),
-    /// These, numbered from 0.
-    List(#[schemars(length(min = 1))] BTreeSet<u32>),
-}
-
-impl Default for MeshPlants {
-    fn default() -> Self {
-        Self::First(1)
-    }
-}
-
-/// What one mesh file holds.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum MeshFile {
-    /// One plant at one age.
-    #[default]
-    PlantAge,
-    /// One plant at all ages asked for.
-    Plant,
-    /// All plants asked for at one age.
-    Age,
-}
-
 /// Where a plot that grows too large is stopped.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -278,10 +210,6 @@ fn default_seed() -> u64 {
     DEFAULT_SEED
 }
 
-fn default_sides() -> u32 {
-    8
-}
-
 fn all_tables() -> BTreeSet<Table> {
     BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary])
 }
@@ -301,26 +229,6 @@ impl Ages {
 }
 
 impl Scenario {
-    /// The ages at which meshes are written, rising; none where no meshes are asked for.
-    pub fn mesh_ages(&self) -> Vec<u32> {
-        match self.meshes.as_ref().map(|meshes| &meshes.ages) {
-            None => Vec::new(),
-            Some(MeshAges::Word(MeshAgesWord::Last)) => vec![self.ages.until],
-            Some(MeshAges::Word(MeshAgesWord::All)) => self.ages.recorded(),
-            Some(MeshAges::List(ages)) => ages.iter().copied().collect(),
-        }
-    }
-
-    /// Whether a mesh of this plant is written.
-    pub fn draws(&self, plant: u32) -> bool {
-        match self.meshes.as_ref().map(|meshes| &meshes.plants) {
-            None => false,
-            Some(MeshPlants::All(_)) => true,
-            Some(MeshPlants::First(count)) => plant < *count,
-            Some(MeshPlants::List(plants)) => plants.contains(&plant),
-        }
-    }
-
     /// What no schema can say: ages beyond the last, plants beyond the number, a run that writes nothing.
     pub fn faults(&self) -> Vec<Fault> {
         let mut faults = Vec::new();
@@ -362,24 +270,6 @@ impl Scenario {
         if first > self.ages.until {
             let problem = format!("no age is recorded: the first is {first} and the run ends at {}", self.ages.until);
             faults.push(Fault::new(&path.key(key), problem, format!("a first age in [1, {}]", self.ages.until)));
-        }
-    }
-
-    fn check_mesh_plants(&self, path: &Path, faults: &mut Vec<Fault>) {
-        let plants = self.plants;
-        match self.meshes.as_ref().map(|m| &m.plants) {
-            Some(MeshPlants::First(count)) if *count > plants && *count > 1 => {
-                let problem = format!("meshes of {count} plants are asked for, but only {plants} grow");
-                faults.push(Fault::new(path, problem, format!("at most {plants}, or \"all\"")));
-            }
-            Some(MeshPlants::List(list)) => {
-                let outside: Vec<String> = list.iter().filter(|p| **p >= plants).map(u32::to_string).collect();
-                if !outside.is_empty() {
-                    let problem = format!("no plant has the number {}: they are numbered from 0", list_some(&outside));
-                    faults.push(Fault::new(path, problem, format!("numbers in [0, {}]", plants.saturating_sub(1))));
-                }
-            }
-            _ => {}
         }
     }
 }

@@ -273,6 +273,17 @@ impl Model {
         }
     }
 
+    /// The ticks of a year that its own parameters state, with the place.
+    pub(crate) fn year(&self) -> Option<(Path, u32)> {
+        match self {
+            Model::Buds(buds) => buds
+                .season
+                .as_ref()
+                .map(|season| (Path::root().key("season").key("ticks_per_year"), season.ticks_per_year.value())),
+            Model::Gmt1(_) => None,
+        }
+    }
+
     fn to_json(&self) -> serde_json::Result<Json> {
         match self {
             Model::Buds(buds) => serde_json::to_value(buds),
@@ -282,6 +293,12 @@ impl Model {
 }
 
 impl Species {
+    /// How many ticks make a year: as the species states, else as its season does, which a checked species states alike.
+    pub fn ticks_per_year(&self) -> Option<f64> {
+        let stated = self.about.ticks_per_year.as_ref().map(Constant::value);
+        stated.or_else(|| self.model.year().map(|(_, ticks)| ticks.into()))
+    }
+
     /// The species as one file without ancestors would state it.
     ///
     /// # Errors

@@ -9,6 +9,7 @@ use std::path::Path as FilePath;
 use std::sync::{Arc, OnceLock};
 
 use phytomer_models::fault;
+use phytomer_models::law::Constant;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::model::GrowthModel;
 use serde_json::{Value as Json, json};
@@ -21,7 +22,7 @@ use crate::report::{Fault, Report};
 use crate::scenario::Scenario;
 use crate::schema;
 use crate::source::{Source, Sources};
-use crate::species::{About, Species, any_file};
+use crate::species::{About, Model, Species, any_file};
 
 /// The last age over which a species is checked that is not part of a scenario.
 pub const SPECIES_ALONE_UNTIL: u32 = 100;
@@ -169,6 +170,7 @@ fn check_species(
     let Found { about, model, node } = loader.species(mention)?;
     if let Some(about) = &about {
         tell(loader, &node, about.faults());
+        check_year(loader, &node, about, &model);
     }
     match model.compile(until(about.as_ref())?) {
         Ok(compiled) => Some(Compiled { species: Species { about: about?, model }, model: compiled, tree: node }),
@@ -177,6 +179,24 @@ fn check_species(
             None
         }
     }
+}
+
+/// A species has one year: where its season states the ticks of it too, the two must agree.
+fn check_year(loader: &mut Loader, node: &Node, about: &About, model: &Model) {
+    let (Some(stated), Some((path, in_season))) = (about.ticks_per_year.as_ref().map(Constant::value), model.year())
+    else {
+        return;
+    };
+    if stated == f64::from(in_season) {
+        return;
+    }
+    let other = path_of(&["ticks_per_year"]);
+    let span = node.locate(&other);
+    let ((line, column), file) = (loader.sources.place(span), &loader.sources.get(span.source).name);
+    let problem = format!(
+        "the year of the season is of {in_season} ticks, and `ticks_per_year` is {stated} ({file}:{line}:{column})"
+    );
+    loader.faults.push(Fault::new(node.locate(&path), &path, problem, "the same number at both places"));
 }
 
 /// Faults of meaning, shown where the values were typed.

@@ -28,6 +28,15 @@ fn a_full_scenario_says_what_it_writes() {
     assert!(scenario.tables.contains(&Table::Records) && !scenario.tables.contains(&Table::Events));
 }
 
+/// A species has one year, stated by itself or by its season.
+#[test]
+fn the_year_of_a_season_is_that_of_its_species() {
+    for (name, ticks) in [("states", Some(4.0)), ("sourced", Some(12.0)), ("minimal_species", None)] {
+        let species = validate_species(&format!("tests/good/{name}.toml"), 40).expect("it is right").species;
+        assert_eq!(species.ticks_per_year(), ticks, "{name}");
+    }
+}
+
 #[test]
 fn every_file_read_is_kept_for_provenance() {
     let species = validate_species("tests/good/child.toml", 40).expect("it is right");

@@ -66,6 +66,16 @@ pub struct Fault {
     pub expected: String,
 }
 
+/// Adds what was found wrong with a key that is asked in several domains, such as at the nodes of each order: what another
+/// domain has told already is not told again.
+pub fn tell_once(told: &mut Vec<Fault>, found: Vec<Fault>) {
+    for fault in found {
+        if !told.contains(&fault) {
+            told.push(fault);
+        }
+    }
+}
+
 impl Fault {
     /// A fault at `path`.
     pub fn new(path: &Path, problem: impl Into<String>, expected: impl Into<String>) -> Self {

@@ -18,6 +18,12 @@ pub enum Error {
         /// The system's answer.
         source: std::io::Error,
     },
+    /// A file was to be written where a folder is.
+    #[error("cannot write {}: it is a folder, and the name of a file is expected", path.display())]
+    IsFolder {
+        /// The folder.
+        path: PathBuf,
+    },
     /// A table could not be written.
     #[error(
         "cannot write the table {}: {source}\nwhat is complete is kept: free some space, then go on with --resume",
@@ -142,13 +148,12 @@ pub enum Error {
         column: String,
     },
     /// No component that is drawn has a value in the column that a picture was to be coloured by.
-    #[error(
-        "no component has a value of `{column}` to colour by: the columns of mechanics need a species with `[wood]`, and \
-         curvature and moment wood that bends"
-    )]
+    #[error("no component has a value of `{column}` to colour by: {reason}")]
     NothingToColour {
         /// The column.
         column: &'static str,
+        /// What its values would need.
+        reason: &'static str,
     },
     /// A plant has more components than the tables can hold.
     #[error("plant {plant} has {components} components; tables hold at most {most} a plant: lower max_components")]

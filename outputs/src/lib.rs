@@ -3,6 +3,7 @@
 //! A run folder is made by [`RunFolder::create`], filled shard by shard and closed by [`RunFolder::finish`]; what it
 //! holds is in `docs` and in its own `datapackage.json`. [`read`] opens it again. Absent on purpose: growth rules.
 
+pub mod destination;
 mod error;
 pub mod meshes;
 pub mod pictures;
@@ -13,6 +14,7 @@ pub mod run_folder;
 mod specimen;
 pub mod tables;
 
+pub use destination::Destination;
 pub use error::Error;
 pub use run_folder::{
     FileReport, Input, Mode, OvergrownPlot, Provenance, RunFolder, RunPlan, RunReport, Shard, ShardReport,

@@ -14,6 +14,7 @@ use phytomer::outputs::Mode;
 use phytomer::run::forecast::Forecast;
 use phytomer::run::forms;
 use phytomer::run::{self, Outcome, Program, Progress, Settings};
+use phytomer_config::scenario::MOST_SEED;
 use phytomer_config::{Resolved, validate};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -38,10 +39,10 @@ pub struct Grow {
     /// Threads; as many as the machine has if not given. No result depends on it.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// The seed of every draw, in the place of the scenario's.
-    #[arg(long)]
+    /// The seed of every draw, from 0 to 2^63 - 1, in the place of the scenario's.
+    #[arg(long, allow_negative_numbers = true, value_parser = seed)]
     seed: Option<u64>,
-    /// How many plants grow, in the place of the scenario's number.
+    /// How many plants grow, in the place of the scenario's number. Meshes of plants that then do not grow are left out.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
     plants: Option<u32>,
     /// The run folder; `runs/<name>` if not given.
@@ -93,7 +94,14 @@ impl Grow {
         let scenario = &mut resolved.scenario;
         scenario.seed = self.seed.unwrap_or(scenario.seed);
         let Some(plants) = self.plants else { return Ok(()) };
-        scenario.plants = plants;
+        let left_out = scenario.grow_only(plants);
+        if left_out > 0 && !self.quiet {
+            let (noun, verb) = if left_out == 1 { ("plant", "does") } else { ("plants", "do") };
+            terminal::say(&format!(
+                "note: the meshes of {left_out} {noun} that the scenario asks for are left out: with --plants {plants} the \
+                 {noun} {verb} not grow"
+            ));
+        }
         match scenario.faults().first() {
             Some(fault) => {
                 Err(Misuse(format!("--plants {plants}: {}; expected {}", fault.problem, fault.expected)).into())
@@ -163,6 +171,14 @@ impl Grow {
         words.push("--resume".to_owned());
         words.join(" ")
     }
+}
+
+/// A seed that a scenario can state too.
+fn seed(text: &str) -> std::result::Result<u64, String> {
+    text.parse::<u64>()
+        .ok()
+        .filter(|seed| *seed <= MOST_SEED)
+        .ok_or_else(|| format!("a whole number from 0 to {MOST_SEED} (2^63 - 1) is expected"))
 }
 
 /// A word as a shell takes it.

@@ -50,8 +50,11 @@ impl Init {
     }
 
     fn refuse_to_overwrite(&self, paths: &[&PathBuf]) -> Result<()> {
-        let there: Vec<String> =
-            paths.iter().filter(|path| path.exists()).map(|path| path.display().to_string()).collect();
+        let there: Vec<String> = paths
+            .iter()
+            .filter(|path| path.symlink_metadata().is_ok())
+            .map(|path| path.display().to_string())
+            .collect();
         if there.is_empty() {
             return Ok(());
         }

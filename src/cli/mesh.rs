@@ -3,13 +3,18 @@
 //! It is the same plant, with the same component numbers, that the run has recorded. In a wind it is a frame of that
 //! plant, which the wind moves for the mesh alone.
 
-use super::regrown::{Breeze, Regrown, beside, keep};
-use super::{Verdict, amounts, terminal};
-use anyhow::Result;
+use super::out::{self, Format};
+use super::regrown::{Breeze, Regrown};
+use super::{Verdict, amounts};
+use anyhow::{Context, Result};
 use clap::Args;
 use phytomer::run::drawing::{options_of, write_mesh};
+use phytomer_outputs::Destination;
 use phytomer_sim::Tick;
 use std::path::PathBuf;
+
+/// The formats of meshes.
+const FORMATS: [Format; 1] = [Format { name: "PLY", extension: "ply" }];
 
 /// Grow one plant of a run or a scenario again, and write it as a PLY mesh.
 #[derive(Debug, Args)]
@@ -30,7 +35,7 @@ pub struct Mesh {
     /// Its age in ticks; the last of the run if not given.
     #[arg(long)]
     age: Option<Tick>,
-    /// The file to write.
+    /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written through.
     #[arg(long, value_name = "FILE.ply")]
     out: PathBuf,
     /// Sides of the tube that an internode is drawn as.
@@ -42,6 +47,7 @@ pub struct Mesh {
 
 impl Mesh {
     pub fn obey(self) -> Result<Verdict> {
+        out::check(&self.out, "mesh", &FORMATS)?;
         match Regrown::find(&self.name, self.age.as_slice())? {
             Ok(regrown) => self.write(&regrown),
             Err(verdict) => Ok(verdict),
@@ -52,13 +58,16 @@ impl Mesh {
         let age = self.age.unwrap_or(regrown.scenario.ages.until);
         regrown.check(("--age", &[age]), ("--plant", &[self.plant]))?;
         let again = regrown.again(&self.breeze)?;
-        let staged = beside(&self.out);
+        let mut file = Destination::create(&self.out)?;
         let options = options_of(self.sides, &regrown.forms);
         let seed = regrown.scenario.seed;
-        again.show(self.plant, &[age], &mut |age, plant| Ok(write_mesh(plant, age, seed, &options, &staged)?))?;
-        let bytes = amounts::bytes(keep(&staged, &self.out)? as f64);
+        again.show(self.plant, &[age], &mut |age, plant| {
+            let written = write_mesh(plant, age, seed, &options, &mut file);
+            Ok(written.with_context(|| format!("cannot write {}", self.out.display()))?)
+        })?;
+        let bytes = amounts::bytes(file.finish()? as f64);
         let wind = self.breeze.in_words();
-        terminal::put(&format!("{}: plant {} at age {age}{wind}, {bytes}", self.out.display(), self.plant))?;
+        out::tell(&self.out, &format!("plant {} at age {age}{wind}, {bytes}", self.plant))?;
         Ok(Verdict::Done)
     }
 }

@@ -10,6 +10,7 @@ mod init;
 mod list;
 mod mesh;
 mod named;
+mod out;
 mod picture;
 mod regrown;
 mod schema;

@@ -3,22 +3,24 @@
 //! Plants stand side by side in one scale: each plant at each age. Where no age is given a plant is drawn in its prime.
 //! Absent: drawing, which is `phytomer_outputs::pictures`'.
 
-use super::regrown::{Breeze, Regrown, beside, finite, keep};
-use super::{Misuse, Verdict, amounts, terminal};
+use super::out::{self, Format};
+use super::regrown::{Breeze, Regrown, finite};
+use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use phytomer::run::drawing::{Portrait, portrait};
-use phytomer_outputs::Error;
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::pictures::{
     Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, colour_columns, draw, sheet, write_png,
 };
+use phytomer_outputs::{Destination, Error};
 use phytomer_sim::Tick;
-use std::fs::File;
-use std::io::BufWriter;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
+
+/// The formats of pictures.
+const FORMATS: [Format; 1] = [Format { name: "PNG", extension: "png" }];
 
 /// The most pixels along a side.
 const MOST_PIXELS: u32 = 16_384;
@@ -52,7 +54,7 @@ pub struct Picture {
     /// Several ages side by side, in one scale.
     #[arg(long, value_delimiter = ',', value_name = "AGE,AGE,…")]
     ages: Vec<Tick>,
-    /// The file to write.
+    /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written through.
     #[arg(long, value_name = "FILE.png")]
     out: PathBuf,
     /// From where the plants are seen.
@@ -107,6 +109,7 @@ pub enum From {
 
 impl Picture {
     pub fn obey(self) -> Result<Verdict> {
+        out::check(&self.out, "picture", &FORMATS)?;
         let ages = if self.ages.is_empty() { self.age.into_iter().collect() } else { self.ages.clone() };
         let plants = if self.plants.is_empty() { vec![self.plant.unwrap_or(0)] } else { self.plants.clone() };
         match Regrown::find(&self.name, &ages)? {
@@ -126,13 +129,15 @@ impl Picture {
         if ages.len() * plants.len() > MOST_SUBJECTS {
             return Err(Misuse(format!("one picture has at most {MOST_SUBJECTS} plants, counted at each age")).into());
         }
+        let file = Destination::create(&self.out)?;
         let portrait = portrait(&again, &regrown.species, plants, &ages)?;
-        let bytes = amounts::bytes(self.save(&self.draw(&portrait, &regrown.forms)?, &portrait.note)? as f64);
+        let canvas = self.draw(&portrait, &regrown.forms)?;
+        let bytes = amounts::bytes(self.save(&canvas, &portrait.note, file)? as f64);
         let drawn = portrait.subjects.len();
         let whom = if drawn == 1 { format!("plant {}", plants[0]) } else { format!("{drawn} plants") };
         let when = if ages.len() == 1 { format!(" at age {}", ages[0]) } else { String::new() };
         let wind = self.breeze.in_words();
-        terminal::put(&format!("{}: {whom}{when}{wind}, {bytes}", self.out.display()))?;
+        out::tell(&self.out, &format!("{whom}{when}{wind}, {bytes}"))?;
         Ok(Verdict::Done)
     }
 
@@ -165,16 +170,11 @@ impl Picture {
         }
     }
 
-    fn save(&self, canvas: &Canvas, note: &str) -> Result<u64> {
-        let staged = beside(&self.out);
-        write_to(&staged, canvas, note).with_context(|| format!("cannot write the picture {}", self.out.display()))?;
-        keep(&staged, &self.out)
+    fn save(&self, canvas: &Canvas, note: &str, mut file: Destination) -> Result<u64> {
+        let written = write_png(canvas, note, Compression::Balanced, &mut file);
+        written.with_context(|| format!("cannot write {}", self.out.display()))?;
+        Ok(file.finish()?)
     }
-}
-
-fn write_to(path: &Path, canvas: &Canvas, note: &str) -> Result<()> {
-    let out = BufWriter::new(File::create(path)?);
-    Ok(write_png(canvas, note, Compression::Balanced, out)?)
 }
 
 fn size(text: &str) -> std::result::Result<[u32; 2], String> {

@@ -6,7 +6,7 @@
 
 use super::named::{self, Named, Recorded};
 use super::{Misuse, Verdict, refuse};
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::Args;
 use phytomer::run::again::{Again, Air};
 use phytomer::run::forms;
@@ -15,8 +15,6 @@ use phytomer_outputs::meshes::OwnForms;
 use phytomer_sim::mechanics::sway::{Unmoved, yielding};
 use phytomer_sim::site::Wind;
 use phytomer_sim::{GrowthModel, Tick};
-use std::fs;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The strongest wind that is asked for, m/s: as in a scenario's site.
@@ -170,20 +168,4 @@ fn wind_speed(text: &str) -> std::result::Result<f64, String> {
 /// What is expected.
 pub fn finite(text: &str) -> std::result::Result<f64, String> {
     text.parse::<f64>().ok().filter(|number| number.is_finite()).ok_or_else(|| "a number is expected".to_owned())
-}
-
-/// The name beside the final one under which a file is written.
-pub fn beside(path: &Path) -> PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".tmp");
-    path.with_file_name(name)
-}
-
-/// Gives a file that was written [`beside`] its name, and tells its size.
-///
-/// # Errors
-/// The system's.
-pub fn keep(staged: &Path, path: &Path) -> Result<u64> {
-    fs::rename(staged, path).with_context(|| format!("cannot write {}", path.display()))?;
-    Ok(fs::metadata(path).map(|metadata| metadata.len()).unwrap_or_default())
 }

@@ -108,7 +108,7 @@ impl Again<'_> {
 
 /// The ticks of a year, 1 where none are stated.
 fn year_of(species: &Species) -> Tick {
-    species.about.ticks_per_year.as_ref().map_or(1, |ticks| ticks.value().round().max(1.0) as Tick)
+    species.ticks_per_year().map_or(1, |ticks| ticks.round().max(1.0) as Tick)
 }
 
 /// The prime of a grown plant of which the ages up to `last` are known.

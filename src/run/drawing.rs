@@ -15,7 +15,7 @@ use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::path::Path;
+use std::io::Write;
 use std::sync::Arc;
 
 /// The most vertices that 32-bit signed indices reach.
@@ -38,11 +38,17 @@ pub fn options_of(sides: u32, own: &Arc<OwnForms>) -> MeshOptions {
     MeshOptions { sides, own: Arc::clone(own), ..MeshOptions::default() }
 }
 
-/// Writes the mesh of what stands of `plant` at `age` into a new file.
+/// Writes the mesh of what stands of `plant` at `age`.
 ///
 /// # Errors
-/// Where the mesh has too many vertices for its format, or the file cannot be written.
-pub fn write_mesh(plant: &Plant, age: Tick, run_seed: u64, options: &MeshOptions, path: &Path) -> Result<()> {
+/// Where the mesh has too many vertices for its format, and those of `out`.
+pub fn write_mesh(
+    plant: &Plant,
+    age: Tick,
+    run_seed: u64,
+    options: &MeshOptions,
+    out: &mut (dyn Write + Send),
+) -> Result<()> {
     let scene = Scene::new(plant, age, options);
     let vertices = scene.counts().vertices;
     ensure!(
@@ -51,9 +57,7 @@ pub fn write_mesh(plant: &Plant, age: Tick, run_seed: u64, options: &MeshOptions
          choose fewer sides",
         plant.id
     );
-    let doing = || format!("cannot write the mesh {}", path.display());
-    let mut file = File::create(path).with_context(doing)?;
-    Ply.write(&scene, &scene.about(run_seed), &mut file).with_context(doing)
+    Ok(Ply.write(&scene, &scene.about(run_seed), out)?)
 }
 
 impl<'a> Drawing<'a> {
@@ -79,7 +83,9 @@ impl<'a> Drawing<'a> {
         match self.meshes.per {
             MeshFile::PlantAge => {
                 let path = shard.stage(&format!("meshes/plant-{id:05}_age-{age:04}.ply"))?;
-                write_mesh(plant, age, self.scenario.seed, &self.options, &path)
+                let doing = || format!("cannot write the mesh {}", path.display());
+                let mut file = File::create(&path).with_context(doing)?;
+                write_mesh(plant, age, self.scenario.seed, &self.options, &mut file).with_context(doing)
             }
             MeshFile::Plant => self.collect(format!("meshes/plant-{id:05}.ply"), age, plant, shard),
             MeshFile::Age if self.parts == 1 => self.collect(format!("meshes/age-{age:04}.ply"), age, plant, shard),
@@ -155,7 +161,7 @@ pub fn portrait(again: &Again, species: &Species, plants: &[u32], ages: &[Tick])
         })?;
         for age in ages {
             let whose = if plants.len() > 1 { format!("plant {number}, ") } else { String::new() };
-            let years = about.ticks_per_year.as_ref().map(|ticks| in_years(*age, ticks.value())).unwrap_or_default();
+            let years = species.ticks_per_year().map(|ticks| in_years(*age, ticks)).unwrap_or_default();
             let Some(plant) = seen.get(age) else { continue };
             subjects.push((plant.clone(), *age, format!("{whose}age {age}{years}")));
         }

@@ -109,14 +109,23 @@ pub fn seed_of(scenario: &Scenario, plant: u32) -> Seed {
     }
 }
 
-/// Where its seed lies, metres: on a square grid, row by row from the origin; each at an origin of its own where the
-/// scenario gives no spacing.
+/// Where its seed lies, metres: on a square grid; each at an origin of its own where the scenario gives no spacing.
 pub fn place_of(scenario: &Scenario, plant: u32) -> [f32; 3] {
     let Some(spacing) = scenario.spacing_m else { return [0.0; 3] };
-    let root = scenario.plants.isqrt();
-    let row = root + u32::from(root * root < scenario.plants);
+    let [column, row] = lattice_of(plant);
     let along = |steps: u32| (f64::from(steps) * spacing) as f32;
-    [along(plant % row), along(plant / row), 0.0]
+    [along(column), along(row), 0.0]
+}
+
+/// The column and the row of a plant on a square grid that grows by shells, whatever the number of plants.
+///
+/// Shell s holds the 2s + 1 places whose larger coordinate is s, so the shells before it fill the square of s² places, and
+/// plant i stands in shell s = ⌊√i⌋ at its place k = i − s². The shell goes up the column s from row 0 to the corner and
+/// back along the row s to column 0: (s, k) where k ≤ s, else (2s − k, s). Plant 0 is at the origin.
+fn lattice_of(plant: u32) -> [u32; 2] {
+    let shell = plant.isqrt();
+    let along = plant - shell * shell;
+    if along <= shell { [shell, along] } else { [2 * shell - along, shell] }
 }
 
 #[cfg(test)]
@@ -124,6 +133,7 @@ mod tests {
     use super::*;
     use phytomer_config::scenario::Limits;
     use phytomer_config::validate;
+    use std::collections::BTreeSet;
 
     fn changed(change: impl FnOnce(&mut Scenario)) -> Resolved {
         let mut resolved = validate("example1").unwrap_or_else(|report| panic!("{}", report.render(false)));
@@ -132,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn plants_stand_on_a_square_grid() {
+    fn plants_keep_their_places_however_many_grow() {
         let place = |plants, spacing_m, plant| {
             let resolved = changed(|scenario| {
                 scenario.plants = plants;
@@ -140,11 +150,32 @@ mod tests {
             });
             place_of(&resolved.scenario, plant)
         };
-        assert_eq!(place(10, Some(2.5), 0), [0.0; 3]);
-        assert_eq!(place(10, Some(2.5), 3), [7.5, 0.0, 0.0]);
-        assert_eq!(place(10, Some(2.5), 9), [2.5, 5.0, 0.0]);
-        assert_eq!(place(9, Some(1.0), 8), [2.0, 2.0, 0.0]);
+        for plants in [3, 4, 9, 10, 1_000_000] {
+            let first = [0, 1, 2].map(|plant| place(plants, Some(2.5), plant));
+            assert_eq!(first, [[0.0; 3], [2.5, 0.0, 0.0], [2.5, 2.5, 0.0]], "{plants} plants");
+        }
+        assert_eq!(place(9, Some(1.0), 8), [0.0, 2.0, 0.0]);
         assert_eq!(place(9, None, 8), [0.0; 3]);
+    }
+
+    #[test]
+    fn shells_fill_squares_place_by_place() {
+        let places: Vec<[u32; 2]> = (0..10_000).map(lattice_of).collect();
+        for side in 1..=100_u32 {
+            let square: BTreeSet<[u32; 2]> = places[..(side * side) as usize].iter().copied().collect();
+            assert_eq!(square.len(), (side * side) as usize, "each place once");
+            assert!(square.iter().flatten().all(|step| *step < side), "within the square of side {side}");
+        }
+        for pair in places.windows(2) {
+            let [a, b] = [pair[0], pair[1]];
+            let steps = a[0].abs_diff(b[0]) + a[1].abs_diff(b[1]);
+            let to_next_shell = b[1] == 0;
+            assert!(steps == 1 || to_next_shell, "neighbours in a shell are a spacing apart: {a:?} {b:?}");
+        }
+        // The first and the last of the largest shell that 32 bits number.
+        let shell = u32::MAX.isqrt();
+        assert_eq!(lattice_of(shell * shell), [shell, 0]);
+        assert_eq!(lattice_of(u32::MAX), [0, shell]);
     }
 
     #[test]

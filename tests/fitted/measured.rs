@@ -1,8 +1,9 @@
-//! The measured counts, read from the folder that stands beside the project; absent elsewhere.
+//! The measured counts, as tables.
 //!
-//! Nothing of them is copied: a test that finds no folder says so and passes. Absent: what the numbers mean.
+//! Nothing of them is copied: [`absent`] tells where they are sought, and what becomes of a test without them. Absent: what
+//! the numbers mean.
 
-use std::path::Path;
+use crate::absent;
 
 /// A table of comma-separated values, its columns by name.
 pub struct Table {
@@ -18,16 +19,13 @@ pub struct Row<'a> {
 }
 
 impl Table {
-    /// A file of the measured plants; `None`, with the reason printed, where it is not there.
+    /// A file of the measured plants; `None`, with the reason said, where the test is to be skipped.
     pub fn read(file: &str) -> Option<Self> {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(file);
-        let Ok(text) = std::fs::read_to_string(&path) else {
-            println!("skipped: the measured counts {} are not here", path.display());
-            return None;
-        };
+        let text = absent::measured(file)?;
         let split = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
         let mut lines = text.lines();
-        Some(Self { names: split(lines.next()?), rows: lines.map(split).collect() })
+        let names = split(lines.next().unwrap_or_else(|| panic!("{file} is empty")));
+        Some(Self { names, rows: lines.map(split).collect() })
     }
 
     pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {

@@ -14,6 +14,8 @@ mod tests;
 #[cfg(test)]
 mod tests_drawn;
 #[cfg(test)]
+mod tests_faults;
+#[cfg(test)]
 mod tests_sets;
 #[cfg(test)]
 mod tests_variables;

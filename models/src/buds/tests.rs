@@ -33,7 +33,7 @@ fn turning(inclination: f64, share: &str) -> OrganTrend {
 }
 
 /// Random counts, polycyclism, short units, delays, states, reiteration both ways, terminal flowers and relays below.
-fn chimera() -> Buds {
+pub(super) fn chimera() -> Buds {
     let short = ShortUnit { probability: Law::from(0.3), nodes: Count::from(1), length_cm: Variate::from(0.2) };
     let unit =
         GrowthUnit { nodes: poisson(1.5), neoformed: poisson(0.5), per_step: Count::from(2), short: Some(short) };
@@ -86,7 +86,7 @@ fn chimera() -> Buds {
 }
 
 /// Zones from both ends, laws of rank and of state, determinate axes, relays on death and completion, composite trends.
-fn hydra() -> Buds {
+pub(super) fn hydra() -> Buds {
     let zone = |from, first: u32, last: Option<u32>, ramification: Option<Law>| {
         let (first, last) = (Count::from(first), last.map(Count::from));
         Zone { name: None, from, first, last, ramification, state: None }

@@ -6,6 +6,9 @@ use phytomer_sim::math;
 use schemars::json_schema;
 use serde::Deserialize;
 
+#[path = "../../../tests/program/absent.rs"]
+mod absent;
+
 use super::*;
 use crate::fault::{Fault, Path};
 
@@ -101,13 +104,7 @@ fn hazards_multiply_to_their_cumulative_fractions() {
 
 #[test]
 fn robusta_fits_the_measured_dead_fractions() {
-    let fixed = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
-    let folder = std::env::var_os("PHYTOMER_SHARED_DATA").map_or(fixed, Into::into);
-    let file = folder.join("greenlab_published_tables.csv");
-    let Ok(text) = std::fs::read_to_string(&file) else {
-        println!("skipped: {} is absent", file.display());
-        return;
-    };
+    let Some(text) = absent::measured("greenlab_published_tables.csv") else { return };
     let robusta = probability(law(read!(Law, { "robusta": { "over": "cycle", "alpha": 8.89e-8, "beta": 4.418 } })));
     let dead_by = |cycle| {
         let alive: f64 = (0..=cycle).map(|cycle| 1.0 - robusta.probability(At { cycle, ..At::default() })).product();

@@ -51,7 +51,7 @@ pub fn colours(column: &str, subjects: &[Subject]) -> Result<(Colours, Legend), 
     let (low, high) =
         all().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
     if low > high {
-        return Err(Error::NothingToColour { column: column.name });
+        return Err(Error::NothingToColour { column: column.name, reason: reason(column.name, subjects) });
     }
     let means = means(column, low, high);
     let colour = |value: &f64| match &means {
@@ -61,6 +61,33 @@ pub fn colours(column: &str, subjects: &[Subject]) -> Result<(Colours, Legend), 
     };
     let colours = values.iter().map(|values| values.iter().map(colour).collect()).collect();
     Ok((colours, Legend { name: column.name.to_owned(), means }))
+}
+
+/// Why no component of some plants has a value in a column: what the column's description says of its nulls, held against
+/// what stands and against the wood of the species.
+fn reason(column: &str, subjects: &[Subject]) -> &'static str {
+    let wood = || subjects.iter().filter_map(|subject| subject.plant.habit.wood.as_ref());
+    let of_wood = ["fresh_mass_kg", "curvature_per_m", "bending_moment_N_m"].contains(&column);
+    let of_bending = of_wood && column != "fresh_mass_kg";
+    match column {
+        _ if !any_value("component_id", subjects) => "nothing stands at that age",
+        _ if of_wood && wood().next().is_none() => "the species states no `[wood]`",
+        _ if of_bending && !wood().any(|wood| wood.bends) => {
+            "the wood of the species does not bend (`bends = false` in its `[wood]`)"
+        }
+        "parent_id" => "everything that stands grows on the seed itself",
+        "area_m2" if any_value("length_m", subjects) => "nothing that stands has an area, as leaves have",
+        "fresh_mass_kg" if any_value("length_m", subjects) => "the `[wood]` of the species states no `density_kg_m3`",
+        "length_m" | "diameter_m" | "area_m2" | "fresh_mass_kg" => "nothing but buds stands at that age",
+        _ => "no internode stands at that age",
+    }
+}
+
+/// Whether a component of some plants has a value in a column.
+fn any_value(column: &str, subjects: &[Subject]) -> bool {
+    let column = RECORDS.iter().find(|known| known.name == column);
+    let values = |subject: &Subject| column.and_then(|column| record_values(subject.plant, subject.age, column).ok());
+    subjects.iter().filter_map(values).flatten().any(|value| !value.is_nan())
 }
 
 /// Orders count from 1, words and truths from 0.

@@ -10,6 +10,7 @@ use super::shadow::Shadow;
 use super::sky::{Crown, falling_on};
 use super::*;
 use phytomer_sim::math::{sincosf, tan};
+use phytomer_sim::mechanics::{Tissue, Wood};
 use phytomer_sim::plant::{Habit, Looks, NewAxis, NewNode, NodeId, Seed, Shape, Trend};
 use phytomer_sim::pose::pose;
 use std::sync::Arc;
@@ -273,4 +274,32 @@ fn a_place_where_nothing_is_left_is_drawn_too() {
     assert!(
         sheet(&[Subject { plant: &plant, age: 0, label: String::new() }], "", &picture([99, 77], View::Top)).is_ok()
     );
+}
+
+/// A plant that cannot be coloured tells what it lacks, not what some other column needs.
+#[test]
+fn nothing_to_colour_by_has_the_reason_of_its_column() {
+    let reason = |plant: &Plant, age: Tick, column: &str| {
+        let subject = Subject { plant, age, label: String::new() };
+        let coloured = Picture { colour_by: Some(column.to_owned()), ..picture([64, 64], View::Front) };
+        draw(&[subject], "", &coloured).expect_err("nothing to colour by").to_string()
+    };
+    let told = |plant: &Plant, age: Tick, column: &str, meant: &str| {
+        let reason = reason(plant, age, column);
+        assert_eq!(reason, format!("no component has a value of `{column}` to colour by: {meant}"));
+    };
+    let mut plant = pole(1.0, 0.1);
+    told(&plant, 1, "area_m2", "nothing that stands has an area, as leaves have");
+    told(&plant, 1, "parent_id", "everything that stands grows on the seed itself");
+    for column in ["fresh_mass_kg", "curvature_per_m", "bending_moment_N_m"] {
+        told(&plant, 1, column, "the species states no `[wood]`");
+    }
+    let wood = Wood { tissues: vec![Tissue::default()], ..Wood::default() };
+    plant.habit = Arc::new(Habit { wood: Some(Wood { bends: false, ..wood }), ..(*plant.habit).clone() });
+    told(&plant, 1, "fresh_mass_kg", "the `[wood]` of the species states no `density_kg_m3`");
+    for column in ["curvature_per_m", "bending_moment_N_m"] {
+        told(&plant, 1, column, "the wood of the species does not bend (`bends = false` in its `[wood]`)");
+    }
+    told(&plant, 0, "area_m2", "nothing but buds stands at that age");
+    told(&plant, 0, "diameter_tip_m", "no internode stands at that age");
 }

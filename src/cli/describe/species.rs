@@ -69,7 +69,7 @@ fn heading(species: &Species) -> String {
         ("common", about.common_name.clone()),
         ("architecture", architecture.map(|model| format!("{model} (Hallé & Oldeman)"))),
         ("tick", Some(about.tick.clone())),
-        ("ticks per year", about.ticks_per_year.as_ref().map(|ticks| ticks.value().to_string())),
+        ("ticks per year", species.ticks_per_year().map(|ticks| ticks.to_string())),
         ("about", about.description.clone()),
         ("source", about.source.clone()),
     ];

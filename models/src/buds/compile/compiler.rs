@@ -50,6 +50,8 @@ pub struct Compiler<'a> {
     pub asks_the_bud: bool,
     /// What was wrong so far.
     pub faults: Vec<Fault>,
+    /// What was wrong with keys that are asked in several domains, in each of them: other orders may find the same.
+    pub asked_again: Vec<Fault>,
 }
 
 impl<'a> Compiler<'a> {
@@ -64,8 +66,17 @@ impl<'a> Compiler<'a> {
         });
         let mut domain = domain(buds, index, until, speeds.most_steps_by(until));
         domain.longest.max_cycle = speeds.most_steps_by(LAST_TICK);
-        let species_path = species_path.clone();
-        Self { buds, domain, path, species_path, orders_path, speeds, asks_the_bud: false, faults }
+        Self {
+            buds,
+            domain,
+            path,
+            species_path: species_path.clone(),
+            orders_path,
+            speeds,
+            asks_the_bud: false,
+            faults,
+            asked_again: Vec::new(),
+        }
     }
 
     /// The order's number, from 1.
@@ -101,6 +112,13 @@ impl<'a> Compiler<'a> {
         self.domain.max_rank = nodes.now.max(1);
         self.domain.longest.max_rank = nodes.ever.max(1);
         self.domain.longest.ranks_go_on = nodes.go_on;
+    }
+
+    /// From now on laws depend on no rank.
+    pub fn unset_ranks(&mut self) {
+        self.domain.max_rank = 0;
+        self.domain.longest.max_rank = 0;
+        self.domain.longest.ranks_go_on = false;
     }
 
     /// Notes a fault at a dotted path below the order.
@@ -169,12 +187,12 @@ impl<'a> Compiler<'a> {
     pub fn fall_within(&mut self, season: &Season, year: u32) -> CountTable {
         let path = self.species_path.key("season").key("leaf_fall");
         let compiled = season.leaf_fall.compile(&self.domain, &path);
-        let table = self.accept(compiled).unwrap_or_else(|| CountTable::always(0));
+        let table = self.accept_again(compiled).unwrap_or_else(|| CountTable::always(0));
         self.asks_the_bud |= table.asks_the_bud();
         if year > 0 && table.max() >= year {
             let found = format!("the tick {} is not in a year of {year} ticks", table.max());
             let expected = format!("a tick of the year from 0 to {}", year.saturating_sub(1));
-            self.faults.push(Fault::new(&path, found, expected));
+            self.asked_again.push(Fault::new(&path, found, expected));
         }
         table
     }
@@ -199,7 +217,19 @@ impl<'a> Compiler<'a> {
         let domain = Domain { order: self.domain.order + 1, ..self.domain.clone() };
         let path = self.orders_path.index(next).key("insertion_deg");
         let compiled = order.insertion_deg.compile(&domain, &path, ANGLE);
-        self.accept_variate(compiled)
+        self.accept_variate_again(compiled)
+    }
+
+    /// The same angle, stated with this order, for relays that have none of their own: asked where an axis ends.
+    pub fn insertion_of_relays(&mut self, insertion_deg: &Variate) -> VariateTable {
+        let compiled = insertion_deg.compile(&self.domain, &self.at("insertion_deg"), ANGLE);
+        self.accept_variate_again(compiled)
+    }
+
+    fn accept_variate_again(&mut self, compiled: Result<VariateTable, Vec<Fault>>) -> VariateTable {
+        let table = self.accept_again(compiled).unwrap_or_else(|| VariateTable::always(0.0));
+        self.asks_the_bud |= table.asks_the_bud();
+        table
     }
 
     /// A share, in [0, 1].
@@ -275,5 +305,10 @@ impl<'a> Compiler<'a> {
 
     fn accept<T>(&mut self, compiled: Result<T, Vec<Fault>>) -> Option<T> {
         compiled.map_err(|mut faults| self.faults.append(&mut faults)).ok()
+    }
+
+    /// As [`Compiler::accept`], of a key that is asked in several domains.
+    fn accept_again<T>(&mut self, compiled: Result<T, Vec<Fault>>) -> Option<T> {
+        compiled.map_err(|mut faults| self.asked_again.append(&mut faults)).ok()
     }
 }

@@ -26,14 +26,14 @@ impl From<ShapeName> for Shape {
     }
 }
 
-/// The divergence from node to node, degrees.
-pub fn divergence(order: &Order, compiler: &mut Compiler) -> VariateTable {
+/// The divergence from node to node, degrees; a node bears at most so many leaves or axillary buds.
+pub fn divergence(order: &Order, most_borne: u32, compiler: &mut Compiler) -> VariateTable {
     match &order.phyllotaxis {
         Phyllotaxis::Degrees(degrees) => compiler.angle(degrees, "phyllotaxis"),
         Phyllotaxis::Divergence(stated) => compiler.angle(&stated.divergence_deg, "phyllotaxis.divergence_deg"),
-        Phyllotaxis::Named(name) => VariateTable::always(named(name, "phyllotaxis", order, compiler)),
+        Phyllotaxis::Named(name) => VariateTable::always(named(name, "phyllotaxis", most_borne, compiler)),
         Phyllotaxis::Sourced(stated) => {
-            VariateTable::always(named(&stated.named, "phyllotaxis.named", order, compiler))
+            VariateTable::always(named(&stated.named, "phyllotaxis.named", most_borne, compiler))
         }
     }
 }
@@ -47,16 +47,12 @@ pub fn first_azimuth(order: &Order, compiler: &mut Compiler) -> VariateTable {
 }
 
 /// The degrees of a name that stands at `keys` below the order.
-fn named(name: &str, keys: &str, order: &Order, compiler: &mut Compiler) -> f64 {
+fn named(name: &str, keys: &str, most_borne: u32, compiler: &mut Compiler) -> f64 {
     match name {
         "spiral" => GOLDEN_ANGLE_DEG,
         "distichous" => 180.0,
         "opposite-decussate" => 90.0,
-        "whorled" => {
-            let leaves = compiler.places(&order.leaf.per_node, "leaf.per_node", 64).max_in_any_run();
-            let buds = compiler.places(&order.axillary.buds, "axillary.buds", 32).max_in_any_run();
-            180.0 / f64::from(leaves.max(buds).max(1))
-        }
+        "whorled" => 180.0 / f64::from(most_borne.max(1)),
         fraction => fibonacci(fraction).unwrap_or_else(|| {
             let expected = "\"spiral\", \"distichous\", \"opposite-decussate\", \"whorled\", a Fibonacci fraction of a \
                             turn such as \"2/5\" or \"3/8\", or a divergence in degrees";

@@ -24,7 +24,7 @@ pub(super) use step::{Passage, StepLaws};
 pub(super) use zone::{Ramification, Ranks, Zones};
 
 use super::params::Buds;
-use crate::fault::{Fault, Path};
+use crate::fault::{self, Fault, Path};
 use crate::law::{Asked, Domain, ValueTable};
 use compiler::Compiler;
 use phytomer_sim::clock::LAST_TICK;
@@ -72,12 +72,12 @@ impl Buds {
             orders.push(OrderLaws::compile(self, index, &mut compiler, &mut trends));
             organ_trends.push(organs::trends(&self.order[index], &mut compiler));
             faults.append(&mut compiler.faults);
+            fault::tell_once(&mut faults, compiler.asked_again);
         }
         let looks = look::compile(self, until.min(LAST_TICK), path, &mut faults);
         let wood = wood::compile(self, until.min(LAST_TICK), path, &mut faults);
         if !faults.is_empty() {
             faults.sort_by(|a, b| a.path.cmp(&b.path));
-            faults.dedup();
             return Err(faults);
         }
         if organ_trends.iter().all(|of| *of == OrganTrends::default()) {
@@ -127,12 +127,15 @@ impl OrderLaws {
         let head = HeadLaws::compile(order, compiler, habit);
         compiler.ask(Asked::Bud);
         let step = StepLaws::compile(order, head.most_units(), compiler);
-        let end = EndLaws::compile(order, compiler);
         compiler.set_ranks(step.most_nodes());
+        let node = NodeLaws::compile(order, buds.season.as_ref(), &step, compiler);
+        compiler.unset_ranks();
+        let most_buds = node.axillary.count.table.max_in_any_run();
+        let end = EndLaws::compile(order, most_buds, &head.insertion.table, compiler);
         Self {
             number: compiler.order_number(),
             head,
-            node: NodeLaws::compile(order, buds.season.as_ref(), &step, compiler),
+            node,
             end,
             thickening: compiler.thickening(&order.internode.thickening_mm),
             asks_the_bud: compiler.asks_the_bud,

@@ -10,7 +10,7 @@ use super::step::StepLaws;
 use super::words::{Chance, Layout, Measure, Number};
 use super::zone::{Ramification, Ranks, Zones};
 use crate::buds::params::{Order, Season};
-use crate::law::{Count, CountTable, VariateTable};
+use crate::law::{Count, CountTable, ProbabilityTable, VariateTable};
 use phytomer_sim::plant::{Form, Kind};
 
 /// Metres in a centimetre and in a millimetre.
@@ -70,7 +70,11 @@ pub struct OrganLaws {
 impl NodeLaws {
     /// Compiles the laws of a node.
     pub fn compile(order: &Order, season: Option<&Season>, step: &StepLaws, compiler: &mut Compiler) -> Self {
-        let divergence = divergence(order, compiler);
+        let buds = compiler.places(&order.axillary.buds, "axillary.buds", MOST_BUDS);
+        let most_buds = buds.max_in_any_run();
+        let leaves = compiler.places(&order.leaf.per_node, "leaf.per_node", MOST_ORGANS);
+        let most_leaves = leaves.max_in_any_run();
+        let divergence = divergence(order, most_leaves.max(most_buds), compiler);
         let mut layout = Layout::default();
         let words = &mut layout;
         let short = order.growth_unit.short.as_ref().map(|short| &short.length_cm);
@@ -80,18 +84,16 @@ impl NodeLaws {
             None => VariateTable::always(0.0),
         };
         let diameter = compiler.measure(&order.internode.diameter_mm, "internode.diameter_mm");
-        let leaves = compiler.places(&order.leaf.per_node, "leaf.per_node", MOST_ORGANS);
-        let most_leaves = leaves.max_in_any_run();
-        let flowers = lateral_flowers(order, compiler);
+        let (flowers, opens) = lateral_flowers(order, compiler);
         let most_flowers = flowers.max_in_any_run().max(1);
-        let opens = compiler.probability(&order.flower.lateral, "flower.lateral");
         let sets = compiler.probability(&order.flower.fruit_set, "flower.fruit_set");
         let mut flower_count = |count: &Count, keys: &str| compiler.count(count, keys, LONGEST);
         let is_bare = [&leaves, &flowers].iter().all(|count| count.max() == 0);
         let flower_delay = flower_count(&order.flower.delay, "flower.delay");
         let flower_life = flower_count(&order.flower.life, "flower.life");
         let fruit_life = flower_count(&order.fruit.life, "fruit.life");
-        let axillary = axillary(order, compiler, words);
+        let flower_angle = compiler.angle(&order.flower.insertion_deg, "flower.insertion_deg");
+        let axillary = axillary(order, buds, compiler, words);
         let reiteration = reiteration(order, compiler, words);
         let budless = axillary.count.table.max() == 0 && reiteration.count.table.max() == 0;
         Self {
@@ -104,7 +106,7 @@ impl NodeLaws {
             leaf_life: leaf_life(order, compiler, words, most_leaves),
             leaf: leaf(order, compiler, words, most_leaves),
             axillary,
-            zones: Zones::compile(order, &step.zone_ranks, compiler, words),
+            zones: Zones::compile(order, &step.zone_ranks, most_buds, compiler, words),
             reiteration,
             reiteration_order: reiteration_order(order, compiler),
             flowers: words.number(flowers, 1),
@@ -113,8 +115,8 @@ impl NodeLaws {
             flower_life: words.number(flower_life, most_flowers),
             fruit_set: words.chance(sets, most_flowers),
             fruit_life: words.number(fruit_life, most_flowers),
-            flower: flower(order, compiler, words, most_flowers),
-            fruit: fruit(order, compiler, words, most_flowers),
+            flower: flower(order, flower_angle.clone(), compiler, words, most_flowers),
+            fruit: fruit(order, flower_angle, compiler, words, most_flowers),
             leaf_fall: season.map(|season| leaf_fall(season, compiler, words, most_leaves)),
             width: layout.width(),
         }
@@ -131,13 +133,11 @@ impl NodeLaws {
     }
 }
 
-/// The lateral flowers of a node; none where none can open, so that they take no words.
-fn lateral_flowers(order: &Order, compiler: &mut Compiler) -> CountTable {
+/// The lateral flowers of a node, none where none can open, so that they take no words; and whether each opens.
+fn lateral_flowers(order: &Order, compiler: &mut Compiler) -> (CountTable, ProbabilityTable) {
     let flowers = compiler.places(&order.flower.per_node, "flower.per_node", MOST_ORGANS);
-    match compiler.probability(&order.flower.lateral, "flower.lateral").is_never() {
-        true => CountTable::always(0),
-        false => flowers,
-    }
+    let opens = compiler.probability(&order.flower.lateral, "flower.lateral");
+    (if opens.is_never() { CountTable::always(0) } else { flowers }, opens)
 }
 
 fn leaf_life(order: &Order, compiler: &mut Compiler, words: &mut Layout, leaves: u32) -> Option<Number> {
@@ -165,9 +165,8 @@ fn leaf_fall(season: &Season, compiler: &mut Compiler, words: &mut Layout, leave
     (year, words.number(fall, leaves))
 }
 
-fn flower(order: &Order, compiler: &mut Compiler, words: &mut Layout, flowers: u32) -> OrganLaws {
+fn flower(order: &Order, angle: VariateTable, compiler: &mut Compiler, words: &mut Layout, flowers: u32) -> OrganLaws {
     let flower = &order.flower;
-    let angle = compiler.angle(&flower.insertion_deg, "flower.insertion_deg");
     OrganLaws {
         length: words.measure(compiler.measure(&flower.length_cm, "flower.length_cm"), CM, flowers),
         width: words.measure(compiler.measure(&flower.width_cm, "flower.width_cm"), CM, flowers),
@@ -178,8 +177,8 @@ fn flower(order: &Order, compiler: &mut Compiler, words: &mut Layout, flowers: u
     }
 }
 
-fn fruit(order: &Order, compiler: &mut Compiler, words: &mut Layout, flowers: u32) -> OrganLaws {
-    let angle = compiler.angle(&order.flower.insertion_deg, "flower.insertion_deg");
+/// A fruit hangs where its flower stood.
+fn fruit(order: &Order, angle: VariateTable, compiler: &mut Compiler, words: &mut Layout, flowers: u32) -> OrganLaws {
     OrganLaws {
         length: words.measure(compiler.measure(&order.fruit.length_cm, "fruit.length_cm"), CM, flowers),
         width: words.measure(compiler.measure(&order.fruit.width_cm, "fruit.width_cm"), CM, flowers),
@@ -190,14 +189,13 @@ fn fruit(order: &Order, compiler: &mut Compiler, words: &mut Layout, flowers: u3
     }
 }
 
-fn axillary(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branching {
+fn axillary(order: &Order, buds: CountTable, compiler: &mut Compiler, words: &mut Layout) -> Branching {
     let axillary = &order.axillary;
-    let count = compiler.places(&axillary.buds, "axillary.buds", MOST_BUDS);
     let chance = compiler.probability(&axillary.ramification, "axillary.ramification");
     let delay = compiler.count(&axillary.delay, "axillary.delay", LONGEST);
     let state = axillary.state.as_ref().map(|state| compiler.state(state, "axillary.state"));
     let insertion = compiler.insertion_of_next_order();
-    Branching::new(words, count, chance, delay, insertion, state)
+    Branching::new(words, buds, chance, delay, insertion, state)
 }
 
 fn reiteration_order(order: &Order, compiler: &mut Compiler) -> u8 {

@@ -60,11 +60,12 @@ pub struct EndLaws {
 }
 
 impl EndLaws {
-    /// Compiles the laws of the ends of an order.
-    pub fn compile(order: &Order, compiler: &mut Compiler) -> Self {
+    /// Compiles the laws of the ends of an order, whose nodes have at most so many axillary buds and whose trunk leaves the
+    /// seed at this angle.
+    pub fn compile(order: &Order, most_buds: u32, seed_angle: &VariateTable, compiler: &mut Compiler) -> Self {
         let mut layout = Layout::default();
-        let relay = relay(order, compiler, &mut layout);
-        let traumatic = traumatic(order, compiler, &mut layout);
+        let relay = relay(order, seed_angle, compiler, &mut layout);
+        let traumatic = traumatic(order, most_buds, compiler, &mut layout);
         let below = compiler.count(&order.relay.below, "relay.below", LONGEST);
         let below = layout.number(below, 1);
         let fork = order.apex.fork.as_ref().map(|of| fork(of, compiler, &mut layout));
@@ -87,7 +88,7 @@ impl EndLaws {
     }
 }
 
-fn relay(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branching {
+fn relay(order: &Order, seed_angle: &VariateTable, compiler: &mut Compiler, words: &mut Layout) -> Branching {
     let relay = &order.relay;
     let count = compiler.places(&relay.count, "relay.count", MOST_BUDS);
     let chance = compiler.probability(&relay.probability, "relay.probability");
@@ -97,7 +98,8 @@ fn relay(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branchin
         None if relay.on.is_empty() && !order.transition.iter().any(|passage| passage.relayed) => {
             VariateTable::always(0.0)
         }
-        None => compiler.angle(&order.insertion_deg, "insertion_deg"),
+        None if compiler.order_number() == 1 => seed_angle.clone(),
+        None => compiler.insertion_of_relays(&order.insertion_deg),
     };
     let state = relay.state.as_ref().map(|state| compiler.state(state, "relay.state"));
     Branching::new(words, count, chance, delay, angle, state)
@@ -110,14 +112,10 @@ fn fork(fork: &Fork, compiler: &mut Compiler, words: &mut Layout) -> Branching {
     Branching::new(words, count, always, CountTable::always(0), angle, None)
 }
 
-fn traumatic(order: &Order, compiler: &mut Compiler, words: &mut Layout) -> Branching {
+fn traumatic(order: &Order, most_buds: u32, compiler: &mut Compiler, words: &mut Layout) -> Branching {
     let traumatic = &order.traumatic;
     let chance = compiler.probability(&traumatic.probability, "traumatic.probability");
-    let count = match chance.is_never() {
-        true => CountTable::always(0),
-        false => compiler.places(&order.axillary.buds, "axillary.buds", MOST_BUDS),
-    };
-    let most = CountTable::always(count.max_in_any_run());
+    let most = CountTable::always(if chance.is_never() { 0 } else { most_buds });
     let delay = compiler.count(&traumatic.delay, "traumatic.delay", LONGEST);
     let angle = compiler.angle(&traumatic.insertion_deg, "traumatic.insertion_deg");
     let state = traumatic.state.as_ref().map(|state| compiler.state(state, "traumatic.state"));

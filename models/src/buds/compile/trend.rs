@@ -53,7 +53,7 @@ impl Trends {
             None => phases.iter().map(|phase| (measure(&phase.inclination), measure(&phase.share))).collect(),
         };
         let places: Vec<u8> = match constant {
-            Some(trends) => trends.into_iter().map(|trend| place(trend, habit, compiler)).collect(),
+            Some(trends) => places(trends, habit, compiler),
             None => (0..phases.len()).map(|place| place as u8).collect(),
         };
         let by_state = matches!(trend, Trend::ByState(_));
@@ -199,13 +199,17 @@ fn tendency(inclination_deg: f64, share: f64) -> Tendency {
     Tendency { cos_inclination: cos as f32, sin_inclination: sin as f32, share: share as f32 }
 }
 
-fn place(tendency: Tendency, habit: &mut Vec<Tendency>, compiler: &mut Compiler) -> u8 {
-    let found = habit.iter().position(|known| *known == tendency).unwrap_or_else(|| {
-        habit.push(tendency);
-        habit.len() - 1
-    });
-    u8::try_from(found).unwrap_or_else(|_| {
+/// The places of some trends among the habit's, which gets those that are new.
+fn places(tendencies: Vec<Tendency>, habit: &mut Vec<Tendency>, compiler: &mut Compiler) -> Vec<u8> {
+    let place = |tendency| {
+        habit.iter().position(|known| *known == tendency).unwrap_or_else(|| {
+            habit.push(tendency);
+            habit.len() - 1
+        })
+    };
+    let places = tendencies.into_iter().map(place).map(|place| u8::try_from(place).ok());
+    places.collect::<Option<_>>().unwrap_or_else(|| {
         compiler.fault("trend", "the species has more than 256 trends".to_owned(), "at most 256 trends in all");
-        0
+        Vec::new()
     })
 }

@@ -5,7 +5,7 @@
 
 use super::order_of;
 use crate::buds::params::{Buds, CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood as WoodParams};
-use crate::fault::{Fault, Path};
+use crate::fault::{self, Fault, Path};
 use crate::law::{Constant, Law, ValueRange};
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::math::{cos, sin};
@@ -43,7 +43,11 @@ pub fn compile(buds: &Buds, until: u32, path: &Path, faults: &mut Vec<Fault>) ->
     let tissues = buds.order.iter().enumerate().map(|(index, order)| {
         let order_path = path.key("order").index(index).key("wood");
         let place = Place { until, index, species: species.clone(), order: order_path };
-        place.tissue(wood, &order.wood, faults)
+        let mut found = Vec::new();
+        let tissue = place.tissue(wood, &order.wood, &mut found);
+        // Laws of the species are asked in each order.
+        fault::tell_once(faults, found);
+        tissue
     });
     let tissues = tissues.collect();
     let mut numbers = Numbers { path: species, faults };

@@ -4,7 +4,6 @@
 //! step's record of words has them ([`ZoneRanks`]) and the node asks what its unit drew. Absent: the test of a bud.
 
 use super::compiler::Compiler;
-use super::node::MOST_BUDS;
 use super::words::{Chance, Layout, Number};
 use crate::buds::params::{End, Order, Pattern, Zone, ZoneState};
 use crate::law::{At, Count, CountForm, CountTable};
@@ -78,10 +77,16 @@ fn stated(order: &Order) -> Option<&[Zone]> {
 }
 
 impl Zones {
-    /// The zones of an order, their own laws of ramification with words for the buds of a node; `None`: every node.
-    pub fn compile(order: &Order, ranks: &ZoneRanks, compiler: &mut Compiler, words: &mut Layout) -> Option<Self> {
+    /// The zones of an order, their own laws of ramification with words for the axillary buds of a node, at most so many;
+    /// `None`: every node.
+    pub fn compile(
+        order: &Order,
+        ranks: &ZoneRanks,
+        most_buds: u32,
+        compiler: &mut Compiler,
+        words: &mut Layout,
+    ) -> Option<Self> {
         let zones = stated(order)?;
-        let most_buds = compiler.places(&order.axillary.buds, "axillary.buds", MOST_BUDS).max_in_any_run();
         let compiled = zones.iter().enumerate().map(|(index, zone)| {
             let chance = zone.ramification.as_ref().map(|law| {
                 let table = compiler.probability(law, &format!("axillary.pattern.zones.{index}.ramification"));

@@ -8,6 +8,7 @@
 mod glb;
 mod obj;
 mod ply;
+mod polygon;
 #[cfg(test)]
 mod tests;
 
@@ -50,7 +51,7 @@ pub(super) struct Soup {
 }
 
 impl Soup {
-    /// Adds a polygon as a fan of triangles; its corners are numbers of points that are there.
+    /// Adds a polygon as triangles; its corners are numbers of points that are there.
     fn polygon(&mut self, corners: &[u32], place: impl Fn() -> String) -> Read<()> {
         if corners.len() < 3 {
             let problem = format!("a face of {} corners", corners.len());
@@ -64,7 +65,9 @@ impl Soup {
             let problem = format!("more than {MOST_TRIANGLES} triangles");
             return Err(MeshFault::new(place(), problem, "a mesh of fewer: an organ is drawn thousands of times"));
         }
-        self.triangles.extend(corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]));
+        let points: Vec<[f32; 3]> = corners.iter().map(|corner| self.points[*corner as usize]).collect();
+        let triangles = polygon::triangles(&points);
+        self.triangles.extend(triangles.into_iter().map(|triangle| triangle.map(|place| corners[place])));
         Ok(())
     }
 }

@@ -1,5 +1,5 @@
 //! Triangles out of a PLY, ASCII or binary, by the crate ply-rs-bw: `vertex` with x, y, z and `face` with
-//! `vertex_indices` or `vertex_index`; polygons become fans.
+//! `vertex_indices` or `vertex_index`; polygons become triangles.
 //!
 //! The header is held against the bytes before the payload is read, so that it cannot promise more than there is.
 //! Absent: everything else that a file may hold, which is read and passed over.

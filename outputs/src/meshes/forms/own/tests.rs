@@ -125,6 +125,72 @@ fn nodes_of_a_glb_have_their_transforms() {
     }
 }
 
+/// What exporters write: statements over several lines, all line ends, tabs, marks, comments in any encoding, exponents,
+/// weights and colours of vertices, corners from the end, normals from the end.
+#[test]
+fn an_obj_is_read_as_exporters_write_it() {
+    let square = "v 0 -1 0\nv 2 -1 0\nv 2 1 0\nv 0 1 0\n";
+    let plain = soup("x.obj", format!("{square}f 1 2 3 4\n").as_bytes()).unwrap();
+    for (what, text) in [
+        ("a continued face", format!("{square}f 1 2 \\\n3 4\n")),
+        ("a continued face with a comment behind it", format!("{square}f 1 2 \\\n\\\n  3 4 # behind\n")),
+        ("a space behind the backslash", format!("{square}f 1 2\\ \n3 4\n")),
+        ("a continued vertex", square.replacen("0 -1 0", "0\\\n-1\\\n0", 1) + "f 1 2 3 4"),
+        ("a continuation of the last line", format!("{square}f 1 2 3 4 \\")),
+        ("a comment that ends in a backslash", format!("# C:\\leaves\\\n{square}f 1 2 3 4#corners\\\n")),
+        ("ends of lines of Windows", format!("{square}f 1 2 \\\n3 4\n").replace('\n', "\r\n")),
+        ("ends of lines of old Macintoshes", format!("{square}f 1 2 \\\n3 4\n").replace('\n', "\r")),
+        ("tabs", format!("{square}f 1 2 3 4\n").replace(' ', "\t ")),
+        ("a mark of UTF-8", format!("\u{feff}{square}f 1 2 3 4\n")),
+        ("exponents", square.replace("-1", "-1.0e+00").replace("2", "+2.E0") + "f 1 2 3 4\n"),
+        ("weights", square.replace(" 0\n", " 0 1.0\n") + "f 1 2 3 4\n"),
+        ("colours", square.replace(" 0\n", " 0 0.1 0.2 0.3\n") + "f 1 2 3 4\n"),
+        ("corners from the end", format!("{square}f -4 -3 -2 -1\n")),
+        ("textures and normals", format!("{square}vt 0 0\nvn 0 0 1\ns off\nf 1/1/1 2/1/1 3/1/-1 4/1/1\n")),
+        ("normals alone", format!("vn 0 0 1\n{square}f 1//1 2//1 3//1 4//1\n")),
+        ("textures alone", format!("vt 0 0\n{square}f 1/1 2/1 3/ 4//\n")),
+        ("the old word for a face", format!("{square}fo 1 2 3 4\n")),
+    ] {
+        let read = soup("x.obj", text.as_bytes()).unwrap_or_else(|fault| panic!("{what}: {fault}"));
+        assert_eq!(corners(&read), corners(&plain), "{what}");
+    }
+    let latin = [b"# M\xfcller\no Bl\xe4tter\n", format!("{square}f 1 2 3 4\n").as_bytes()].concat();
+    assert_eq!(soup("x.obj", &latin).unwrap(), plain);
+    assert_eq!(
+        fault("x.obj", b"# M\xfcller\nv 0 0\nv 1 2 3"),
+        "line 2: a vertex without three numbers; expected `v x y z`"
+    );
+    assert_eq!(
+        fault("x.obj", b"# M\xfcller\nv 0 \xff 0"),
+        "byte 14: no UTF-8 text; expected the text of a Wavefront OBJ"
+    );
+    let obj = "v 0 0 0\r\nv 1 0 0\r\nv 1 1 \\\r\n0\r\nf 1 2 \\\r\n9\r\n";
+    assert!(fault("x.obj", obj.as_bytes()).starts_with("line 5: the corner `9`"), "the line where the face begins");
+}
+
+/// The same normal, told from the start and from the end, is one normal; another one makes another vertex.
+#[test]
+fn normals_of_an_obj_are_counted_from_either_end() {
+    let text = "v 0 -1 0\nv 2 -1 0\nv 2 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nvn 0 1 0\nf 1//-2 2//-1 3//-2\n";
+    assert_eq!(soup("x.obj", text.as_bytes()).unwrap().points.len(), 4);
+}
+
+#[test]
+fn a_ply_is_read_as_exporters_write_it() {
+    let text = String::from_utf8(in_ply()).unwrap();
+    let plain = soup("x.ply", &in_ply()).unwrap();
+    for (what, text) in [
+        ("ends of lines of Windows", text.replace('\n', "\r\n")),
+        ("other words of the header", text.replace("comment a leaf\n", "obj_info 3\ncomment by\ncomment\n")),
+        ("tabs and spaces at the ends", text.replace("\n4 0 1 2 3\n", " \n4 0 1\t2 3 \n")),
+        ("exponents", text.replace("2.5", "2.5e+00")),
+        ("the names of types with their sizes", text.replace("float x", "float32 x").replace("double z", "float64 z")),
+    ] {
+        let read = soup("x.ply", text.as_bytes()).unwrap_or_else(|fault| panic!("{what}: {fault}"));
+        assert_eq!(corners(&read), corners(&plain), "{what}");
+    }
+}
+
 fn fault(name: &str, bytes: &[u8]) -> String {
     check(name, bytes).unwrap_err().to_string()
 }

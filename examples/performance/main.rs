@@ -4,13 +4,15 @@
 //! cargo bench && cargo run --release --example performance
 //! ```
 //!
-//! Criterion keeps its estimates below `target/criterion`; the one bench of a group that is called a baseline is what the
-//! others are compared with.
+//! Criterion keeps its estimates in a folder of its own (`folder`); the one bench of a group that is called a baseline is
+//! what the others are compared with.
+
+mod folder;
 
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// One bench as criterion has kept it.
 struct Bench {
@@ -21,8 +23,7 @@ struct Bench {
 }
 
 fn main() -> Result<()> {
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| PathBuf::from("target"), PathBuf::from);
-    let folder = target.join("criterion");
+    let folder = folder::of_benches(Path::new(env!("CARGO_MANIFEST_DIR")), |name| std::env::var_os(name));
     let mut benches = Vec::new();
     collect(&folder, &mut benches)
         .with_context(|| format!("cannot read {}: run `cargo bench` first", folder.display()))?;

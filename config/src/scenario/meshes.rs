@@ -1,0 +1,149 @@
+//! The meshes of a run: which plants, at which ages, in which files.
+//!
+//! Absent: what a mesh looks like, and its format.
+
+use super::{All, Scenario, list_some};
+use phytomer_models::fault::{Fault, Path};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+/// Which meshes are written.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Meshes {
+    /// The ages: `"last"`, `"all"` recorded ages, or a list. The last if not given.
+    #[serde(default)]
+    pub ages: MeshAges,
+    /// The plants: `"all"`, how many from the first, or a list of numbers from 0. The first if not given.
+    #[serde(default)]
+    pub plants: MeshPlants,
+    /// Sides of the tube that an internode is drawn as.
+    #[serde(default = "default_sides")]
+    #[schemars(range(min = 3, max = 64))]
+    pub sides: u32,
+    /// What one file holds: a plant at an age, a plant at all its ages, or all plants at an age.
+    #[serde(default)]
+    pub per: MeshFile,
+}
+
+/// The ages of the meshes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum MeshAges {
+    /// By a word.
+    Word(MeshAgesWord),
+    /// These ages.
+    List(#[schemars(length(min = 1))] BTreeSet<u32>),
+}
+
+/// The ages of the meshes by a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MeshAgesWord {
+    /// The last age.
+    Last,
+    /// Every recorded age.
+    All,
+}
+
+impl Default for MeshAges {
+    fn default() -> Self {
+        Self::Word(MeshAgesWord::Last)
+    }
+}
+
+/// The plants of the meshes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum MeshPlants {
+    /// Every plant, by the word.
+    All(All),
+    /// So many, from the first.
+    First(#[schemars(range(min = 1))] u32),
+    /// These, numbered from 0.
+    List(#[schemars(length(min = 1))] BTreeSet<u32>),
+}
+
+impl Default for MeshPlants {
+    fn default() -> Self {
+        Self::First(1)
+    }
+}
+
+/// What one mesh file holds.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MeshFile {
+    /// One plant at one age.
+    #[default]
+    PlantAge,
+    /// One plant at all ages asked for.
+    Plant,
+    /// All plants asked for at one age.
+    Age,
+}
+
+fn default_sides() -> u32 {
+    8
+}
+
+impl Scenario {
+    /// The ages at which meshes are written, rising; none where no meshes are asked for.
+    pub fn mesh_ages(&self) -> Vec<u32> {
+        match self.meshes.as_ref().map(|meshes| &meshes.ages) {
+            None => Vec::new(),
+            Some(MeshAges::Word(MeshAgesWord::Last)) => vec![self.ages.until],
+            Some(MeshAges::Word(MeshAgesWord::All)) => self.ages.recorded(),
+            Some(MeshAges::List(ages)) => ages.iter().copied().collect(),
+        }
+    }
+
+    /// Whether a mesh of this plant is written.
+    pub fn draws(&self, plant: u32) -> bool {
+        match self.meshes.as_ref().map(|meshes| &meshes.plants) {
+            None => false,
+            Some(MeshPlants::All(_)) => true,
+            Some(MeshPlants::First(count)) => plant < *count,
+            Some(MeshPlants::List(plants)) => plants.contains(&plant),
+        }
+    }
+
+    /// Makes so many plants grow. Of the meshes that are asked for those of plants that then do not grow are left out; how
+    /// many plants that are, where it can be counted.
+    pub fn grow_only(&mut self, plants: u32) -> u32 {
+        self.plants = plants;
+        let Some(meshes) = &mut self.meshes else { return 0 };
+        let left_out = match &mut meshes.plants {
+            MeshPlants::All(_) => 0,
+            MeshPlants::First(count) => {
+                let left_out = count.saturating_sub(plants);
+                *count -= left_out;
+                left_out
+            }
+            MeshPlants::List(list) => list.split_off(&plants).len() as u32,
+        };
+        if matches!(&meshes.plants, MeshPlants::List(list) if list.is_empty()) {
+            self.meshes = None;
+        }
+        left_out
+    }
+
+    pub(super) fn check_mesh_plants(&self, path: &Path, faults: &mut Vec<Fault>) {
+        let plants = self.plants;
+        match self.meshes.as_ref().map(|m| &m.plants) {
+            Some(MeshPlants::First(count)) if *count > plants && *count > 1 => {
+                let problem = format!("meshes of {count} plants are asked for, but only {plants} grow");
+                faults.push(Fault::new(path, problem, format!("at most {plants}, or \"all\"")));
+            }
+            Some(MeshPlants::List(list)) => {
+                let outside: Vec<String> = list.iter().filter(|p| **p >= plants).map(u32::to_string).collect();
+                if !outside.is_empty() {
+                    let problem = format!("no plant has the number {}: they are numbered from 0", list_some(&outside));
+                    faults.push(Fault::new(path, problem, format!("numbers in [0, {}]", plants.saturating_sub(1))));
+                }
+            }
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,297 @@
+//! One file that a person has named as the place of a result.
+//!
+//! A new name and a regular file are written beside and renamed, so that what stands there is whole at any moment; a
+//! symbolic link stays, and its target is replaced in the same way. A pipe or a device is written through, and so are the
+//! streams of the process below `/dev` and `/proc`. A folder is refused. Absent: the files of a run folder
+//! (`run_folder`), and which format a file has.
+
+use crate::Error;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// The name that stands for stdout.
+pub const STDOUT: &str = "-";
+/// The names that systems have for stdout.
+const STDOUT_OF_SYSTEMS: [&str; 3] = ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
+/// Where the streams of processes have names: a link there is the open stream, not a file to be replaced.
+const STREAMS: [&str; 2] = ["/dev/fd", "/proc"];
+/// The longest chain of links that is followed, as on Linux.
+const MOST_LINKS: usize = 40;
+/// The most files beside the final one, left by processes of the same number, that are passed over.
+const MOST_BESIDE: u32 = 100;
+
+/// A file that is being written.
+#[derive(Debug)]
+pub struct Destination {
+    named: PathBuf,
+    out: BufWriter<Sink>,
+    bytes: u64,
+    /// The file beside the final one, and the final one; `None` where the bytes are written through.
+    beside: Option<(PathBuf, PathBuf)>,
+}
+
+#[derive(Debug)]
+enum Sink {
+    File(File),
+    Stdout(io::Stdout),
+}
+
+impl Destination {
+    /// Begins to write what `path` names.
+    ///
+    /// # Errors
+    /// [`Error::IsFolder`], and the system's.
+    pub fn create(path: &Path) -> Result<Self, Error> {
+        let refused = Error::io("write", path);
+        let begun = |sink, beside| Self { named: path.to_owned(), out: BufWriter::new(sink), bytes: 0, beside };
+        if is_stdout(path) {
+            return Ok(begun(Sink::Stdout(io::stdout()), None));
+        }
+        if is_folder(path) {
+            return Err(Error::IsFolder { path: path.to_owned() });
+        }
+        if is_written_through(path) {
+            let file = OpenOptions::new().write(true).open(path).map_err(refused)?;
+            return Ok(begun(Sink::File(file), None));
+        }
+        let (file, beside) = staged(path).map_err(refused)?;
+        Ok(begun(Sink::File(file), Some(beside)))
+    }
+
+    /// Makes sure that the bytes are where they belong; how many they are.
+    ///
+    /// # Errors
+    /// The system's. A file that was there before is then as it was.
+    pub fn finish(mut self) -> Result<u64, Error> {
+        self.complete().map_err(Error::io("write", &self.named))?;
+        Ok(self.bytes)
+    }
+
+    fn complete(&mut self) -> io::Result<()> {
+        self.out.flush()?;
+        let (Sink::File(file), Some((beside, last))) = (self.out.get_ref(), &self.beside) else { return Ok(()) };
+        file.sync_all()?;
+        fs::rename(beside, last)?;
+        self.beside = None;
+        Ok(())
+    }
+}
+
+/// Whether a name stands for stdout, which then carries the file alone.
+pub fn is_stdout(path: &Path) -> bool {
+    path == Path::new(STDOUT) || STDOUT_OF_SYSTEMS.iter().any(|name| path == Path::new(name))
+}
+
+/// Whether a name is that of a folder: of one that is there, or by the slash at its end.
+pub fn is_folder(path: &Path) -> bool {
+    let ends_in_slash =
+        path.as_os_str().as_encoded_bytes().last().is_some_and(|&byte| std::path::is_separator(byte.into()));
+    path.is_dir() || ends_in_slash || path.file_name().is_none()
+}
+
+/// Whether what a name stands for is no regular file: a pipe, a device, a stream of a process.
+fn is_written_through(path: &Path) -> bool {
+    let is_stream = STREAMS.iter().any(|streams| path.starts_with(streams));
+    fs::metadata(path).is_ok_and(|found| is_stream || !found.is_file())
+}
+
+/// The end of a chain of links; it need not be there.
+fn target(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_path_buf();
+    for _ in 0..MOST_LINKS {
+        match fs::symlink_metadata(&path) {
+            Ok(found) if found.is_symlink() => {
+                let next = fs::read_link(&path)?;
+                path = path.parent().unwrap_or(Path::new("")).join(next);
+            }
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => return Ok(path),
+        }
+    }
+    // The system says it in its own words.
+    fs::metadata(&path).and(Err(io::Error::other("too many symbolic links")))
+}
+
+/// A new file beside the one that `path` names, with the permissions of what is there already; the names of both.
+fn staged(path: &Path) -> io::Result<(File, (PathBuf, PathBuf))> {
+    let last = target(path)?;
+    // A file that may not be written is not replaced either.
+    let there = match OpenOptions::new().write(true).open(&last) {
+        Ok(file) => Some(file.metadata()?.permissions()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+        Err(error) => return Err(error),
+    };
+    let (file, beside) = new_beside(&last)?;
+    if let Some(permissions) = there {
+        file.set_permissions(permissions).inspect_err(|_| _ = fs::remove_file(&beside))?;
+    }
+    Ok((file, (beside, last)))
+}
+
+/// A new file in the folder of another, of a short name, so that any name that a system takes can be written.
+fn new_beside(last: &Path) -> io::Result<(File, PathBuf)> {
+    let process = std::process::id();
+    let mut number = 0;
+    loop {
+        let beside = last.with_file_name(format!(".phytomer-{process}-{number}.tmp"));
+        match File::create_new(&beside) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && number < MOST_BESIDE => number += 1,
+            created => return Ok((created?, beside)),
+        }
+    }
+}
+
+impl Write for Destination {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.out.write(bytes)?;
+        self.bytes += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
+/// What was not finished leaves nothing behind.
+impl Drop for Destination {
+    fn drop(&mut self) {
+        if let Some((beside, _)) = &self.beside {
+            _ = fs::remove_file(beside);
+        }
+    }
+}
+
+impl Write for Sink {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::File(file) => file.write(bytes),
+            Self::Stdout(stdout) => stdout.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::File(file) => file.flush(),
+            Self::Stdout(stdout) => stdout.flush(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tempfile::tempdir;
+
+    fn written(path: &Path, text: &str) -> Result<u64, Error> {
+        let mut destination = Destination::create(path)?;
+        destination.write_all(text.as_bytes()).map_err(Error::io("write", path))?;
+        destination.finish()
+    }
+
+    fn names_in(folder: &Path) -> Vec<String> {
+        let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = names.collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_is_replaced_as_a_whole() {
+        let folder = tempdir().unwrap();
+        let path = folder.path().join("a.ply");
+        assert_eq!(written(&path, "first").unwrap(), 5);
+        let mut second = Destination::create(&path).unwrap();
+        second.write_all(b"second and longer").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"first", "until all is written");
+        drop(second);
+        assert_eq!((fs::read(&path).unwrap(), names_in(folder.path())), (b"first".to_vec(), vec!["a.ply".to_owned()]));
+        written(&path, "2nd").unwrap();
+        assert_eq!((fs::read(&path).unwrap(), names_in(folder.path())), (b"2nd".to_vec(), vec!["a.ply".to_owned()]));
+    }
+
+    #[test]
+    fn a_folder_is_refused() {
+        let folder = tempdir().unwrap();
+        let new = folder.path().join("new/");
+        for path in [folder.path(), &new, Path::new("."), Path::new("..")] {
+            assert!(matches!(Destination::create(path), Err(Error::IsFolder { .. })), "{}", path.display());
+        }
+        assert!(names_in(folder.path()).is_empty());
+    }
+
+    #[test]
+    fn a_name_as_long_as_the_system_takes_is_written() {
+        let folder = tempdir().unwrap();
+        let path = folder.path().join("n".repeat(255));
+        written(&path, "x").unwrap();
+        assert_eq!(fs::read(path).unwrap(), b"x");
+    }
+
+    #[cfg(unix)]
+    mod unix {
+        use super::*;
+        use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+
+        #[test]
+        fn a_link_stays_and_its_target_is_replaced() {
+            let folder = tempdir().unwrap();
+            let at = |name: &str| folder.path().join(name);
+            fs::create_dir(at("deep")).unwrap();
+            fs::write(at("deep/target"), "old").unwrap();
+            fs::set_permissions(at("deep/target"), fs::Permissions::from_mode(0o640)).unwrap();
+            symlink("deep/second", at("first")).unwrap();
+            symlink("target", at("deep/second")).unwrap();
+            written(&at("first"), "new").unwrap();
+            assert_eq!(fs::read(at("deep/target")).unwrap(), b"new");
+            assert_eq!(fs::metadata(at("deep/target")).unwrap().permissions().mode() & 0o777, 0o640);
+            for link in ["first", "deep/second"] {
+                assert!(fs::symlink_metadata(at(link)).unwrap().is_symlink(), "{link}");
+            }
+            assert_eq!(names_in(&at("deep")), ["second", "target"]);
+        }
+
+        #[test]
+        fn a_link_to_nothing_makes_its_target_and_a_circle_is_refused() {
+            let folder = tempdir().unwrap();
+            let at = |name: &str| folder.path().join(name);
+            symlink(at("absent"), at("dangling")).unwrap();
+            written(&at("dangling"), "new").unwrap();
+            assert_eq!(fs::read(at("absent")).unwrap(), b"new");
+            symlink("no/folder", at("astray")).unwrap();
+            assert!(matches!(written(&at("astray"), "x"), Err(Error::Io { doing: "write", .. })));
+            symlink("circle", at("circle")).unwrap();
+            assert!(matches!(written(&at("circle"), "x"), Err(Error::Io { doing: "write", .. })));
+            symlink(".", at("here")).unwrap();
+            assert!(matches!(written(&at("here"), "x"), Err(Error::IsFolder { .. })));
+            assert_eq!(names_in(folder.path()), ["absent", "astray", "circle", "dangling", "here"]);
+        }
+
+        #[test]
+        fn devices_and_pipes_are_written_through() {
+            let folder = tempdir().unwrap();
+            let path = folder.path().join("pipe");
+            assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
+            let reader = std::thread::spawn({
+                let path = path.clone();
+                move || fs::read(path).unwrap()
+            });
+            assert_eq!(written(&path, "through").unwrap(), 7);
+            assert_eq!(reader.join().unwrap(), b"through");
+            assert!(fs::symlink_metadata(&path).unwrap().file_type().is_fifo(), "the pipe stays");
+            assert_eq!(written(Path::new("/dev/null"), "nothing").unwrap(), 7);
+            symlink("/dev/null", folder.path().join("null")).unwrap();
+            written(&folder.path().join("null"), "nothing").unwrap();
+            assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
+        }
+
+        #[cfg(target_os = "linux")]
+        #[test]
+        fn a_full_device_is_an_error() {
+            let told = written(Path::new("/dev/full"), "no room").expect_err("no room").to_string();
+            assert!(told.starts_with("cannot write /dev/full: No space left on device"), "{told}");
+            assert!(fs::metadata("/dev/full").unwrap().file_type().is_char_device());
+        }
+    }
+}
