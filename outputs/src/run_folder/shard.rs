@@ -110,9 +110,9 @@ impl<'a> Shard<'a> {
             }
         };
         for plant in &plot.plants {
-            let dead = plant.death <= last;
-            self.report.dead += u64::from(dead);
-            self.report.living += u64::from(!dead);
+            let lives = plant.lives(last);
+            self.report.dead += u64::from(!lives);
+            self.report.living += u64::from(lives);
             self.report.components += plant.lived_by(last);
             if !self.components_written {
                 self.write_components(plot, plant, last)?;

@@ -152,7 +152,10 @@ pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
     Column::float("diameter_m", "m", "Diameter at the base at this age; width of an organ. Null for buds.").or_null(),
     Column::float("diameter_tip_m", "m", "Diameter at the tip at this age. Null for organs and buds.").or_null(),
     Column::float("area_m2", "m2", "Area of one side. Null where a component has none.").repeated().or_null(),
-    Column::truth("alive", "False for dead wood that still stands: between its branch's death and its fall."),
+    Column::truth(
+        "alive",
+        "Whether the component lives. False for dead wood that still stands alone: between its branch's death and its fall.",
+    ),
     Column::float("wood_volume_m3", "m3", "The frustum of an internode at this age; 0 for a blade. Null for organs and buds.").or_null(),
     Column::float(
         "fresh_mass_kg",
@@ -231,11 +234,18 @@ pub static COMPONENTS: [Column; 26] = [
     Column::float("area_m2", "m2", "Area of one side. Null where a component has none.").repeated().or_null(),
     Column::tick(
         "death_age",
-        "The age at which it died: an organ fell, an apex ended, every bud of an internode's branch was dead. Null for \
-         what was alive at the end.",
+        "The age at which it died, from which on it lives no more: an organ fell, an apex ended, every apex of an \
+         internode's branch had ended and was spent, which an apex that became a flower is when its flower and fruit have \
+         fallen, and one that completed its growth when it has persisted as long as its species says. Null for what was alive at \
+         the end.",
     )
     .or_null(),
-    Column::tick("shed_age", "The age at which it left the plant. Null for what stood at the end.").or_null(),
+    Column::tick(
+        "shed_age",
+        "The age at which it left the plant, from which on it has no row in `records`: the fall of an internode's branch; \
+         the death of organs and buds, of which nothing stands dead. Null for what stood at the end.",
+    )
+    .or_null(),
     Column::word("cause_of_death", &CAUSES, "Why it died. Null for what was alive at the end.").or_null(),
     Column::float(
         "trend_deg",
@@ -269,9 +279,9 @@ pub static SUMMARY: [Column; 18] = [
     Column::id("leaves", "Leaves on the plant, of kind `leaf`; leaflets, bracts and the parts of flowers are none."),
     Column::id("flowers", "Flowers on the plant, and inflorescences and spikelets that are drawn as one."),
     Column::id("fruits", "Fruits on the plant, and infructescences and strobili."),
-    Column::id("buds", "Living apical buds."),
+    Column::id("buds", "Living apical buds. An apex that has become a flower is none."),
     Column::id("dead_internodes", "Dead internodes that still stand."),
-    Column::id("axes", "Axes with an internode that stands or a living bud."),
+    Column::id("axes", "Axes with an internode that stands, living or dead, or a living bud."),
     Column::small("max_order", "The highest order among them; 0 where none is left."),
     Column::double("height_m", "m", "The highest tip of a living internode above the seed. Null where none lives.")
         .or_null(),
@@ -287,6 +297,11 @@ pub static SUMMARY: [Column; 18] = [
         "m3",
         "The frusta of the internodes that stand, living and dead; blades have none.",
     ),
-    Column::truth("alive", "Whether a bud lives."),
-    Column::tick("death_age", "The age at which the last bud died. Null while one lives.").or_null(),
+    Column::truth(
+        "alive",
+        "Whether the plant lives, which is when any of its components at this age does, as `records` and `components` tell. \
+         It may live without a bud: on the flower or fruit that an apex has become, or on a branch that has completed its \
+         growth and persists.",
+    ),
+    Column::tick("death_age", "The age at which the last of its components died. Null while the plant lives.").or_null(),
 ];

@@ -124,7 +124,7 @@ fn count_axes(plant: &Plant, standing: &Standing, age: Tick, summary: &mut Summa
     let axes = &plant.axes;
     for axis in 0..axes.len() {
         let there = age < axes.shed[axis];
-        let bud = there && plant.bud_lives(AxisId(axis as u32), age);
+        let bud = plant.bud_lives(AxisId(axis as u32), age);
         let stem = there && standing.tip(AxisId(axis as u32)).some().is_some();
         summary.buds += u32::from(bud);
         if bud || stem {
@@ -137,7 +137,7 @@ fn count_axes(plant: &Plant, standing: &Standing, age: Tick, summary: &mut Summa
 impl SummaryColumns {
     /// Adds the row of one plant at one age.
     pub fn add(&mut self, plot: &Plot, plant: &Plant, age: Tick, summary: &Summary) {
-        let dead = plant.death <= age;
+        let lives = plant.lives(age);
         self.treatment.push(0);
         self.plot.push(plot.id as i32);
         self.plant.push(plant.id as i32);
@@ -154,7 +154,7 @@ impl SummaryColumns {
         self.crown_width.push(summary.crown_width);
         self.leaf_area.push(summary.leaf_area);
         self.wood_volume.push(summary.wood_volume);
-        self.alive.push(i8::from(!dead));
-        self.death.push(if dead { plant.death as i32 } else { NULL });
+        self.alive.push(i8::from(lives));
+        self.death.push(if lives { NULL } else { plant.death as i32 });
     }
 }
