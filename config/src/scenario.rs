@@ -5,8 +5,10 @@
 //! Absent: the species, which is a file of its own, and where the run folder goes, which the command line says.
 
 mod site;
+mod tables;
 
 pub use site::{Site, Wind};
+pub use tables::Table;
 
 use std::collections::BTreeSet;
 
@@ -49,8 +51,8 @@ pub struct Scenario {
     pub site: Site,
     /// How long the plants grow, and at which ages they are recorded.
     pub ages: Ages,
-    /// The tables that are written. All four if not given.
-    #[serde(default = "all_tables")]
+    /// The tables that are written. All if not given; `plants`, which tells where each plant stands, goes with any other.
+    #[serde(default = "tables::all")]
     pub tables: BTreeSet<Table>,
     /// The meshes that are written. None if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -112,20 +114,6 @@ impl Default for Record {
     fn default() -> Self {
         Self::All(All::All)
     }
-}
-
-/// A table of the run folder.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Table {
-    /// A row per component that ever lived.
-    Components,
-    /// A row per living component per recorded age, with its pose.
-    Records,
-    /// What became of the buds.
-    Events,
-    /// A row per plant per age.
-    Summary,
 }
 
 /// Which meshes are written.
@@ -254,7 +242,8 @@ pub struct Output {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1))]
     pub plants_per_part: Option<u32>,
-    /// Lengths and places are rounded to this many metres: 0.0001 saves a quarter of the bytes. Exact if not given.
+    /// The places of components, told from the seed of their plant, are rounded to this many metres: 0.0001 saves a quarter
+    /// of the bytes. Exact if not given. Places of plants are always exact.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 1.0), extend("exclusiveMinimum" = 0))]
     pub float_precision_m: Option<f64>,
@@ -280,10 +269,6 @@ fn default_seed() -> u64 {
 
 fn default_sides() -> u32 {
     8
-}
-
-fn all_tables() -> BTreeSet<Table> {
-    BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary])
 }
 
 impl Ages {

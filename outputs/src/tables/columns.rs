@@ -1,14 +1,15 @@
-//! The columns of the four tables, each declared once.
+//! The columns of the five tables, each declared once.
 //!
 //! The arrow schema, the Parquet metadata, `datapackage.json` and the documentation are all made from these lists. Ids
 //! and ticks are signed, because many readers know no unsigned numbers; null means "does not apply" or "not by the end
-//! of the run", and no number stands for it.
+//! of the run", and no number stands for it. Where a component stands is told from the seed of its plant, in single
+//! precision; where the seed lies, once, in `plants`, in double.
 
-use super::schema::{Column, Encoding, Rounding, Type};
+use super::schema::{Column, Encoding, Named, Rounding, Type};
 use phytomer_sim::plant::{Cause, EventKind, Kind, Origin};
 
 /// The version of these lists: it changes with a column's name, type or meaning.
-pub const SCHEMA_VERSION: &str = "2";
+pub const SCHEMA_VERSION: &str = "3";
 
 /// The tags of [`Kind`], in the order of their numbers.
 pub static KINDS: [&str; Kind::ALL.len()] = {
@@ -95,7 +96,7 @@ pub static PLANT_ONTOLOGY: [(Kind, &str); Kind::ALL.len()] = [
 
 const TREATMENT: Column = Column::new(
     "treatment",
-    Type::Name,
+    Type::Name(Named::Treatment),
     Encoding::Dictionary,
     "The treatment of the plot; `control` where a run has one.",
 );
@@ -136,10 +137,15 @@ pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
          the internodes that it has made so far.",
     ),
     Column::tick("birth_age", "The age of the plant at which the component appeared."),
-    Column::float("x_m", "m", "The base of the component, eastward; for an apical bud, its place.")
-        .rounded(Rounding::Position),
-    Column::float("y_m", "m", "The same, northward.").rounded(Rounding::Position),
-    Column::float("z_m", "m", "The same, upward.").rounded(Rounding::Position),
+    Column::float(
+        "x_m",
+        "m",
+        "The base of the component, eastward of the seed of its plant; for an apical bud, its place. `plants` has the \
+         place of the seed: added up in double precision they are the place in the plot.",
+    )
+    .rounded(Rounding::Position),
+    Column::float("y_m", "m", "The same, northward of the seed.").rounded(Rounding::Position),
+    Column::float("z_m", "m", "The same, above the seed.").rounded(Rounding::Position),
     Column::float("dir_x", "", "The direction in which the component points, a unit vector.")
         .rounded(Rounding::Direction),
     Column::float("dir_y", "", "The same, y.").rounded(Rounding::Direction),
@@ -303,5 +309,22 @@ pub static SUMMARY: [Column; 18] = [
          It may live without a bud: on the flower or fruit that an apex has become, or on a branch that has completed its \
          growth and persists.",
     ),
-    Column::tick("death_age", "The age at which the last of its components died. Null while the plant lives.").or_null(),
+    Column::tick("death_age", "The age at which the last of its components died. Null while the plant lives.")
+        .or_null(),
+];
+
+/// A row per plant.
+pub static PLANTS: [Column; 7] = [
+    TREATMENT,
+    PLOT,
+    PLANT,
+    Column::new("species", Type::Name(Named::Species), Encoding::Dictionary, "The species of the plant."),
+    Column::double(
+        "x_m",
+        "m",
+        "The place of the seed in the plot, eastward, to which the places in `records` and in meshes are to be added; never \
+         rounded.",
+    ),
+    Column::double("y_m", "m", "The same, northward."),
+    Column::double("z_m", "m", "The same, upward."),
 ];

@@ -40,7 +40,7 @@ pub struct Summary {
     pub axes: u32,
     /// The highest order of them.
     pub max_order: u8,
-    /// The height of the tip of the highest living internode, m; NaN (null in the table) where none lives.
+    /// The height of the tip of the highest living internode above the seed, m; NaN (null in the table) where none lives.
     pub height: f64,
     /// The mean of the widths of what lives along x and y, m; NaN where no internode lives.
     pub crown_width: f64,
@@ -99,7 +99,7 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
     }
     let extent = |k: usize| f64::from(high[k]) - f64::from(low[k]);
     let lives = summary.internodes > 0;
-    summary.height = if lives { f64::from(high[2]) - f64::from(plant.place[2]) } else { f64::NAN };
+    summary.height = if lives { f64::from(high[2]) } else { f64::NAN };
     summary.crown_width = if lives { (extent(0) + extent(1)) / 2.0 } else { f64::NAN };
 }
 

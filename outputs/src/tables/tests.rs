@@ -113,11 +113,12 @@ fn rows_are_sorted_and_never_repeated() {
         (Table::Records, &["plant_id", "age", "component_id"][..]),
         (Table::Components, &["plant_id", "component_id"]),
         (Table::Summary, &["plant_id", "age"]),
+        (Table::Plants, &["plot_id", "plant_id"]),
     ] {
         let columns: Vec<_> = keys.iter().map(|key| ints(&run, table, key)).collect();
         let rows: Vec<Vec<i32>> = (0..columns[0].len()).map(|row| columns.iter().map(|c| c[row]).collect()).collect();
         assert!(rows.is_sorted_by(|a, b| a < b), "{table:?}");
-        assert!(rows.len() > 10);
+        assert!(rows.len() >= 5);
     }
     let keys = ["plant_id", "age", "component_id"].map(|key| ints(&run, Table::Events, key));
     assert!((1..keys[0].len()).all(|row| keys.each_ref().map(|k| k[row - 1]) <= keys.each_ref().map(|k| k[row])));

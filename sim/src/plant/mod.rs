@@ -74,8 +74,9 @@ pub struct Plant {
     pub own_trends: OwnTrends,
     /// The source of its draws.
     pub random: PlantRandom,
-    /// Where its seed lies in the plot, metres.
-    pub place: [f32; 3],
+    /// Where its seed lies in the plot, metres. Nothing else of a plant is told from there: its pose and all that follows
+    /// from it are told from the seed, so that a plant is the same to the bit wherever it stands.
+    pub place: [f64; 3],
     /// The stated headings of a plant that a geometric model has built, one an internode, as unit vectors in the frame
     /// of the plant; empty where insertion, phyllotaxis and trend make the headings.
     pub stated_headings: Vec<[f32; 3]>,
