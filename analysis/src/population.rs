@@ -36,7 +36,7 @@ impl Moments {
 /// A population at one recorded age.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct AgeOfPopulation {
-    /// Plants with a living bud.
+    /// Plants that live, as `alive` in `summary` says.
     pub living: u64,
     /// Plants without one.
     pub dead: u64,

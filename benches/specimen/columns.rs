@@ -23,8 +23,8 @@ pub fn write_growth(from: &Plant, into: &mut Plant) {
 }
 
 fn write_axes(from: &Axes, into: &mut Axes) {
-    rewrite!(Axes, from, into; bearer, component, key, order, origin, position, state, appearance, birth, azimuth,
-        insertion, shed_after, last_node, apex_end, apex_fate, spent, death, shed);
+    rewrite!(Axes, from, into; bearer, component, key, order, origin, position, follows, state, appearance, birth,
+        azimuth, insertion, shed_after, last_node, apex_end, apex_fate, spent, death, shed);
 }
 
 fn write_nodes(from: &Nodes, into: &mut Nodes) {

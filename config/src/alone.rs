@@ -36,7 +36,7 @@ impl ResolvedSpecies {
             spacing_m: None,
             site: Site::default(),
             ages: Ages { until, record: Record::Every(recorded(until)) },
-            tables: BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary]),
+            tables: BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary, Table::Plants]),
             meshes: None,
             limits: Limits::default(),
             output: Output { mechanics, ..Output::default() },

@@ -6,9 +6,11 @@
 
 mod meshes;
 mod site;
+mod tables;
 
 pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use site::{Site, Wind};
+pub use tables::Table;
 
 use std::collections::BTreeSet;
 
@@ -57,8 +59,8 @@ pub struct Scenario {
     pub site: Site,
     /// How long the plants grow, and at which ages they are recorded.
     pub ages: Ages,
-    /// The tables that are written. All four if not given.
-    #[serde(default = "all_tables")]
+    /// The tables that are written. All if not given; `plants`, which tells where each plant stands, goes with any other.
+    #[serde(default = "tables::all")]
     pub tables: BTreeSet<Table>,
     /// The meshes that are written. None if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -122,20 +124,6 @@ impl Default for Record {
     }
 }
 
-/// A table of the run folder.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Table {
-    /// A row per component that ever lived.
-    Components,
-    /// A row per living component per recorded age, with its pose.
-    Records,
-    /// What became of the buds.
-    Events,
-    /// A row per plant per age.
-    Summary,
-}
-
 /// Where a plot that grows too large is stopped.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -186,7 +174,8 @@ pub struct Output {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1))]
     pub plants_per_part: Option<u32>,
-    /// Lengths and places are rounded to this many metres: 0.0001 saves a quarter of the bytes. Exact if not given.
+    /// The places of components, told from the seed of their plant, are rounded to this many metres: 0.0001 saves a quarter
+    /// of the bytes. Exact if not given. Places of plants are always exact.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 1.0), extend("exclusiveMinimum" = 0))]
     pub float_precision_m: Option<f64>,
@@ -208,10 +197,6 @@ pub enum Compression {
 
 fn default_seed() -> u64 {
     DEFAULT_SEED
-}
-
-fn all_tables() -> BTreeSet<Table> {
-    BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary])
 }
 
 impl Ages {

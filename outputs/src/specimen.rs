@@ -176,6 +176,7 @@ pub fn plan(plots: u32, plots_per_part: u32) -> RunPlan {
         provenance: Provenance {
             scenario: "Sapling".to_owned(),
             treatment: "control".to_owned(),
+            species: "sapling".to_owned(),
             seed: 42,
             version: "0.0.0".to_owned(),
             git_hash: "abc".to_owned(),

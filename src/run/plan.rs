@@ -44,7 +44,7 @@ impl Default for Program {
 pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan> {
     let scenario = &resolved.scenario;
     Ok(RunPlan {
-        tables: scenario.tables.iter().copied().map(table).collect(),
+        tables: scenario.written_tables().into_iter().map(table).collect(),
         recorded: scenario.ages.recorded(),
         until: scenario.ages.until,
         plots: scenario.plants,
@@ -58,6 +58,7 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan> {
         provenance: Provenance {
             scenario: scenario.name.clone(),
             treatment: "control".to_owned(),
+            species: resolved.species.about.name.clone(),
             seed: scenario.seed,
             version: program.version.clone(),
             git_hash: program.git_hash.clone(),
@@ -73,6 +74,7 @@ fn table(table: scenario::Table) -> Table {
         scenario::Table::Records => Table::Records,
         scenario::Table::Events => Table::Events,
         scenario::Table::Summary => Table::Summary,
+        scenario::Table::Plants => Table::Plants,
     }
 }
 
@@ -110,10 +112,10 @@ pub fn seed_of(scenario: &Scenario, plant: u32) -> Seed {
 }
 
 /// Where its seed lies, metres: on a square grid; each at an origin of its own where the scenario gives no spacing.
-pub fn place_of(scenario: &Scenario, plant: u32) -> [f32; 3] {
+pub fn place_of(scenario: &Scenario, plant: u32) -> [f64; 3] {
     let Some(spacing) = scenario.spacing_m else { return [0.0; 3] };
     let [column, row] = lattice_of(plant);
-    let along = |steps: u32| (f64::from(steps) * spacing) as f32;
+    let along = |steps: u32| f64::from(steps) * spacing;
     [along(column), along(row), 0.0]
 }
 

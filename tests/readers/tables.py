@@ -16,7 +16,7 @@ run = Path(sys.argv[1])
 package = json.loads((run / "datapackage.json").read_text(encoding="utf-8"))
 report = json.loads((run / "run.json").read_text(encoding="utf-8"))
 resources = {resource["name"]: resource for resource in package["resources"]}
-assert set(resources) >= {"components", "records", "events", "summary"}, resources.keys()
+assert set(resources) >= {"components", "records", "events", "summary", "plants"}, resources.keys()
 
 ARROW = {
     "integer": ("int32", "int64"),
@@ -121,6 +121,20 @@ con = duckdb.connect()
 con.execute(f"set file_search_path = '{run}'")
 con.execute((run / "views.sql").read_text(encoding="utf-8"))
 last = con.sql("select max(age) from summary").fetchall()[0][0]
+
+# Places in the plot are sums in double precision of what `records` says and where the seed lies.
+types = dict(zip(con.sql("from records_world").columns, con.sql("from records_world").types))
+plants = con.sql("select count(*), count(distinct plant_id) from plants").fetchall()[0]
+seeds = {row[0]: row[1:] for row in con.sql("select plant_id, x_m, y_m, z_m from plants").fetchall()}
+assert plants == (len(seeds), len(seeds)) == (report["living"] + report["dead"],) * 2, plants
+for axis, seed in zip("xyz", range(3)):
+    assert str(types[f"world_{axis}_m"]) == "DOUBLE" and str(types[f"{axis}_m"]) == "FLOAT", types
+    rows = con.sql(f"select plant_id, {axis}_m, world_{axis}_m from at_age({last})").fetchall()
+    wrong = [row for row in rows if seeds[row[0]][seed] + row[1] != row[2]]
+    assert not wrong, f"{axis}: {len(wrong)} places in the plot are no sums, such as {wrong[0]}"
+counts = [con.sql(f"select count(*) from {table}").fetchall()[0][0] for table in ("records", "records_world")]
+assert counts[0] == counts[1], f"records_world has {counts[1]} rows of {counts[0]}"
+print(f"places: {len(seeds)} plants, from {min(seeds.values())} to {max(seeds.values())}")
 alive = con.sql(f"select count(*) from at_age({last})").fetchall()[0][0]
 print(f"views.sql: {alive} components stand at age {last}")
 print("tables ok:", report.get("name", run.name))

@@ -71,9 +71,15 @@ impl Vertex {
         }
     }
 
-    /// Where it is, metres.
+    /// Where it is, metres from the seed of the plant.
     pub fn position(&self) -> [f32; 3] {
         self.position.map(f32::from_le_bytes)
+    }
+
+    /// Moves it, in double precision until it is stored.
+    pub fn move_by(&mut self, offset: [f64; 3]) {
+        let from = self.position();
+        self.position = [0, 1, 2].map(|k| ((f64::from(from[k]) + offset[k]) as f32).to_le_bytes());
     }
 
     /// Its unit normal.
@@ -150,6 +156,11 @@ impl Chunk {
     /// What it holds.
     pub fn filled(&self) -> &[u8] {
         &self.bytes[..self.used]
+    }
+
+    /// The same, to be changed; it holds nothing but such things.
+    pub fn filled_mut<T: Pod>(&mut self) -> &mut [T] {
+        bytemuck::cast_slice_mut(&mut self.bytes[..self.used])
     }
 
     /// Forgets what it holds.

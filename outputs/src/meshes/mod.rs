@@ -1,8 +1,9 @@
 //! Meshes of plants, for the ten readers of the profile (Blender, MeshLab, CloudCompare, Open3D, trimesh, PyVista, meshio,
 //! plyfile, three.js, ply-rs-bw): a form for each component (de Reffye 1988 §6), in metres, Z up.
 //!
-//! A [`Scene`] is what stands of a plant at an age; it hands out vertices and triangles in chunks of packed bytes, and a
-//! [`MeshWriter`] puts them into a file. A new format is one file and the line that names it here;
+//! A [`Scene`] is what stands of a plant at an age, told from the plant's seed: single precision then holds it wherever the
+//! plant stands, and a comment of the file says where that is. A scene hands out vertices and triangles in chunks of
+//! packed bytes, and a [`MeshWriter`] puts them into a file. A new format is one file and the line that names it here;
 //! what a run and `phytomer mesh` write is chosen where they call it.
 //! Vertices are not shared between components. Absent: buds, which have no form; curvature, which is the pose's.
 
@@ -62,7 +63,7 @@ impl Default for MeshOptions {
 }
 
 /// What a file says of its mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct About {
     /// The plant's number in the run.
     pub plant: u32,
@@ -70,6 +71,8 @@ pub struct About {
     pub age: Tick,
     /// The seed of the run's draws.
     pub run_seed: u64,
+    /// Where the plant's seed lies in the plot, metres: what is to be added to its vertices.
+    pub place: [f64; 3],
 }
 
 /// A format of mesh files.

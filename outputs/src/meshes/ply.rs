@@ -2,7 +2,8 @@
 //!
 //! Counts go into the header, so the scene is counted first and then written in one pass. Where the payload is large,
 //! the next chunk is drawn while the last one is written: two threads, the same bytes. Comments state the unit, the
-//! plant, its age and the run's seed; the file has no face properties and no edges.
+//! plant, its age, the run's seed and the place in the plot from which the vertices are told; the file has no face
+//! properties and no edges.
 
 use super::chunk::{Chunk, Face, Vertex};
 use super::{About, Counts, MeshWriter, Scene};
@@ -29,8 +30,7 @@ impl MeshWriter for Ply {
 
     fn write(&self, scene: &Scene, about: &About, out: &mut (dyn Write + Send)) -> io::Result<()> {
         let counts = scene.counts();
-        let plant = format!("plant {} age {} seed {}", about.plant, about.age, about.run_seed);
-        out.write_all(&header_of(vec![plant], counts)?)?;
+        out.write_all(&header_of(vec![in_words(about), place_comment(about.place)], counts)?)?;
         if counts.vertices * Vertex::BYTES as u64 + counts.faces * Face::BYTES as u64 > OVERLAP_FROM {
             write_overlapped(scene, out)
         } else {
@@ -79,6 +79,16 @@ fn write_overlapped(scene: &Scene, out: &mut (dyn Write + Send)) -> io::Result<(
         let drawn = drawing.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         written.and(drawn)
     })
+}
+
+/// Which plant a scene is, at which age, of which run.
+pub(super) fn in_words(about: &About) -> String {
+    format!("plant {} age {} seed {}", about.plant, about.age, about.run_seed)
+}
+
+/// The place from which the vertices of a file are told, in the shortest decimals that read back as the same numbers.
+pub(super) fn place_comment([x, y, z]: [f64; 3]) -> String {
+    format!("place_m {x:?} {y:?} {z:?}")
 }
 
 /// The whole header, with comments of what the file holds.

@@ -89,7 +89,7 @@ impl<'a> Scene<'a> {
 
     /// What a file says of it.
     pub fn about(&self, run_seed: u64) -> About {
-        About { plant: self.plant.id, age: self.age, run_seed }
+        About { plant: self.plant.id, age: self.age, run_seed, place: self.plant.place }
     }
 
     /// How large its mesh is: one scan of births and deaths.

@@ -114,6 +114,24 @@ fn floats(element: &DefaultElement, names: &[&str]) -> Vec<f32> {
     names.iter().map(float).collect()
 }
 
+/// Wherever the plant stands its vertices are told from its seed; the header alone says where that is, in decimals that read
+/// back as the same numbers.
+#[test]
+fn a_place_is_a_comment_and_nothing_else() {
+    let mut plant = specimen();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let home = written(&plant, 6, &MeshOptions::default());
+    assert!(text(&home).contains("\ncomment place_m 0.0 0.0 0.0\n"));
+    plant.place = [999_000.0, 0.1 + 0.2, -1e-300];
+    pose(&mut plant, LAST);
+    let away = written(&plant, 6, &MeshOptions::default());
+    let told = "comment place_m 999000.0 0.30000000000000004 -1e-300\n";
+    let at = text(&away[..1000]).find(told).expect("the place");
+    let rest = at + told.len();
+    assert_eq!(away[..at], home[..at]);
+    assert_eq!(away[rest..], home[at + "comment place_m 0.0 0.0 0.0\n".len()..]);
+}
+
 #[test]
 fn ply_rs_reads_back_every_value() {
     let plant = specimen();

@@ -59,12 +59,10 @@ impl<'a> Cast<'a> {
         let mut all = Extent::new(gaze, tangents);
         let mut edge = 0.0;
         for (number, (plant, extent)) in self.plants.iter_mut().zip(&extents).enumerate() {
-            let home = -plant.place();
-            let own = extent.moved(home);
-            let along = if number == 0 { 0.0 } else { edge + 0.08 * widest - own.across[0] };
-            edge = along + own.across[1];
-            plant.offset = home + gaze.right * along;
-            all = all.join(&own.moved(gaze.right * along));
+            let along = if number == 0 { 0.0 } else { edge + 0.08 * widest - extent.across[0] };
+            edge = along + extent.across[1];
+            plant.offset = gaze.right * along;
+            all = all.join(&extent.moved(plant.offset));
         }
         Camera::fitting(&all, &frame, height, most)
     }
@@ -113,11 +111,11 @@ impl<'a> Cast<'a> {
         let size = letter_size(canvas.height);
         let (width, height) = (canvas.width as f32, canvas.height as f32);
         let line = height - 1.4 * size;
-        let scale = self.plants.first().map_or(1.0, |plant| camera.scale_at(plant.foot()));
+        let scale = self.plants.first().map_or(1.0, |plant| camera.scale_at(plant.offset));
         scale_bar(canvas, scale, 0.16 * width, size, [1.6 * size, line]);
         let (title, edge) = (fitting(title, size, 0.78 * width), width - 1.6 * size);
         write(canvas, &title, size, [edge, line], Align::Right);
-        let feet = self.plants.iter().map(|plant| camera.project(plant.foot()).map_or(0.0, |foot| foot.x));
+        let feet = self.plants.iter().map(|plant| camera.project(plant.offset).map_or(0.0, |foot| foot.x));
         let labels: Vec<(f32, &str)> = feet.zip(self.labels.iter().copied()).collect();
         if let [(x, label)] = labels[..] {
             let half = 0.5 * letters::width(label, size);

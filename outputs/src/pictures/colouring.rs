@@ -104,7 +104,7 @@ fn means(column: &Column, low: f64, high: f64) -> Means {
     match column.holds {
         Type::Word(words) => classes(&|value| words.get(value).copied().unwrap_or_default().replace('_', " ")),
         Type::Bool => classes(&|value| if value == 0 { "dead".to_owned() } else { "alive".to_owned() }),
-        Type::Name => classes(&|_| "control".to_owned()),
+        Type::Name(_) => classes(&|_| "control".to_owned()),
         Type::Int if column.name == "order" => classes(&|value| format!("order {value}")),
         _ => Means::Range(low, high),
     }

@@ -70,7 +70,7 @@ pub fn draw(set: &Set, [width, height]: [u32; 2]) -> Canvas {
 
 fn footing<'a>(plant: &Standing, light: &'a Light) -> Footing<'a> {
     let [low, high] = plant.bounds();
-    Footing { light, offset: plant.offset, foot: plant.foot(), size: (high - low).length() }
+    Footing { light, offset: plant.offset, foot: plant.offset, size: (high - low).length() }
 }
 
 /// Turns samples into pixels.

@@ -1,4 +1,4 @@
-//! The plants of a picture where they stand, and the ways through their triangles.
+//! The plants of a picture, each told from its seed and put where it is to be seen, and the ways through their triangles.
 //!
 //! Meshes are those of [`crate::meshes`], made block by block on whatever thread is free, looked at and thrown away: a
 //! picture of ten million triangles needs no more memory than one of ten. What is left by them is sums of whole numbers and
@@ -17,7 +17,7 @@ use phytomer_sim::Tick;
 use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
 use rayon::prelude::*;
 
-/// Where nothing is left of a plant, a picture shows the place where it stood, a metre high.
+/// Where nothing is left of a plant, a picture shows the place where it stood, a metre high from its seed.
 const EMPTY: Vec3 = Vec3::Z;
 
 /// A plant at an age in a picture.
@@ -29,9 +29,7 @@ pub struct Standing<'a> {
     /// The boxes of its blocks; those of empty ones are inside out.
     boxes: Vec<[Vec3; 2]>,
     stuff: [Stuff; Kind::ALL.len()],
-    /// Where it grew.
-    place: Vec3,
-    /// From there to where it stands in the picture.
+    /// From its seed to where it stands in the picture.
     pub offset: Vec3,
     /// Its place in the picture.
     pub number: u8,
@@ -55,37 +53,19 @@ impl<'a> Standing<'a> {
                 .fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)])
         });
         let boxes = boxes.collect();
-        Self {
-            scene,
-            colours,
-            boxes,
-            stuff: stuff(plant),
-            place: Vec3::from_array(plant.place),
-            offset: Vec3::ZERO,
-            number,
-        }
-    }
-
-    /// Where it grew.
-    pub fn place(&self) -> Vec3 {
-        self.place
-    }
-
-    /// Where it stands on the ground.
-    pub fn foot(&self) -> Vec3 {
-        self.place + self.offset
+        Self { scene, colours, boxes, stuff: stuff(plant), offset: Vec3::ZERO, number }
     }
 
     /// The box around it as it grew, its foot within.
     pub fn bounds(&self) -> [Vec3; 2] {
-        self.boxes.iter().fold([self.place; 2], |[low, high], [a, b]| [low.min(*a), high.max(*b)])
+        self.boxes.iter().fold([Vec3::ZERO; 2], |[low, high], [a, b]| [low.min(*a), high.max(*b)])
     }
 
     /// How wide it is along a direction, about: the boxes of its blocks are.
     pub fn width(&self, right: Vec3) -> f32 {
         let full = self.boxes.iter().filter(|[low, high]| low.x <= high.x);
         let ends = full.fold([0.0_f32; 2], |[least, most], [low, high]| {
-            let (middle, half) = (0.5 * (*low + *high) - self.place, 0.5 * (*high - *low));
+            let (middle, half) = (0.5 * (*low + *high), 0.5 * (*high - *low));
             let (at, reach) = (middle.dot(right), half.dot(right.abs()));
             [least.min(at - reach), most.max(at + reach)]
         });
@@ -95,7 +75,7 @@ impl<'a> Standing<'a> {
     /// How far it reaches as it grew, to be seen along a gaze within tangents; what lies below its foot counts where it is
     /// to be seen too.
     pub fn extent(&self, gaze: Gaze, tangents: [f32; 4], buried: bool) -> Extent {
-        let lowest = if buried { f32::NEG_INFINITY } else { self.place.z };
+        let lowest = if buried { f32::NEG_INFINITY } else { 0.0 };
         let empty = || Extent::new(gaze, tangents);
         let mut extent = self.each_block(
             |_| true,
@@ -107,9 +87,9 @@ impl<'a> Standing<'a> {
             empty,
             |a, b| a.join(&b),
         );
-        extent.add(self.place);
+        extent.add(Vec3::ZERO);
         if self.boxes.iter().all(|[low, high]| low.x > high.x) {
-            extent.add(self.place + EMPTY);
+            extent.add(EMPTY);
         }
         extent
     }

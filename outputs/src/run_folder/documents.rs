@@ -110,7 +110,8 @@ fn data_package(plan: &RunPlan, report: &RunReport) -> Value {
         "profile": "data-package",
         "name": slug(&plan.provenance.scenario),
         "title": format!("phytomer run of {}", plan.provenance.scenario),
-        "description": "Plants grown from seed; SI units, ages in ticks since the seed, Z up. Null: does not apply.",
+        "description": "Plants grown from seed; SI units, ages in ticks since the seed, Z up. The places of components are told \
+                        from the seed of their plant, whose place in the plot is in the table plants. Null: does not apply.",
         "version": plan.provenance.version,
         "resources": resources,
     })
@@ -149,7 +150,7 @@ fn field(column: &Column) -> Value {
             Type::Bool => "boolean",
             Type::Int | Type::Key => "integer",
             Type::Float | Type::Double => "number",
-            Type::Word(_) | Type::Name => "string",
+            Type::Word(_) | Type::Name(_) => "string",
         },
         "description": column.description,
         "constraints": { "required": !column.nullable },
@@ -166,12 +167,20 @@ fn field(column: &Column) -> Value {
     field
 }
 
+/// The view of a run that has `records` and `plants`, of what `records` says and where in the plot that is. The sums are in
+/// double precision, because one of their terms is.
+const WORLD: (&str, &str) = (
+    "Records with their places in the plot, `world_x_m`, `world_y_m` and `world_z_m`, beside those from the plant's seed.",
+    "records_world AS SELECT r.*, p.x_m + r.x_m AS world_x_m, p.y_m + r.y_m AS world_y_m, p.z_m + r.z_m AS world_z_m \
+     FROM records r JOIN plants p USING (plot_id, plant_id)",
+);
+
 /// The macros of `views.sql`, with the table that each needs.
 const MACROS: [(Table, &str, &str); 6] = [
     (
         Table::Records,
         "Everything that stands at an age: SELECT kind, count(*) FROM at_age(10) GROUP BY kind;",
-        "at_age(a) AS TABLE SELECT * FROM records WHERE age = a",
+        "at_age(a) AS TABLE SELECT * FROM {records} WHERE age = a",
     ),
     (
         Table::Records,
@@ -223,10 +232,16 @@ fn views(plan: &RunPlan) -> String {
         sql += &format!("\n-- {}\n", table.description());
         sql += &format!("CREATE OR REPLACE VIEW {name} AS SELECT * FROM read_parquet('{name}/part-*.parquet');\n");
     }
+    let located = [Table::Records, Table::Plants].iter().all(|table| plan.tables.contains(table));
+    if located {
+        let (comment, body) = WORLD;
+        sql += &format!("\n-- {comment}\nCREATE OR REPLACE VIEW {body};\n");
+    }
     let wanted =
         MACROS.iter().filter(|(table, ..)| plan.tables.contains(table)).map(|(_, comment, body)| (*comment, *body));
     let mechanics = plan.mechanics && plan.tables.contains(&Table::Records);
     for (comment, body) in wanted.chain(mechanics.then_some(MECHANICS)) {
+        let body = body.replace("{records}", if located { "records_world" } else { "records" });
         sql += &format!("\n-- {comment}\nCREATE OR REPLACE MACRO {body};\n");
     }
     sql

@@ -39,6 +39,8 @@ pub struct Provenance {
     pub scenario: String,
     /// The treatment of the run's plots; `control` where it has one.
     pub treatment: String,
+    /// The name of the species of the run's plants.
+    pub species: String,
     /// The seed of every draw.
     pub seed: u64,
     /// The program's version.

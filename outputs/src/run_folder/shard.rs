@@ -7,8 +7,8 @@ use super::journal::{FileReport, OvergrownPlot, ShardReport};
 use super::{RunFolder, durable};
 use crate::Error;
 use crate::tables::{
-    Columns, ComponentColumns, ComponentRow, EventColumns, Part, PartReport, Queue, RecordColumns, RecordRow, Scene,
-    Standing, SummaryColumns, Table, sort_events, summarise,
+    Columns, ComponentColumns, ComponentRow, EventColumns, Part, PartReport, PlantColumns, Queue, RecordColumns,
+    RecordRow, Scene, Standing, SummaryColumns, Table, sort_events, summarise,
 };
 use phytomer_sim::plant::{Event, Plant};
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick};
@@ -23,6 +23,7 @@ struct Parts {
     records: Option<Part<RecordColumns>>,
     events: Option<Part<EventColumns>>,
     summary: Option<Part<SummaryColumns>>,
+    plants: Option<Part<PlantColumns>>,
 }
 
 /// A shard being written: a [`Recorder`] for each of its plots in turn.
@@ -63,6 +64,7 @@ impl<'a> Shard<'a> {
             records: new.part(Table::Records, &queue)?,
             events: new.part(Table::Events, &queue)?,
             summary: new.part(Table::Summary, &queue)?,
+            plants: new.part(Table::Plants, &queue)?,
         };
         Ok(new)
     }
@@ -94,7 +96,7 @@ impl<'a> Shard<'a> {
         self.report.shard
     }
 
-    /// Writes what is known of a plot at its end: its components and its events. Comes after its last age, for each
+    /// Writes what is known of a plot at its end: its components, its events and its plants. Comes after its last age, for each
     /// plot of the shard in turn.
     ///
     /// # Errors
@@ -110,14 +112,18 @@ impl<'a> Shard<'a> {
             }
         };
         for plant in &plot.plants {
-            let dead = plant.death <= last;
-            self.report.dead += u64::from(dead);
-            self.report.living += u64::from(!dead);
+            let lives = plant.lives(last);
+            self.report.dead += u64::from(!lives);
+            self.report.living += u64::from(lives);
             self.report.components += plant.lived_by(last);
             if !self.components_written {
                 self.write_components(plot, plant, last)?;
             }
             self.write_events(plot, plant, last)?;
+            if let Some(part) = &mut self.parts.plants {
+                part.columns.add(plot, plant);
+                part.flush_if_full()?;
+            }
         }
         self.standing.forget();
         self.components_written = false;
@@ -191,6 +197,7 @@ impl<'a> Shard<'a> {
         self.close(Table::Records, parts.records)?;
         self.close(Table::Events, parts.events)?;
         self.close(Table::Summary, parts.summary)?;
+        self.close(Table::Plants, parts.plants)?;
         for path in std::mem::take(&mut self.staged) {
             self.name(path)?;
         }

@@ -39,7 +39,7 @@ fn data_type(holds: Type) -> DataType {
         Type::Key => DataType::Int64,
         Type::Float => DataType::Float32,
         Type::Double => DataType::Float64,
-        Type::Word(_) | Type::Name => DataType::Dictionary(Box::new(DataType::Int8), Box::new(DataType::Utf8)),
+        Type::Word(_) | Type::Name(_) => DataType::Dictionary(Box::new(DataType::Int8), Box::new(DataType::Utf8)),
     }
 }
 

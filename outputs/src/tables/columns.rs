@@ -1,14 +1,15 @@
-//! The columns of the four tables, each declared once.
+//! The columns of the five tables, each declared once.
 //!
 //! The arrow schema, the Parquet metadata, `datapackage.json` and the documentation are all made from these lists. Ids
 //! and ticks are signed, because many readers know no unsigned numbers; null means "does not apply" or "not by the end
-//! of the run", and no number stands for it.
+//! of the run", and no number stands for it. Where a component stands is told from the seed of its plant, in single
+//! precision; where the seed lies, once, in `plants`, in double.
 
-use super::schema::{Column, Encoding, Rounding, Type};
+use super::schema::{Column, Encoding, Named, Rounding, Type};
 use phytomer_sim::plant::{Cause, EventKind, Kind, Origin};
 
 /// The version of these lists: it changes with a column's name, type or meaning.
-pub const SCHEMA_VERSION: &str = "2";
+pub const SCHEMA_VERSION: &str = "3";
 
 /// The tags of [`Kind`], in the order of their numbers.
 pub static KINDS: [&str; Kind::ALL.len()] = {
@@ -95,7 +96,7 @@ pub static PLANT_ONTOLOGY: [(Kind, &str); Kind::ALL.len()] = [
 
 const TREATMENT: Column = Column::new(
     "treatment",
-    Type::Name,
+    Type::Name(Named::Treatment),
     Encoding::Dictionary,
     "The treatment of the plot; `control` where a run has one.",
 );
@@ -136,10 +137,15 @@ pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
          the internodes that it has made so far.",
     ),
     Column::tick("birth_age", "The age of the plant at which the component appeared."),
-    Column::float("x_m", "m", "The base of the component, eastward; for an apical bud, its place.")
-        .rounded(Rounding::Position),
-    Column::float("y_m", "m", "The same, northward.").rounded(Rounding::Position),
-    Column::float("z_m", "m", "The same, upward.").rounded(Rounding::Position),
+    Column::float(
+        "x_m",
+        "m",
+        "The base of the component, eastward of the seed of its plant; for an apical bud, its place. `plants` has the \
+         place of the seed: added up in double precision they are the place in the plot.",
+    )
+    .rounded(Rounding::Position),
+    Column::float("y_m", "m", "The same, northward of the seed.").rounded(Rounding::Position),
+    Column::float("z_m", "m", "The same, above the seed.").rounded(Rounding::Position),
     Column::float("dir_x", "", "The direction in which the component points, a unit vector.")
         .rounded(Rounding::Direction),
     Column::float("dir_y", "", "The same, y.").rounded(Rounding::Direction),
@@ -152,7 +158,10 @@ pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
     Column::float("diameter_m", "m", "Diameter at the base at this age; width of an organ. Null for buds.").or_null(),
     Column::float("diameter_tip_m", "m", "Diameter at the tip at this age. Null for organs and buds.").or_null(),
     Column::float("area_m2", "m2", "Area of one side. Null where a component has none.").repeated().or_null(),
-    Column::truth("alive", "False for dead wood that still stands: between its branch's death and its fall."),
+    Column::truth(
+        "alive",
+        "Whether the component lives. False for dead wood that still stands alone: between its branch's death and its fall.",
+    ),
     Column::float("wood_volume_m3", "m3", "The frustum of an internode at this age; 0 for a blade. Null for organs and buds.").or_null(),
     Column::float(
         "fresh_mass_kg",
@@ -231,11 +240,18 @@ pub static COMPONENTS: [Column; 26] = [
     Column::float("area_m2", "m2", "Area of one side. Null where a component has none.").repeated().or_null(),
     Column::tick(
         "death_age",
-        "The age at which it died: an organ fell, an apex ended, every bud of an internode's branch was dead. Null for \
-         what was alive at the end.",
+        "The age at which it died, from which on it lives no more: an organ fell, an apex ended, every apex of an \
+         internode's branch had ended and was spent, which an apex that became a flower is when its flower and fruit have \
+         fallen, and one that completed its growth when it has persisted as long as its species says. Null for what was alive at \
+         the end.",
     )
     .or_null(),
-    Column::tick("shed_age", "The age at which it left the plant. Null for what stood at the end.").or_null(),
+    Column::tick(
+        "shed_age",
+        "The age at which it left the plant, from which on it has no row in `records`: the fall of an internode's branch; \
+         the death of organs and buds, of which nothing stands dead. Null for what stood at the end.",
+    )
+    .or_null(),
     Column::word("cause_of_death", &CAUSES, "Why it died. Null for what was alive at the end.").or_null(),
     Column::float(
         "trend_deg",
@@ -269,9 +285,9 @@ pub static SUMMARY: [Column; 18] = [
     Column::id("leaves", "Leaves on the plant, of kind `leaf`; leaflets, bracts and the parts of flowers are none."),
     Column::id("flowers", "Flowers on the plant, and inflorescences and spikelets that are drawn as one."),
     Column::id("fruits", "Fruits on the plant, and infructescences and strobili."),
-    Column::id("buds", "Living apical buds."),
+    Column::id("buds", "Living apical buds. An apex that has become a flower is none."),
     Column::id("dead_internodes", "Dead internodes that still stand."),
-    Column::id("axes", "Axes with an internode that stands or a living bud."),
+    Column::id("axes", "Axes with an internode that stands, living or dead, or a living bud."),
     Column::small("max_order", "The highest order among them; 0 where none is left."),
     Column::double("height_m", "m", "The highest tip of a living internode above the seed. Null where none lives.")
         .or_null(),
@@ -287,6 +303,28 @@ pub static SUMMARY: [Column; 18] = [
         "m3",
         "The frusta of the internodes that stand, living and dead; blades have none.",
     ),
-    Column::truth("alive", "Whether a bud lives."),
-    Column::tick("death_age", "The age at which the last bud died. Null while one lives.").or_null(),
+    Column::truth(
+        "alive",
+        "Whether the plant lives, which is when any of its components at this age does, as `records` and `components` tell. \
+         It may live without a bud: on the flower or fruit that an apex has become, or on a branch that has completed its \
+         growth and persists.",
+    ),
+    Column::tick("death_age", "The age at which the last of its components died. Null while the plant lives.")
+        .or_null(),
+];
+
+/// A row per plant.
+pub static PLANTS: [Column; 7] = [
+    TREATMENT,
+    PLOT,
+    PLANT,
+    Column::new("species", Type::Name(Named::Species), Encoding::Dictionary, "The species of the plant."),
+    Column::double(
+        "x_m",
+        "m",
+        "The place of the seed in the plot, eastward, to which the places in `records` and in meshes are to be added; never \
+         rounded.",
+    ),
+    Column::double("y_m", "m", "The same, northward."),
+    Column::double("z_m", "m", "The same, upward."),
 ];

@@ -7,7 +7,7 @@ use super::records::{area_of, number_of};
 use super::standing::{Component, Standing};
 use phytomer_sim::plant::{AxisId, Cause, Kind, LineageKey, NodeId, OrganId, Plant};
 use phytomer_sim::shed::cause_of;
-use phytomer_sim::{NEVER, Plot, Tick};
+use phytomer_sim::{Plot, Tick};
 use std::ops::Range;
 
 columns! {
@@ -169,6 +169,8 @@ fn of_bud(plant: &Plant, axis: AxisId) -> Row {
     let axes = &plant.axes;
     let i = axis.index();
     let bearer = axes.bearer[i].some().map(NodeId::index);
+    // A dead bud does not stand: what the apex became, and the axis that it left, are components of their own.
+    let end = plant.bud_end(axis);
     Row {
         component: axes.component[i],
         key: axes.key[i],
@@ -185,8 +187,8 @@ fn of_bud(plant: &Plant, axis: AxisId) -> Row {
         length: f32::NAN,
         birth_diameter: f32::NAN,
         area: f32::NAN,
-        death: axes.apex_end[i],
-        shed: if axes.apex_end[i] == NEVER { NEVER } else { axes.shed[i] },
+        death: end,
+        shed: end,
         cause: cause_of(axes.apex_fate[i]),
         trend: f32::NAN,
     }

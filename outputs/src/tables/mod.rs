@@ -1,6 +1,6 @@
-//! The four tables of a run, from the plant's columns to Parquet part files.
+//! The five tables of a run, from the plant's columns to Parquet part files.
 //!
-//! [`columns`] declares what a table holds; `records`, `components`, `events` and `summary` fill column buffers
+//! [`columns`] declares what a table holds; `records`, `components`, `events`, `summary` and `plants` fill column buffers
 //! from a plant; `part` turns full buffers into row groups of one file, encoded column by column on as many threads
 //! as there are (`encode`). The bytes do not depend on the number of threads: a row group is a fixed number of rows
 //! and its columns are put into the file in their order.
@@ -12,6 +12,7 @@ mod components;
 mod encode;
 mod events;
 mod part;
+mod plants;
 mod records;
 pub mod schema;
 mod single;
@@ -27,6 +28,7 @@ pub(crate) use components::{ComponentColumns, Row as ComponentRow};
 pub(crate) use encode::Queue;
 pub(crate) use events::{EventColumns, sort as sort_events};
 pub(crate) use part::{Part, PartReport};
+pub(crate) use plants::PlantColumns;
 pub(crate) use records::{RecordColumns, Row as RecordRow, Scene};
 pub(crate) use single::record_values;
 pub(crate) use standing::Standing;
@@ -39,7 +41,7 @@ use serde::{Deserialize, Serialize};
 /// Rows in a row group.
 pub const ROW_GROUP: usize = 122_880;
 
-/// One of the four tables.
+/// One of the five tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Table {
@@ -51,11 +53,13 @@ pub enum Table {
     Events,
     /// A row per plant and recorded age.
     Summary,
+    /// A row per plant.
+    Plants,
 }
 
 impl Table {
     /// Every table.
-    pub const ALL: [Self; 4] = [Self::Components, Self::Records, Self::Events, Self::Summary];
+    pub const ALL: [Self; 5] = [Self::Components, Self::Records, Self::Events, Self::Summary, Self::Plants];
 
     /// Its name, and that of its folder in the run.
     pub const fn name(self) -> &'static str {
@@ -64,6 +68,7 @@ impl Table {
             Self::Records => "records",
             Self::Events => "events",
             Self::Summary => "summary",
+            Self::Plants => "plants",
         }
     }
 
@@ -74,6 +79,7 @@ impl Table {
             Self::Records => "A row per component that stands at a recorded age, with its pose.",
             Self::Events => "A row per fate of a bud or a branch.",
             Self::Summary => "A row per plant and recorded age.",
+            Self::Plants => "A row per plant, with its place in the plot.",
         }
     }
 
@@ -85,6 +91,7 @@ impl Table {
             Self::Records => &columns::RECORDS[..columns::RECORDS_OF_POSE],
             Self::Events => &columns::EVENTS,
             Self::Summary => &columns::SUMMARY,
+            Self::Plants => &columns::PLANTS,
         }
     }
 
@@ -95,6 +102,7 @@ impl Table {
             Self::Records => &["plot_id", "age", "plant_id", "component_id"],
             Self::Events => &["plot_id", "plant_id", "age", "component_id"],
             Self::Summary => &["plot_id", "age", "plant_id"],
+            Self::Plants => &["plot_id", "plant_id"],
         }
     }
 }

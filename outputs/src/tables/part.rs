@@ -5,10 +5,10 @@
 
 use super::buffers::{Columns, Values};
 use super::encode::{Job, Queue, RowGroup};
-use super::schema::{Column, Type};
+use super::schema::{Column, Named, Type};
 use super::{ROW_GROUP, Table, arrow};
 use crate::Error;
-use crate::run_folder::{HashingFile, RunPlan};
+use crate::run_folder::{HashingFile, Provenance, RunPlan};
 use arrow_array::StringArray;
 use arrow_schema::SchemaRef;
 use parquet::arrow::ArrowWriter;
@@ -59,7 +59,7 @@ impl<C: Columns> Part<C> {
         let properties = arrow::properties(table, plan).map_err(Error::table(path))?;
         let writer = ArrowWriter::try_new(HashingFile::create(path)?, schema.clone(), Some(properties));
         let (file, factory) = writer.and_then(ArrowWriter::into_serialized_writer).map_err(Error::table(path))?;
-        let words = declared.iter().map(|column| words_of(column, &plan.provenance.treatment)).collect();
+        let words = declared.iter().map(|column| words_of(column, &plan.provenance)).collect();
         Ok(Self {
             columns: C::default(),
             declared,
@@ -152,10 +152,11 @@ impl<C: Columns> Part<C> {
     }
 }
 
-fn words_of(column: &Column, treatment: &str) -> Arc<StringArray> {
+fn words_of(column: &Column, provenance: &Provenance) -> Arc<StringArray> {
     Arc::new(match column.holds {
         Type::Word(words) => StringArray::from_iter_values(words),
-        Type::Name => StringArray::from_iter_values([treatment]),
+        Type::Name(Named::Treatment) => StringArray::from_iter_values([&provenance.treatment]),
+        Type::Name(Named::Species) => StringArray::from_iter_values([&provenance.species]),
         _ => StringArray::from_iter_values([""; 0]),
     })
 }

@@ -18,7 +18,16 @@ pub enum Type {
     /// One word of a closed list, as a dictionary string.
     Word(&'static [&'static str]),
     /// A word that the run chooses, as a dictionary string.
-    Name,
+    Name(Named),
+}
+
+/// What a word that the run chooses is the name of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Named {
+    /// The treatment of a plot.
+    Treatment,
+    /// The species of a plant.
+    Species,
 }
 
 /// How a column is encoded in Parquet, before compression.

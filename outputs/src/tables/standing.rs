@@ -79,8 +79,7 @@ impl Standing {
             self.put(organs.component[organ], 1, organ, organs.birth[organ], organ_end(plant, OrganId(organ as u32)));
         }
         for axis in 0..axes.len() {
-            let until = axes.apex_end[axis].min(axes.shed[axis]);
-            self.put(axes.component[axis], 2, axis, axes.appearance[axis], until);
+            self.put(axes.component[axis], 2, axis, axes.appearance[axis], plant.bud_end(AxisId(axis as u32)));
         }
         let first = |from: &[Tick]| from.iter().copied().min().unwrap_or(NEVER);
         self.first.clear();

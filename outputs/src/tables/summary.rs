@@ -40,7 +40,7 @@ pub struct Summary {
     pub axes: u32,
     /// The highest order of them.
     pub max_order: u8,
-    /// The height of the tip of the highest living internode, m; NaN (null in the table) where none lives.
+    /// The height of the tip of the highest living internode above the seed, m; NaN (null in the table) where none lives.
     pub height: f64,
     /// The mean of the widths of what lives along x and y, m; NaN where no internode lives.
     pub crown_width: f64,
@@ -99,7 +99,7 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
     }
     let extent = |k: usize| f64::from(high[k]) - f64::from(low[k]);
     let lives = summary.internodes > 0;
-    summary.height = if lives { f64::from(high[2]) - f64::from(plant.place[2]) } else { f64::NAN };
+    summary.height = if lives { f64::from(high[2]) } else { f64::NAN };
     summary.crown_width = if lives { (extent(0) + extent(1)) / 2.0 } else { f64::NAN };
 }
 
@@ -124,7 +124,7 @@ fn count_axes(plant: &Plant, standing: &Standing, age: Tick, summary: &mut Summa
     let axes = &plant.axes;
     for axis in 0..axes.len() {
         let there = age < axes.shed[axis];
-        let bud = there && plant.bud_lives(AxisId(axis as u32), age);
+        let bud = plant.bud_lives(AxisId(axis as u32), age);
         let stem = there && standing.tip(AxisId(axis as u32)).some().is_some();
         summary.buds += u32::from(bud);
         if bud || stem {
@@ -137,7 +137,7 @@ fn count_axes(plant: &Plant, standing: &Standing, age: Tick, summary: &mut Summa
 impl SummaryColumns {
     /// Adds the row of one plant at one age.
     pub fn add(&mut self, plot: &Plot, plant: &Plant, age: Tick, summary: &Summary) {
-        let dead = plant.death <= age;
+        let lives = plant.lives(age);
         self.treatment.push(0);
         self.plot.push(plot.id as i32);
         self.plant.push(plant.id as i32);
@@ -154,7 +154,7 @@ impl SummaryColumns {
         self.crown_width.push(summary.crown_width);
         self.leaf_area.push(summary.leaf_area);
         self.wood_volume.push(summary.wood_volume);
-        self.alive.push(i8::from(!dead));
-        self.death.push(if dead { plant.death as i32 } else { NULL });
+        self.alive.push(i8::from(lives));
+        self.death.push(if lives { NULL } else { plant.death as i32 });
     }
 }

@@ -113,11 +113,12 @@ fn rows_are_sorted_and_never_repeated() {
         (Table::Records, &["plant_id", "age", "component_id"][..]),
         (Table::Components, &["plant_id", "component_id"]),
         (Table::Summary, &["plant_id", "age"]),
+        (Table::Plants, &["plot_id", "plant_id"]),
     ] {
         let columns: Vec<_> = keys.iter().map(|key| ints(&run, table, key)).collect();
         let rows: Vec<Vec<i32>> = (0..columns[0].len()).map(|row| columns.iter().map(|c| c[row]).collect()).collect();
         assert!(rows.is_sorted_by(|a, b| a < b), "{table:?}");
-        assert!(rows.len() > 10);
+        assert!(rows.len() >= 5);
     }
     let keys = ["plant_id", "age", "component_id"].map(|key| ints(&run, Table::Events, key));
     assert!((1..keys[0].len()).all(|row| keys.each_ref().map(|k| k[row - 1]) <= keys.each_ref().map(|k| k[row])));
@@ -212,7 +213,8 @@ fn components_tell_the_fates_that_are_over() {
     let (components, births) =
         (ints(&run, Table::Components, "component_id"), ints(&run, Table::Components, "birth_age"));
     let row = (0..kinds.len()).find(|&row| kinds[row] == "apical_bud" && births[row] == 1).unwrap();
-    assert_eq!((deaths[row], sheds[row], causes[row].as_str(), axes[row]), (4, 6, "mortality", components[row]));
+    // A dead bud has no row in `records`, though the branch that it has made still stands.
+    assert_eq!((deaths[row], sheds[row], causes[row].as_str(), axes[row]), (4, 4, "mortality", components[row]));
     let row = (0..kinds.len()).find(|&row| kinds[row] == "short_internode").unwrap();
     assert_eq!((births[row], deaths[row], sheds[row], causes[row].as_str()), (2, 4, 6, "branch"));
     let trunk = (0..kinds.len()).find(|&row| kinds[row] == "internode").unwrap();

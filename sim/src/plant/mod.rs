@@ -49,7 +49,8 @@ pub struct Plant {
     pub id: u32,
     /// The age up to which it has grown, in ticks.
     pub age: Tick,
-    /// The tick at which its last bud died; [`NEVER`] while one lives.
+    /// The tick from which nothing of it lives: every apex has ended and is spent; [`NEVER`] before. Written by
+    /// [`crate::shed`].
     pub death: Tick,
     /// Its axes; the first one grew out of the seed.
     pub axes: Axes,
@@ -73,8 +74,9 @@ pub struct Plant {
     pub own_trends: OwnTrends,
     /// The source of its draws.
     pub random: PlantRandom,
-    /// Where its seed lies in the plot, metres.
-    pub place: [f32; 3],
+    /// Where its seed lies in the plot, metres. Nothing else of a plant is told from there: its pose and all that follows
+    /// from it are told from the seed, so that a plant is the same to the bit wherever it stands.
+    pub place: [f64; 3],
     /// The stated headings of a plant that a geometric model has built, one an internode, as unit vectors in the frame
     /// of the plant; empty where insertion, phyllotaxis and trend make the headings.
     pub stated_headings: Vec<[f32; 3]>,
@@ -283,7 +285,21 @@ impl Plant {
 
     /// Whether an apical bud lives at `age`: it has appeared and its axis has not come to its end.
     pub fn bud_lives(&self, axis: AxisId, age: Tick) -> bool {
-        self.axes.appearance[axis.index()] <= age && age < self.axes.apex_end[axis.index()]
+        self.axes.appearance[axis.index()] <= age && age < self.bud_end(axis)
+    }
+
+    /// The tick at which an apical bud is gone: it ends as a bud when its apex ends, whatever the apex becomes, or it falls
+    /// with its branch.
+    #[inline]
+    pub fn bud_end(&self, axis: AxisId) -> Tick {
+        self.axes.apex_end[axis.index()].min(self.axes.shed[axis.index()])
+    }
+
+    /// Whether the plant lives at `age`, which is when any of its components does: a bud, or an internode on whose branch an
+    /// apex that has become a flower or has completed its growth is not yet spent. A plant may live on without a bud.
+    #[inline]
+    pub fn lives(&self, age: Tick) -> bool {
+        age < self.death
     }
 
     fn number(&mut self) -> u32 {

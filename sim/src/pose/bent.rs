@@ -8,7 +8,7 @@
 //! rest are followed as they would stand without load, so trends are felt at rest and carried along.
 
 use super::course::{Plane, Slope};
-use super::{Frame, ground_frame};
+use super::{Frame, GROUND};
 use crate::math::sincos;
 use crate::plant::borne::{Borne, Up};
 use crate::plant::standing::{Run, Standing};
@@ -125,7 +125,7 @@ pub(crate) fn follow_bends(
     stances: &mut Vec<Stance>,
     curvature: &mut impl Curvature,
 ) {
-    let ground = Stance::from_rest(&ground_frame(plant.place), Vector::from(plant.place), Rotation::NONE);
+    let ground = Stance::from_rest(&GROUND, Vector::default(), Rotation::NONE);
     stances.clear();
     stances.resize(plant.axes.len(), ground);
     plant.frames.resize_nodes(plant.nodes.len());

@@ -5,7 +5,8 @@
 //! heading h with the direction d at φ has the heading cos β · h + sin β · d and the upper side sin β · h − cos β · d.
 //! The first internode of an axis keeps that direction; each one after it turns its share of the way to the axis's
 //! trend, in the vertical plane of its heading (`course` has the formula). The axis of the seed leaves the upward
-//! vertical, whose `up` is the X axis. Absent: bending, which is the work of mechanics.
+//! vertical, whose `up` is the X axis. The seed is the origin of all frames: a plant far away in its plot keeps the precision
+//! of one at home. Absent: bending, which is the work of mechanics; the plant's place, which nothing here asks.
 
 pub(crate) mod bent;
 mod course;
@@ -17,7 +18,7 @@ use crate::math::sincosf;
 use crate::plant::{AxisId, NodeId, OrganId, Plant};
 use scan::Tip;
 
-/// The columns of the pose, one entry a node, in metres and unit vectors; Z is up.
+/// The columns of the pose, one entry a node, in metres from the seed and unit vectors; Z is up.
 #[derive(Debug, Clone, Default)]
 pub struct Frames {
     /// The base of the internode.
@@ -68,7 +69,7 @@ impl Frames {
 /// A point with two directions: the pose of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// The base point, metres.
+    /// The base point, metres from the seed.
     pub base: [f32; 3],
     /// The direction in which the component points.
     pub heading: [f32; 3],
@@ -157,17 +158,16 @@ pub fn bud_frame(plant: &Plant, axis: AxisId) -> Frame {
     }
 }
 
-/// The frame that an axis leaves: that of its bearing node, or the upward vertical at the plant's place.
+/// The frame that an axis leaves: that of its bearing node, or the upward vertical at the seed.
 fn bearing_frame(plant: &Plant, axis: AxisId) -> Frame {
     match plant.axes.bearer[axis.index()].some() {
         Some(bearer) => node_frame(plant, bearer),
-        None => ground_frame(plant.place),
+        None => GROUND,
     }
 }
 
-fn ground_frame(place: [f32; 3]) -> Frame {
-    Frame { base: place, heading: [0.0, 0.0, 1.0], up: [1.0, 0.0, 0.0] }
-}
+/// The frame that the axis of the seed leaves.
+const GROUND: Frame = Frame { base: [0.0; 3], heading: [0.0, 0.0, 1.0], up: [1.0, 0.0, 0.0] };
 
 #[cfg(test)]
 mod precision_tests;

@@ -36,7 +36,7 @@ pub fn as_text(resolved: &Resolved) -> String {
     line("tick", species.tick.clone());
     line("ages", ages_in_words(&scenario.ages.recorded(), scenario.ages.until));
     line("seed", scenario.seed.to_string());
-    line("tables", tables_in_words(&scenario.tables));
+    line("tables", tables_in_words(&scenario.written_tables()));
     line("meshes", meshes_in_words(resolved));
     if let Some(forecast) = Forecast::of(resolved) {
         line(
@@ -57,6 +57,7 @@ fn tables_in_words(tables: &std::collections::BTreeSet<Table>) -> String {
         Table::Records => "records",
         Table::Events => "events",
         Table::Summary => "summary",
+        Table::Plants => "plants",
     };
     let words: Vec<&str> = tables.iter().map(word).collect();
     if words.is_empty() { "none".to_owned() } else { words.join(", ") }

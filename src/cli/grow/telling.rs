@@ -121,8 +121,10 @@ impl Told<'_> {
             format!("SELECT age, kind, count(*) {} GROUP BY ALL ORDER BY ALL", from(Table::Records))
         } else if rows.contains_key(&Table::Components) {
             format!("SELECT kind, cause_of_death, count(*) {} GROUP BY ALL ORDER BY ALL", from(Table::Components))
-        } else {
+        } else if rows.contains_key(&Table::Events) {
             format!("SELECT age, event, count(*) {} GROUP BY ALL ORDER BY ALL", from(Table::Events))
+        } else {
+            format!("SELECT * {}", from(Table::Plants))
         };
         (!rows.is_empty()).then(|| format!("duckdb -c \"{sql}\""))
     }

@@ -1,0 +1,229 @@
+//! `summary`, `records` and `components` tell the same of a plant: what lives, what stands, since when and how large.
+//!
+//! Every column of `summary` is recomputed from the rows of the other two, read back from Parquet, for every shipped species
+//! and every fixture at all recorded ages; and the rows of `records` at an age are those that `components` says stand then,
+//! living or dead as it says. Counts, ages and places agree exactly. Areas and volumes agree to the rounding of single
+//! precision, in which `records` holds each of them and `summary` does not.
+
+mod read;
+
+use phytomer::config::scenario::{Every, Record};
+use phytomer::config::{self, Kind, Resolved, SPECIES_ALONE_UNTIL, presets, validate, validate_species};
+use phytomer::run::{self, Progress, Settings};
+use read::Columns;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// A plant is looked at up to the last age at which it is expected to have so many components.
+const COMPONENTS: f64 = 1500.0;
+
+/// The last age of plants of which nothing can be expected.
+const UNFORESEEN: u32 = 24;
+
+/// Ages recorded of one plant, about.
+const AGES: u32 = 24;
+
+/// Sums of numbers that were rounded to single precision, a few roundings each, over the sum of the exact ones.
+const ROUNDING: f64 = 1e-6;
+
+/// One plant at one age, as rows of the other tables tell it.
+#[derive(Debug, Default)]
+struct Told {
+    counts: BTreeMap<&'static str, f64>,
+    axes: BTreeSet<u32>,
+    max_order: f64,
+    /// The least and the greatest tips of living internodes, in single precision as the rows are.
+    low: [f32; 3],
+    high: [f32; 3],
+    leaf_area: f64,
+    wood_volume: f64,
+    /// Each component with whether it lives.
+    standing: BTreeMap<u32, bool>,
+}
+
+/// Plants by number and age.
+type Plants = BTreeMap<(u32, u32), Told>;
+
+/// Of every shipped scenario its plants, of every other species and of the fixtures one plant alone.
+fn all() -> Vec<Resolved> {
+    let report = |name: &str, report: config::Report| -> Resolved { panic!("{name}: {}", report.render(false)) };
+    let scenario = |name: &str| validate(name).unwrap_or_else(|told| report(name, told));
+    let species = |name: &str| match validate_species(name, SPECIES_ALONE_UNTIL) {
+        Ok(found) => found.alone(name),
+        Err(told) => report(name, told),
+    };
+    let mut all: Vec<Resolved> = presets(Kind::Scenario).iter().map(|(name, _)| scenario(name)).collect();
+    let seen: BTreeSet<String> = all.iter().map(|resolved| resolved.scenario.species.clone()).collect();
+    let others = presets(Kind::Species).iter().map(|(name, _)| *name).filter(|name| !seen.contains(*name));
+    all.extend(others.map(species));
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for folder in ["config/tests/good", "tests/data/runs"] {
+        let files = std::fs::read_dir(here.join(folder)).expect("fixtures").map(|file| file.expect("a file").path());
+        let mut files: Vec<String> = files.map(|file| file.display().to_string()).collect();
+        files.sort();
+        for file in files.iter().filter(|file| file.ends_with(".toml")) {
+            match config::kind_of(file) {
+                Kind::Scenario => all.push(scenario(file)),
+                Kind::Species => all.push(species(file)),
+            }
+        }
+    }
+    all
+}
+
+/// The same, two plants of it and as old as is quickly looked at, with all tables and the columns of mechanics.
+fn small(mut resolved: Resolved) -> Resolved {
+    let scenario = &mut resolved.scenario;
+    let until = scenario.ages.until;
+    let is_small = |age: &u32| {
+        let expected = resolved.model.expectation(*age);
+        expected.map_or(*age <= UNFORESEEN, |expected| expected.components(*age) <= COMPONENTS)
+    };
+    let until = (1..=until).rev().find(is_small).unwrap_or(1);
+    let every = until.div_ceil(AGES);
+    scenario.ages.until = until;
+    scenario.ages.record = Record::Every(Every { every, from: Some(until - every * ((until - 1) / every)) });
+    scenario.plants = 2;
+    scenario.meshes = None;
+    scenario.output.mechanics = true;
+    scenario.output.float_precision_m = None;
+    scenario.tables = compared_tables();
+    resolved
+}
+
+fn compared_tables() -> BTreeSet<config::scenario::Table> {
+    use config::scenario::Table;
+    BTreeSet::from([Table::Components, Table::Records, Table::Summary])
+}
+
+/// What `records` tells.
+fn by_records(records: &Columns) -> Plants {
+    let number = |name: &str| records.numbers(name);
+    let (plant, age, component, axis) = (number("plant_id"), number("age"), number("component_id"), number("axis_id"));
+    let (order, alive, area, volume) = (number("order"), number("alive"), number("area_m2"), number("wood_volume_m3"));
+    let (length, kind) = (number("length_m"), records.words("kind"));
+    let (base, dir) = (["x_m", "y_m", "z_m"].map(number), ["dir_x", "dir_y", "dir_z"].map(number));
+    let mut plants = Plants::new();
+    for row in 0..plant.len() {
+        let told = plants.entry((plant[row] as u32, age[row] as u32)).or_insert_with(|| Told {
+            low: [f32::INFINITY; 3],
+            high: [f32::NEG_INFINITY; 3],
+            ..Told::default()
+        });
+        let lives = alive[row] == 1.0;
+        told.standing.insert(component[row] as u32, lives);
+        let stem = kind[row].ends_with("internode");
+        let counted = match kind[row].as_str() {
+            _ if stem && lives => "internodes",
+            _ if stem => "dead_internodes",
+            "leaf" => "leaves",
+            "flower" | "inflorescence" | "spikelet" => "flowers",
+            "fruit" | "infructescence" | "strobilus" => "fruits",
+            "apical_bud" => "buds",
+            _ => "others",
+        };
+        *told.counts.entry(counted).or_default() += 1.0;
+        if stem || counted == "buds" {
+            told.axes.insert(axis[row] as u32);
+            told.max_order = told.max_order.max(order[row]);
+        }
+        if counted == "internodes" {
+            for k in 0..3 {
+                let tip = base[k][row] as f32 + length[row] as f32 * dir[k][row] as f32;
+                told.low[k] = told.low[k].min(tip);
+                told.high[k] = told.high[k].max(tip);
+            }
+        }
+        if matches!(kind[row].as_str(), "leaf" | "leaflet") && !area[row].is_nan() {
+            told.leaf_area += area[row];
+        }
+        told.wood_volume += if stem { volume[row] } else { 0.0 };
+    }
+    plants
+}
+
+/// Which components stand at an age, living or dead, and the age at which the last of them died, as `components` tells.
+fn by_components(components: &Columns, plant: u32, age: u32) -> (BTreeMap<u32, bool>, f64) {
+    let number = |name: &str| components.numbers(name);
+    let (of, component, birth) = (number("plant_id"), number("component_id"), number("birth_age"));
+    let (death, shed) = (number("death_age"), number("shed_age"));
+    let (mut standing, mut last) = (BTreeMap::new(), f64::NAN);
+    let age = f64::from(age);
+    // Null is NaN, before which everything is not.
+    let before = |tick: f64| tick.is_nan() || age < tick;
+    for row in (0..of.len()).filter(|row| of[*row] == f64::from(plant) && birth[*row] <= age) {
+        assert!(shed[row].is_nan() || shed[row] >= death[row], "nothing falls before its death: component {row}");
+        if before(shed[row]) {
+            standing.insert(component[row] as u32, before(death[row]));
+        }
+        if !before(death[row]) {
+            last = death[row].max(last);
+        }
+    }
+    (standing, last)
+}
+
+/// The columns of one row of `summary` against what the other tables tell.
+fn check(summary: &Columns, row: usize, told: &Told, last_death: f64) {
+    let number = |name: &str| summary.numbers(name)[row];
+    for column in ["internodes", "leaves", "flowers", "fruits", "buds", "dead_internodes"] {
+        assert_eq!(number(column), told.counts.get(column).copied().unwrap_or_default(), "{column}");
+    }
+    assert_eq!((number("axes"), number("max_order")), (told.axes.len() as f64, told.max_order), "axes, max_order");
+    let lives = told.standing.values().any(|lives| *lives);
+    assert_eq!(number("alive") == 1.0, lives, "alive");
+    let death = if lives { f64::NAN } else { last_death };
+    assert_eq!(number("death_age").to_bits(), death.to_bits(), "death_age");
+    let stands = number("internodes") > 0.0;
+    let extent = |k: usize| f64::from(told.high[k]) - f64::from(told.low[k]);
+    let (height, width) = match stands {
+        true => (f64::from(told.high[2]), (extent(0) + extent(1)) / 2.0),
+        false => (f64::NAN, f64::NAN),
+    };
+    assert_eq!(number("height_m").to_bits(), height.to_bits(), "height_m: {height}");
+    assert_eq!(number("crown_width_m").to_bits(), width.to_bits(), "crown_width_m: {width}");
+    for (column, sum) in [("leaf_area_m2", told.leaf_area), ("wood_volume_m3", told.wood_volume)] {
+        let stated = number(column);
+        assert!((stated - sum).abs() <= ROUNDING * sum, "{column}: {stated}, and its parts are {sum}");
+    }
+}
+
+/// Rows compared, and those of plants that live without a bud.
+fn compare(resolved: Resolved) -> [u32; 2] {
+    let name = resolved.scenario.name.clone();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let settings = Settings { threads: 2, ..Settings::in_folder(folder.path().join("run")) };
+    run::run(&resolved, &settings, &Progress::default()).unwrap_or_else(|error| panic!("{name}: {error:#}"));
+    let [summary, records, components] =
+        ["summary", "records", "components"].map(|table| Columns::of(&settings.folder, table));
+    let told = by_records(&records);
+    let (plants, ages) = (summary.numbers("plant_id"), summary.numbers("age"));
+    assert_eq!(plants.len(), 2 * resolved.scenario.ages.recorded().len(), "{name}: a row a plant and age");
+    let nothing = Told::default();
+    let mut budless = 0;
+    for row in 0..plants.len() {
+        let (plant, age) = (plants[row] as u32, ages[row] as u32);
+        let told = told.get(&(plant, age)).unwrap_or(&nothing);
+        let (standing, last_death) = by_components(&components, plant, age);
+        let agree = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+            assert_eq!(told.standing, standing, "what stands by records, and by components");
+            check(&summary, row, told, last_death);
+        }));
+        assert!(agree.is_ok(), "{name}: plant {plant} at age {age} disagrees");
+        budless += u32::from(summary.numbers("alive")[row] == 1.0 && summary.numbers("buds")[row] == 0.0);
+    }
+    [plants.len() as u32, budless]
+}
+
+#[test]
+fn summary_says_what_records_and_components_say() {
+    let mut seen = [0; 2];
+    for resolved in all() {
+        let name = resolved.scenario.name.clone();
+        let [rows, budless] = compare(small(resolved));
+        println!("{name}: {rows} rows, {budless} of plants alive without a bud");
+        seen = [seen[0] + rows, seen[1] + budless];
+    }
+    println!("{} plants at ages, {} of them alive without a bud", seen[0], seen[1]);
+    assert!(seen[0] > 2000 && seen[1] > 10, "{seen:?}: too little is compared");
+}
