@@ -210,10 +210,9 @@ fn an_axis_draws_once_what_is_its_own() {
     assert_mean(&azimuths, 15.0, 90.0 * 90.0 / 12.0, "azimuth of the first leaf");
 
     let trends = |plant: &Plant, axis: usize| plant.own_trends.of(AxisId(axis as u32)).expect("it has drawn").to_vec();
-    let angle = |cosine: f32| phytomer_sim::math::acos(f64::from(cosine)).to_degrees();
-    let inclinations = of_axes(&|plant, axis| Some(angle(trends(plant, axis)[0].cos_inclination)));
+    let inclinations = of_axes(&|plant, axis| Some(trends(plant, axis)[0].inclination.to_degrees()));
     assert_mean(&inclinations, 60.0, 40.0 * 40.0 / 12.0, "inclination of the first phase");
-    let shares = of_axes(&|plant, axis| Some(f64::from(trends(plant, axis)[1].share)));
+    let shares = of_axes(&|plant, axis| Some(trends(plant, axis)[1].share));
     assert_mean(&shares, 0.2, 0.2 * 0.2 / 12.0, "share of the second phase");
 
     // Steps of a branch of 12 ticks: 6, 8 or 24; at each age those of its own speed.

@@ -9,8 +9,8 @@ use crate::random::{PlantRandom, Purpose};
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-fn trend(inclination: f32, share: f32) -> Trend {
-    Trend { cos_inclination: cosf(inclination), sin_inclination: sinf(inclination), share }
+fn trend(inclination: f32, share: f64) -> Trend {
+    Trend { inclination: f64::from(inclination), share }
 }
 
 fn posed(branches: &[Branch], trends: &[Trend], growth: Growth) -> Specimen {
@@ -188,7 +188,7 @@ fn organs_and_buds_stand_at_the_tip_of_their_node() {
 fn a_leaf_sinks_with_its_age_and_a_fruit_hangs() {
     let mut specimen = Specimen::grown(&[Branch::trunk(2, 0.5)], &[], Growth::AxisByAxis);
     let plant = &mut specimen.plant;
-    let sinking = OrganTrend { cos_inclination: -1.0, sin_inclination: 0.0, shares: vec![0.0, 0.5, 1.0] };
+    let sinking = OrganTrend { inclination: std::f64::consts::PI, shares: vec![0.0, 0.5, 1.0] };
     let of_trunk = OrganTrends { leaf: Some(sinking), ..OrganTrends::default() };
     plant.habit = Arc::new(Habit { organ_trends: vec![of_trunk], ..(*plant.habit).clone() });
     let organ = |kind| NewOrgan {

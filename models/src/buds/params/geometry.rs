@@ -163,7 +163,8 @@ pub struct Tended {
     /// Drawn once an axis, at its birth.
     #[schemars(extend("minimum" = 0, "maximum" = 180))]
     pub inclination_deg: Variate,
-    /// The share of the way that each internode turns, in [0, 1]; drawn once an axis, at its birth.
+    /// The share of the angle that is left which each internode turns, in [0, 1]: after n internodes (1 − share)ⁿ of the
+    /// first angle is left. Drawn once an axis, at its birth.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub share: Variate,
 }
@@ -188,7 +189,8 @@ pub struct Phase {
     /// The angle to the upward vertical that the axis tends to, degrees; drawn once an axis, at its birth.
     #[schemars(extend("minimum" = 0, "maximum" = 180))]
     pub inclination_deg: Variate,
-    /// The share of the way that each internode turns, in [0, 1]; drawn once an axis, at its birth.
+    /// The share of the angle that is left which each internode turns, in [0, 1]: after n internodes (1 − share)ⁿ of the
+    /// first angle is left. Drawn once an axis, at its birth.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub share: Variate,
 }

@@ -28,7 +28,7 @@ pub struct OrganTrend {
     /// The angle to the upward vertical that the organ turns to, degrees in [0, 180]: 0 upright, 180 hanging.
     #[schemars(extend("minimum" = 0, "maximum" = 180))]
     pub inclination_deg: Constant,
-    /// The share of the way from its insertion to that direction that an organ has turned, in [0, 1]: a law of its own age,
+    /// The share of the angle from its insertion to that direction that an organ has turned, in [0, 1]: a law of its own age,
     /// which is `dimension` and `cycle` here, in ticks; 1 leaves nothing of the insertion but its azimuth.
     pub share: Law,
 }
