@@ -234,8 +234,7 @@ impl Scan<'_> {
         let along = Vector::from(frames.heading[node]) * f64::from(self.plant.nodes.length[node]);
         let at = Vector::from(frames.base[node]) + along;
         load.put(at, self.wood.organs.of(self.plant, organ, self.age));
-        let share = f64::from(self.plant.expanded(OrganId(organ as u32), self.age));
-        let area = f64::from(organs.area[organ]) * share * share;
+        let area: f64 = self.plant.organ_area(OrganId(organ as u32), self.age);
         load.sail.put(at * area, area);
     }
 

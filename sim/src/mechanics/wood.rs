@@ -132,13 +132,13 @@ impl OrganMass {
     #[inline]
     pub fn of(&self, plant: &Plant, organ: usize, age: Tick) -> f64 {
         let organs = &plant.organs;
-        let share = f64::from(plant.expanded(OrganId(organ as u32), age));
         let ellipsoid = || {
             let (length, width) = (share * f64::from(organs.length[organ]), share * f64::from(organs.width[organ]));
+            let share = f64::from(plant.expanded(OrganId(organ as u32), age));
             std::f64::consts::PI / 6.0 * length * width * width
         };
         match organs.kind[organ].class() {
-            Class::Leaf => f64::from(self.leaf) * f64::from(organs.area[organ]) * share * share,
+            Class::Leaf => f64::from(self.leaf) * plant.organ_area::<f64>(OrganId(organ as u32), age),
             Class::Flower => f64::from(self.flower) * ellipsoid(),
             Class::Fruit => f64::from(self.fruit) * ellipsoid(),
             Class::Internode | Class::Bud => 0.0,
