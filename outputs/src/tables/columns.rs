@@ -153,7 +153,7 @@ pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
     Column::float("diameter_tip_m", "m", "Diameter at the tip at this age. Null for organs and buds.").or_null(),
     Column::float("area_m2", "m2", "Area of one side. Null where a component has none.").repeated().or_null(),
     Column::truth("alive", "False for dead wood that still stands: between its branch's death and its fall."),
-    Column::float("wood_volume_m3", "m3", "The frustum of an internode at this age; 0 for a blade. Null for organs and buds.").or_null(),
+    Column::float("wood_volume_m3", "m3", "The frustum of an internode at this age, of a blade its area by its thickness. Null for organs and buds.").or_null(),
     Column::float(
         "fresh_mass_kg",
         "kg",
@@ -285,7 +285,7 @@ pub static SUMMARY: [Column; 18] = [
     Column::double(
         "wood_volume_m3",
         "m3",
-        "The frusta of the internodes that stand, living and dead; blades have none.",
+        "The volume of the internodes that stand, living and dead: frusta, and of blades their area by their thickness.",
     ),
     Column::truth("alive", "Whether a bud lives."),
     Column::tick("death_age", "The age at which the last bud died. Null while one lives.").or_null(),

@@ -13,6 +13,8 @@ use phytomer_sim::plant::{Bark, Class, Colour, Form, InternodeLook, Kind, Looks,
 const SIDES: std::ops::RangeInclusive<u32> = 3..=64;
 /// The most meshes of its own that a species may name.
 const MOST_OWN: usize = 64;
+/// The thickness of a blade, mm.
+const THICKNESS: ValueRange = ValueRange { min: 0.001, max: 1000.0, what: "a thickness in mm" };
 /// A share of an organ's full size.
 const SHARE: ValueRange = ValueRange { min: 0.0, max: 1.0, what: "a share of the full size" };
 
@@ -116,6 +118,12 @@ impl Place<'_> {
         if states.is_empty() {
             self.faults.push(Fault::new(&path, "the species has no states", "one for all, without by_state"));
             return Vec::new();
+        if let Some(thickness) = &internode.thickness_mm {
+            match thickness.within(&path.key("thickness_mm"), THICKNESS) {
+                Ok(thickness) => looks.iter_mut().for_each(|look| look.thickness = (thickness * 0.001) as f32),
+                Err(fault) => self.faults.push(fault),
+            }
+        }
         }
         for name in each.keys().filter(|name| !states.contains(name)) {
             let expected = format!("one of {}", states.join(", "));
