@@ -68,6 +68,20 @@ fn an_axis_turns_to_its_trend_without_ever_turning_back() {
     }
 }
 
+/// An upright axis that tends to hang turns by the share that it is told, as any other does.
+#[test]
+fn an_upright_axis_that_tends_to_hang_keeps_its_share_of_the_angle() {
+    for share in [0.1, 0.3, 0.5, 0.51] {
+        let plant = posed(&[Branch::trunk(9, 0.1)], &[trend(PI, share)], Growth::AxisByAxis).plant;
+        for node in 0..9 {
+            let left = std::f64::consts::PI * crate::math::pow(1.0 - share, node as f64);
+            let [x, y, z] = plant.frames.heading[node].map(f64::from);
+            let found = std::f64::consts::PI - crate::math::atan2((x * x + y * y).sqrt(), z);
+            assert!((found - left).abs() < 1e-6, "share {share}, internode {node}: {found} left, not {left}");
+        }
+    }
+}
+
 #[test]
 fn frames_are_unit_and_orthogonal_whatever_the_angles() {
     let mut words = PlantRandom::new(5, 8).stream(LineageKey(1), Purpose::Node);
