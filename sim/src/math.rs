@@ -38,6 +38,30 @@ fn sincos_near_zero(x: f64) -> (f64, f64) {
     (x + x * square * sum(&SIN), 1.0 + square * sum(&COS))
 }
 
+/// The angle in [0, π] of this sine and cosine, which are those of a unit vector: within 2·10⁻¹², exact at 0 and π. Four
+/// times the arc tangent of that of its quarter, by the polynomial through the Chebyshev points.
+#[inline]
+pub fn half_turn_of(sin: f64, cos: f64) -> f64 {
+    const SERIES: [f64; 8] = [
+        0.999_999_999_999_244_5,
+        -0.333_333_332_769_163_7,
+        0.199_999_930_531_458_8,
+        -0.142_853_865_415_210_17,
+        0.111_034_567_232_019_83,
+        -0.089_925_514_163_116_17,
+        0.069_741_916_761_703_96,
+        -0.037_655_009_949_235_4,
+    ];
+    let half = sin / (1.0 + cos.abs());
+    let quarter = half / (1.0 + (1.0 + half * half).sqrt());
+    let square = quarter * quarter;
+    let [a, b, c, d, e, f, g, h] = SERIES;
+    let fourth = square * square;
+    let sum = (a + square * b) + fourth * ((c + square * d) + fourth * ((e + square * f) + fourth * (g + square * h)));
+    let angle = 4.0 * quarter * sum;
+    if cos < 0.0 { PI - angle } else { angle }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -47,8 +71,10 @@ mod tests {
         for step in 0..=20_000 {
             let angle = PI * f64::from(step) / 20_000.0;
             let ((sin, cos), (s, c)) = (sincos_half_turn(angle), sincos(angle));
+            assert!((half_turn_of(s, c) - angle).abs() < 2e-12, "{angle}");
             assert!((sin - s).abs() < 1e-10 && (cos - c).abs() < 1e-10, "{angle}: {sin} {cos}");
         }
+        assert_eq!([(0.0, 1.0), (0.0, -1.0)].map(|(sin, cos)| half_turn_of(sin, cos)), [0.0, PI]);
         let exact = [0.0, FRAC_PI_2, PI].map(sincos_half_turn);
         assert_eq!(exact, [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0)]);
     }

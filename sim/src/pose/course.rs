@@ -8,7 +8,7 @@
 //! axis that stands upright or hangs has no horizontal direction of its own and turns towards that of its `up`.
 
 use super::Frame;
-use crate::math::{atan2, sincos_half_turn};
+use crate::math::{half_turn_of, sincos_half_turn};
 use crate::plant::Trend;
 use crate::vector::Vector;
 
@@ -95,13 +95,8 @@ impl Slope {
     /// The slope of the next internode, which turns its share of the angle to the trend.
     #[inline(always)]
     pub fn turned(self, trend: &Trend) -> Self {
-        let from = if self.angle.is_nan() { self.first_angle() } else { self.angle };
+        let from = if self.angle.is_nan() { half_turn_of(self.r, self.z) } else { self.angle };
         Self::at(trend.inclination + (1.0 - trend.share) * (from - trend.inclination))
-    }
-
-    #[cold]
-    fn first_angle(self) -> f64 {
-        atan2(self.r, self.z)
     }
 
     #[inline(always)]
@@ -138,7 +133,7 @@ fn horizontal(vector: Vector) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::pow;
+    use crate::math::{atan2, pow};
     use std::f64::consts::{FRAC_PI_2, PI};
 
     fn angle(slope: Slope) -> f64 {
