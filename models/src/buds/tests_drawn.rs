@@ -54,7 +54,7 @@ struct Numbers {
 
 /// A species in which each of the numbers is written as `n` says.
 fn species(n: &Numbers) -> Buds {
-    let leaf = Leaf { area_share: (n.measure)(0.65), ..Leaf::default() };
+    let leaf = Leaf { area_share: Some((n.measure)(0.65)), ..Leaf::default() };
     let divergence = Divergence { divergence_deg: (n.measure)(100.0), first_deg: (n.measure)(-20.7) };
     let phase = |rank, inclination| Phase {
         from_rank: (n.count)(rank),
@@ -171,7 +171,7 @@ fn drawn() -> Buds {
             phase(Count::from(1), uniform(40.0, 80.0), Variate::from(0.1)),
             phase(weights(&[0.0, 0.0, 1.0, 0.0, 3.0]), Variate::from(90.0), uniform(0.1, 0.3)),
         ]),
-        leaf: Leaf { area_share: uniform(0.5, 0.9), ..Leaf::default() },
+        leaf: Leaf { area_share: Some(uniform(0.5, 0.9)), ..Leaf::default() },
         ..Order::default()
     };
     let season = Some(Season { ticks_per_year: Quantity::from(6), leaf_fall: weights(&[0.0, 1.0, 0.0, 0.0, 3.0]) });

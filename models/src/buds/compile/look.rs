@@ -7,7 +7,7 @@ use crate::buds::params::{
     BarkChoice, Buds, ByState, ColourText, FlowerChoice, FormChoice, FruitChoice, KindName, LeafChoice, OwnForm,
 };
 use crate::fault::{Fault, Path};
-use crate::law::{At, Domain, Law, Quantity, ValueRange};
+use crate::law::{At, Domain, Law, Quantity, ValueRange, Variate};
 use phytomer_sim::plant::{Bark, Class, Colour, Form, InternodeLook, Kind, Looks, OrganLook, OrganLooks, Shape};
 
 const SIDES: std::ops::RangeInclusive<u32> = 3..=64;
@@ -68,6 +68,24 @@ impl Buds {
     }
 }
 
+impl Buds {
+    /// States the area share of leaves that are drawn with a mesh of the user's and state none: that of the mesh, which
+    /// `share` tells by the mesh's number, to a millionth. Whether there is any such leaf.
+    pub fn state_area_shares(&mut self, share: impl Fn(usize) -> Option<f64>) -> bool {
+        let meshes: Vec<String> = self.own_forms().into_iter().map(|(_, mesh)| mesh.to_owned()).collect();
+        let mut stated = false;
+        for leaf in self.order.iter_mut().map(|order| &mut order.leaf).filter(|leaf| leaf.area_share.is_none()) {
+            let FormChoice::Own(OwnForm { mesh }) = &leaf.form else { continue };
+            let place = meshes.iter().position(|known| known == mesh);
+            if let Some(share) = place.and_then(&share) {
+                leaf.area_share = Some(Variate::from((share * 1e6).round() / 1e6));
+                stated = true;
+            }
+        }
+        stated
+    }
+}
+
 /// Where the looks of one order are stated.
 struct Place<'a> {
     buds: &'a Buds,
@@ -100,6 +118,12 @@ impl Place<'_> {
                 look.bark = self.bark(bark, &path);
             }
         }
+        if let Some(thickness) = &internode.thickness_mm {
+            match thickness.within(&path.key("thickness_mm"), THICKNESS) {
+                Ok(thickness) => looks.iter_mut().for_each(|look| look.thickness = (thickness * 0.001) as f32),
+                Err(fault) => self.faults.push(fault),
+            }
+        }
         if let Some(sides) = &internode.sides {
             let sides = self.sides(sides, &path.key("sides"));
             looks.iter_mut().for_each(|look| look.sides = Some(sides));
@@ -118,12 +142,6 @@ impl Place<'_> {
         if states.is_empty() {
             self.faults.push(Fault::new(&path, "the species has no states", "one for all, without by_state"));
             return Vec::new();
-        if let Some(thickness) = &internode.thickness_mm {
-            match thickness.within(&path.key("thickness_mm"), THICKNESS) {
-                Ok(thickness) => looks.iter_mut().for_each(|look| look.thickness = (thickness * 0.001) as f32),
-                Err(fault) => self.faults.push(fault),
-            }
-        }
         }
         for name in each.keys().filter(|name| !states.contains(name)) {
             let expected = format!("one of {}", states.join(", "));

@@ -63,9 +63,12 @@ pub struct Leaf {
     pub length_cm: Variate,
     /// Width of the blade, cm.
     pub width_cm: Variate,
-    /// Area of one side, as a share of length × width, in [0, 1].
-    #[schemars(extend("minimum" = 0, "maximum" = 1))]
-    pub area_share: Variate,
+    /// Area of one side with the stalk, as a share of length × width, in [0, 20]; above 1 where many parts lie one over
+    /// another. Left out: that of its form. Meshes have the area that is stated: simple blades are drawn as much wider or
+    /// narrower, compound ones in their leaflets.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 0, "maximum" = 20))]
+    pub area_share: Option<Variate>,
     /// The angle between the axis and the leaf, degrees.
     pub insertion_deg: Variate,
     /// How a leaf turns as it ages; left out: it keeps its insertion.
@@ -95,7 +98,7 @@ impl Default for Leaf {
             life: None,
             length_cm: Variate::from(5.0),
             width_cm: Variate::from(2.5),
-            area_share: Variate::from(0.7),
+            area_share: None,
             insertion_deg: Variate::from(60.0),
             trend: None,
             facing: Facing::Axis,

@@ -204,6 +204,7 @@ fn no_broken_file_panics_or_hangs() {
         }
         let Ok(shape) = shape_of(name, &bytes) else { continue };
         meshes += 1;
+        let shape = shape.shape;
         assert!(shape.faces.len() <= MOST_TRIANGLES && !shape.faces.is_empty(), "case {case}");
         assert!(shape.faces.iter().flatten().all(|corner| (*corner as usize) < shape.points.len()), "case {case}");
         assert!(shape.points.iter().all(|p| p.normal.iter().all(|x| x.is_finite())), "case {case}");
