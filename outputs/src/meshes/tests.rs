@@ -187,7 +187,7 @@ fn the_bytes_are_those_that_were_looked_at() {
     assert_eq!(bytes, written(&plant.clone(), 6, &MeshOptions::default()));
     let payload = bytes.windows(11).position(|window| window == b"end_header\n").unwrap() + 11;
     let hash: String = Sha256::digest(&bytes[payload..]).iter().take(8).map(|byte| format!("{byte:02x}")).collect();
-    assert_eq!(hash, "4677a5ef0283f9c6");
+    assert_eq!(hash, "ba7ef9a2d21bcb87");
 }
 
 #[test]

@@ -20,7 +20,7 @@ const UPRIGHT: f64 = 1e-5;
 const STEPS: usize = 12;
 
 /// How much fuller than its form an organ is drawn at most.
-const FULLEST: f64 = 1e3;
+const FULLEST: f32 = 1e3;
 
 /// The triangles of a form as its area meets them.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +28,8 @@ pub(super) struct Side {
     /// Areas that do not change with r and those that do, by their ratio.
     leans: Vec<[f64; 2]>,
     depth: Depth,
+    /// The share where no aspect changes it.
+    constant: Option<f32>,
 }
 
 impl Side {
@@ -48,7 +50,11 @@ impl Side {
             leans[place][1] += if place == 0 { 0.0 } else { lean };
         }
         leans.retain(|[flat, lean]| flat + lean > 0.0);
-        Self { leans, depth }
+        let constant = match leans.as_slice() {
+            [[flat, 0.0]] => Some(*flat as f32),
+            _ => None,
+        };
+        Self { leans, depth, constant }
     }
 
     /// The area of one side as a share of length × width, where the width is so many times the length.
@@ -69,29 +75,22 @@ impl Side {
         })
     }
 
-    /// The share where no aspect changes it.
-    fn constant(&self) -> Option<f64> {
-        match self.leans.as_slice() {
-            [[flat, 0.0]] => Some(*flat),
-            _ => None,
-        }
-    }
-
     /// How many times fuller than its form an organ of this length and width is drawn to have `area`: each of its parts about
     /// its own middle where it is `in_parts`, else its width. 1 where no area is stated.
+    #[inline]
     pub fn fullness(&self, [length, width]: [f32; 2], area: f32, in_parts: bool) -> f32 {
-        let box_area = f64::from(length) * f64::from(width);
-        let wanted = f64::from(area) / box_area;
-        if !(area > 0.0 && box_area > 0.0 && wanted.is_finite()) {
+        let box_area = length * width;
+        if !(area > 0.0 && box_area > 0.0) {
             return 1.0;
         }
-        if let Some(share) = self.constant() {
-            return (wanted / share).min(FULLEST) as f32;
+        if let Some(share) = self.constant {
+            return (area / (box_area * share)).min(FULLEST);
         }
+        let wanted = f64::from(area) / f64::from(box_area);
         let aspect = f64::from(width) / f64::from(length);
         let first = wanted / self.share(aspect);
         let fullness = if in_parts { first } else { self.widened(aspect, wanted, first) };
-        if fullness.is_finite() { fullness.clamp(0.0, FULLEST) as f32 } else { 1.0 }
+        if fullness.is_finite() { (fullness as f32).clamp(0.0, FULLEST) } else { 1.0 }
     }
 
     /// k for which k times the share of a k times wider organ is that `wanted`: Newton steps.

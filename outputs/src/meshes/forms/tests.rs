@@ -72,11 +72,17 @@ fn every_form_fits_its_box_and_its_normals_agree_with_its_triangles() {
     }
 }
 
-/// The area of one side: of the triangles, of a closed form half of it.
+/// The area of one side: of plane polygons, and of what is closed half of it. The rachis of a palm and the tube of a
+/// corolla are open at their ends.
 fn area(form: Form, size: [f32; 2], fullness: f32) -> f64 {
     let (vertices, faces) = fuller(form, size, fullness);
-    let sides = if SOLIDS.contains(&form) { 2.0 } else { 1.0 };
-    surface(&vertices, &faces) / sides
+    let is_plane = |face: &Face| {
+        let corner = face.indices()[0];
+        shape(form).polygons.iter().any(|&[first, count]| (first..first + count).contains(&corner))
+    };
+    let (plane, round): (Vec<Face>, Vec<Face>) = faces.into_iter().partition(is_plane);
+    let sides = if matches!(form, Form::Palm | Form::Corolla) { 1.0 } else { 2.0 };
+    surface(&vertices, &plane) + surface(&vertices, &round) / sides
 }
 
 #[test]
