@@ -82,8 +82,9 @@ impl Outcome {
 /// Where a file cannot be written, or where the folder holds another run.
 pub fn run(resolved: &Resolved, settings: &Settings, progress: &Progress) -> Result<Outcome> {
     let start = Instant::now();
+    let (settled, forms) = forms::settled(resolved)?;
+    let resolved = settled.as_ref();
     let plan = plan_of(resolved, &settings.program)?;
-    let forms = forms::of(&resolved.species)?;
     let shards = plan.shards();
     let pool = pool(settings.threads)?;
     let folder = RunFolder::create(&settings.folder, plan, settings.mode)?;

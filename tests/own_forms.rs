@@ -46,11 +46,13 @@ fn leaves_are_drawn_with_the_mesh_and_a_run_knows_it_again() {
     assert!(
         inputs.iter().any(|input| input["path"] == "forms/kite.obj" && input["sha256"].as_str().unwrap().len() == 64)
     );
+    // The kite fills half of its box, which the species leaves to the mesh.
+    assert_eq!(report["resolved_scenario"]["species"]["order"][0]["leaf"]["area_share"], 0.5);
     here(&["mesh", "runs/kite", "--out", "again.ply"]).ending(0);
     let drawn = fs::read(folder.path().join("runs/kite/meshes/plant-00000_age-0003.ply")).unwrap();
     assert_eq!(drawn, fs::read(folder.path().join("again.ply")).unwrap());
     // Three tubes of 34 vertices and 28 triangles, three leaves of four and two.
-    let head = String::from_utf8_lossy(&drawn[..600]).into_owned();
+    let head = String::from_utf8_lossy(&drawn[..800]).into_owned();
     assert!(head.contains("element vertex 114\n") && head.contains("element face 90\n"), "{head}");
     here(&["picture", "runs/kite", "--out", "kite.png", "--size", "80x60"]).ending(0);
     fs::write(folder.path().join("forms/kite.obj"), KITE.replace("v 3", "v 4")).unwrap();

@@ -284,6 +284,15 @@ impl Model {
         }
     }
 
+    /// States the area share of leaves that are drawn with a mesh of the user's and state none, as `share` tells it by the
+    /// mesh's number. Whether there is any such leaf; the model is then to be compiled again.
+    pub fn state_area_shares(&mut self, share: impl Fn(usize) -> Option<f64>) -> bool {
+        match self {
+            Model::Buds(buds) => buds.state_area_shares(share),
+            Model::Gmt1(_) => false,
+        }
+    }
+
     fn to_json(&self) -> serde_json::Result<Json> {
         match self {
             Model::Buds(buds) => serde_json::to_value(buds),

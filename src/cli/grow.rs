@@ -74,7 +74,7 @@ impl Grow {
             Ok(resolved) => resolved,
             Err(report) => return refuse(&report, self.json),
         };
-        if let Err(faults) = forms::read(&resolved.species) {
+        if let Err(faults) = forms::settle(&mut resolved) {
             return refuse(&resolved.report(faults), self.json);
         }
         self.override_scenario(&mut resolved)?;

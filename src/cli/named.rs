@@ -46,16 +46,19 @@ pub fn find(name: &str) -> std::result::Result<Named, Report> {
         return Ok(Named::Run(folder));
     }
     if kind_of(name) == Kind::Scenario {
-        let scenario = validate(name)?;
-        return match forms::read(&scenario.species) {
+        let mut scenario = validate(name)?;
+        return match forms::settle(&mut scenario) {
             Ok(_) => Ok(Named::Scenario(Box::new(scenario))),
             Err(faults) => Err(scenario.report(faults)),
         };
     }
     let species = validate_species(name, SPECIES_ALONE_UNTIL);
-    let species = species.map_err(|report| if is_unknown(&report) { unknown(name, report) } else { report })?;
+    let mut species = species.map_err(|report| if is_unknown(&report) { unknown(name, report) } else { report })?;
     match forms::read(&species.species) {
-        Ok(_) => Ok(Named::Species(Box::new(species))),
+        Ok(forms) => {
+            forms::state_shares(&mut species.species, &forms);
+            Ok(Named::Species(Box::new(species)))
+        }
         Err(faults) => Err(species.report(faults)),
     }
 }

@@ -9,7 +9,7 @@ use anyhow::Result;
 use phytomer_config::{Scenario, Species};
 use phytomer_sim::mechanics::Bench;
 use phytomer_sim::mechanics::sway::sway;
-use phytomer_sim::plant::{Kind, NodeId, Plant};
+use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
 use phytomer_sim::shed::shed;
 use phytomer_sim::site::Wind;
 use phytomer_sim::{Ending, Growth, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
@@ -115,10 +115,21 @@ fn year_of(species: &Species) -> Tick {
 fn prime_of(plant: &Plant, last: Tick, year: Tick) -> Tick {
     let (organs, nodes) = (&plant.organs, &plant.nodes);
     let leaves = (0..organs.len()).filter(|&k| organs.kind[k] == Kind::Leaf);
-    let areas = leaves.map(|k| (organs.birth[k], organs.death[k], f64::from(organs.area[k])));
+    let areas = leaves.flat_map(|k| areas_of(plant, OrganId(k as u32)));
     let stems = (0..nodes.len()).map(|k| (nodes.birth[k], plant.death_of(NodeId(k as u32)), 1.0));
     let count = organs.birth.iter().zip(&organs.death).map(|(birth, death)| (*birth, *death, 1.0)).chain(stems);
     last_of_most(areas, last, year).or_else(|| last_of_most(count, last, year)).unwrap_or(last)
+}
+
+/// The area of a leaf while it expands and until its death, tick by tick and then at once.
+fn areas_of(plant: &Plant, leaf: OrganId) -> impl Iterator<Item = (Tick, Tick, f64)> {
+    let (birth, death) = (plant.organs.birth[leaf.index()], plant.organs.death[leaf.index()]);
+    let last = plant.look_of_organ(leaf).map_or(0, |look| look.expansion.len().saturating_sub(1) as Tick);
+    (0..=last).map(move |own_age| {
+        let from = birth.saturating_add(own_age);
+        let until = if own_age < last { death.min(from.saturating_add(1)) } else { death };
+        (from, until, plant.organ_area(leaf, from))
+    })
 }
 
 /// The last year in which the weights of what lives, from a birth until before a death, come to nine tenths of their largest

@@ -1,14 +1,15 @@
 //! The meshes of the user's that a species names as forms: read once for a run, told where they stand when they are none.
 //!
-//! Their hashes are among the inputs of a run, so that a plant is drawn again with the same triangles or not at all.
-//! Absent: what a mesh file may hold, which is `phytomer_outputs::meshes`'.
+//! Where a leaf states no area its mesh does. Their hashes are among the inputs of a run, so that a plant is drawn again with
+//! the same triangles or not at all. Absent: what a mesh file may hold, which is `phytomer_outputs::meshes`'.
 
 use anyhow::{Context, Result, ensure};
-use phytomer_config::Species;
+use phytomer_config::{Resolved, Species};
 use phytomer_models::fault::{Fault, Path};
 use phytomer_outputs::meshes::{OwnForms, check_form};
 use phytomer_outputs::{Input, read::Run};
 use sha2::{Digest, Sha256};
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, Read};
 use std::sync::Arc;
@@ -52,15 +53,53 @@ fn bytes_of(name: &str) -> io::Result<Vec<u8>> {
     if bytes.len() as u64 > MOST_BYTES { Err(io::Error::other("it is longer than 16 MiB")) } else { Ok(bytes) }
 }
 
-/// The same for a species that was checked before.
+/// Reads the forms of a scenario's species, and states the area share that their meshes have where leaves state none: a
+/// run's `run.json` tells it from then on.
+///
+/// # Errors
+/// As [`read`].
+pub fn settle(resolved: &mut Resolved) -> Result<Arc<OwnForms>, Vec<Fault>> {
+    let forms = read(&resolved.species)?;
+    if state_shares(&mut resolved.species, &forms) {
+        resolved.model = resolved.species.model.compile(resolved.scenario.ages.until)?;
+    }
+    Ok(forms)
+}
+
+/// States the area share that its own meshes have where leaves state none; whether there is any, so that the species is
+/// to be compiled again.
+pub fn state_shares(species: &mut Species, forms: &OwnForms) -> bool {
+    species.model.state_area_shares(|place| forms.area_share(place))
+}
+
+/// The same for a scenario that was checked before: the scenario as it is grown, and its forms.
+///
+/// # Errors
+/// The first of its faults.
+pub fn settled(resolved: &Resolved) -> Result<(Cow<'_, Resolved>, Arc<OwnForms>)> {
+    let forms = of(&resolved.species)?;
+    let mut species = resolved.species.clone();
+    if !state_shares(&mut species, &forms) {
+        return Ok((Cow::Borrowed(resolved), forms));
+    }
+    let mut settled = resolved.clone();
+    let forms = settle(&mut settled).map_err(first)?;
+    Ok((Cow::Owned(settled), forms))
+}
+
+/// The forms of a species that was checked before.
 ///
 /// # Errors
 /// The first of its faults.
 pub fn of(species: &Species) -> Result<Arc<OwnForms>> {
-    read(species).map_err(|faults| match faults.into_iter().next() {
+    read(species).map_err(first)
+}
+
+fn first(faults: Vec<Fault>) -> anyhow::Error {
+    match faults.into_iter().next() {
         Some(fault) => anyhow::Error::new(fault),
         None => anyhow::anyhow!("the meshes of the species cannot be read"),
-    })
+    }
 }
 
 /// The files as inputs of a run.

@@ -69,7 +69,7 @@ fn facts(plant: &Plant) -> BTreeMap<LineageKey, Facts> {
         of.extend([axes.apex_fate[a] as u32, axes.spent[a], axes.death[a], axes.shed[a]]);
         of.extend([axes.azimuth[a].to_bits(), axes.insertion[a].to_bits(), axes.shed_after[a]]);
         let own_trends = plant.own_trends.of(AxisId(a as u32)).unwrap_or_default();
-        of.extend(own_trends.iter().flat_map(|t| [t.cos_inclination, t.sin_inclination, t.share].map(f32::to_bits)));
+        of.extend(own_trends.iter().flat_map(|t| [t.inclination as f32, t.share as f32].map(f32::to_bits)));
         facts.insert(axes.key[a], (key_of(axes.bearer[a]), of));
     }
     for n in 0..nodes.len() {

@@ -325,7 +325,7 @@ fn organs_turn_by_their_own_age_and_others_do_not() {
     let habit = hydra().compile(9, &Path::root()).unwrap().habit();
     let leaf = habit.organ_trend(1, Kind::Leaf).unwrap();
     assert_eq!(leaf.shares, [0.0, 0.25, 0.5, 0.75, 1.0], "ages past the last are as the last");
-    assert!((f64::from(leaf.cos_inclination) + 0.75_f64.sqrt()).abs() < 1e-6, "150 degrees");
+    assert!((leaf.inclination.to_degrees() - 150.0).abs() < 1e-6);
     assert_eq!(habit.organ_trend(2, Kind::Fruit).unwrap().shares, [1.0]);
     assert_eq!(habit.organ_trend(1, Kind::Flower), None);
     assert!(habit.faces_the_sky(1, Kind::Leaf) && !habit.faces_the_sky(1, Kind::Fruit));

@@ -54,7 +54,7 @@ struct Numbers {
 
 /// A species in which each of the numbers is written as `n` says.
 fn species(n: &Numbers) -> Buds {
-    let leaf = Leaf { area_share: (n.measure)(0.65), ..Leaf::default() };
+    let leaf = Leaf { area_share: Some((n.measure)(0.65)), ..Leaf::default() };
     let divergence = Divergence { divergence_deg: (n.measure)(100.0), first_deg: (n.measure)(-20.7) };
     let phase = |rank, inclination| Phase {
         from_rank: (n.count)(rank),
@@ -171,7 +171,7 @@ fn drawn() -> Buds {
             phase(Count::from(1), uniform(40.0, 80.0), Variate::from(0.1)),
             phase(weights(&[0.0, 0.0, 1.0, 0.0, 3.0]), Variate::from(90.0), uniform(0.1, 0.3)),
         ]),
-        leaf: Leaf { area_share: uniform(0.5, 0.9), ..Leaf::default() },
+        leaf: Leaf { area_share: Some(uniform(0.5, 0.9)), ..Leaf::default() },
         ..Order::default()
     };
     let season = Some(Season { ticks_per_year: Quantity::from(6), leaf_fall: weights(&[0.0, 1.0, 0.0, 0.0, 3.0]) });
@@ -210,10 +210,9 @@ fn an_axis_draws_once_what_is_its_own() {
     assert_mean(&azimuths, 15.0, 90.0 * 90.0 / 12.0, "azimuth of the first leaf");
 
     let trends = |plant: &Plant, axis: usize| plant.own_trends.of(AxisId(axis as u32)).expect("it has drawn").to_vec();
-    let angle = |cosine: f32| phytomer_sim::math::acos(f64::from(cosine)).to_degrees();
-    let inclinations = of_axes(&|plant, axis| Some(angle(trends(plant, axis)[0].cos_inclination)));
+    let inclinations = of_axes(&|plant, axis| Some(trends(plant, axis)[0].inclination.to_degrees()));
     assert_mean(&inclinations, 60.0, 40.0 * 40.0 / 12.0, "inclination of the first phase");
-    let shares = of_axes(&|plant, axis| Some(f64::from(trends(plant, axis)[1].share)));
+    let shares = of_axes(&|plant, axis| Some(trends(plant, axis)[1].share));
     assert_mean(&shares, 0.2, 0.2 * 0.2 / 12.0, "share of the second phase");
 
     // Steps of a branch of 12 ticks: 6, 8 or 24; at each age those of its own speed.

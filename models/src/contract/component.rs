@@ -68,7 +68,7 @@ pub(super) fn numbered(plant: &Plant) -> Vec<(u32, Component)> {
 fn axis(plant: &Plant, i: usize) -> Component {
     let axes = &plant.axes;
     let own_trends = plant.own_trends.of(AxisId(i as u32)).unwrap_or_default();
-    let trends = own_trends.iter().flat_map(|trend| [trend.cos_inclination, trend.sin_inclination, trend.share]);
+    let trends = own_trends.iter().flat_map(|trend| [trend.inclination as f32, trend.share as f32]);
     let angles: Vec<f32> = [axes.azimuth[i], axes.insertion[i]].into_iter().chain(trends).collect();
     Component {
         key: axes.key[i],

@@ -1,4 +1,4 @@
-//! Measures of a mesh, for tests: closedness, signed volume, normals.
+//! Measures of a mesh, for tests: closedness, area, signed volume, normals.
 
 use super::chunk::{Face, Vertex};
 use std::collections::BTreeMap;
@@ -32,6 +32,15 @@ pub fn volume(vertices: &[Vertex], faces: &[Face]) -> f64 {
         dot(a, cross(b, c)) / 6.0
     };
     faces.iter().map(cone).sum()
+}
+
+/// The area of all triangles.
+pub fn surface(vertices: &[Vertex], faces: &[Face]) -> f64 {
+    let area = |face| {
+        let across = area_vector(vertices, face);
+        0.5 * dot(across, across).sqrt()
+    };
+    faces.iter().map(area).sum()
 }
 
 /// Each edge between two positions belongs to one triangle in each direction.

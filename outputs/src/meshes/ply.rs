@@ -1,9 +1,9 @@
 //! PLY, `binary_little_endian`: header and element definitions through ply-rs-bw, the payload in bulk.
 //!
 //! Counts go into the header, so the scene is counted first and then written in one pass. Where the payload is large,
-//! the next chunk is drawn while the last one is written: two threads, the same bytes. Comments state the unit, the
-//! plant, its age, the run's seed and the place in the plot from which the vertices are told; the file has no face
-//! properties and no edges.
+//! the next chunk is drawn while the last one is written: two threads, the same bytes. Comments state the unit, what
+//! tubes and leaves keep, the plant, its age, the run's seed and the place in the plot from which the vertices are told;
+//! the file has no face properties and no edges.
 
 use super::chunk::{Chunk, Face, Vertex};
 use super::{About, Counts, MeshWriter, Scene};
@@ -105,6 +105,8 @@ fn header(comments: Vec<String>, counts: Counts) -> Header {
         format!("phytomer {}", env!("CARGO_PKG_VERSION")),
         "unit metre, Z up".into(),
         "ages in ticks since the seed, death_age inf while the component lives".into(),
+        "tubes keep the section of their diameters and the volume of the wood".into(),
+        "leaves keep area_m2 of the tables: one side, of closed forms half the surface".into(),
     ];
     header.comments.extend(comments);
     header.elements.add(vertex_element(counts.vertices as usize));

@@ -123,7 +123,7 @@ impl<'a> Scene<'a> {
         for organ in self.organs() {
             let shape = self.shape(organ);
             let out = chunk.room::<Vertex>(shape.points.len(), sink)?;
-            shape.write(&self.placement(organ), &self.organ_tags(organ), out);
+            shape.write(&self.placement(organ, shape), &self.organ_tags(organ), out);
         }
         sink(chunk)
     }
@@ -168,7 +168,7 @@ impl<'a> Scene<'a> {
             self.organs_of(span(block - of_nodes, self.plant.organs.len())).for_each(|organ| {
                 let shape = self.shape(organ);
                 let out = appended(mesh, shape.points.len(), &shape.faces);
-                shape.write(&self.placement(organ), &self.organ_tags(organ), out);
+                shape.write(&self.placement(organ, shape), &self.organ_tags(organ), out);
             });
         }
     }
@@ -225,7 +225,7 @@ impl<'a> Scene<'a> {
         let frame = self.plant.frames.at(node);
         let nodes = &self.plant.nodes;
         let size = [nodes.length[node.index()], nodes.diameter[node.index()]];
-        Placement { base: frame.base, heading: frame.heading, up: frame.up, size }
+        Placement { base: frame.base, heading: frame.heading, up: frame.up, size, fullness: 1.0 }
     }
 
     #[inline]
@@ -237,7 +237,8 @@ impl<'a> Scene<'a> {
         Frustum { base: frame.base, heading: frame.heading, up: frame.up, length: nodes.length[node], radii }
     }
 
-    fn placement(&self, organ: OrganId) -> Placement {
+    /// Where an organ stands, how large it is at its age, and how full it is for the area that the tables state of it.
+    fn placement(&self, organ: OrganId, shape: &Shape) -> Placement {
         let frame = organ_frame(self.plant, organ, self.age);
         let organs = &self.plant.organs;
         let node = organs.node[organ.index()];
@@ -245,8 +246,10 @@ impl<'a> Scene<'a> {
         let radius = 0.5 * self.plant.nodes.diameter_tip[node.index()];
         let base = [0, 1, 2].map(|k| frame.base[k] + radius * out[k]);
         let share = self.plant.expanded(organ, self.age);
-        let size = [organs.length[organ.index()] * share, organs.width[organ.index()] * share];
-        Placement { base, heading: frame.heading, up: frame.up, size }
+        let full = [organs.length[organ.index()], organs.width[organ.index()]];
+        // It expands in proportion, so that its fullness is that of its full size.
+        let fullness = shape.fullness(full, organs.area[organ.index()]);
+        Placement { base, heading: frame.heading, up: frame.up, size: full.map(|size| size * share), fullness }
     }
 
     #[inline]

@@ -194,6 +194,10 @@ fn a_canopy_darkens_the_sky_by_beers_law() {
     assert!(falling_on(sky.at(Vec3::new(0.5, 0.5, 0.05)), Vec3::NEG_Z) < 0.05, "no light from below");
 }
 
+/// How wide an octagon is that has the area of a circle, in its diameters: √(π / (4 sin 45°)) across a corner, and across a
+/// flat that times cos 22.5°.
+const ACROSS: [f64; 2] = [0.9737, 1.0539];
+
 /// A lone internode, upright: its silhouette is a rectangle of length times diameter.
 #[test]
 fn a_tube_is_as_large_as_its_silhouette() {
@@ -202,8 +206,8 @@ fn a_tube_is_as_large_as_its_silhouette() {
     let opacity: f64 = canvas.pixels.iter().map(|pixel| f64::from(pixel[3]) / 255.0).sum();
     // The height fills the frame, which leaves 4.5 % on each side.
     let scale = 300.0 * 0.91;
-    // An inscribed octagon seen across a flat and across a corner: between cos(22.5°) and 1 of the diameter.
-    let (least, most) = (0.25 * 0.9239 * scale * scale, 0.25 * scale * scale);
+    // An octagon of the circle's area seen across a flat and across a corner.
+    let [least, most] = ACROSS.map(|share| 0.25 * share * scale * scale);
     assert!(opacity > 0.99 * least && opacity < 1.01 * most, "{opacity} of {least} to {most}");
 }
 
@@ -216,7 +220,8 @@ fn an_edge_covers_a_share_of_its_pixels() {
     let width = f64::from(row(150)) / 255.0;
     let expected = 0.25 * 300.0 * 0.91;
     // Sixteen samples a pixel tell a sixteenth on each of two edges.
-    assert!(width <= expected + 0.13 && width >= expected * 0.9239 - 0.13, "{width} of {expected}");
+    let [least, most] = ACROSS.map(|share| share * expected);
+    assert!(width <= most + 0.13 && width >= least - 0.13, "{width} of {expected}");
     assert!((20..280).all(|y| row(y).abs_diff(row(150)) <= 2 * 16));
     let partial = (0..300).filter(|x| !matches!(canvas.at(*x, 150)[3], 0 | 255)).count();
     assert!(partial <= 2, "only edges are half covered");

@@ -162,7 +162,7 @@ pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
         "alive",
         "Whether the component lives. False for dead wood that still stands alone: between its branch's death and its fall.",
     ),
-    Column::float("wood_volume_m3", "m3", "The frustum of an internode at this age; 0 for a blade. Null for organs and buds.").or_null(),
+    Column::float("wood_volume_m3", "m3", "The frustum of an internode at this age, of a blade its area by its thickness. Null for organs and buds.").or_null(),
     Column::float(
         "fresh_mass_kg",
         "kg",
@@ -301,7 +301,7 @@ pub static SUMMARY: [Column; 18] = [
     Column::double(
         "wood_volume_m3",
         "m3",
-        "The frusta of the internodes that stand, living and dead; blades have none.",
+        "The volume of the internodes that stand, living and dead: frusta, and of blades their area by their thickness.",
     ),
     Column::truth(
         "alive",

@@ -200,7 +200,7 @@ impl<'a> Scene<'a> {
             length: organs.length[i] * share,
             diameter: organs.width[i] * share,
             diameter_tip: f32::NAN,
-            area: area_of(organs.area[i] * share * share),
+            area: area_of(self.plant.organ_area(organ, self.age)),
             alive: true,
         }
     }

@@ -111,8 +111,7 @@ fn count_organs(plant: &Plant, age: Tick, summary: &mut Summary) {
         }
         let kind = organs.kind[organ];
         if kind.is_foliage() {
-            let share = f64::from(plant.expanded(OrganId(organ as u32), age));
-            summary.leaf_area += f64::from(organs.area[organ]) * share * share;
+            summary.leaf_area += plant.organ_area::<f64>(OrganId(organ as u32), age);
         }
         summary.leaves += u32::from(kind == Kind::Leaf);
         summary.flowers += u32::from(kind.class() == Class::Flower);

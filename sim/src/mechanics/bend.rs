@@ -6,8 +6,9 @@
 //! It is found by Newton steps: moments and answers from the tips down (`loads`), curvatures and pose from the base up
 //! (`turn`).
 
-use super::loads::{Load, Response, Scan, second_moment};
+use super::loads::{Load, Response, Scan};
 use super::secondary::Above;
+use super::section::Section;
 use super::turn::{Kept, Turned};
 use super::uprighting::straighten;
 use super::wood::Wood;
@@ -140,8 +141,9 @@ impl Bench {
     fn freeze(&mut self, plant: &mut Plant, wood: &Wood, age: Tick) {
         self.natural = std::mem::take(&mut plant.strain.moment);
         each_flexural(plant, wood, age, &self.standing, |node, flexural| {
-            let (curvature, moment, pliancy) = (plant.strain.curvature[node], self.natural[node], 1.0 / flexural);
-            let natural = |k: usize| (f64::from(curvature[k]) - f64::from(moment[k]) * pliancy) as f32;
+            let (curvature, moment) = (plant.strain.curvature[node], self.natural[node]);
+            let pliancy = flexural.map(|flexural| 1.0 / flexural);
+            let natural = |k: usize| (f64::from(curvature[k]) - f64::from(moment[k]) * pliancy[k]) as f32;
             self.natural[node] = [natural(0), natural(1)];
         });
     }
@@ -150,22 +152,24 @@ impl Bench {
     fn load(&mut self, plant: &mut Plant, wood: &Wood, age: Tick) {
         each_flexural(plant, wood, age, &self.standing, |node, flexural| {
             let (curvature, natural) = (plant.strain.curvature[node], self.natural[node]);
-            let moment = |k: usize| ((f64::from(curvature[k]) - f64::from(natural[k])) * flexural) as f32;
+            let moment = |k: usize| ((f64::from(curvature[k]) - f64::from(natural[k])) * flexural[k]) as f32;
             self.natural[node] = [moment(0), moment(1)];
         });
         plant.strain.moment = std::mem::take(&mut self.natural);
     }
 }
 
-/// Shows each internode that bends, with its flexural stiffness E I, N·m².
+/// Shows each internode that bends, with its flexural stiffness E I about `up` and about `heading × up`, N·m².
 #[inline]
-fn each_flexural(plant: &Plant, wood: &Wood, age: Tick, standing: &Standing, mut show: impl FnMut(usize, f64)) {
+fn each_flexural(plant: &Plant, wood: &Wood, age: Tick, standing: &Standing, mut show: impl FnMut(usize, [f64; 2])) {
     for run in &standing.runs {
         let tissue = wood.tissue(plant.axes.order[run.axis.index()]);
+        let section = Section::of(plant.look_of(run.axis));
         for node in run.nodes() {
             let middle = f64::from(plant.nodes.diameter[node] + plant.nodes.diameter_tip[node]) * 0.5;
-            let flexural = tissue.modulus(age - plant.nodes.birth[node]) * second_moment(middle);
-            if flexural > 0.0 {
+            let modulus = tissue.modulus(age - plant.nodes.birth[node]);
+            let flexural = section.second_moments(middle).map(|moment| modulus * moment);
+            if flexural[0] > 0.0 && flexural[1] > 0.0 {
                 show(node, flexural);
             }
         }

@@ -14,11 +14,12 @@
 //! solution is exact in a vertical plane and nearly so in space, where a second term ℓ (Φ·F) is left out, as is torsion.
 //! The pivot of the elimination is the stiffness that is left under load: where it is not positive the plant buckles.
 
-use super::wood::{Wood, frustum};
+use super::section::Section;
+use super::wood::Wood;
 use crate::clock::Tick;
 use crate::plant::borne::{Borne, Down};
 use crate::plant::standing::{Run, Standing};
-use crate::plant::{AxisId, OrganId, Plant, Shape};
+use crate::plant::{AxisId, OrganId, Plant};
 use crate::site::Fields;
 use crate::vector::Vector;
 
@@ -118,8 +119,9 @@ struct Piece {
     length: f64,
     heading: Vector,
     foot: Vector,
-    /// Diameters at the base, in the middle and at the tip, m.
+    /// Diameters, of a blade widths, at the base, in the middle and at the tip, m.
     diameters: [f64; 3],
+    section: Section,
     density: f64,
 }
 
@@ -138,7 +140,8 @@ impl Piece {
     fn pass<const WINDY: bool>(&self, load: &mut Load, fields: &Fields) -> Felt {
         let [base, middle, tip] = self.diameters;
         let half = 0.5 * self.length;
-        let (outer, inner) = (self.density * frustum(half, middle, tip), self.density * frustum(half, base, middle));
+        let mass = |base, tip| self.density * self.section.volume(half, base, tip);
+        let (outer, inner) = (mass(middle, tip), mass(base, middle));
         let place = |share: f64| self.foot + self.heading * (share * self.length);
         let beyond = load.mass;
         load.put(place(0.75), outer);
@@ -202,7 +205,7 @@ impl Scan<'_> {
     fn weigh_run<const WINDY: bool>(&mut self, run: &Run, laterals: &mut Down<'_>, organs: &mut Down<'_>) -> bool {
         let tissue = self.wood.tissue(self.plant.axes.order[run.axis.index()]);
         let mut load = self.loads[run.axis.index()];
-        let heavy = f64::from(u8::from(self.plant.look_of(run.axis).shape != Shape::Blade));
+        let section = Section::of(self.plant.look_of(run.axis));
         let mut holds = true;
         for node in run.nodes().rev() {
             while let Some(axis) = laterals.on(node) {
@@ -212,11 +215,12 @@ impl Scan<'_> {
                 self.hang(&mut load, node, organ);
             }
             let own_age = self.age - self.plant.nodes.birth[node];
-            let piece = self.piece(node, heavy * tissue.density(own_age));
+            let piece = self.piece(node, section, tissue.density(own_age));
             let felt = piece.pass::<WINDY>(&mut load, &self.fields);
-            let flexural = tissue.modulus(own_age) * second_moment(piece.diameters[1]);
+            let modulus = tissue.modulus(own_age);
+            let flexural = section.second_moments(piece.diameters[1]).map(|moment| modulus * moment);
             let answered;
-            (load, answered) = self.answer(load, node, &felt, flexural, flexural / piece.length);
+            (load, answered) = self.answer(load, node, &felt, flexural, piece.length);
             holds &= answered;
         }
         self.loads[run.axis.index()] = load;
@@ -234,13 +238,12 @@ impl Scan<'_> {
         let along = Vector::from(frames.heading[node]) * f64::from(self.plant.nodes.length[node]);
         let at = Vector::from(frames.base[node]) + along;
         load.put(at, self.wood.organs.of(self.plant, organ, self.age));
-        let share = f64::from(self.plant.expanded(OrganId(organ as u32), self.age));
-        let area = f64::from(organs.area[organ]) * share * share;
+        let area: f64 = self.plant.organ_area(OrganId(organ as u32), self.age);
         load.sail.put(at * area, area);
     }
 
     #[inline]
-    fn piece(&self, node: usize, density: f64) -> Piece {
+    fn piece(&self, node: usize, section: Section, density: f64) -> Piece {
         let Plant { nodes, frames, .. } = self.plant;
         let (base, tip) = (f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]));
         Piece {
@@ -248,15 +251,18 @@ impl Scan<'_> {
             heading: Vector::from(frames.heading[node]),
             foot: Vector::from(frames.base[node]),
             diameters: [base, 0.5 * (base + tip), tip],
+            section,
             density,
         }
     }
 
-    /// How an internode of this flexural stiffness, N·m², and this stiffness, N·m/rad, answers; and whether it
-    /// holds. Inlined, so that loads stay in registers.
+    /// How an internode of this flexural stiffness about `up` and about `heading × up`, N·m², answers; and whether it
+    /// holds. A blade is far stiffer about `up`; what turns with its base is taken for the other, weaker axis, which slows
+    /// the steps where a blade stands on edge and leaves the equilibrium as it is. Inlined, so that loads stay in registers.
     #[inline(always)]
-    fn answer(&mut self, mut load: Load, node: usize, felt: &Felt, flexural: f64, stiffness: f64) -> (Load, bool) {
+    fn answer(&mut self, mut load: Load, node: usize, felt: &Felt, flexural: [f64; 2], length: f64) -> (Load, bool) {
         let Felt { moment, near, whole } = *felt;
+        let stiffness = flexural[1] / length;
         if !(stiffness.is_finite() && stiffness > 0.0) {
             // No length, or nothing that bends: it goes with its base.
             load.follows += whole;
@@ -270,23 +276,18 @@ impl Scan<'_> {
         let (heading, up) = (Vector::from(frames.heading[node]), Vector::from(frames.up[node]));
         let axes = [up, heading.cross(up)];
         let (curvature, natural, per_pivot) = (strain.curvature[node], self.natural[node], 1.0 / pivot);
+        let stiffer = (flexural[0] - flexural[1]) / length;
+        let per_pivot = [if stiffer == 0.0 { per_pivot } else { 1.0 / (pivot + stiffer) }, per_pivot];
         let moment = moment + load.moves;
         let answer = |k: usize| {
             let excess = f64::from(curvature[k]) - f64::from(natural[k]);
-            ((moment.dot(axes[k]) - flexural * excess) * per_pivot).clamp(-MOST_TURN, MOST_TURN)
+            ((moment.dot(axes[k]) - flexural[k] * excess) * per_pivot[k]).clamp(-MOST_TURN, MOST_TURN)
         };
         let turn = [answer(0), answer(1)];
-        let gain = (stiffness + 0.5 * near) * per_pivot;
+        let gain = (stiffness + 0.5 * near) * per_pivot[1];
         load.moves = load.moves + (axes[0] * turn[0] + axes[1] * turn[1]) * past;
         load.follows = if holds { past * gain + 0.5 * whole } else { 0.0 };
         self.responses[node] = Response { gain: gain as f32, turn: [turn[0] as f32, turn[1] as f32] };
         (load, holds)
     }
-}
-
-/// π d⁴ / 64, m⁴.
-#[inline]
-pub(super) fn second_moment(diameter: f64) -> f64 {
-    let square = diameter * diameter;
-    std::f64::consts::PI / 64.0 * square * square
 }

@@ -9,6 +9,7 @@
 mod bend;
 mod loads;
 mod secondary;
+mod section;
 mod strain;
 pub mod sway;
 mod turn;

@@ -4,7 +4,8 @@
 //! - The pipe model (Shinozaki et al. 1964): each leaf above adds a pipe of one section. Pipes stay in the wood when
 //!   their leaves fall.
 //! - Da Vinci's rule (Prusinkiewicz & Lindenmayer 1990 §2, "da Vinci's postulate"): at a fork d^Δ is the sum of d^Δ above.
-//! - Rings: each tick adds a ring of one width, or a section in proportion to the foliage above (Pressler's law).
+//! - Rings: each tick adds a ring of one width, or a section in proportion to the foliage above (Pressler's law), as far as
+//!   its leaves have expanded.
 //!
 //! Fallen branches count on in what lay below them: wood does not vanish. Absent: heartwood, and growth that differs
 //! around the stem.
@@ -12,7 +13,7 @@
 use super::bend::Bench;
 use crate::clock::Tick;
 use crate::math::pow;
-use crate::plant::{NodeId, Plant, Shape};
+use crate::plant::{NodeId, OrganId, Plant, Shape};
 use std::f64::consts::PI;
 
 /// How the internodes of a species gain diameter.
@@ -60,7 +61,8 @@ pub fn thicken(plant: &mut Plant, age: Tick, rule: Thickening, bench: &mut Bench
         }
         Thickening::DaVinci { exponent } => join_forks(plant, age, above, exponent),
         Thickening::Rings { width, per_foliage } => {
-            count_leaves(plant, age, above, |area, lives| if lives { per_foliage * area } else { 0.0 });
+            let area = |leaf| plant.organ_area::<f64>(leaf, age);
+            count_leaves(plant, age, above, |leaf, lives| if lives { per_foliage * area(leaf) } else { 0.0 });
             downwards(plant, age, above, |plant, node, above| {
                 let diameter = plant.nodes.diameter[node];
                 let grows = plant.nodes.birth[node] < age && age < plant.death_of(NodeId(node as u32));
@@ -79,11 +81,11 @@ pub(super) struct Above {
     branches: u32,
 }
 
-/// Enters what each leaf that has appeared by `age` is worth at its node, by its area and whether it lives.
-fn count_leaves(plant: &Plant, age: Tick, above: &mut [Above], worth: impl Fn(f64, bool) -> f64) {
+/// Enters what each leaf that has appeared by `age` is worth at its node, by itself and whether it lives.
+fn count_leaves(plant: &Plant, age: Tick, above: &mut [Above], worth: impl Fn(OrganId, bool) -> f64) {
     let organs = &plant.organs;
     for organ in (0..organs.len()).filter(|&organ| organs.kind[organ].is_foliage() && organs.birth[organ] <= age) {
-        above[organs.node[organ].index()].sum += worth(f64::from(organs.area[organ]), organs.death[organ] > age);
+        above[organs.node[organ].index()].sum += worth(OrganId(organ as u32), organs.death[organ] > age);
     }
 }
 

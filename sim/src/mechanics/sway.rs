@@ -8,6 +8,7 @@
 //! Absent: leaves that flutter, vortices, and any trace in the growth of the plant.
 
 use super::bend::Bench;
+use super::section::Section;
 use super::wood::{Wood, wood_volume};
 use crate::clock::Tick;
 use crate::math::{exp, sincos};
@@ -105,13 +106,14 @@ pub fn frequencies(plant: &Plant, wood: &Wood, age: Tick) -> Vec<f64> {
     axes.iter().map(Beam::frequency).collect()
 }
 
-/// An axis as a clamped cylinder.
+/// An axis as a clamped cylinder; of a blade, as the cylinder that bends as it does out of its plane.
 #[derive(Debug, Clone, Copy, Default)]
 struct Beam {
     length: f64,
     volume: f64,
     /// Of its wood and all that it carries, kg.
     mass: f64,
+    /// At its base, of a round stem with the radius of gyration of its section, m.
     diameter: f64,
     modulus: f64,
 }
@@ -121,7 +123,8 @@ impl Beam {
         let own_age = age - plant.nodes.birth[node];
         let tissue = wood.tissue(plant.axes.order[plant.nodes.axis[node].index()]);
         if self.length == 0.0 {
-            self.diameter = f64::from(plant.nodes.diameter[node]);
+            let section = Section::of(plant.look_of(plant.nodes.axis[node]));
+            self.diameter = section.gyration(f64::from(plant.nodes.diameter[node]));
             self.modulus = tissue.modulus(own_age);
         }
         let volume = wood_volume(plant, NodeId(node as u32));

@@ -8,8 +8,8 @@
 
 use super::wood::{Uprighting, Wood};
 use crate::clock::Tick;
-use crate::plant::Plant;
 use crate::plant::standing::Standing;
+use crate::plant::{Plant, Shape};
 use crate::vector::Vector;
 
 /// Adds what this tick's righting changes to the curvatures without load. `before` holds the diameters of the last
@@ -28,6 +28,8 @@ pub(super) fn straighten(
         if !uprighting.acts() || plant.axes.death[axis] <= age {
             continue;
         }
+        // A blade has no rings.
+        let before = if plant.look_of(run.axis).shape == Shape::Blade { &[] } else { before };
         for node in run.nodes() {
             let gain = gained(plant, uprighting, age, before, node);
             if gain != 0.0 {

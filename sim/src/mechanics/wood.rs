@@ -5,8 +5,9 @@
 //! the species file, and the equations that use them.
 
 use super::secondary::Thickening;
+use super::section::Section;
 use crate::clock::Tick;
-use crate::plant::{Class, NodeId, OrganId, Plant, Shape};
+use crate::plant::{Class, NodeId, OrganId, Plant};
 use crate::site::Fields;
 
 /// The mechanical side of a species.
@@ -132,13 +133,13 @@ impl OrganMass {
     #[inline]
     pub fn of(&self, plant: &Plant, organ: usize, age: Tick) -> f64 {
         let organs = &plant.organs;
-        let share = f64::from(plant.expanded(OrganId(organ as u32), age));
         let ellipsoid = || {
+            let share = f64::from(plant.expanded(OrganId(organ as u32), age));
             let (length, width) = (share * f64::from(organs.length[organ]), share * f64::from(organs.width[organ]));
             std::f64::consts::PI / 6.0 * length * width * width
         };
         match organs.kind[organ].class() {
-            Class::Leaf => f64::from(self.leaf) * f64::from(organs.area[organ]) * share * share,
+            Class::Leaf => f64::from(self.leaf) * plant.organ_area::<f64>(OrganId(organ as u32), age),
             Class::Flower => f64::from(self.flower) * ellipsoid(),
             Class::Fruit => f64::from(self.fruit) * ellipsoid(),
             Class::Internode | Class::Bud => 0.0,
@@ -146,19 +147,11 @@ impl OrganMass {
     }
 }
 
-/// The volume of an internode as the frustum of its two diameters, m³; 0 for a blade.
+/// The volume of an internode, m³: the frustum of its two diameters, or of a blade its mean width by its thickness.
 #[inline]
 pub fn wood_volume(plant: &Plant, node: NodeId) -> f64 {
     let nodes = &plant.nodes;
     let node = node.index();
-    if plant.look_of(nodes.axis[node]).shape == Shape::Blade {
-        return 0.0;
-    }
-    frustum(f64::from(nodes.length[node]), f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]))
-}
-
-/// π L / 12 (d₁² + d₁d₂ + d₂²).
-#[inline]
-pub(super) fn frustum(length: f64, base: f64, tip: f64) -> f64 {
-    std::f64::consts::PI / 12.0 * length * (base * base + base * tip + tip * tip)
+    let section = Section::of(plant.look_of(nodes.axis[node]));
+    section.volume(f64::from(nodes.length[node]), f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]))
 }

@@ -215,6 +215,25 @@ impl Form {
         })
     }
 
+    /// In the order of the library.
+    #[rustfmt::skip]
+    const AREA_SHARES: [f32; Self::LIBRARY.len()] = [
+        0.6006, 0.5758, 0.4394, 0.6403, 0.2891, 0.6385, 1.1445, 1.0515, 0.5839, 0.5124,
+        0.4273, 0.6789, 0.7133, 0.7252, 0.4874, 0.3168, 0.7536, 0.3614, 0.6485, 0.8081,
+        0.8031, 0.5258, 0.8287, 0.3697, 1.3364, 0.9288, 0.6592, 1.1880, 0.9367, 1.4961,
+        1.2641, 1.1557, 0.7702, 0.5326, 0.2774, 1.2938, 0.8898,
+    ];
+
+    /// The area of one side as a share of length × width, of an organ half as wide as long: that of its triangles, of a
+    /// closed form half of it. `phytomer_outputs::meshes` holds the triangles, and a test that they have these areas. Of a
+    /// mesh of the user's, whose own share is known where the mesh is read, that of a broad blade.
+    pub const fn area_share(self) -> f32 {
+        match self {
+            Self::Own(_) => Self::AREA_SHARES[0],
+            form => Self::AREA_SHARES[form.number()],
+        }
+    }
+
     /// What it looks like, in a few words.
     pub const fn words(self) -> &'static str {
         match self {

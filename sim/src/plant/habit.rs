@@ -7,31 +7,27 @@ use super::axis::AxisId;
 use super::kind::{Class, Kind};
 use super::look::Looks;
 use crate::clock::Tick;
-use crate::math;
 use crate::mechanics::{Thickening, Wood};
 use std::ops::Range;
 
 /// The direction that an axis tends to, and how fast it turns there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trend {
-    /// Cosine of the angle between the direction tended to and the upward vertical: 1 orthotropic, 0 plagiotropic.
-    pub cos_inclination: f32,
-    /// Sine of the same angle.
-    pub sin_inclination: f32,
-    /// The share of the way to that direction that each internode turns, in [0, 1]; 0 keeps the axis straight.
-    pub share: f32,
+    /// The angle between the direction tended to and the upward vertical, radians in [0, π]: 0 orthotropic, π/2
+    /// plagiotropic.
+    pub inclination: f64,
+    /// The share of the angle to that direction that each internode turns, in [0, 1]; 0 keeps the axis straight.
+    pub share: f64,
 }
 
 impl Trend {
     /// An axis that keeps the direction of its insertion.
-    pub const STRAIGHT: Self = Self { cos_inclination: 1.0, sin_inclination: 0.0, share: 0.0 };
+    pub const STRAIGHT: Self = Self { inclination: 0.0, share: 0.0 };
 
     /// The angle to the upward vertical that the axis tends to, degrees: 0 orthotropic, 90 plagiotropic. `None` where it
-    /// tends nowhere.
+    /// tends nowhere. To a thousandth of a degree.
     pub fn inclination_deg(&self) -> Option<f32> {
-        let angle = math::atan2(f64::from(self.sin_inclination), f64::from(self.cos_inclination));
-        // Sine and cosine have 24 bits: a thousandth of a degree is what they hold.
-        let thousandths = (angle * 180_000.0 / std::f64::consts::PI).round();
+        let thousandths = (self.inclination * 180_000.0 / std::f64::consts::PI).round();
         (self.share > 0.0).then_some((thousandths / 1000.0) as f32)
     }
 }
@@ -40,11 +36,9 @@ impl Trend {
 /// inflorescences that stand upright.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OrganTrend {
-    /// Cosine of the angle between the direction tended to and the upward vertical.
-    pub cos_inclination: f32,
-    /// Sine of the same angle.
-    pub sin_inclination: f32,
-    /// The share of the way to that direction that an organ has turned from its insertion, in [0, 1], by its own age in
+    /// The angle between the direction tended to and the upward vertical, radians in [0, π].
+    pub inclination: f64,
+    /// The share of the angle to that direction that an organ has turned from its insertion, in [0, 1], by its own age in
     /// ticks; ages past the last are as the last.
     pub shares: Vec<f32>,
 }
@@ -54,7 +48,7 @@ impl OrganTrend {
     #[inline]
     pub fn at(&self, old: Tick) -> Trend {
         let share = self.shares.get(old as usize).or(self.shares.last()).copied().unwrap_or(0.0);
-        Trend { cos_inclination: self.cos_inclination, sin_inclination: self.sin_inclination, share }
+        Trend { inclination: self.inclination, share: f64::from(share) }
     }
 }
 
@@ -78,7 +72,7 @@ pub enum Shape {
     Cylinder,
     /// The tip has the diameter of the base of the internode that follows it on its axis.
     Cone,
-    /// A plane blade as wide as the diameter, its tip as wide as the internode that follows; no wood is in it.
+    /// A plane blade as wide as the diameter, its tip as wide as the internode that follows, of the thickness of its look.
     Blade,
 }
 

@@ -30,6 +30,8 @@ pub struct InternodeLook {
     pub kind: Kind,
     /// Their shape.
     pub shape: Shape,
+    /// The thickness of those that are blades, m.
+    pub thickness: f32,
     /// The sides of their tubes; left out: as many as the mesh has.
     pub sides: Option<u8>,
     /// The form that they are drawn with, of their length and their diameter, where they are no tubes.
@@ -86,10 +88,13 @@ pub struct OrganLook {
 }
 
 impl InternodeLook {
+    /// The thickness of blades of which none is stated, m; assumed: petals and laminae are of 0.1 to 0.5 mm.
+    pub const BLADE_THICKNESS: f32 = 0.0003;
+
     /// A tube of a shape, and nothing else stated.
     pub const fn of_shape(shape: Shape) -> Self {
         let bark = Bark { shoot: None, young: None, old: None, dead: None, forms_in: None, darkens_in: None };
-        Self { kind: Kind::Internode, shape, sides: None, form: None, bark }
+        Self { kind: Kind::Internode, shape, thickness: Self::BLADE_THICKNESS, sides: None, form: None, bark }
     }
 
     /// The kind of one of them.

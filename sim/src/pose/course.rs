@@ -1,22 +1,19 @@
 //! The course of one axis towards its trend: our reading of de Reffye 1988 §4, Fig. 15, which shows the smoothed axis
 //! and prints no formula.
 //!
-//! With q the share of an internode, its heading is h' = (1 − q) h + q t, made a unit vector, where the trend t is
-//! cos ι · Z + sin ι · (the horizontal direction of h) for the inclination ι from the vertical: a geometric relaxation,
-//! in which a small angle to the trend shrinks by 1 − q an internode. h' lies in the vertical plane of h, so an axis has
-//! one plane: its heading is z · Z + r · e with a fixed horizontal e, and `up`, carried along by parallel transport,
-//! keeps its two components in the plane and across it. One square root an internode, no trigonometry.
+//! With q the share of an internode and θ the angle of its heading to the upward vertical, θ' = ι + (1 − q)(θ − ι) for the
+//! inclination ι that the axis tends to: after n internodes (1 − q)ⁿ of the first angle is left, whatever the angle. The
+//! axis turns in the vertical plane of its heading, so it has one plane: its heading is cos θ · Z + sin θ · e with a fixed
+//! horizontal e, and `up`, carried along by parallel transport, keeps its two components in the plane and across it. An
+//! axis that stands upright or hangs has no horizontal direction of its own and turns towards that of its `up`.
 
 use super::Frame;
+use crate::math::{half_turn_of, sincos_half_turn};
 use crate::plant::Trend;
 use crate::vector::Vector;
 
 /// Below this sine of the angle to the vertical a heading has no horizontal direction of its own; that of `up` serves.
 const VERTICAL: f64 = 1e-6;
-
-/// An axis that points straight away from a vertical trend starts to turn by this sine, towards its own side of the
-/// plane: the formula alone leaves it where it is.
-const NUDGE: f64 = 1e-3;
 
 /// The vertical plane of an axis, with the components of `up` that do not change along it.
 #[derive(Debug, Clone, Copy)]
@@ -30,10 +27,12 @@ pub(super) struct Plane {
 }
 
 /// The direction of a heading in its plane: z along the vertical, r along e.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Slope {
-    pub z: f64,
-    pub r: f64,
+    z: f64,
+    r: f64,
+    /// The angle to the upward vertical; NaN while the axis has not turned, for many never do.
+    angle: f64,
 }
 
 /// What stands in `frame`, turned once.
@@ -59,11 +58,12 @@ impl Plane {
     pub fn of(frame: &Frame) -> (Self, Slope) {
         let heading = Vector::from(frame.heading);
         let up = Vector::from(frame.up);
-        let slope = Slope { z: heading.z, r: (heading.x * heading.x + heading.y * heading.y).sqrt() };
+        let level = (heading.x * heading.x + heading.y * heading.y).sqrt();
+        let slope = Slope { z: heading.z, r: level, angle: f64::NAN };
         let (e, slope) = if slope.r > VERTICAL {
             ([heading.x / slope.r, heading.y / slope.r], slope.normalized())
         } else {
-            (horizontal(up), Slope { z: if heading.z < 0.0 { -1.0 } else { 1.0 }, r: 0.0 })
+            (horizontal(up), Slope { z: if heading.z < 0.0 { -1.0 } else { 1.0 }, ..Slope::UPRIGHT })
         };
         let across = up.y * e[0] - up.x * e[1];
         let within = slope.z * (up.x * e[0] + up.y * e[1]) - slope.r * up.z;
@@ -90,36 +90,37 @@ impl Plane {
 }
 
 impl Slope {
-    /// The slope of the next internode, which turns its share of the way to the trend.
-    #[inline]
+    const UPRIGHT: Self = Self { z: 1.0, r: 0.0, angle: f64::NAN };
+
+    /// The slope of the next internode, which turns its share of the angle to the trend.
+    #[inline(always)]
     pub fn turned(self, trend: &Trend) -> Self {
-        let share = f64::from(trend.share);
-        let (cos, sin) = (f64::from(trend.cos_inclination), f64::from(trend.sin_inclination));
-        let from = if self.r < NUDGE { self.nudged(cos, sin) } else { self };
-        let keep = 1.0 - share;
-        Self { z: keep * from.z + share * cos, r: keep * from.r + share * sin }.normalized_or(self)
+        let from = if self.angle.is_nan() { half_turn_of(self.r, self.z) } else { self.angle };
+        Self::at(trend.inclination + (1.0 - trend.share) * (from - trend.inclination))
     }
 
-    /// Off the vertical, where the trend is the opposite one.
-    #[cold]
-    fn nudged(self, cos: f64, sin: f64) -> Self {
-        if self.z * cos < 0.0 && sin < NUDGE { Self { z: self.z, r: NUDGE } } else { self }
+    #[inline(always)]
+    fn at(angle: f64) -> Self {
+        let (r, z) = sincos_half_turn(angle);
+        Self { z, r, angle }
     }
 
-    fn normalized(self) -> Self {
-        self.normalized_or(Self { z: 1.0, r: 0.0 })
-    }
-
-    /// As a unit vector; `otherwise` where there is no direction.
+    /// As a unit vector; upright where there is no direction.
     #[inline]
-    fn normalized_or(self, otherwise: Self) -> Self {
+    fn normalized(self) -> Self {
         let square = self.z * self.z + self.r * self.r;
         if square > 1e-100 {
             let length = square.sqrt();
-            Self { z: self.z / length, r: self.r / length }
+            Self { z: self.z / length, r: self.r / length, angle: f64::NAN }
         } else {
-            otherwise
+            Self::UPRIGHT
         }
+    }
+}
+
+impl Default for Slope {
+    fn default() -> Self {
+        Self::UPRIGHT
     }
 }
 
@@ -132,53 +133,27 @@ fn horizontal(vector: Vector) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{atan2, cos, pow, sin};
-
-    fn trend(inclination: f64, share: f32) -> Trend {
-        Trend { cos_inclination: cos(inclination) as f32, sin_inclination: sin(inclination) as f32, share }
-    }
-
-    fn at(angle: f64) -> Slope {
-        Slope { z: cos(angle), r: sin(angle) }
-    }
+    use crate::math::{atan2, pow};
+    use std::f64::consts::{FRAC_PI_2, PI};
 
     fn angle(slope: Slope) -> f64 {
         atan2(slope.r, slope.z)
     }
 
+    /// Whatever the angle, small or half a turn, and whichever the direction.
     #[test]
-    fn a_small_angle_shrinks_by_one_minus_the_share() {
-        let (start, share) = (1e-3, 0.25);
-        let mut slope = at(start);
-        for step in 1..=40 {
-            slope = slope.turned(&trend(0.0, share));
-            let expected = start * pow(0.75, f64::from(step));
-            assert!((angle(slope) - expected).abs() < 1e-6 * expected, "step {step}");
+    fn what_is_left_of_the_first_angle_shrinks_by_one_minus_the_share_an_internode() {
+        for (start, inclination) in [(0.0, PI), (PI, 0.0), (1e-3, 0.0), (2.5, 0.3), (0.1, FRAC_PI_2), (3.0, 0.7)] {
+            for share in [0.0, 0.002, 0.1, 0.3, 0.5, 0.51, 0.9, 1.0] {
+                let (mut slope, trend) = (Slope::at(start), Trend { inclination, share });
+                slope.angle = f64::NAN;
+                for step in 1..=40 {
+                    slope = slope.turned(&trend);
+                    let expected = inclination + (start - inclination) * pow(1.0 - share, f64::from(step));
+                    let found = angle(slope);
+                    assert!((found - expected).abs() < 1e-10, "{start} {inclination} {share}, {step}: {found}");
+                }
+            }
         }
-    }
-
-    #[test]
-    fn one_step_is_the_printed_formula_at_any_angle() {
-        for (start, inclination, share) in [(2.5, 0.3, 0.4), (0.1, 1.5, 0.05), (1.2, 1.5, 0.9), (3.0, 0.7, 0.5)] {
-            let (psi, share) = (start - inclination, f64::from(share as f32));
-            let expected = atan2((1.0 - share) * sin(psi), (1.0 - share) * cos(psi) + share);
-            let turned = angle(at(start).turned(&trend(inclination, share as f32))) - inclination;
-            assert!((turned - expected).abs() < 1e-6, "{start} {inclination} {share}: {turned} {expected}");
-        }
-    }
-
-    #[test]
-    fn an_axis_that_points_away_from_its_trend_comes_round() {
-        for share in [0.01, 0.3, 0.5, 0.7, 1.0] {
-            let mut slope = Slope { z: -1.0, r: 0.0 };
-            (0..3000).for_each(|_| slope = slope.turned(&trend(0.0, share)));
-            assert!(slope.z > 0.999_999, "share {share}: {slope:?}");
-        }
-    }
-
-    #[test]
-    fn no_direction_is_no_turn() {
-        let nowhere = Trend { cos_inclination: f32::NAN, sin_inclination: 0.0, share: 0.5 };
-        assert_eq!(at(1.0).turned(&nowhere), at(1.0));
     }
 }

@@ -3,7 +3,7 @@
 //! A frame is a base point, a heading along the internode and a reference direction `up` across it. The direction at
 //! azimuth φ is cos φ · up + sin φ · (heading × up). An axis that leaves at azimuth φ and insertion angle β from a
 //! heading h with the direction d at φ has the heading cos β · h + sin β · d and the upper side sin β · h − cos β · d.
-//! The first internode of an axis keeps that direction; each one after it turns its share of the way to the axis's
+//! The first internode of an axis keeps that direction; each one after it turns its share of the angle to the axis's
 //! trend, in the vertical plane of its heading (`course` has the formula). The axis of the seed leaves the upward
 //! vertical, whose `up` is the X axis. The seed is the origin of all frames: a plant far away in its plot keeps the precision
 //! of one at home. Absent: bending, which is the work of mechanics; the plant's place, which nothing here asks.

@@ -3,7 +3,7 @@
 
 use super::specimen::{Branch, Growth, LAST, Specimen};
 use super::*;
-use crate::math::{cos, sin, sincos};
+use crate::math::{acos, sincos};
 use crate::plant::Trend;
 use crate::vector::Vector;
 
@@ -23,11 +23,7 @@ fn cross(a: Vector, b: Vector) -> Vector {
 }
 
 fn trends() -> [Trend; 3] {
-    let make = |inclination: f64, share| Trend {
-        cos_inclination: cos(inclination) as f32,
-        sin_inclination: sin(inclination) as f32,
-        share,
-    };
+    let make = |inclination, share| Trend { inclination, share };
     [make(0.0, 0.0), make(0.0, 0.0008), make(1.4, 0.02)]
 }
 
@@ -92,9 +88,9 @@ fn inserted(plant: &Plant, node: usize, (base, h, up): (Vector, Vector, Vector))
 
 fn turned(trend: &Trend, (base, h, up): (Vector, Vector, Vector)) -> (Vector, Vector, Vector) {
     let horizontal = unit(Vector::new(h.x, h.y, 0.0));
-    let aim = Z * f64::from(trend.cos_inclination) + horizontal * f64::from(trend.sin_inclination);
-    let share = f64::from(trend.share);
-    let heading = unit(h * (1.0 - share) + aim * share);
+    let angle = acos(h.z.clamp(-1.0, 1.0));
+    let (sin, cos) = sincos(angle + trend.share * (trend.inclination - angle));
+    let heading = unit(Z * cos + horizontal * sin);
     (base, heading, unit(up - heading * up.dot(heading)))
 }
 

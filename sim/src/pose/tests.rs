@@ -9,8 +9,8 @@ use crate::random::{PlantRandom, Purpose};
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-fn trend(inclination: f32, share: f32) -> Trend {
-    Trend { cos_inclination: cosf(inclination), sin_inclination: sinf(inclination), share }
+fn trend(inclination: f32, share: f64) -> Trend {
+    Trend { inclination: f64::from(inclination), share }
 }
 
 fn posed(branches: &[Branch], trends: &[Trend], growth: Growth) -> Specimen {
@@ -65,6 +65,20 @@ fn an_axis_turns_to_its_trend_without_ever_turning_back() {
         let plane = |node: usize| plant.frames.heading[node];
         let across = |node: usize| plane(1)[0] * plane(node)[1] - plane(1)[1] * plane(node)[0];
         assert!((1..=200).all(|node| across(node).abs() < 1e-6));
+    }
+}
+
+/// An upright axis that tends to hang turns by the share that it is told, as any other does.
+#[test]
+fn an_upright_axis_that_tends_to_hang_keeps_its_share_of_the_angle() {
+    for share in [0.1, 0.3, 0.5, 0.51] {
+        let plant = posed(&[Branch::trunk(9, 0.1)], &[trend(PI, share)], Growth::AxisByAxis).plant;
+        for node in 0..9 {
+            let left = std::f64::consts::PI * crate::math::pow(1.0 - share, node as f64);
+            let [x, y, z] = plant.frames.heading[node].map(f64::from);
+            let found = std::f64::consts::PI - crate::math::atan2((x * x + y * y).sqrt(), z);
+            assert!((found - left).abs() < 1e-6, "share {share}, internode {node}: {found} left, not {left}");
+        }
     }
 }
 
@@ -189,7 +203,7 @@ fn organs_and_buds_stand_at_the_tip_of_their_node() {
 fn a_leaf_sinks_with_its_age_and_a_fruit_hangs() {
     let mut specimen = Specimen::grown(&[Branch::trunk(2, 0.5)], &[], Growth::AxisByAxis);
     let plant = &mut specimen.plant;
-    let sinking = OrganTrend { cos_inclination: -1.0, sin_inclination: 0.0, shares: vec![0.0, 0.5, 1.0] };
+    let sinking = OrganTrend { inclination: std::f64::consts::PI, shares: vec![0.0, 0.5, 1.0] };
     let of_trunk = OrganTrends { leaf: Some(sinking), ..OrganTrends::default() };
     plant.habit = Arc::new(Habit { organ_trends: vec![of_trunk], ..(*plant.habit).clone() });
     let organ = |kind| NewOrgan {

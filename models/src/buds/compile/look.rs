@@ -8,12 +8,14 @@ use crate::buds::params::{
     BarkChoice, Buds, ByState, ColourText, FlowerChoice, FormChoice, FruitChoice, KindName, LeafChoice, OwnForm,
 };
 use crate::fault::{Fault, Path};
-use crate::law::{Law, Quantity, ValueRange};
+use crate::law::{Law, Quantity, ValueRange, Variate};
 use phytomer_sim::plant::{Bark, Class, Colour, Form, InternodeLook, Kind, Looks, OrganLook, OrganLooks, Shape};
 
 const SIDES: std::ops::RangeInclusive<u32> = 3..=64;
 /// The most meshes of its own that a species may name.
 const MOST_OWN: usize = 64;
+/// The thickness of a blade, mm.
+const THICKNESS: ValueRange = ValueRange { min: 0.001, max: 1000.0, what: "a thickness in mm" };
 /// A share of an organ's full size.
 const SHARE: ValueRange = ValueRange { min: 0.0, max: 1.0, what: "a share of the full size" };
 
@@ -67,6 +69,24 @@ impl Buds {
     }
 }
 
+impl Buds {
+    /// States the area share of leaves that are drawn with a mesh of the user's and state none: that of the mesh, which
+    /// `share` tells by the mesh's number, to a millionth. Whether there is any such leaf.
+    pub fn state_area_shares(&mut self, share: impl Fn(usize) -> Option<f64>) -> bool {
+        let meshes: Vec<String> = self.own_forms().into_iter().map(|(_, mesh)| mesh.to_owned()).collect();
+        let mut stated = false;
+        for leaf in self.order.iter_mut().map(|order| &mut order.leaf).filter(|leaf| leaf.area_share.is_none()) {
+            let FormChoice::Own(OwnForm { mesh }) = &leaf.form else { continue };
+            let place = meshes.iter().position(|known| known == mesh);
+            if let Some(share) = place.and_then(&share) {
+                leaf.area_share = Some(Variate::from((share * 1e6).round() / 1e6));
+                stated = true;
+            }
+        }
+        stated
+    }
+}
+
 /// Where the looks of one order are stated.
 struct Place<'a> {
     buds: &'a Buds,
@@ -97,6 +117,12 @@ impl Place<'_> {
         if let Some(stated) = &internode.colour {
             for (look, (bark, path)) in looks.iter_mut().zip(self.spread(stated, &path.key("colour"))) {
                 look.bark = self.bark(bark, &path);
+            }
+        }
+        if let Some(thickness) = &internode.thickness_mm {
+            match thickness.within(&path.key("thickness_mm"), THICKNESS) {
+                Ok(thickness) => looks.iter_mut().for_each(|look| look.thickness = (thickness * 0.001) as f32),
+                Err(fault) => self.faults.push(fault),
             }
         }
         if let Some(sides) = &internode.sides {

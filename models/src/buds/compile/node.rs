@@ -10,12 +10,15 @@ use super::step::StepLaws;
 use super::words::{Chance, Layout, Measure, Number};
 use super::zone::{Ramification, Ranks, Zones};
 use crate::buds::params::{Order, Season};
-use crate::law::{Count, CountTable, ProbabilityTable, VariateTable};
+use crate::law::{Count, CountTable, ProbabilityTable, ValueRange, VariateTable};
 use phytomer_sim::plant::{Form, Kind};
 
 /// Metres in a centimetre and in a millimetre.
 const CM: f32 = 0.01;
 const MM: f32 = 0.001;
+
+/// The area of one side of a leaf as a share of length × width: a tuft of needles has several times that of its outline.
+const AREA_SHARE: ValueRange = ValueRange { min: 0.0, max: 20.0, what: "a share of length × width" };
 
 /// The most organs of one kind on a node.
 const MOST_ORGANS: u32 = 64;
@@ -148,12 +151,17 @@ fn leaf_life(order: &Order, compiler: &mut Compiler, words: &mut Layout, leaves:
 fn leaf(order: &Order, compiler: &mut Compiler, words: &mut Layout, leaves: u32) -> OrganLaws {
     let leaf = &order.leaf;
     let angle = compiler.angle(&leaf.insertion_deg, "leaf.insertion_deg");
+    let form = compiler.form(&leaf.form);
+    let area_share = match &leaf.area_share {
+        Some(stated) => compiler.variate(stated, "leaf.area_share", AREA_SHARE),
+        None => VariateTable::always(f64::from(form.area_share())),
+    };
     OrganLaws {
         length: words.measure(compiler.measure(&leaf.length_cm, "leaf.length_cm"), CM, leaves),
         width: words.measure(compiler.measure(&leaf.width_cm, "leaf.width_cm"), CM, leaves),
         insertion: words.measure(angle, DEGREE, leaves),
-        area_share: words.measure(compiler.share(&leaf.area_share, "leaf.area_share"), 1.0, leaves),
-        form: compiler.form(&leaf.form),
+        area_share: words.measure(area_share, 1.0, leaves),
+        form,
         kind: leaf.kind.into(),
     }
 }

@@ -6,7 +6,6 @@
 use super::compiler::Compiler;
 use crate::buds::params::{Facing, Order, OrganTrend as Stated};
 use crate::law::ValueRange;
-use phytomer_sim::math::{cos, sin};
 use phytomer_sim::plant::{OrganTrend, OrganTrends};
 
 const INCLINATION: ValueRange = ValueRange { min: 0.0, max: 180.0, what: "an angle to the vertical in degrees" };
@@ -24,10 +23,8 @@ pub fn trends(order: &Order, compiler: &mut Compiler) -> OrganTrends {
 
 fn trend(stated: &Stated, keys: &str, compiler: &mut Compiler) -> OrganTrend {
     let inclination = compiler.constant(&stated.inclination_deg, &format!("{keys}.inclination_deg"), INCLINATION);
-    let inclination = inclination.to_radians();
     OrganTrend {
-        cos_inclination: cos(inclination) as f32,
-        sin_inclination: sin(inclination) as f32,
+        inclination: inclination.to_radians(),
         shares: compiler.share_by_own_age(&stated.share, &format!("{keys}.share")),
     }
 }

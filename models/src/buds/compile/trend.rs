@@ -1,6 +1,6 @@
 //! The development trends of an order (de Reffye 1988 §4, Fig. 15), from names and degrees to directions and shares.
 //!
-//! The smoothed shape of Fig. 15 becomes a share of the way to the trend that each internode turns. Constant trends are
+//! The smoothed shape of Fig. 15 becomes a share of the angle to the trend that each internode turns. Constant trends are
 //! the habit's and shared by all axes; where an order draws an inclination or a share, each of its axes has trends of its
 //! own, one a phase. Absent: the turning itself, which is the pose's.
 
@@ -8,12 +8,11 @@ use super::compiler::Compiler;
 use super::words::{Layout, Measure, Number};
 use crate::buds::params::{Orientation, StateTrends, Tended, Trend};
 use crate::law::{At, Count, CountTable, ValueRange, Variate, VariateTable};
-use phytomer_sim::math;
 use phytomer_sim::plant::Trend as Tendency;
 use std::collections::BTreeMap;
 
-/// The share of the way to its trend that an internode of a plainly named trend turns. The paper draws the smoothed
-/// shape (Fig. 15) and gives no number; a tenth brings an axis nine tenths of the way in 22 internodes.
+/// The share of the angle to its trend that an internode of a plainly named trend turns. The paper draws the smoothed
+/// shape (Fig. 15) and gives no number; a tenth turns an axis through nine tenths of its angle in 22 internodes.
 const NAMED_SHARE: f64 = 0.1;
 
 const INCLINATION: ValueRange = ValueRange { min: 0.0, max: 180.0, what: "an angle in degrees" };
@@ -192,11 +191,7 @@ fn check_ranks(phases: &[Phase], stated: usize, compiler: &mut Compiler) {
 }
 
 fn tendency(inclination_deg: f64, share: f64) -> Tendency {
-    let (sin, cos) = match inclination_deg {
-        90.0 => (1.0, 0.0),
-        degrees => math::sincos(degrees * std::f64::consts::PI / 180.0),
-    };
-    Tendency { cos_inclination: cos as f32, sin_inclination: sin as f32, share: share as f32 }
+    Tendency { inclination: inclination_deg.to_radians(), share }
 }
 
 /// The places of some trends among the habit's, which gets those that are new.

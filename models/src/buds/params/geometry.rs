@@ -5,7 +5,7 @@
 
 use super::colour::BarkChoice;
 use super::looks::{ByState, FormChoice, KindName};
-use crate::law::{Count, Law, Quantity, Variate};
+use crate::law::{Constant, Count, Law, Quantity, Variate};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -21,9 +21,15 @@ pub struct Internode {
     /// What an internode has added to its diameter, mm: a law in which `age` is the plant's age, `dimension` and `cycle`
     /// the internode's own, in ticks, and the state that in which its axis started.
     pub thickening_mm: Law,
-    /// A cylinder has one diameter; a cone narrows to the diameter of the next internode of its axis; a blade is plane and
-    /// without wood, and its tip is as wide as the next internode. One for all axes, or one for each state in which an axis can start.
+    /// A cylinder has one diameter; a cone narrows to the diameter of the next internode of its axis; a blade is plane,
+    /// as wide as its diameter and of its own thickness, and its tip is as wide as the next internode. One for all axes, or
+    /// one for each state in which an axis can start.
     pub shape: ByState<ShapeName>,
+    /// The thickness of internodes that are blades, mm, in [0.001, 1000], for their stiffness, volume and mass; left out:
+    /// 0.3, assumed, as petals and leaf blades have 0.1 to 0.5. Other shapes have none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 0.001, "maximum" = 1000))]
+    pub thickness_mm: Option<Constant>,
     /// What its internodes are: `internode` where they are those of a stem, else a kind whose name ends in `internode`. One
     /// for all axes, or one for each state in which an axis can start.
     #[serde(skip_serializing_if = "ByState::is_plain_kind")]
@@ -48,6 +54,7 @@ impl Default for Internode {
             diameter_mm: Variate::from(1.0),
             thickening_mm: Law::default(),
             shape: ByState::All(ShapeName::Cone),
+            thickness_mm: None,
             kind: ByState::All(KindName::Internode),
             sides: None,
             form: None,
@@ -163,7 +170,8 @@ pub struct Tended {
     /// Drawn once an axis, at its birth.
     #[schemars(extend("minimum" = 0, "maximum" = 180))]
     pub inclination_deg: Variate,
-    /// The share of the way that each internode turns, in [0, 1]; drawn once an axis, at its birth.
+    /// The share of the angle that is left which each internode turns, in [0, 1]: after n internodes (1 − share)ⁿ of the
+    /// first angle is left. Drawn once an axis, at its birth.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub share: Variate,
 }
@@ -188,7 +196,8 @@ pub struct Phase {
     /// The angle to the upward vertical that the axis tends to, degrees; drawn once an axis, at its birth.
     #[schemars(extend("minimum" = 0, "maximum" = 180))]
     pub inclination_deg: Variate,
-    /// The share of the way that each internode turns, in [0, 1]; drawn once an axis, at its birth.
+    /// The share of the angle that is left which each internode turns, in [0, 1]: after n internodes (1 − share)ⁿ of the
+    /// first angle is left. Drawn once an axis, at its birth.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub share: Variate,
 }

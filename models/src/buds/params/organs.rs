@@ -28,7 +28,7 @@ pub struct OrganTrend {
     /// The angle to the upward vertical that the organ turns to, degrees in [0, 180]: 0 upright, 180 hanging.
     #[schemars(extend("minimum" = 0, "maximum" = 180))]
     pub inclination_deg: Constant,
-    /// The share of the way from its insertion to that direction that an organ has turned, in [0, 1]: a law of its own age,
+    /// The share of the angle from its insertion to that direction that an organ has turned, in [0, 1]: a law of its own age,
     /// which is `dimension` and `cycle` here, in ticks; 1 leaves nothing of the insertion but its azimuth.
     pub share: Law,
 }
@@ -63,9 +63,12 @@ pub struct Leaf {
     pub length_cm: Variate,
     /// Width of the blade, cm.
     pub width_cm: Variate,
-    /// Area of one side, as a share of length × width, in [0, 1].
-    #[schemars(extend("minimum" = 0, "maximum" = 1))]
-    pub area_share: Variate,
+    /// Area of one side with the stalk, as a share of length × width, in [0, 20]; above 1 where many parts lie one over
+    /// another. Left out: that of its form. Meshes have the area that is stated: simple blades are drawn as much wider or
+    /// narrower, compound ones in their leaflets.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 0, "maximum" = 20))]
+    pub area_share: Option<Variate>,
     /// The angle between the axis and the leaf, degrees.
     pub insertion_deg: Variate,
     /// How a leaf turns as it ages; left out: it keeps its insertion.
@@ -95,7 +98,7 @@ impl Default for Leaf {
             life: None,
             length_cm: Variate::from(5.0),
             width_cm: Variate::from(2.5),
-            area_share: Variate::from(0.7),
+            area_share: None,
             insertion_deg: Variate::from(60.0),
             trend: None,
             facing: Facing::Axis,

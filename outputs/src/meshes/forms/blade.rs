@@ -94,10 +94,10 @@ pub fn fascicle() -> Shape {
     const HALF_WIDTH: f32 = 0.14;
     let mut shape = Shape::new(Depth::Width);
     for side in [-1.0, 1.0] {
-        let (base, tip) = ([0.0, 0.0, 0.0], [1.0, side * 0.4, 0.0]);
-        let edge = |out: f32| [0.12, side * 0.048 + out * HALF_WIDTH, 0.8 * HALF_WIDTH];
-        shape.polygon(&[base, edge(-1.0), tip], along, false);
-        shape.polygon(&[tip, edge(1.0), base], along, false);
+        let (base, tip) = ([[0.0; 3], [0.0; 3]], [[1.0, side * 0.4, 0.0], [0.0; 3]]);
+        let edge = |out: f32| [[0.12, side * 0.048, 0.0], [0.0, out * HALF_WIDTH, 0.8 * HALF_WIDTH]];
+        shape.part(&[base, edge(-1.0), tip], false);
+        shape.part(&[tip, edge(1.0), base], false);
     }
     shape
 }

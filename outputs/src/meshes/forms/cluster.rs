@@ -15,9 +15,9 @@ pub fn tuft() -> Shape {
     for (needles, tip, turn) in [(8_u8, [0.42, 0.5], 0.0), (6, [0.8, 0.36], 0.5), (3, [1.0, 0.12], 0.25)] {
         for number in 0..needles {
             let (sin, cos) = sincosf(TAU * (f32::from(number) + turn) / f32::from(needles));
-            let at = |[x, r]: [f32; 2], aside: f32| [x, r * cos - aside * sin, r * sin + aside * cos];
+            let at = |[x, r]: [f32; 2], aside: f32| [[x, r * cos, r * sin], [0.0, -aside * sin, aside * cos]];
             let half = 0.045;
-            shape.polygon(&[at([0.0, 0.0], -half), at(tip, 0.0), at([0.0, 0.0], half)], along, false);
+            shape.part(&[at([0.0, 0.0], -half), at(tip, 0.0), at([0.0, 0.0], half)], false);
         }
     }
     shape
@@ -31,9 +31,10 @@ pub fn spray() -> Shape {
     for pair in 0..PAIRS {
         let from = 0.82 * f32::from(pair) / f32::from(PAIRS);
         let (tip, lift) = (from + 0.3, if pair % 2 == 0 { 0.05 } else { 0.16 });
-        let (near, far) = ([from, 0.0, 0.0], [from + 0.09, 0.0, 0.0]);
-        shape.polygon(&[near, [tip, -0.5, lift], far], along, false);
-        shape.polygon(&[far, [tip, 0.5, lift], near], along, false);
+        let base = |along: f32| [[from + 0.045, 0.0, 0.0], [along, 0.0, 0.0]];
+        let tip = |side: f32| [[tip, side, lift], [0.0; 3]];
+        shape.part(&[base(-0.045), tip(-0.5), base(0.045)], false);
+        shape.part(&[base(0.045), tip(0.5), base(-0.045)], false);
     }
     shape
 }

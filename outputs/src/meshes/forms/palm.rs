@@ -3,7 +3,7 @@
 //!
 //! De Reffye 1988 §5 (Fig. 16) grows a palm as a growth unit of its own, as species files can; here it is one organ.
 
-use super::{Depth, Point, Shape, along};
+use super::{Depth, Point, Shape};
 use phytomer_sim::math::sincosf;
 
 /// The angle through which the rachis bends from base to tip, radians.
@@ -46,8 +46,9 @@ fn rachis(shape: &mut Shape) {
         let radius = RACHIS_RADIUS * (1.0 - 0.9 * share);
         for (side, [cos, sin]) in CORNERS.into_iter().enumerate() {
             let normal = [-along_z * sin, cos, along_x * sin];
-            let at = [x + radius * normal[0], radius * normal[1], z + radius * normal[2]];
-            shape.points.push(Point { at, normal, texture: [side as f32 / 4.0, share], stalk: true });
+            let across = normal.map(|n| radius * n);
+            let at = [x + across[0], across[1], z + across[2]];
+            shape.points.push(Point { at, across, normal, texture: [side as f32 / 4.0, share], stalk: true });
         }
     }
     for step in 0..u32::from(STEPS) {
@@ -63,36 +64,37 @@ fn leaflet(shape: &mut Shape, place: f32, side: f32) {
     let ([x, z], [along_x, along_z]) = arch(place);
     let among = (place - STALK) / (1.0 - STALK);
     let reach = 0.5 * ((0.25 + 1.6 * among) * (1.0 - 0.93 * among) / 0.68).min(1.0).sqrt();
-    let at = |out: f32, ahead: f32| {
-        let ahead = ahead + AHEAD * out / 0.5;
-        [x + along_x * ahead, side * out, z + along_z * ahead - HANG * out / 0.5]
+    let at = |out: f32, aside: f32| {
+        let ahead = AHEAD * out / 0.5;
+        let on = [x + along_x * ahead, side * out, z + along_z * ahead - HANG * out / 0.5];
+        [on, [along_x * aside, 0.0, along_z * aside]]
     };
     let wide = 0.016;
     let kite = [at(0.0, 0.0), at(0.35 * reach, -wide), at(reach, 0.0), at(0.35 * reach, wide)];
     let [base, behind, tip, before] = kite;
     let counterclockwise = if side > 0.0 { [base, before, tip, behind] } else { kite };
-    shape.polygon(&counterclockwise, along, false);
+    shape.part(&counterclockwise, false);
 }
 
 /// Four pairs of leaflets and one at the end, each a plane polygon, on a thin rachis: an ash leaf.
 pub fn pinnate() -> Shape {
     let mut shape = Shape::new(Depth::Width);
-    let rachis = [[0.0, -0.02, 0.0], [0.75, -0.01, 0.0], [0.75, 0.01, 0.0], [0.0, 0.02, 0.0]];
-    shape.polygon(&rachis, along, true);
+    let rachis = [[0.0, -0.02], [0.75, -0.01], [0.75, 0.01], [0.0, 0.02]];
+    shape.part(&rachis.map(|[x, y]| [[x, 0.0, 0.0], [0.0, y, 0.0]]), true);
     let place = |foot: f32, [cos, sin]: [f32; 2], long: f32, rise: f32| {
         // An outline along the leaflet and across it, turned by its angle to the rachis.
         let outline = [[0.04, 0.0], [0.3, -0.16], [0.6, -0.15], [1.0, 0.0], [0.6, 0.15], [0.3, 0.16]];
         outline.map(|[out, aside]: [f32; 2]| {
             let [out, aside] = [out * long, aside * long];
-            let y = out * sin + aside * cos;
-            [foot + out * cos - aside * sin, y, rise * y.abs()]
+            let rise = rise * sin.signum();
+            [[foot + out * cos, out * sin, rise * out * sin], [-aside * sin, aside * cos, rise * aside * cos]]
         })
     };
     for (foot, long) in [(0.22, 0.4), (0.38, 0.46), (0.54, 0.44), (0.68, 0.38)] {
         for side in [1.0, -1.0] {
-            shape.polygon(&place(foot, [0.42, 0.907 * side], long, 0.15), along, false);
+            shape.part(&place(foot, [0.42, 0.907 * side], long, 0.15), false);
         }
     }
-    shape.polygon(&place(0.72, [1.0, 0.0], 0.28, 0.0), along, false);
+    shape.part(&place(0.72, [1.0, 0.0], 0.28, 0.0), false);
     shape
 }

@@ -71,7 +71,7 @@ fn ring(shape: &mut Shape, meridian: &[[f32; 2]], row: usize, sides: u16, stalk:
     for k in u16::from(last_pole)..=sides - u16::from(first_pole) {
         let (sin, cos) = sincosf(TAU * f32::from(k % sides) / f32::from(sides));
         let (at, normal) = ([x, r * cos, r * sin], [along, across * cos, across * sin]);
-        shape.points.push(Point { at, normal, texture: [f32::from(k) / f32::from(sides), x], stalk });
+        shape.points.push(Point { at, across: [0.0; 3], normal, texture: [f32::from(k) / f32::from(sides), x], stalk });
     }
     first
 }

@@ -1,7 +1,7 @@
-//! The library of forms: boxes, normals, planes, closed solids.
+//! The library of forms: boxes, normals, planes, closed solids, areas.
 
 use super::super::chunk::Face;
-use super::super::measure::{assert_closed, assert_unit_normals, outward_share, volume};
+use super::super::measure::{assert_closed, assert_unit_normals, outward_share, surface, volume};
 use super::*;
 use bytemuck::Zeroable;
 use std::collections::BTreeSet;
@@ -45,8 +45,12 @@ const SOLIDS: [Form; 13] = [
 ];
 
 fn placed(form: Form, size: [f32; 2]) -> (Vec<Vertex>, Vec<Face>) {
+    fuller(form, size, 1.0)
+}
+
+fn fuller(form: Form, size: [f32; 2], fullness: f32) -> (Vec<Vertex>, Vec<Face>) {
     let tag = Tag { colour: [0; 4], birth: 0.0, death: 1.0, component: 3, kind: 2 };
-    let place = Placement { base: [1.0, 2.0, 3.0], heading: [0.0, 0.6, 0.8], up: [0.0, -0.8, 0.6], size };
+    let place = Placement { base: [1.0, 2.0, 3.0], heading: [0.0, 0.6, 0.8], up: [0.0, -0.8, 0.6], size, fullness };
     let shape = shape(form);
     let mut vertices = vec![Vertex::zeroed(); shape.points.len()];
     shape.write(&place, &[tag, tag], &mut vertices);
@@ -65,6 +69,48 @@ fn every_form_fits_its_box_and_its_normals_agree_with_its_triangles() {
             assert_unit_normals(&vertices);
             assert_eq!(outward_share(&vertices, &faces), 1.0, "{form:?} {size:?}");
         }
+    }
+}
+
+/// The area of one side: of plane polygons, and of what is closed half of it. The rachis of a palm and the tube of a
+/// corolla are open at their ends.
+fn area(form: Form, size: [f32; 2], fullness: f32) -> f64 {
+    let (vertices, faces) = fuller(form, size, fullness);
+    let is_plane = |face: &Face| {
+        let corner = face.indices()[0];
+        shape(form).polygons.iter().any(|&[first, count]| (first..first + count).contains(&corner))
+    };
+    let (plane, round): (Vec<Face>, Vec<Face>) = faces.into_iter().partition(is_plane);
+    let sides = if matches!(form, Form::Palm | Form::Corolla) { 1.0 } else { 2.0 };
+    surface(&vertices, &plane) + surface(&vertices, &round) / sides
+}
+
+#[test]
+fn forms_have_the_share_of_area_that_species_are_told() {
+    let shares = FORMS.map(|form| area(form, [1.0, 0.5], 1.0) / 0.5);
+    let told = FORMS.map(|form| f64::from(form.area_share()));
+    let near = |(share, told): (&f64, &f64)| (share / told - 1.0).abs() < 1e-3;
+    assert!(shares.iter().zip(&told).all(near), "{shares:.4?}, not {told:?}");
+}
+
+#[test]
+fn an_organ_has_the_area_that_is_stated_whatever_its_form_and_proportions() {
+    for form in FORMS {
+        for size in [[0.2, 0.08], [0.1, 0.12], [1.0, 1.0], [3.0, 0.4]] {
+            for share in [0.05, 0.3, 0.7, 1.0, 2.5] {
+                let stated = share * size[0] * size[1];
+                let fullness = shape(form).fullness(size, stated);
+                let found = area(form, size, fullness) / f64::from(stated);
+                assert!((found - 1.0).abs() < 2e-3, "{form:?} {size:?} {share}: {found}");
+                let (vertices, faces) = fuller(form, size, fullness);
+                assert_unit_normals(&vertices);
+                // Solids far wider than long keep the normals of their own proportions, which lean too far.
+                let outward = SOLIDS.contains(&form) || outward_share(&vertices, &faces) == 1.0;
+                assert!(outward, "{form:?} {size:?} {share}");
+            }
+        }
+        assert_eq!(shape(form).fullness([0.1, 0.05], 0.0), 1.0, "no area is stated");
+        assert_eq!(shape(form).fullness([0.0, 0.05], 0.1), 1.0, "an organ without length");
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! A rod is one axis of equal internodes with chosen length, diameters, stiffness and weight, clamped at its base.
 
+mod blade;
 mod columns;
 mod elastica;
 mod freezing;

@@ -79,3 +79,25 @@ fn a_ring_a_tick_and_a_section_for_the_foliage() {
     assert!((f64::from(plant.nodes.diameter[0]) / diameter - 1.0).abs() < 1e-6);
     assert!((plant.nodes.diameter[5] - 0.010).abs() < 1e-8, "no leaf above the tip");
 }
+
+/// A leaf counts as far as it has expanded: not at all at its birth, a quarter of its area when half as long and wide.
+#[test]
+fn rings_follow_the_area_that_leaves_have_at_their_age() {
+    let mut plant = fork(Thickening::Rings { width: 0.0, per_foliage: 1e-4 });
+    let leaf = OrganLook { expansion: vec![0.0, 0.0, 0.5, 1.0], ..OrganLook::default() };
+    let organs = vec![OrganLooks { leaf, ..OrganLooks::default() }];
+    let looks = Looks { organs, ..plant.habit.looks.clone() };
+    plant.habit = Arc::new(Habit { looks, ..(*plant.habit).clone() });
+    let mut bench = Bench::default();
+    let mut squares = (2..=4).map(|age| {
+        grow_thick(&mut plant, age, &mut bench);
+        power(&plant, 0, 2.0)
+    });
+    // Six leaves of 0.01 m², born at 1.
+    let (unfolding, half, whole) = (squares.next(), squares.next(), squares.next());
+    assert_eq!(unfolding, Some(f64::from(0.004_f32) * f64::from(0.004_f32)), "no leaf area, no wood");
+    let ring = 4.0 / PI * 0.06 * 1e-4;
+    let near = |found: Option<f64>, expected: f64| found.is_some_and(|found| (found / expected - 1.0).abs() < 1e-6);
+    assert!(near(half, 0.004 * 0.004 + 0.25 * ring), "{half:?}");
+    assert!(near(whole, 0.004 * 0.004 + 1.25 * ring), "{whole:?}");
+}

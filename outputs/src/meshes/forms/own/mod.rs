@@ -20,7 +20,15 @@ pub const MOST_TRIANGLES: usize = 10_000;
 /// The meshes of its own that a species names, in the order of their numbers.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct OwnForms {
-    shapes: Vec<Shape>,
+    forms: Vec<OwnForm>,
+}
+
+/// A mesh of the user's.
+#[derive(Debug, Clone, PartialEq)]
+struct OwnForm {
+    shape: Shape,
+    /// How many times as wide as long it is in its file.
+    aspect: f64,
 }
 
 /// What is wrong with a mesh file: where, what, and what would be right.
@@ -78,23 +86,28 @@ impl OwnForms {
     /// # Errors
     /// What is wrong with the first file that is no such mesh.
     pub fn read<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> Result<Self, MeshFault> {
-        let shapes: Result<_, MeshFault> = files.into_iter().map(|(name, bytes)| shape_of(name, bytes)).collect();
-        Ok(Self { shapes: shapes? })
+        let forms: Result<_, MeshFault> = files.into_iter().map(|(name, bytes)| shape_of(name, bytes)).collect();
+        Ok(Self { forms: forms? })
     }
 
     /// How many there are.
     pub fn len(&self) -> usize {
-        self.shapes.len()
+        self.forms.len()
     }
 
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
-        self.shapes.is_empty()
+        self.forms.is_empty()
     }
 
     /// The shape at a place.
     pub(crate) fn shape(&self, place: u8) -> Option<&Shape> {
-        self.shapes.get(usize::from(place))
+        self.forms.get(usize::from(place)).map(|form| &form.shape)
+    }
+
+    /// The area of one side that the mesh at a place has in the proportions of its file, as a share of length × width.
+    pub fn area_share(&self, place: usize) -> Option<f64> {
+        self.forms.get(place).map(|form| form.shape.area_share(form.aspect))
     }
 }
 
@@ -106,7 +119,7 @@ pub fn check(name: &str, bytes: &[u8]) -> Result<(), MeshFault> {
     shape_of(name, bytes).map(drop)
 }
 
-fn shape_of(name: &str, bytes: &[u8]) -> Read<Shape> {
+fn shape_of(name: &str, bytes: &[u8]) -> Read<OwnForm> {
     shape(&soup(name, bytes)?)
 }
 
@@ -122,7 +135,7 @@ fn soup(name: &str, bytes: &[u8]) -> Read<Soup> {
 }
 
 /// Moves and scales triangles into the unit box.
-fn shape(soup: &Soup) -> Read<Shape> {
+fn shape(soup: &Soup) -> Read<OwnForm> {
     let used = soup.triangles.iter().flatten().map(|corner| soup.points[*corner as usize]);
     let (mut low, mut high, mut half) = (f32::INFINITY, f32::NEG_INFINITY, 0_f32);
     for [x, y, z] in used {
@@ -141,7 +154,7 @@ fn shape(soup: &Soup) -> Read<Shape> {
     }
     let scaled = |[x, y, z]: [f32; 3]| [(x - low) / long, y / (2.0 * half), z / (2.0 * half)];
     let points: Vec<[f32; 3]> = soup.points.iter().map(|&point| scaled(point)).collect();
-    in_box(&points, &soup.triangles)
+    Ok(OwnForm { shape: in_box(&points, &soup.triangles)?.measured(), aspect: 2.0 * f64::from(half) / f64::from(long) })
 }
 
 /// A shape of the vertices that are used, without triangles of no area.
@@ -184,5 +197,5 @@ fn point(at: [f32; 3], normal: [f32; 3]) -> Point {
     // Of triangles that face each other nothing is left: such a vertex looks up.
     let normal =
         if length > f32::MIN_POSITIVE && length.is_finite() { normal.map(|x| x / length) } else { [0.0, 0.0, 1.0] };
-    Point { at, normal, texture: super::along(at), stalk: false }
+    Point { at, across: [0.0; 3], normal, texture: super::along(at), stalk: false }
 }

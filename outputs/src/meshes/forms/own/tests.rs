@@ -270,9 +270,29 @@ fn no_broken_file_panics_or_hangs() {
         }
         let Ok(shape) = shape_of(name, &bytes) else { continue };
         meshes += 1;
+        let shape = shape.shape;
         assert!(shape.faces.len() <= MOST_TRIANGLES && !shape.faces.is_empty(), "case {case}");
         assert!(shape.faces.iter().flatten().all(|corner| (*corner as usize) < shape.points.len()), "case {case}");
         assert!(shape.points.iter().all(|p| p.normal.iter().all(|x| x.is_finite())), "case {case}");
     }
     assert!((50..3950).contains(&meshes), "{meshes} of 4000 are still meshes: both ends are reached");
+}
+
+/// A kite of half its length × width, leaning like a ridge, once and as a sheet of two sides; and a closed needle.
+#[test]
+fn a_mesh_has_the_area_of_one_side_in_the_proportions_of_its_file() {
+    let share = |text: &str| OwnForms::read([("leaf.obj", text.as_bytes())]).unwrap().area_share(0).unwrap();
+    let kite = "v 0 0 0\nv 2 -1 0\nv 3 0 0\nv 2 1 0\nf 1 2 3 4\n";
+    assert!((share(kite) - 0.5).abs() < 1e-6);
+    assert!((share(&format!("{kite}f 4 3 2 1\n")) - 0.5).abs() < 1e-6, "two sides are one sheet");
+    let roof = kite.replace("v 2 -1 0", "v 2 -1 1").replace("v 2 1 0", "v 2 1 1");
+    let roof = roof.replace("f 1 2 3 4", "f 1 2 3\nf 1 3 4");
+    assert!((share(&roof) - 0.5 * 2_f64.sqrt()).abs() < 1e-4, "{}", share(&roof));
+    // A cuboid 8 × 2 × 2: half of 4 · 16 + 2 · 4, of 16.
+    let mut cuboid = String::new();
+    for (x, y, z) in (0..8).map(|k| (8 * (k & 1), (k & 2) - 1, (k >> 1 & 2) - 1)) {
+        cuboid += &format!("v {x} {y} {z}\n");
+    }
+    cuboid += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    assert!((share(&cuboid) - 36.0 / 16.0).abs() < 1e-4, "{}", share(&cuboid));
 }
