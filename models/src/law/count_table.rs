@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use super::MAX_WORK;
 use super::count::{Count, CountForm, Simple};
-use super::domain::{At, Domain, Grid};
+use super::domain::{At, Domain, Grid, Variable};
 use super::formula::{self, Formula};
 use super::mass::{MAX_COUNT, Mass};
 use super::range::ValueRange;
@@ -290,9 +290,14 @@ impl CountTable {
         }
     }
 
-    /// Whether the distribution depends on rank and state at most.
-    pub fn is_timeless(&self) -> bool {
-        self.grid.is_timeless()
+    /// Whether the distribution depends on the state and the variables `known` at most.
+    pub fn asks_only(&self, known: &[Variable]) -> bool {
+        self.grid.asks_only(known)
+    }
+
+    /// Whether the distribution does not depend on the rank.
+    pub fn is_rankless(&self) -> bool {
+        self.grid.is_rankless()
     }
 
     /// The mean at a point.

@@ -4,7 +4,7 @@
 //! kept to 1.2e-10; `u32::MAX` means certain and 0 never. Every point of the domain is checked here, before the
 //! first tick. Absent on purpose: where the words come from.
 
-use super::domain::{At, Domain, Grid};
+use super::domain::{At, Domain, Grid, Variable};
 use super::form::Law;
 use super::formula::Formula;
 use super::range::ValueRange;
@@ -91,9 +91,15 @@ impl ProbabilityTable {
         self.constant
     }
 
-    /// Whether the probability depends on rank and state at most.
-    pub fn is_timeless(&self) -> bool {
-        self.grid.is_timeless()
+    /// Whether the probability depends on the state and the variables `known` at most.
+    pub fn asks_only(&self, known: &[Variable]) -> bool {
+        self.grid.asks_only(known)
+    }
+
+    /// Whether it happens at no point of a state.
+    pub fn is_never_in(&self, state: u8) -> bool {
+        let is_never = |(cell, &threshold): (usize, &u32)| threshold == 0 || !self.grid.is_in(cell, state);
+        self.thresholds.iter().enumerate().all(is_never)
     }
 
     /// Whether it happens at no point, so that no draw is needed.
