@@ -117,12 +117,15 @@ impl<'a> Cohorts<'a> {
         let mut after = living.clone();
         living[frame.cell(0, 0, state)].apices = born;
         let mut cycle = 0;
+        // What it costs to look through them, beside the work on those that are not empty.
+        let cells = frame.cells() as u64 / 16;
         for tick in birth + 1..=self.until {
             let dimension = tick - birth;
             while cycle < speed.steps_by(dimension) {
                 cycle += 1;
                 let at = At { age: tick, dimension, cycle, ..At::default() };
                 self.step(&cohort, &living, &mut after, at);
+                self.work += cells;
                 std::mem::swap(&mut living, &mut after);
                 if self.work > MOST_WORK {
                     return None;

@@ -165,7 +165,7 @@ impl<'a> Gone<'a> {
             if p > 0.0 {
                 by_nodes[count.min(by_nodes.len() - 1)].add(share * p, organs.settle(&laws.node), dead.as_deref(), at);
             }
-            self.work += 1 + if dead.is_some() { u64::from(horizon) } else { 0 };
+            self.work += 1 + organs.ticks() / 8 + if dead.is_some() { u64::from(horizon) } else { 0 };
         }
     }
 

@@ -111,6 +111,7 @@ impl Cohort<'_> {
                 let mut after = vec![Carried::default(); self.frame.cells()];
                 self.step(gone, &living, &mut after, ended, At { age: tick, dimension, cycle, ..At::default() });
                 living = after;
+                gone.work += self.frame.cells() as u64 / 4;
                 if gone.work > MOST_WORK || living.iter().all(|carried| carried.share < NOTHING_LEFT) {
                     return;
                 }

@@ -46,6 +46,7 @@ impl Unit {
         for (share, nodes) in sizes(laws, at) {
             mean.add(model, laws, (share, &nodes), &mut organs, at);
         }
+        mean.work += organs.ticks() / 8;
         let by = organs.settle(&laws.node).iter().enumerate();
         mean.organs = by.filter(|(_, organs)| **organs > 0.0).map(|(ticks, organs)| (ticks as Tick, *organs)).collect();
         mean
@@ -138,6 +139,11 @@ impl Organs {
         let longest = longest_wait(node).min(horizon) as usize;
         let is_rankless = node.flower_delay.table.is_rankless() && node.flower_life.table.is_rankless();
         Self { by: vec![0.0; longest + 1], waiting: is_rankless.then_some([0.0; 2]), at: None }
+    }
+
+    /// The ticks over which they are spread.
+    pub fn ticks(&self) -> u64 {
+        self.by.len() as u64
     }
 
     /// Adds those of `nodes` nodes at a rank.
