@@ -11,6 +11,7 @@ use std::sync::{Arc, OnceLock};
 use phytomer_models::fault;
 use phytomer_models::law::Constant;
 use phytomer_sim::clock::LAST_TICK;
+use phytomer_sim::expectation::Certainty;
 use phytomer_sim::model::GrowthModel;
 use serde_json::{Value as Json, json};
 
@@ -205,19 +206,24 @@ fn tell(loader: &mut Loader, node: &Node, faults: Vec<fault::Fault>) {
     loader.faults.extend(placed.collect::<Vec<_>>());
 }
 
-/// A plot of which more is expected than it may have would be cut off: better told before the first tick.
+/// A plant that is expected to have more components than it may would be cut off: better told before the first tick. The
+/// figure is the expectation, or of a species without one in closed form those components of which it is known; an estimate
+/// or an upper bound refuses nothing, and the limit then holds while the plant grows.
 fn check_explosion(loader: &mut Loader, node: &Node, (scenario, Compiled { species, model, .. }): &Checked) {
     let until = scenario.ages.until;
     let (most, key) = (scenario.limits.components(), scenario.limits.binding());
-    let Some(expected) = model.expectation(until).map(|means| means.components(until)) else { return };
+    let Some(means) = model.expectation(until) else { return };
+    let expected = means.least_components(until);
     if expected <= f64::from(most) {
         return;
     }
     let set = integer_at(node, &["limits", key]).is_some();
     let path = path_of(&if set { ["limits", key] } else { ["ages", "until"] });
     let (name, expected, most) = (&species.about.name, in_words(expected), in_words(most.into()));
-    let problem =
-        format!("the growth explodes: by age {until} a plant of `{name}` is expected to have {expected} components");
+    let least = if means.certainty() == Certainty::Exact { "" } else { "at least " };
+    let problem = format!(
+        "the growth explodes: by age {until} a plant of `{name}` is expected to have {least}{expected} components"
+    );
     let expected = format!("at most {most} (limits.{key}): an earlier last age, or fewer branches");
     loader.faults.push(Fault::new(node.locate(&path), &path, problem, expected));
 }
@@ -272,7 +278,8 @@ impl Resolved {
         placed(&self.sources, &self.tree, faults)
     }
 
-    /// The components that a plant is expected to have made by `age`, where the laws give a mean in closed form.
+    /// The components that a plant is expected to have made by `age`: the mean, a bound from above or an estimate; `None` where
+    /// the sum would take too long.
     pub fn expected_components(&self, age: u32) -> Option<f64> {
         self.model.expectation(age).map(|means| means.components(age))
     }

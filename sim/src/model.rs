@@ -49,7 +49,8 @@ pub trait GrowthModel: Send + Sync {
     /// rule of secondary growth, the loop applies that one after it.
     fn thicken(&self, age: Tick, plant: &mut Plant);
 
-    /// The means of what a plant makes up to `until`, where the model's laws allow them in closed form.
+    /// The means of what a plant makes up to `until`, or bounds or estimates of them, as it says; `None` where the model has
+    /// none.
     fn expectation(&self, until: Tick) -> Option<Expectation> {
         let _ = until;
         None

@@ -1,12 +1,13 @@
 //! What a run will come to, before its first tick, from the closed-form expectation of its model (`--dry-run`).
 //!
-//! The means are of what plants have *made*; what they have shed by a recorded age is counted as if it still stood, so
-//! that rows and bytes are upper bounds for species that shed. Absent: memory and time, which the machine decides.
+//! Each figure says what it is: the expectation, a bound of it from above, or an estimate. The means are of what plants have
+//! *made*; what they have shed by a recorded age is counted as if it still stood, so that the rows of `records` are a bound
+//! from above. Absent: memory and time, which the machine decides.
 
 use super::plan::component_limit;
 use phytomer_config::Resolved;
 use phytomer_config::scenario::{BYTES_A_COMPONENT, Table};
-use phytomer_sim::expectation::Expectation;
+use phytomer_sim::expectation::{Certainty, Expectation};
 use serde::Serialize;
 
 /// Bytes of a row of `records`, compressed: measured on trees (docs/performance.md).
@@ -15,6 +16,39 @@ pub const BYTES_A_RECORD: f64 = 31.0;
 /// Bytes of a row of `components`, of `events` and of `summary`, likewise.
 const BYTES_A_COMPONENT_ROW: f64 = 20.0;
 const BYTES_A_SUMMARY_ROW: f64 = 60.0;
+
+/// What a figure of a forecast is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Figure {
+    /// The expectation.
+    Exact,
+    /// The expectation is not above it.
+    AtMost,
+    /// An estimate.
+    About,
+}
+
+impl Figure {
+    /// The word before the number; none before an expectation.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Exact => "",
+            Self::AtMost => "at most",
+            Self::About => "about",
+        }
+    }
+}
+
+impl From<Certainty> for Figure {
+    fn from(certainty: Certainty) -> Self {
+        match certainty {
+            Certainty::Exact => Self::Exact,
+            Certainty::AtMost => Self::AtMost,
+            Certainty::About => Self::About,
+        }
+    }
+}
 
 /// What is expected of a run.
 #[derive(Debug, Clone, Serialize)]
@@ -25,8 +59,12 @@ pub struct Forecast {
     pub components_by_order: Vec<f64>,
     /// Components of all plants by the last age.
     pub components: f64,
+    /// What these numbers of components are.
+    pub components_are: Figure,
     /// Rows of `records`.
     pub records_rows: f64,
+    /// What that number of rows is.
+    pub records_rows_are: Figure,
     /// Rows of `summary`.
     pub summary_rows: f64,
     /// Bytes of the tables, about; events are not foreseen.
@@ -40,7 +78,7 @@ pub struct Forecast {
 }
 
 impl Forecast {
-    /// The forecast of a run; `None` where the laws of its species allow no closed form.
+    /// The forecast of a run; `None` where the sum for its species would take too long.
     pub fn of(resolved: &Resolved) -> Option<Self> {
         let scenario = &resolved.scenario;
         let until = scenario.ages.until;
@@ -54,8 +92,12 @@ impl Forecast {
         let records_rows = rows(Table::Records, shown_a_plant);
         let summary_rows = rows(Table::Summary, recorded.len() as f64);
         let component_rows = rows(Table::Components, a_plant);
+        let certainty = expected.certainty();
         Some(Self {
             plants: scenario.plants,
+            components_are: certainty.into(),
+            // As if nothing that the plants have made had ended.
+            records_rows_are: certainty.max(Certainty::AtMost).into(),
             components: a_plant * plants,
             components_by_order,
             records_rows,

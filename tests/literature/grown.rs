@@ -58,7 +58,7 @@ impl Sample {
         Self { values: values.into_iter().collect() }
     }
 
-    fn n(&self) -> f64 {
+    pub fn n(&self) -> f64 {
         self.values.len() as f64
     }
 

@@ -5,6 +5,8 @@
 
 mod examples;
 mod expectation;
+mod forecast;
 mod grown;
 mod laws;
+mod organs;
 mod traversal;

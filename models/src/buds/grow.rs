@@ -267,7 +267,8 @@ impl<'a> Axis<'a> {
     }
 
     /// A flower, and the fruit that it may set; the tick at which the last of them falls. A terminal flower stands in the
-    /// direction of its axis, and its laws are asked at the rank of the node that bears it.
+    /// direction of its axis, and its laws are asked at the rank of the node that bears it. What would appear after the last
+    /// age of the run is no component: it takes neither memory nor room under the plant's limit.
     pub fn flower(&mut self, site: FlowerSite, at: At) -> Tick {
         let FlowerSite { node, nth, birth, azimuth, position } = site;
         let laws = &self.laws.node;
@@ -297,11 +298,12 @@ impl<'a> Axis<'a> {
             let (length, width) = (laws.fruit.length.draw(words, nth, at), laws.fruit.width.draw(words, nth, at));
             organ(laws.fruit.kind, laws.fruit.form, fall, ripe, Cause::LifeLength, length, width)
         });
-        self.plant.add_organ(flower);
-        fruit.map_or(fall, |fruit| {
-            self.plant.add_organ(fruit);
-            fruit.death
-        })
+        let last = self.model.until();
+        let planned = [Some(flower), fruit].into_iter().flatten();
+        planned.filter(|organ| organ.birth <= last).for_each(|organ| {
+            self.plant.add_organ(organ);
+        });
+        fruit.map_or(fall, |fruit| fruit.death)
     }
 }
 

@@ -9,7 +9,7 @@ use super::gmt1::Gmt1;
 use super::laws::Laws;
 use super::tree::birth;
 use phytomer_sim::clock::Tick;
-use phytomer_sim::expectation::{Expectation, OrderExpectation};
+use phytomer_sim::expectation::{Certainty, Expectation, OrderExpectation};
 use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
 use phytomer_sim::plant::{Habit, Looks, NewAxis, Plant, Shape, Trend};
 use phytomer_sim::site::Site;
@@ -79,7 +79,7 @@ impl Gmt1Model {
             }
         }
         orders.iter_mut().for_each(OrderExpectation::accumulate);
-        Expectation { orders }
+        Expectation { orders, axes: Certainty::Exact, organs: Certainty::Exact }
     }
 }
 

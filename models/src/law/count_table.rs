@@ -11,6 +11,7 @@ use super::domain::{At, Domain, Grid};
 use super::formula::{self, Formula};
 use super::mass::{MAX_COUNT, Mass};
 use super::range::ValueRange;
+use super::variable::Variable;
 use crate::fault::{Fault, Path};
 
 const WORDS: f64 = 4_294_967_296.0;
@@ -320,9 +321,14 @@ impl CountTable {
         }
     }
 
-    /// Whether the distribution depends on rank and state at most.
-    pub fn is_timeless(&self) -> bool {
-        self.grid.is_timeless()
+    /// Whether the distribution depends on the state and the variables `known` at most.
+    pub fn asks_only(&self, known: &[Variable]) -> bool {
+        self.grid.asks_only(known)
+    }
+
+    /// Whether the distribution does not depend on the rank.
+    pub fn is_rankless(&self) -> bool {
+        self.grid.is_rankless()
     }
 
     /// Whether it names a variable that moves only when the bud makes a growth unit.

@@ -212,15 +212,25 @@ impl Grid {
         self.len as usize
     }
 
-    /// Whether rank and state alone matter.
-    pub fn is_timeless(&self) -> bool {
-        let mut of_time = Variable::ALL.into_iter().filter(|variable| variable.goes_on_with_time());
-        of_time.all(|time| self.stride[time as usize] == 0)
-    }
-
     /// Whether one of its variables moves only when the bud makes a growth unit.
     pub fn asks_the_bud(&self) -> bool {
         self.asks_the_bud
+    }
+
+    /// Whether the rank does not matter.
+    pub fn is_rankless(&self) -> bool {
+        self.stride[Variable::Rank as usize] == 0
+    }
+
+    /// Whether nothing but the state and the variables `known` matters.
+    pub fn asks_only(&self, known: &[Variable]) -> bool {
+        let is_known = |axis: usize| axis == STATE || known.iter().any(|&variable| variable as usize == axis);
+        (0..AXES).all(|axis| self.stride[axis] == 0 || is_known(axis))
+    }
+
+    /// Whether a cell has points in a state.
+    pub fn is_in(&self, cell: usize, state: u8) -> bool {
+        self.stride[STATE] == 0 || self.point(cell).state == state
     }
 
     /// The cell of a point, clamped to the grid.

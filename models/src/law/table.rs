@@ -8,6 +8,7 @@ use super::domain::{At, Domain, Grid};
 use super::form::Law;
 use super::formula::Formula;
 use super::range::ValueRange;
+use super::variable::Variable;
 use crate::fault::{Fault, Path};
 
 const WORDS: f64 = 4_294_967_296.0;
@@ -93,9 +94,15 @@ impl ProbabilityTable {
         self.constant
     }
 
-    /// Whether the probability depends on rank and state at most.
-    pub fn is_timeless(&self) -> bool {
-        self.grid.is_timeless()
+    /// Whether the probability depends on the state and the variables `known` at most.
+    pub fn asks_only(&self, known: &[Variable]) -> bool {
+        self.grid.asks_only(known)
+    }
+
+    /// Whether it happens at no point of a state.
+    pub fn is_never_in(&self, state: u8) -> bool {
+        let is_never = |(cell, &threshold): (usize, &u32)| threshold == 0 || !self.grid.is_in(cell, state);
+        self.thresholds.iter().enumerate().all(is_never)
     }
 
     /// Whether it names a variable that moves only when the bud makes a growth unit.

@@ -5,7 +5,7 @@
 use super::super::amounts;
 use super::run::ages_in_words;
 use anyhow::Result;
-use phytomer::run::forecast::Forecast;
+use phytomer::run::forecast::{Figure, Forecast};
 use phytomer_config::Resolved;
 use phytomer_config::scenario::Table;
 use serde_json::{Value, json};
@@ -42,13 +42,19 @@ pub fn as_text(resolved: &Resolved) -> String {
         line(
             "expected",
             format!(
-                "{} components, {} rows of records",
-                amounts::about(forecast.components),
-                amounts::about(forecast.records_rows)
+                "{}, {}",
+                foretold(forecast.components_are, forecast.components, "components"),
+                foretold(forecast.records_rows_are, forecast.records_rows, "rows of records")
             ),
         );
     }
     text
+}
+
+/// A number of the forecast with what it is.
+fn foretold(figure: Figure, value: f64, unit: &str) -> String {
+    let words = [figure.word(), &amounts::about(value), unit];
+    words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
 fn tables_in_words(tables: &std::collections::BTreeSet<Table>) -> String {

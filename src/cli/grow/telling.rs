@@ -5,7 +5,7 @@
 use super::super::{Verdict, amounts, terminal};
 use super::shown;
 use anyhow::Result;
-use phytomer::run::forecast::Forecast;
+use phytomer::run::forecast::{Figure, Forecast};
 use phytomer::run::{Outcome, Settings};
 use phytomer_config::Resolved;
 use phytomer_outputs::Table;
@@ -164,28 +164,25 @@ pub fn forecast(resolved: &Resolved, forecast: Option<&Forecast>, as_json: bool)
     let mut text = format!("{plants} of `{species}` to age {}, seed {}\n", scenario.ages.until, scenario.seed);
     match forecast {
         Some(forecast) => text += &in_words(forecast),
-        None => text += "  the laws of this species allow no expectation in closed form\n",
+        None => text += "  no forecast: the expectation of this species takes too long to sum up\n",
     }
     terminal::put(&(text + "nothing was written"))
 }
 
 fn in_words(forecast: &Forecast) -> String {
     let mut text = String::new();
-    for (order, components) in (1..).zip(&forecast.components_by_order) {
-        let _ = writeln!(text, "  order {order:<5} {:>10} components a plant", amounts::about(*components));
-    }
-    let mut line = |name: &str, value: f64, unit: &str| {
-        let _ = writeln!(text, "  {name:<11} {:>10} {unit}", amounts::about(value));
+    let components = forecast.components_are;
+    let mut line = |name: &str, figure: Figure, value: String, unit: &str| {
+        let _ = writeln!(text, "  {name:<11} {:>7} {value:>10} {unit}", figure.word());
     };
-    line("in all", forecast.components, "components");
-    line("records", forecast.records_rows, "rows");
-    line("summary", forecast.summary_rows, "rows");
-    let _ = writeln!(
-        text,
-        "  {:<11} {:>10} of tables, about, if nothing is shed",
-        "disk",
-        amounts::bytes(forecast.table_bytes)
-    );
-    let _ = writeln!(text, "  {:<11} {:>10} a plant while it grows", "memory", amounts::bytes(forecast.bytes_a_plant));
+    for (order, value) in (1..).zip(&forecast.components_by_order) {
+        line(&format!("order {order}"), components, amounts::about(*value), "components a plant");
+    }
+    line("in all", components, amounts::about(forecast.components), "components");
+    line("records", forecast.records_rows_are, amounts::about(forecast.records_rows), "rows");
+    line("summary", Figure::Exact, amounts::about(forecast.summary_rows), "rows");
+    let tables = "of tables, if nothing is shed";
+    line("disk", Figure::About, amounts::bytes(forecast.table_bytes), tables);
+    line("memory", Figure::About, amounts::bytes(forecast.bytes_a_plant), "a plant while it grows");
     text
 }

@@ -21,7 +21,7 @@ pub(super) use head::HeadLaws;
 pub(super) use node::NodeLaws;
 pub(super) use relay::{Branching, EndLaws};
 pub(super) use step::{Passage, StepLaws};
-pub(super) use zone::{Ramification, Ranks, Zones};
+pub(super) use zone::{Ramification, Ranks};
 
 use super::params::Buds;
 use crate::fault::{self, Fault, Path};

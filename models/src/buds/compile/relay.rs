@@ -82,6 +82,11 @@ impl EndLaws {
         }
     }
 
+    /// Whether an end of an apex is ever relayed.
+    pub fn is_ever_relayed(&self) -> bool {
+        self.relayed.contains(&true)
+    }
+
     /// Whether an apex that ended so is relayed.
     pub fn is_relayed(&self, end: ApexEnd) -> bool {
         self.relayed[end as usize]

@@ -6,7 +6,7 @@
 use super::compiler::Compiler;
 use super::words::{Chance, Layout, Number};
 use crate::buds::params::{End, Order, Pattern, Zone, ZoneState};
-use crate::law::{At, Count, CountForm, CountTable};
+use crate::law::{At, Count, CountForm, CountTable, Variable};
 
 /// The most zones of a growth unit.
 const MOST_ZONES: usize = 64;
@@ -119,12 +119,21 @@ impl Zones {
         Some(zone.ramification(order))
     }
 
-    /// Whether how a node ramifies depends on its rank and the state of its axis at most.
-    pub fn are_timeless(&self) -> bool {
+    /// Whether how a node ramifies depends on the state of its axis and the variables `known` at most.
+    pub fn ask_only(&self, known: &[Variable]) -> bool {
         self.0.iter().all(|zone| {
-            zone.chance.as_ref().is_none_or(|chance| chance.table.is_timeless())
-                && zone.states.as_ref().is_none_or(|states| states.which.table.is_timeless())
+            zone.chance.as_ref().is_none_or(|chance| chance.table.asks_only(known))
+                && zone.states.as_ref().is_none_or(|states| states.which.table.asks_only(known))
         })
+    }
+
+    /// The states, in zones that state them, of the axes that buds of axes in `state` can become; `None` stands for that of the
+    /// order's axillary buds. `order` is the law of zones without one of their own.
+    pub fn states_of(&self, state: u8, order: &Chance) -> Vec<Option<u8>> {
+        let bearing = self.0.iter().filter(|zone| !zone.ramification(order).chance.table.is_never_in(state));
+        bearing
+            .flat_map(|zone| zone.states.as_ref().map_or(vec![None], |of| of.of.iter().copied().map(Some).collect()))
+            .collect()
     }
 
     /// How the node at `rank` of `nodes` ramifies over what units draw: by each zone with the probability that it holds the
@@ -206,10 +215,10 @@ impl ZoneRanks {
         ranks.extend(self.drawn.iter().map(|(first, end)| (first.draw(words, unit, at), last(end))));
     }
 
-    /// Whether the distributions of the ranks depend on the state at most.
-    pub fn are_timeless(&self) -> bool {
+    /// Whether the distributions of the ranks depend on the state and the variables `known` at most.
+    pub fn ask_only(&self, known: &[Variable]) -> bool {
         let mut tables = self.drawn.iter().flat_map(|(first, last)| std::iter::once(first).chain(last));
-        tables.all(|number| number.table.is_timeless())
+        tables.all(|number| number.table.asks_only(known))
     }
 
     /// Of each zone the probability that it holds the node of rank 0, 1, 2 … from its end; the last one goes on.

@@ -1,127 +1,136 @@
 //! Cohorts: the axes of one order and one speed, born at one tick in one state, followed step by step as shares.
 //!
 //! A cohort's shares live, rest, grow or end by the same compiled laws as a bud; what they bear starts cohorts of its
-//! own, at later ticks. Absent: branch deaths and leaf fall, so that what is counted is what has been made.
+//! own, at later ticks. Absent: the deaths of branches, which end no growth (`lost` has what they do to organs).
 
-use super::unit::Unit;
-use crate::buds::compile::{Branching, BudModel, OrderLaws, Zones};
+use super::asked::{Asked, Key};
+use super::frame::{Completion, Frame};
+use super::unit::{Lateral, Unit};
+use crate::buds::compile::{Branching, BudModel, OrderLaws};
 use crate::buds::params::ApexEnd;
 use crate::law::At;
 use phytomer_sim::Tick;
 use phytomer_sim::clock::Speed;
-use phytomer_sim::expectation::{Expectation, OrderExpectation};
+use phytomer_sim::expectation::OrderExpectation;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// The most steps of summation: a second or so.
 const MOST_WORK: u64 = 40_000_000;
 
+/// So many summed units of an order are kept for the next time.
+const MOST_UNITS: usize = 50_000;
+
 /// A cohort of which less than this is left bears nothing that the sum, in double precision, would show.
-const NOTHING_LEFT: f64 = 1e-30;
+pub const NOTHING_LEFT: f64 = 1e-30;
+
+/// Axes born, by order, class and tick; the class is twice the state, and one more where axes do not lead their sets.
+pub type Births = Vec<Vec<Vec<f64>>>;
 
 /// A share of a cohort.
 #[derive(Debug, Clone, Copy, Default)]
 struct Flow {
     /// Living apices.
     apices: f64,
-    /// Those of them whose axis has a node of its own.
-    with_node: f64,
     /// Dormant axillary buds on the last nodes of their axes.
     dormant: f64,
 }
 
 impl Flow {
     fn share(self, share: f64) -> Self {
-        Self { apices: self.apices * share, with_node: self.with_node * share, dormant: self.dormant * share }
+        Self { apices: self.apices * share, dormant: self.dormant * share }
     }
 
     fn add(&mut self, other: Self) {
         self.apices += other.apices;
-        self.with_node += other.with_node;
         self.dormant += other.dormant;
     }
+}
 
-    /// After a growth unit: its last node is now the last, unless it had none.
-    fn grown(self, unit: &Unit) -> Self {
-        Self {
-            apices: self.apices,
-            with_node: self.apices * (1.0 - unit.empty) + self.with_node * unit.empty,
-            dormant: self.apices * unit.dormant + self.dormant * unit.empty,
-        }
-    }
+/// A cohort that is followed.
+struct Cohort<'a> {
+    order: usize,
+    laws: &'a OrderLaws,
+    frame: Frame,
+    ends: Completion,
+    /// Whether its axes lead their sets of relays.
+    leads: bool,
 }
 
 /// The sum over all cohorts.
 pub struct Cohorts<'a> {
     model: &'a BudModel,
     until: Tick,
-    /// Axes born, by order, class and tick; the class is twice the state, and one more where axes do not lead their sets.
-    births: Vec<Vec<Vec<f64>>>,
-    expected: Vec<OrderExpectation>,
-    /// The growth unit of each order by state, where nothing but the state matters.
-    timeless: Vec<Option<Rc<[Unit]>>>,
-    /// Whether the axes of the cohort that is followed lead their sets of relays.
-    leads: bool,
+    /// What has been born so far.
+    pub births: Births,
+    /// What has been made, at each tick.
+    pub expected: Vec<OrderExpectation>,
+    /// The growth units that have been summed, by order and by what those of the order depend on.
+    units: Vec<(Asked, BTreeMap<Key, Rc<Unit>>)>,
     work: u64,
 }
 
 impl<'a> Cohorts<'a> {
-    /// Nothing born yet.
-    pub fn new(model: &'a BudModel, until: Tick) -> Self {
+    /// What one axis of `order` and all that it bears make; `None` where the sum would take too long.
+    ///
+    /// A cohort bears only after its own birth, so cohorts are taken by tick of birth.
+    pub fn from(model: &'a BudModel, order: u8, until: Tick) -> Option<Self> {
         let ticks = vec![0.0; until as usize + 1];
-        Self {
+        let mut sum = Self {
             model,
             until,
             births: vec![vec![ticks; 2 * model.states]; model.orders.len()],
             expected: vec![OrderExpectation::zero(until); model.orders.len()],
-            timeless: model.orders.iter().map(|laws| timeless_units(model, laws)).collect(),
-            leads: true,
+            units: model.orders.iter().map(|laws| (Asked::by_units_of(laws), BTreeMap::new())).collect(),
             work: 0,
+        };
+        let first = usize::from(order) - 1;
+        sum.births[first][0][0] = 1.0;
+        sum.expected[first].axes[0] = 1.0;
+        for birth in 0..=until {
+            sum.follow_born_at(birth)?;
         }
+        Some(sum)
     }
 
-    /// The means of what one axis of `order` and all that it bears make; `None` where the sum would take too long.
-    ///
-    /// A cohort bears only after its own birth, so cohorts are taken by tick of birth.
-    pub fn sum_from(mut self, order: u8) -> Option<Expectation> {
-        let first = usize::from(order) - 1;
-        self.births[first][0][0] = 1.0;
-        self.expected[first].axes[0] = 1.0;
-        for birth in 0..=self.until {
-            for order in 0..self.model.orders.len() {
-                for class in 0..2 * self.model.states {
-                    let born = self.births[order][class][birth as usize];
-                    let model = self.model;
-                    for (speed, share) in model.orders[order].head.speed.shares().filter(|_| born > 0.0) {
-                        self.follow((order, speed), class, birth, born * share)?;
-                    }
+    fn follow_born_at(&mut self, birth: Tick) -> Option<()> {
+        let model = self.model;
+        for order in 0..model.orders.len() {
+            for class in 0..2 * model.states {
+                let born = self.births[order][class][birth as usize];
+                for (speed, share) in model.orders[order].head.speed.shares().filter(|_| born > 0.0) {
+                    self.follow((order, speed), class, birth, born * share)?;
                 }
             }
         }
-        self.expected.iter_mut().for_each(OrderExpectation::accumulate);
-        Some(Expectation { orders: self.expected })
+        Some(())
     }
 
     /// One cohort, of the axes that drew one speed, from its birth to the last age.
     fn follow(&mut self, (order, speed): (usize, Speed), class: usize, birth: Tick, born: f64) -> Option<()> {
         let laws = &self.model.orders[order];
         let state = (class / 2) as u8;
-        self.leads = class.is_multiple_of(2);
         let ends = Completion::of(laws, At { age: birth, state, ..At::default() });
-        let mut living = vec![vec![Flow::default(); self.model.states]; ends.stages()];
+        let frame = Frame::of(laws, self.model.states, &ends);
+        let cohort = Cohort { order, laws, frame, ends, leads: class.is_multiple_of(2) };
+        let mut living = vec![Flow::default(); frame.cells()];
         let mut after = living.clone();
-        living[0][usize::from(state)].apices = born;
+        living[frame.cell(0, 0, state)].apices = born;
         let mut cycle = 0;
+        // What it costs to look through them, beside the work on those that are not empty.
+        let cells = frame.cells() as u64 / 16;
         for tick in birth + 1..=self.until {
             let dimension = tick - birth;
             while cycle < speed.steps_by(dimension) {
                 cycle += 1;
                 let at = At { age: tick, dimension, cycle, ..At::default() };
-                self.step(order, &living, &mut after, &ends, at);
+                self.step(&cohort, &living, &mut after, at);
+                self.work += cells;
                 std::mem::swap(&mut living, &mut after);
                 if self.work > MOST_WORK {
                     return None;
                 }
-                if living.iter().flatten().all(|flow| flow.apices < NOTHING_LEFT) {
+                if living.iter().all(|flow| flow.apices < NOTHING_LEFT) {
                     return Some(());
                 }
             }
@@ -129,126 +138,169 @@ impl<'a> Cohorts<'a> {
         Some(())
     }
 
-    /// One clock step of a cohort: what is still living after it, by growth units made and by state.
-    fn step(&mut self, order: usize, living: &[Vec<Flow>], after: &mut [Vec<Flow>], ends: &Completion, at: At) {
-        after.iter_mut().for_each(|states| states.fill(Flow::default()));
-        let known = self.timeless[order].clone();
-        let mut summed;
-        for (made, states) in living.iter().enumerate() {
-            for (state, flow) in states.iter().enumerate().filter(|(_, flow)| flow.apices > 0.0) {
-                let at = At { state: state as u8, ..at };
-                let growing = self.fates(order, *flow, &mut after[made][state], at);
-                let unit = match &known {
-                    Some(units) => &units[state],
-                    None => {
-                        summed = Unit::at(self.model, &self.model.orders[order], at);
-                        &summed
-                    }
-                };
-                self.work += 1 + unit.work;
-                self.grow(order, growing, (made, ends), unit, after, at);
+    /// One clock step of a cohort: what is still living after it.
+    fn step(&mut self, cohort: &Cohort, living: &[Flow], after: &mut [Flow], at: At) {
+        after.fill(Flow::default());
+        let frame = cohort.frame;
+        let mut growing = vec![Flow::default(); frame.ranks];
+        for state in 0..frame.states as u8 {
+            let at = At { state, ..at };
+            let cells = |made: usize| (0..frame.ranks).map(move |rank| (rank, frame.cell(made, rank, state)));
+            let is_empty = |made: &usize| cells(*made).all(|(_, cell)| living[cell].apices <= 0.0);
+            let mut unit = None;
+            for made in (0..frame.stages).filter(|made| !is_empty(made)) {
+                for (rank, cell) in cells(made) {
+                    growing[rank] = self.fates(cohort, living[cell], rank, &mut after[cell], at);
+                }
+                let unit = unit.get_or_insert_with(|| self.unit_at(cohort, at));
+                self.work += 1;
+                self.grow(cohort, &mut growing, made, unit, after, at);
             }
         }
     }
 
+    fn unit_at(&mut self, cohort: &Cohort, at: At) -> Rc<Unit> {
+        let (asked, units) = &mut self.units[cohort.order];
+        let (model, until, work) = (self.model, self.until, &mut self.work);
+        if units.len() > MOST_UNITS {
+            units.clear();
+        }
+        let sum = || {
+            let unit = Unit::at(model, cohort.laws, at, until);
+            *work += unit.work;
+            Rc::new(unit)
+        };
+        Rc::clone(units.entry(asked.key(at)).or_insert_with(sum))
+    }
+
     /// Death, pause and terminal flower; what is left to grow.
-    fn fates(&mut self, order: usize, flow: Flow, resting: &mut Flow, at: At) -> Flow {
-        let laws = &self.model.orders[order];
-        let death = laws.step.death.table.probability(at);
-        let pause = laws.step.pause.table.probability(at);
-        let flower = laws.step.flower.table.probability(at);
-        self.end(order, flow.share(death), ApexEnd::Death, at);
+    fn fates(&mut self, cohort: &Cohort, flow: Flow, rank: usize, resting: &mut Flow, at: At) -> Flow {
+        if flow.apices <= 0.0 {
+            return flow;
+        }
+        let laws = &cohort.laws.step;
+        let death = laws.death.table.probability(at);
+        let pause = laws.pause.table.probability(at);
+        let flower = laws.flower.table.probability(at);
+        self.end(cohort, (rank, flow.share(death)), ApexEnd::Death, at);
         let alive = flow.share(1.0 - death);
         resting.add(alive.share(pause));
         let active = alive.share(1.0 - pause);
         let flowering = active.share(flower);
-        let fruits = laws.node.fruit_set.table.probability(at);
-        self.expected[order].organs[at.age as usize] += flowering.with_node * (1.0 + fruits);
-        self.end(order, flowering, ApexEnd::Flower, at);
+        if rank > 0 {
+            self.terminal_flowers(cohort, flowering.apices, at);
+        }
+        self.end(cohort, (rank, flowering), ApexEnd::Flower, at);
         active.share(1.0 - flower)
     }
 
-    /// The growth units of a step, one after another, then the passages between states.
-    fn grow(
-        &mut self,
-        order: usize,
-        growing: Flow,
-        (made, ends): (usize, &Completion),
-        unit: &Unit,
-        after: &mut [Vec<Flow>],
-        at: At,
-    ) {
-        let per_step = self.model.orders[order].step.per_step.table.pmf(at);
+    /// Flowers that apices have become, and their fruits after them.
+    fn terminal_flowers(&mut self, cohort: &Cohort, flowers: f64, at: At) {
+        let laws = &cohort.laws.node;
+        let fruits = flowers * laws.fruit_set.table.probability(at);
+        let organs = &mut self.expected[cohort.order].organs;
+        organs[at.age as usize] += flowers;
+        if fruits > 0.0 {
+            for (life, share) in laws.flower_life.table.pmf(at).into_iter().enumerate() {
+                if let Some(organs) = organs.get_mut(at.age as usize + life.max(1)) {
+                    *organs += fruits * share;
+                }
+            }
+        }
+    }
+
+    /// The growth units of a step, one after another, then the passages between states; `growing` goes by numbers of nodes.
+    fn grow(&mut self, cohort: &Cohort, growing: &mut [Flow], made: usize, unit: &Unit, after: &mut [Flow], at: At) {
+        let per_step = cohort.laws.step.per_step.table.pmf(at);
         let mut at_least: f64 = per_step.iter().sum();
-        let mut flow = growing;
         let mut stage = made;
         for (units, &exactly) in per_step.iter().enumerate() {
             if units > 0 {
-                self.unit(order, flow.apices * at_least, unit, at);
-                flow = flow.grown(unit);
-                let completed = ends.hazard(stage);
-                self.end(order, flow.share(at_least * completed), ApexEnd::Completed, at);
-                flow = flow.share(1.0 - completed);
-                stage = ends.next(stage);
+                self.unit(cohort, growing.iter().map(|flow| flow.apices).sum::<f64>() * at_least, unit, at);
+                grown(&cohort.frame, growing, unit);
+                self.complete(cohort, growing, (stage, at_least), at);
+                stage = cohort.ends.next(stage);
             }
-            self.pass(order, flow.share(exactly), &mut after[stage], at);
+            for (rank, flow) in growing.iter().enumerate().filter(|(_, flow)| flow.apices * exactly > 0.0) {
+                self.pass(cohort, (stage, rank), flow.share(exactly), after, at);
+            }
             at_least -= exactly;
         }
     }
 
+    /// The ends of apices that have made all their growth units.
+    fn complete(&mut self, cohort: &Cohort, growing: &mut [Flow], (stage, share): (usize, f64), at: At) {
+        let completed = cohort.ends.hazard(stage);
+        for (rank, flow) in growing.iter_mut().enumerate().filter(|_| completed > 0.0) {
+            self.end(cohort, (rank, flow.share(share * completed)), ApexEnd::Completed, at);
+            *flow = flow.share(1.0 - completed);
+        }
+    }
+
     /// What `apices` growth units make.
-    fn unit(&mut self, order: usize, apices: f64, unit: &Unit, at: At) {
-        let expected = &mut self.expected[order];
+    fn unit(&mut self, cohort: &Cohort, apices: f64, unit: &Unit, at: At) {
+        if apices <= 0.0 {
+            return;
+        }
+        let expected = &mut self.expected[cohort.order];
         let age = at.age as usize;
         expected.units[age] += apices;
         expected.nodes[age] += apices * unit.nodes;
-        expected.organs[age] += apices * unit.organs;
-        let model = self.model;
-        let node = &model.orders[order].node;
-        let bearing = At { rank: 1, ..at };
-        self.bear(order + 1, apices * unit.laterals, &node.axillary, bearing);
-        for &(state, axes) in &unit.zoned {
-            self.bear_in((state, 0), order + 1, apices * axes, &node.axillary, bearing);
+        for &(ticks, organs) in &unit.organs {
+            if let Some(by) = expected.organs.get_mut(age + ticks as usize) {
+                *by += apices * organs;
+            }
         }
-        self.bear(usize::from(node.reiteration_order) - 1, apices * unit.reiterations, &node.reiteration, bearing);
+        let node = &cohort.laws.node;
+        let mut bear = |laterals: &[Lateral], order: usize, branching: &Branching| {
+            for &Lateral { state, rank, axes } in laterals {
+                let state = state.or(branching.state).unwrap_or(at.state);
+                self.bear((order, state, 0), apices * axes, branching, At { rank, ..at });
+            }
+        };
+        bear(&unit.laterals, cohort.order + 1, &node.axillary);
+        bear(&unit.reiterations, usize::from(node.reiteration_order) - 1, &node.reiteration);
     }
 
     /// Passages between states: the first that happens, in the order in which they are stated.
-    fn pass(&mut self, order: usize, flow: Flow, after: &mut [Flow], at: At) {
+    fn pass(&mut self, cohort: &Cohort, (stage, rank): (usize, usize), flow: Flow, after: &mut [Flow], at: At) {
         let mut stays = flow;
-        let (model, leads) = (self.model, self.leads);
-        for passage in model.orders[order].step.transitions.iter().filter(|passage| passage.concerns(at.state, leads)) {
+        let passages = cohort.laws.step.transitions.iter();
+        for passage in passages.filter(|passage| passage.concerns(at.state, cohort.leads)) {
             let passes = passage.chance.table.probability(at);
             let passing = stays.share(passes);
             if passage.relayed {
-                self.relay(order, passing, at);
+                self.relay(cohort, (rank, passing), at);
             }
-            after[usize::from(passage.to)].add(passing);
+            after[cohort.frame.cell(stage, rank, passage.to)].add(passing);
             stays = stays.share(1.0 - passes);
         }
-        after[usize::from(at.state)].add(stays);
+        after[cohort.frame.cell(stage, rank, at.state)].add(stays);
     }
 
     /// What follows the ends of apices: relays, and traumatic reiterations where they died.
-    fn end(&mut self, order: usize, ended: Flow, end: ApexEnd, at: At) {
-        let model = self.model;
-        let laws = &model.orders[order].end;
+    fn end(&mut self, cohort: &Cohort, (rank, ended): (usize, Flow), end: ApexEnd, at: At) {
+        let laws = &cohort.laws.end;
+        if ended.apices <= 0.0 || rank == 0 {
+            return;
+        }
         if laws.is_relayed(end) {
-            self.relay(order, ended, at);
+            self.relay(cohort, (rank, ended), at);
         }
         if end == ApexEnd::Death {
-            let released = laws.traumatic.chance.table.probability(at);
-            self.bear(order, ended.dormant * released, &laws.traumatic, at);
+            let released = ended.dormant * laws.traumatic.chance.table.probability(at);
+            let state = laws.traumatic.state.unwrap_or(at.state);
+            self.bear((cohort.order, state, 0), released, &laws.traumatic, at);
         }
         if let Some(fork) = laws.fork.as_ref().filter(|_| end == ApexEnd::Completed) {
-            self.bear_set(order, ended.with_node, fork, at);
+            self.bear_set(cohort.order, ended.apices, fork, at);
         }
     }
 
     /// The relays of apices that have ended or passed into another state.
-    fn relay(&mut self, order: usize, of: Flow, at: At) {
-        let model = self.model;
-        self.bear_set(order, of.with_node, &model.orders[order].end.relay, at);
+    fn relay(&mut self, cohort: &Cohort, (rank, of): (usize, Flow), at: At) {
+        let sets = of.apices * cohort.frame.reaches(cohort.laws, rank, at);
+        self.bear_set(cohort.order, sets, &cohort.laws.end.relay, at);
     }
 
     /// Sets of equal axes: in each set with any the first leads.
@@ -262,22 +314,13 @@ impl<'a> Cohorts<'a> {
             none_of_so_many *= 1.0 - chance;
         }
         let leaders = (1.0 - none).clamp(0.0, mean);
-        self.bear_class(order, sets * leaders, branching, 0, at);
-        self.bear_class(order, sets * (mean - leaders), branching, 1, at);
+        let state = branching.state.unwrap_or(at.state);
+        self.bear((order, state, 0), sets * leaders, branching, at);
+        self.bear((order, state, 1), sets * (mean - leaders), branching, at);
     }
 
-    /// New axes, after their delay.
-    fn bear(&mut self, order: usize, axes: f64, branching: &Branching, at: At) {
-        self.bear_class(order, axes, branching, 0, at);
-    }
-
-    /// The same, of axes that lead their sets (0) or do not (1).
-    fn bear_class(&mut self, order: usize, axes: f64, branching: &Branching, follows: usize, at: At) {
-        self.bear_in((branching.state.unwrap_or(at.state), follows), order, axes, branching, at);
-    }
-
-    /// The same, of axes of a given state.
-    fn bear_in(&mut self, (state, follows): (u8, usize), order: usize, axes: f64, branching: &Branching, at: At) {
+    /// New axes of an order and a state, after their delay, that lead their sets (0) or do not (1).
+    fn bear(&mut self, (order, state, follows): (usize, u8, usize), axes: f64, branching: &Branching, at: At) {
         if axes <= 0.0 || order >= self.births.len() {
             return;
         }
@@ -291,65 +334,19 @@ impl<'a> Cohorts<'a> {
     }
 }
 
-/// The means of a growth unit in each state, summed once, where they depend on nothing else.
-fn timeless_units(model: &BudModel, laws: &OrderLaws) -> Option<Rc<[Unit]>> {
-    let in_state = |state: usize| Unit::at(model, laws, At { state: state as u8, ..At::default() });
-    is_timeless(laws).then(|| (0..model.states).map(in_state).collect())
-}
-
-fn is_timeless(laws: &OrderLaws) -> bool {
-    let (step, node) = (&laws.step, &laws.node);
-    let chances = [&step.short, &node.flower_opens, &node.fruit_set, &node.axillary.chance, &node.reiteration.chance];
-    let mut zones = node.zones.iter();
-    let counts = [
-        &step.long_nodes,
-        &step.short_nodes,
-        &step.neoformed,
-        &node.leaves,
-        &node.flowers,
-        &node.axillary.count,
-        &node.reiteration.count,
-    ];
-    chances.iter().all(|chance| chance.table.is_timeless())
-        && counts.iter().all(|count| count.table.is_timeless())
-        && step.zone_ranks.are_timeless()
-        && zones.all(Zones::are_timeless)
-}
-
-/// When apices end by having made all their growth units: the number is drawn once an axis.
-struct Completion {
-    /// The probability that an apex ends with its next growth unit, by growth units made; empty: never.
-    hazards: Vec<f64>,
-}
-
-impl Completion {
-    fn of(laws: &OrderLaws, at: At) -> Self {
-        let Some(units) = &laws.head.units else {
-            return Self { hazards: Vec::new() };
-        };
-        let mut pmf = units.table.pmf(at);
-        // An apex that is to make none ends with its first.
-        let none = pmf[0];
-        pmf.resize(pmf.len().max(2), 0.0);
-        pmf[1] += none;
-        let mut left = 1.0;
-        let hazards = pmf[1..].iter().map(|&share| {
-            let hazard = if left > 0.0 { (share / left).min(1.0) } else { 1.0 };
-            left -= share;
-            hazard
-        });
-        Self { hazards: hazards.collect() }
-    }
-
-    fn stages(&self) -> usize {
-        self.hazards.len().max(1)
-    }
-
-    fn hazard(&self, made: usize) -> f64 {
-        self.hazards.get(made).copied().unwrap_or(0.0)
-    }
-
-    fn next(&self, made: usize) -> usize {
-        (made + 1).min(self.stages() - 1)
+/// After a growth unit: axes have more nodes, and other buds lie dormant on the last of them.
+fn grown(frame: &Frame, growing: &mut [Flow], unit: &Unit) {
+    let empty = unit.counts[0];
+    for rank in (0..growing.len()).rev() {
+        let before = std::mem::take(&mut growing[rank]);
+        if before.apices <= 0.0 {
+            continue;
+        }
+        growing[rank].add(before.share(empty));
+        for (more, &share) in unit.counts.iter().enumerate().skip(1).filter(|(_, share)| **share > 0.0) {
+            // Dormant buds are shared out over the numbers of nodes: the death that releases them does not ask for those.
+            let dormant = before.apices * unit.dormant * share / (1.0 - empty);
+            growing[frame.after(rank, more)].add(Flow { apices: before.apices * share, dormant });
+        }
     }
 }

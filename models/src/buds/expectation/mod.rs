@@ -6,30 +6,52 @@
 //! and state the same mean is summed over cohorts: the axes of one order born at one tick in one state, of which each
 //! clock step kills, rests, ends or grows a share. Means are linear, so the sum is exact, whatever the random numbers of
 //! nodes and buds, as long as they are drawn independently, which they are. Where an axis draws its speed, a cohort is split
-//! by speeds; where a growth unit draws the ranks of its zones, the mean is taken over them too. One thing is not exact: the
-//! delay of a lateral is asked at rank 1, whatever its node's rank. One has no mean here: relays that can stand below the
-//! last node, since an axis may be too short for them.
+//! by speeds; where a growth unit draws the ranks of its zones, the mean is taken over them too; where relays stand below
+//! the last node, axes too short for them are told apart. The death of a branch ends no growth, but it comes before some
+//! flowers and fruits, which then never appear: their mean is taken off (`lost`).
 //!
-//! Absent: the deaths of branches. What is counted is what has been made.
+//! What has no closed form is told as what it is ([`Certainty`]). Laws that ask more than is known of a cohort make an
+//! estimate. Bounds from above are: organs on branches with released dormant buds or drawn zones, whose branches do not die
+//! independently, or too many to be followed, as if no branch died before them; and relays that may stand more than 64 nodes
+//! below the last one, as if every axis were long enough.
+//!
+//! Absent: what falls. What is counted is what has been made.
 
+mod asked;
 mod cohort;
+mod frame;
+mod gone;
+mod lost;
+mod needs;
 mod unit;
 
 use super::compile::BudModel;
 use cohort::Cohorts;
 use phytomer_sim::Tick;
-use phytomer_sim::expectation::Expectation;
+use phytomer_sim::expectation::{Certainty, Expectation, OrderExpectation};
 
 impl BudModel {
     /// The means of what an axis of order `order` and all that it bears have made by each age from 0 to `until`, counted
-    /// from the birth of the axis; `None` where the laws do not allow it (relays that can stand below the last node) or the sum would
-    /// take too long.
+    /// from the birth of the axis; `None` where the sum would take too long.
     pub fn expectation_from(&self, order: u8, until: Tick) -> Option<Expectation> {
-        if !self.has_order(order) || self.orders.iter().any(|laws| laws.end.below.table.max() > 0) {
+        if !self.has_order(order) {
             return None;
         }
-        Cohorts::new(self, until.min(self.until)).sum_from(order)
+        let until = until.min(self.until);
+        let Cohorts { births, expected: mut orders, .. } = Cohorts::from(self, order, until)?;
+        let (axes, mut organs) = (needs::of_axes(self), needs::of_organs(self));
+        match lost::organs(self, &births, until) {
+            Some(lost) => orders.iter_mut().zip(lost).for_each(|(order, lost)| take_off(order, &lost)),
+            None => organs = organs.max(Certainty::AtMost),
+        }
+        orders.iter_mut().for_each(OrderExpectation::accumulate);
+        Some(Expectation { orders, axes, organs })
     }
+}
+
+/// Takes organs off that never appear; rounding takes none below 0.
+fn take_off(order: &mut OrderExpectation, lost: &[f64]) {
+    order.organs.iter_mut().zip(lost).for_each(|(organs, lost)| *organs = (*organs - lost).max(0.0));
 }
 
 /// The probability that one bud and all its descendants are dead after `ticks` ticks, for buds of one type: at each tick

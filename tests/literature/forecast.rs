@@ -1,0 +1,174 @@
+//! What `--dry-run` foretells of every shipped species and scenario, against the mean of plants grown from fixed seeds: by
+//! order, of axes, growth units, nodes and organs, at three ages.
+//!
+//! A figure that is told as exact lies within 4 standard errors of the sample's mean, one that is told as "at most" not below
+//! it. Plants are as many as their size allows; a species whose plants become large is looked at while they are smaller.
+//! Absent: species that are made to be hard (`organs`).
+
+use crate::grown::Sample;
+use phytomer_config::{Kind, SPECIES_ALONE_UNTIL, presets, validate, validate_species};
+use phytomer_sim::expectation::{Certainty, Expectation, OrderExpectation};
+use phytomer_sim::plant::{EventKind, Seed};
+use phytomer_sim::{Growth, GrowthModel, Plant, Plot, Tick};
+use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
+
+/// A plant that is expected to have more components is looked at while it is younger.
+const LARGE: f64 = 10_000.0;
+/// About so many components are grown of a species.
+const COMPONENTS: f64 = 400_000.0;
+const PLANTS: std::ops::RangeInclusive<f64> = 50.0..=2_000.0;
+
+/// What is counted of the plants of one order.
+const COUNTED: [&str; 4] = ["axes", "growth units", "nodes", "organs"];
+
+/// How many of each have appeared on one plant by each of some ages: by order, by age, by what is counted.
+type Counts = Vec<Vec<[f64; 4]>>;
+
+/// Compares what is foretold of the plants of a model with plants that are grown; what differs, in words.
+pub fn differences(name: &str, model: &dyn GrowthModel, until: Tick, components: f64) -> Vec<String> {
+    let expected = model.expectation(until).unwrap_or_else(|| panic!("{name} has no forecast"));
+    let last = (1..=until).rev().find(|&age| expected.components(age) <= LARGE).unwrap_or(1);
+    let ages = [last.div_ceil(3), (2 * last).div_ceil(3), last];
+    let (fewest, most) = PLANTS.into_inner();
+    let plants = (components / expected.components(last)).clamp(fewest, most) as u32;
+    let orders = expected.orders.len();
+    let counts: Vec<Counts> = (0..plants).map(|plant| counted(&grown(model, plant, last), &ages, orders)).collect();
+    let mut differences = Vec::new();
+    for (order, figures) in expected.orders.iter().enumerate() {
+        for (nth, &age) in ages.iter().enumerate() {
+            for (counted, what) in COUNTED.iter().enumerate() {
+                let sample = Sample::of(counts.iter().map(|plant| plant[order][nth][counted]));
+                let foretold = figure(figures, counted, age);
+                if let Some(problem) = misses(&sample, foretold, certainty_of(&expected, counted)) {
+                    differences.push(format!("{name}: {what} of order {} at age {age}: {problem}", order + 1));
+                }
+            }
+        }
+    }
+    differences
+}
+
+fn certainty_of(expected: &Expectation, counted: usize) -> Certainty {
+    if COUNTED[counted] == "organs" { expected.organs } else { expected.axes }
+}
+
+fn figure(figures: &OrderExpectation, counted: usize, age: Tick) -> f64 {
+    [&figures.axes, &figures.units, &figures.nodes, &figures.organs][counted][age as usize]
+}
+
+/// Where the mean of a sample does not bear out what was foretold.
+fn misses(sample: &Sample, foretold: f64, certainty: Certainty) -> Option<String> {
+    let (found, error) = (sample.mean(), standard_error(sample, foretold));
+    let bound = 4.0 * error + unseen(sample, foretold) + 1e-9 * foretold.max(1.0);
+    let holds = match certainty {
+        Certainty::Exact => (found - foretold).abs() <= bound,
+        Certainty::AtMost => found - foretold <= bound,
+        Certainty::About => true,
+    };
+    let mean = format!("{found:.4} grow on {} plants", sample.n());
+    (!holds).then(|| format!("{certainty:?} {foretold:.4} foretold, {mean}, standard error {error:.4}"))
+}
+
+/// That of the mean of the sample. Of what is so rare that few plants of the sample have any, the variance is at least that
+/// of a Poisson number.
+fn standard_error(sample: &Sample, foretold: f64) -> f64 {
+    let is_rare = foretold * sample.n() < 25.0;
+    let variance = if is_rare { sample.variance().max(foretold) } else { sample.variance() };
+    (variance / sample.n()).sqrt()
+}
+
+/// What a mean may be off where all plants of a sample have the same number. An event that none of n plants has shown is at
+/// 4 standard errors less probable than 10/n, since (1 − 10/n)ⁿ is below 6e-5; at most it takes or adds the whole number.
+fn unseen(sample: &Sample, foretold: f64) -> f64 {
+    if sample.variance() > 0.0 { 0.0 } else { 10.0 / sample.n() * foretold.max(sample.mean()).min(LARGE) }
+}
+
+fn grown(model: &dyn GrowthModel, plant: u32, age: Tick) -> Plant {
+    let seed = Seed { plant, run_seed: 1988, component_limit: 5_000_000, keep_events: true };
+    let mut plot = Plot::of_one(model, &seed);
+    model.grow_to(age, &mut plot.plants, &plot.site).expect("within the limit");
+    plot.plants.iter_mut().for_each(phytomer_sim::shed::shed);
+    plot.plants.remove(0)
+}
+
+fn counted(plant: &Plant, ages: &[Tick], orders: usize) -> Counts {
+    let mut counts = vec![vec![[0.0; 4]; ages.len()]; orders];
+    let mut count = |axis: usize, what: usize, birth: Tick| {
+        let order = usize::from(plant.axes.order[axis]) - 1;
+        let by = counts[order].iter_mut().zip(ages).filter(|(_, age)| birth <= **age);
+        by.for_each(|(counts, _)| counts[what] += 1.0);
+    };
+    (0..plant.axes.len()).for_each(|axis| count(axis, 0, plant.axes.appearance[axis]));
+    let events = plant.events.iter().flatten().filter(|event| event.kind == EventKind::Grew);
+    events.for_each(|event| count(event.axis.index(), 1, event.tick));
+    let nodes = &plant.nodes;
+    (0..nodes.len()).for_each(|node| count(nodes.axis[node].index(), 2, nodes.birth[node]));
+    let organs = &plant.organs;
+    // An organ planned for a branch that died before it appeared never did.
+    let appeared = (0..organs.len()).filter(|&organ| organs.birth[organ] < organs.death[organ]);
+    appeared.for_each(|organ| count(nodes.axis[organs.node[organ].index()].index(), 3, organs.birth[organ]));
+    counts
+}
+
+/// A model that rebuilds its plant leaves no events; its growth units are its nodes.
+fn differences_of(name: &str, model: &dyn GrowthModel, until: Tick) -> Vec<String> {
+    let mut differences = differences(name, model, until, COMPONENTS);
+    if model.growth() == Growth::Rebuilds {
+        differences.retain(|difference| !difference.contains("growth units"));
+    }
+    differences
+}
+
+#[test]
+fn every_shipped_species_grows_as_foretold() {
+    let species = presets(Kind::Species).into_par_iter().flat_map_iter(|(name, _)| {
+        let resolved = validate_species(name, SPECIES_ALONE_UNTIL).unwrap_or_else(|report| panic!("{name}: {report}"));
+        let until = resolved.shown_at();
+        let model = resolved.species.model.compile(until).unwrap_or_else(|faults| panic!("{name}: {faults:?}"));
+        differences_of(name, model.as_ref(), until)
+    });
+    let differences: Vec<String> = species.collect();
+    assert!(differences.is_empty(), "{}", differences.join("\n"));
+}
+
+#[test]
+fn every_shipped_scenario_grows_as_foretold() {
+    let scenarios = presets(Kind::Scenario).into_par_iter().flat_map_iter(|(name, _)| {
+        let resolved = validate(name).unwrap_or_else(|report| panic!("{name}: {report}"));
+        differences_of(name, resolved.model.as_ref(), resolved.scenario.ages.until)
+    });
+    let differences: Vec<String> = scenarios.collect();
+    assert!(differences.is_empty(), "{}", differences.join("\n"));
+}
+
+/// Every shipped species has its expectation in closed form: none is told as "about" or "at most".
+#[test]
+fn the_forecast_of_every_shipped_species_is_exact() {
+    let told = presets(Kind::Species).into_par_iter().filter_map(|(name, _)| {
+        let resolved = validate_species(name, SPECIES_ALONE_UNTIL).unwrap_or_else(|report| panic!("{name}: {report}"));
+        let until = resolved.shown_at();
+        let expected = resolved.model.expectation(until).unwrap_or_else(|| panic!("{name} has no forecast"));
+        (expected.certainty() != Certainty::Exact).then(|| format!("{name}: {:?}", expected.certainty()))
+    });
+    assert_eq!(told.collect::<Vec<_>>(), Vec::<String>::new());
+}
+
+/// Flowers that open after the last age are no components: neither foretold, nor counted against the limit.
+#[test]
+fn flowers_that_open_after_the_last_age_are_neither_foretold_nor_limited() {
+    let folder = tempfile::tempdir().unwrap();
+    let species = "name = 'late'\nsource = 'made up'\nmodel = 'buds'\ntick = 'a node'\n[[order]]\nleaf = { per_node = 0 }\n\
+        flower = { lateral = 1, per_node = 8, delay = 500, life = 1 }\n";
+    std::fs::write(folder.path().join("late.toml"), species).unwrap();
+    let scenario = "name = 'late'\nspecies = 'late.toml'\nplants = 1\nages = { until = 120 }\n\
+        limits = { max_components = 500 }\n";
+    let path = folder.path().join("scenario.toml");
+    std::fs::write(&path, scenario).unwrap();
+    let resolved = validate(path.to_str().unwrap()).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let expected = resolved.model.expectation(120).unwrap();
+    assert_eq!((expected.components(120), expected.certainty()), (121.0, Certainty::Exact));
+    let limits = Seed { plant: 0, run_seed: 1, component_limit: 500, keep_events: false };
+    let mut plot = Plot::of_one(resolved.model.as_ref(), &limits);
+    resolved.model.grow_to(120, &mut plot.plants, &plot.site).expect("121 components grow");
+    assert_eq!(plot.plants[0].lived_by(120), 121);
+}
