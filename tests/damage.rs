@@ -19,6 +19,7 @@ const COPIES: u64 = 200;
 /// One copy in so many goes through the program.
 const THROUGH_PROGRAM: u64 = 10;
 const SHARDS: u32 = 6;
+const SCENARIO: &str = "damage.toml";
 /// Four tables of each shard, three meshes, and the three documents that `run.json` names.
 const NAMED: usize = 4 * SHARDS as usize + 3 + 3;
 
@@ -172,7 +173,8 @@ fn assert_told(home: &Path, folder: &Path, found: &Checkup) {
         assert_eq!(verified[key], check[key], "{key}");
     }
     assert_eq!(verified["findings"][0]["path"], found.findings[0].path.as_str());
-    let words = ["grow", &data("parts.toml"), "--out", &name, "--resume", "--json", "--threads", "1"];
+    let scenario = home.join(SCENARIO).display().to_string();
+    let words = ["grow", &scenario, "--out", &name, "--resume", "--json", "--threads", "1"];
     let resumed = phytomer(home, &words).ending(0);
     assert!(resumed.stderr.contains(&found.findings[0].path), "{}", resumed.stderr);
     assert_eq!(resumed.json()["found"]["findings"], verified["findings"]);
@@ -193,9 +195,23 @@ fn resume(resolved: &Resolved, folder: &Path, found: &Checkup) {
     assert_eq!(outcome.grown_now as usize, found.to_grow.len());
 }
 
-/// The scenario and an undisturbed run of it.
-fn undisturbed(folder: &Path) -> Resolved {
-    let resolved = validate(&data("parts.toml")).unwrap_or_else(|report| panic!("{}", report.render(false)));
+/// A scenario of as many parts as `parts.toml`, each smaller, and an undisturbed run of it.
+fn undisturbed(home: &Path, folder: &Path) -> Resolved {
+    let mut text = fs::read_to_string(data("parts.toml")).unwrap();
+    for (there, here) in [
+        ("plants = 24", "plants = 12"),
+        ("plants_per_part = 4", "plants_per_part = 2"),
+        ("[0, 11, 23]", "[0, 5, 11]"),
+        ("until = 24", "until = 12"),
+        ("\"bush.toml\"", &format!("'{}'", data("bush.toml"))),
+    ] {
+        assert!(text.contains(there), "{there}");
+        text = text.replace(there, here);
+    }
+    let scenario = home.join(SCENARIO);
+    fs::write(&scenario, text).unwrap();
+    let name = scenario.to_str().unwrap();
+    let resolved = validate(name).unwrap_or_else(|report| panic!("{}", report.render(false)));
     run::run(&resolved, &settings(folder, Mode::New), &Progress::default()).unwrap();
     resolved
 }
@@ -204,7 +220,7 @@ fn undisturbed(folder: &Path) -> Resolved {
 fn two_hundred_damaged_copies_are_told_alike_and_mended() {
     let home = tempfile::tempdir().unwrap();
     let reference = home.path().join("reference");
-    let resolved = undisturbed(&reference);
+    let resolved = undisturbed(home.path(), &reference);
     assert!(verify(&reference).is_clean());
     let (whole, expected) = (contents(&reference), compared(&reference));
     let foreign: u64 = (0..COPIES)
@@ -238,7 +254,7 @@ fn two_hundred_damaged_copies_are_told_alike_and_mended() {
 fn every_byte_of_the_documents_is_checked() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("run");
-    undisturbed(&folder);
+    undisturbed(home.path(), &folder);
     let whole = contents(&folder);
     let documents = ["run.json", "journal.jsonl", "datapackage.json", "views.sql"];
     let few = |path: &str| whole[path].len().div_ceil(60);
@@ -261,7 +277,7 @@ fn every_byte_of_the_documents_is_checked() {
 fn several_kinds_of_damage_at_once() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("run");
-    let resolved = undisturbed(&folder);
+    let resolved = undisturbed(home.path(), &folder);
     let expected = compared(&folder);
     fs::remove_file(folder.join("records/part-00001.parquet")).unwrap();
     fs::write(folder.join("summary/part-00004.parquet"), b"cut").unwrap();
