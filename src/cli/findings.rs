@@ -29,7 +29,10 @@ pub fn kind_of(state: State) -> &'static str {
 
 /// Everything that was found.
 pub fn as_json(found: &Checkup) -> Value {
-    let finding = |finding: &Finding| json!({"path": finding.path, "problem": finding.trouble.word(), "detail": finding.trouble.in_words()});
+    let finding = |finding: &Finding| {
+        let (problem, detail) = (finding.trouble.word(), finding.trouble.in_words());
+        json!({"path": finding.path, "problem": problem, "detail": detail})
+    };
     json!({
         "status": word(found.state),
         "bytes_checked": found.depth == Depth::Bytes,

@@ -138,6 +138,21 @@ fn a_damaged_journal_costs_the_shards_of_its_damaged_lines_and_can_be_overwritte
     assert!(durable::files_in(&home.path().join("records")).unwrap().is_empty());
 }
 
+#[test]
+fn a_check_that_is_told_to_stop_says_so_and_changes_nothing() {
+    let home = tempdir().unwrap();
+    run(home.path(), plan(4, 2));
+    let before = contents(home.path());
+    let checking = Checking::default();
+    checking.stop();
+    assert!(matches!(check(home.path(), Depth::Bytes, &checking), Err(Error::Stopped)));
+    let opening = Opening { checking: &checking, space: Arc::new(SystemSpace) };
+    let stopped = RunFolder::open(home.path(), plan(4, 2), Mode::Resume, &opening);
+    assert!(matches!(stopped, Err(Error::Stopped)), "{stopped:?}");
+    assert_eq!(contents(home.path()), before);
+    assert_eq!(check(home.path(), Depth::Bytes, &Checking::default()).unwrap().state, State::Complete);
+}
+
 /// What a program of the first format left is told as such, and replaced where that is asked for.
 #[test]
 fn a_run_without_checks_is_told_kindly() {
