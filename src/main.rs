@@ -16,7 +16,7 @@ fn main() -> ExitCode {
         Ok(verdict) => verdict.into(),
         Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            cli::terminal::say(&format!("error: {error:#}"));
+            cli::terminal::say(&format!("error: {}", cli::causes::in_words(&error)));
             let misuse = error.is::<Misuse>();
             if misuse { Verdict::Usage.into() } else { Verdict::Failed.into() }
         }

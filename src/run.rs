@@ -8,6 +8,7 @@
 //! Absent: growth (`sim`, `models`), files (`outputs`), and everything that a person sees (`cli`).
 
 pub mod again;
+pub mod disk;
 pub mod drawing;
 pub mod forecast;
 pub mod forms;
@@ -21,12 +22,15 @@ use anyhow::{Context, Result};
 use drawing::Drawing;
 use phytomer_config::Resolved;
 use phytomer_outputs::meshes::OwnForms;
-use phytomer_outputs::{Mode, RunFolder, RunReport, Shard, ShardReport};
+use phytomer_outputs::{
+    Checkup, FreeSpace, Mode, Opening, RunFolder, RunPlan, RunReport, Shard, ShardReport, SystemSpace,
+};
 use phytomer_sim::plant::Hands;
 use phytomer_sim::{Growth, Plot, RecordError, Recorder, Tick, grow};
 use progress::Stopped;
 use rayon::ThreadPool;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -43,12 +47,23 @@ pub struct Settings {
     pub threads: usize,
     /// The program that the files name as their maker.
     pub program: Program,
+    /// Who knows the free space of the disk.
+    pub space: Arc<dyn FreeSpace>,
+    /// Whether a run begins that the disk seems too small for.
+    pub ignore_disk: bool,
 }
 
 impl Settings {
     /// A new run in `folder`, on every thread of the machine.
     pub fn in_folder(folder: impl Into<PathBuf>) -> Self {
-        Self { folder: folder.into(), mode: Mode::New, threads: 0, program: Program::default() }
+        Self {
+            folder: folder.into(),
+            mode: Mode::New,
+            threads: 0,
+            program: Program::default(),
+            space: Arc::new(SystemSpace),
+            ignore_disk: false,
+        }
     }
 }
 
@@ -79,25 +94,72 @@ impl Outcome {
 /// Grows every plant of a scenario and writes the run folder.
 ///
 /// # Errors
-/// Where a file cannot be written, or where the folder holds another run.
+/// As [`begin`], and where a file cannot be written.
 pub fn run(resolved: &Resolved, settings: &Settings, progress: &Progress) -> Result<Outcome> {
+    begin(resolved, settings, progress)?.grow(progress)
+}
+
+/// A run whose folder is ready, before its first tick.
+pub struct Begun<'a> {
+    resolved: Cow<'a, Resolved>,
+    forms: Arc<OwnForms>,
+    folder: RunFolder,
+    pool: ThreadPool,
+    start: Instant,
+}
+
+/// Makes the run folder ready, or looks at what an earlier start has left in it.
+///
+/// # Errors
+/// Where a file cannot be written, where the folder holds another run or another process fills it, or where the disk is
+/// too small ([`disk::TooSmall`]).
+pub fn begin<'a>(resolved: &'a Resolved, settings: &Settings, progress: &Progress) -> Result<Begun<'a>> {
     let start = Instant::now();
-    let (settled, forms) = forms::settled(resolved)?;
-    let resolved = settled.as_ref();
-    let plan = plan_of(resolved, &settings.program)?;
-    let shards = plan.shards();
+    let (resolved, forms) = forms::settled(resolved)?;
+    let plan = plan_of(&resolved, &settings.program)?;
     let pool = pool(settings.threads)?;
-    let folder = RunFolder::create(&settings.folder, plan, settings.mode)?;
-    let missing = folder.missing_shards();
-    progress.begin(resolved, missing.iter().map(|shard| folder.plan().plots_of(*shard).len() as u64).sum());
-    let grown = pool.install(|| grow_shards(resolved, &forms, &folder, &missing, progress))?;
-    let seconds = start.elapsed().as_secs_f64();
-    let components_now = grown.iter().map(|shard| shard.components).sum();
-    let grown_now = grown.len() as u32;
-    let committed = shards - missing.len() as u32 + grown_now;
-    let report =
-        if committed == shards { folder.finish(&[("growing_and_writing", seconds)])? } else { RunReport::of(&grown) };
-    Ok(Outcome { report, shards, committed, grown_now, components_now, seconds })
+    disk::check(&resolved, settings, disk::there(settings)?)?;
+    let folder = pool.install(|| open(plan, settings, progress))?;
+    Ok(Begun { resolved, forms, folder, pool, start })
+}
+
+fn open(plan: RunPlan, settings: &Settings, progress: &Progress) -> Result<RunFolder, phytomer_outputs::Error> {
+    let opening = Opening { checking: progress.checking(), space: Arc::clone(&settings.space) };
+    RunFolder::open(&settings.folder, plan, settings.mode, &opening)
+}
+
+impl Begun<'_> {
+    /// What a resumed run found in its folder, before it removed what is left over and forgot what is damaged.
+    pub fn found(&self) -> Option<&Checkup> {
+        self.folder.found()
+    }
+
+    /// Why another run in the same folder would not be noticed, if it would not.
+    pub fn unlockable(&self) -> Option<&str> {
+        self.folder.unlockable()
+    }
+
+    /// Grows the plants of all shards that are missing.
+    ///
+    /// # Errors
+    /// Where a file cannot be written.
+    pub fn grow(self, progress: &Progress) -> Result<Outcome> {
+        let Self { resolved, forms, folder, pool, start } = self;
+        let shards = folder.plan().shards();
+        let missing = folder.missing_shards();
+        progress.begin(&resolved, missing.iter().map(|shard| folder.plan().plots_of(*shard).len() as u64).sum());
+        let grown = pool.install(|| grow_shards(&resolved, &forms, &folder, &missing, progress))?;
+        let seconds = start.elapsed().as_secs_f64();
+        let components_now = grown.iter().map(|shard| shard.components).sum();
+        let grown_now = grown.len() as u32;
+        let committed = shards - missing.len() as u32 + grown_now;
+        let report = if committed == shards {
+            folder.finish(&[("growing_and_writing", seconds)])?
+        } else {
+            RunReport::of(&grown)
+        };
+        Ok(Outcome { report, shards, committed, grown_now, components_now, seconds })
+    }
 }
 
 /// A pool of so many threads, apart from any that the caller may have.
@@ -222,6 +284,7 @@ impl Recorder for Keeper<'_> {
         if self.draws(age)
             && let Some(drawing) = &mut self.drawing
         {
+            self.shard.look_at_disk()?;
             drawing.draw(age, &plot.plants[0], &mut self.shard)?;
         }
         self.grower.progress.end_age();

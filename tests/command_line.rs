@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 use tempfile::{TempDir, tempdir};
 
-const VERBS: [&str; 8] = ["init", "grow", "validate", "describe", "list", "schema", "mesh", "picture"];
+const VERBS: [&str; 9] = ["init", "grow", "validate", "verify", "describe", "list", "schema", "mesh", "picture"];
 
 /// A folder with a small finished run in `runs/small`.
 fn grown() -> TempDir {
@@ -87,7 +87,7 @@ fn a_folder_that_is_taken_is_kept_unless_told_otherwise() {
 fn dry_run_foretells_and_writes_nothing() {
     let folder = tempdir().unwrap();
     let json = run(folder.path(), &["grow", "example1", "--dry-run", "--json"]).ending(0).json();
-    assert!(json["expected"]["components"].as_f64().unwrap() > 0.0);
+    assert!(json["expected"]["components"].as_f64().unwrap() > 0.0 && json["free_bytes"].is_u64());
     let told = run(folder.path(), &["grow", "gmt1", "--dry-run"]).ending(0);
     assert!(told.stdout.contains("records") && told.stdout.contains("nothing was written"), "{}", told.stdout);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);

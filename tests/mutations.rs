@@ -187,7 +187,7 @@ fn assert_whole(folder: &Path, resolved: &Resolved, outcome: &Outcome) {
         assert_eq!(fs::metadata(&path).expect("a file").len(), file.bytes, "{}", file.path);
         assert_eq!(program::sha256(&path), file.sha256, "{}", file.path);
     }
-    let own = ["datapackage.json", "journal.jsonl", "run.json", "views.sql"].map(str::to_owned);
+    let own = ["datapackage.json", "journal.jsonl", "run.json", "run.lock", "views.sql"].map(str::to_owned);
     let expected: BTreeSet<String> = files.into_iter().map(|file| file.path).chain(own).collect();
     assert_eq!(there(folder), expected, "the files that are there, and those that should be");
     let package = fs::read(folder.join("datapackage.json")).expect("datapackage.json");

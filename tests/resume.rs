@@ -8,6 +8,7 @@ mod program;
 
 use program::{data, hashes, program as phytomer, run, said};
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::Path;
 use std::process::Stdio;
 use std::thread::sleep;
@@ -100,6 +101,12 @@ fn another_run_is_not_resumed() {
     run(folder.path(), &words).ending(0);
     let other =
         run(folder.path(), &["grow", &data("small.toml"), "--plants", "8", "--seed", "2", "--resume"]).ending(1);
-    assert!(other.stderr.contains("another"), "{}", other.stderr);
+    assert!(other.stderr.contains("\n  scenario.seed: 7 in the run, 2 now\n"), "{}", other.stderr);
+    fs::copy(data("bush.toml"), folder.path().join("bush.toml")).unwrap();
+    let text = fs::read_to_string(data("small.toml")).unwrap();
+    fs::write(folder.path().join("other.toml"), text.replace("every = 6", "every = 8")).unwrap();
+    let other = run(folder.path(), &["grow", "other.toml", "--plants", "8", "--resume"]).ending(1).stderr;
+    assert!(other.contains("\n  scenario.ages.record.every: 6 in the run, 8 now\n"), "{other}");
+    assert!(other.contains("  inputs.") && !other.contains("scenario_sha256"), "{other}");
     run(folder.path(), &["grow", &data("small.toml"), "--plants", "8", "--resume"]).ending(0);
 }

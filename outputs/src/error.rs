@@ -1,7 +1,9 @@
 //! Everything that can go wrong between a plant and a file, in words for the person who must set it right.
 //!
-//! A failed write ends the run: nothing here is logged and passed over.
+//! A failed write ends the run: nothing here is logged and passed over. A message does not repeat its cause, which
+//! `source` has: a person is shown the whole chain.
 
+use crate::run_folder::{Bytes, Differences, Holder};
 use parquet::errors::ParquetError;
 use std::path::{Path, PathBuf};
 
@@ -9,7 +11,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The file system refused.
-    #[error("cannot {doing} {}: {source}", path.display())]
+    #[error("cannot {doing} {}", path.display())]
     Io {
         /// What was tried: "create", "rename", …
         doing: &'static str,
@@ -25,23 +27,20 @@ pub enum Error {
         path: PathBuf,
     },
     /// A table could not be written.
-    #[error(
-        "cannot write the table {}: {source}\nwhat is complete is kept: free some space, then go on with --resume",
-        path.display()
-    )]
+    #[error("cannot write the table {}", path.display())]
     Table {
         /// The part file.
         path: PathBuf,
         /// The writer's answer.
-        source: ParquetError,
+        source: Cause,
     },
     /// A table could not be read.
-    #[error("cannot read the table {}: {source}", path.display())]
+    #[error("cannot read the table {}", path.display())]
     Read {
         /// The part file.
         path: PathBuf,
         /// The reader's answer.
-        source: ParquetError,
+        source: Cause,
     },
     /// A column of a table is not of the type that its schema states.
     #[error("the table {} has no column `{column}` of the stated type", path.display())]
@@ -52,7 +51,7 @@ pub enum Error {
         column: &'static str,
     },
     /// A JSON file could not be understood.
-    #[error("cannot understand {}: {source}", path.display())]
+    #[error("cannot understand {}", path.display())]
     Json {
         /// The file.
         path: PathBuf,
@@ -77,24 +76,74 @@ pub enum Error {
     },
     /// The run to resume is another run.
     #[error(
-        "{} holds a run with another `{what}`: resume it with the scenario and the program it began with, or choose \
-         another folder by --out",
+        "{} holds another run: resume it with the scenario and the program that it began with, or choose another folder \
+         by --out. What differs:\n{differences}",
         path.display()
     )]
     Foreign {
         /// The folder.
         path: PathBuf,
-        /// The first thing that differs.
-        what: String,
+        /// What differs.
+        differences: Differences,
     },
-    /// A line of the journal other than the last is damaged.
-    #[error("line {line} of {} is damaged: begin the run anew with --overwrite", path.display())]
-    Journal {
-        /// The journal.
+    /// The run to resume cannot be told from another.
+    #[error(
+        "in {} run.json is missing or damaged, and the journal has no whole line of this run: resume it with the scenario \
+         and the program that it began with, or begin anew with --overwrite",
+        path.display()
+    )]
+    Unrecognised {
+        /// The folder.
         path: PathBuf,
-        /// From 1.
-        line: usize,
     },
+    /// Another process fills the folder.
+    #[error(
+        "{} is being filled by {holder}: wait for its end or end it, or choose another folder by --out or --name; nothing \
+         was touched",
+        path.display()
+    )]
+    InProgress {
+        /// The folder.
+        path: PathBuf,
+        /// The process.
+        holder: Holder,
+    },
+    /// `run.json` is not as it was written.
+    #[error(
+        "{} is damaged: its check does not hold. `phytomer grow` with --resume, and with the scenario and the folder of \
+         the run, mends it",
+        path.display()
+    )]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The run was written by a program that kept no checks.
+    #[error(
+        "{} was written by an older phytomer, without the checks that this one looks for: nothing can be said of it. Grow \
+         it again with --overwrite, or use the program that `run.json` names",
+        path.display()
+    )]
+    OlderFormat {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The disk has less room than a run leaves.
+    #[error(
+        "the disk of {} has {free} left, and a run leaves {reserve} free",
+        path.display()
+    )]
+    AlmostFull {
+        /// The folder.
+        path: PathBuf,
+        /// What is free.
+        free: Bytes,
+        /// What is left free.
+        reserve: Bytes,
+    },
+    /// The check of the files was told to stop.
+    #[error("the check of the files was told to stop")]
+    Stopped,
     /// A shard was asked for that the plan does not have.
     #[error("there is no shard {shard}: the run has {shards}")]
     NoSuchShard {
@@ -167,6 +216,17 @@ pub enum Error {
     },
 }
 
+/// The cause of a failure, as whoever met it told it.
+pub type Cause = Box<dyn std::error::Error + Send + Sync>;
+
+/// What stands behind an error of the Parquet crate, which tells an outer cause twice: in its words and as its source.
+fn cause(error: ParquetError) -> Cause {
+    match error {
+        ParquetError::External(cause) => cause,
+        error => error.into(),
+    }
+}
+
 impl Error {
     /// Makes an [`Error::Io`] of the system's answer.
     pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
@@ -176,12 +236,12 @@ impl Error {
 
     pub(crate) fn table(path: &Path) -> impl FnOnce(ParquetError) -> Self {
         let path = path.to_path_buf();
-        move |source| Self::Table { path, source }
+        move |error| Self::Table { path, source: cause(error) }
     }
 
     pub(crate) fn read(path: &Path) -> impl FnOnce(ParquetError) -> Self {
         let path = path.to_path_buf();
-        move |source| Self::Read { path, source }
+        move |error| Self::Read { path, source: cause(error) }
     }
 
     pub(crate) fn json(path: &Path) -> impl FnOnce(serde_json::Error) -> Self {

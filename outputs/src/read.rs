@@ -1,10 +1,11 @@
 //! Reading a run back: what it says of itself, its tables' schemas, metadata and rows.
 //!
-//! For `describe`, for analysis and for tests. A run that is not finished can be read as far as it has come: its parts
-//! are whole, because they get their names only when they are.
+//! For `describe`, for analysis and for tests. A run that is not finished can be read as far as it has come: a part is read
+//! where `run.json` or the journal names it. A `run.json` whose check does not hold is refused, since plants grow from what
+//! it says.
 
 use crate::Error;
-use crate::run_folder::files_in;
+use crate::run_folder::{Papers, RunJson, files_in};
 use crate::tables::Table;
 use arrow_array::types::{Float64Type, Int32Type};
 use arrow_array::{Array, BooleanArray, PrimitiveArray, RecordBatch};
@@ -13,8 +14,8 @@ use parquet::arrow::arrow_reader::{ParquetRecordBatchReader, ParquetRecordBatchR
 use parquet::file::metadata::ParquetMetaData;
 use phytomer_sim::Tick;
 use serde_json::Value;
-use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -23,6 +24,8 @@ use std::sync::Arc;
 pub struct Run {
     path: PathBuf,
     json: Value,
+    /// The files that are the run's; `None` of a run that an older program wrote.
+    named: Option<BTreeSet<PathBuf>>,
 }
 
 /// One row of `summary`, in the terms of its columns.
@@ -52,15 +55,17 @@ impl Run {
     /// Opens a run folder.
     ///
     /// # Errors
-    /// [`Error::NotARun`], or where `run.json` cannot be read.
+    /// [`Error::NotARun`], [`Error::Damaged`], or where its papers cannot be read.
     pub fn open(path: &Path) -> Result<Self, Error> {
-        let file = path.join("run.json");
-        if !file.exists() {
-            return Err(Error::NotARun { path: path.to_path_buf() });
+        let papers = Papers::read(path)?;
+        let named = papers.names().map(|names| names.into_iter().map(|name| path.join(name)).collect());
+        let path = path.to_path_buf();
+        match papers.run {
+            RunJson::Missing => Err(Error::NotARun { path }),
+            RunJson::Damaged { .. } => Err(Error::Damaged { path: path.join("run.json") }),
+            RunJson::Older(json) => Ok(Self { path, json, named: None }),
+            RunJson::Whole(json) => Ok(Self { path, json, named }),
         }
-        let text = fs::read(&file).map_err(Error::io("read", &file))?;
-        let json = serde_json::from_slice(&text).map_err(Error::json(&file))?;
-        Ok(Self { path: path.to_path_buf(), json })
     }
 
     /// Where it is.
@@ -78,7 +83,7 @@ impl Run {
         self.json["status"] == "complete"
     }
 
-    /// The part files of a table, in their order; none where the run has no such table.
+    /// The part files of a table that are there, in their order; none where the run has no such table.
     ///
     /// # Errors
     /// Where the folder cannot be read.
@@ -86,7 +91,8 @@ impl Run {
         let mut files = files_in(&self.path.join(table.name()))?;
         files.retain(|file| {
             let name = file.file_name().unwrap_or_default().to_string_lossy();
-            name.starts_with("part-") && name.ends_with(".parquet")
+            let is_part = name.starts_with("part-") && name.ends_with(".parquet");
+            is_part && self.named.as_ref().is_none_or(|named| named.contains(file))
         });
         Ok(files)
     }

@@ -34,9 +34,7 @@ pub fn about(number: f64) -> String {
 
 /// Bytes in powers of 1000: `31.5 MB`.
 pub fn bytes(number: f64) -> String {
-    let (scaled, unit) = scale(number, &["B", "kB", "MB", "GB", "TB", "PB"]);
-    let digits = usize::from(unit != "B" && scaled < 100.0);
-    format!("{scaled:.digits$} {unit}")
+    phytomer_outputs::Bytes(number as u64).to_string()
 }
 
 fn scale<'u>(number: f64, units: &[&'u str]) -> (f64, &'u str) {

@@ -1,16 +1,19 @@
 //! `describe`: what a run folder, a scenario or a species holds, for a person or as JSON.
 //!
-//! What the name stands for decides: a run folder, a scenario, or a species. Absent: what each of them tells, in a file
-//! each.
+//! What the name stands for decides: a run folder, a scenario, or a species. Of a run folder every file is checked before it
+//! is told as complete. Absent: what each of them tells, in a file each.
 
 mod run;
 mod scenario;
 mod species;
 
 use super::named::{self, Named, Recorded};
-use super::{Verdict, refuse, terminal};
+use super::{Verdict, bar, refuse, terminal};
 use anyhow::Result;
 use clap::Args;
+use phytomer_outputs::{Checking, Depth, Error, State, check};
+use serde_json::Value;
+use std::path::PathBuf;
 
 /// Tell what a run folder, a scenario or a species holds.
 #[derive(Debug, Args)]
@@ -18,13 +21,17 @@ use clap::Args;
 Examples:
   phytomer describe coffee
   phytomer describe runs/coffee
+  phytomer describe runs/coffee --quick
   phytomer describe my_plant/species.toml --json
 
-A bare name is a shipped scenario, else a shipped species, else a run below runs/.")]
+A bare name is a shipped scenario, else a shipped species, else a run below runs/. Exit code 1 where a run is damaged.")]
 pub struct Describe {
     /// A run folder, a scenario or a species, by path or by name.
     #[arg(value_name = "RUN|SCENARIO|SPECIES")]
     name: String,
+    /// Of a run, look whether its files are there and how long they are, and do not read them all.
+    #[arg(long)]
+    quick: bool,
     /// As one JSON object on stdout.
     #[arg(long)]
     json: bool,
@@ -37,10 +44,7 @@ impl Describe {
             Err(report) => return refuse(&report, self.json),
         };
         let (text, json) = match found {
-            Named::Run(folder) => {
-                let held = run::Held::of(Recorded::of(&folder)?, folder)?;
-                (held.as_text(), held.as_json())
-            }
+            Named::Run(folder) => return self.tell_run(folder),
             Named::Scenario(resolved) => {
                 let text = scenario::as_text(&resolved) + "\n" + &species::as_text(&resolved.species)?;
                 (text, scenario::as_json(&resolved)?)
@@ -50,11 +54,34 @@ impl Describe {
                 (species::as_text(species)?, species::as_json(species)?)
             }
         };
-        if self.json {
-            terminal::put_json(&json)?
-        } else {
-            terminal::put(text.trim_end())?
-        }
+        self.tell(&text, &json)?;
         Ok(Verdict::Done)
+    }
+
+    fn tell_run(&self, folder: PathBuf) -> Result<Verdict> {
+        let depth = if self.quick { Depth::Lengths } else { Depth::Bytes };
+        let checking = Checking::default();
+        let found = match bar::checking(&checking, self.json, || check(&folder, depth, &checking)) {
+            // Kept no checks; its tables can be told all the same.
+            Err(Error::OlderFormat { .. }) => None,
+            found => Some(found?),
+        };
+        let recorded = Recorded::of(&folder);
+        match found {
+            Some(found) if found.state == State::Damaged => {
+                let damaged = run::Damaged { recorded: recorded.ok(), folder, found };
+                self.tell(&damaged.as_text(), &damaged.as_json())?;
+                Ok(Verdict::Failed)
+            }
+            found => {
+                let held = run::Held::of(recorded?, folder, found)?;
+                self.tell(&held.as_text(), &held.as_json())?;
+                Ok(Verdict::Done)
+            }
+        }
+    }
+
+    fn tell(&self, text: &str, json: &Value) -> Result<()> {
+        if self.json { terminal::put_json(json) } else { terminal::put(text.trim_end()) }
     }
 }

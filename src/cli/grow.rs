@@ -3,17 +3,16 @@
 //! Ctrl-C gives up the parts that are being grown, keeps those that are complete and tells how to go on; a second one
 //! ends at once. Absent: the run itself (`phytomer::run`), and what is told at its end ([`telling`]).
 
-mod bar;
 mod telling;
 
 use super::named::RUNS;
-use super::{Misuse, Verdict, refuse, terminal};
+use super::{Misuse, Verdict, bar, causes, findings, refuse, terminal};
 use anyhow::{Context, Result};
 use clap::Args;
-use phytomer::outputs::Mode;
+use phytomer::outputs::{Error, Mode};
 use phytomer::run::forecast::Forecast;
-use phytomer::run::forms;
-use phytomer::run::{self, Outcome, Program, Progress, Settings};
+use phytomer::run::{self, Begun, Progress, Settings};
+use phytomer::run::{disk, forms};
 use phytomer_config::scenario::MOST_SEED;
 use phytomer_config::{Resolved, validate};
 use std::path::{Path, PathBuf};
@@ -30,8 +29,9 @@ Examples:
   phytomer grow coffee --resume
   phytomer grow halle/massart
 
-Exit code 1 where a plant came to its limit or a file could not be written, 3 where the scenario is wrong, 130 after
-Ctrl-C; --resume then goes on and ends with the same bytes.")]
+Exit code 1 where a plant came to its limit, where another process fills the folder, where the disk is too small or a file
+could not be written, 3 where the scenario is wrong, 130 after Ctrl-C; --resume then goes on and ends with the same bytes.
+It reads and compares every file that it keeps, and grows damaged or missing parts again.")]
 pub struct Grow {
     /// A shipped scenario by its name, or a scenario file by its path. A species by itself is one plant, grown to the
     /// age at which its file says that it shows its architecture.
@@ -51,12 +51,15 @@ pub struct Grow {
     /// The folder's name below `runs`; that of the scenario if not given.
     #[arg(long)]
     name: Option<String>,
-    /// Go on with an interrupted run; what is complete is kept.
+    /// Go on with an interrupted run, or mend a damaged one; what is complete and sound is kept.
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
     /// Replace the run that is in the folder.
     #[arg(long)]
     overwrite: bool,
+    /// Begin even where more is expected than the disk has room for. The run still ends before the disk is full.
+    #[arg(long)]
+    ignore_disk: bool,
     /// Tell what is expected of the run, and write nothing.
     #[arg(long)]
     dry_run: bool,
@@ -78,15 +81,34 @@ impl Grow {
             return refuse(&resolved.report(faults), self.json);
         }
         self.override_scenario(&mut resolved)?;
+        let settings = self.settings(&resolved)?;
         if self.dry_run {
-            telling::forecast(&resolved, Forecast::of(&resolved).as_ref(), self.json)?;
+            telling::forecast(&resolved, Forecast::of(&resolved).as_ref(), disk::room(&settings), self.json)?;
             return Ok(Verdict::Done);
         }
-        let settings = self.settings(&resolved)?;
         let progress = Arc::new(Progress::default());
         self.listen(&progress)?;
-        let outcome = bar::beside(&progress, self.quiet || self.json, || run::run(&resolved, &settings, &progress))?;
-        self.tell(&resolved, &settings, &outcome)
+        match self.grow(&resolved, &settings, &progress) {
+            Err(error) if matches!(error.downcast_ref(), Some(Error::Stopped)) => {
+                terminal::say(&format!("stopped before anything was grown; go on with\n  {}", self.again()));
+                Ok(Verdict::Interrupted)
+            }
+            Err(error) if causes::is_full_disk(&error) => {
+                terminal::say(&format!("error: {}; go on with\n  {}", causes::in_words(&error), self.again()));
+                Ok(Verdict::Failed)
+            }
+            verdict => verdict,
+        }
+    }
+
+    /// Makes the folder ready, tells what was found in it, and grows.
+    fn grow(&self, resolved: &Resolved, settings: &Settings, progress: &Progress) -> Result<Verdict> {
+        let hidden = self.quiet || self.json;
+        let begun = bar::checking(progress.checking(), hidden, || run::begin(resolved, settings, progress))?;
+        say_before(&begun);
+        let found = begun.found().map(findings::as_json);
+        let outcome = bar::growing(progress, hidden, || begun.grow(progress))?;
+        self.tell(&telling::Told { resolved, settings, outcome: &outcome, found })
     }
 
     /// The seed and the number of plants as the command line has them.
@@ -122,7 +144,7 @@ impl Grow {
             _ => Mode::New,
         };
         let threads = self.threads.unwrap_or(0).into();
-        Ok(Settings { folder, mode, threads, program: Program::default() })
+        Ok(Settings { mode, threads, ignore_disk: self.ignore_disk, ..Settings::in_folder(folder) })
     }
 
     fn listen(&self, progress: &Arc<Progress>) -> Result<()> {
@@ -137,19 +159,14 @@ impl Grow {
         ctrlc::set_handler(obey).context("cannot listen for Ctrl-C")
     }
 
-    fn tell(&self, resolved: &Resolved, settings: &Settings, outcome: &Outcome) -> Result<Verdict> {
-        let verdict = match outcome {
-            outcome if outcome.is_interrupted() => Verdict::Interrupted,
-            outcome if !outcome.report.overgrown.is_empty() => Verdict::Failed,
-            _ => Verdict::Done,
-        };
-        let told = telling::Told { resolved, settings, outcome, verdict };
+    fn tell(&self, told: &telling::Told) -> Result<Verdict> {
+        let verdict = told.verdict();
         if self.json {
             terminal::put_json(&told.as_json())?;
         } else if verdict != Verdict::Interrupted && !self.quiet {
             terminal::put(&told.as_text())?;
         }
-        if !outcome.report.overgrown.is_empty() {
+        if !told.outcome.report.overgrown.is_empty() {
             terminal::say(&told.overgrown());
         }
         if verdict == Verdict::Interrupted {
@@ -168,6 +185,7 @@ impl Grow {
         option("plants", self.plants.map(|plants| plants.to_string()));
         option("out", self.out.as_ref().map(|folder| folder.display().to_string()));
         option("name", self.name.clone());
+        words.extend(self.ignore_disk.then(|| "--ignore-disk".to_owned()));
         words.push("--resume".to_owned());
         words.join(" ")
     }
@@ -179,6 +197,30 @@ fn seed(text: &str) -> std::result::Result<u64, String> {
         .ok()
         .filter(|seed| *seed <= MOST_SEED)
         .ok_or_else(|| format!("a whole number from 0 to {MOST_SEED} (2^63 - 1) is expected"))
+}
+
+/// Tells what a person should know before anything grows: that a lock is missing, and what a resumed run mends.
+fn say_before(begun: &Begun) {
+    if let Some(why) = begun.unlockable() {
+        terminal::say(&format!(
+            "warning: the file system cannot lock the run folder ({why}): see to it that no second run fills it"
+        ));
+    }
+    let Some(found) = begun.found().filter(|found| !found.findings.is_empty()) else { return };
+    let list = |foreign: bool| -> String {
+        found.findings(foreign).map(|finding| format!("\n  {}: {}", finding.path, finding.trouble.in_words())).collect()
+    };
+    let (own, foreign) = (list(false), list(true));
+    if !own.is_empty() {
+        let parts = match found.to_grow.as_slice() {
+            [] => "no part is grown again, and what is damaged or missing is written anew".to_owned(),
+            parts => format!("parts to grow: {}", parts.iter().map(u32::to_string).collect::<Vec<_>>().join(", ")),
+        };
+        terminal::say(&format!("not as the run had written it:{own}\n{parts}"));
+    }
+    if !foreign.is_empty() {
+        terminal::say(&format!("foreign files, left alone:{foreign}"));
+    }
 }
 
 /// A word as a shell takes it.

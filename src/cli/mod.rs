@@ -4,7 +4,10 @@
 //! terminal could want; that is the library's.
 
 mod amounts;
+mod bar;
+pub mod causes;
 mod describe;
+mod findings;
 mod grow;
 mod init;
 mod list;
@@ -16,6 +19,7 @@ mod regrown;
 mod schema;
 pub mod terminal;
 mod validate;
+mod verify;
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};
@@ -30,6 +34,7 @@ Examples:
   phytomer init my_plant                        a species and a scenario to begin with
   phytomer grow coffee                          grow a shipped scenario into runs/coffee
   phytomer validate my_plant/scenario.toml      every fault at once
+  phytomer verify runs/coffee                   whether every file of a run is as it was written
   phytomer describe coffee                      what a run, a scenario or a species holds
   phytomer list                                 everything that ships
   phytomer schema species                       the JSON Schema of a species file
@@ -51,6 +56,7 @@ enum Verb {
     Init(init::Init),
     Grow(grow::Grow),
     Validate(validate::Validate),
+    Verify(verify::Verify),
     Describe(describe::Describe),
     List(list::List),
     Schema(schema::Schema),
@@ -94,6 +100,7 @@ impl Cli {
             Verb::Init(verb) => verb.obey(),
             Verb::Grow(verb) => verb.obey(),
             Verb::Validate(verb) => verb.obey(),
+            Verb::Verify(verb) => verb.obey(),
             Verb::Describe(verb) => verb.obey(),
             Verb::List(verb) => verb.obey(),
             Verb::Schema(verb) => verb.obey(),

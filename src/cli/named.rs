@@ -1,7 +1,7 @@
 //! What a name on the command line stands for: a run folder, a scenario or a species.
 //!
-//! A folder with a `run.json` is a run, and so is one of that name under `runs/`, unless a scenario or a species of the
-//! name ships; `runs/coffee` always means the run. Absent: what is told of them.
+//! A folder with a `run.json` or a journal is a run, and so is one of that name under `runs/`, unless a scenario or a species
+//! of the name ships; `runs/coffee` always means the run. Absent: what is told of them.
 
 use anyhow::{Context, Result};
 use phytomer::run::forms;
@@ -34,7 +34,9 @@ pub fn run_folder(name: &str) -> Option<PathBuf> {
         [Kind::Scenario, Kind::Species].iter().any(|kind| presets(*kind).iter().any(|(preset, _)| *preset == name));
     let below = Path::new(RUNS).join(name);
     let candidates = [Some(PathBuf::from(name)), (!ships).then_some(below)];
-    candidates.into_iter().flatten().find(|folder| folder.join("run.json").is_file())
+    // Of a damaged run one of them is left.
+    let is_run = |folder: &PathBuf| ["run.json", "journal.jsonl"].iter().any(|name| folder.join(name).is_file());
+    candidates.into_iter().flatten().find(is_run)
 }
 
 /// Finds and checks what a name stands for.

@@ -4,6 +4,7 @@
 //! Absent: how they are shown, which is the command line's.
 
 use phytomer_config::Resolved;
+use phytomer_outputs::Checking;
 use phytomer_sim::plant::Plant;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 
@@ -16,6 +17,7 @@ pub struct Progress {
     ages: AtomicU64,
     ages_a_plant: AtomicU64,
     components: AtomicU64,
+    checking: Checking,
 }
 
 /// The run was told to stop.
@@ -27,6 +29,12 @@ impl Progress {
     /// Asks the run to stop soon: shards that are not complete are given up, committed ones stay.
     pub fn stop(&self) {
         self.stop.store(true, Relaxed);
+        self.checking.stop();
+    }
+
+    /// How far the check of what a resumed run keeps has come.
+    pub fn checking(&self) -> &Checking {
+        &self.checking
     }
 
     /// Whether it was asked to stop.

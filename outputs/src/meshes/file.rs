@@ -19,7 +19,7 @@ const MOST_VERTICES: u64 = i32::MAX as u64;
 #[derive(Debug, thiserror::Error)]
 pub enum MeshError {
     /// The file system refused.
-    #[error("cannot {doing} {}: {source}", path.display())]
+    #[error("cannot {doing} {}", path.display())]
     Io {
         /// What was tried.
         doing: &'static str,

@@ -1,10 +1,13 @@
 //! What a run folder says of itself: `run.json`, `datapackage.json` (Frictionless Data Package 1) and `views.sql`
 //! (DuckDB).
+//!
+//! `run.json` names the others with their hashes and ends with a check of itself, so that damage to any of them is found.
 //! Absent: the tables themselves, and the journal, which holds a run together until these are written.
 
 use super::durable;
-use super::journal::{FileReport, OvergrownPlot, ShardReport};
+use super::journal::{FileReport, JOURNAL, OvergrownPlot, ShardReport};
 use super::plan::RunPlan;
+use super::seal::DOCUMENT;
 use crate::Error;
 use crate::tables::Table;
 use crate::tables::arrow::plant_ontology;
@@ -13,6 +16,13 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
+
+/// What identifies a run, and at its end what came of it.
+pub const RUN: &str = "run.json";
+/// The columns, for programs that read Data Packages.
+pub const PACKAGE: &str = "datapackage.json";
+/// The views, for DuckDB.
+pub const VIEWS: &str = "views.sql";
 
 /// What a finished run has written.
 #[derive(Debug, Clone, Serialize)]
@@ -60,16 +70,18 @@ impl RunReport {
 ///
 /// `run.json` first: a folder that holds anything else holds it too, so that a run killed at its start can be resumed.
 pub fn write_start(path: &Path, plan: &RunPlan) -> Result<(), Error> {
-    write_json(&path.join("run.json"), &Value::Object(run(plan, "running")))?;
+    let mut run = run(plan, "running");
+    run.insert("documents".to_owned(), json!([document(VIEWS, views(plan).as_bytes())]));
+    write_run(path, run)?;
     write_views(path, plan)
 }
 
 /// `views.sql`, which depends on the plan alone.
 pub fn write_views(path: &Path, plan: &RunPlan) -> Result<(), Error> {
-    durable::write(&path.join("views.sql"), views(plan).as_bytes())
+    durable::write(&path.join(VIEWS), views(plan).as_bytes())
 }
 
-/// The files that a finished run has.
+/// The files that a finished run has; its journal is in order.
 pub fn write_end(
     path: &Path,
     plan: &RunPlan,
@@ -77,31 +89,47 @@ pub fn write_end(
     timings: &[(&str, f64)],
 ) -> Result<RunReport, Error> {
     let report = RunReport::of(done.values());
-    write_json(&path.join("datapackage.json"), &data_package(plan, &report))?;
-    let file = path.join("run.json");
+    let package = pretty(&path.join(PACKAGE), &data_package(plan, &report))?;
+    durable::write(&path.join(PACKAGE), &package)?;
+    let (bytes, sha256) = durable::sync_and_hash(&path.join(JOURNAL))?;
+    let journal = FileReport { path: JOURNAL.to_owned(), table: None, rows: None, bytes, sha256 };
+    let documents = [journal, document(PACKAGE, &package), document(VIEWS, views(plan).as_bytes())];
     let mut run = run(plan, "complete");
     let timings: Map<String, Value> =
         timings.iter().map(|(name, seconds)| ((*name).to_owned(), json!(seconds))).collect();
     run.insert("timings_s".to_owned(), Value::Object(timings));
-    let result = serde_json::to_value(&report).map_err(Error::json(&file))?;
+    let result = serde_json::to_value(&report).map_err(Error::json(&path.join(RUN)))?;
     if let Value::Object(result) = result {
         run.extend(result);
     }
-    write_json(&file, &Value::Object(run))?;
+    run.insert("documents".to_owned(), json!(documents));
+    write_run(path, run)?;
     Ok(report)
 }
 
 fn run(plan: &RunPlan, status: &str) -> Map<String, Value> {
     let mut run = Map::from_iter([("format".to_owned(), json!("phytomer run")), ("status".to_owned(), json!(status))]);
     run.extend(plan.identity());
+    run.insert("fingerprint".to_owned(), json!(plan.fingerprint()));
     run.insert("resolved_scenario".to_owned(), plan.provenance.resolved.clone());
     run
 }
 
-fn write_json(path: &Path, value: &Value) -> Result<(), Error> {
+fn document(name: &str, content: &[u8]) -> FileReport {
+    let sha256 = durable::sha256_of(content);
+    FileReport { path: name.to_owned(), table: None, rows: None, bytes: content.len() as u64, sha256 }
+}
+
+fn write_run(path: &Path, run: Map<String, Value>) -> Result<(), Error> {
+    let file = path.join(RUN);
+    let text = serde_json::to_vec_pretty(&Value::Object(run)).map_err(Error::json(&file))?;
+    durable::write(&file, &DOCUMENT.put(text))
+}
+
+fn pretty(path: &Path, value: &Value) -> Result<Vec<u8>, Error> {
     let mut text = serde_json::to_vec_pretty(value).map_err(Error::json(path))?;
     text.push(b'\n');
-    durable::write(path, &text)
+    Ok(text)
 }
 
 fn data_package(plan: &RunPlan, report: &RunReport) -> Value {

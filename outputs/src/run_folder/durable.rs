@@ -2,11 +2,13 @@
 //!
 //! A crash at any moment leaves the old file, the new one, or a file beside its name that a resumed run removes.
 
+use super::space::Watch;
 use crate::Error;
 use sha2::{Digest, Sha256};
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 
 /// So many bytes are sent on their way to the disk at a time, while the next ones are made: at its end a large file has
@@ -22,13 +24,15 @@ pub struct HashingFile {
     bytes: u64,
     sent: u64,
     sending: Option<JoinHandle<io::Result<()>>>,
+    watch: Arc<Watch>,
 }
 
 impl HashingFile {
-    /// Creates the file, replacing what is there.
-    pub fn create(path: &Path) -> Result<Self, Error> {
+    /// Creates the file, replacing what is there; the watch looks at the disk as the file grows.
+    pub fn create(path: &Path, watch: &Arc<Watch>) -> Result<Self, Error> {
         let file = File::create(path).map_err(Error::io("create", path))?;
-        Ok(Self { file, path: path.to_path_buf(), hash: Sha256::new(), bytes: 0, sent: 0, sending: None })
+        let (path, watch) = (path.to_path_buf(), Arc::clone(watch));
+        Ok(Self { file, path, hash: Sha256::new(), bytes: 0, sent: 0, sending: None, watch })
     }
 
     /// Makes sure that the file is on the disk; its bytes and its hash.
@@ -63,6 +67,7 @@ impl Write for HashingFile {
         let written = self.file.write(bytes)?;
         self.hash.update(&bytes[..written]);
         self.bytes += written as u64;
+        self.watch.wrote(written as u64)?;
         if self.bytes - self.sent >= SENT_AT_ONCE {
             self.send()?;
         }
@@ -115,16 +120,22 @@ pub fn sync_folder_of(path: &Path) -> Result<(), Error> {
 pub fn sync_and_hash(path: &Path) -> Result<(u64, String), Error> {
     let mut file = File::open(path).map_err(Error::io("open", path))?;
     file.sync_all().map_err(Error::io("write to disk", path))?;
+    hash(&mut file, |_| Ok(())).map_err(Error::io("read", path))
+}
+
+/// The bytes and the hash of a file; `progress` is told of each block and can end it by an error.
+pub fn hash(file: &mut File, mut progress: impl FnMut(u64) -> io::Result<()>) -> io::Result<(u64, String)> {
     let mut hash = Sha256::new();
     let mut block = vec![0; 1 << 20];
     let mut bytes = 0;
     loop {
-        let read = file.read(&mut block).map_err(Error::io("read", path))?;
+        let read = file.read(&mut block)?;
         if read == 0 {
             return Ok((bytes, hexadecimal(&hash.finalize())));
         }
         hash.update(&block[..read]);
         bytes += read as u64;
+        progress(read as u64)?;
     }
 }
 

@@ -1,18 +1,23 @@
 //! The journal of a run: one line of JSON for each shard whose files are whole and on the disk.
 //!
-//! A crash may tear the last line, which then counts as not written; a damaged line before it is an error. Where two
-//! lines name the same shard the later one holds. No line ever follows a torn one: what a failed write left is taken
-//! back, and where even that fails the journal takes no more.
+//! Each line names its run and ends with a check of itself. A crash may tear the last line, which then counts as not
+//! written; a damaged line costs the shard that it was about, and where the end of a line is damaged the shard of the next
+//! one too. Where two lines name the same shard the later one holds. No line ever follows a torn one: what a failed write
+//! left is taken back, and where even that fails the journal takes no more.
 
 use super::durable;
+use super::seal::LINE;
 use crate::Error;
 use crate::tables::Table;
 use phytomer_sim::Tick;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+
+/// The name of the file.
+pub const JOURNAL: &str = "journal.jsonl";
 
 /// What a committed shard has written.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -73,10 +78,19 @@ impl ShardReport {
     }
 }
 
+/// A line of the journal: a shard, and the run that it belongs to ([`super::plan::RunPlan::fingerprint`]).
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Line {
+    #[serde(flatten)]
+    report: ShardReport,
+    run: String,
+}
+
 /// The journal, open for more.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
+    run: String,
     file: File,
     done: BTreeMap<u32, ShardReport>,
     /// The length of the whole lines, bytes.
@@ -86,33 +100,15 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Begins an empty journal.
-    pub fn begin(path: &Path) -> Result<Self, Error> {
-        let file = File::create(path).map_err(Error::io("create", path))?;
-        file.sync_all().map_err(Error::io("write to disk", path))?;
-        durable::sync_folder_of(path)?;
-        Ok(Self { path: path.to_path_buf(), file, done: BTreeMap::new(), whole: 0, torn: false })
-    }
-
-    /// Reads the journal of an earlier start and goes on with it; a torn last line is cut off.
-    pub fn go_on(path: &Path) -> Result<Self, Error> {
-        if !path.exists() {
-            return Self::begin(path);
-        }
-        let (done, whole) = read(path)?;
-        let mut file = OpenOptions::new().write(true).open(path).map_err(Error::io("open", path))?;
-        cut(&mut file, whole).map_err(Error::io("shorten", path))?;
-        Ok(Self { path: path.to_path_buf(), file, done, whole, torn: false })
+    /// Writes the journal of a run with the shards that are done, and goes on with it.
+    pub fn of(path: &Path, run: String, done: BTreeMap<u32, ShardReport>) -> Result<Self, Error> {
+        let (file, whole) = written(path, &run, &done)?;
+        Ok(Self { path: path.to_path_buf(), run, file, done, whole, torn: false })
     }
 
     /// The shards that are done, by number.
     pub fn done(&self) -> &BTreeMap<u32, ShardReport> {
         &self.done
-    }
-
-    /// Strikes out a shard whose files are not there any more.
-    pub fn forget(&mut self, shard: u32) {
-        self.done.remove(&shard);
     }
 
     /// Enters a shard; it is on the disk when this returns. After an error the journal is as it was before.
@@ -134,7 +130,7 @@ impl Journal {
         if self.torn {
             return Err(Error::TornJournal { path: self.path.clone() });
         }
-        let line = line_of(&report).map_err(Error::json(&self.path))?;
+        let line = line_of(&self.run, &report).map_err(Error::json(&self.path))?;
         if let Err(source) = write(&mut self.file, &line) {
             self.torn = cut(&mut self.file, self.whole).is_err();
             return Err(Error::io("write", &self.path)(source));
@@ -146,14 +142,20 @@ impl Journal {
 
     /// Writes the whole journal anew, in the order of the shards.
     pub fn put_in_order(&mut self) -> Result<(), Error> {
-        let lines: Result<Vec<_>, _> = self.done.values().map(line_of).collect();
-        let content = lines.map_err(Error::json(&self.path))?.concat();
-        durable::write(&self.path, &content)?;
-        let mut file = OpenOptions::new().write(true).open(&self.path).map_err(Error::io("open", &self.path))?;
-        file.seek(SeekFrom::End(0)).map_err(Error::io("open", &self.path))?;
-        (self.file, self.whole, self.torn) = (file, content.len() as u64, false);
+        (self.file, self.whole) = written(&self.path, &self.run, &self.done)?;
+        self.torn = false;
         Ok(())
     }
+}
+
+/// Writes a whole journal; the file, open at its end, and its length.
+fn written(path: &Path, run: &str, done: &BTreeMap<u32, ShardReport>) -> Result<(File, u64), Error> {
+    let lines: Result<Vec<_>, _> = done.values().map(|report| line_of(run, report)).collect();
+    let content = lines.map_err(Error::json(path))?.concat();
+    durable::write(path, &content)?;
+    let mut file = OpenOptions::new().write(true).open(path).map_err(Error::io("open", path))?;
+    file.seek(SeekFrom::End(0)).map_err(Error::io("open", path))?;
+    Ok((file, content.len() as u64))
 }
 
 /// Shortens the file to its whole lines; the next line goes there.
@@ -163,36 +165,79 @@ fn cut(file: &mut File, whole: u64) -> io::Result<()> {
     file.sync_all()
 }
 
-fn line_of(report: &ShardReport) -> Result<Vec<u8>, serde_json::Error> {
-    let mut line = serde_json::to_vec(report)?;
-    line.push(b'\n');
-    Ok(line)
+fn line_of(run: &str, report: &ShardReport) -> Result<Vec<u8>, serde_json::Error> {
+    let line = Line { report: report.clone(), run: run.to_owned() };
+    Ok(LINE.put(serde_json::to_vec(&line)?))
 }
 
-/// The shards in a journal, and the length of its whole lines in bytes.
-pub fn read(path: &Path) -> Result<(BTreeMap<u32, ShardReport>, u64), Error> {
-    let content = fs::read(path).map_err(Error::io("read", path))?;
-    let mut done = BTreeMap::new();
-    let mut whole = 0;
-    let lines: Vec<&[u8]> = content.split_inclusive(|byte| *byte == b'\n').collect();
-    for (at, line) in lines.iter().enumerate() {
-        let report = if line.ends_with(b"\n") { serde_json::from_slice::<ShardReport>(line).ok() } else { None };
-        match report {
-            Some(report) => done.insert(report.shard, report),
-            None if at + 1 == lines.len() => break,
-            None => return Err(Error::Journal { path: path.to_path_buf(), line: at + 1 }),
-        };
-        whole += line.len() as u64;
+/// What a journal says, as far as its lines are whole.
+#[derive(Debug, Default)]
+pub struct Reading {
+    lines: Vec<(usize, Line)>,
+    damaged: BTreeSet<usize>,
+    /// Whether it ends in the middle of a line.
+    pub torn: bool,
+}
+
+impl Reading {
+    /// The runs that its lines name: one, where nobody has meddled.
+    pub fn runs(&self) -> BTreeSet<&str> {
+        self.lines.iter().map(|(_, line)| line.run.as_str()).collect()
     }
-    Ok((done, whole))
+
+    /// Every file that a whole line names, of whichever run.
+    pub fn files(&self) -> impl Iterator<Item = &FileReport> {
+        self.lines.iter().flat_map(|(_, line)| &line.report.files)
+    }
+
+    /// The shards of a run.
+    pub fn done(&self, run: &str) -> BTreeMap<u32, ShardReport> {
+        let own = self.lines.iter().filter(|(_, line)| line.run == run);
+        own.map(|(_, line)| (line.report.shard, line.report.clone())).collect()
+    }
+
+    /// The lines, from 1, that are no whole line of this run.
+    pub fn damaged(&self, run: &str) -> Vec<usize> {
+        let others = self.lines.iter().filter(|(_, line)| line.run != run).map(|(number, _)| *number);
+        let lines: BTreeSet<usize> = others.chain(self.damaged.iter().copied()).collect();
+        lines.into_iter().collect()
+    }
+}
+
+/// Reads a journal; `None` where there is none.
+pub fn read(path: &Path) -> Result<Option<Reading>, Error> {
+    let content = match fs::read(path) {
+        Err(source) if source.kind() == io::ErrorKind::NotFound => return Ok(None),
+        content => content.map_err(Error::io("read", path))?,
+    };
+    let mut reading = Reading::default();
+    for (number, line) in (1..).zip(content.split_inclusive(|byte| *byte == b'\n')) {
+        let read = if LINE.holds(line) { serde_json::from_slice::<Line>(line).ok() } else { None };
+        match read {
+            Some(line) => reading.lines.push((number, line)),
+            None if !line.ends_with(b"\n") => reading.torn = true,
+            None => _ = reading.damaged.insert(number),
+        }
+    }
+    Ok(Some(reading))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const RUN: &str = "0123456789abcdef";
+
     fn report(shard: u32) -> ShardReport {
         ShardReport { shard, files: Vec::new(), living: 1, dead: 2, components: 3, overgrown: Vec::new() }
+    }
+
+    fn begin(path: &Path) -> Journal {
+        Journal::of(path, RUN.to_owned(), BTreeMap::new()).unwrap()
+    }
+
+    fn shards_in(path: &Path) -> Vec<u32> {
+        read(path).unwrap().unwrap().done(RUN).into_keys().collect()
     }
 
     /// Half of a line, then a full disk.
@@ -205,28 +250,29 @@ mod tests {
     fn no_line_follows_a_torn_one() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("journal.jsonl");
-        let mut journal = Journal::begin(&path).unwrap();
+        let mut journal = begin(&path);
         journal.enter(report(0)).unwrap();
         assert!(matches!(journal.enter_by(report(1), half), Err(Error::Io { doing: "write", .. })));
         assert!(!journal.done().contains_key(&1));
         journal.enter(report(2)).unwrap();
-        let (done, whole) = read(&path).unwrap();
-        assert_eq!(done.into_keys().collect::<Vec<_>>(), [0, 2]);
-        assert_eq!(whole, fs::metadata(&path).unwrap().len());
+        assert_eq!(shards_in(&path), [0, 2]);
+        assert_eq!(journal.whole, fs::metadata(&path).unwrap().len());
     }
 
     #[test]
     fn a_resumed_journal_takes_back_a_torn_line_too() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("journal.jsonl");
-        Journal::begin(&path).unwrap().enter(report(0)).unwrap();
+        begin(&path).enter(report(0)).unwrap();
         OpenOptions::new().append(true).open(&path).unwrap().write_all(b"{\"shard\":1,").unwrap();
-        let mut journal = Journal::go_on(&path).unwrap();
+        let reading = read(&path).unwrap().unwrap();
+        assert!(reading.torn && reading.damaged(RUN).is_empty());
+        let mut journal = Journal::of(&path, RUN.to_owned(), reading.done(RUN)).unwrap();
         journal.enter(report(1)).unwrap();
         journal.enter_by(report(2), half).unwrap_err();
         journal.put_in_order().unwrap();
         journal.enter(report(3)).unwrap();
-        assert_eq!(read(&path).unwrap().0.into_keys().collect::<Vec<_>>(), [0, 1, 3]);
+        assert_eq!(shards_in(&path), [0, 1, 3]);
     }
 
     /// A file that is open for reading alone can be neither written nor shortened.
@@ -234,12 +280,27 @@ mod tests {
     fn a_journal_that_cannot_be_mended_takes_no_more() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("journal.jsonl");
-        let mut journal = Journal::begin(&path).unwrap();
+        let mut journal = begin(&path);
         journal.enter(report(0)).unwrap();
         let sound = std::mem::replace(&mut journal.file, File::open(&path).unwrap());
         assert!(matches!(journal.enter(report(1)), Err(Error::Io { .. })));
         journal.file = sound;
         assert!(matches!(journal.enter(report(2)), Err(Error::TornJournal { .. })));
-        assert_eq!(read(&path).unwrap().0.into_keys().collect::<Vec<_>>(), [0]);
+        assert_eq!(shards_in(&path), [0]);
+    }
+
+    #[test]
+    fn a_damaged_line_and_one_of_another_run_cost_their_shards_alone() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("journal.jsonl");
+        let mut journal = begin(&path);
+        (0..4).for_each(|shard| journal.enter(report(shard)).unwrap());
+        let mut lines: Vec<String> = fs::read_to_string(&path).unwrap().lines().map(str::to_owned).collect();
+        lines[1] = lines[1].replace("\"living\":1", "\"living\":2");
+        lines[3] = String::from_utf8(line_of("another run", &report(3)).unwrap()).unwrap().trim_end().to_owned();
+        fs::write(&path, lines.join("\n") + "\n").unwrap();
+        assert_eq!(shards_in(&path), [0, 2]);
+        let reading = read(&path).unwrap().unwrap();
+        assert_eq!((reading.damaged(RUN), reading.torn), (vec![2, 4], false));
     }
 }

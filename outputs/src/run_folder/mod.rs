@@ -1,31 +1,42 @@
 //! The run folder: made, filled shard by shard, closed; after a crash, gone on with.
 //!
-//! `run.json` is written first, with what identifies the run, and again at the end, with what came of it. Between the
-//! two the journal holds the shards that are whole. A resumed run redoes only what is missing and ends with the same
-//! bytes as one that was never interrupted, but for the timings in `run.json`.
+//! One process at a time has a folder (`lock`). `run.json` is written first, with what identifies the run, and again at the
+//! end, with what came of it. Between the two the journal holds the shards that are whole. A resumed run looks at every
+//! file that it keeps (`check`), redoes only what is missing or damaged, and ends with the same bytes as one that was never
+//! interrupted, but for the timings in `run.json`.
 
+mod check;
+mod difference;
 mod documents;
 mod durable;
 mod journal;
+mod lock;
+mod papers;
 mod plan;
+mod seal;
 mod shard;
+mod space;
 #[cfg(test)]
 mod tests;
 
+pub use check::{Checking, Checkup, Depth, Finding, State, Trouble, check};
+pub use difference::{Difference, Differences};
 pub use documents::RunReport;
 pub(crate) use durable::{HashingFile, files_in};
 pub use journal::{FileReport, OvergrownPlot, ShardReport};
+pub use lock::Holder;
+pub(crate) use papers::{Papers, RunJson};
 pub use plan::{Input, Provenance, RunPlan};
 pub use shard::Shard;
+pub use space::{Bytes, FreeSpace, Space, SystemSpace, Watch};
 
 use crate::Error;
-use crate::tables::Table;
-use journal::Journal;
-use serde_json::Value;
-use std::collections::BTreeSet;
+use journal::{JOURNAL, Journal};
+use lock::{LOCK, Lock};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Component, Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// What to do where the folder holds files already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,51 +49,73 @@ pub enum Mode {
     Overwrite,
 }
 
+/// How a run folder is opened, beside its mode.
+#[derive(Debug)]
+pub struct Opening<'a> {
+    /// How far the check of what a resumed run keeps has come.
+    pub checking: &'a Checking,
+    /// Who knows the free space of the disk.
+    pub space: Arc<dyn FreeSpace>,
+}
+
 /// A run folder that is being filled; shards of several threads may be open at once.
 #[derive(Debug)]
 pub struct RunFolder {
     path: PathBuf,
     plan: RunPlan,
     journal: Mutex<Journal>,
+    watch: Arc<Watch>,
+    found: Option<Checkup>,
+    lock: Lock,
 }
 
 impl RunFolder {
-    /// Makes the folder, or opens that of an earlier start.
+    /// Makes the folder, or opens that of an earlier start, with the free space that the system tells.
     ///
     /// # Errors
-    /// [`Error::Occupied`], [`Error::NotARun`], [`Error::Foreign`], [`Error::Journal`], or a failed write.
+    /// As [`RunFolder::open`].
     pub fn create(path: &Path, plan: RunPlan, mode: Mode) -> Result<Self, Error> {
-        let occupied = durable::files_in(path)?.iter().any(|file| !durable::is_beside(file));
-        let is_run = path.join("run.json").exists();
-        match mode {
-            Mode::New if occupied => return Err(Error::Occupied { path: path.to_path_buf() }),
-            _ if occupied && !is_run => return Err(Error::NotARun { path: path.to_path_buf() }),
-            Mode::Resume if is_run => return Self::go_on(path, plan),
-            Mode::Overwrite if is_run => clear(path)?,
-            _ => {}
+        let space = Arc::new(SystemSpace);
+        Self::open(path, plan, mode, &Opening { checking: &Checking::default(), space })
+    }
+
+    /// Makes the folder, or opens that of an earlier start. The lock is taken before anything in it is read or removed, and
+    /// held until this is dropped; a folder that is no run is refused before that, and stays as it is.
+    ///
+    /// # Errors
+    /// [`Error::Occupied`], [`Error::NotARun`], [`Error::InProgress`], [`Error::Foreign`], [`Error::Unrecognised`],
+    /// [`Error::Stopped`], or a failed write.
+    pub fn open(path: &Path, plan: RunPlan, mode: Mode, opening: &Opening) -> Result<Self, Error> {
+        if lock::holder_of(path).is_none() {
+            refuse(path, mode, Papers::read(path)?.is_run())?;
         }
-        Self::begin(path, plan)
-    }
-
-    fn begin(path: &Path, plan: RunPlan) -> Result<Self, Error> {
         fs::create_dir_all(path).map_err(Error::io("create", path))?;
-        documents::write_start(path, &plan)?;
-        make_tables(path, &plan)?;
-        let journal = Journal::begin(&path.join("journal.jsonl"))?;
-        Ok(Self { path: path.to_path_buf(), plan, journal: Mutex::new(journal) })
+        let lock = Lock::take(path)?;
+        let papers = Papers::read(path)?;
+        let is_run = papers.is_run();
+        refuse(path, mode, is_run)?;
+        let mut done = BTreeMap::new();
+        let mut found = None;
+        if mode == Mode::Resume && is_run {
+            let checkup = look(path, &papers, &plan, opening.checking)?;
+            done = kept(&papers, &plan, &checkup);
+            found = Some(checkup);
+        } else if is_run {
+            clear(path, &papers)?;
+        }
+        let watch = Watch::over(path, &opening.space);
+        let journal = prepare(path, &plan, &papers, done)?;
+        Ok(Self { path: path.to_path_buf(), plan, journal: Mutex::new(journal), watch, found, lock })
     }
 
-    fn go_on(path: &Path, plan: RunPlan) -> Result<Self, Error> {
-        check_identity(path, &plan)?;
-        documents::write_views(path, &plan)?;
-        make_tables(path, &plan)?;
-        let mut journal = Journal::go_on(&path.join("journal.jsonl"))?;
-        let lost: Vec<u32> =
-            journal.done().values().filter(|report| !is_whole(path, report)).map(|report| report.shard).collect();
-        lost.into_iter().for_each(|shard| journal.forget(shard));
-        let folder = Self { path: path.to_path_buf(), plan, journal: Mutex::new(journal) };
-        folder.sweep()?;
-        Ok(folder)
+    /// What a resumed run found in its folder before it mended it; `None` of one that was begun.
+    pub fn found(&self) -> Option<&Checkup> {
+        self.found.as_ref()
+    }
+
+    /// Why the file system could not lock the folder, where it could not: another run in it would not be noticed.
+    pub fn unlockable(&self) -> Option<&str> {
+        self.lock.unlockable()
     }
 
     /// The folder.
@@ -130,25 +163,63 @@ impl RunFolder {
     fn journal(&self) -> MutexGuard<'_, Journal> {
         self.journal.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
 
-    /// Removes what an interrupted shard left: files beside their names, and parts and meshes that are not in the
-    /// journal.
-    fn sweep(&self) -> Result<(), Error> {
-        let journal = self.journal();
-        let files = journal.done().values().flat_map(|report| &report.files);
-        let known: BTreeSet<PathBuf> = files.map(|file| self.path.join(&file.path)).collect();
-        for name in filled() {
-            let files = durable::files_in(&self.path.join(name))?;
-            files
-                .iter()
-                .filter(|file| is_own(file) && !known.contains(*file))
-                .try_for_each(|file| durable::remove(file))?;
-        }
-        for folder in durable::files_in(&self.path)?.iter().filter(|path| path.is_dir()) {
-            remove_beside(folder)?;
-        }
-        remove_beside(&self.path)
+/// Refuses a folder that is not to be touched in this mode.
+fn refuse(path: &Path, mode: Mode, is_run: bool) -> Result<(), Error> {
+    let counts = |file: &PathBuf| !durable::is_beside(file) && !file.ends_with(LOCK);
+    let occupied = durable::files_in(path)?.iter().any(counts);
+    match mode {
+        Mode::New if occupied => Err(Error::Occupied { path: path.to_path_buf() }),
+        _ if occupied && !is_run => Err(Error::NotARun { path: path.to_path_buf() }),
+        _ => Ok(()),
     }
+}
+
+/// Looks at all that a run to be resumed has, if it is this run.
+fn look(path: &Path, papers: &Papers, plan: &RunPlan, checking: &Checking) -> Result<Checkup, Error> {
+    let run = plan.fingerprint();
+    match &papers.run {
+        RunJson::Whole(there) | RunJson::Older(there) => {
+            let differences = Differences::between(there, plan);
+            if !differences.0.is_empty() {
+                return Err(Error::Foreign { path: path.to_path_buf(), differences });
+            }
+        }
+        RunJson::Missing | RunJson::Damaged { .. } => {
+            let runs = papers.journal.as_ref().map(journal::Reading::runs).unwrap_or_default();
+            if runs != BTreeSet::from([run.as_str()]) {
+                return Err(Error::Unrecognised { path: path.to_path_buf() });
+            }
+        }
+    }
+    check::of(path, papers, &run, None, (Depth::Bytes, checking))
+}
+
+/// The shards that need not be grown again.
+fn kept(papers: &Papers, plan: &RunPlan, found: &Checkup) -> BTreeMap<u32, ShardReport> {
+    let mut done = papers.journal.as_ref().map(|journal| journal.done(&plan.fingerprint())).unwrap_or_default();
+    done.retain(|shard, _| found.sound.contains(shard));
+    done
+}
+
+/// Makes the folder ready for the shards that are not `done`: documents, folders and journal; what an interrupted or
+/// damaged shard left is removed. `run.json` is that of an unfinished run before anything that it named goes.
+fn prepare(path: &Path, plan: &RunPlan, papers: &Papers, done: BTreeMap<u32, ShardReport>) -> Result<Journal, Error> {
+    if papers.whole().is_some() && done.len() == plan.shards() as usize {
+        documents::write_views(path, plan)?;
+    } else {
+        documents::write_start(path, plan)?;
+    }
+    make_tables(path, plan)?;
+    let journal = Journal::of(&path.join(JOURNAL), plan.fingerprint(), done)?;
+    let named = journal.done().values().flat_map(|report| &report.files).map(|file| file.path.as_str()).collect();
+    for (left, trouble) in check::others(path, &named)? {
+        if trouble == Trouble::Leftover {
+            durable::remove(&path.join(left))?;
+        }
+    }
+    Ok(journal)
 }
 
 fn make_tables(path: &Path, plan: &RunPlan) -> Result<(), Error> {
@@ -159,59 +230,22 @@ fn make_tables(path: &Path, plan: &RunPlan) -> Result<(), Error> {
     Ok(())
 }
 
-/// Whether the run that is there was begun under an equal plan.
-fn check_identity(path: &Path, plan: &RunPlan) -> Result<(), Error> {
-    let file = path.join("run.json");
-    let text = fs::read(&file).map_err(Error::io("read", &file))?;
-    let there: Value = serde_json::from_slice(&text).map_err(Error::json(&file))?;
-    let differing = plan.identity().into_iter().find(|(key, value)| there.get(key) != Some(value));
-    match differing {
-        Some((what, _)) => Err(Error::Foreign { path: path.to_path_buf(), what }),
-        None => Ok(()),
-    }
-}
-
-/// Whether each file of a shard is there, with its length.
-fn is_whole(path: &Path, report: &ShardReport) -> bool {
-    report.files.iter().all(|file| fs::metadata(path.join(&file.path)).is_ok_and(|there| there.len() == file.bytes))
-}
-
-/// Removes what a run has written, and nothing else.
-fn clear(path: &Path) -> Result<(), Error> {
-    let journal = path.join("journal.jsonl");
+/// Removes what a run has written, and nothing else; the lock stays.
+fn clear(path: &Path, papers: &Papers) -> Result<(), Error> {
     // A damaged journal is no hindrance: this is the way to be rid of it.
-    let done = journal::read(&journal).map(|(done, _)| done).unwrap_or_default();
-    for file in done.values().flat_map(|report| &report.files) {
-        let inside = Path::new(&file.path).components().all(|part| matches!(part, Component::Normal(_)));
-        if inside {
-            durable::remove(&path.join(&file.path))?;
+    let entered = papers.journal.iter().flat_map(journal::Reading::files);
+    for file in entered.filter(|file| check::is_inside(&file.path)) {
+        durable::remove(&path.join(&file.path))?;
+    }
+    for (left, trouble) in check::others(path, &BTreeSet::new())? {
+        if trouble == Trouble::Leftover {
+            durable::remove(&path.join(left))?;
         }
     }
-    for name in filled() {
-        for file in durable::files_in(&path.join(name))?.iter().filter(|file| is_own(file)) {
-            durable::remove(file)?;
-        }
+    for name in check::filled() {
         // Stays where it holds something else, which is not ours to remove.
         let _ = fs::remove_dir(path.join(name));
     }
-    remove_beside(path)?;
-    for name in ["journal.jsonl", "datapackage.json", "views.sql", "run.json"] {
-        durable::remove(&path.join(name))?;
-    }
-    Ok(())
-}
-
-/// The folders that shards fill.
-fn filled() -> impl Iterator<Item = &'static str> {
-    Table::ALL.iter().map(|table| table.name()).chain(["meshes"])
-}
-
-/// Whether a file in such a folder is one that a shard writes there: a part, a mesh, or one of them half written.
-fn is_own(file: &Path) -> bool {
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
-    (name.starts_with("part-") && name.ends_with(".parquet")) || name.ends_with(".ply") || durable::is_beside(file)
-}
-
-fn remove_beside(folder: &Path) -> Result<(), Error> {
-    durable::files_in(folder)?.iter().filter(|file| durable::is_beside(file)).try_for_each(|file| durable::remove(file))
+    // `run.json` last: until then the folder is a run, which can be replaced.
+    check::DOCUMENTS.iter().rev().try_for_each(|name| durable::remove(&path.join(name)))
 }

@@ -9,6 +9,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use std::ops::Range;
 
+/// The version of the run folder's own files: 2 has checks in `run.json` and in each line of the journal.
+pub const FORMAT_VERSION: u32 = 2;
+
 /// The plan of a run.
 #[derive(Debug, Clone)]
 pub struct RunPlan {
@@ -83,6 +86,7 @@ impl RunPlan {
     pub(super) fn identity(&self) -> Map<String, Value> {
         let provenance = &self.provenance;
         let identity = json!({
+            "format_version": FORMAT_VERSION,
             "schema_version": crate::tables::columns::SCHEMA_VERSION,
             "version": provenance.version,
             "git_hash": provenance.git_hash,
@@ -104,5 +108,10 @@ impl RunPlan {
             identity.insert("mechanics".to_owned(), json!(true));
         }
         identity
+    }
+
+    /// A short name of the identity: the lines of the journal say by it which run they belong to.
+    pub(super) fn fingerprint(&self) -> String {
+        super::seal::check_of(Value::Object(self.identity()).to_string().as_bytes())
     }
 }

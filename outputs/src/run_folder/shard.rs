@@ -74,21 +74,30 @@ impl<'a> Shard<'a> {
             return Ok(None);
         }
         let path = self.stage(&part_path(table, self.report.shard))?;
-        Part::create(table, &path, &self.folder.plan, queue).map(Some)
+        Part::create(table, &path, &self.folder.plan, (queue, &self.folder.watch)).map(Some)
     }
 
     /// Registers a further file of this shard, such as a mesh, by its path in the run folder (with `/`). Write it to the
     /// path that this returns; [`Shard::commit`] syncs it, gives it its name and enters it in the journal.
     ///
     /// # Errors
-    /// Where its folder cannot be made.
+    /// Where its folder cannot be made, or the disk has no room for it.
     pub fn stage(&mut self, path: &str) -> Result<PathBuf, Error> {
+        self.look_at_disk()?;
         let full = self.folder.path.join(path);
         if let Some(folder) = full.parent() {
             fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
         }
         self.staged.push(path.to_owned());
         Ok(durable::beside(&full))
+    }
+
+    /// Looks at the free space, before something is written that does not look itself.
+    ///
+    /// # Errors
+    /// Where less is free than a run leaves.
+    pub fn look_at_disk(&self) -> Result<(), Error> {
+        self.folder.watch.look().map_err(Error::io("write more to", &self.folder.path))
     }
 
     /// The shard's number.

@@ -3,9 +3,11 @@
 //! A crash is played by what it leaves behind: torn lines, parts without an entry, files beside their names.
 
 use super::*;
+use crate::Table;
 use crate::read::Run;
 use crate::specimen::{Sapling, grow_shard, plan, plot, run};
 use phytomer_sim::grow;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use tempfile::tempdir;
 
@@ -99,6 +101,7 @@ fn an_interrupted_run_ends_with_the_same_bytes() {
         grow_shard(&folder, shard, 100_000);
     }
     folder.finish(&[]).unwrap();
+    drop(folder);
     assert_eq!(contents(&whole), contents(&broken));
     let again = RunFolder::create(&broken, plan(7, 2), Mode::Resume).unwrap();
     assert!(again.missing_shards().is_empty());
@@ -117,17 +120,100 @@ fn a_shard_whose_file_is_lost_is_grown_again() {
 }
 
 #[test]
-fn a_damaged_journal_is_refused_and_can_be_overwritten() {
+fn a_damaged_journal_costs_the_shards_of_its_damaged_lines_and_can_be_overwritten() {
     let home = tempdir().unwrap();
     run(home.path(), plan(4, 2));
     let journal = home.path().join("journal.jsonl");
     let text = fs::read_to_string(&journal).unwrap();
-    fs::write(&journal, format!("nonsense\n{text}")).unwrap();
-    let refused = RunFolder::create(home.path(), plan(4, 2), Mode::Resume);
-    assert!(matches!(refused, Err(Error::Journal { line: 1, .. })));
+    let (first, second) = text.split_once('\n').unwrap();
+    fs::write(&journal, format!("{}\n{second}", first.replacen("dead", "daed", 1))).unwrap();
+    let folder = RunFolder::create(home.path(), plan(4, 2), Mode::Resume).unwrap();
+    assert_eq!(folder.missing_shards(), [0]);
+    let found = folder.found().unwrap();
+    assert_eq!((found.state, found.to_grow.as_slice()), (State::Damaged, [0].as_slice()));
+    assert_eq!(found.findings.len(), 1, "{found:?}");
+    drop(folder);
+    fs::write(&journal, "nonsense\n").unwrap();
     let folder = RunFolder::create(home.path(), plan(4, 2), Mode::Overwrite).unwrap();
     assert_eq!(folder.missing_shards(), [0, 1]);
     assert!(durable::files_in(&home.path().join("records")).unwrap().is_empty());
+}
+
+#[test]
+fn a_check_that_is_told_to_stop_says_so_and_changes_nothing() {
+    let home = tempdir().unwrap();
+    run(home.path(), plan(4, 2));
+    let before = contents(home.path());
+    let checking = Checking::default();
+    checking.stop();
+    assert!(matches!(check(home.path(), Depth::Bytes, &checking), Err(Error::Stopped)));
+    let opening = Opening { checking: &checking, space: Arc::new(SystemSpace) };
+    let stopped = RunFolder::open(home.path(), plan(4, 2), Mode::Resume, &opening);
+    assert!(matches!(stopped, Err(Error::Stopped)), "{stopped:?}");
+    assert_eq!(contents(home.path()), before);
+    assert_eq!(check(home.path(), Depth::Bytes, &Checking::default()).unwrap().state, State::Complete);
+}
+
+/// What a program of the first format left is told as such, and replaced where that is asked for.
+#[test]
+fn a_run_without_checks_is_told_kindly() {
+    let home = tempdir().unwrap();
+    run(home.path(), plan(2, 1));
+    let file = home.path().join("run.json");
+    let mut old: Value = serde_json::from_slice(&fs::read(&file).unwrap()).unwrap();
+    for key in ["check", "format_version", "fingerprint", "documents"] {
+        old.as_object_mut().unwrap().remove(key);
+    }
+    fs::write(&file, serde_json::to_vec_pretty(&old).unwrap()).unwrap();
+    fs::write(home.path().join("journal.jsonl"), "{\"shard\":0,\"files\":[]}\n").unwrap();
+    let refused = RunFolder::create(home.path(), plan(2, 1), Mode::Resume).unwrap_err();
+    assert!(refused.to_string().contains("format_version: nothing in the run, 2 now"), "{refused}");
+    let checked = check(home.path(), Depth::Bytes, &Checking::default());
+    assert!(matches!(checked, Err(Error::OlderFormat { .. })));
+    assert!(Run::open(home.path()).unwrap().is_complete());
+    RunFolder::create(home.path(), plan(2, 1), Mode::Overwrite).unwrap();
+}
+
+#[test]
+fn a_run_json_that_is_lost_is_made_anew_for_the_same_run_alone() {
+    let home = tempdir().unwrap();
+    run(home.path(), plan(4, 2));
+    let file = home.path().join("run.json");
+    let text = fs::read_to_string(&file).unwrap();
+    let mut other = plan(4, 2);
+    other.provenance.seed = 43;
+    for damaged in [None, Some(text.replace("\"seed\": 42", "\"seed\": 43"))] {
+        match &damaged {
+            None => fs::remove_file(&file).unwrap(),
+            Some(text) => fs::write(&file, text).unwrap(),
+        }
+        assert!(Run::open(home.path()).is_err());
+        assert_eq!(check(home.path(), Depth::Bytes, &Checking::default()).unwrap().state, State::Damaged);
+        let refused = RunFolder::create(home.path(), other.clone(), Mode::Resume);
+        assert!(matches!(refused, Err(Error::Unrecognised { .. })), "{refused:?}");
+        let folder = RunFolder::create(home.path(), plan(4, 2), Mode::Resume).unwrap();
+        assert!(folder.missing_shards().is_empty());
+        folder.finish(&[("growth", 0.5)]).unwrap();
+        assert_eq!(fs::read_to_string(&file).unwrap(), text);
+    }
+}
+
+#[test]
+fn one_process_at_a_time_has_a_folder() {
+    let home = tempdir().unwrap();
+    let folder = RunFolder::create(home.path(), plan(2, 1), Mode::New).unwrap();
+    grow_shard(&folder, 0, 100_000);
+    let before = contents(home.path());
+    for mode in [Mode::New, Mode::Resume, Mode::Overwrite] {
+        let refused = RunFolder::create(home.path(), plan(2, 1), mode);
+        assert!(matches!(refused, Err(Error::InProgress { .. })), "{refused:?}");
+    }
+    assert_eq!(contents(home.path()), before);
+    let found = check(home.path(), Depth::Bytes, &Checking::default()).unwrap();
+    assert_eq!((found.state, found.findings.len(), found.files), (State::InProgress, 0, 4));
+    drop(folder);
+    assert_eq!(check(home.path(), Depth::Bytes, &Checking::default()).unwrap().state, State::Unfinished);
+    RunFolder::create(home.path(), plan(2, 1), Mode::Overwrite).unwrap();
 }
 
 #[test]
@@ -143,7 +229,7 @@ fn folders_that_are_not_this_run_are_left_alone() {
     let mut other = plan(1, 1);
     other.provenance.resolved["share"] = serde_json::json!(0.2);
     let error = RunFolder::create(run_home.path(), other, Mode::Resume).unwrap_err();
-    assert!(matches!(&error, Error::Foreign { what, .. } if what == "scenario_sha256"), "{error}");
+    assert!(error.to_string().ends_with("What differs:\n  share: 0.1 in the run, 0.2 now"), "{error}");
     let mut other = plan(1, 1);
     other.provenance.seed = 43;
     assert!(matches!(RunFolder::create(run_home.path(), other, Mode::Resume), Err(Error::Foreign { .. })));

@@ -8,7 +8,7 @@ use super::encode::{Job, Queue, RowGroup};
 use super::schema::{Column, Named, Type};
 use super::{ROW_GROUP, Table, arrow};
 use crate::Error;
-use crate::run_folder::{HashingFile, Provenance, RunPlan};
+use crate::run_folder::{HashingFile, Provenance, RunPlan, Watch};
 use arrow_array::StringArray;
 use arrow_schema::SchemaRef;
 use parquet::arrow::ArrowWriter;
@@ -53,11 +53,16 @@ pub struct PartReport {
 
 impl<C: Columns> Part<C> {
     /// Creates the file at `path`, replacing what may be there.
-    pub fn create(table: Table, path: &Path, plan: &RunPlan, queue: &Arc<Queue>) -> Result<Self, Error> {
+    pub fn create(
+        table: Table,
+        path: &Path,
+        plan: &RunPlan,
+        (queue, watch): (&Arc<Queue>, &Arc<Watch>),
+    ) -> Result<Self, Error> {
         let declared = plan.columns(table);
         let schema = arrow::schema(declared);
         let properties = arrow::properties(table, plan).map_err(Error::table(path))?;
-        let writer = ArrowWriter::try_new(HashingFile::create(path)?, schema.clone(), Some(properties));
+        let writer = ArrowWriter::try_new(HashingFile::create(path, watch)?, schema.clone(), Some(properties));
         let (file, factory) = writer.and_then(ArrowWriter::into_serialized_writer).map_err(Error::table(path))?;
         let words = declared.iter().map(|column| words_of(column, &plan.provenance)).collect();
         Ok(Self {

@@ -1,14 +1,15 @@
 //! What a run folder holds: tables with rows, parts and sizes, ages, plants, seed, version, limits that were met, the
 //! architectural models of its first plants, and the population at each recorded age.
 //!
-//! Rows are counted in the Parquet files themselves, so that an unfinished run is told as far as it has come.
+//! Rows are counted in the Parquet files themselves, so that an unfinished run is told as far as it has come. Of a damaged
+//! run only the damage is told: what its tables say cannot be relied on.
 
-use super::super::amounts;
 use super::super::named::Recorded;
+use super::super::{amounts, findings};
 use anyhow::Result;
 use phytomer_analysis::architecture::{Qualified, qualified};
 use phytomer_analysis::{AgeOfPopulation, Moments, population};
-use phytomer_outputs::Table;
+use phytomer_outputs::{Checkup, Depth, State, Table};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -19,10 +20,43 @@ use std::path::{Path, PathBuf};
 pub struct Held {
     recorded: Recorded,
     folder: PathBuf,
+    /// What a check of its files found; `None` of a run that keeps no checks.
+    found: Option<Checkup>,
     tables: BTreeMap<Table, Size>,
     meshes: Size,
     population: BTreeMap<u32, AgeOfPopulation>,
     architecture: Option<Qualified>,
+}
+
+/// A run folder in which something is missing or damaged.
+pub struct Damaged {
+    /// What `run.json` says, where it can be relied on.
+    pub recorded: Option<Recorded>,
+    pub folder: PathBuf,
+    pub found: Checkup,
+}
+
+impl Damaged {
+    pub fn as_json(&self) -> Value {
+        let mut json = findings::as_json(&self.found);
+        let run = self.recorded.as_ref().map(|recorded| recorded.run.json());
+        json["kind"] = "run".into();
+        json["run"] = self.folder.display().to_string().into();
+        for key in ["scenario", "seed", "version", "git_hash", "schema_version"] {
+            json[key] = run.map(|run| run[key].clone()).unwrap_or_default();
+        }
+        json
+    }
+
+    pub fn as_text(&self) -> String {
+        const SHOWN: usize = 12;
+        let of = self.recorded.as_ref().map(|recorded| {
+            format!(" of the scenario `{}`, species `{}`", recorded.scenario.name, recorded.species.about.name)
+        });
+        let mut text = format!("{}: a damaged run{}", self.folder.display(), of.unwrap_or_default());
+        text += &findings::lines(&self.found, SHOWN);
+        findings::advice(&self.found).map(|advice| format!("{text}\n{advice}")).unwrap_or(text)
+    }
 }
 
 /// Rows, files and bytes.
@@ -49,7 +83,7 @@ impl Held {
     ///
     /// # Errors
     /// Where a file of it cannot be read.
-    pub fn of(recorded: Recorded, folder: PathBuf) -> Result<Self> {
+    pub fn of(recorded: Recorded, folder: PathBuf, found: Option<Checkup>) -> Result<Self> {
         let mut tables = BTreeMap::new();
         for (table, rows) in recorded.run.rows()? {
             let mut size = Size { rows, ..Size::default() };
@@ -63,7 +97,7 @@ impl Held {
         }
         let population = population(&recorded.run)?;
         let architecture = qualified(&recorded.run, recorded.scenario.plants)?;
-        Ok(Self { recorded, folder, tables, meshes, population, architecture })
+        Ok(Self { recorded, folder, found, tables, meshes, population, architecture })
     }
 
     fn words(&self, key: &str) -> &str {
@@ -72,6 +106,29 @@ impl Held {
 
     fn number(&self, key: &str) -> Option<u64> {
         self.recorded.run.json()[key].as_u64()
+    }
+
+    fn state(&self) -> State {
+        match &self.found {
+            Some(found) => found.state,
+            None if self.recorded.run.is_complete() => State::Complete,
+            None => State::Unfinished,
+        }
+    }
+
+    /// How far the files can be relied on, and which lie beside them.
+    fn files_in_words(&self) -> String {
+        const SHOWN: usize = 5;
+        let Some(found) = &self.found else {
+            return "not checked: the run was written by an older phytomer, which kept no checks".to_owned();
+        };
+        let (files, bytes) = (amounts::of(found.files as u64, "file"), amounts::bytes(found.bytes as f64));
+        let mut text = match found.depth {
+            Depth::Bytes => format!("{files}, {bytes}, as they were written"),
+            Depth::Lengths => format!("{files}, {bytes}, there; `phytomer verify` compares their bytes"),
+        };
+        text += &findings::lines(found, SHOWN).replace("\n", "\n             ");
+        findings::advice(found).map(|advice| format!("{text}\n               {advice}")).unwrap_or(text)
     }
 
     fn overgrown(&self) -> usize {
@@ -85,7 +142,8 @@ impl Held {
         json!({
             "kind": "run",
             "run": self.folder.display().to_string(),
-            "status": run["status"],
+            "status": findings::word(self.state()),
+            "check": self.found.as_ref().map(findings::as_json),
             "scenario": run["scenario"],
             "species": self.recorded.species.about.name,
             "seed": run["seed"],
@@ -108,7 +166,7 @@ impl Held {
 
     pub fn as_text(&self) -> String {
         let scenario = &self.recorded.scenario;
-        let status = if self.recorded.run.is_complete() { "a complete run" } else { "an unfinished run" };
+        let status = findings::kind_of(self.state());
         let (name, species) = (self.words("scenario"), &self.recorded.species.about.name);
         let mut text = format!("{}: {status} of the scenario `{name}`, species `{species}`\n", self.folder.display());
         let mut line = |name: &str, value: String| {
@@ -124,6 +182,7 @@ impl Held {
         }
         line("seed", scenario.seed.to_string());
         line("made by", format!("phytomer {} ({})", self.words("version"), self.words("git_hash")));
+        line("files", self.files_in_words());
         if self.overgrown() > 0 {
             line(
                 "limits",

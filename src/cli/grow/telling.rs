@@ -8,7 +8,7 @@ use anyhow::Result;
 use phytomer::run::forecast::{Figure, Forecast};
 use phytomer::run::{Outcome, Settings};
 use phytomer_config::Resolved;
-use phytomer_outputs::Table;
+use phytomer_outputs::{Space, Table};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -17,16 +17,26 @@ pub struct Told<'a> {
     pub resolved: &'a Resolved,
     pub settings: &'a Settings,
     pub outcome: &'a Outcome,
-    pub verdict: Verdict,
+    /// What a resumed run found in its folder.
+    pub found: Option<Value>,
 }
 
 impl Told<'_> {
+    /// How it ended.
+    pub fn verdict(&self) -> Verdict {
+        match self.outcome {
+            outcome if outcome.is_interrupted() => Verdict::Interrupted,
+            outcome if !outcome.report.overgrown.is_empty() => Verdict::Failed,
+            _ => Verdict::Done,
+        }
+    }
+
     /// One object with everything.
     pub fn as_json(&self) -> Value {
         let Self { resolved, settings, outcome, .. } = self;
         let report = &outcome.report;
         json!({
-            "status": match self.verdict {
+            "status": match self.verdict() {
                 Verdict::Interrupted => "interrupted",
                 Verdict::Failed => "limited",
                 _ => "complete",
@@ -53,6 +63,7 @@ impl Told<'_> {
             "components_per_second": self.rate().round(),
             "peak_memory_bytes": amounts::peak_memory(),
             "overgrown": report.overgrown,
+            "found": self.found,
         })
     }
 
@@ -153,10 +164,13 @@ impl Told<'_> {
 }
 
 /// Tells what is expected of a run.
-pub fn forecast(resolved: &Resolved, forecast: Option<&Forecast>, as_json: bool) -> Result<()> {
+pub fn forecast(resolved: &Resolved, forecast: Option<&Forecast>, room: Option<Space>, as_json: bool) -> Result<()> {
     let scenario = &resolved.scenario;
     if as_json {
-        let what = json!({"status": "dry_run", "scenario": scenario.name, "seed": scenario.seed, "expected": forecast});
+        let free = room.map(|space| space.free);
+        let (name, seed) = (&scenario.name, scenario.seed);
+        let what =
+            json!({"status": "dry_run", "scenario": name, "seed": seed, "expected": forecast, "free_bytes": free});
         return terminal::put_json(&what);
     }
     let plants = amounts::of(scenario.plants.into(), "plant");
@@ -166,6 +180,8 @@ pub fn forecast(resolved: &Resolved, forecast: Option<&Forecast>, as_json: bool)
         Some(forecast) => text += &in_words(forecast),
         None => text += "  no forecast: the expectation of this species takes too long to sum up\n",
     }
+    let free = room.map_or("unknown".to_owned(), |space| amounts::bytes(space.free as f64));
+    let _ = writeln!(text, "  {:<11} {free:>10} on the disk of the run folder", "free");
     terminal::put(&(text + "nothing was written"))
 }
 

@@ -1,0 +1,158 @@
+//! How the run in a folder differs from the one that is to go on with it: key by key, with both values.
+//!
+//! The scenario and its species are compared as they were resolved, so that a changed default or ancestor shows too. What
+//! follows from them alone, such as the list of recorded ages, is told only where they are equal. Absent: what to do.
+
+use super::plan::RunPlan;
+use serde_json::{Map, Value};
+use std::fmt;
+
+/// One key of which the values differ.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Difference {
+    /// Its place: `scenario.seed`, `species.order 2.pause`, `inputs.coffee.toml`.
+    pub key: String,
+    /// The value in the run; `None` where it has none.
+    pub run: Option<String>,
+    /// The value now.
+    pub now: Option<String>,
+}
+
+/// What differs, in the order of the files.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Differences(pub Vec<Difference>);
+
+/// Differences that a message shows.
+const SHOWN: usize = 12;
+
+/// Characters of a value that a message shows.
+const LONGEST: usize = 60;
+
+/// Keys of the identity that do not follow from the resolved scenario.
+const OWN: [&str; 6] = ["format_version", "schema_version", "version", "git_hash", "treatment", "inputs"];
+
+impl Differences {
+    /// Between a `run.json` and a plan.
+    pub fn between(run: &Value, plan: &RunPlan) -> Self {
+        let mut found = Vec::new();
+        compare(String::new(), run.get("resolved_scenario"), Some(&plan.provenance.resolved), &mut found);
+        let same_scenario = found.is_empty();
+        for (key, now) in plan.identity() {
+            let told = if same_scenario { key != "scenario_sha256" } else { OWN.contains(&key.as_str()) };
+            if !told {
+                continue;
+            }
+            if key == "inputs" {
+                let run = run.get("inputs").map(by_path);
+                compare(key, run.as_ref(), Some(&by_path(&now)), &mut found);
+            } else {
+                compare(key.clone(), run.get(&key), Some(&now), &mut found);
+            }
+        }
+        Self(found)
+    }
+}
+
+impl fmt::Display for Differences {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let none = || "nothing".to_owned();
+        for (line, Difference { key, run, now }) in self.0.iter().take(SHOWN).enumerate() {
+            let (run, now) = (run.clone().unwrap_or_else(none), now.clone().unwrap_or_else(none));
+            let end = if line == 0 { "" } else { "\n" };
+            write!(f, "{end}  {key}: {run} in the run, {now} now")?;
+        }
+        match self.0.len().saturating_sub(SHOWN) {
+            0 => Ok(()),
+            more => write!(f, "\n  and {more} more"),
+        }
+    }
+}
+
+/// A list of inputs as hashes by path.
+fn by_path(inputs: &Value) -> Value {
+    let pair = |input: &Value| Some((input["path"].as_str()?.to_owned(), input["sha256"].clone()));
+    Value::Object(inputs.as_array().into_iter().flatten().filter_map(pair).collect())
+}
+
+/// Walks two trees side by side. Their depth is that of a checked scenario.
+fn compare(key: String, run: Option<&Value>, now: Option<&Value>, found: &mut Vec<Difference>) {
+    match (run, now) {
+        (run, now) if run == now => {}
+        (Some(Value::Object(run)), Some(Value::Object(now))) => {
+            for name in names(run, now) {
+                let longer = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
+                compare(longer, run.get(name), now.get(name), found);
+            }
+        }
+        (Some(Value::Array(run)), Some(Value::Array(now))) if run.iter().chain(now).any(Value::is_object) => {
+            for at in 0..run.len().max(now.len()) {
+                compare(format!("{key} {}", at + 1), run.get(at), now.get(at), found);
+            }
+        }
+        (run, now) => found.push(Difference { key, run: run.map(shown), now: now.map(shown) }),
+    }
+}
+
+/// The keys of both, those of the first before those that only the second has.
+fn names<'a>(run: &'a Map<String, Value>, now: &'a Map<String, Value>) -> impl Iterator<Item = &'a String> {
+    run.keys().chain(now.keys().filter(|name| !run.contains_key(*name)))
+}
+
+fn shown(value: &Value) -> String {
+    let text = value.to_string();
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::specimen::plan;
+    use serde_json::json;
+
+    fn between(change: impl FnOnce(&mut RunPlan)) -> Vec<String> {
+        let before = plan(4, 2);
+        let mut run = Value::Object(before.identity());
+        run["resolved_scenario"] = before.provenance.resolved.clone();
+        let mut now = before;
+        change(&mut now);
+        Differences::between(&run, &now).to_string().lines().map(|line| line.trim().to_owned()).collect()
+    }
+
+    #[test]
+    fn each_differing_key_is_told_with_both_values() {
+        assert!(between(|_| {}).is_empty());
+        assert_eq!(between(|now| now.provenance.seed = 43), ["seed: 42 in the run, 43 now"]);
+        assert_eq!(
+            between(|now| now.provenance.resolved = json!({"species": "birch", "orders": [{"pause": 1}], "until": 9})),
+            [
+                "species: \"sapling\" in the run, \"birch\" now",
+                "share: 0.1 in the run, nothing now",
+                "orders: nothing in the run, [{\"pause\":1}] now",
+                "until: nothing in the run, 9 now"
+            ]
+        );
+        let input = |sha256: &str| crate::Input { path: "a.toml".to_owned(), sha256: sha256.to_owned() };
+        assert_eq!(
+            between(|now| now.provenance.inputs = vec![input("12")]),
+            ["inputs.a.toml: nothing in the run, \"12\" now"]
+        );
+    }
+
+    #[test]
+    fn what_follows_from_the_scenario_is_not_told_twice_and_long_lists_end() {
+        let told = between(|now| {
+            now.provenance.seed = 43;
+            now.provenance.resolved["share"] = json!(0.2);
+            now.provenance.version = "9".to_owned();
+        });
+        assert_eq!(told, ["share: 0.1 in the run, 0.2 now", "version: \"0.0.0\" in the run, \"9\" now"]);
+        let many: Map<String, Value> = (0..40).map(|key| (format!("key {key}"), json!(key))).collect();
+        let told = between(|now| now.provenance.resolved = Value::Object(many));
+        assert_eq!((told.len(), told[12].as_str()), (13, "and 30 more"));
+        let told = between(|now| now.provenance.resolved["species"] = json!("é".repeat(100)));
+        assert!(told[0].contains("é…") && told[0].chars().count() < 110, "{}", told[0]);
+    }
+}

@@ -1,0 +1,98 @@
+//! What a run folder says of itself, read back: `run.json` and the journal, each with whether its checks hold.
+//!
+//! Absent: whether the files that they name are there, which is `check`'s.
+
+use super::check;
+use super::documents::RUN;
+use super::journal::{self, JOURNAL, Reading};
+use super::seal::DOCUMENT;
+use crate::Error;
+use serde_json::Value;
+use std::fs;
+use std::io;
+use std::path::Path;
+
+/// A `run.json`.
+#[derive(Debug)]
+pub enum RunJson {
+    /// There is none.
+    Missing,
+    /// Its check does not hold; whether it still looks like a run's.
+    Damaged {
+        /// It names this program.
+        ours: bool,
+    },
+    /// Of a program that wrote no checks yet.
+    Older(Value),
+    /// As it was written.
+    Whole(Value),
+}
+
+/// The papers of a run folder.
+#[derive(Debug)]
+pub struct Papers {
+    /// `run.json`.
+    pub run: RunJson,
+    /// The journal; `None` where there is none.
+    pub journal: Option<Reading>,
+}
+
+impl Papers {
+    /// Reads them.
+    pub fn read(folder: &Path) -> Result<Self, Error> {
+        let file = folder.join(RUN);
+        let run = match fs::read(&file) {
+            Err(source) if source.kind() == io::ErrorKind::NotFound => RunJson::Missing,
+            text => RunJson::of(&text.map_err(Error::io("read", &file))?),
+        };
+        Ok(Self { run, journal: journal::read(&folder.join(JOURNAL))? })
+    }
+
+    /// Whether the folder is that of a run, whole or damaged.
+    pub fn is_run(&self) -> bool {
+        match self.run {
+            RunJson::Older(_) | RunJson::Whole(_) | RunJson::Damaged { ours: true } => true,
+            RunJson::Missing | RunJson::Damaged { ours: false } => {
+                self.journal.as_ref().is_some_and(|journal| !journal.runs().is_empty())
+            }
+        }
+    }
+
+    /// What `run.json` says, where its check holds.
+    pub fn whole(&self) -> Option<&Value> {
+        if let RunJson::Whole(run) = &self.run { Some(run) } else { None }
+    }
+
+    /// The fingerprint of the run's plan: as `run.json` has it, else as the journal does where it names one run alone.
+    pub fn fingerprint(&self) -> Option<String> {
+        let stated = self.whole().and_then(|run| run["fingerprint"].as_str().map(str::to_owned));
+        stated.or_else(|| {
+            let runs = self.journal.as_ref()?.runs();
+            if runs.len() == 1 { runs.first().map(|run| (*run).to_owned()) } else { None }
+        })
+    }
+}
+
+impl Papers {
+    /// The files of the run, where `run.json` is whole.
+    pub fn names(&self) -> Option<Vec<String>> {
+        self.whole()?;
+        let done = self.journal.as_ref().zip(self.fingerprint()).map(|(journal, run)| journal.done(&run));
+        Some(check::named_by(self, &done.unwrap_or_default(), false).into_keys().collect())
+    }
+}
+
+impl RunJson {
+    fn of(text: &[u8]) -> Self {
+        let json = serde_json::from_slice::<Value>(text).ok();
+        let ours = |json: &Value| json["format"] == "phytomer run";
+        match json {
+            Some(json) if DOCUMENT.holds(text) && ours(&json) => Self::Whole(json),
+            // Damage to one place does not take both keys away.
+            Some(json) if ours(&json) && json.get("check").is_none() && json.get("format_version").is_none() => {
+                Self::Older(json)
+            }
+            _ => Self::Damaged { ours: text.windows(12).any(|word| word == b"phytomer run") },
+        }
+    }
+}
