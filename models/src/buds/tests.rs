@@ -298,7 +298,8 @@ fn a_flower_asks_its_laws_at_the_rank_of_its_node() {
         flower: Flower { lateral: Law::from(1.0), fruit_set: expression("rank == 2"), ..Flower::default() },
         ..Order::default()
     };
-    let model = Buds { order: vec![order], ..Buds::default() }.compile(5, &Path::root()).unwrap();
+    // A fruit comes a tick after its flower: of the nodes of tick 5 at age 6.
+    let model = Buds { order: vec![order], ..Buds::default() }.compile(6, &Path::root()).unwrap();
     let plant = contract::grown(&model, 5, &contract::seed_of(1, 0));
     let of_fruits = (0..plant.organs.len()).filter(|&organ| plant.organs.kind[organ] == Kind::Fruit);
     let ranks: Vec<u16> = of_fruits.map(|organ| plant.nodes.unit_rank[plant.organs.node[organ].index()]).collect();
