@@ -176,7 +176,7 @@ fn assert_whole(folder: &Path, resolved: &Resolved, outcome: &Outcome) {
     let (scenario, report) = (&resolved.scenario, &outcome.report);
     assert_eq!(report.living + report.dead, u64::from(scenario.plants));
     assert_eq!(run.rows().expect("whole Parquet files"), report.rows);
-    assert_eq!(report.rows.len(), scenario.tables.len());
+    assert_eq!(report.rows.len(), scenario.written_tables().len());
     if let (Some(rows), true) = (report.rows.get(&Table::Summary), report.overgrown.is_empty()) {
         assert_eq!(*rows, u64::from(scenario.plants) * scenario.ages.recorded().len() as u64);
     }

@@ -22,7 +22,7 @@ fn write(folder: &Path, name: &str, text: &str) {
 fn verify_tells_of_each_file_and_resume_mends() {
     let folder = grown();
     let whole = run(folder.path(), &["verify", "small"]).ending(0).stdout;
-    assert!(whole.contains("a complete run; 19 files") && whole.contains("all as they were written"), "{whole}");
+    assert!(whole.contains("a complete run; 22 files") && whole.contains("all as they were written"), "{whole}");
     assert_eq!(run(folder.path(), &["verify", "runs/small", "--quiet"]).ending(0).stdout, "");
     let missing = "runs/small/records/part-00001.parquet";
     fs::remove_file(folder.path().join(missing)).unwrap();
