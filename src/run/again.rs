@@ -125,7 +125,7 @@ fn prime_of(plant: &Plant, last: Tick, year: Tick) -> Tick {
 fn areas_of(plant: &Plant, leaf: OrganId) -> impl Iterator<Item = (Tick, Tick, f64)> {
     let (birth, death) = (plant.organs.birth[leaf.index()], plant.organs.death[leaf.index()]);
     let last = plant.look_of_organ(leaf).map_or(0, |look| look.expansion.len().saturating_sub(1) as Tick);
-    (0..=last).map(move |own_age| {
+    (0..=last.min(death.saturating_sub(birth))).map(move |own_age| {
         let from = birth.saturating_add(own_age);
         let until = if own_age < last { death.min(from.saturating_add(1)) } else { death };
         (from, until, plant.organ_area(leaf, from))

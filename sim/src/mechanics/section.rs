@@ -60,16 +60,17 @@ impl Section {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::pow;
 
     #[test]
     fn sections_are_those_of_the_textbook() {
         let (blade, near) = (Section::Blade(0.002), |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12);
         let [edge, flat] = blade.second_moments(0.05);
-        assert!(near(flat, 0.05 * 0.002_f64.powi(3) / 12.0) && near(edge, 0.002 * 0.05_f64.powi(3) / 12.0));
+        assert!(near(flat, 0.05 * pow(0.002, 3.0) / 12.0) && near(edge, 0.002 * pow(0.05, 3.0) / 12.0));
         assert!(near(blade.volume(0.1, 0.05, 0.03), 0.04 * 0.002 * 0.1));
         assert!(near(blade.gyration(0.05), 4.0 * (flat / (0.05 * 0.002)).sqrt()));
         let [about_up, about_side] = Section::Round.second_moments(0.05);
-        assert!(near(about_up, PI * 0.05_f64.powi(4) / 64.0) && about_up == about_side);
+        assert!(near(about_up, PI * pow(0.05, 4.0) / 64.0) && about_up == about_side);
         assert!(near(Section::Round.gyration(0.05), 4.0 * (about_up / (PI / 4.0 * 0.05 * 0.05)).sqrt()));
     }
 }

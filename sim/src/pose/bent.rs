@@ -46,6 +46,12 @@ pub(crate) trait Curvature {
 pub(crate) struct Stance {
     plane: Plane,
     slope: Slope,
+    tip: Tip,
+}
+
+/// The end of an axis as it stands.
+#[derive(Debug, Clone, Copy)]
+struct Tip {
     base: Vector,
     /// At the middle of the internode that it has come to.
     turned: Rotation,
@@ -159,33 +165,34 @@ fn follow_run(
     curvature: &mut impl Curvature,
 ) {
     let axis = run.axis.index();
-    let (mut stance, mut carried) = (stances[axis], curvature.enter(axis));
+    let (Stance { plane, mut slope, mut tip }, mut carried) = (stances[axis], curvature.enter(axis));
     let mut straight = run.begins;
     for node in run.nodes() {
         let trend = trends.get(usize::from(columns.trend[node])).filter(|trend| trend.share > 0.0 && !straight);
         if let Some(trend) = trend {
-            stance.slope = stance.slope.turned(trend);
+            slope = slope.turned(trend);
         }
         straight = false;
         let length = f64::from(columns.length[node]);
         let curved;
         (carried, curved) = curvature.next(carried, node, length, columns.heading[node], columns.up[node]);
+        let rest = [plane.heading(slope), plane.up(slope)];
         let frame;
-        (stance, frame) = stance.extended(length, curved);
+        (tip, frame) = tip.extended(rest, length, curved);
         (columns.base[node], columns.heading[node], columns.up[node]) = (frame.base, frame.heading, frame.up);
         while let Some(lateral) = borne.on(node) {
-            stances[lateral] = stance.leaving(axes, lateral);
+            stances[lateral] = Stance { plane, slope, tip }.leaving(axes, lateral);
             curvature.leave(carried, lateral);
         }
     }
-    stances[axis] = stance;
+    stances[axis] = Stance { plane, slope, tip };
     curvature.leave(carried, axis);
 }
 
 impl Stance {
     fn from_rest(rest: &Frame, base: Vector, turned: Rotation) -> Self {
         let (plane, slope) = Plane::of(rest);
-        Self { plane, slope, base, turned, half: Vector::default() }
+        Self { plane, slope, tip: Tip { base, turned, half: Vector::default() } }
     }
 
     /// Where `axis` starts, which leaves the internode that this stance has come to.
@@ -193,18 +200,19 @@ impl Stance {
         let (heading, up) = (self.plane.heading(self.slope), self.plane.up(self.slope));
         let rest = Frame { base: [0.0; 3], heading: heading.single(), up: up.single() };
         let rest = rest.inserted(axes.azimuth[axis], axes.insertion[axis]);
-        Self::from_rest(&rest, self.base, self.turned.then(self.half).normalized())
+        Self::from_rest(&rest, self.tip.base, self.tip.turned.then(self.tip.half).normalized())
     }
+}
 
-    /// At the tip of the next internode, and that one's frame.
+impl Tip {
+    /// At the tip of the next internode, whose heading and `up` at rest are given, and that internode's frame.
     #[inline]
-    fn extended(self, length: f64, curvature: [f32; 2]) -> (Self, Frame) {
-        let (heading, up) = (self.plane.heading(self.slope), self.plane.up(self.slope));
+    fn extended(self, [heading, up]: [Vector; 2], length: f64, curvature: [f32; 2]) -> (Self, Frame) {
         let curvature = |k: usize| 0.5 * f64::from(curvature[k]) * length;
         let half = up * curvature(0) + heading.cross(up) * curvature(1);
         let turned = self.turned.then(self.half + half);
         let (heading, up) = (turned.of(heading), turned.of(up));
         let frame = Frame { base: self.base.single(), heading: heading.single(), up: up.single() };
-        (Self { base: self.base + heading * length, turned, half, ..self }, frame)
+        (Self { base: self.base + heading * length, turned, half }, frame)
     }
 }

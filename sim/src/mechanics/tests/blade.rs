@@ -113,6 +113,6 @@ fn it_has_volume_mass_and_a_frequency() {
     let wood = plant.habit.wood.as_ref().expect("it has wood");
     let frequency = sway::frequencies(&plant, wood, 1)[1];
     // β₁² / 2π √(E I / μ) of a clamped beam.
-    let expected = 1.875_104_068_7_f64.powi(2) / (2.0 * std::f64::consts::PI) * (flexural / weight).sqrt();
+    let expected = pow(1.875_104_068_7, 2.0) / (2.0 * std::f64::consts::PI) * (flexural / weight).sqrt();
     assert!(near(frequency, expected, 1e-4), "{frequency} Hz, not {expected}");
 }
