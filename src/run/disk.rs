@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// More is expected of a run than its disk has room for.
 #[derive(Debug, Clone, thiserror::Error)]
 #[error(
-    "about {needed} of tables are expected and the disk of {} has {free} free, of which a run leaves {reserve}: record \
+    "up to about {needed} of tables are expected and the disk of {} has {free} free, of which a run leaves {reserve}: record \
      fewer ages or tables, grow fewer plants, choose a folder on another disk by --out, or begin all the same with \
      --ignore-disk; nothing was written",
     folder.display()
