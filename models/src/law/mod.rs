@@ -10,6 +10,7 @@
 mod bare;
 mod constant;
 mod count;
+mod count_source;
 mod count_table;
 mod curves;
 mod domain;
