@@ -1,8 +1,8 @@
 //! Two bare plants of constant laws, the upper bounds of the engine: a bushy one, four orders with a lateral at nearly
 //! every node, and one of long axes, ten nodes a growth unit and few laterals.
 //!
-//! The shipped species draw lengths, angles, leaves and fruits at random on top of this. The baselines are plain writes of
-//! the columns that growth and pose make; the rates are internodes a second of one core.
+//! The shipped species draw lengths, angles, leaves and fruits at random on top of this. The baselines are plain writes
+//! of the columns that growth and pose make; the rates are internodes a second of one core.
 
 mod specimen;
 

@@ -1,7 +1,7 @@
 //! A poplar of thirty years, with its leaves: growth, meshing, PLY and a picture.
 //!
-//! The mesh has the vertices of a whole crown; growth, vertices and PLY are compared with plain writes of the same columns
-//! and bytes. `docs/performance.md` has the table.
+//! The mesh has the vertices of a whole crown; growth, vertices and PLY are compared with plain writes of the same
+//! columns and bytes. `docs/performance.md` has the table.
 
 mod specimen;
 

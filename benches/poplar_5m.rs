@@ -1,7 +1,7 @@
 //! A bare poplar of five million internodes: growth on long axes, frames, and the tables at ten ages.
 //!
-//! Growth and frames are compared with plain writes of their columns, bending with the pose at rest, the tables with the parquet crate alone on ready
-//! batches of the same rows. `docs/performance.md` has the table.
+//! Growth and frames are compared with plain writes of their columns, bending with the pose at rest, the tables with
+//! the parquet crate alone on ready batches of the same rows. `docs/performance.md` has the table.
 
 mod specimen;
 

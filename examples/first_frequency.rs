@@ -1,10 +1,10 @@
-//! The first frequency of simulated poplars beside that of real broadleaves, 0.148 + 0.453 DBH / H² Hz (DBH in cm, H in m):
-//! an order of magnitude against nature, told and not asserted.
+//! The first frequency of simulated poplars beside that of real broadleaves, 0.148 + 0.453 DBH / H² Hz (DBH in cm, H in
+//! m): an order of magnitude against nature, told and not asserted.
 //!
 //! cargo run --release --example first_frequency
 //!
-//! The poplar is the shipped `poplar` with green cottonwood (7.0 GPa, *Wood Handbook*; 850 kg/m³ assumed) and no change of
-//! its diameters; the frequency is that of its trunk as a clamped cylinder that carries the whole crown.
+//! The poplar is the shipped `poplar` with green cottonwood (7.0 GPa, *Wood Handbook*; 850 kg/m³ assumed) and no change
+//! of its diameters; the frequency is that of its trunk as a clamped cylinder that carries the whole crown.
 
 use phytomer_config::{Model, validate_species};
 use phytomer_models::buds::params::Wood;

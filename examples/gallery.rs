@@ -1,8 +1,9 @@
 //! The gallery: every species that ships, drawn in its prime, and the life of one tree as a strip.
 //!
-//! `cargo run --release --example gallery [FOLDER]` writes `gallery.md`, its pictures below `gallery/` and `life.png` into a
-//! folder, `docs` if none is given. A species is grown by the shipped scenario of its name if there is one, else by itself,
-//! and drawn at the age that `phytomer picture` chooses. Nothing is listed here: what ships is what is drawn.
+//! `cargo run --release --example gallery [FOLDER]` writes `gallery.md`, its pictures below `gallery/` and `life.png`
+//! into a folder, `docs` if none is given. A species is grown by the shipped scenario of its name if there is one, else
+//! by itself, and drawn at the age that `phytomer picture` chooses. Nothing is listed here: what ships is what is
+//! drawn.
 
 use anyhow::{Context, Result, anyhow};
 use phytomer::config::{Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, presets, validate, validate_species};

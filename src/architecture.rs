@@ -1,9 +1,9 @@
-//! Whether a species is what its file says that it is: one that names an `architectural_model` must have plants that qualify
-//! for it (Hallé, Oldeman & Tomlinson 1978).
+//! Whether a species is what its file says that it is: one that names an `architectural_model` must have plants that
+//! qualify for it (Hallé, Oldeman & Tomlinson 1978).
 //!
-//! Plants are grown in memory to the age at which the species is shown, from the default seed, so that the answer is always
-//! the same. For `validate` alone: a run begins without it, because it takes longer than a start may. Absent: the
-//! qualifiers, which are `phytomer-analysis`'s.
+//! Plants are grown in memory to the age at which the species is shown, from the default seed, so that the answer is
+//! always the same. For `validate` alone: a run begins without it, because it takes longer than a start may. Absent:
+//! the qualifiers, which are `phytomer-analysis`'s.
 
 use phytomer_analysis::architecture::{Architecture, Characters, architecture, architectures};
 use phytomer_config::scenario::DEFAULT_SEED;
@@ -23,8 +23,8 @@ const ENOUGH: u32 = 250_000;
 /// A plant that is looked at may have so many components.
 const LIMIT: u32 = 1_000_000;
 
-/// The characters of the plants from 0 on at the age `until`, `plants` of them unless they are large; of those that come to
-/// their limit, none.
+/// The characters of the plants from 0 on at the age `until`, `plants` of them unless they are large; of those that
+/// come to their limit, none.
 ///
 /// # Errors
 /// A plant that no table could hold.

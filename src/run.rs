@@ -222,8 +222,9 @@ impl Grower<'_> {
         keeper.commit().map(Some)
     }
 
-    /// The threads for which there is no shard help with the plants of the others. Where every thread has a shard of its own
-    /// none helps: one that waits for its helper would begin with a further shard meanwhile, and keep two plants.
+    /// The threads for which there is no shard help with the plants of the others. Where every thread has a shard of
+    /// its own none helps: one that waits for its helper would begin with a further shard meanwhile, and keep two
+    /// plants.
     fn hands(&self) -> Hands {
         let shards = self.folder.plan().shards() as usize;
         Hands { threads: (rayon::current_num_threads() / shards).max(1), ..Hands::default() }

@@ -1,7 +1,8 @@
 //! A sample of a species, grown to be held against what was published of such plants (`[[published]]`).
 //!
 //! The sample is the same on every machine: plants 0, 1, 2 … of the default seed, on open ground, as many as the size
-//! of the first ones allows. Means are over the plants that live. Absent: files, and what is done about a sample that does not fit.
+//! of the first ones allows. Means are over the plants that live. Absent: files, and what is done about a sample that
+//! does not fit.
 
 use phytomer_config::published::{Measure, PUBLISHED, Published, Range};
 use phytomer_config::{Species, scenario::DEFAULT_SEED};

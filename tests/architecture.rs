@@ -1,8 +1,9 @@
-//! The 23 architectural models of Hallé, Oldeman & Tomlinson 1978: each shipped one grows plants of its model and of no other,
-//! and the qualifiers see what a plant lacks.
+//! The 23 architectural models of Hallé, Oldeman & Tomlinson 1978: each shipped one grows plants of its model and of no
+//! other, and the qualifiers see what a plant lacks.
 //!
-//! The confusion matrix has a row a shipped model, several plants each, and a column a qualifier. Pairs that are not told
-//! apart are listed with their reasons, and `docs/architecture-models.md` shows the matrix (`UPDATE_EXPECTED=1` writes it).
+//! The confusion matrix has a row a shipped model, several plants each, and a column a qualifier. Pairs that are not
+//! told apart are listed with their reasons, and `docs/architecture-models.md` shows the matrix (`UPDATE_EXPECTED=1`
+//! writes it).
 
 mod program;
 

@@ -1,8 +1,9 @@
-//! What is drawn is what the tables say: over every shipped species the triangles of each kind of organ have the area of its
+//! What is drawn is what the tables say: over every shipped species the triangles of each kind of organ have the area
+//! of its
 //! `area_m2`, and the tubes of internodes hold their `wood_volume_m3`, to 1 %.
 //!
-//! The areas are those of one side: of closed forms half the surface. Tables and meshes are read from the files of one run.
-//! Absent: blades and internodes of other forms, which are drawn as sheets and hold nothing.
+//! The areas are those of one side: of closed forms half the surface. Tables and meshes are read from the files of one
+//! run. Absent: blades and internodes of other forms, which are drawn as sheets and hold nothing.
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Int8Type, Int32Type};

@@ -1,8 +1,8 @@
 //! Bad input ends with exit code 3 and leaves nothing, and whatever somebody types the program never panics.
 //!
 //! The files are those beside whose reports the configuration is tested; then two good scenarios, broken in two hundred
-//! drawn ways: those that the program must tell apart by exit code and stderr. `tests/mutations.rs` has ten thousand, in
-//! process. A failure names its number and shows its text.
+//! drawn ways: those that the program must tell apart by exit code and stderr. `tests/mutations.rs` has ten thousand,
+//! in process. A failure names its number and shows its text.
 
 #[path = "../config/tests/mutate/mod.rs"]
 mod mutate;

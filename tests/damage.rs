@@ -1,8 +1,8 @@
-//! Two hundred damaged copies of a run: a flipped bit, a cut, a missing and a foreign file, a damaged line of the journal,
-//! at places drawn from a fixed seed.
+//! Two hundred damaged copies of a run: a flipped bit, a cut, a missing and a foreign file, a damaged line of the
+//! journal, at places drawn from a fixed seed.
 //!
-//! `verify`, `describe` and `--resume` must say the same of each, and `--resume` must end with the files of the run that was
-//! not damaged. All copies go through the library; some of them through the program too.
+//! `verify`, `describe` and `--resume` must say the same of each, and `--resume` must end with the files of the run
+//! that was not damaged. All copies go through the library; some of them through the program too.
 
 mod program;
 

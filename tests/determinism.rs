@@ -1,7 +1,7 @@
 //! The same scenario gives the same bytes in every table and mesh: on any number of threads, and in debug and release.
 //!
-//! Both profiles run this file against the same hashes (`tests/data/*.sha256`): of a bush in its pose at rest, and of trees
-//! that bend in a wind, with the columns of mechanics. Where a change of the growth or of a
+//! Both profiles run this file against the same hashes (`tests/data/*.sha256`): of a bush in its pose at rest, and of
+//! trees that bend in a wind, with the columns of mechanics. Where a change of the growth or of a
 //! format is meant, `PHYTOMER_BLESS=1 cargo test --test determinism` writes them anew.
 
 mod program;

@@ -1,6 +1,6 @@
-//! Independent readers of what a run leaves: pyarrow, DuckDB and Polars for the tables, plyfile, trimesh, Open3D, meshio
-//! and PyVista for the meshes; Pillow for pictures; jsonschema for the schemas of species and scenarios, and taplo, which editors use for TOML,
-//! for the line by which a file names its schema.
+//! Independent readers of what a run leaves: pyarrow, DuckDB and Polars for the tables, plyfile, trimesh, Open3D,
+//! meshio and PyVista for the meshes; Pillow for pictures; jsonschema for the schemas of species and scenarios, and
+//! taplo, which editors use for TOML, for the line by which a file names its schema.
 //!
 //! They live in `.venv`, which `.ci/run` fills from `tests/readers/requirements.txt`; where they are missing the tests
 //! skip and say so, but never in CI. `PHYTOMER_RUN` names a run folder to read beside the small one grown here.

@@ -1,9 +1,9 @@
 //! What plants take in memory, as the allocator counts it; nothing here knows a column.
 //!
-//! A component takes at most 96 bytes for topology, fates and pose together, and the peak of a population does not depend
-//! on its size. The clone of a plant has no room to spare, so what it allocates is what its columns hold; the plant itself
-//! also has what its vectors keep spare. Absent: the optional log of events, the memory of a mesh, and what the system's
-//! allocator keeps of what was given back.
+//! A component takes at most 96 bytes for topology, fates and pose together, and the peak of a population does not
+//! depend on its size. The clone of a plant has no room to spare, so what it allocates is what its columns hold; the
+//! plant itself also has what its vectors keep spare. Absent: the optional log of events, the memory of a mesh, and
+//! what the system's allocator keeps of what was given back.
 
 use peak_alloc::PeakAlloc;
 use phytomer::config::scenario::{BYTES_A_COMPONENT, Every, Record};
@@ -21,8 +21,8 @@ static ALLOCATED: PeakAlloc = PeakAlloc;
 /// One test at a time: what another allocates meanwhile would count too.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// A plant of a shipped scenario, grown to an age, shed, thickened and posed, without a log of events; and the bytes that
-/// it has allocated.
+/// A plant of a shipped scenario, grown to an age, shed, thickened and posed, without a log of events; and the bytes
+/// that it has allocated.
 fn grown(scenario: &str, until: Option<Tick>) -> (Plot, usize) {
     let resolved = validate(scenario).unwrap_or_else(|report| panic!("{}", report.render(false)));
     let until = until.unwrap_or(resolved.scenario.ages.until);

@@ -1,10 +1,11 @@
-//! Ten thousand mutations of files that are right, each taken the whole way from its text to a run folder: what comes of
-//! it is a list of faults and no folder at all, or a whole run; never a panic, never a part of a run.
+//! Ten thousand mutations of files that are right, each taken the whole way from its text to a run folder: what comes
+//! of it is a list of faults and no folder at all, or a whole run; never a panic, never a part of a run.
 //!
-//! It is the way of `phytomer grow`: `config::validate`, then `run::run`. A panic anywhere fails the test, and shows the
-//! mutation. The files are the good fixtures and everything that ships. A broken species grows under a small scenario
-//! that is not broken. A broken scenario that is right may still ask for a long run: then plants, ages and components are
-//! made few in the checked scenario, as `--plants` does it, and what is so made is checked again before it grows.
+//! It is the way of `phytomer grow`: `config::validate`, then `run::run`. A panic anywhere fails the test, and shows
+//! the mutation. The files are the good fixtures and everything that ships. A broken species grows under a small
+//! scenario that is not broken. A broken scenario that is right may still ask for a long run: then plants, ages and
+//! components are made few in the checked scenario, as `--plants` does it, and what is so made is checked again before
+//! it grows.
 
 #[path = "../config/tests/mutate/mod.rs"]
 mod mutate;

@@ -1,5 +1,5 @@
-//! A mesh of the user's as the form of a leaf, from its file to the plant's mesh: beside the species file, checked before
-//! the first tick, hashed among the inputs of the run, and held against that hash when the run is drawn again.
+//! A mesh of the user's as the form of a leaf, from its file to the plant's mesh: beside the species file, checked
+//! before the first tick, hashed among the inputs of the run, and held against that hash when the run is drawn again.
 
 mod program;
 

@@ -1,8 +1,8 @@
-//! A plant is told from its own seed and its place once, in double precision: one that draws nothing is the same to the bit
-//! wherever it stands, in its records, its measures and its mesh, and the place adds up with them.
+//! A plant is told from its own seed and its place once, in double precision: one that draws nothing is the same to the
+//! bit wherever it stands, in its records, its measures and its mesh, and the place adds up with them.
 //!
-//! Single precision has steps of 8 mm 100 km from the origin and of 60 mm 1,000 km from it, which is where the last of ten
-//! thousand, and of a million, plants stand that are a kilometre apart.
+//! Single precision has steps of 8 mm 100 km from the origin and of 60 mm 1,000 km from it, which is where the last of
+//! ten thousand, and of a million, plants stand that are a kilometre apart.
 
 mod program;
 mod read;

@@ -69,7 +69,8 @@ fn a_law_that_does_not_reach_the_published_age_is_a_fault_of_the_law() {
     assert!(told.contains("death"), "{told}");
 }
 
-/// The trunks alone, as they die by laws of their own: half of them within the range of years that is told of such stems.
+/// The trunks alone, as they die by laws of their own: half of them within the range of years that is told of such
+/// stems.
 #[test]
 fn stems_die_at_the_ages_that_are_told() {
     let told = [

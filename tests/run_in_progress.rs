@@ -1,7 +1,7 @@
 //! Two processes and one run folder, and one process and a disk that fills up.
 //!
-//! The second process is refused by the name of the first and touches nothing, whatever it was told to do; a process that
-//! is killed leaves no lock. The disk is played by its free space.
+//! The second process is refused by the name of the first and touches nothing, whatever it was told to do; a process
+//! that is killed leaves no lock. The disk is played by its free space.
 
 mod program;
 

@@ -1,5 +1,5 @@
-//! Structures beyond trees: herbs on a rhizome, an inflorescence, a flower and a date palm (de Reffye 1988 §5, Fig. 16), and a
-//! bamboo, grown like any plant and told apart by the kinds of their components.
+//! Structures beyond trees: herbs on a rhizome, an inflorescence, a flower and a date palm (de Reffye 1988 §5, Fig.
+//! 16), and a bamboo, grown like any plant and told apart by the kinds of their components.
 
 use phytomer_sim::plant::{ApexFate, AxisId, Class, Kind, NodeId, Origin, Plant, Seed};
 use phytomer_sim::pose::pose;

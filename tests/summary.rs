@@ -1,9 +1,9 @@
 //! `summary`, `records` and `components` tell the same of a plant: what lives, what stands, since when and how large.
 //!
-//! Every column of `summary` is recomputed from the rows of the other two, read back from Parquet, for every shipped species
-//! and every fixture at all recorded ages; and the rows of `records` at an age are those that `components` says stand then,
-//! living or dead as it says. Counts, ages and places agree exactly. Areas and volumes agree to the rounding of single
-//! precision, in which `records` holds each of them and `summary` does not.
+//! Every column of `summary` is recomputed from the rows of the other two, read back from Parquet, for every shipped
+//! species and every fixture at all recorded ages; and the rows of `records` at an age are those that `components` says
+//! stand then, living or dead as it says. Counts, ages and places agree exactly. Areas and volumes agree to the
+//! rounding of single precision, in which `records` holds each of them and `summary` does not.
 
 mod read;
 

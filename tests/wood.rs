@@ -56,7 +56,8 @@ fn last_age(species: &str) -> Tick {
     presets(Kind::Scenario).iter().filter_map(|(name, _)| of_species(name)).max().unwrap_or(20)
 }
 
-/// Greenhill's limit with the whole crown as its load: the stiffness that is left under load stays positive at every age.
+/// Greenhill's limit with the whole crown as its load: the stiffness that is left under load stays positive at every
+/// age.
 #[test]
 fn the_trunk_of_every_shipped_species_stands_at_every_age() {
     for (name, _) in presets(Kind::Species) {

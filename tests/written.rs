@@ -1,5 +1,5 @@
-//! Where `--out` of `mesh` and `picture` leads: files, links, pipes, devices, folders and stdout; names of other formats; and
-//! what `--seed` and `--plants` of `grow` take.
+//! Where `--out` of `mesh` and `picture` leads: files, links, pipes, devices, folders and stdout; names of other
+//! formats; and what `--seed` and `--plants` of `grow` take.
 //!
 //! The writing itself is tested beside it, in `phytomer_outputs::destination`.
 

@@ -1,8 +1,8 @@
-//! The columns of a plant, written again into memory that is there: what growth and pose would cost if nothing had to be
-//! found out.
+//! The columns of a plant, written again into memory that is there: what growth and pose would cost if nothing had to
+//! be found out.
 //!
-//! Each copy names every column, so that one more cannot be forgotten. Absent: the living buds and the tips of axes, which
-//! are few, and the log of events, which a run may do without.
+//! Each copy names every column, so that one more cannot be forgotten. Absent: the living buds and the tips of axes,
+//! which are few, and the log of events, which a run may do without.
 
 use phytomer::sim::plant::{Axes, Nodes, Organs, Plant};
 use phytomer::sim::pose::Frames;

@@ -1,7 +1,8 @@
 //! What the benches have in common: a shipped scenario as a specimen, its plant, and the baselines beside it.
 //!
-//! A baseline does the same work with everything left out that is ours: the same columns or vertices written to memory, the
-//! parquet crate fed with ready batches, a plain write of the same bytes. Rates are elements a second: internodes, vertices, rows or bytes, as the group says.
+//! A baseline does the same work with everything left out that is ours: the same columns or vertices written to memory,
+//! the parquet crate fed with ready batches, a plain write of the same bytes. Rates are elements a second: internodes,
+//! vertices, rows or bytes, as the group says.
 
 #![allow(dead_code)]
 
@@ -74,8 +75,8 @@ impl Specimen {
         group
     }
 
-    /// Growth from the seed to the last age, axis by axis and tick by tick, in internodes a second, against a plain write
-    /// of the columns that it makes.
+    /// Growth from the seed to the last age, axis by axis and tick by tick, in internodes a second, against a plain
+    /// write of the columns that it makes.
     pub fn growth(&self, criterion: &mut Criterion, by_the_clock: bool) {
         let grown = self.grown();
         let internodes = grown.plants[0].nodes.len() as u64;
@@ -165,8 +166,8 @@ impl Specimen {
     }
 
     /// The whole `grow` of a scenario into its run folder, against the parquet crate alone on ready batches of the same
-    /// rows, with the same settings and threads. Either finds its folder empty: removing the files of the last time, and
-    /// the disk's work with that, is no part of it.
+    /// rows, with the same settings and threads. Either finds its folder empty: removing the files of the last time,
+    /// and the disk's work with that, is no part of it.
     pub fn records(&self, criterion: &mut Criterion) {
         let home = tempfile::tempdir().expect("a folder");
         let (ours, theirs) = (home.path().join("run"), home.path().join("alone"));

@@ -1,5 +1,5 @@
-//! A picture of a million triangles: drawing it, beside the meshing that it goes through again and again, and beside a plain
-//! encoding of the finished pixels.
+//! A picture of a million triangles: drawing it, beside the meshing that it goes through again and again, and beside a
+//! plain encoding of the finished pixels.
 //!
 //! The plant is the specimen's at the first age at which its mesh has a million triangles.
 

@@ -1,7 +1,7 @@
 //! A species grown without a scenario: one plant, from its seed to the age at which it shows its architecture.
 //!
-//! The key `shown_at` of a species file says that age. Where it is left out it is 100 ticks, or as much earlier as keeps
-//! the plant small. Ten ages are recorded, the last one among them, and mechanics where the wood bends.
+//! The key `shown_at` of a species file says that age. Where it is left out it is 100 ticks, or as much earlier as
+//! keeps the plant small. Ten ages are recorded, the last one among them, and mechanics where the wood bends.
 
 use std::collections::BTreeSet;
 
@@ -47,8 +47,8 @@ impl ResolvedSpecies {
 }
 
 impl Species {
-    /// The age at which a plant shows its architecture, by its file or by its size; `model` is compiled at least up to that
-    /// of the file, else up to [`SPECIES_ALONE_UNTIL`].
+    /// The age at which a plant shows its architecture, by its file or by its size; `model` is compiled at least up to
+    /// that of the file, else up to [`SPECIES_ALONE_UNTIL`].
     pub fn shown_at(&self, model: &dyn GrowthModel) -> u32 {
         self.about.shown_at.unwrap_or_else(|| match &self.model {
             Model::Buds(_) => while_small(model),

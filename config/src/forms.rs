@@ -1,7 +1,7 @@
 //! Meshes of the user's that a species names as forms: `form = { mesh = "leaf.ply" }`, a file beside the species file.
 //!
-//! A mention is seen from the file in which it was typed, which after inheritance may be another; so each is replaced by
-//! the path that leads there. Absent: the files' triangles, which are no matter of parameters (`phytomer_outputs`).
+//! A mention is seen from the file in which it was typed, which after inheritance may be another; so each is replaced
+//! by the path that leads there. Absent: the files' triangles, which are no matter of parameters (`phytomer_outputs`).
 
 use crate::document::{Node, Value};
 use crate::inherit::ORDER;

@@ -1,8 +1,8 @@
 //! What has been published about a species' size and life at one age, in ranges that grown plants must fall into.
 //!
 //! Floras and yield tables say how tall and wide a plant of an age is, how many leaves it carries and how many of those
-//! sown still live. A species file states such ranges in `[[published]]`; `validate` grows a sample and holds it against
-//! them. Absent: the growing and the measuring, which the root package does (`phytomer::sample`).
+//! sown still live. A species file states such ranges in `[[published]]`; `validate` grows a sample and holds it
+//! against them. Absent: the growing and the measuring, which the root package does (`phytomer::sample`).
 
 use phytomer_models::fault::{Fault, Path};
 use schemars::JsonSchema;

@@ -48,9 +48,9 @@ pub struct Scenario {
     #[serde(default = "default_seed")]
     #[schemars(range(min = 0, max = MOST_SEED))]
     pub seed: u64,
-    /// The plants stand on a square grid this far apart, metres: plant 0 at the origin, and shell after shell around it, along
-    /// x = s and back along y = s of the s-th. A plant keeps its place however many grow, and the first n² fill a square. If
-    /// not given, each grows at the origin of its own.
+    /// The plants stand on a square grid this far apart, metres: plant 0 at the origin, and shell after shell around
+    /// it, along x = s and back along y = s of the s-th. A plant keeps its place however many grow, and the first n²
+    /// fill a square. If not given, each grows at the origin of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 1000.0), extend("exclusiveMinimum" = 0))]
     pub spacing_m: Option<f64>,
@@ -59,7 +59,8 @@ pub struct Scenario {
     pub site: Site,
     /// How long the plants grow, and at which ages they are recorded.
     pub ages: Ages,
-    /// The tables that are written. All if not given; `plants`, which tells where each plant stands, goes with any other.
+    /// The tables that are written. All if not given; `plants`, which tells where each plant stands, goes with any
+    /// other.
     #[serde(default = "tables::all")]
     pub tables: BTreeSet<Table>,
     /// The meshes that are written. None if not given.
@@ -174,8 +175,8 @@ pub struct Output {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1))]
     pub plants_per_part: Option<u32>,
-    /// The places of components, told from the seed of their plant, are rounded to this many metres: 0.0001 saves a quarter
-    /// of the bytes. Exact if not given. Places of plants are always exact.
+    /// The places of components, told from the seed of their plant, are rounded to this many metres: 0.0001 saves a
+    /// quarter of the bytes. Exact if not given. Places of plants are always exact.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 1.0), extend("exclusiveMinimum" = 0))]
     pub float_precision_m: Option<f64>,

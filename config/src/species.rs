@@ -62,8 +62,8 @@ pub struct About {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Constant", extend("exclusiveMinimum" = 0, "maximum" = 100_000))]
     pub ticks_per_year: Option<Constant>,
-    /// What has been published about the size and the life of such plants; `validate` grows a sample and holds it against
-    /// the ranges. A species that inherits and states its own has none of its ancestors'.
+    /// What has been published about the size and the life of such plants; `validate` grows a sample and holds it
+    /// against the ranges. A species that inherits and states its own has none of its ancestors'.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub published: Vec<Published>,
     /// The age, in ticks, at which a plant shows its architecture: to which a species is grown that is named without a
@@ -284,8 +284,8 @@ impl Model {
         }
     }
 
-    /// States the area share of leaves that are drawn with a mesh of the user's and state none, as `share` tells it by the
-    /// mesh's number. Whether there is any such leaf; the model is then to be compiled again.
+    /// States the area share of leaves that are drawn with a mesh of the user's and state none, as `share` tells it by
+    /// the mesh's number. Whether there is any such leaf; the model is then to be compiled again.
     pub fn state_area_shares(&mut self, share: impl Fn(usize) -> Option<f64>) -> bool {
         match self {
             Model::Buds(buds) => buds.state_area_shares(share),
@@ -302,7 +302,8 @@ impl Model {
 }
 
 impl Species {
-    /// How many ticks make a year: as the species states, else as its season does, which a checked species states alike.
+    /// How many ticks make a year: as the species states, else as its season does, which a checked species states
+    /// alike.
     pub fn ticks_per_year(&self) -> Option<f64> {
         let stated = self.about.ticks_per_year.as_ref().map(Constant::value);
         stated.or_else(|| self.model.year().map(|(_, ticks)| ticks.into()))

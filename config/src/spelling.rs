@@ -1,8 +1,8 @@
 //! The nearest spelling: what somebody most likely meant by a name that nobody knows.
 //!
 //! Damerau–Levenshtein distance (a swap of neighbours counts once), with a cut-off of a third of the letters: beyond
-//! that a guess is noise. A missing or wrong unit (`insertion` for `insertion_deg`), or a word half written, is always near.
-//! Absent: any dictionary; candidates are the names that would be right at that place.
+//! that a guess is noise. A missing or wrong unit (`insertion` for `insertion_deg`), or a word half written, is always
+//! near. Absent: any dictionary; candidates are the names that would be right at that place.
 
 use std::cmp::Reverse;
 

@@ -54,8 +54,8 @@ pub struct ResolvedSpecies {
     pub(crate) tree: Node,
 }
 
-/// Reads and checks a scenario: a shipped one by its name, or a file by its path. A species in its place is one plant of
-/// it ([`ResolvedSpecies::alone`]).
+/// Reads and checks a scenario: a shipped one by its name, or a file by its path. A species in its place is one plant
+/// of it ([`ResolvedSpecies::alone`]).
 ///
 /// # Errors
 /// Every fault of the scenario and of its species.
@@ -206,9 +206,9 @@ fn tell(loader: &mut Loader, node: &Node, faults: Vec<fault::Fault>) {
     loader.faults.extend(placed.collect::<Vec<_>>());
 }
 
-/// A plant that is expected to have more components than it may would be cut off: better told before the first tick. The
-/// figure is the expectation, or of a species without one in closed form those components of which it is known; an estimate
-/// or an upper bound refuses nothing, and the limit then holds while the plant grows.
+/// A plant that is expected to have more components than it may would be cut off: better told before the first tick.
+/// The figure is the expectation, or of a species without one in closed form those components of which it is known; an
+/// estimate or an upper bound refuses nothing, and the limit then holds while the plant grows.
 fn check_explosion(loader: &mut Loader, node: &Node, (scenario, Compiled { species, model, .. }): &Checked) {
     let until = scenario.ages.until;
     let (most, key) = (scenario.limits.components(), scenario.limits.binding());
@@ -278,8 +278,8 @@ impl Resolved {
         placed(&self.sources, &self.tree, faults)
     }
 
-    /// The components that a plant is expected to have made by `age`: the mean, a bound from above or an estimate; `None` where
-    /// the sum would take too long.
+    /// The components that a plant is expected to have made by `age`: the mean, a bound from above or an estimate;
+    /// `None` where the sum would take too long.
     pub fn expected_components(&self, age: u32) -> Option<f64> {
         self.model.expectation(age).map(|means| means.components(age))
     }

@@ -1,7 +1,8 @@
 //! The shipped table of woods, and how a species takes from it: `[wood] like = "scots_pine"`.
 //!
-//! A row's stiffness, green density and drag hold where the species' own `[wood]` states none; each keeps the place in the
-//! table where it stands, so that a fault in it would point there. Absent: what the numbers do (`phytomer_sim::mechanics`).
+//! A row's stiffness, green density and drag hold where the species' own `[wood]` states none; each keeps the place in
+//! the table where it stands, so that a fault in it would point there. Absent: what the numbers do
+//! (`phytomer_sim::mechanics`).
 
 use crate::document::{Node, Value, parse};
 use crate::report::Fault;

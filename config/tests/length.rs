@@ -1,5 +1,5 @@
-//! What is recorded of a plant up to an age is the same however long the run lasts: over every shipped species, every good
-//! fixture and the species of the whole-program tests.
+//! What is recorded of a plant up to an age is the same however long the run lasts: over every shipped species, every
+//! good fixture and the species of the whole-program tests.
 //!
 //! The clause itself stands in the contract of growth models. Absent: what a single run shows.
 

@@ -1,7 +1,8 @@
 //! Where criterion keeps what it has measured, found as criterion finds it.
 //!
-//! In this order: the folder that `CRITERION_HOME` names; `criterion` below that of `CARGO_TARGET_DIR`, below the target
-//! folder that cargo tells of, below `target`. Benches run in the folder of the package, so names without a root begin there.
+//! In this order: the folder that `CRITERION_HOME` names; `criterion` below that of `CARGO_TARGET_DIR`, below the
+//! target folder that cargo tells of, below `target`. Benches run in the folder of the package, so names without a root
+//! begin there.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

@@ -4,8 +4,8 @@
 //! cargo bench && cargo run --release --example performance
 //! ```
 //!
-//! Criterion keeps its estimates in a folder of its own (`folder`); the one bench of a group that is called a baseline is
-//! what the others are compared with.
+//! Criterion keeps its estimates in a folder of its own (`folder`); the one bench of a group that is called a baseline
+//! is what the others are compared with.
 
 mod folder;
 

@@ -66,8 +66,8 @@ pub struct Fault {
     pub expected: String,
 }
 
-/// Adds what was found wrong with a key that is asked in several domains, such as at the nodes of each order: what another
-/// domain has told already is not told again.
+/// Adds what was found wrong with a key that is asked in several domains, such as at the nodes of each order: what
+/// another domain has told already is not told again.
 pub fn tell_once(told: &mut Vec<Fault>, found: Vec<Fault>) {
     for fault in found {
         if !told.contains(&fault) {

@@ -1,8 +1,8 @@
 //! One file that a person has named as the place of a result.
 //!
 //! A new name and a regular file are written beside and renamed, so that what stands there is whole at any moment; a
-//! symbolic link stays, and its target is replaced in the same way. A pipe or a device is written through, and so are the
-//! streams of the process below `/dev` and `/proc`. A folder is refused. Absent: the files of a run folder
+//! symbolic link stays, and its target is replaced in the same way. A pipe or a device is written through, and so are
+//! the streams of the process below `/dev` and `/proc`. A folder is refused. Absent: the files of a run folder
 //! (`run_folder`), and which format a file has.
 
 use crate::Error;

@@ -1,8 +1,8 @@
 //! What leaves a run: the run folder with its tables (Parquet), meshes, and the reading back of what was written.
 //!
 //! A run folder is made by [`RunFolder::create`], filled shard by shard and closed by [`RunFolder::finish`]; what it
-//! holds is in `docs` and in its own `datapackage.json`. [`read`] opens it again, [`check()`] tells whether it is whole.
-//! Absent on purpose: growth rules.
+//! holds is in `docs` and in its own `datapackage.json`. [`read`] opens it again, [`check()`] tells whether it is
+//! whole. Absent on purpose: growth rules.
 
 pub mod destination;
 mod error;

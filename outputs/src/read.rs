@@ -1,8 +1,8 @@
 //! Reading a run back: what it says of itself, its tables' schemas, metadata and rows.
 //!
-//! For `describe`, for analysis and for tests. A run that is not finished can be read as far as it has come: a part is read
-//! where `run.json` or the journal names it. A `run.json` whose check does not hold is refused, since plants grow from what
-//! it says.
+//! For `describe`, for analysis and for tests. A run that is not finished can be read as far as it has come: a part is
+//! read where `run.json` or the journal names it. A `run.json` whose check does not hold is refused, since plants grow
+//! from what it says.
 
 use crate::Error;
 use crate::run_folder::{Papers, RunJson, files_in};

@@ -1,5 +1,5 @@
-//! Rows of `components` and `records` as analysis takes them: read back from a run, or made of a plant in memory through
-//! the same column buffers, so that both say the same of one plant.
+//! Rows of `components` and `records` as analysis takes them: read back from a run, or made of a plant in memory
+//! through the same column buffers, so that both say the same of one plant.
 //!
 //! Of `records` only what tells how internodes lie: their direction and curvature. Absent: every other column, which
 //! readers of Parquet have.

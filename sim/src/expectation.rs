@@ -1,8 +1,8 @@
-//! What is expected of a plant before it grows: means by order and age, with what each figure is: the mean, a bound of it
-//! or an estimate.
+//! What is expected of a plant before it grows: means by order and age, with what each figure is: the mean, a bound of
+//! it or an estimate.
 //!
-//! A run can be told its size before its first tick, and a growth explosion refused, where the figure is a mean and not an
-//! estimate. Absent: the sums, which belong to the models.
+//! A run can be told its size before its first tick, and a growth explosion refused, where the figure is a mean and not
+//! an estimate. Absent: the sums, which belong to the models.
 
 use crate::clock::Tick;
 

@@ -2,8 +2,9 @@
 //!
 //! Where the site feeds nothing back, growth runs ahead to the last age, axis by axis in the order of
 //! their births, and the loop reads the plant at each age from birth and death ticks. Where it does, growth follows the
-//! clock. The draws are keyed, so both give the same plant, which is also that of the prefix traversal of de Reffye 1988 §4. Wood remembers: a plant that bends or lays rings thickens and
-//! bends at each age, one that does neither at the ages that are recorded.
+//! clock. The draws are keyed, so both give the same plant, which is also that of the prefix traversal of de Reffye
+//! 1988 §4. Wood remembers: a plant that bends or lays rings thickens and bends at each age, one that does neither at
+//! the ages that are recorded.
 
 use crate::clock::Tick;
 use crate::mechanics::{Thickening, bend, thicken};

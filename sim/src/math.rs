@@ -10,8 +10,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 pub use libm::{acosf, asinf, atan2f, cosf, expf, logf, powf, sincosf, sinf};
 
-/// Sine and cosine of an angle in [0, π], exact at 0, π/2 and π and within 10⁻¹⁰ elsewhere: polynomials about the nearest
-/// of the three, without the range reduction of [`sincos`], for what turns at every internode.
+/// Sine and cosine of an angle in [0, π], exact at 0, π/2 and π and within 10⁻¹⁰ elsewhere: polynomials about the
+/// nearest of the three, without the range reduction of [`sincos`], for what turns at every internode.
 #[inline(always)]
 pub fn sincos_half_turn(angle: f64) -> (f64, f64) {
     if angle < FRAC_PI_4 {
@@ -38,8 +38,8 @@ fn sincos_near_zero(x: f64) -> (f64, f64) {
     (x + x * square * sum(&SIN), 1.0 + square * sum(&COS))
 }
 
-/// The angle in [0, π] of this sine and cosine, which are those of a unit vector: within 2·10⁻¹², exact at 0 and π. Four
-/// times the arc tangent of that of its quarter, by the polynomial through the Chebyshev points.
+/// The angle in [0, π] of this sine and cosine, which are those of a unit vector: within 2·10⁻¹², exact at 0 and π.
+/// Four times the arc tangent of that of its quarter, by the polynomial through the Chebyshev points.
 #[inline]
 pub fn half_turn_of(sin: f64, cos: f64) -> f64 {
     const SERIES: [f64; 8] = [

@@ -45,12 +45,12 @@ pub trait GrowthModel: Send + Sync {
     /// [`Overgrown`] where a plant would pass its limit of components; the plant then holds part of its growth.
     fn grow_to(&self, age: Tick, plants: &mut [Plant], site: &Site) -> Result<(), Overgrown>;
 
-    /// Writes the diameters of each internode as they are at `age`, by the model's law; where the species states another
-    /// rule of secondary growth, the loop applies that one after it.
+    /// Writes the diameters of each internode as they are at `age`, by the model's law; where the species states
+    /// another rule of secondary growth, the loop applies that one after it.
     fn thicken(&self, age: Tick, plant: &mut Plant);
 
-    /// The means of what a plant makes up to `until`, or bounds or estimates of them, as it says; `None` where the model has
-    /// none.
+    /// The means of what a plant makes up to `until`, or bounds or estimates of them, as it says; `None` where the
+    /// model has none.
     fn expectation(&self, until: Tick) -> Option<Expectation> {
         let _ = until;
         None

@@ -38,7 +38,8 @@ impl Plot {
         }
     }
 
-    /// Whether the shape of its plants at an age depends on those at the ages before, so that each must be gone through.
+    /// Whether the shape of its plants at an age depends on those at the ages before, so that each must be gone
+    /// through.
     pub fn remembers(&self) -> bool {
         self.plants.iter().any(|plant| plant.habit.wood.as_ref().is_some_and(Wood::remembers))
     }

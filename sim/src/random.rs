@@ -5,9 +5,9 @@
 //! its lineage key, one for each [`Purpose`]; within a stream the word position is the place in the axis's life. So a
 //! draw can be sought at any time, in any order, on any thread, and a plant does not depend on its neighbours.
 //!
-//! The words are those of `rand_chacha`'s `ChaCha8Rng` with the same seed and stream, word for word, which a test holds.
-//! That crate makes four blocks at each seek; growth by the clock needs a few words of each of many streams, so the
-//! block is made here, one at a time.
+//! The words are those of `rand_chacha`'s `ChaCha8Rng` with the same seed and stream, word for word, which a test
+//! holds. That crate makes four blocks at each seek; growth by the clock needs a few words of each of many streams, so
+//! the block is made here, one at a time.
 
 use crate::plant::key::{LineageKey, mix, scramble};
 

@@ -1,7 +1,7 @@
 //! What the loop tells of a plot at each age, and to whom.
 //!
-//! A recorder is asked once an age whether it wants it, and shown the plot once; and once before, where growth runs ahead.
-//! Absent: formats and files.
+//! A recorder is asked once an age whether it wants it, and shown the plot once; and once before, where growth runs
+//! ahead. Absent: formats and files.
 
 use crate::clock::Tick;
 use crate::plot::Plot;
@@ -14,8 +14,8 @@ pub trait Recorder {
     /// Whether this age is to be recorded.
     fn wants(&self, age: Tick) -> bool;
 
-    /// Growth has run ahead: the lives of all components are known to the age `until`, before the first age is recorded.
-    /// Who has work that needs no more than that can begin with it, while the ages are made ready.
+    /// Growth has run ahead: the lives of all components are known to the age `until`, before the first age is
+    /// recorded. Who has work that needs no more than that can begin with it, while the ages are made ready.
     ///
     /// # Errors
     /// Whatever keeps it from recording; the run then ends.

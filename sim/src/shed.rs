@@ -44,8 +44,8 @@ fn drop_branches(plant: &mut Plant) {
     }
 }
 
-/// Notes the falls up to `age` among the plant's events, once it is grown: a branch that falls with the one that bears it
-/// is part of that one's fall, and a bud that never made a node does not fall.
+/// Notes the falls up to `age` among the plant's events, once it is grown: a branch that falls with the one that bears
+/// it is part of that one's fall, and a bud that never made a node does not fall.
 pub fn note_falls(plant: &mut Plant, age: Tick) {
     let Some(mut events) = plant.events.take() else {
         return;

@@ -1,6 +1,7 @@
 //! The progress bars: drawn on stderr beside the work, with the rate and the time left; none where nobody looks.
 //!
-//! The working threads only raise numbers ([`Progress`], [`Checking`]); a thread of the bar's reads them ten times a second.
+//! The working threads only raise numbers ([`Progress`], [`Checking`]); a thread of the bar's reads them ten times a
+//! second.
 
 use super::amounts;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};

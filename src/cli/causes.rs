@@ -1,7 +1,7 @@
 //! An error with its causes, each told once, and what to do where the disk is the cause.
 //!
-//! A message of this house does not repeat its cause. Those of other crates may, in their words and as their source; such
-//! a cause is not told again. Absent: the messages.
+//! A message of this house does not repeat its cause. Those of other crates may, in their words and as their source;
+//! such a cause is not told again. Absent: the messages.
 
 use anyhow::Error;
 use std::io;

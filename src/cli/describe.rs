@@ -1,7 +1,7 @@
 //! `describe`: what a run folder, a scenario or a species holds, for a person or as JSON.
 //!
-//! What the name stands for decides: a run folder, a scenario, or a species. Of a run folder every file is checked before it
-//! is told as complete. Absent: what each of them tells, in a file each.
+//! What the name stands for decides: a run folder, a scenario, or a species. Of a run folder every file is checked
+//! before it is told as complete. Absent: what each of them tells, in a file each.
 
 mod run;
 mod scenario;

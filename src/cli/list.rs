@@ -1,7 +1,7 @@
 //! `list`: what ships with the program, and the words that files and tables use.
 //!
-//! Scenarios, species, the 23 architectural models with their characters, growth models, woods, forms of organs and kinds
-//! of component, each a line. Absent: what they hold, which `describe` tells.
+//! Scenarios, species, the 23 architectural models with their characters, growth models, woods, forms of organs and
+//! kinds of component, each a line. Absent: what they hold, which `describe` tells.
 
 use super::{Verdict, terminal};
 use anyhow::Result;
@@ -12,7 +12,8 @@ use phytomer_sim::plant::Form;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// List what ships: scenarios, species, architectural models, growth models, woods, forms of organs, kinds of components.
+/// List what ships: scenarios, species, architectural models, growth models, woods, forms of organs, kinds of
+/// components.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:

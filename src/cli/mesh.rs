@@ -35,7 +35,8 @@ pub struct Mesh {
     /// Its age in ticks; the last of the run if not given.
     #[arg(long)]
     age: Option<Tick>,
-    /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written through.
+    /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written
+    /// through.
     #[arg(long, value_name = "FILE.ply")]
     out: PathBuf,
     /// Sides of the tube that an internode is drawn as.

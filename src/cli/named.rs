@@ -1,7 +1,7 @@
 //! What a name on the command line stands for: a run folder, a scenario or a species.
 //!
-//! A folder with a `run.json` or a journal is a run, and so is one of that name under `runs/`, unless a scenario or a species
-//! of the name ships; `runs/coffee` always means the run. Absent: what is told of them.
+//! A folder with a `run.json` or a journal is a run, and so is one of that name under `runs/`, unless a scenario or a
+//! species of the name ships; `runs/coffee` always means the run. Absent: what is told of them.
 
 use anyhow::{Context, Result};
 use phytomer::run::forms;

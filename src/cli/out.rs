@@ -1,6 +1,7 @@
 //! The file that `--out` names: whether its name fits what a verb writes, and where the words about it go.
 //!
-//! A name without an extension, or with that of the format in any case, is fine; any other would give a file a false name.
+//! A name without an extension, or with that of the format in any case, is fine; any other would give a file a false
+//! name.
 //! `-` is stdout, and so is a system's own name for it. Absent: writing, which is `phytomer_outputs::destination`'s.
 
 use super::{Misuse, terminal};

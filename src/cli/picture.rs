@@ -54,14 +54,15 @@ pub struct Picture {
     /// Several ages side by side, in one scale.
     #[arg(long, value_delimiter = ',', value_name = "AGE,AGE,…")]
     ages: Vec<Tick>,
-    /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written through.
+    /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written
+    /// through.
     #[arg(long, value_name = "FILE.png")]
     out: PathBuf,
     /// From where the plants are seen.
     #[arg(long, value_enum, default_value_t = From::Perspective)]
     view: From,
-    /// Go on around the plants by so many degrees, counterclockwise from above; a flat plant is seen in perspective from
-    /// where it is wide if not given.
+    /// Go on around the plants by so many degrees, counterclockwise from above; a flat plant is seen in perspective
+    /// from where it is wide if not given.
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = finite)]
     turn: Option<f64>,
     /// Width and height, pixels.

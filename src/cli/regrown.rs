@@ -1,7 +1,8 @@
-//! What `mesh` and `picture` have in common: a run, a scenario or a species by its name, its plants grown again, and the
-//! wind that may move them.
+//! What `mesh` and `picture` have in common: a run, a scenario or a species by its name, its plants grown again, and
+//! the wind that may move them.
 //!
-//! Nothing is read from the run's tables. A species by itself grows in a scenario made up for it. Absent: growing, which is
+//! Nothing is read from the run's tables. A species by itself grows in a scenario made up for it. Absent: growing,
+//! which is
 //! `run::again`'s, and what is made of the plants.
 
 use super::named::{self, Named, Recorded};

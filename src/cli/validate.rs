@@ -51,8 +51,8 @@ impl Validate {
     }
 }
 
-/// Finds what a name stands for, and holds plants grown from it against what was published of its species, and against the
-/// architectural model that it names.
+/// Finds what a name stands for, and holds plants grown from it against what was published of its species, and against
+/// the architectural model that it names.
 fn find(name: &str) -> Found {
     let found = named::find(name)?;
     let report = match &found {

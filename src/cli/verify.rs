@@ -1,7 +1,8 @@
 //! `verify`: whether a run folder holds what it says, byte for byte, and nothing else.
 //!
-//! Every file that the journal and `run.json` name is read and hashed; each that is damaged, missing, left over or foreign
-//! is named. The exit code is 0 where the run is complete and nothing of this was found. Absent: mending, which is `grow
+//! Every file that the journal and `run.json` name is read and hashed; each that is damaged, missing, left over or
+//! foreign is named. The exit code is 0 where the run is complete and nothing of this was found. Absent: mending, which
+//! is `grow
 //! --resume`'s.
 
 use super::named::run_folder;

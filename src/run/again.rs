@@ -1,8 +1,8 @@
 //! One plant of a run grown again from its seed, and shown at some ages: what meshes and pictures are made of.
 //!
 //! Draws are keyed by the run's seed and the plant, so it is the same plant, with the same component numbers, that the
-//! run has recorded. In a wind each age is shown as a frame that the wind has moved, for that age alone. Where nobody says
-//! an age, a plant is shown at that of its species or in its prime. Absent: what is made of it.
+//! run has recorded. In a wind each age is shown as a frame that the wind has moved, for that age alone. Where nobody
+//! says an age, a plant is shown at that of its species or in its prime. Absent: what is made of it.
 
 use super::{place_of, seed_of};
 use anyhow::Result;
@@ -57,8 +57,8 @@ impl Again<'_> {
         }
     }
 
-    /// The age at which a plant is shown where nobody says otherwise: that which its species states (`shown_at`), if the
-    /// scenario has it, else its prime.
+    /// The age at which a plant is shown where nobody says otherwise: that which its species states (`shown_at`), if
+    /// the scenario has it, else its prime.
     ///
     /// # Errors
     /// As [`Again::prime`].
@@ -71,9 +71,9 @@ impl Again<'_> {
             .map_or_else(|| self.prime(plant, year_of(species)), Ok)
     }
 
-    /// The prime of a plant: its last year with at least nine tenths of the largest leaf area that it ever bears, and in it
-    /// the first age that is so, which is spring where there are seasons. Of a plant without leaves internodes and organs
-    /// are counted instead; a geometric model has its prime at the last age. A year has so many ticks.
+    /// The prime of a plant: its last year with at least nine tenths of the largest leaf area that it ever bears, and
+    /// in it the first age that is so, which is spring where there are seasons. Of a plant without leaves internodes
+    /// and organs are counted instead; a geometric model has its prime at the last age. A year has so many ticks.
     ///
     /// # Errors
     /// Where it comes to its limit at its first age.
@@ -132,8 +132,8 @@ fn areas_of(plant: &Plant, leaf: OrganId) -> impl Iterator<Item = (Tick, Tick, f
     })
 }
 
-/// The last year in which the weights of what lives, from a birth until before a death, come to nine tenths of their largest
-/// sum, and in it the first such age; `None` where that is nothing.
+/// The last year in which the weights of what lives, from a birth until before a death, come to nine tenths of their
+/// largest sum, and in it the first such age; `None` where that is nothing.
 fn last_of_most(lives: impl Iterator<Item = (Tick, Tick, f64)>, last: Tick, year: Tick) -> Option<Tick> {
     let mut changes = vec![0.0; last as usize + 2];
     for (birth, death, weight) in lives.filter(|(birth, death, _)| birth < death && *birth <= last) {

@@ -1,9 +1,9 @@
 //! Whether a run fits on its disk, before its first tick.
 //!
-//! What is expected is what `--dry-run` tells of the tables; meshes and events are not foreseen, and neither is what the
-//! plants shed. So this is an estimate, and a person can set it aside (`ignore_disk`): the run then ends by the watch of the
-//! run folder before the disk is full, and can be resumed. Of a run to be resumed only the parts that are not there count,
-//! and a run to be replaced gives its room back.
+//! What is expected is what `--dry-run` tells of the tables; meshes and events are not foreseen, and neither is what
+//! the plants shed. So this is an estimate, and a person can set it aside (`ignore_disk`): the run then ends by the
+//! watch of the run folder before the disk is full, and can be resumed. Of a run to be resumed only the parts that are
+//! not there count, and a run to be replaced gives its room back.
 
 use super::Settings;
 use super::forecast::Forecast;

@@ -1,7 +1,9 @@
-//! The meshes of the user's that a species names as forms: read once for a run, told where they stand when they are none.
+//! The meshes of the user's that a species names as forms: read once for a run, told where they stand when they are
+//! none.
 //!
-//! Where a leaf states no area its mesh does. Their hashes are among the inputs of a run, so that a plant is drawn again with
-//! the same triangles or not at all. Absent: what a mesh file may hold, which is `phytomer_outputs::meshes`'.
+//! Where a leaf states no area its mesh does. Their hashes are among the inputs of a run, so that a plant is drawn
+//! again with the same triangles or not at all. Absent: what a mesh file may hold, which is
+//! `phytomer_outputs::meshes`'.
 
 use anyhow::{Context, Result, ensure};
 use phytomer_config::{Resolved, Species};

@@ -121,9 +121,9 @@ pub fn place_of(scenario: &Scenario, plant: u32) -> [f64; 3] {
 
 /// The column and the row of a plant on a square grid that grows by shells, whatever the number of plants.
 ///
-/// Shell s holds the 2s + 1 places whose larger coordinate is s, so the shells before it fill the square of s² places, and
-/// plant i stands in shell s = ⌊√i⌋ at its place k = i − s². The shell goes up the column s from row 0 to the corner and
-/// back along the row s to column 0: (s, k) where k ≤ s, else (2s − k, s). Plant 0 is at the origin.
+/// Shell s holds the 2s + 1 places whose larger coordinate is s, so the shells before it fill the square of s² places,
+/// and plant i stands in shell s = ⌊√i⌋ at its place k = i − s². The shell goes up the column s from row 0 to the
+/// corner and back along the row s to column 0: (s, k) where k ≤ s, else (2s − k, s). Plant 0 is at the origin.
 fn lattice_of(plant: u32) -> [u32; 2] {
     let shell = plant.isqrt();
     let along = plant - shell * shell;

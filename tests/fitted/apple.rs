@@ -1,8 +1,8 @@
 //! Fates of axillary buds along the first annual shoot of apple trunks (Costes), against the first shoot of the shipped
 //! species, and the same law for the other six cultivars.
 //!
-//! A zone six nodes wide has its own share of latent buds and of each fate; so within the zones the law says that fates do
-//! not depend on rank, and that neighbours are independent. Half zones test the first.
+//! A zone six nodes wide has its own share of latent buds and of each fate; so within the zones the law says that fates
+//! do not depend on rank, and that neighbours are independent. Half zones test the first.
 
 use crate::chi2::homogeneity;
 use crate::measured::{Row, Table, add};

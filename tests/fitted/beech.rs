@@ -1,5 +1,5 @@
-//! Nodes per growth unit of beech and leaves per bud and shoot of Nothofagus antarctica (Puntieri 2002): laws that no shipped
-//! species has, drawn as one would have them.
+//! Nodes per growth unit of beech and leaves per bud and shoot of Nothofagus antarctica (Puntieri 2002): laws that no
+//! shipped species has, drawn as one would have them.
 
 use crate::chi2::homogeneity;
 use crate::measured::{Table, counted};

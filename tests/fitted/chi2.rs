@@ -49,7 +49,8 @@ fn fraction(a: f64, x: f64) -> f64 {
     1.0 / (x + 1.0 - a - inner)
 }
 
-/// Measured against simulated counts of the same cells, in their order; `fitted` parameters come from the measured ones.
+/// Measured against simulated counts of the same cells, in their order; `fitted` parameters come from the measured
+/// ones.
 pub fn homogeneity(measured: &[f64], simulated: &[f64], fitted: usize) -> Outcome {
     let cells = pooled(measured, simulated);
     let sums = cells.iter().fold((0.0, 0.0), |(m, s), cell| (m + cell.0, s + cell.1));

@@ -30,7 +30,8 @@ fn made(b: f64, plants: u32, cycles: u32) -> Vec<usize> {
     grown(&buds, plants, cycles).iter().map(|plant| plant.nodes.len()).collect()
 }
 
-/// The published b = 0.92 of a robusta stem lies in the interval of two of the six groups, and is above that of all axes.
+/// The published b = 0.92 of a robusta stem lies in the interval of two of the six groups, and is above that of all
+/// axes.
 #[test]
 fn the_activity_of_each_group_with_its_interval() {
     let Some(table) = Table::read("coffee_orthotropic_nodes_cilas.csv") else { return };
@@ -49,8 +50,8 @@ fn the_activity_of_each_group_with_its_interval() {
     assert!((b - 0.814).abs() < 0.001 && b + 4.0 * error < 0.92);
 }
 
-/// The trunk of the shipped species, b = 0.92, makes the mean number of nodes, and spreads less than these axes do; a bud
-/// of their own activity, 0.814, over 6 or 7 cycles, spreads more evenly than they do.
+/// The trunk of the shipped species, b = 0.92, makes the mean number of nodes, and spreads less than these axes do; a
+/// bud of their own activity, 0.814, over 6 or 7 cycles, spreads more evenly than they do.
 #[test]
 fn nodes_of_an_axis_in_half_a_year() {
     let Some(table) = Table::read("coffee_orthotropic_nodes_cilas.csv") else { return };
@@ -107,8 +108,8 @@ fn least_squares_give_the_published_mortality() {
     assert!((alpha / 8.89e-8 - 1.0).abs() < 1e-3 && (beta - 4.418).abs() < 1e-3, "{alpha} {beta}");
 }
 
-/// From 22 cycles on the branches of the shipped species die as measured. At 14 the law has a third of the measured deaths:
-/// least squares give the few early ones no weight.
+/// From 22 cycles on the branches of the shipped species die as measured. At 14 the law has a third of the measured
+/// deaths: least squares give the few early ones no weight.
 #[test]
 fn branches_of_the_shipped_species_die_as_measured() {
     let Some(points) = dead_fractions() else { return };

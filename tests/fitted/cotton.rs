@@ -1,5 +1,5 @@
-//! The main stem of cotton: variance over mean of its nodes at six dates (GreenLab course, CIRAD), 50 plants each, against
-//! the shipped species.
+//! The main stem of cotton: variance over mean of its nodes at six dates (GreenLab course, CIRAD), 50 plants each,
+//! against the shipped species.
 //!
 //! A bud that grows in each cycle with probability b makes a number of nodes whose variance is 1 − b of its mean. Of n
 //! plants, (n − 1) V / σ² is χ² with n − 1 degrees of freedom.
@@ -26,7 +26,8 @@ fn the_activity_is_the_slope_of_variance_on_mean() {
     assert!((b - 0.82).abs() < 0.02, "{b}");
 }
 
-/// The younger plants of two dates, with 4 and 7 nodes, are more alike than the law has them; at the other four it holds.
+/// The younger plants of two dates, with 4 and 7 nodes, are more alike than the law has them; at the other four it
+/// holds.
 #[test]
 fn the_main_stem_spreads_as_measured() {
     let Some(dates) = dates() else { return };

@@ -1,8 +1,9 @@
 //! The laws that were fitted to measured plants reproduce their data: grown plants of the shipped species against the
 //! counts, by χ² (`docs/fitted-laws.md` has the table, `--nocapture` prints it).
 //!
-//! One file a data set. Seeds are fixed; a law passes at 1 %, and where it does not fit the test shows that it does not.
-//! The measured counts stand outside the project (`absent`): without them the tests fail in CI, and are skipped elsewhere.
+//! One file a data set. Seeds are fixed; a law passes at 1 %, and where it does not fit the test shows that it does
+//! not. The measured counts stand outside the project (`absent`): without them the tests fail in CI, and are skipped
+//! elsewhere.
 
 #[path = "../program/absent.rs"]
 mod absent;

@@ -1,7 +1,7 @@
 //! The measured counts, as tables.
 //!
-//! Nothing of them is copied: [`absent`] tells where they are sought, and what becomes of a test without them. Absent: what
-//! the numbers mean.
+//! Nothing of them is copied: [`absent`] tells where they are sought, and what becomes of a test without them. Absent:
+//! what the numbers mean.
 
 use crate::absent;
 

@@ -31,8 +31,8 @@ fn means_and_the_analysis_of_variance_are_those_published() {
     assert!((f - 40.1219).abs() < 5e-5, "{f}");
 }
 
-/// One growth unit a year, or two, seldom more: by the year that it was. The three years side by side, since in 1995 all but
-/// five trees had two.
+/// One growth unit a year, or two, seldom more: by the year that it was. The three years side by side, since in 1995
+/// all but five trees had two.
 #[test]
 fn growth_units_of_a_year() {
     let Some(table) = Table::read("sessile_oak_annual_shoots.csv") else { return };

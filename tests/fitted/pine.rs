@@ -1,5 +1,5 @@
-//! Annual shoots of Corsican pine (Meredieu & Caraglio): branches of each tier, double cycles and the drift of length with
-//! age, against the trunk of the shipped species.
+//! Annual shoots of Corsican pine (Meredieu & Caraglio): branches of each tier, double cycles and the drift of length
+//! with age, against the trunk of the shipped species.
 
 use crate::chi2::homogeneity;
 use crate::measured::{Row, Table, add, counted, moments};

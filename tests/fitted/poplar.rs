@@ -1,5 +1,5 @@
-//! Nodes per growth unit of poplar (Caraglio & Rey) against the shipped Lombardy poplar, and the single negative binomials
-//! that were published for orders 2 to 4.
+//! Nodes per growth unit of poplar (Caraglio & Rey) against the shipped Lombardy poplar, and the single negative
+//! binomials that were published for orders 2 to 4.
 
 use crate::chi2::homogeneity;
 use crate::measured::{Table, counted};

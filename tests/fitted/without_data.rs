@@ -1,5 +1,5 @@
-//! What becomes of these tests where the measured counts are absent: they fail in CI unless they are to be left out, and are
-//! skipped elsewhere, which is said.
+//! What becomes of these tests where the measured counts are absent: they fail in CI unless they are to be left out,
+//! and are skipped elsewhere, which is said.
 //!
 //! A test of this program is run again by itself, in an environment of its own.
 

@@ -1,6 +1,6 @@
-//! The order-specific recursion M(o,q)(n) = s_o [M(o,q)(n − 1) + g_o (1{o = q} + k_o a_o M(o+1,q)(n − 1))], M(0) = 0, for
-//! three random sets of laws, against the cohorts that `--dry-run` sums and against grown plants; and the cohorts against
-//! grown plants where laws are richer than the recursion.
+//! The order-specific recursion M(o,q)(n) = s_o [M(o,q)(n − 1) + g_o (1{o = q} + k_o a_o M(o+1,q)(n − 1))], M(0) = 0,
+//! for three random sets of laws, against the cohorts that `--dry-run` sums and against grown plants; and the cohorts
+//! against grown plants where laws are richer than the recursion.
 
 use crate::grown::{PLANTS, Sample, compiled, plant, units_by_order};
 use phytomer_models::buds::params::{
@@ -85,7 +85,8 @@ fn cohorts_equal_the_recursion_and_plants_follow_both() {
     }
 }
 
-/// Ages, ranks, speeds, relays, traumatic reiteration, random nodes and delays: beyond the recursion, within the cohorts.
+/// Ages, ranks, speeds, relays, traumatic reiteration, random nodes and delays: beyond the recursion, within the
+/// cohorts.
 #[test]
 fn cohorts_follow_laws_of_age_and_random_counts() {
     let trunk = Order {
@@ -144,7 +145,8 @@ fn cohorts_follow_laws_of_age_and_random_counts() {
     }
 }
 
-/// Passages that are relayed, of the leaders of sets or of the others, and apices that divide: cohorts split by who leads.
+/// Passages that are relayed, of the leaders of sets or of the others, and apices that divide: cohorts split by who
+/// leads.
 #[test]
 fn cohorts_follow_leaders_passages_and_forks() {
     let until = 9;

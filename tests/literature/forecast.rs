@@ -1,9 +1,9 @@
-//! What `--dry-run` foretells of every shipped species and scenario, against the mean of plants grown from fixed seeds: by
-//! order, of axes, growth units, nodes and organs, at three ages.
+//! What `--dry-run` foretells of every shipped species and scenario, against the mean of plants grown from fixed seeds:
+//! by order, of axes, growth units, nodes and organs, at three ages.
 //!
-//! A figure that is told as exact lies within 4 standard errors of the sample's mean, one that is told as "at most" not below
-//! it. Plants are as many as their size allows; a species whose plants become large is looked at while they are smaller.
-//! Absent: species that are made to be hard (`organs`).
+//! A figure that is told as exact lies within 4 standard errors of the sample's mean, one that is told as "at most" not
+//! below it. Plants are as many as their size allows; a species whose plants become large is looked at while they are
+//! smaller. Absent: species that are made to be hard (`organs`).
 
 use crate::grown::Sample;
 use phytomer_config::{Kind, SPECIES_ALONE_UNTIL, presets, validate, validate_species};
@@ -69,16 +69,17 @@ fn misses(sample: &Sample, foretold: f64, certainty: Certainty) -> Option<String
     (!holds).then(|| format!("{certainty:?} {foretold:.4} foretold, {mean}, standard error {error:.4}"))
 }
 
-/// That of the mean of the sample. Of what is so rare that few plants of the sample have any, the variance is at least that
-/// of a Poisson number.
+/// That of the mean of the sample. Of what is so rare that few plants of the sample have any, the variance is at least
+/// that of a Poisson number.
 fn standard_error(sample: &Sample, foretold: f64) -> f64 {
     let is_rare = foretold * sample.n() < 25.0;
     let variance = if is_rare { sample.variance().max(foretold) } else { sample.variance() };
     (variance / sample.n()).sqrt()
 }
 
-/// What a mean may be off where all plants of a sample have the same number. An event that none of n plants has shown is at
-/// 4 standard errors less probable than 10/n, since (1 − 10/n)ⁿ is below 6e-5; at most it takes or adds the whole number.
+/// What a mean may be off where all plants of a sample have the same number. An event that none of n plants has shown
+/// is at 4 standard errors less probable than 10/n, since (1 − 10/n)ⁿ is below 6e-5; at most it takes or adds the whole
+/// number.
 fn unseen(sample: &Sample, foretold: f64) -> f64 {
     if sample.variance() > 0.0 { 0.0 } else { 10.0 / sample.n() * foretold.max(sample.mean()).min(LARGE) }
 }

@@ -1,5 +1,5 @@
-//! The expectation of organs that wait: flowers and fruits that never appear because their branch dies first, on species made
-//! to be hard for the closed form; and what is foretold where there is none.
+//! The expectation of organs that wait: flowers and fruits that never appear because their branch dies first, on
+//! species made to be hard for the closed form; and what is foretold where there is none.
 //!
 //! Absent: the shipped species (`forecast`).
 
@@ -30,8 +30,8 @@ fn assert_exact(orders: &str, until: Tick) {
     assert_eq!(differences(orders, model.as_ref(), until, COMPONENTS), Vec::<String>::new());
 }
 
-/// One axis that dies with probability d a tick, a node a tick and on it a flower that opens n ticks later: of a node made at
-/// tick t, which the apex has survived, the flower opens with (1 − d)ⁿ.
+/// One axis that dies with probability d a tick, a node a tick and on it a flower that opens n ticks later: of a node
+/// made at tick t, which the apex has survived, the flower opens with (1 − d)ⁿ.
 #[test]
 fn flowers_of_one_axis_open_if_it_survives_their_delay() {
     let (death, delay, until) = (0.1_f64, 4, 20);
@@ -114,8 +114,8 @@ death = 0.1
     );
 }
 
-/// Released dormant buds and drawn zones are not independent of one another: organs are told as "at most", the rest exactly,
-/// and plants stay below.
+/// Released dormant buds and drawn zones are not independent of one another: organs are told as "at most", the rest
+/// exactly, and plants stay below.
 #[test]
 fn organs_without_a_closed_form_are_bounded() {
     let released = "[[order]]

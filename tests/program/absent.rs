@@ -1,9 +1,11 @@
-//! What a test needs and a machine may lack: the measured data, which stand outside the project, and independent readers.
+//! What a test needs and a machine may lack: the measured data, which stand outside the project, and independent
+//! readers.
 //!
-//! Measured data are sought in the folder that `PHYTOMER_DATA` names, else in `../shared/data` beside the project. In CI
-//! (`CI` is set, and neither empty nor `false`) their absence fails the test, unless `PHYTOMER_DATA=none` says that they are
-//! to be left out; elsewhere the test says that it was skipped, and how many were so far. The lines go to stderr past the
-//! harness, which would keep those of a test that passes. Any crate of the workspace includes this file by its path.
+//! Measured data are sought in the folder that `PHYTOMER_DATA` names, else in `../shared/data` beside the project. In
+//! CI (`CI` is set, and neither empty nor `false`) their absence fails the test, unless `PHYTOMER_DATA=none` says that
+//! they are to be left out; elsewhere the test says that it was skipped, and how many were so far. The lines go to
+//! stderr past the harness, which would keep those of a test that passes. Any crate of the workspace includes this file
+//! by its path.
 
 #![allow(dead_code, reason = "each test program uses a part of it")]
 

@@ -1,6 +1,7 @@
 //! Tables of a run folder as a test reads them: by the parquet crate alone, whole columns in double precision.
 //!
-//! Nothing here knows a column of this program, so that what a test recomputes from tables owes nothing to who wrote them.
+//! Nothing here knows a column of this program, so that what a test recomputes from tables owes nothing to who wrote
+//! them.
 
 #![allow(dead_code, reason = "each test program uses a part of it")]
 

@@ -1,9 +1,10 @@
-//! The axes of one recorded plant, put together from the rows of `components`: who bears whom, which nodes, which flowers.
+//! The axes of one recorded plant, put together from the rows of `components`: who bears whom, which nodes, which
+//! flowers.
 //!
 //! Axes that are leaves, inflorescences or parts of flowers by the kind of their internodes are organs and no branches.
-//! Reiterates are told apart here. A reiterate repeats the plant's model on the plant and says nothing of the model itself
-//! (Hallé, Oldeman & Tomlinson 1978), so all that it bears is left aside; but an axis of order 1 out of the base of
-//! another of order 1 is a basal shoot, of which Tomlinson's and McClure's models are made. Absent: any judgement.
+//! Reiterates are told apart here. A reiterate repeats the plant's model on the plant and says nothing of the model
+//! itself (Hallé, Oldeman & Tomlinson 1978), so all that it bears is left aside; but an axis of order 1 out of the base
+//! of another of order 1 is a basal shoot, of which Tomlinson's and McClure's models are made. Absent: any judgement.
 
 use phytomer_outputs::rows::ComponentRow;
 use phytomer_sim::Tick;
@@ -101,8 +102,8 @@ impl Axis {
     }
 }
 
-/// The axes of a plant by their numbers, those among them that are buds still: a bearing axis comes before those that it
-/// bears.
+/// The axes of a plant by their numbers, those among them that are buds still: a bearing axis comes before those that
+/// it bears.
 pub fn axes_of(rows: &[ComponentRow]) -> Vec<Axis> {
     let mut axes: BTreeMap<u32, Axis> = BTreeMap::new();
     let mut bearing: BTreeMap<u32, u32> = BTreeMap::new();

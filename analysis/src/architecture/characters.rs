@@ -1,9 +1,9 @@
-//! The characters by which Hallé, Oldeman & Tomlinson 1978 tell their models apart, measured on one recorded plant: where
-//! it branches and when, how axes end, how they are relayed, where they tend, where flowers stand.
+//! The characters by which Hallé, Oldeman & Tomlinson 1978 tell their models apart, measured on one recorded plant:
+//! where it branches and when, how axes end, how they are relayed, where they tend, where flowers stand.
 //!
 //! Counts and shares over topology, fates and stated trends; no place in space is looked at. Only how axes lie under
-//! weight, and how a trunk's base rights itself, are read from recorded directions, because two models are defined by it.
-//! Absent: the models, which `models` states over these.
+//! weight, and how a trunk's base rights itself, are read from recorded directions, because two models are defined by
+//! it. Absent: the models, which `models` states over these.
 
 use super::axes::{Axis, Standing, axes_of};
 use super::lie::{Lie, lie_of};
@@ -155,8 +155,8 @@ pub fn is_plagiotropic(trend_deg: f32) -> bool {
     trend_deg > PLAGIOTROPIC_DEG
 }
 
-/// Whether the branches of the trunk stand in the outer halves of growth units. A growth unit of fewer than four nodes has
-/// no tip to speak of: branches on such units stand in no tier.
+/// Whether the branches of the trunk stand in the outer halves of growth units. A growth unit of fewer than four nodes
+/// has no tip to speak of: branches on such units stand in no tier.
 fn tiers(axes: &[Axis]) -> Option<bool> {
     const LEAST_NODES: usize = 4;
     const LEAST_BRANCHES: u32 = 3;

@@ -1,8 +1,9 @@
-//! How axes lie: whether tips hang that weight has lowered, where relays stand on an arch, whether a trunk's base has risen.
+//! How axes lie: whether tips hang that weight has lowered, where relays stand on an arch, whether a trunk's base has
+//! risen.
 //!
-//! The two characters for which directions are read: Champagnat's axes are upright by their trend and hang by their weight
-//! alone, Troll's are laid by their trend and their bases are erected later (Hallé, Oldeman & Tomlinson 1978). Both need
-//! the recorded columns of mechanics, without which it is not known that anything bent.
+//! The two characters for which directions are read: Champagnat's axes are upright by their trend and hang by their
+//! weight alone, Troll's are laid by their trend and their bases are erected later (Hallé, Oldeman & Tomlinson 1978).
+//! Both need the recorded columns of mechanics, without which it is not known that anything bent.
 
 use super::axes::Axis;
 use super::characters::{Share, is_plagiotropic};
@@ -63,8 +64,8 @@ impl Lie {
 /// How many nodes past the summit of an arch are still near it.
 const NEAR: u32 = 6;
 
-/// Whether the piece of an axis below its relay, laid by its trend, has risen and stands erect at the last age. It is told by
-/// the internode that bears the relay, since the first one of all stands in the ground as the seed set it.
+/// Whether the piece of an axis below its relay, laid by its trend, has risen and stands erect at the last age. It is
+/// told by the internode that bears the relay, since the first one of all stands in the ground as the seed set it.
 fn base_erected(axis: &Axis, course: &Course, relay: u32) -> bool {
     let laid = axis.first_trend().is_some_and(is_plagiotropic);
     let mut directions = course.values().filter_map(|ranks| ranks.get(&relay));

@@ -1,9 +1,9 @@
-//! Which of the 23 architectural models of Hallé, Oldeman & Tomlinson 1978 (*Tropical Trees and Forests*) a recorded plant
-//! qualifies for: a classifier over what tables say, never over looks.
+//! Which of the 23 architectural models of Hallé, Oldeman & Tomlinson 1978 (*Tropical Trees and Forests*) a recorded
+//! plant qualifies for: a classifier over what tables say, never over looks.
 //!
 //! Rows of `components` become axes (`axes`), axes give [`Characters`], and each model is a readable qualifier over the
-//! characters (`models`). How far chance may carry a plant from the drawing of its model is in [`tolerance`]. Absent: how
-//! plants grow; the qualifiers know nothing of species files.
+//! characters (`models`). How far chance may carry a plant from the drawing of its model is in [`tolerance`]. Absent:
+//! how plants grow; the qualifiers know nothing of species files.
 
 mod axes;
 mod characters;

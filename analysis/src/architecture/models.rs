@@ -1,7 +1,8 @@
-//! The 23 architectural models of Hallé, Oldeman & Tomlinson 1978 (*Tropical Trees and Forests*), each as what must hold and
-//! must not hold of the characters of a plant: one function a model, one line a character.
+//! The 23 architectural models of Hallé, Oldeman & Tomlinson 1978 (*Tropical Trees and Forests*), each as what must
+//! hold and must not hold of the characters of a plant: one function a model, one line a character.
 //!
-//! A function gives the first character that the plant lacks. Absent: looks; and every model that a mixture of two would be.
+//! A function gives the first character that the plant lacks. Absent: looks; and every model that a mixture of two
+//! would be.
 
 use super::characters::{Characters, Share};
 use super::tolerance::{BENT_OVER, HARDLY_ANY, NEARLY_ALL, RELAYED, SEVERAL};
@@ -145,7 +146,8 @@ fn tomlinson(c: &Characters) -> Lacks {
     no_axillary_axes(c)?;
     no_relays(c)?;
     no_forks(c)?;
-    // An axis that ends in a flower is as in Holttum's model, with whatever flowers stand below its tip; else as in Corner's.
+    // An axis that ends in a flower is as in Holttum's model, with whatever flowers stand below its tip; else as in
+    // Corner's.
     must(c.lateral_flowers + c.flowered_trunks > 0, "axes flower, at their tips or on their sides")
 }
 

@@ -1,7 +1,7 @@
 //! The architectural models of the plants of a recorded run.
 //!
-//! The first plants are looked at, in `components` and, where the run has the columns of mechanics, in `records`. Absent:
-//! plants of millions of components, which need no architecture to be told apart.
+//! The first plants are looked at, in `components` and, where the run has the columns of mechanics, in `records`.
+//! Absent: plants of millions of components, which need no architecture to be told apart.
 
 use super::{Characters, architectures};
 use phytomer_outputs::read::Run;

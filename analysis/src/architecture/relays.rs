@@ -1,7 +1,7 @@
 //! Relays: how many an axis has, from which node, when, what its apex was doing then, and what became of the siblings.
 //!
-//! A set of relays stands on one axis and appears at one tick. By substitution the apex of the bearing axis had ended; by
-//! apposition it lived on (Hallé, Oldeman & Tomlinson 1978). Absent: forks of an apex that divides.
+//! A set of relays stands on one axis and appears at one tick. By substitution the apex of the bearing axis had ended;
+//! by apposition it lived on (Hallé, Oldeman & Tomlinson 1978). Absent: forks of an apex that divides.
 
 use super::axes::Axis;
 use super::characters::{Share, is_plagiotropic};
@@ -23,8 +23,8 @@ pub struct Relays {
     pub orthotropic: Share,
     /// Of the relays, those that are orthotropic at first and plagiotropic at last, or the other way round.
     pub turned: Share,
-    /// Of the sets of several orthotropic siblings of which some are plagiotropic at last: those of which exactly one is
-    /// orthotropic at last.
+    /// Of the sets of several orthotropic siblings of which some are plagiotropic at last: those of which exactly one
+    /// is orthotropic at last.
     pub one_leads: Share,
     /// Of the axes that ended as their model has it, those that are relayed.
     pub finished: Share,

@@ -1,5 +1,5 @@
-//! How far a plant may be from the drawing of its model and still qualify: buds die by chance, crowns fill up, and a plant is
-//! young before it is old. Every tolerance that a qualifier has stands here.
+//! How far a plant may be from the drawing of its model and still qualify: buds die by chance, crowns fill up, and a
+//! plant is young before it is old. Every tolerance that a qualifier has stands here.
 
 /// An axis that tends to more than so many degrees from the vertical is plagiotropic, to fewer orthotropic: half way.
 pub const PLAGIOTROPIC_DEG: f32 = 45.0;
@@ -10,19 +10,19 @@ pub const NEARLY_ALL: f64 = 0.9;
 /// What "some at most" have at most this share has.
 pub const HARDLY_ANY: f64 = 0.1;
 
-/// The share of a trunk's branches that stand in the outer halves of its growth units where it has tiers. Branches on every
-/// node, or on nodes at random, give one half.
+/// The share of a trunk's branches that stand in the outer halves of its growth units where it has tiers. Branches on
+/// every node, or on nodes at random, give one half.
 pub const TIER_SHARE: f64 = 0.7;
 
-/// The share of the apices that ended as their model has it, at least so many ticks ago, that must have been relayed: the
-/// relay of a module may die as a bud, or be the last of a crown that fills up.
+/// The share of the apices that ended as their model has it, at least so many ticks ago, that must have been relayed:
+/// the relay of a module may die as a bud, or be the last of a crown that fills up.
 pub const RELAYED: f64 = 0.5;
 
 /// The generations of modules of which each is to have several relays: those after them thin out as a crown fills up.
 pub const FIRST_GENERATIONS: u32 = 3;
 
-/// The share of the modules of the first generations that have several relays, where a module is to have several: now and
-/// then all relay buds but one are lost.
+/// The share of the modules of the first generations that have several relays, where a module is to have several: now
+/// and then all relay buds but one are lost.
 pub const SEVERAL: f64 = 0.6;
 
 /// How many nodes the relay of a mixed axis may stand from the node at which the axis turns.

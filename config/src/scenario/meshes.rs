@@ -109,8 +109,8 @@ impl Scenario {
         }
     }
 
-    /// Makes so many plants grow. Of the meshes that are asked for those of plants that then do not grow are left out; how
-    /// many plants that are, where it can be counted.
+    /// Makes so many plants grow. Of the meshes that are asked for those of plants that then do not grow are left out;
+    /// how many plants that are, where it can be counted.
     pub fn grow_only(&mut self, plants: u32) -> u32 {
         self.plants = plants;
         let Some(meshes) = &mut self.meshes else { return 0 };

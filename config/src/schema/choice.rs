@@ -146,8 +146,8 @@ fn flatten<'s>(root: &'s Json, branches: &'s [Json], depth: usize) -> Vec<&'s Js
     flat
 }
 
-/// How well a table's shape fits a form: constants that agree, keys that are known or nearly so, then required keys that
-/// are there.
+/// How well a table's shape fits a form: constants that agree, keys that are known or nearly so, then required keys
+/// that are there.
 fn score(root: &Json, form: &Json, entries: &[Entry]) -> (isize, usize, isize) {
     let mut constants = 0;
     let mut known = 0;

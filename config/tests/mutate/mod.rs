@@ -1,7 +1,7 @@
 //! Ways to break a file: what somebody might type, delete or paste by mistake, drawn from a number.
 //!
-//! Bytes, lines, tokens and values are deleted, doubled, swapped and replaced by extremes. The draws are fixed: the same
-//! number breaks the same text in the same way. Absent: what must come of it, which each test says for itself.
+//! Bytes, lines, tokens and values are deleted, doubled, swapped and replaced by extremes. The draws are fixed: the
+//! same number breaks the same text in the same way. Absent: what must come of it, which each test says for itself.
 
 #![allow(dead_code, reason = "each test program uses a part of it")]
 

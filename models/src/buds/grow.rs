@@ -1,9 +1,10 @@
-//! The growth of one axis through its clock steps (de Reffye 1988 §4, the pseudo-code): mortality test, then break test,
-//! then a growth unit with its nodes, its axillary buds, and on each the ramification test.
+//! The growth of one axis through its clock steps (de Reffye 1988 §4, the pseudo-code): mortality test, then break
+//! test, then a growth unit with its nodes, its axillary buds, and on each the ramification test.
 //!
-//! A bud that appears at a tick is first tested at the next clock signal, as in the paper's pseudo-code, which walks the
-//! buds alive at the signal: so dimension is 1 at a bud's first test, and a sylleptic lateral is one tick behind its
-//! node. The new axillary buds are those of the growth unit just made, hence none where the apex is dead or pauses (§3).
+//! A bud that appears at a tick is first tested at the next clock signal, as in the paper's pseudo-code, which walks
+//! the buds alive at the signal: so dimension is 1 at a bud's first test, and a sylleptic lateral is one tick behind
+//! its node. The new axillary buds are those of the growth unit just made, hence none where the apex is dead or pauses
+//! (§3).
 //!
 //! [`Axis::grow`] takes an axis from any age to any later one; whether a plant grows axis by axis to the end or tick by
 //! tick, each axis makes the same draws at the same steps.
@@ -266,9 +267,9 @@ impl<'a> Axis<'a> {
         (self.bud.rank > 0).then_some(self.bud.last_node)
     }
 
-    /// A flower, and the fruit that it may set; the tick at which the last of them falls. A terminal flower stands in the
-    /// direction of its axis, and its laws are asked at the rank of the node that bears it. What would appear after the last
-    /// age of the run is no component: it takes neither memory nor room under the plant's limit.
+    /// A flower, and the fruit that it may set; the tick at which the last of them falls. A terminal flower stands in
+    /// the direction of its axis, and its laws are asked at the rank of the node that bears it. What would appear after
+    /// the last age of the run is no component: it takes neither memory nor room under the plant's limit.
     pub fn flower(&mut self, site: FlowerSite, at: At) -> Tick {
         let FlowerSite { node, nth, birth, azimuth, position } = site;
         let laws = &self.laws.node;
@@ -355,8 +356,8 @@ pub(super) fn first_bud(model: &BudModel, plant: &Plant, axis: AxisId) -> Apical
     }
 }
 
-/// The tick at which a leaf falls and why, by its life length or by the season: the ticks of a year, and the tick of the
-/// year at which it falls.
+/// The tick at which a leaf falls and why, by its life length or by the season: the ticks of a year, and the tick of
+/// the year at which it falls.
 pub(super) fn leaf_fall(season: Option<(u32, u32)>, birth: Tick, life: Option<u32>) -> (Tick, Cause) {
     let aged = life.map_or(NEVER, |life| birth.saturating_add(life.max(1)));
     let seasonal = season.map_or(NEVER, |(year, fall)| {

@@ -1,7 +1,7 @@
 //! De Reffye's bud model (de Reffye, Edelin, Françon, Jaeger & Puech 1988, §§2–5).
 //!
-//! [`Buds`] are the parameters as people state them, in the laws of [`crate::law`]; [`BudModel`] is the compiled species
-//! that grows. [`expectation`] gives the mean of what grows in closed form.
+//! [`Buds`] are the parameters as people state them, in the laws of [`crate::law`]; [`BudModel`] is the compiled
+//! species that grows. [`expectation`] gives the mean of what grows in closed form.
 
 mod compile;
 pub mod expectation;

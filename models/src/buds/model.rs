@@ -29,8 +29,8 @@ impl BudModel {
         self.orders.len()
     }
 
-    /// Whether one of the laws names `bud_birth`, `bud_dimension` or `unit`, which move with growth units alone: sums over
-    /// the ages and the cycles of axes do not know them.
+    /// Whether one of the laws names `bud_birth`, `bud_dimension` or `unit`, which move with growth units alone: sums
+    /// over the ages and the cycles of axes do not know them.
     pub fn asks_the_bud(&self) -> bool {
         self.orders.iter().any(|laws| laws.asks_the_bud)
     }
@@ -46,8 +46,8 @@ impl BudModel {
 
     /// Grows one axis of `plant` from `bud` to `age`: the axis's own work alone, not that of the axes that it bears.
     ///
-    /// This is the step from which both orders of growth are made; a prefix traversal in the manner of de Reffye 1988 §4
-    /// calls it recursively.
+    /// This is the step from which both orders of growth are made; a prefix traversal in the manner of de Reffye 1988
+    /// §4 calls it recursively.
     ///
     /// # Errors
     /// [`Overgrown`] where the plant comes to its limit.
@@ -60,8 +60,8 @@ impl BudModel {
         first_bud(self, plant, axis)
     }
 
-    /// Metres that internodes have added to their diameters when the plant is `age` ticks old: by order and state, then by
-    /// their own age.
+    /// Metres that internodes have added to their diameters when the plant is `age` ticks old: by order and state, then
+    /// by their own age.
     fn thickening_at(&self, age: Tick) -> Vec<Vec<f32>> {
         let classes = self.orders.iter().flat_map(|laws| (0..self.states).map(move |state| (laws, state as u8)));
         let by_own_age = |(laws, state): (&OrderLaws, u8)| {
@@ -82,8 +82,8 @@ impl BudModel {
         Axis::new(self, plant, words, bud).grow(age).map_err(|Full| limit)
     }
 
-    /// Every living bud first, then the axes that arise meanwhile, each through all its ticks: parents come before their
-    /// children, and the nodes of an axis grown at once stand together.
+    /// Every living bud first, then the axes that arise meanwhile, each through all its ticks: parents come before
+    /// their children, and the nodes of an axis grown at once stand together.
     fn grow_plant(&self, plant: &mut Plant, age: Tick) -> Result<(), Overgrown> {
         let mut words = Words::default();
         let mut living = std::mem::take(&mut plant.buds);

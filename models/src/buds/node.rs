@@ -220,8 +220,8 @@ impl Axis<'_> {
         self.read_end(self.bud.cycle);
         let (rank, below) = (self.bud.rank, laws.below.draw(&self.words.end, 0, self.at(0)));
         if rank > below {
-            // Named by the node at which the axis passed, since relays of two passages may stand on one node; and by the
-            // passages before at that node, since a step need not make one.
+            // Named by the node at which the axis passed, since relays of two passages may stand on one node; and by
+            // the passages before at that node, since a step need not make one.
             let before = self.bud.passages;
             let some = self.relays(node, below, |position| Place::Passage(before, position).on(rank));
             self.bud.passages += u32::from(some);

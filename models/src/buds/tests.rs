@@ -135,8 +135,8 @@ pub(super) fn hydra() -> Buds {
     Buds { states: vec!["long".to_owned(), "short".to_owned()], season: None, wood: None, order: vec![order, leafless] }
 }
 
-/// Sets of equal axes: relays at passages and at ends, of which the leaders pass on and the others do not, trends by state;
-/// branches that divide, or persist when they are complete.
+/// Sets of equal axes: relays at passages and at ends, of which the leaders pass on and the others do not, trends by
+/// state; branches that divide, or persist when they are complete.
 fn candelabrum() -> Buds {
     let tended = |inclination: f64| Tended { inclination_deg: inclination.into(), share: normal(0.2, 0.05) };
     let by_state = [("up", 0.0), ("out", 80.0)].map(|(state, inclination)| (state.to_owned(), tended(inclination)));

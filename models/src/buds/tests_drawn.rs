@@ -1,8 +1,8 @@
 //! Numbers that may be bare, have a source, or be drawn: once an axis, a growth unit, a set of relays or a leaf.
 //!
-//! A constant is the same plant however it is written and takes no random word; a drawn number has the distribution that
-//! is stated. Seeds are fixed; a bound is 4 standard errors of the stated distribution. Absent: the expectation of drawn
-//! speeds and zones, which stands with the literature tests.
+//! A constant is the same plant however it is written and takes no random word; a drawn number has the distribution
+//! that is stated. Seeds are fixed; a bound is 4 standard errors of the stated distribution. Absent: the expectation of
+//! drawn speeds and zones, which stands with the literature tests.
 
 use super::params::{
     Apex, ApexEnd, Axillary, Divergence, End, GrowthUnit, Leaf, NamedPhyllotaxis, Pattern, Phase, Phyllotaxis,
@@ -260,8 +260,8 @@ fn a_leaf_draws_its_share_and_its_fall() {
     assert_mean(&shares, 0.7, 0.4 * 0.4 / 12.0, "the share of its area");
 }
 
-/// Units of five nodes; the branches of each stand on its first ranks, up to the one that the unit drew; the relays of an
-/// axis stand together, on the node that it drew.
+/// Units of five nodes; the branches of each stand on its first ranks, up to the one that the unit drew; the relays of
+/// an axis stand together, on the node that it drew.
 #[test]
 fn a_unit_draws_its_zones_and_a_set_of_relays_its_node() {
     let order = Order {

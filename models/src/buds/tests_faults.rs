@@ -1,7 +1,7 @@
 //! Each key of a species is compiled once, so that a fault is told once, and nothing hides that one is told twice.
 //!
-//! A key that several places ask in domains of their own, such as the insertion angle of an order, is told once for each
-//! thing that is wrong with it. Absent: what is a fault, which stands with laws and parameters.
+//! A key that several places ask in domains of their own, such as the insertion angle of an order, is told once for
+//! each thing that is wrong with it. Absent: what is a fault, which stands with laws and parameters.
 
 use super::Buds;
 use super::tests::{chimera, hydra};

@@ -1,5 +1,5 @@
-//! Lineage keys and leaders of species made to break them: axes that pass from state to state without a node between, several
-//! sets of relays at one node and tick, relays below, reiterations of every kind, forks, many organs on a node.
+//! Lineage keys and leaders of species made to break them: axes that pass from state to state without a node between,
+//! several sets of relays at one node and tick, relays below, reiterations of every kind, forks, many organs on a node.
 //!
 //! Absent: the numbers of places (`sim::plant::key`), and species that nobody made for this (`tests`).
 
@@ -140,7 +140,8 @@ fn species_made_to_break_it_keep_the_contract() {
     }
 }
 
-/// How many sets of relays or forks an axis of order 1 that bears them has made, how many axes lead one, and how many flowered.
+/// How many sets of relays or forks an axis of order 1 that bears them has made, how many axes lead one, and how many
+/// flowered.
 fn sets(plant: &Plant, of: Origin) -> [usize; 2] {
     let axes = &plant.axes;
     let leaders = (1..axes.len()).filter(|&axis| axes.origin[axis] == of && !axes.follows[axis]);
@@ -149,8 +150,8 @@ fn sets(plant: &Plant, of: Origin) -> [usize; 2] {
     [leaders.count(), flowered.count()]
 }
 
-/// With a speed of 2 an axis passes twice a tick, and without a node between both sets of relays stand on one node. Of each set
-/// of three one leads: it alone passes into the state in which it flowers.
+/// With a speed of 2 an axis passes twice a tick, and without a node between both sets of relays stand on one node. Of
+/// each set of three one leads: it alone passes into the state in which it flowers.
 #[test]
 fn each_set_of_relays_has_one_leader_however_many_come_at_one_node_and_tick() {
     let order = Order {

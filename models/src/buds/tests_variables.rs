@@ -1,5 +1,5 @@
-//! The variables of de Reffye 1988 §3 against small closed forms: the birth and the dimension of a bud stand still while it
-//! pauses, and so does the number of growth units; the age and the dimension of the clock go on.
+//! The variables of de Reffye 1988 §3 against small closed forms: the birth and the dimension of a bud stand still
+//! while it pauses, and so does the number of growth units; the age and the dimension of the clock go on.
 //!
 //! Also what laws are asked for where a variable cannot be known. Absent: the tables (`law`).
 
@@ -54,8 +54,8 @@ fn a_bud_that_pauses_by_its_date_of_birth_does_not_wake() {
     assert_eq!(nodes("dimension == 3"), 8);
 }
 
-/// Whatever pauses lie between, the unit-th growth unit is the unit-th; the bud that makes a growth unit was born with the one
-/// before; `age` of a node is the tick at which it is born.
+/// Whatever pauses lie between, the unit-th growth unit is the unit-th; the bud that makes a growth unit was born with
+/// the one before; `age` of a node is the tick at which it is born.
 #[test]
 fn a_growth_unit_knows_its_number_and_the_bud_that_makes_it() {
     for number in 0..20 {
@@ -197,8 +197,8 @@ fn the_contract_holds_for_laws_of_the_bud_and_the_forecast_knows_them_not() {
     assert!(compiled(vec![Order::default()], 12).expectation(12).is_some());
 }
 
-/// A stream of words has a place for what a longer run could draw: here deaths, leaves and flowers that begin late, relays that
-/// become fewer, and more nodes a growth unit than the young plant makes.
+/// A stream of words has a place for what a longer run could draw: here deaths, leaves and flowers that begin late,
+/// relays that become fewer, and more nodes a growth unit than the young plant makes.
 #[test]
 fn what_a_longer_run_could_draw_has_its_words_in_a_shorter_one() {
     let late = |text: &str| Order {

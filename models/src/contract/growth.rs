@@ -159,8 +159,8 @@ fn same_plant(rule: &str, one: &Plant, other: &Plant) {
     assert_same(&format!("{rule}, event for event"), &events(one), &events(other));
 }
 
-/// A plant with room for its last component grows to `until`; with less, the model says that it is overgrown, ahead or by
-/// the clock, and no plant that is said to fit has more components than its limit.
+/// A plant with room for its last component grows to `until`; with less, the model says that it is overgrown, ahead or
+/// by the clock, and no plant that is said to fit has more components than its limit.
 ///
 /// # Panics
 /// Where this is not so.

@@ -1,8 +1,8 @@
 //! The contract: what every growth model keeps, whatever it grows, as a test suite that each model instantiates.
 //!
-//! [`check`] runs all of it that one model can show, and [`the_length_of_the_run_leaves_no_trace`] what takes a second one,
-//! compiled for a longer run; the finer functions hold one clause each. They are for tests: each panics with the rule
-//! that was broken, the model's plant and the component, and returns nothing. The clauses are those of the plant's
+//! [`check`] runs all of it that one model can show, and [`the_length_of_the_run_leaves_no_trace`] what takes a second
+//! one, compiled for a longer run; the finer functions hold one clause each. They are for tests: each panics with the
+//! rule that was broken, the model's plant and the component, and returns nothing. The clauses are those of the plant's
 //! columns (`sim::plant`), of the loop (`sim::grow`: growing ahead equals growing by the clock) and of keyed draws (a
 //! plant depends on nothing but its seed).
 //! Absent on purpose: anything that holds for one model alone; counts from papers stand with the literature tests.

@@ -1,9 +1,9 @@
 //! The equations of GMT1 as printed (Aono & Kunii 1984, "3-D geometric model GMT1", Fig. 3), with the deviation δ of
 //! their Fig. 10.
 //!
-//! A branch is the vector (u, v, w) from its root P_A to its tip P_B, so that P_i = P_B + the vector of child i; vectors
-//! are carried instead of points because a difference of points loses the digits of a short, far branch. Z is up.
-//! Absent on purpose: levels, axes and everything that a plant is.
+//! A branch is the vector (u, v, w) from its root P_A to its tip P_B, so that P_i = P_B + the vector of child i;
+//! vectors are carried instead of points because a difference of points loses the digits of a short, far branch. Z is
+//! up. Absent on purpose: levels, axes and everything that a plant is.
 
 use phytomer_sim::math;
 

@@ -3,8 +3,8 @@
 //! Names and units follow Table 1: h1, h2, R1, R2, R_diam, div, g_level. The paper gives no size; the length and the
 //! diameter of the first branch are assumed where a file does not give them. The paper's trees have fixed numbers; here
 //! each real one may also be a random variable, of which a plant draws one value for its whole life.
-//! Absent on purpose: the equations (`branching`), the tree (`tree`, `model`), the draws (`laws`) and the name and source
-//! of a tree, which every species file has whatever its model.
+//! Absent on purpose: the equations (`branching`), the tree (`tree`, `model`), the draws (`laws`) and the name and
+//! source of a tree, which every species file has whatever its model.
 
 use phytomer_sim::clock::{LAST_TICK, Tick};
 use phytomer_sim::plant::MOST_COMPONENTS;
@@ -48,8 +48,8 @@ pub struct Gmt1 {
     #[serde(default)]
     #[schemars(extend("minimum" = -360, "maximum" = 360))]
     pub divergence_deg: Variate,
-    /// The largest growth level (g_level): the branchings between the first branch and a tip of the full-grown tree. Not
-    /// drawn: a run's limits and its forecast count the components of all plants by it.
+    /// The largest growth level (g_level): the branchings between the first branch and a tip of the full-grown tree.
+    /// Not drawn: a run's limits and its forecast count the components of all plants by it.
     #[schemars(extend("minimum" = 0, "maximum" = 28))]
     pub levels: Quantity,
     /// Length of the first branch, metres; 1 (assumed) if not given.

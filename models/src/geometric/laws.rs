@@ -1,8 +1,8 @@
 //! The laws of GMT1's parameters, compiled, and what a plant draws of them, once for its whole life.
 //!
-//! Each parameter has a word of its own in the plant's stream, whether it is drawn or not, so that stating the law of one
-//! moves no other; a tree that is rebuilt at each age reads the same words again. The laws are random variables without
-//! variables: a tree has its parameters before it has an age, an order or a rank.
+//! Each parameter has a word of its own in the plant's stream, whether it is drawn or not, so that stating the law of
+//! one moves no other; a tree that is rebuilt at each age reads the same words again. The laws are random variables
+//! without variables: a tree has its parameters before it has an age, an order or a rank.
 //! Absent on purpose: what the parameters do (`tree`).
 
 use super::gmt1::Gmt1;
@@ -83,8 +83,8 @@ impl Laws {
         }
     }
 
-    /// The branches of the last level: as short as the smaller ratio makes them, as thin as the ratio of diameters, each
-    /// as small as it can be drawn.
+    /// The branches of the last level: as short as the smaller ratio makes them, as thin as the ratio of diameters,
+    /// each as small as it can be drawn.
     pub fn check_smallest(&self, levels: u32, path: &Path, faults: &mut Vec<Fault>) {
         let [_, _, r1, r2, diameter_ratio, _, length, diameter] = &self.tables;
         let [left, right] = [r1, r2].map(|ratio| ratio.extent()[0]);

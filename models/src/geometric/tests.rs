@@ -190,8 +190,8 @@ fn the_smaller_angle_carries_the_axis_on_and_the_other_begins_the_next_order() {
     }
 }
 
-/// Fig. 4: seen from above, each lateral of an upright trunk stands a divergence angle further round than the one below,
-/// and the first to the right.
+/// Fig. 4: seen from above, each lateral of an upright trunk stands a divergence angle further round than the one
+/// below, and the first to the right.
 #[test]
 fn the_kth_lateral_of_an_upright_trunk_stands_at_k_divergence_angles() {
     for name in ["5g", "6a", "7d"] {

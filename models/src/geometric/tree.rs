@@ -47,8 +47,8 @@ pub(super) struct Branch {
 }
 
 impl Tree {
-    /// The tree with these angles between mother and children and these lengths of theirs over hers, left then right; and
-    /// with the length and the diameter of its first branch.
+    /// The tree with these angles between mother and children and these lengths of theirs over hers, left then right;
+    /// and with the length and the diameter of its first branch.
     pub fn new(
         [h1, h2]: [f64; 2],
         [r1, r2]: [f64; 2],

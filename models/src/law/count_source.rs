@@ -1,7 +1,7 @@
 //! The distributions of a count before they are tables: each its kind, and its parameters as laws.
 //!
-//! A count is one distribution or a mixture of several, each with a weight. Absent: thresholds and cells (`count_table`),
-//! and the probabilities of each kind (`mass`).
+//! A count is one distribution or a mixture of several, each with a weight. Absent: thresholds and cells
+//! (`count_table`), and the probabilities of each kind (`mass`).
 
 use super::count::{CountForm, Simple};
 use super::domain::Domain;

@@ -207,8 +207,8 @@ impl CountTable {
         self.distributions.iter().map(|distribution| distribution.first + distribution.len).max().unwrap_or(0)
     }
 
-    /// The largest count that can be drawn in a run of any length, or [`MAX_COUNT`] where nothing has looked for it or that
-    /// would take too long: for so many there is a place in a stream of words.
+    /// The largest count that can be drawn in a run of any length, or [`MAX_COUNT`] where nothing has looked for it or
+    /// that would take too long: for so many there is a place in a stream of words.
     pub fn max_in_any_run(&self) -> u32 {
         self.goes_on_to.unwrap_or_else(|| self.max())
     }

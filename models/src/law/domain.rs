@@ -249,8 +249,8 @@ impl Grid {
         cell as usize
     }
 
-    /// The point of a cell. Unused variables stand at 0. What cannot be together is brought to what can: an axis and its bud
-    /// are not older than the plant, nor the bud than its axis.
+    /// The point of a cell. Unused variables stand at 0. What cannot be together is brought to what can: an axis and
+    /// its bud are not older than the plant, nor the bud than its axis.
     pub fn point(&self, cell: usize) -> At {
         let cell = u32::try_from(cell).unwrap_or(u32::MAX);
         let value = |axis: usize| match self.stride[axis] {

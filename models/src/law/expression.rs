@@ -1,4 +1,5 @@
-//! Free expressions, for the "arbitrary, strange" laws of de Reffye et al. 1988 §4: what a parsed one is, and its value.
+//! Free expressions, for the "arbitrary, strange" laws of de Reffye et al. 1988 §4: what a parsed one is, and its
+//! value.
 //!
 //! The parser emits postfix code, so evaluation and dropping need no recursion and no code is executed but these
 //! operations. A NaN is handed on by min and max, so that a logarithm of a negative number is found at the check.

@@ -63,8 +63,8 @@ pub struct LawForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "RobustaLaw")]
     pub robusta: Option<RobustaLaw>,
-    /// A formula of order, age, dimension, cycle, rank, bud_birth, bud_dimension and unit: + - * / ^, comparisons (0 or 1),
-    /// and, or, not, min, max, exp, log (natural), pow, sqrt, abs, floor, if(condition, then, else).
+    /// A formula of order, age, dimension, cycle, rank, bud_birth, bud_dimension and unit: + - * / ^, comparisons (0 or
+    /// 1), and, or, not, min, max, exp, log (natural), pow, sqrt, abs, floor, if(condition, then, else).
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub expression: Option<String>,

@@ -213,8 +213,8 @@ impl<'a> Formula<'a> {
         self.domain.goes_on(self.uses)
     }
 
-    /// The least and the largest value in the longest run that there can be; `None` where there are too many points to look
-    /// at. Points without a value do not count.
+    /// The least and the largest value in the longest run that there can be; `None` where there are too many points to
+    /// look at. Points without a value do not count.
     pub fn extremes_in_any_run(&self) -> Option<(f64, f64)> {
         let grid = Grid::over(self.uses, &self.domain.in_the_longest_run()).ok()?;
         if self.steps().saturating_mul(grid.len() as u64) > MOST_LOOKING_AHEAD {

@@ -1,8 +1,9 @@
 //! Laws of a thing's own age, as tables: how an organ expands and turns, how stiff and how heavy wood is.
 //!
 //! Such a thing knows how many ticks old it is, which a law names `dimension` or `cycle`, and the order of its axis. It
-//! knows neither the age of its plant nor a rank nor a state, so a law that names one of these is a fault: a table of one
-//! row could hold it for one age of the plant alone. Absent: thickening, which an internode asks at each age of the plant.
+//! knows neither the age of its plant nor a rank nor a state, so a law that names one of these is a fault: a table of
+//! one row could hold it for one age of the plant alone. Absent: thickening, which an internode asks at each age of the
+//! plant.
 
 use super::domain::{At, Domain};
 use super::form::Law;
@@ -10,8 +11,8 @@ use super::range::ValueRange;
 use crate::fault::{Fault, Path};
 
 impl Law {
-    /// Its values by the own age of a thing of an axis of `order`, from 0 to `until` ticks; ages past the last are as the
-    /// last.
+    /// Its values by the own age of a thing of an axis of `order`, from 0 to `until` ticks; ages past the last are as
+    /// the last.
     ///
     /// # Errors
     /// Every fault of the law: a value outside `range`, and a variable that the thing does not know.

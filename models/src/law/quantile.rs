@@ -1,8 +1,8 @@
 //! The normal distribution: its quantile, its distribution function and its density.
 //!
 //! The quantile is Wichura's AS 241 (Applied Statistics 37, 1988), PPND16, to 1e-16; the coefficients stand with all
-//! the digits of the printed ones. Its farthest branch is left out: no 32-bit word reaches it. Draws take the middle 97 %
-//! of the words from a table of it.
+//! the digits of the printed ones. Its farthest branch is left out: no 32-bit word reaches it. Draws take the middle 97
+//! % of the words from a table of it.
 
 #![allow(clippy::excessive_precision)]
 

@@ -18,7 +18,8 @@ const FASTEST: f64 = 64.0;
 const MOST_RATIOS: usize = 64;
 
 /// A growth speed, clock steps per tick. Written bare as a whole number, a decimal number or a ratio in quotes such as
-/// "2/3", or as a table with its source, with `value` or with `empirical`: `{ empirical = ["1/2", "2/3"], weights = [1, 2] }`.
+/// "2/3", or as a table with its source, with `value` or with `empirical`: `{ empirical = ["1/2", "2/3"], weights = [1,
+/// 2] }`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Speeds {

@@ -1,8 +1,8 @@
 //! The variables of laws: each declared once with its name, its meaning and its range, and which of them can be known
 //! where a law is asked.
 //!
-//! De Reffye et al. 1988 §3: "the age of a node or a bud [is] its date of birth according to the clock of the model, with
-//! time 0 being the time when the seed begins to grow; the dimension of a node or a bud is its age relative to the
+//! De Reffye et al. 1988 §3: "the age of a node or a bud [is] its date of birth according to the clock of the model,
+//! with time 0 being the time when the seed begins to grow; the dimension of a node or a bud is its age relative to the
 //! birthday of its axis". Neither moves while the bud pauses. Those are `bud_birth` and `bud_dimension`; `age` and
 //! `dimension` are those of the clock at the moment of the draw, and move with every tick. Of a node that is being made
 //! the paper's age and dimension are `age` and `dimension`: it is born at that tick.
@@ -24,8 +24,8 @@ pub enum Variable {
     Cycle,
     /// Rank of the node in its growth unit, from 1.
     Rank,
-    /// The tick at which the apical bud came to be, from 0: de Reffye's age of a bud (1988 §3). A growth unit leaves a new
-    /// bud at its tip; before its first, an axis has the bud that it was born with.
+    /// The tick at which the apical bud came to be, from 0: de Reffye's age of a bud (1988 §3). A growth unit leaves a
+    /// new bud at its tip; before its first, an axis has the bud that it was born with.
     BudBirth,
     /// The same in ticks since the birth of the axis, from 0: de Reffye's dimension of a bud.
     BudDimension,
@@ -98,13 +98,14 @@ impl JsonSchema for Variable {
 /// What a law is asked for, and so what can be known where it is asked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Asked {
-    /// An apical bud at a step of its clock, or a node that it makes: every variable, and the rank where there is a node.
+    /// An apical bud at a step of its clock, or a node that it makes: every variable, and the rank where there is a
+    /// node.
     #[default]
     Bud,
     /// An axis at its birth, for what it draws once: the age of the plant and the state of the axis.
     Birth,
-    /// An internode that thickens: the age of the plant, its own age as `dimension` and `cycle`, and the state in which its
-    /// axis started.
+    /// An internode that thickens: the age of the plant, its own age as `dimension` and `cycle`, and the state in which
+    /// its axis started.
     Internode,
     /// A thing that knows its own age alone, as `dimension` and `cycle`: how an organ expands and turns, what wood is.
     OwnAge,

@@ -1,8 +1,8 @@
 //! The packed vertex and face of the mesh profile, and the chunks of bytes in which they travel to a file.
 //!
-//! A vertex is `float x y z nx ny nz, uchar red green blue alpha, float s t, float birth_age death_age, int component_id,
-//! uchar kind`: 49 bytes without padding, little endian on every platform. A face is `uchar 3, int, int, int`: 13 bytes.
-//! Both are made of bytes alone, so a chunk is read as either without a copy and written as it stands.
+//! A vertex is `float x y z nx ny nz, uchar red green blue alpha, float s t, float birth_age death_age, int
+//! component_id, uchar kind`: 49 bytes without padding, little endian on every platform. A face is `uchar 3, int, int,
+//! int`: 13 bytes. Both are made of bytes alone, so a chunk is read as either without a copy and written as it stands.
 
 use bytemuck::{Pod, Zeroable};
 use std::io;

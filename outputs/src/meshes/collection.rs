@@ -179,7 +179,8 @@ mod tests {
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no triangles are left beside the files");
     }
 
-    /// The first plant stands at its own seed, whose place the header has, and the second as far from it as in the plot.
+    /// The first plant stands at its own seed, whose place the header has, and the second as far from it as in the
+    /// plot.
     #[test]
     fn plants_stand_apart_as_they_do_in_the_plot() {
         let folder = tempfile::tempdir().unwrap();

@@ -1,8 +1,8 @@
 //! The colour of each component: by kind, by form, by order, by age and by season (de Reffye 1988 §6: one to a form).
 //!
 //! Wood goes from the green of the shoot to brown and darkens; dead wood turns grey. Leaves darken as they grow old and
-//! turn before they fall with the season, fruits ripen by way of a third colour. What a species states holds; the rest is
-//! a palette by kind and form, by eye: nothing is measured from it. Every picture takes its colours from here.
+//! turn before they fall with the season, fruits ripen by way of a third colour. What a species states holds; the rest
+//! is a palette by kind and form, by eye: nothing is measured from it. Every picture takes its colours from here.
 
 use super::palette;
 use phytomer_sim::clock::{NEVER, Tick};

@@ -1,10 +1,10 @@
-//! Meshes of plants, for the ten readers of the profile (Blender, MeshLab, CloudCompare, Open3D, trimesh, PyVista, meshio,
-//! plyfile, three.js, ply-rs-bw): a form for each component (de Reffye 1988 §6), in metres, Z up.
+//! Meshes of plants, for the ten readers of the profile (Blender, MeshLab, CloudCompare, Open3D, trimesh, PyVista,
+//! meshio, plyfile, three.js, ply-rs-bw): a form for each component (de Reffye 1988 §6), in metres, Z up.
 //!
-//! A [`Scene`] is what stands of a plant at an age, told from the plant's seed: single precision then holds it wherever the
-//! plant stands, and a comment of the file says where that is. A scene hands out vertices and triangles in chunks of
-//! packed bytes, and a [`MeshWriter`] puts them into a file. A new format is one file and the line that names it here;
-//! what a run and `phytomer mesh` write is chosen where they call it.
+//! A [`Scene`] is what stands of a plant at an age, told from the plant's seed: single precision then holds it wherever
+//! the plant stands, and a comment of the file says where that is. A scene hands out vertices and triangles in chunks
+//! of packed bytes, and a [`MeshWriter`] puts them into a file. A new format is one file and the line that names it
+//! here; what a run and `phytomer mesh` write is chosen where they call it.
 //! Vertices are not shared between components. Absent: buds, which have no form; curvature, which is the pose's.
 
 mod chunk;

@@ -2,8 +2,8 @@
 //!
 //! Counts go into the header, so the scene is counted first and then written in one pass. Where the payload is large,
 //! the next chunk is drawn while the last one is written: two threads, the same bytes. Comments state the unit, what
-//! tubes and leaves keep, the plant, its age, the run's seed and the place in the plot from which the vertices are told;
-//! the file has no face properties and no edges.
+//! tubes and leaves keep, the plant, its age, the run's seed and the place in the plot from which the vertices are
+//! told; the file has no face properties and no edges.
 
 use super::chunk::{Chunk, Face, Vertex};
 use super::{About, Counts, MeshWriter, Scene};

@@ -153,8 +153,8 @@ impl<'a> Scene<'a> {
     }
 
     /// Makes `mesh` the vertices and triangles of one block of neighbouring components, the triangles by the numbers of
-    /// the block's own vertices. All blocks in their order are the mesh of the scene; each can be made by itself, on any
-    /// thread. A block may be empty.
+    /// the block's own vertices. All blocks in their order are the mesh of the scene; each can be made by itself, on
+    /// any thread. A block may be empty.
     pub fn block(&self, block: usize, mesh: &mut Mesh) {
         mesh.vertices.clear();
         mesh.faces.clear();

@@ -114,8 +114,8 @@ fn floats(element: &DefaultElement, names: &[&str]) -> Vec<f32> {
     names.iter().map(float).collect()
 }
 
-/// Wherever the plant stands its vertices are told from its seed; the header alone says where that is, in decimals that read
-/// back as the same numbers.
+/// Wherever the plant stands its vertices are told from its seed; the header alone says where that is, in decimals that
+/// read back as the same numbers.
 #[test]
 fn a_place_is_a_comment_and_nothing_else() {
     let mut plant = specimen();

@@ -1,11 +1,11 @@
-//! Internodes as closed tubes, frusta with a regular polygon across, as the hexagonal cones of de Reffye 1988 §6; and as
-//! plane strips, where they are stretches of a petal or of a blade.
+//! Internodes as closed tubes, frusta with a regular polygon across, as the hexagonal cones of de Reffye 1988 §6; and
+//! as plane strips, where they are stretches of a petal or of a blade.
 //!
 //! The side has normals that lean with its slope, the two caps axial ones, so each ring stands twice; the side's ring
 //! closes on a vertex of its own, so that the texture runs once around (s) and from base to tip (t). With n sides that
-//! is 4n + 2 vertices and 4n − 4 triangles. The polygon has the area of the circle of the diameter, so that a tube keeps the
-//! section of its internode at every height, and its volume; its corners lie √(2π / (n sin 2π/n)) radii from the line of
-//! the axis, 1.054 for eight sides.
+//! is 4n + 2 vertices and 4n − 4 triangles. The polygon has the area of the circle of the diameter, so that a tube
+//! keeps the section of its internode at every height, and its volume; its corners lie √(2π / (n sin 2π/n)) radii from
+//! the line of the axis, 1.054 for eight sides.
 
 use super::chunk::{Tag, Vertex};
 use phytomer_sim::math::{sin, sincos};

@@ -104,14 +104,15 @@ fn focal(height: f32) -> f32 {
 }
 
 impl Camera {
-    /// The camera that sees all of `extent` in `frame`, as large as it can; the extent was taken with the [`tangents`] of
-    /// the same frame. A parallel projection has at most `most` pixels a metre.
+    /// The camera that sees all of `extent` in `frame`, as large as it can; the extent was taken with the [`tangents`]
+    /// of the same frame. A parallel projection has at most `most` pixels a metre.
     pub fn fitting(extent: &Extent, frame: &Frame, height: f32, most: f32) -> Self {
         let (gaze, [left, right, up, down]) = (extent.gaze, extent.tangents);
         let [west, east, north, south] = extent.most;
         let centre = frame.centre();
         if right > 0.0 {
-            // How far ahead of the origin the eye may stand for its sides to hold the plants, and for its top and bottom.
+            // How far ahead of the origin the eye may stand for its sides to hold the plants, and for its top and
+            // bottom.
             let ahead = (-(west + east) / (left + right)).min(-(north + south) / (up + down));
             let across = 0.5 * ((east + right * ahead) - (west + left * ahead));
             let above = 0.5 * ((north + up * ahead) - (south + down * ahead));

@@ -1,7 +1,7 @@
 //! The finished picture: rows of pixels, and what is drawn flat upon it.
 //!
-//! Pixels are red, green, blue and opacity as a screen shows them, not multiplied. Flat things are laid over what is there
-//! by the share of each pixel that they cover.
+//! Pixels are red, green, blue and opacity as a screen shows them, not multiplied. Flat things are laid over what is
+//! there by the share of each pixel that they cover.
 
 /// A picture.
 #[derive(Debug, Clone, PartialEq, Eq)]

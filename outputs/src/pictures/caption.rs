@@ -1,7 +1,7 @@
 //! What is written on a picture: how large it is, how old its plants are, and what its colours mean.
 //!
-//! The scale bar is the longest of 1, 2 or 5 times a power of ten metres that fits. Under perspective it holds at the foot
-//! of the plants, which stand equally far from the eye.
+//! The scale bar is the longest of 1, 2 or 5 times a power of ten metres that fits. Under perspective it holds at the
+//! foot of the plants, which stand equally far from the eye.
 
 use super::canvas::Canvas;
 use super::letters::{width, written};

@@ -1,7 +1,7 @@
 //! Plants coloured by a column of `records`, and the legend that says what the colours mean.
 //!
-//! The values are those of the table. All plants of a picture share one scale, from the least to the largest value of what
-//! stands on any of them. Words, truths and orders are classes; all else is a quantity.
+//! The values are those of the table. All plants of a picture share one scale, from the least to the largest value of
+//! what stands on any of them. Words, truths and orders are classes; all else is a quantity.
 
 use super::Subject;
 use super::canvas::Canvas;
@@ -63,8 +63,8 @@ pub fn colours(column: &str, subjects: &[Subject]) -> Result<(Colours, Legend), 
     Ok((colours, Legend { name: column.name.to_owned(), means }))
 }
 
-/// Why no component of some plants has a value in a column: what the column's description says of its nulls, held against
-/// what stands and against the wood of the species.
+/// Why no component of some plants has a value in a column: what the column's description says of its nulls, held
+/// against what stands and against the wood of the species.
 fn reason(column: &str, subjects: &[Subject]) -> &'static str {
     let wood = || subjects.iter().filter_map(|subject| subject.plant.habit.wood.as_ref());
     let of_wood = ["fresh_mass_kg", "curvature_per_m", "bending_moment_N_m"].contains(&column);

@@ -1,7 +1,7 @@
 //! One picture: light, then film by film the samples of some rows, then their pixels.
 //!
-//! A pixel is the mean of [`FINE`]² samples, each shaded where it lies. Rows are taken in pages, so that memory does not
-//! grow with the picture; a plant's blocks outside of a page are not drawn for it.
+//! A pixel is the mean of [`FINE`]² samples, each shaded where it lies. Rows are taken in pages, so that memory does
+//! not grow with the picture; a plant's blocks outside of a page are not drawn for it.
 
 use super::camera::Camera;
 use super::canvas::Canvas;

@@ -1,8 +1,8 @@
 //! What stands behind and below the plants: a light background, and ground that bears their shadows.
 //!
-//! The ground is paper: near a plant it has a tone of its own, farther off it is the background, so that no horizon cuts
-//! the picture. Shadows only darken it, by the shares of sun and sky that they leave; on a transparent picture they are
-//! the opacity of a dark blue. To a level gaze the ground is a line.
+//! The ground is paper: near a plant it has a tone of its own, farther off it is the background, so that no horizon
+//! cuts the picture. Shadows only darken it, by the shares of sun and sky that they leave; on a transparent picture
+//! they are the opacity of a dark blue. To a level gaze the ground is a line.
 
 use super::camera::Camera;
 use super::shade::{Light, SKY, SUN};

@@ -1,8 +1,8 @@
 //! Letters of round strokes, our own: what captions, scale bars and legends are written with.
 //!
-//! A capital is 12 units tall, a small letter 8, a stem below the line goes 4 farther. A point is a digit for its place to
-//! the right and a letter for its place down from the top of a capital (`m` is the line). A stroke is a chain of points;
-//! with `~` it is a smooth curve through them. A letter that is not here is written as a question mark.
+//! A capital is 12 units tall, a small letter 8, a stem below the line goes 4 farther. A point is a digit for its place
+//! to the right and a letter for its place down from the top of a capital (`m` is the line). A stroke is a chain of
+//! points; with `~` it is a smooth curve through them. A letter that is not here is written as a question mark.
 
 /// The height of a capital, units.
 const CAPITAL: f32 = 12.0;

@@ -1,4 +1,5 @@
-//! Pictures of plants, without a graphics processor: the meshes of [`crate::meshes`] through a small rasteriser of our own.
+//! Pictures of plants, without a graphics processor: the meshes of [`crate::meshes`] through a small rasteriser of our
+//! own.
 //!
 //! No kept crate serves: those in pure Rust draw flat shapes, or are studies of one person that fix their own mesh in
 //! memory. What happens: plants are put side by side (`stand`), a camera is fitted to them (`camera`, `extent`), sun
@@ -93,8 +94,8 @@ pub struct Picture {
     pub size: [u32; 2],
     /// From where.
     pub view: View,
-    /// The angle, radians, by which whoever looks goes on around the plants, counterclockwise from above. If not given, a
-    /// flat plant is seen in perspective from where it is wide, any other from the front.
+    /// The angle, radians, by which whoever looks goes on around the plants, counterclockwise from above. If not given,
+    /// a flat plant is seen in perspective from where it is wide, any other from the front.
     pub turn: Option<f32>,
     /// Whether the background is left out.
     pub transparent: bool,

@@ -1,9 +1,9 @@
 //! Colours for quantities and for classes.
 //!
-//! Quantities run through a ramp that is even to the eye: lightness, chroma and hue in Oklab (Ottosson 2020, "A perceptual
-//! color space for image processing"), from dark violet over blue and green to yellow, so that it also reads in grey.
-//! Classes have the eight colours of Okabe & Ito 2008 ("Color Universal Design"), which people of every colour vision tell
-//! apart; from memory of both.
+//! Quantities run through a ramp that is even to the eye: lightness, chroma and hue in Oklab (Ottosson 2020, "A
+//! perceptual color space for image processing"), from dark violet over blue and green to yellow, so that it also reads
+//! in grey. Classes have the eight colours of Okabe & Ito 2008 ("Color Universal Design"), which people of every colour
+//! vision tell apart; from memory of both.
 
 use glam::Vec3;
 use phytomer_sim::math::sincosf;

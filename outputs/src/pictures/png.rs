@@ -1,6 +1,7 @@
 //! PNG files: eight bits a channel, with opacity where the picture has any, and who made it.
 //!
-//! The `png` crate encodes; its version is in the lock file, so the same picture has the same bytes. Absent: other formats.
+//! The `png` crate encodes; its version is in the lock file, so the same picture has the same bytes. Absent: other
+//! formats.
 
 use super::canvas::Canvas;
 use png::{BitDepth, ColorType, Compression, Encoder, SrgbRenderingIntent};

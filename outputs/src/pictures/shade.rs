@@ -1,9 +1,10 @@
 //! The light that leaves a face towards the eye: sun, sky, ground, and what comes through leaves.
 //!
 //! Leaves are seen from both sides and lit on both: the sun on the far side shines through, yellower than it is thrown
-//! back. What is pale, as petals are, hardly tints what it lets through, and its neighbours pass light on that never reaches
-//! the shade of dark leaves: so a tree in blossom is white in its own shadow. Strengths and tints are by eye, chosen so that a leaf in full light shows the colour that it is given. Absent:
-//! textures, gloss beyond a faint sheen of leaves, and light that is scattered twice, for which there is a small constant.
+//! back. What is pale, as petals are, hardly tints what it lets through, and its neighbours pass light on that never
+//! reaches the shade of dark leaves: so a tree in blossom is white in its own shadow. Strengths and tints are by eye,
+//! chosen so that a leaf in full light shows the colour that it is given. Absent: textures, gloss beyond a faint sheen
+//! of leaves, and light that is scattered twice, for which there is a small constant.
 
 use super::film::{Paint, Seen};
 use super::shadow::Shadow;

@@ -1,7 +1,8 @@
 //! Where the sun reaches: the nearest depths of a plant as the sun sees it, over a square of texels.
 //!
-//! A shadow map under parallel light, filled by atomic maxima as [`super::film`] is. A point is in shadow where something
-//! lies nearer to the sun; the taps of a penumbra widen with the distance to it, as those of the sun's disc do.
+//! A shadow map under parallel light, filled by atomic maxima as [`super::film`] is. A point is in shadow where
+//! something lies nearer to the sun; the taps of a penumbra widen with the distance to it, as those of the sun's disc
+//! do.
 
 use super::camera::{Camera, Gaze};
 use super::extent::Extent;
@@ -14,8 +15,8 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Texels along the longer side.
 const TEXELS: f32 = 2048.0;
-/// The half-width of the penumbra, metres for each metre between what throws the shadow and what bears it. The sun's disc
-/// has 0.0047; a hazy sky is softer and pleases more.
+/// The half-width of the penumbra, metres for each metre between what throws the shadow and what bears it. The sun's
+/// disc has 0.0047; a hazy sky is softer and pleases more.
 const SOFTNESS: f32 = 0.016;
 
 /// How many taps a penumbra has; the samples of a pixel take one each.

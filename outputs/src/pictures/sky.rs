@@ -1,9 +1,10 @@
 //! How much of the sky a point sees inside a crown: light that falls through a grid of leaf area.
 //!
 //! Light from a direction loses exp(−k · area) on its way, k · area being the mean projected area of what it crosses
-//! (Beer's law in a canopy, Monsi & Saeki 1953). The grid holds that area in each cell; each direction of the sky is swept
-//! through it once, from the top layer down. What arrives is kept as a mean and a vector, the first two bands of spherical
-//! harmonics, from which a face of any direction gets its light. Absent: what leaves scatter, which shading adds by eye.
+//! (Beer's law in a canopy, Monsi & Saeki 1953). The grid holds that area in each cell; each direction of the sky is
+//! swept through it once, from the top layer down. What arrives is kept as a mean and a vector, the first two bands of
+//! spherical harmonics, from which a face of any direction gets its light. Absent: what leaves scatter, which shading
+//! adds by eye.
 
 use glam::Vec3;
 use phytomer_sim::math::{expf, sincosf};
@@ -53,8 +54,8 @@ impl Crown {
         Self { low, cell, size, areas }
     }
 
-    /// Puts a triangle in. A leaf, which is drawn once, shows half its area to a random direction; a closed surface shows
-    /// a quarter (Cauchy).
+    /// Puts a triangle in. A leaf, which is drawn once, shows half its area to a random direction; a closed surface
+    /// shows a quarter (Cauchy).
     #[inline]
     pub fn add(&self, [a, b, c]: &[Vec3; 3], thin: bool) {
         let (ab, ac) = (*b - *a, *c - *a);

@@ -1,8 +1,9 @@
-//! The plants of a picture, each told from its seed and put where it is to be seen, and the ways through their triangles.
+//! The plants of a picture, each told from its seed and put where it is to be seen, and the ways through their
+//! triangles.
 //!
 //! Meshes are those of [`crate::meshes`], made block by block on whatever thread is free, looked at and thrown away: a
-//! picture of ten million triangles needs no more memory than one of ten. What is left by them is sums of whole numbers and
-//! maxima, so their order shows nowhere.
+//! picture of ten million triangles needs no more memory than one of ten. What is left by them is sums of whole numbers
+//! and maxima, so their order shows nowhere.
 
 use super::camera::{Camera, Gaze};
 use super::extent::Extent;
@@ -72,8 +73,8 @@ impl<'a> Standing<'a> {
         ends[1] - ends[0]
     }
 
-    /// How far it reaches as it grew, to be seen along a gaze within tangents; what lies below its foot counts where it is
-    /// to be seen too.
+    /// How far it reaches as it grew, to be seen along a gaze within tangents; what lies below its foot counts where it
+    /// is to be seen too.
     pub fn extent(&self, gaze: Gaze, tangents: [f32; 4], buried: bool) -> Extent {
         let lowest = if buried { f32::NEG_INFINITY } else { 0.0 };
         let empty = || Extent::new(gaze, tangents);

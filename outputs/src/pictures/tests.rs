@@ -1,5 +1,5 @@
-//! Pictures against closed forms: where points come to lie, how large a ball and a tube are, which of two triangles is seen,
-//! how long a shadow is, how much an edge covers, how long the scale bar is; and that threads show nowhere.
+//! Pictures against closed forms: where points come to lie, how large a ball and a tube are, which of two triangles is
+//! seen, how long a shadow is, how much an edge covers, how long the scale bar is; and that threads show nowhere.
 
 use super::camera::{Camera, Frame, Lens, tangents};
 use super::caption::{INK, bar_length, length_in_words, letter_size};
@@ -194,8 +194,8 @@ fn a_canopy_darkens_the_sky_by_beers_law() {
     assert!(falling_on(sky.at(Vec3::new(0.5, 0.5, 0.05)), Vec3::NEG_Z) < 0.05, "no light from below");
 }
 
-/// How wide an octagon is that has the area of a circle, in its diameters: √(π / (4 sin 45°)) across a corner, and across a
-/// flat that times cos 22.5°.
+/// How wide an octagon is that has the area of a circle, in its diameters: √(π / (4 sin 45°)) across a corner, and
+/// across a flat that times cos 22.5°.
 const ACROSS: [f64; 2] = [0.9737, 1.0539];
 
 /// A lone internode, upright: its silhouette is a rectangle of length times diameter.
@@ -211,7 +211,8 @@ fn a_tube_is_as_large_as_its_silhouette() {
     assert!(opacity > 0.99 * least && opacity < 1.01 * most, "{opacity} of {least} to {most}");
 }
 
-/// Each row of pixels that the edge of an upright tube passes has the same opacity: the share of the pixel that it covers.
+/// Each row of pixels that the edge of an upright tube passes has the same opacity: the share of the pixel that it
+/// covers.
 #[test]
 fn an_edge_covers_a_share_of_its_pixels() {
     let plant = pole(1.0, 0.25);

@@ -1,5 +1,5 @@
-//! Colours of light and colours of screens: the sRGB curve (IEC 61966-2-1), a soft shoulder, and the scale in which samples
-//! are averaged.
+//! Colours of light and colours of screens: the sRGB curve (IEC 61966-2-1), a soft shoulder, and the scale in which
+//! samples are averaged.
 //!
 //! Samples of a pixel are averaged as the square roots of their light, which is nearly how eyes see steps: a dark twig
 //! that covers half a pixel before a bright sky then looks half as dark, not a fifth.
@@ -44,8 +44,8 @@ pub fn colour(roots: Vec3) -> [u8; 3] {
     roots.to_array().map(|root| BYTES[(root.clamp(0.0, 1.0) * (STEPS - 1) as f32 + 0.5) as usize])
 }
 
-/// The light of a scene as a screen can show it: nearly unchanged below the middle, never above 1 (the curve of Reinhard
-/// et al. 2002 with a white at 2.4).
+/// The light of a scene as a screen can show it: nearly unchanged below the middle, never above 1 (the curve of
+/// Reinhard et al. 2002 with a white at 2.4).
 #[inline]
 pub fn shown(light: Vec3) -> Vec3 {
     const WHITE: f32 = 2.4;

@@ -1,9 +1,9 @@
 //! Whether a run folder holds what it says: every file that the journal and `run.json` name, and nothing else.
 //!
-//! `verify`, `describe` and `--resume` ask here, so that they agree by construction: on what is wrong, and on which shards
-//! are to be grown again. A shard is sound where its line in the journal is whole and each file of that line has the length
-//! and the hash recorded. What is found beside the named files is a leftover where a shard or a document of this program
-//! would bear that name, and foreign elsewhere; `--resume` removes leftovers and leaves what is foreign.
+//! `verify`, `describe` and `--resume` ask here, so that they agree by construction: on what is wrong, and on which
+//! shards are to be grown again. A shard is sound where its line in the journal is whole and each file of that line has
+//! the length and the hash recorded. What is found beside the named files is a leftover where a shard or a document of
+//! this program would bear that name, and foreign elsewhere; `--resume` removes leftovers and leaves what is foreign.
 //!
 //! Absent: mending.
 
@@ -214,7 +214,8 @@ pub fn of(
 fn state_of(findings: &[Finding], in_progress: bool, complete: bool) -> State {
     let harms = |trouble: &Trouble| match trouble {
         Trouble::Missing | Trouble::Damaged(_) => true,
-        // What an interrupted shard leaves is no damage, but views and readers would take it for a part of a finished run.
+        // What an interrupted shard leaves is no damage, but views and readers would take it for a part of a finished
+        // run.
         Trouble::Leftover => complete,
         Trouble::Foreign => false,
     };
@@ -291,8 +292,8 @@ fn trouble_of(path: &Path, named: &FileReport, depth: Depth, checking: &Checking
     }
 }
 
-/// What is wrong with `run.json` and with lines of the journal. A torn last line of an unfinished run is no damage: that
-/// shard was never entered.
+/// What is wrong with `run.json` and with lines of the journal. A torn last line of an unfinished run is no damage:
+/// that shard was never entered.
 fn troubles_of_papers(papers: &Papers, run: &str, complete: bool) -> BTreeMap<String, Trouble> {
     let mut troubles = BTreeMap::new();
     match &papers.run {

@@ -1,7 +1,8 @@
 //! How the run in a folder differs from the one that is to go on with it: key by key, with both values.
 //!
-//! The scenario and its species are compared as they were resolved, so that a changed default or ancestor shows too. What
-//! follows from them alone, such as the list of recorded ages, is told only where they are equal. Absent: what to do.
+//! The scenario and its species are compared as they were resolved, so that a changed default or ancestor shows too.
+//! What follows from them alone, such as the list of recorded ages, is told only where they are equal. Absent: what to
+//! do.
 
 use super::plan::RunPlan;
 use serde_json::{Map, Value};

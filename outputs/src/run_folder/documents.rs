@@ -1,8 +1,8 @@
 //! What a run folder says of itself: `run.json`, `datapackage.json` (Frictionless Data Package 1) and `views.sql`
 //! (DuckDB).
 //!
-//! `run.json` names the others with their hashes and ends with a check of itself, so that damage to any of them is found.
-//! Absent: the tables themselves, and the journal, which holds a run together until these are written.
+//! `run.json` names the others with their hashes and ends with a check of itself, so that damage to any of them is
+//! found. Absent: the tables themselves, and the journal, which holds a run together until these are written.
 
 use super::durable;
 use super::journal::{FileReport, JOURNAL, OvergrownPlot, ShardReport};
@@ -195,8 +195,8 @@ fn field(column: &Column) -> Value {
     field
 }
 
-/// The view of a run that has `records` and `plants`, of what `records` says and where in the plot that is. The sums are in
-/// double precision, because one of their terms is.
+/// The view of a run that has `records` and `plants`, of what `records` says and where in the plot that is. The sums
+/// are in double precision, because one of their terms is.
 const WORLD: (&str, &str) = (
     "Records with their places in the plot, `world_x_m`, `world_y_m` and `world_z_m`, beside those from the plant's seed.",
     "records_world AS SELECT r.*, p.x_m + r.x_m AS world_x_m, p.y_m + r.y_m AS world_y_m, p.z_m + r.z_m AS world_z_m \

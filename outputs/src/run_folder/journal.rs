@@ -1,9 +1,9 @@
 //! The journal of a run: one line of JSON for each shard whose files are whole and on the disk.
 //!
 //! Each line names its run and ends with a check of itself. A crash may tear the last line, which then counts as not
-//! written; a damaged line costs the shard that it was about, and where the end of a line is damaged the shard of the next
-//! one too. Where two lines name the same shard the later one holds. No line ever follows a torn one: what a failed write
-//! left is taken back, and where even that fails the journal takes no more.
+//! written; a damaged line costs the shard that it was about, and where the end of a line is damaged the shard of the
+//! next one too. Where two lines name the same shard the later one holds. No line ever follows a torn one: what a
+//! failed write left is taken back, and where even that fails the journal takes no more.
 
 use super::durable;
 use super::seal::LINE;

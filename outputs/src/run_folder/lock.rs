@@ -1,9 +1,9 @@
 //! The lock of a run folder: of two processes that would fill it, the second is refused.
 //!
-//! `run.lock` is locked by the system for as long as a process fills the folder, and freed by it when that process ends,
-//! however it ends. Its content names the process, for people; an empty one says that nobody is there. The file is never
-//! removed: a second process could then lock a new file of that name beside the first one. Some network file systems know
-//! no locks; a run in one of them says so ([`Lock::unlockable`]) and goes on.
+//! `run.lock` is locked by the system for as long as a process fills the folder, and freed by it when that process
+//! ends, however it ends. Its content names the process, for people; an empty one says that nobody is there. The file
+//! is never removed: a second process could then lock a new file of that name beside the first one. Some network file
+//! systems know no locks; a run in one of them says so ([`Lock::unlockable`]) and goes on.
 
 use crate::Error;
 use serde::{Deserialize, Serialize};
@@ -17,8 +17,8 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 /// The name of the file.
 pub const LOCK: &str = "run.lock";
 
-/// A reader holds the lock for a moment while it looks, and the holder writes its name after it has the lock: so a refusal
-/// waits a little.
+/// A reader holds the lock for a moment while it looks, and the holder writes its name after it has the lock: so a
+/// refusal waits a little.
 const TRIES: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(10);
 

@@ -1,9 +1,9 @@
 //! The run folder: made, filled shard by shard, closed; after a crash, gone on with.
 //!
-//! One process at a time has a folder (`lock`). `run.json` is written first, with what identifies the run, and again at the
-//! end, with what came of it. Between the two the journal holds the shards that are whole. A resumed run looks at every
-//! file that it keeps (`check`), redoes only what is missing or damaged, and ends with the same bytes as one that was never
-//! interrupted, but for the timings in `run.json`.
+//! One process at a time has a folder (`lock`). `run.json` is written first, with what identifies the run, and again at
+//! the end, with what came of it. Between the two the journal holds the shards that are whole. A resumed run looks at
+//! every file that it keeps (`check`), redoes only what is missing or damaged, and ends with the same bytes as one that
+//! was never interrupted, but for the timings in `run.json`.
 
 mod check;
 mod difference;
@@ -79,8 +79,8 @@ impl RunFolder {
         Self::open(path, plan, mode, &Opening { checking: &Checking::default(), space })
     }
 
-    /// Makes the folder, or opens that of an earlier start. The lock is taken before anything in it is read or removed, and
-    /// held until this is dropped; a folder that is no run is refused before that, and stays as it is.
+    /// Makes the folder, or opens that of an earlier start. The lock is taken before anything in it is read or removed,
+    /// and held until this is dropped; a folder that is no run is refused before that, and stays as it is.
     ///
     /// # Errors
     /// [`Error::Occupied`], [`Error::NotARun`], [`Error::InProgress`], [`Error::Foreign`], [`Error::Unrecognised`],

@@ -77,8 +77,8 @@ impl<'a> Shard<'a> {
         Part::create(table, &path, &self.folder.plan, (queue, &self.folder.watch)).map(Some)
     }
 
-    /// Registers a further file of this shard, such as a mesh, by its path in the run folder (with `/`). Write it to the
-    /// path that this returns; [`Shard::commit`] syncs it, gives it its name and enters it in the journal.
+    /// Registers a further file of this shard, such as a mesh, by its path in the run folder (with `/`). Write it to
+    /// the path that this returns; [`Shard::commit`] syncs it, gives it its name and enters it in the journal.
     ///
     /// # Errors
     /// Where its folder cannot be made, or the disk has no room for it.
@@ -105,8 +105,8 @@ impl<'a> Shard<'a> {
         self.report.shard
     }
 
-    /// Writes what is known of a plot at its end: its components, its events and its plants. Comes after its last age, for each
-    /// plot of the shard in turn.
+    /// Writes what is known of a plot at its end: its components, its events and its plants. Comes after its last age,
+    /// for each plot of the shard in turn.
     ///
     /// # Errors
     /// [`Error::PlotOutOfTurn`], or a failed write.

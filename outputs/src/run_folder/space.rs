@@ -2,7 +2,8 @@
 //!
 //! A disk that is full to its last byte hurts everything else on the machine, and a run that is told of it by a failed
 //! write may have torn a file of somebody else. So tables look at the free space as they are written, and meshes before
-//! they are. Where a system does not tell its free space a run goes on unwatched. Absent: what a run is expected to need.
+//! they are. Where a system does not tell its free space a run goes on unwatched. Absent: what a run is expected to
+//! need.
 
 use crate::Error;
 use std::fmt;
@@ -11,7 +12,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-/// The most that is left free, bytes: room for what is under way on other threads, for the journal and for other programs.
+/// The most that is left free, bytes: room for what is under way on other threads, for the journal and for other
+/// programs.
 const RESERVE: u64 = 64_000_000;
 /// Of a small disk this part is left free.
 const RESERVED_PART: u64 = 20;

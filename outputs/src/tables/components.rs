@@ -46,8 +46,8 @@ pub struct Row {
 }
 
 impl ComponentColumns {
-    /// Adds a row for each of the components `numbers` of `plant` that lived by the age `last`; `rows` is memory to work
-    /// in.
+    /// Adds a row for each of the components `numbers` of `plant` that lived by the age `last`; `rows` is memory to
+    /// work in.
     pub fn fill(
         &mut self,
         plot: &Plot,

@@ -1,8 +1,8 @@
 //! Encoding of columns on as many threads as there are, while the thread that grows the plants goes on.
 //!
-//! A full row group puts one job a column into a queue. The threads of the rayon pool take jobs from it; the thread that
-//! needs a row group finished takes jobs too, and waits only for what another thread is working on at that moment. So
-//! nothing depends on a free thread in the pool, and a shard never picks up another shard's plants while it waits.
+//! A full row group puts one job a column into a queue. The threads of the rayon pool take jobs from it; the thread
+//! that needs a row group finished takes jobs too, and waits only for what another thread is working on at that moment.
+//! So nothing depends on a free thread in the pool, and a shard never picks up another shard's plants while it waits.
 
 use super::buffers::{self, Values};
 use super::schema::Column;

@@ -1,9 +1,9 @@
 //! The five tables of a run, from the plant's columns to Parquet part files.
 //!
-//! [`columns`] declares what a table holds; `records`, `components`, `events`, `summary` and `plants` fill column buffers
-//! from a plant; `part` turns full buffers into row groups of one file, encoded column by column on as many threads
-//! as there are (`encode`). The bytes do not depend on the number of threads: a row group is a fixed number of rows
-//! and its columns are put into the file in their order.
+//! [`columns`] declares what a table holds; `records`, `components`, `events`, `summary` and `plants` fill column
+//! buffers from a plant; `part` turns full buffers into row groups of one file, encoded column by column on as many
+//! threads as there are (`encode`). The bytes do not depend on the number of threads: a row group is a fixed number of
+//! rows and its columns are put into the file in their order.
 
 pub mod arrow;
 mod buffers;

@@ -1,7 +1,8 @@
 //! The rows of `plants`: what is known of a plant at its sowing, its place above all.
 //!
-//! A place is told here once, in double precision, and nowhere else in a table: a float has 8 mm of precision 100 km away,
-//! and a plant told from its own seed keeps that of its size. Absent: what becomes of the plant, which `summary` has.
+//! A place is told here once, in double precision, and nowhere else in a table: a float has 8 mm of precision 100 km
+//! away, and a plant told from its own seed keeps that of its size. Absent: what becomes of the plant, which `summary`
+//! has.
 
 use super::buffers::columns;
 use phytomer_sim::Plot;

@@ -1,6 +1,7 @@
 //! One column of `records` by itself: what each component of a plant would have there, without a table.
 //!
-//! The rows are those of the table, made by the same code, so that what is coloured by a column shows what the table says.
+//! The rows are those of the table, made by the same code, so that what is coloured by a column shows what the table
+//! says.
 
 use super::buffers::{Columns, Values};
 use super::schema::Column;
@@ -12,8 +13,8 @@ use phytomer_sim::plant::Plant;
 /// Components whose rows are made at once.
 const ROWS: usize = 512;
 
-/// The value of a column for each component of a plant at an age, by its number; NaN where it is null and for components
-/// that do not stand. Words are given by their places in the column's list.
+/// The value of a column for each component of a plant at an age, by its number; NaN where it is null and for
+/// components that do not stand. Words are given by their places in the column's list.
 ///
 /// # Errors
 /// [`Error::PlantTooLarge`].

@@ -40,7 +40,8 @@ pub struct Summary {
     pub axes: u32,
     /// The highest order of them.
     pub max_order: u8,
-    /// The height of the tip of the highest living internode above the seed, m; NaN (null in the table) where none lives.
+    /// The height of the tip of the highest living internode above the seed, m; NaN (null in the table) where none
+    /// lives.
     pub height: f64,
     /// The mean of the widths of what lives along x and y, m; NaN where no internode lives.
     pub crown_width: f64,

@@ -1,10 +1,10 @@
 //! One tick of bending: loads and shape iterated to equilibrium, on the curvature that is frozen in the wood.
 //!
 //! New wood is laid on the bent shape and is free of stress there, so a tick adds dκ = dM / (E I) with the stiffness of
-//! the tick, never the whole moment over the last stiffness (Ancelin, Fourcaud & Lac 2004). With κ₀ = κ − M / (E I), taken
-//! at the curvature and the moment of the last tick and the stiffness of this one, the equilibrium is M = E I (κ − κ₀).
-//! It is found by Newton steps: moments and answers from the tips down (`loads`), curvatures and pose from the base up
-//! (`turn`).
+//! the tick, never the whole moment over the last stiffness (Ancelin, Fourcaud & Lac 2004). With κ₀ = κ − M / (E I),
+//! taken at the curvature and the moment of the last tick and the stiffness of this one, the equilibrium is M = E I (κ
+//! − κ₀). It is found by Newton steps: moments and answers from the tips down (`loads`), curvatures and pose from the
+//! base up (`turn`).
 
 use super::loads::{Load, Response, Scan};
 use super::secondary::Above;

@@ -1,18 +1,19 @@
 //! The reverse scan: what each internode carries, the moment that this makes in its middle, and how the internode
 //! answers.
 //!
-//! With F the sum of all forces beyond the middle x of an internode and N their torque about the origin, the moment there
-//! is M = N − x × F; of weights, sums of mass and of its first moments say as much. Turning all that lies beyond by small angles Φ about horizontal axes changes M by the sum of G Φ over the
-//! internodes beyond, with G = −ℓ·F for a chord ℓ that carries F: positive where the load stands on top of it. So the
-//! equations of a Newton step,
+//! With F the sum of all forces beyond the middle x of an internode and N their torque about the origin, the moment
+//! there is M = N − x × F; of weights, sums of mass and of its first moments say as much. Turning all that lies beyond
+//! by small angles Φ about horizontal axes changes M by the sum of G Φ over the internodes beyond, with G = −ℓ·F for a
+//! chord ℓ that carries F: positive where the load stands on top of it. So the equations of a Newton step,
 //!
 //! ```text
 //! E I / L (Φᵢ − Φₚ) = M − E I (κ − κ₀) + Σ G Φ   over the internodes beyond,
 //! ```
 //!
 //! are solved by elimination from the tips: the sum of each branch is an affine function of the turn at its base. The
-//! solution is exact in a vertical plane and nearly so in space, where a second term ℓ (Φ·F) is left out, as is torsion.
-//! The pivot of the elimination is the stiffness that is left under load: where it is not positive the plant buckles.
+//! solution is exact in a vertical plane and nearly so in space, where a second term ℓ (Φ·F) is left out, as is
+//! torsion. The pivot of the elimination is the stiffness that is left under load: where it is not positive the plant
+//! buckles.
 
 use super::section::Section;
 use super::wood::Wood;
@@ -23,8 +24,8 @@ use crate::plant::{AxisId, OrganId, Plant};
 use crate::site::Fields;
 use crate::vector::Vector;
 
-/// An internode holds while more than this share of its own stiffness is left under load. Where it does not, the step is
-/// taken on that stiffness alone, so that a plant that buckles still moves, away from the shape that it cannot hold.
+/// An internode holds while more than this share of its own stiffness is left under load. Where it does not, the step
+/// is taken on that stiffness alone, so that a plant that buckles still moves, away from the shape that it cannot hold.
 const LEFT: f64 = 1e-3;
 
 /// The most that an internode answers with, rad; far beyond what a step may turn.
@@ -257,8 +258,9 @@ impl Scan<'_> {
     }
 
     /// How an internode of this flexural stiffness about `up` and about `heading × up`, N·m², answers; and whether it
-    /// holds. A blade is far stiffer about `up`; what turns with its base is taken for the other, weaker axis, which slows
-    /// the steps where a blade stands on edge and leaves the equilibrium as it is. Inlined, so that loads stay in registers.
+    /// holds. A blade is far stiffer about `up`; what turns with its base is taken for the other, weaker axis, which
+    /// slows the steps where a blade stands on edge and leaves the equilibrium as it is. Inlined, so that loads stay in
+    /// registers.
     #[inline(always)]
     fn answer(&mut self, mut load: Load, node: usize, felt: &Felt, flexural: [f64; 2], length: f64) -> (Load, bool) {
         let Felt { moment, near, whole } = *felt;

@@ -1,10 +1,10 @@
 //! Wood, weight and wind: how internodes thicken, and how axes bend under what they bear (de Reffye 1988 §5, by the
 //! theory of the strength of materials, with Young's modulus).
 //!
-//! Each tick internodes gain diameter (`secondary`), then loads and shape are brought to equilibrium (`bend`: moments in
-//! one reverse scan in `loads`, curvatures and pose in one forward scan in `turn`). What bending leaves is
-//! frozen in the wood (`strain`). Axes right themselves by reaction wood and as young shoots (`uprighting`); `sway` moves a
-//! plant of one age in the wind. Absent: twisting, creep and breaking.
+//! Each tick internodes gain diameter (`secondary`), then loads and shape are brought to equilibrium (`bend`: moments
+//! in one reverse scan in `loads`, curvatures and pose in one forward scan in `turn`). What bending leaves is
+//! frozen in the wood (`strain`). Axes right themselves by reaction wood and as young shoots (`uprighting`); `sway`
+//! moves a plant of one age in the wind. Absent: twisting, creep and breaking.
 
 mod bend;
 mod loads;

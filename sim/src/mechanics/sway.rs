@@ -1,11 +1,11 @@
 //! A plant of one age in a gusty wind: a frame at a time, for animation.
 //!
 //! Each axis is an oscillator about the shape that the steady wind gives it, with the first frequency of a clamped
-//! cylinder, f₁ = (β₁² / 8π) d √(E/ρ) / L² = 0.139897 d √(E/ρ) / L² (Euler–Bernoulli, β₁ = 1.8751), where ρ spreads over
-//! its own wood all that the axis carries. A gust that comes every [`GUSTS_S`] seconds knocks each axis, which then swings
-//! freely, e^(−ζωτ) cos(ω√(1−ζ²) τ + φ), with a phase φ of its own from its lineage key; the swings after all gusts that
-//! ever were add up to a geometric series. So the motion repeats with the gusts, and an animation of that length loops.
-//! Absent: leaves that flutter, vortices, and any trace in the growth of the plant.
+//! cylinder, f₁ = (β₁² / 8π) d √(E/ρ) / L² = 0.139897 d √(E/ρ) / L² (Euler–Bernoulli, β₁ = 1.8751), where ρ spreads
+//! over its own wood all that the axis carries. A gust that comes every [`GUSTS_S`] seconds knocks each axis, which
+//! then swings freely, e^(−ζωτ) cos(ω√(1−ζ²) τ + φ), with a phase φ of its own from its lineage key; the swings after
+//! all gusts that ever were add up to a geometric series. So the motion repeats with the gusts, and an animation of
+//! that length loops. Absent: leaves that flutter, vortices, and any trace in the growth of the plant.
 
 use super::bend::Bench;
 use super::section::Section;
@@ -19,7 +19,8 @@ use std::f64::consts::TAU;
 /// The time between two gusts, s.
 pub const GUSTS_S: f64 = 8.0;
 
-/// The damping ratio ζ, of the order measured on trees in leaf (de Langre 2008, *Effects of wind on plants*: 0.05 to 0.15).
+/// The damping ratio ζ, of the order measured on trees in leaf (de Langre 2008, *Effects of wind on plants*: 0.05 to
+/// 0.15).
 pub const DAMPING: f64 = 0.1;
 
 /// The share of the steady deflection by which a gust knocks an axis: the turbulence intensity of wind near the ground.

@@ -92,7 +92,8 @@ impl Wood {
         &self.tissues[place]
     }
 
-    /// Whether what stands at an age depends on the ages before: on frozen curvature, on rings, on pipes of fallen leaves.
+    /// Whether what stands at an age depends on the ages before: on frozen curvature, on rings, on pipes of fallen
+    /// leaves.
     pub(crate) fn remembers(&self) -> bool {
         self.bends || self.thickening != Thickening::Law
     }

@@ -1,4 +1,5 @@
-//! The internodes that have appeared by an age, as stretches of one axis: found once an age for all who walk along them.
+//! The internodes that have appeared by an age, as stretches of one axis: found once an age for all who walk along
+//! them.
 //!
 //! A large plant has many axes, and when it is young most of them are not there yet: whoever asked each of them again
 //! would do little else.
@@ -34,8 +35,8 @@ pub struct Appeared {
 }
 
 impl Appeared {
-    /// The stretches of the internodes among `nodes` that have appeared by `age`; kept until another age is asked for, or
-    /// a node is added.
+    /// The stretches of the internodes among `nodes` that have appeared by `age`; kept until another age is asked for,
+    /// or a node is added.
     pub fn by(&mut self, age: Tick, nodes: &Nodes) -> &[Stretch] {
         if !self.knows(age, nodes) {
             self.of = Some((age, nodes.len()));

@@ -139,7 +139,8 @@ pub struct Axes {
     pub origin: Vec<Origin>,
     /// The position among the buds of the bearing node.
     pub position: Vec<u16>,
-    /// Whether the axis came as one of a set of relays or forks of which another was the first: it does not lead its set.
+    /// Whether the axis came as one of a set of relays or forks of which another was the first: it does not lead its
+    /// set.
     pub follows: Vec<bool>,
     /// The state in which the axis started.
     pub state: Vec<u8>,

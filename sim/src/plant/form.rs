@@ -225,8 +225,8 @@ impl Form {
     ];
 
     /// The area of one side as a share of length × width, of an organ half as wide as long: that of its triangles, of a
-    /// closed form half of it. `phytomer_outputs::meshes` holds the triangles, and a test that they have these areas. Of a
-    /// mesh of the user's, whose own share is known where the mesh is read, that of a broad blade.
+    /// closed form half of it. `phytomer_outputs::meshes` holds the triangles, and a test that they have these areas.
+    /// Of a mesh of the user's, whose own share is known where the mesh is read, that of a broad blade.
     pub const fn area_share(self) -> f32 {
         match self {
             Self::Own(_) => Self::AREA_SHARES[0],

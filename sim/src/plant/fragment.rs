@@ -1,9 +1,9 @@
 //! Fragments: axes of a plant that have yet to grow, taken apart so that another thread can grow them meanwhile.
 //!
-//! Axes that wait have no nodes, and none needs to know what the others do. A fragment is a plant that starts with copies
-//! of some of them; joined again, the whole is what it would be had they grown after the axes before them: the numbers of
-//! axes, nodes, organs and components follow on. Until then its handles and component numbers are its own, but for the
-//! nodes that bear the axes that it took: those are the whole plant's, and nobody may look them up.
+//! Axes that wait have no nodes, and none needs to know what the others do. A fragment is a plant that starts with
+//! copies of some of them; joined again, the whole is what it would be had they grown after the axes before them: the
+//! numbers of axes, nodes, organs and components follow on. Until then its handles and component numbers are its own,
+//! but for the nodes that bear the axes that it took: those are the whole plant's, and nobody may look them up.
 
 use super::{ApicalBud, Appeared, AxisId, Event, NodeId, OwnTrends, Plant};
 use crate::clock::NEVER;
@@ -16,8 +16,8 @@ use std::ops::Range;
 pub struct Hands {
     /// How many threads: more than one where the others would have nothing to do.
     pub threads: usize,
-    /// The fewest axes of which it is worth while to give another thread half. The default's take some 5 ms in a poplar,
-    /// far more than to wake a thread and to join what it has grown.
+    /// The fewest axes of which it is worth while to give another thread half. The default's take some 5 ms in a
+    /// poplar, far more than to wake a thread and to join what it has grown.
     pub worth: usize,
 }
 
@@ -73,7 +73,8 @@ impl Joint {
         node.some().map_or(node, |node| NodeId((self.nodes + node.index()) as u32))
     }
 
-    /// The node on which an axis goes on when it has made so many: the bearers of the axes that were taken are the whole's.
+    /// The node on which an axis goes on when it has made so many: the bearers of the axes that were taken are the
+    /// whole's.
     pub(super) fn below(&self, node: NodeId, axis: AxisId, made: u32) -> NodeId {
         if made == 0 && self.is_taken(axis) { node } else { self.node(node) }
     }
@@ -123,8 +124,8 @@ impl Plant {
         Fragment { plant, joint: Joint { taken, axes: 0, nodes: 0, components: 0 } }
     }
 
-    /// Joins a fragment that has grown, after everything that the plant has; `buds` are the living ones of the fragment, and
-    /// become the plant's.
+    /// Joins a fragment that has grown, after everything that the plant has; `buds` are the living ones of the
+    /// fragment, and become the plant's.
     pub fn join(&mut self, fragment: Fragment, buds: &mut [ApicalBud]) {
         let Fragment { plant, joint } = fragment;
         let (axes, nodes, components) = (self.axes.len(), self.nodes.len(), self.components);

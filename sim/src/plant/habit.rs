@@ -24,8 +24,8 @@ impl Trend {
     /// An axis that keeps the direction of its insertion.
     pub const STRAIGHT: Self = Self { inclination: 0.0, share: 0.0 };
 
-    /// The angle to the upward vertical that the axis tends to, degrees: 0 orthotropic, 90 plagiotropic. `None` where it
-    /// tends nowhere. To a thousandth of a degree.
+    /// The angle to the upward vertical that the axis tends to, degrees: 0 orthotropic, 90 plagiotropic. `None` where
+    /// it tends nowhere. To a thousandth of a degree.
     pub fn inclination_deg(&self) -> Option<f32> {
         let thousandths = (self.inclination * 180_000.0 / std::f64::consts::PI).round();
         (self.share > 0.0).then_some((thousandths / 1000.0) as f32)
@@ -38,8 +38,8 @@ impl Trend {
 pub struct OrganTrend {
     /// The angle between the direction tended to and the upward vertical, radians in [0, π].
     pub inclination: f64,
-    /// The share of the angle to that direction that an organ has turned from its insertion, in [0, 1], by its own age in
-    /// ticks; ages past the last are as the last.
+    /// The share of the angle to that direction that an organ has turned from its insertion, in [0, 1], by its own age
+    /// in ticks; ages past the last are as the last.
     pub shares: Vec<f32>,
 }
 
@@ -72,7 +72,8 @@ pub enum Shape {
     Cylinder,
     /// The tip has the diameter of the base of the internode that follows it on its axis.
     Cone,
-    /// A plane blade as wide as the diameter, its tip as wide as the internode that follows, of the thickness of its look.
+    /// A plane blade as wide as the diameter, its tip as wide as the internode that follows, of the thickness of its
+    /// look.
     Blade,
 }
 

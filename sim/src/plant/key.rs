@@ -32,8 +32,8 @@ pub enum Place {
     Released(u16),
     /// A reiteration bud by its position, from 0.
     Reiteration(u16),
-    /// A relay bud of an axis that passed into another state when its last node was this one: how many passages had made
-    /// relays there before, and the position of the bud, both from 0.
+    /// A relay bud of an axis that passed into another state when its last node was this one: how many passages had
+    /// made relays there before, and the position of the bud, both from 0.
     Passage(u32, u16),
     /// One of the axes into which the apex divided, by its position, from 0.
     Fork(u16),
@@ -47,9 +47,9 @@ pub const MOST_POSITIONS: u16 = 64;
 const AGAIN: u64 = 1 << 31;
 
 impl Place {
-    /// One number for the place on the node of `rank` along its axis: the rank in the upper half; in the lower a class of
-    /// 15 bits and a position of 16, or the bit of a passage that is not the first at its node, its number of 25 bits (an
-    /// axis makes at most 64 · 65,535 steps) and a position of 6.
+    /// One number for the place on the node of `rank` along its axis: the rank in the upper half; in the lower a class
+    /// of 15 bits and a position of 16, or the bit of a passage that is not the first at its node, its number of 25
+    /// bits (an axis makes at most 64 · 65,535 steps) and a position of 6.
     #[inline]
     pub fn on(self, rank: u32) -> u64 {
         let (class, position) = match self {

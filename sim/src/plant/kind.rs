@@ -1,8 +1,8 @@
 //! What a component is (the tag of de Reffye's record, 1988 §6), and why it ended.
 //!
-//! The paper's tags are internodes, leaves, flowers and fruits, and, where the simulation is enlarged (§5), rhizome, palm,
-//! petal and sepal internodes. The numbers of these lists are part of the tables and of the meshes: they may grow at
-//! their ends, never change. Absent: forms (`form`), and how a kind looks.
+//! The paper's tags are internodes, leaves, flowers and fruits, and, where the simulation is enlarged (§5), rhizome,
+//! palm, petal and sepal internodes. The numbers of these lists are part of the tables and of the meshes: they may grow
+//! at their ends, never change. Absent: forms (`form`), and how a kind looks.
 
 /// The tag of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -110,8 +110,8 @@ impl Looks {
         Self { states: 1, internodes: vec![InternodeLook::of_shape(shape)], organs: Vec::new() }
     }
 
-    /// The place in [`Looks::internodes`] of an axis of `order` that started in `state`; orders past the last are as the
-    /// last. `None` where there is none.
+    /// The place in [`Looks::internodes`] of an axis of `order` that started in `state`; orders past the last are as
+    /// the last. `None` where there is none.
     #[inline]
     pub fn place(&self, order: u8, state: u8) -> Option<usize> {
         let states = self.states.max(1);

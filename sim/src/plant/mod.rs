@@ -75,8 +75,8 @@ pub struct Plant {
     pub own_trends: OwnTrends,
     /// The source of its draws.
     pub random: PlantRandom,
-    /// Where its seed lies in the plot, metres. Nothing else of a plant is told from there: its pose and all that follows
-    /// from it are told from the seed, so that a plant is the same to the bit wherever it stands.
+    /// Where its seed lies in the plot, metres. Nothing else of a plant is told from there: its pose and all that
+    /// follows from it are told from the seed, so that a plant is the same to the bit wherever it stands.
     pub place: [f64; 3],
     /// The stated headings of a plant that a geometric model has built, one an internode, as unit vectors in the frame
     /// of the plant; empty where insertion, phyllotaxis and trend make the headings.
@@ -279,9 +279,9 @@ impl Plant {
         self.look_of_organ(organ).map_or(1.0, |look| look.share(own_age))
     }
 
-    /// The area of one side of an organ at `age`, m²: its full area times the square of the share to which it has expanded.
-    /// In double precision for sums, in single precision for tables. Nothing else reads the column `area` for what
-    /// stands at an age.
+    /// The area of one side of an organ at `age`, m²: its full area times the square of the share to which it has
+    /// expanded. In double precision for sums, in single precision for tables. Nothing else reads the column `area` for
+    /// what stands at an age.
     #[inline]
     pub fn organ_area<T: From<f32> + Copy + Mul<Output = T>>(&self, organ: OrganId, age: Tick) -> T {
         let share = T::from(self.expanded(organ, age));
@@ -298,15 +298,16 @@ impl Plant {
         self.axes.appearance[axis.index()] <= age && age < self.bud_end(axis)
     }
 
-    /// The tick at which an apical bud is gone: it ends as a bud when its apex ends, whatever the apex becomes, or it falls
-    /// with its branch.
+    /// The tick at which an apical bud is gone: it ends as a bud when its apex ends, whatever the apex becomes, or it
+    /// falls with its branch.
     #[inline]
     pub fn bud_end(&self, axis: AxisId) -> Tick {
         self.axes.apex_end[axis.index()].min(self.axes.shed[axis.index()])
     }
 
-    /// Whether the plant lives at `age`, which is when any of its components does: a bud, or an internode on whose branch an
-    /// apex that has become a flower or has completed its growth is not yet spent. A plant may live on without a bud.
+    /// Whether the plant lives at `age`, which is when any of its components does: a bud, or an internode on whose
+    /// branch an apex that has become a flower or has completed its growth is not yet spent. A plant may live on
+    /// without a bud.
     #[inline]
     pub fn lives(&self, age: Tick) -> bool {
         age < self.death

@@ -1,11 +1,11 @@
 //! The forward scan of a plant that bends: the pose at rest, turned internode by internode by the curvature that
 //! mechanics states.
 //!
-//! Curvature is stated in the axes of the material at rest. With R the rotation that all internodes before have made and
-//! w = L (κ₁ up + κ₂ heading × up) the turn of this one, all at rest, its chord stands where half of w has turned it,
-//! R exp(w/2), and what it bears stands on R exp(w): second order in the length of internodes. From chord to chord half of
-//! one turn and half of the next are taken as one, exp((w + w')/2): the two axes nearly agree. The axes of the plant at
-//! rest are followed as they would stand without load, so trends are felt at rest and carried along.
+//! Curvature is stated in the axes of the material at rest. With R the rotation that all internodes before have made
+//! and w = L (κ₁ up + κ₂ heading × up) the turn of this one, all at rest, its chord stands where half of w has turned
+//! it, R exp(w/2), and what it bears stands on R exp(w): second order in the length of internodes. From chord to chord
+//! half of one turn and half of the next are taken as one, exp((w + w')/2): the two axes nearly agree. The axes of the
+//! plant at rest are followed as they would stand without load, so trends are felt at rest and carried along.
 
 use super::course::{Plane, Slope};
 use super::{Frame, GROUND};
@@ -18,8 +18,8 @@ use crate::vector::Vector;
 /// The square of the turn from which on it is no longer small, rad².
 const FAR: f64 = 0.25;
 
-/// Who states the curvature, while the scan goes from the base to the tips. What it carries along an axis goes from hand to
-/// hand by value, so that it stays in registers.
+/// Who states the curvature, while the scan goes from the base to the tips. What it carries along an axis goes from
+/// hand to hand by value, so that it stays in registers.
 pub(crate) trait Curvature {
     /// What is carried along a run.
     type Carried: Copy;
@@ -122,8 +122,8 @@ impl Rotation {
     }
 }
 
-/// Poses every internode that stands, bent by the curvature that is stated on the way. `stances` is scratch, one entry an
-/// axis.
+/// Poses every internode that stands, bent by the curvature that is stated on the way. `stances` is scratch, one entry
+/// an axis.
 pub(crate) fn follow_bends(
     plant: &mut Plant,
     standing: &Standing,

@@ -1,11 +1,12 @@
 //! The course of one axis towards its trend: our reading of de Reffye 1988 §4, Fig. 15, which shows the smoothed axis
 //! and prints no formula.
 //!
-//! With q the share of an internode and θ the angle of its heading to the upward vertical, θ' = ι + (1 − q)(θ − ι) for the
-//! inclination ι that the axis tends to: after n internodes (1 − q)ⁿ of the first angle is left, whatever the angle. The
-//! axis turns in the vertical plane of its heading, so it has one plane: its heading is cos θ · Z + sin θ · e with a fixed
-//! horizontal e, and `up`, carried along by parallel transport, keeps its two components in the plane and across it. An
-//! axis that stands upright or hangs has no horizontal direction of its own and turns towards that of its `up`.
+//! With q the share of an internode and θ the angle of its heading to the upward vertical, θ' = ι + (1 − q)(θ − ι) for
+//! the inclination ι that the axis tends to: after n internodes (1 − q)ⁿ of the first angle is left, whatever the
+//! angle. The axis turns in the vertical plane of its heading, so it has one plane: its heading is cos θ · Z + sin θ ·
+//! e with a fixed horizontal e, and `up`, carried along by parallel transport, keeps its two components in the plane
+//! and across it. An axis that stands upright or hangs has no horizontal direction of its own and turns towards that of
+//! its `up`.
 
 use super::Frame;
 use crate::math::{half_turn_of, sincos_half_turn};

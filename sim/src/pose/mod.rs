@@ -5,8 +5,9 @@
 //! heading h with the direction d at φ has the heading cos β · h + sin β · d and the upper side sin β · h − cos β · d.
 //! The first internode of an axis keeps that direction; each one after it turns its share of the angle to the axis's
 //! trend, in the vertical plane of its heading (`course` has the formula). The axis of the seed leaves the upward
-//! vertical, whose `up` is the X axis. The seed is the origin of all frames: a plant far away in its plot keeps the precision
-//! of one at home. Absent: bending, which is the work of mechanics; the plant's place, which nothing here asks.
+//! vertical, whose `up` is the X axis. The seed is the origin of all frames: a plant far away in its plot keeps the
+//! precision of one at home. Absent: bending, which is the work of mechanics; the plant's place, which nothing here
+//! asks.
 
 pub(crate) mod bent;
 mod course;
@@ -41,8 +42,8 @@ impl Frames {
         Frame { base: self.base[node], heading: self.heading[node], up: self.up[node] }
     }
 
-    /// Forgets every frame, so that the next pose makes them all. The columns keep their length, so that the memory that
-    /// the next pose writes is not written twice.
+    /// Forgets every frame, so that the next pose makes them all. The columns keep their length, so that the memory
+    /// that the next pose writes is not written twice.
     pub fn clear(&mut self) {
         self.posed = 0;
     }
@@ -101,9 +102,9 @@ impl Frame {
     }
 }
 
-/// Poses every internode of `plant` that appeared by `age` and has no frame yet. The frames of the others stay: the pose
-/// at rest of a node depends on the nodes before it alone, and to the last bit neither on the order in which the axes grew
-/// nor on how often the plant was posed.
+/// Poses every internode of `plant` that appeared by `age` and has no frame yet. The frames of the others stay: the
+/// pose at rest of a node depends on the nodes before it alone, and to the last bit neither on the order in which the
+/// axes grew nor on how often the plant was posed.
 pub fn pose(plant: &mut Plant, age: Tick) {
     if age < plant.frames.posed {
         return;
@@ -115,9 +116,9 @@ pub fn pose(plant: &mut Plant, age: Tick) {
     }
 }
 
-/// The pose at `age` of an organ on its node, whose frame must be there: its insertion, turned as far as the habit's trend
-/// for its kind has turned it in the ticks since its birth, and twisted to face the sky where leaves do. The base lies on the line of the axis, at the node;
-/// whoever draws the organ moves it out to the surface of the stem.
+/// The pose at `age` of an organ on its node, whose frame must be there: its insertion, turned as far as the habit's
+/// trend for its kind has turned it in the ticks since its birth, and twisted to face the sky where leaves do. The base
+/// lies on the line of the axis, at the node; whoever draws the organ moves it out to the surface of the stem.
 #[inline]
 pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
     let Plant { organs, nodes, axes, habit, .. } = plant;

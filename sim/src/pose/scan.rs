@@ -48,8 +48,8 @@ fn follow_axis(plant: &mut Plant, axis: AxisId, run: Range<usize>) {
     frames.tips[axis.index()] = extend(frames, nodes, trends, &plane, tip, run, begins);
 }
 
-/// Writes the frames of a run that goes on from `tip`, on an axis of the given trends. The first node of an axis, and one
-/// whose trend is not among them, goes straight on.
+/// Writes the frames of a run that goes on from `tip`, on an axis of the given trends. The first node of an axis, and
+/// one whose trend is not among them, goes straight on.
 #[inline]
 fn extend(
     frames: &mut Frames,

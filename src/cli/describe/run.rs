@@ -1,8 +1,8 @@
 //! What a run folder holds: tables with rows, parts and sizes, ages, plants, seed, version, limits that were met, the
 //! architectural models of its first plants, and the population at each recorded age.
 //!
-//! Rows are counted in the Parquet files themselves, so that an unfinished run is told as far as it has come. Of a damaged
-//! run only the damage is told: what its tables say cannot be relied on.
+//! Rows are counted in the Parquet files themselves, so that an unfinished run is told as far as it has come. Of a
+//! damaged run only the damage is told: what its tables say cannot be relied on.
 
 use super::super::named::Recorded;
 use super::super::{amounts, findings};

@@ -46,7 +46,8 @@ pub struct Compiler<'a> {
     orders_path: Path,
     /// The clocks of the order's axes.
     pub speeds: SpeedTable,
-    /// Whether a law that depends on more than the clock was compiled: on a variable that moves with growth units alone.
+    /// Whether a law that depends on more than the clock was compiled: on a variable that moves with growth units
+    /// alone.
     pub asks_the_bud: bool,
     /// What was wrong so far.
     pub faults: Vec<Fault>,
@@ -99,8 +100,8 @@ impl<'a> Compiler<'a> {
         self.domain.asked = asked;
     }
 
-    /// From now on an axis makes at most so many growth units a step, and at most `last` in all, in the run at hand and in
-    /// a run of any length.
+    /// From now on an axis makes at most so many growth units a step, and at most `last` in all, in the run at hand and
+    /// in a run of any length.
     pub fn set_units(&mut self, [now, ever]: [u32; 2], last: [u32; 2]) {
         let domain = &mut self.domain;
         domain.max_unit = domain.max_cycle.saturating_mul(now).min(last[0]);
@@ -182,8 +183,8 @@ impl<'a> Compiler<'a> {
         CountTable::always(least)
     }
 
-    /// The tick of the year at which leaves fall, in a year of `year` ticks: stated for the species, asked at the nodes of
-    /// this order.
+    /// The tick of the year at which leaves fall, in a year of `year` ticks: stated for the species, asked at the nodes
+    /// of this order.
     pub fn fall_within(&mut self, season: &Season, year: u32) -> CountTable {
         let path = self.species_path.key("season").key("leaf_fall");
         let compiled = season.leaf_fall.compile(&self.domain, &path);

@@ -75,8 +75,8 @@ impl HeadLaws {
         }
     }
 
-    /// The most growth units that an axis can make, in the run at hand and in a run of any length; an axis that is to make
-    /// none ends with its first.
+    /// The most growth units that an axis can make, in the run at hand and in a run of any length; an axis that is to
+    /// make none ends with its first.
     pub fn most_units(&self) -> [u32; 2] {
         let most = |units: &Number| [units.table.max(), units.table.max_in_any_run()].map(|most| most.max(1));
         self.units.as_ref().map_or([u32::MAX; 2], most)

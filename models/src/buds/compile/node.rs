@@ -17,7 +17,8 @@ use phytomer_sim::plant::{Form, Kind};
 const CM: f32 = 0.01;
 const MM: f32 = 0.001;
 
-/// The area of one side of a leaf as a share of length × width: a tuft of needles has several times that of its outline.
+/// The area of one side of a leaf as a share of length × width: a tuft of needles has several times that of its
+/// outline.
 const AREA_SHARE: ValueRange = ValueRange { min: 0.0, max: 20.0, what: "a share of length × width" };
 
 /// The most organs of one kind on a node.
@@ -125,8 +126,8 @@ impl NodeLaws {
         }
     }
 
-    /// The law of ramification of the node at `rank` of a growth unit of `nodes`; `None` where it does not ramify. `drawn`
-    /// are the ranks of zones that the unit has drawn, if any.
+    /// The law of ramification of the node at `rank` of a growth unit of `nodes`; `None` where it does not ramify.
+    /// `drawn` are the ranks of zones that the unit has drawn, if any.
     #[inline]
     pub fn ramification(&self, rank: u32, nodes: u32, drawn: &[Ranks]) -> Option<Ramification<'_>> {
         match &self.zones {

@@ -60,8 +60,8 @@ pub struct EndLaws {
 }
 
 impl EndLaws {
-    /// Compiles the laws of the ends of an order, whose nodes have at most so many axillary buds and whose trunk leaves the
-    /// seed at this angle.
+    /// Compiles the laws of the ends of an order, whose nodes have at most so many axillary buds and whose trunk leaves
+    /// the seed at this angle.
     pub fn compile(order: &Order, most_buds: u32, seed_angle: &VariateTable, compiler: &mut Compiler) -> Self {
         let mut layout = Layout::default();
         let relay = relay(order, seed_angle, compiler, &mut layout);

@@ -56,8 +56,8 @@ impl Passage {
 }
 
 impl StepLaws {
-    /// Compiles the laws of a step of an axis that makes at most `last` growth units in all, in the run at hand and in a
-    /// run of any length.
+    /// Compiles the laws of a step of an axis that makes at most `last` growth units in all, in the run at hand and in
+    /// a run of any length.
     pub fn compile(order: &Order, last: [u32; 2], compiler: &mut Compiler) -> Self {
         let mut layout = Layout::default();
         let unit = &order.growth_unit;

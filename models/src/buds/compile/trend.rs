@@ -1,8 +1,8 @@
 //! The development trends of an order (de Reffye 1988 §4, Fig. 15), from names and degrees to directions and shares.
 //!
-//! The smoothed shape of Fig. 15 becomes a share of the angle to the trend that each internode turns. Constant trends are
-//! the habit's and shared by all axes; where an order draws an inclination or a share, each of its axes has trends of its
-//! own, one a phase. Absent: the turning itself, which is the pose's.
+//! The smoothed shape of Fig. 15 becomes a share of the angle to the trend that each internode turns. Constant trends
+//! are the habit's and shared by all axes; where an order draws an inclination or a share, each of its axes has trends
+//! of its own, one a phase. Absent: the turning itself, which is the pose's.
 
 use super::compiler::Compiler;
 use super::words::{Layout, Measure, Number};

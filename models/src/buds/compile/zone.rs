@@ -1,7 +1,7 @@
 //! Zones of a growth unit: the nodes that ramify in the rhythmic pattern (de Reffye 1988 §2, Fig. 4).
 //!
-//! A node in several zones belongs to the first. The ranks of a zone are constants, or drawn once a growth unit; then the
-//! step's record of words has them ([`ZoneRanks`]) and the node asks what its unit drew. Absent: the test of a bud.
+//! A node in several zones belongs to the first. The ranks of a zone are constants, or drawn once a growth unit; then
+//! the step's record of words has them ([`ZoneRanks`]) and the node asks what its unit drew. Absent: the test of a bud.
 
 use super::compiler::Compiler;
 use super::words::{Chance, Layout, Number};
@@ -77,7 +77,8 @@ fn stated(order: &Order) -> Option<&[Zone]> {
 }
 
 impl Zones {
-    /// The zones of an order, their own laws of ramification with words for the axillary buds of a node, at most so many;
+    /// The zones of an order, their own laws of ramification with words for the axillary buds of a node, at most so
+    /// many;
     /// `None`: every node.
     pub fn compile(
         order: &Order,
@@ -101,8 +102,8 @@ impl Zones {
         Some(Self(compiled.collect()))
     }
 
-    /// How the node at `rank` of a growth unit of `nodes` ramifies, where the node is in a zone; `order` is the law of zones
-    /// without one of their own, `drawn` the ranks that the unit has drawn, if any.
+    /// How the node at `rank` of a growth unit of `nodes` ramifies, where the node is in a zone; `order` is the law of
+    /// zones without one of their own, `drawn` the ranks that the unit has drawn, if any.
     #[inline]
     pub fn ramification<'a>(
         &'a self,
@@ -127,8 +128,8 @@ impl Zones {
         })
     }
 
-    /// The states, in zones that state them, of the axes that buds of axes in `state` can become; `None` stands for that of the
-    /// order's axillary buds. `order` is the law of zones without one of their own.
+    /// The states, in zones that state them, of the axes that buds of axes in `state` can become; `None` stands for
+    /// that of the order's axillary buds. `order` is the law of zones without one of their own.
     pub fn states_of(&self, state: u8, order: &Chance) -> Vec<Option<u8>> {
         let bearing = self.0.iter().filter(|zone| !zone.ramification(order).chance.table.is_never_in(state));
         bearing
@@ -136,8 +137,8 @@ impl Zones {
             .collect()
     }
 
-    /// How the node at `rank` of `nodes` ramifies over what units draw: by each zone with the probability that it holds the
-    /// node and none before it does. `holding` is [`ZoneRanks::holding`].
+    /// How the node at `rank` of `nodes` ramifies over what units draw: by each zone with the probability that it holds
+    /// the node and none before it does. `holding` is [`ZoneRanks::holding`].
     pub fn ramifications<'a>(
         &'a self,
         (rank, nodes): Ranks,

@@ -209,7 +209,8 @@ impl<'a> Cohorts<'a> {
         }
     }
 
-    /// The growth units of a step, one after another, then the passages between states; `growing` goes by numbers of nodes.
+    /// The growth units of a step, one after another, then the passages between states; `growing` goes by numbers of
+    /// nodes.
     fn grow(&mut self, cohort: &Cohort, growing: &mut [Flow], made: usize, unit: &Unit, after: &mut [Flow], at: At) {
         let per_step = cohort.laws.step.per_step.table.pmf(at);
         let mut at_least: f64 = per_step.iter().sum();
@@ -344,7 +345,8 @@ fn grown(frame: &Frame, growing: &mut [Flow], unit: &Unit) {
         }
         growing[rank].add(before.share(empty));
         for (more, &share) in unit.counts.iter().enumerate().skip(1).filter(|(_, share)| **share > 0.0) {
-            // Dormant buds are shared out over the numbers of nodes: the death that releases them does not ask for those.
+            // Dormant buds are shared out over the numbers of nodes: the death that releases them does not ask for
+            // those.
             let dormant = before.apices * unit.dormant * share / (1.0 - empty);
             growing[frame.after(rank, more)].add(Flow { apices: before.apices * share, dormant });
         }

@@ -1,7 +1,7 @@
 //! What the axes of one cohort are told apart by while they are followed: growth units made, nodes made and state.
 //!
-//! Growth units count up to the last one that an apex of the order can be given, nodes as far as relays need them. Absent:
-//! what is followed, means (`cohort`) or the organs that are lost with their branch (`lost`).
+//! Growth units count up to the last one that an apex of the order can be given, nodes as far as relays need them.
+//! Absent: what is followed, means (`cohort`) or the organs that are lost with their branch (`lost`).
 
 use crate::buds::compile::OrderLaws;
 use crate::law::At;

@@ -16,7 +16,8 @@ use std::rc::Rc;
 /// So many summed units are kept for the next time.
 const MOST_UNITS: usize = 5_000;
 
-/// Axes that are born alike: the place of their order, their state, and whether they follow in their set (1) or lead it.
+/// Axes that are born alike: the place of their order, their state, and whether they follow in their set (1) or lead
+/// it.
 type Class = (usize, u8, usize);
 
 /// What is known of the branches that are born later.
@@ -84,8 +85,9 @@ impl<'a> Gone<'a> {
 
     /// A set of equal axes, of which the first leads.
     ///
-    /// Of n buds that become axes with probability c each, with q and r the probabilities that the leader and that another
-    /// axis is dead: N₀ = 1, L₀ = 0; Nₙ₊₁ = (1 − c) Nₙ, none has become an axis; Lₙ₊₁ = (1 − c + c r) Lₙ + c q Nₙ, some have.
+    /// Of n buds that become axes with probability c each, with q and r the probabilities that the leader and that
+    /// another axis is dead: N₀ = 1, L₀ = 0; Nₙ₊₁ = (1 − c) Nₙ, none has become an axis; Lₙ₊₁ = (1 − c + c r) Lₙ + c q
+    /// Nₙ, some have.
     pub fn of_set(&mut self, order: usize, set: &Branching, at: At) -> Vec<f64> {
         let state = set.state.unwrap_or(at.state);
         let leader = self.of_axis((order, state, 0), &set.delay.table, at);
@@ -229,7 +231,8 @@ fn product(a: Option<Vec<f64>>, b: Option<Vec<f64>>) -> Option<Vec<f64>> {
     }
 }
 
-/// The distribution of the ticks from the end of an apex as a flower to the fall of its flower, or of the fruit that it sets.
+/// The distribution of the ticks from the end of an apex as a flower to the fall of its flower, or of the fruit that it
+/// sets.
 fn terminal_life(laws: &OrderLaws, at: At) -> Vec<f64> {
     let node = &laws.node;
     let sets = node.fruit_set.table.probability(at);

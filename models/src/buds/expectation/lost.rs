@@ -1,11 +1,11 @@
 //! Organs that never appear because their branch dies before.
 //!
-//! A flower opens after its delay and a fruit after its flower, unless every bud of the branch is dead by then. So for each
-//! axis and each deadline T two numbers are followed: the probability w that the apex lives and that all that it has borne
-//! will be dead by T, and the mean number m of the organs due at T that it has made, on that event. An end of the apex at or
-//! before T turns w into the probability that the branch is dead by T, and m into organs that are lost. What an axis bears
-//! is independent of its fate after that, so w and m are multiplied by the probability that it is dead by T, which cohorts
-//! that are born later have told before: cohorts are taken from the last birth to the first.
+//! A flower opens after its delay and a fruit after its flower, unless every bud of the branch is dead by then. So for
+//! each axis and each deadline T two numbers are followed: the probability w that the apex lives and that all that it
+//! has borne will be dead by T, and the mean number m of the organs due at T that it has made, on that event. An end of
+//! the apex at or before T turns w into the probability that the branch is dead by T, and m into organs that are lost.
+//! What an axis bears is independent of its fate after that, so w and m are multiplied by the probability that it is
+//! dead by T, which cohorts that are born later have told before: cohorts are taken from the last birth to the first.
 //!
 //! Absent: released dormant buds and drawn zones, whose branches are not independent of one another (`needs`).
 
@@ -52,8 +52,8 @@ struct Cohort<'a> {
     longest: Tick,
 }
 
-/// The mean numbers of organs that never appear, by order and by the tick at which they were due; `None` where they have no
-/// closed form or the sum would take too long.
+/// The mean numbers of organs that never appear, by order and by the tick at which they were due; `None` where they
+/// have no closed form or the sum would take too long.
 pub fn organs(model: &BudModel, births: &Births, until: Tick) -> Option<Vec<Vec<f64>>> {
     let needs = Needs::of(model, births)?;
     let mut lost = vec![vec![0.0; until as usize + 1]; model.orders.len()];

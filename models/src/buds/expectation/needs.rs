@@ -1,5 +1,5 @@
-//! What a closed form needs: laws that ask nothing but what is known of a cohort, and the axes whose end matters to organs
-//! that have not appeared yet.
+//! What a closed form needs: laws that ask nothing but what is known of a cohort, and the axes whose end matters to
+//! organs that have not appeared yet.
 //!
 //! Absent: the sums (`cohort`, `lost`).
 
@@ -77,8 +77,8 @@ pub struct Needs {
 }
 
 impl Needs {
-    /// Those of the axes that are `born`. `None` where the death of such branches has no closed form here: where dormant buds are released, or growth units draw
-    /// the ranks of their zones.
+    /// Those of the axes that are `born`. `None` where the death of such branches has no closed form here: where
+    /// dormant buds are released, or growth units draw the ranks of their zones.
     pub fn of(model: &BudModel, born: &Births) -> Option<Self> {
         let states = 0..model.states as u8;
         let all = (0..model.orders.len()).flat_map(|order| states.clone().map(move |state| (order, state)));

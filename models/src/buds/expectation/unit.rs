@@ -1,4 +1,5 @@
-//! The means of one growth unit: nodes, organs with the ticks after which they appear, and the axes that its buds become.
+//! The means of one growth unit: nodes, organs with the ticks after which they appear, and the axes that its buds
+//! become.
 //!
 //! They are sums over the distribution of the number of nodes and over ranks, since laws may depend on either. Absent:
 //! the fates of buds, which `cohort` follows, and those of organs, which `lost` does.
@@ -196,8 +197,8 @@ pub fn longest_wait(node: &NodeLaws) -> Tick {
     if sets { opens.saturating_add(node.flower_life.table.max().max(1)) } else { opens }
 }
 
-/// The mean probabilities that a bud of the node at a rank of a growth unit of so many nodes ramifies, with the state that
-/// a zone gives.
+/// The mean probabilities that a bud of the node at a rank of a growth unit of so many nodes ramifies, with the state
+/// that a zone gives.
 fn ramification(node: &NodeLaws, (rank, nodes): Ranks, holding: &[Vec<f64>], at: At) -> Vec<(Option<u8>, f64)> {
     let spread = |(holds, of): (f64, Ramification<'_>)| {
         let probability = holds * of.chance.table.probability(at);

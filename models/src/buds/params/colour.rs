@@ -80,8 +80,9 @@ pub struct LeafColours {
     /// At its last tick before it falls with the season.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub autumn: Option<ColourText>,
-    /// The ticks over which it turns to that colour, the last one before the fall in full; 0: it falls as it is. Left out:
-    /// a sixth of the year's ticks, rounded; where a year is a tick or two, none, for then the leaf is shown as in summer.
+    /// The ticks over which it turns to that colour, the last one before the fall in full; 0: it falls as it is. Left
+    /// out: a sixth of the year's ticks, rounded; where a year is a tick or two, none, for then the leaf is shown as in
+    /// summer.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turns_in: Option<Quantity>,
     /// Of its stalk.

@@ -18,31 +18,32 @@ pub struct Internode {
     pub length_cm: Variate,
     /// The diameter of an internode at its birth, mm.
     pub diameter_mm: Variate,
-    /// What an internode has added to its diameter, mm: a law in which `age` is the plant's age, `dimension` and `cycle`
-    /// the internode's own, in ticks, and the state that in which its axis started.
+    /// What an internode has added to its diameter, mm: a law in which `age` is the plant's age, `dimension` and
+    /// `cycle` the internode's own, in ticks, and the state that in which its axis started.
     pub thickening_mm: Law,
     /// A cylinder has one diameter; a cone narrows to the diameter of the next internode of its axis; a blade is plane,
-    /// as wide as its diameter and of its own thickness, and its tip is as wide as the next internode. One for all axes, or
-    /// one for each state in which an axis can start.
+    /// as wide as its diameter and of its own thickness, and its tip is as wide as the next internode. One for all
+    /// axes, or one for each state in which an axis can start.
     pub shape: ByState<ShapeName>,
-    /// The thickness of internodes that are blades, mm, in [0.001, 1000], for their stiffness, volume and mass; left out:
+    /// The thickness of internodes that are blades, mm, in [0.001, 1000], for their stiffness, volume and mass; left
+    /// out:
     /// 0.3, assumed, as petals and leaf blades have 0.1 to 0.5. Other shapes have none.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 0.001, "maximum" = 1000))]
     pub thickness_mm: Option<Constant>,
-    /// What its internodes are: `internode` where they are those of a stem, else a kind whose name ends in `internode`. One
-    /// for all axes, or one for each state in which an axis can start.
+    /// What its internodes are: `internode` where they are those of a stem, else a kind whose name ends in `internode`.
+    /// One for all axes, or one for each state in which an axis can start.
     #[serde(skip_serializing_if = "ByState::is_plain_kind")]
     pub kind: ByState<KindName>,
-    /// The sides of the tubes that they are drawn as, from 3 to 64: 6 for the hexagonal cones of 1988; left out: as many as
-    /// the mesh has.
+    /// The sides of the tubes that they are drawn as, from 3 to 64: 6 for the hexagonal cones of 1988; left out: as
+    /// many as the mesh has.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sides: Option<Quantity>,
     /// A form that they are drawn with instead of tubes, as long as the internode and as wide as its diameter.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub form: Option<ByState<FormChoice>>,
-    /// Their colour: `"#rrggbb"`, or colours by the age of the wood. One for all axes, or one for each state in which an
-    /// axis can start. Left out: by kind.
+    /// Their colour: `"#rrggbb"`, or colours by the age of the wood. One for all axes, or one for each state in which
+    /// an axis can start. Left out: by kind.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colour: Option<ByState<BarkChoice>>,
 }
@@ -114,8 +115,8 @@ pub struct Divergence {
 #[serde(deny_unknown_fields)]
 #[schemars(inline)]
 pub struct NamedPhyllotaxis {
-    /// `"distichous"`, `"opposite-decussate"`, `"whorled"`, `"spiral"`, or a Fibonacci fraction of a turn such as `"2/5"`:
-    /// the same as the name alone.
+    /// `"distichous"`, `"opposite-decussate"`, `"whorled"`, `"spiral"`, or a Fibonacci fraction of a turn such as
+    /// `"2/5"`: the same as the name alone.
     pub named: String,
     /// Where the name comes from: a reference, a data set, an observation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -170,8 +171,8 @@ pub struct Tended {
     /// Drawn once an axis, at its birth.
     #[schemars(extend("minimum" = 0, "maximum" = 180))]
     pub inclination_deg: Variate,
-    /// The share of the angle that is left which each internode turns, in [0, 1]: after n internodes (1 − share)ⁿ of the
-    /// first angle is left. Drawn once an axis, at its birth.
+    /// The share of the angle that is left which each internode turns, in [0, 1]: after n internodes (1 − share)ⁿ of
+    /// the first angle is left. Drawn once an axis, at its birth.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub share: Variate,
 }
@@ -189,15 +190,15 @@ pub struct StateTrends {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Phase {
-    /// The node rank along the axis from which the phase holds, drawn once an axis, at its birth; the first phase starts
-    /// at 1. Of the phases that have begun the one stated last holds, so a phase that begins no earlier than the next one
-    /// is passed over.
+    /// The node rank along the axis from which the phase holds, drawn once an axis, at its birth; the first phase
+    /// starts at 1. Of the phases that have begun the one stated last holds, so a phase that begins no earlier than the
+    /// next one is passed over.
     pub from_rank: Count,
     /// The angle to the upward vertical that the axis tends to, degrees; drawn once an axis, at its birth.
     #[schemars(extend("minimum" = 0, "maximum" = 180))]
     pub inclination_deg: Variate,
-    /// The share of the angle that is left which each internode turns, in [0, 1]: after n internodes (1 − share)ⁿ of the
-    /// first angle is left. Drawn once an axis, at its birth.
+    /// The share of the angle that is left which each internode turns, in [0, 1]: after n internodes (1 − share)ⁿ of
+    /// the first angle is left. Drawn once an axis, at its birth.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub share: Variate,
 }

@@ -19,7 +19,8 @@ pub enum FormChoice {
     Own(OwnForm),
 }
 
-/// A mesh of the user's: it is moved and scaled into the unit box of forms, x from the base (0) to the tip (1), y across.
+/// A mesh of the user's: it is moved and scaled into the unit box of forms, x from the base (0) to the tip (1), y
+/// across.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OwnForm {

@@ -1,9 +1,9 @@
 //! The parameters of the bud model as a species file states them (de Reffye 1988 §4, the list of parameters).
 //!
 //! One [`Order`] for each order of axes, the trunk first; every probability is a [`Law`] of state and the variables of
-//! [`crate::law`], every number of things a [`Count`], every measure a [`Variate`], every speed one of [`Speeds`], and what
-//! is one for a whole species a [`Quantity`] or a [`Constant`]; so each may be bare or say its source. A species without
-//! states, reiteration and relays reads as in 1988. Axes of an order past the last are never made.
+//! [`crate::law`], every number of things a [`Count`], every measure a [`Variate`], every speed one of [`Speeds`], and
+//! what is one for a whole species a [`Quantity`] or a [`Constant`]; so each may be bare or say its source. A species
+//! without states, reiteration and relays reads as in 1988. Axes of an order past the last are never made.
 //!
 //! Absent on purpose: what the parameters do, which is in `compile` and `grow`.
 
@@ -37,8 +37,8 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Buds {
-    /// The physiological states that an axis can be in (juvenile, adult; long shoot, short shoot), the first one that of
-    /// the seed's axis. Left out: one state, as in 1988.
+    /// The physiological states that an axis can be in (juvenile, adult; long shoot, short shoot), the first one that
+    /// of the seed's axis. Left out: one state, as in 1988.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub states: Vec<String>,
     /// When leaves fall together, whatever their age.
@@ -56,8 +56,8 @@ pub struct Buds {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Order {
-    /// Clock steps per tick, as an exact ratio: 1, 0.5, "2/3"; or several, of which each axis draws one at its birth. In
-    /// de Reffye's Fig. 14 the growth ratio r of order 1 over order 2 is 1/speed of order 2.
+    /// Clock steps per tick, as an exact ratio: 1, 0.5, "2/3"; or several, of which each axis draws one at its birth.
+    /// In de Reffye's Fig. 14 the growth ratio r of order 1 over order 2 is 1/speed of order 2.
     pub speed: Speeds,
     /// The probability that a living apical bud dies at a clock step. Tested first.
     pub death: Law,
@@ -96,8 +96,8 @@ pub struct Order {
     /// What the wood of this order is, where it is not that of the species, and how its axes right themselves.
     #[serde(skip_serializing_if = "OrderWood::is_as_the_species")]
     pub wood: OrderWood,
-    /// After how many ticks a branch falls, all of whose buds are dead; drawn once an axis, at its birth, where a law of
-    /// it knows the `age` of the plant. Left out: dead wood stays.
+    /// After how many ticks a branch falls, all of whose buds are dead; drawn once an axis, at its birth, where a law
+    /// of it knows the `age` of the plant. Left out: dead wood stays.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shed_after: Option<Count>,
 }
@@ -241,15 +241,15 @@ pub struct Zone {
     pub from: End,
     /// The first rank of the zone, from 1 at that end; drawn once a growth unit.
     pub first: Count,
-    /// The last rank of the zone, drawn once a growth unit; one before the first makes a unit without the zone. Left out:
-    /// the other end.
+    /// The last rank of the zone, drawn once a growth unit; one before the first makes a unit without the zone. Left
+    /// out: the other end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub last: Option<Count>,
     /// The law of ramification of this zone; left out: that of the order.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ramification: Option<Law>,
-    /// The state in which the axes of this zone start, as long shoots at the tip and short ones below: one, or a share for
-    /// each; left out: that of the order's axillary buds.
+    /// The state in which the axes of this zone start, as long shoots at the tip and short ones below: one, or a share
+    /// for each; left out: that of the order's axillary buds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<ZoneState>,
 }

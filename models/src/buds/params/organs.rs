@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 pub struct Season {
     /// The ticks of a year. They are not drawn: the year is the calendar's, and the same for every leaf of a plant.
     pub ticks_per_year: Quantity,
-    /// The tick of the year, from 0, at whose beginning a leaf falls that appeared before it; drawn once a leaf, with its
-    /// laws asked at the node, so that leaves may fall one after another.
+    /// The tick of the year, from 0, at whose beginning a leaf falls that appeared before it; drawn once a leaf, with
+    /// its laws asked at the node, so that leaves may fall one after another.
     pub leaf_fall: Count,
 }
 
@@ -28,8 +28,8 @@ pub struct OrganTrend {
     /// The angle to the upward vertical that the organ turns to, degrees in [0, 180]: 0 upright, 180 hanging.
     #[schemars(extend("minimum" = 0, "maximum" = 180))]
     pub inclination_deg: Constant,
-    /// The share of the angle from its insertion to that direction that an organ has turned, in [0, 1]: a law of its own age,
-    /// which is `dimension` and `cycle` here, in ticks; 1 leaves nothing of the insertion but its azimuth.
+    /// The share of the angle from its insertion to that direction that an organ has turned, in [0, 1]: a law of its
+    /// own age, which is `dimension` and `cycle` here, in ticks; 1 leaves nothing of the insertion but its azimuth.
     pub share: Law,
 }
 
@@ -64,8 +64,8 @@ pub struct Leaf {
     /// Width of the blade, cm.
     pub width_cm: Variate,
     /// Area of one side with the stalk, as a share of length × width, in [0, 20]; above 1 where many parts lie one over
-    /// another. Left out: that of its form. Meshes have the area that is stated: simple blades are drawn as much wider or
-    /// narrower, compound ones in their leaflets.
+    /// another. Left out: that of its form. Meshes have the area that is stated: simple blades are drawn as much wider
+    /// or narrower, compound ones in their leaflets.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 0, "maximum" = 20))]
     pub area_share: Option<Variate>,
@@ -82,8 +82,8 @@ pub struct Leaf {
     /// What it is: `leaf`, or another kind that stands as a leaf does: a leaflet, a bract, a scale, a part of a flower.
     #[serde(skip_serializing_if = "KindName::is_leaf")]
     pub kind: KindName,
-    /// The share of its full length and width, in [0, 1]: a law in which `dimension` and `cycle` are its own age in ticks.
-    /// Left out: full-grown at its birth.
+    /// The share of its full length and width, in [0, 1]: a law in which `dimension` and `cycle` are its own age in
+    /// ticks. Left out: full-grown at its birth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expansion: Option<Law>,
     /// Its colour: `"#rrggbb"`, or colours by its age and season. Left out: by kind and form.
@@ -114,8 +114,8 @@ impl Default for Leaf {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Flower {
-    /// The probability that the apical bud becomes a flower at a clock step, which ends the axis. Tested after the pause.
-    /// The flower stands on the last node of the axis; a bud without a node of its own ends without one.
+    /// The probability that the apical bud becomes a flower at a clock step, which ends the axis. Tested after the
+    /// pause. The flower stands on the last node of the axis; a bud without a node of its own ends without one.
     pub terminal: Law,
     /// The probability that a lateral flower opens, asked for each of the flowers of a node.
     pub lateral: Law,
@@ -141,8 +141,8 @@ pub struct Flower {
     /// What it is: `flower`, or an inflorescence or a spikelet.
     #[serde(skip_serializing_if = "KindName::is_flower")]
     pub kind: KindName,
-    /// The share of its full length and width, in [0, 1]: a law in which `dimension` and `cycle` are its own age in ticks.
-    /// Left out: full-grown at its birth.
+    /// The share of its full length and width, in [0, 1]: a law in which `dimension` and `cycle` are its own age in
+    /// ticks. Left out: full-grown at its birth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expansion: Option<Law>,
     /// Its colour: `"#rrggbb"`, or colours by its age. Left out: by kind and form.
@@ -189,8 +189,8 @@ pub struct Fruit {
     /// What it is: `fruit`, or an infructescence or a strobilus.
     #[serde(skip_serializing_if = "KindName::is_fruit")]
     pub kind: KindName,
-    /// The share of its full length and width, in [0, 1]: a law in which `dimension` and `cycle` are its own age in ticks.
-    /// Left out: full-grown at its birth.
+    /// The share of its full length and width, in [0, 1]: a law in which `dimension` and `cycle` are its own age in
+    /// ticks. Left out: full-grown at its birth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expansion: Option<Law>,
     /// Its colour: `"#rrggbb"`, or colours by its age. Left out: by kind and form.

@@ -1,4 +1,5 @@
-//! The ends of apices and what follows them: relays and reiteration (de Reffye 1988 §2), forks, and passages between states.
+//! The ends of apices and what follows them: relays and reiteration (de Reffye 1988 §2), forks, and passages between
+//! states.
 //!
 //! Forks are the dichotomy of Hallé, Oldeman & Tomlinson 1978 (Schoute's model).
 //! Passages between states are those of a reference axis (Barczi et al. 2008, AMAPsim): an oriented automaton along the
@@ -47,9 +48,9 @@ pub enum ApexEnd {
     Completed,
 }
 
-/// Sympodial growth: relay axes of the same order, from the last node of an ended axis or from one below. Relay buds are
-/// buds of their own beside the axillary ones; an axis that ends before it has a node of its own is not relayed. An axis
-/// that passes into another state may be relayed too (`transition.relayed`), while its apex lives on.
+/// Sympodial growth: relay axes of the same order, from the last node of an ended axis or from one below. Relay buds
+/// are buds of their own beside the axillary ones; an axis that ends before it has a node of its own is not relayed. An
+/// axis that passes into another state may be relayed too (`transition.relayed`), while its apex lives on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Relay {
@@ -117,8 +118,8 @@ pub struct Reiteration {
     pub buds: Count,
     /// The probability that a reiteration bud becomes an axis.
     pub probability: Law,
-    /// The order of the new axis. It is not drawn: an order names a table of this file, and to pass from one kind of axis
-    /// to another by chance is what `probability` and the states are for.
+    /// The order of the new axis. It is not drawn: an order names a table of this file, and to pass from one kind of
+    /// axis to another by chance is what `probability` and the states are for.
     pub order: Quantity,
     /// The ticks that it waits.
     pub delay: Count,

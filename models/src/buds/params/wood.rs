@@ -1,9 +1,9 @@
 //! The wood of a species: how internodes thicken beyond their law of age, what they weigh, and how they bend
 //! (de Reffye 1988 §5; the mechanics is `phytomer_sim::mechanics`).
 //!
-//! A species without a `[wood]` table keeps the pose at rest and the law `thickening_mm` of each order. People type GPa,
-//! millimetres and degrees; compilation makes SI of them. Absent: the measured table of woods, which `like` names and the
-//! reader of species files fills in.
+//! A species without a `[wood]` table keeps the pose at rest and the law `thickening_mm` of each order. People type
+//! GPa, millimetres and degrees; compilation makes SI of them. Absent: the measured table of woods, which `like` names
+//! and the reader of species files fills in.
 
 use crate::law::{Constant, Law, Quantity};
 use schemars::JsonSchema;

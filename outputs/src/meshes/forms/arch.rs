@@ -1,4 +1,5 @@
-//! Blades that bend along their length: grass and banana leaves, petals and sepals, each of at most four plane polygons.
+//! Blades that bend along their length: grass and banana leaves, petals and sepals, each of at most four plane
+//! polygons.
 //!
 //! A blade that arches is four stretches of a strip, one after another; its length runs along the bend. A petal is two
 //! stretches folded along the middle, hollow above (plane polygons, as in de Reffye 1988 §6). Absent: stalks.

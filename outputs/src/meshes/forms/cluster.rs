@@ -1,8 +1,9 @@
-//! What is many organs in nature and drawn as one: needles of a shoot or a short shoot, and inflorescences of many flowers.
+//! What is many organs in nature and drawn as one: needles of a shoot or a short shoot, and inflorescences of many
+//! flowers.
 //!
-//! Conifers bear hundreds of thousands of needles and a panicle a thousand flowers; one organ each would cost a component
-//! each (de Reffye 1988 §6 likewise draws small fruits as a few vectors). Needles are triangles, flowers plane polygons. Absent:
-//! inflorescences that are plants of their own (§5), which species files grow.
+//! Conifers bear hundreds of thousands of needles and a panicle a thousand flowers; one organ each would cost a
+//! component each (de Reffye 1988 §6 likewise draws small fruits as a few vectors). Needles are triangles, flowers
+//! plane polygons. Absent: inflorescences that are plants of their own (§5), which species files grow.
 
 use super::{Depth, Shape, along};
 use phytomer_sim::math::sincosf;

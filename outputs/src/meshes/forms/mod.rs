@@ -1,12 +1,14 @@
-//! The library of forms (de Reffye 1988 §6): a small mesh for each form of organ, in a unit box, put in place by scaling.
+//! The library of forms (de Reffye 1988 §6): a small mesh for each form of organ, in a unit box, put in place by
+//! scaling.
 //!
-//! In the box x runs from the base (0) to the tip (1) along the organ, y across it to its left (−½ to ½), z to its upper
-//! side. Length scales x, width y, and one of the two z; a form is parametrised by age through the two. An organ of
-//! which an area is stated is drawn as much slimmer or fuller as that area asks (`side`): a simple blade in its width, a
-//! compound one in each of its parts, so that leaflets and needles keep their reach. Triangles are single-sided,
-//! counterclockwise as seen from the upper or outer side, with one normal a vertex: the ten readers of the profile draw
-//! both sides or let the user choose, and doubled faces would flicker and count twice in areas. Leaves are assemblies of
-//! at most four plane convex polygons, folded along the midrib. Internodes are tubes ([`super::tube`]); buds are not drawn.
+//! In the box x runs from the base (0) to the tip (1) along the organ, y across it to its left (−½ to ½), z to its
+//! upper side. Length scales x, width y, and one of the two z; a form is parametrised by age through the two. An organ
+//! of which an area is stated is drawn as much slimmer or fuller as that area asks (`side`): a simple blade in its
+//! width, a compound one in each of its parts, so that leaflets and needles keep their reach. Triangles are
+//! single-sided, counterclockwise as seen from the upper or outer side, with one normal a vertex: the ten readers of
+//! the profile draw both sides or let the user choose, and doubled faces would flicker and count twice in areas. Leaves
+//! are assemblies of at most four plane convex polygons, folded along the midrib. Internodes are tubes
+//! ([`super::tube`]); buds are not drawn.
 
 mod arch;
 mod blade;
@@ -168,8 +170,8 @@ impl Shape {
         self.faces.extend((1..corners.len() as u32 - 1).map(|k| [first, first + k, first + k + 1]));
     }
 
-    /// The same for a part that is slim or full about its own middle line, which lies in its plane: corners by their places on
-    /// that line and their distances from it.
+    /// The same for a part that is slim or full about its own middle line, which lies in its plane: corners by their
+    /// places on that line and their distances from it.
     fn part(&mut self, corners: &[[[f32; 3]; 2]], stalk: bool) {
         let first = self.points.len();
         let places: Vec<[f32; 3]> = corners.iter().map(|[on, across]| [0, 1, 2].map(|k| on[k] + across[k])).collect();
@@ -178,8 +180,8 @@ impl Shape {
         self.points[first..].iter_mut().zip(corners).for_each(|(point, corner)| point.across = corner[1]);
     }
 
-    /// Writes the vertices of the shape in its place; `out` has exactly their number. `tags` are of the organ and of its
-    /// stalk.
+    /// Writes the vertices of the shape in its place; `out` has exactly their number. `tags` are of the organ and of
+    /// its stalk.
     #[inline]
     pub fn write(&self, place: &Placement, tags: &[Tag; 2], out: &mut [Vertex]) {
         let Placement { base, heading: h, up, size: [length, width], fullness } = *place;

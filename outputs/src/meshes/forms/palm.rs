@@ -1,5 +1,5 @@
-//! Compound leaves drawn whole: a pinnate palm leaf with an arching rachis of four sides and leaflets in pairs along it,
-//! narrow kites that hang a little; and a pinnate leaf of nine leaflets.
+//! Compound leaves drawn whole: a pinnate palm leaf with an arching rachis of four sides and leaflets in pairs along
+//! it, narrow kites that hang a little; and a pinnate leaf of nine leaflets.
 //!
 //! De Reffye 1988 §5 (Fig. 16) grows a palm as a growth unit of its own, as species files can; here it is one organ.
 

@@ -88,8 +88,8 @@ fn meridian_normal(meridian: &[[f32; 2]], row: usize) -> [f32; 2] {
     [normal[0], normal[1]]
 }
 
-/// The same around a curve: rings at places along x that rise, each with the height of the curve there and its radius. Rings stay
-/// across x, so that the surface leans where the curve rises.
+/// The same around a curve: rings at places along x that rise, each with the height of the curve there and its radius.
+/// Rings stay across x, so that the surface leans where the curve rises.
 pub(super) fn swept(shape: &mut Shape, rings: &[[f32; 3]], sides: u16, stalk: bool) {
     let first = shape.points.len();
     let meridian: Vec<[f32; 2]> = rings.iter().map(|&[x, _, r]| [x, r]).collect();

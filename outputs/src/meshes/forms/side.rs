@@ -1,11 +1,12 @@
-//! One side of a form: its area as a share of length × width, and how a form is drawn slimmer or fuller to hold an area.
+//! One side of a form: its area as a share of length × width, and how a form is drawn slimmer or fuller to hold an
+//! area.
 //!
-//! The area of a sheet is the sum of its triangles, of folded and hollow ones too; of a closed part half its surface, as
-//! for needles (Chen & Black 1992, "one half the total intercepting area"). With a triangle's area vector a in the unit
-//! box and r = width / length its area in place is length × width × √((r aₓ)² + a_y² + a_z²) where the width scales the
-//! depth, and length × width × √(aₓ² + (a_y / r)² + a_z²) where the length does. So the share of a form that is folded
-//! along its length does not depend on r, and that of any other does a little. Absent: flowers and fruits, whose tables
-//! state no area.
+//! The area of a sheet is the sum of its triangles, of folded and hollow ones too; of a closed part half its surface,
+//! as for needles (Chen & Black 1992, "one half the total intercepting area"). With a triangle's area vector a in the
+//! unit box and r = width / length its area in place is length × width × √((r aₓ)² + a_y² + a_z²) where the width
+//! scales the depth, and length × width × √(aₓ² + (a_y / r)² + a_z²) where the length does. So the share of a form that
+//! is folded along its length does not depend on r, and that of any other does a little. Absent: flowers and fruits,
+//! whose tables state no area.
 
 use super::{Depth, Point};
 use std::collections::BTreeMap;
@@ -75,8 +76,8 @@ impl Side {
         })
     }
 
-    /// How many times fuller than its form an organ of this length and width is drawn to have `area`: each of its parts about
-    /// its own middle where it is `in_parts`, else its width. 1 where no area is stated.
+    /// How many times fuller than its form an organ of this length and width is drawn to have `area`: each of its parts
+    /// about its own middle where it is `in_parts`, else its width. 1 where no area is stated.
     #[inline]
     pub fn fullness(&self, [length, width]: [f32; 2], area: f32, in_parts: bool) -> f32 {
         let box_area = length * width;
@@ -115,8 +116,8 @@ fn vector([a, b, c]: [[f32; 3]; 3]) -> [f64; 3] {
     [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx]
 }
 
-/// For each triangle whether the part that it belongs to is closed: at each of its edges triangles meet in pairs of either
-/// direction. A part is what hangs together by edges; corners are the same where their places are.
+/// For each triangle whether the part that it belongs to is closed: at each of its edges triangles meet in pairs of
+/// either direction. A part is what hangs together by edges; corners are the same where their places are.
 fn closed(points: &[[f32; 3]], faces: &[[u32; 3]]) -> Vec<bool> {
     let mut edges: BTreeMap<[[u32; 3]; 2], (usize, i64)> = BTreeMap::new();
     let mut parts = Parts { parents: (0..faces.len()).collect() };

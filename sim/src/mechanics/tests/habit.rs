@@ -222,7 +222,8 @@ fn a_settled_plant_stays_where_it_is() {
     }
 }
 
-/// A fruit weighs as the ellipsoid of its length and width, bends its branch while it hangs, and lets it go when it falls.
+/// A fruit weighs as the ellipsoid of its length and width, bends its branch while it hangs, and lets it go when it
+/// falls.
 #[test]
 fn a_branch_springs_back_when_its_fruit_falls() {
     let rod = Rod { flexural: 0.01, ..Rod::level(40) };

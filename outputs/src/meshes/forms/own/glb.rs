@@ -1,7 +1,7 @@
 //! Triangles out of a binary glTF 2.0 (GLB): the scene's nodes with their transforms, the triangles of their meshes.
 //!
-//! The JSON chunk is read with serde_json, the binary chunk by hand. glTF has y up: a point (x, y, z) becomes (x, −z, y).
-//! Absent: strips and fans, sparse accessors, compressed meshes, buffers in files of their own; each is a fault.
+//! The JSON chunk is read with serde_json, the binary chunk by hand. glTF has y up: a point (x, y, z) becomes (x, −z,
+//! y). Absent: strips and fans, sparse accessors, compressed meshes, buffers in files of their own; each is a fault.
 
 use super::{MOST_TRIANGLES, MeshFault, Read, Soup};
 use serde_json::Value;
@@ -14,7 +14,8 @@ const BINARY: &[u8] = b"BIN\0";
 const DEEPEST: usize = 32;
 /// Nodes and primitives visited in all: a node may stand in several places.
 const MOST_VISITED: usize = 4096;
-/// Vertices in all, with those that primitives share and do not use: a small file can name the same ones again and again.
+/// Vertices in all, with those that primitives share and do not use: a small file can name the same ones again and
+/// again.
 const MOST_POINTS: usize = 30 * MOST_TRIANGLES;
 
 /// Four columns of a transform.

@@ -1,9 +1,11 @@
-//! Meshes of the user's as forms: read from PLY, OBJ or GLB, checked, moved and scaled into the unit box of the library.
+//! Meshes of the user's as forms: read from PLY, OBJ or GLB, checked, moved and scaled into the unit box of the
+//! library.
 //!
 //! In the file x runs along the organ from its base to its tip, y across it and z to its upper side, in any unit, about
 //! the x axis as the organ's own line; a GLB, whose y is up, is turned first. The least x becomes 0 and the greatest 1,
-//! the greatest distance from the line ½, and z is scaled as y is. Vertices that a file shares between triangles have the
-//! mean of their normals, by area. Absent: materials, textures and the file's own normals; a species states colours.
+//! the greatest distance from the line ½, and z is scaled as y is. Vertices that a file shares between triangles have
+//! the mean of their normals, by area. Absent: materials, textures and the file's own normals; a species states
+//! colours.
 
 mod glb;
 mod obj;

@@ -1,7 +1,9 @@
 //! Triangles out of a Wavefront OBJ: the statements `v` and `f`; polygons become triangles.
 //!
-//! A statement is a line, or several of which each but the last ends in a backslash; lines end in LF, CR LF or CR, and a
-//! `#` begins a comment, which is never continued: paths in comments end in backslashes. A corner is `v`, `v/vt`, `v//vn` or
+//! A statement is a line, or several of which each but the last ends in a backslash; lines end in LF, CR LF or CR, and
+//! a
+//! `#` begins a comment, which is never continued: paths in comments end in backslashes. A corner is `v`, `v/vt`,
+//! `v//vn` or
 //! `v/vt/vn`, counted from 1 or, negative, from the end. Corners with the same `v` and `vn` are one vertex, so that a
 //! file's hard edges stay hard. Absent: everything else, which is passed over.
 

@@ -1,7 +1,7 @@
 //! Triangles out of a polygon of a mesh file.
 //!
-//! A fan from the first corner where it covers the polygon, as of every convex one; else ears are cut off one after another
-//! (Meisters 1975, "Polygons have ears"), in that coordinate plane in which the polygon is largest.
+//! A fan from the first corner where it covers the polygon, as of every convex one; else ears are cut off one after
+//! another (Meisters 1975, "Polygons have ears"), in that coordinate plane in which the polygon is largest.
 //! At most n² tests of a corner against a triangle. Absent: holes; a polygon that crosses itself stays a fan.
 
 /// So small a share of a polygon may a fan cover twice: corners in a line are never quite so in 32 bits.

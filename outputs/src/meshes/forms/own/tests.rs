@@ -125,8 +125,8 @@ fn nodes_of_a_glb_have_their_transforms() {
     }
 }
 
-/// What exporters write: statements over several lines, all line ends, tabs, marks, comments in any encoding, exponents,
-/// weights and colours of vertices, corners from the end, normals from the end.
+/// What exporters write: statements over several lines, all line ends, tabs, marks, comments in any encoding,
+/// exponents, weights and colours of vertices, corners from the end, normals from the end.
 #[test]
 fn an_obj_is_read_as_exporters_write_it() {
     let square = "v 0 -1 0\nv 2 -1 0\nv 2 1 0\nv 0 1 0\n";
