@@ -6,6 +6,7 @@
 //! Absent: growth formulas, and anything that runs.
 
 mod alone;
+mod architectural_model;
 mod document;
 mod forms;
 mod inherit;
@@ -23,11 +24,12 @@ mod validate;
 mod woods;
 
 pub use alone::recorded_alone;
+pub use architectural_model::ArchitecturalModel;
 pub use library::{Kind, presets};
 pub use published::Published;
 pub use report::{Fault, FaultRecord, Report};
 pub use scenario::Scenario;
 pub use source::{Origin, Source, SourceId, Sources, Span};
-pub use species::{About, ArchitecturalModel, MODELS, Model, ModelName, Species};
+pub use species::{About, MODELS, Model, ModelName, Species};
 pub use validate::{Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, kind_of, schema_of, validate, validate_species};
 pub use woods::{ShippedWood, woods};

@@ -16,6 +16,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json, json};
 
+use crate::architectural_model::ArchitecturalModel;
 use crate::inherit::{EVERY_ORDER, ORDER};
 use crate::published::{PUBLISHED, Published};
 use crate::schema::{join, of_type, partial, resolve};
@@ -85,95 +86,6 @@ impl About {
         let path = Path::root().key("ticks_per_year");
         let year = self.ticks_per_year.as_ref().and_then(|ticks| ticks.within(&path, YEAR).err());
         year.into_iter().chain(published).collect()
-    }
-}
-
-/// The 23 architectural models of tropical trees (Hallé, Oldeman & Tomlinson 1978).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-#[schemars(inline)]
-#[allow(missing_docs)]
-pub enum ArchitecturalModel {
-    Holttum,
-    Corner,
-    Tomlinson,
-    Schoute,
-    Chamberlain,
-    McClure,
-    Leeuwenberg,
-    Koriba,
-    Prevost,
-    Fagerlind,
-    Petit,
-    Nozeran,
-    Aubreville,
-    Massart,
-    Roux,
-    Cook,
-    Scarrone,
-    Stone,
-    Rauh,
-    Attims,
-    Mangenot,
-    Champagnat,
-    Troll,
-}
-
-impl ArchitecturalModel {
-    /// Every model, in the order of Hallé, Oldeman & Tomlinson.
-    pub const ALL: [Self; 23] = [
-        Self::Holttum,
-        Self::Corner,
-        Self::Tomlinson,
-        Self::Schoute,
-        Self::Chamberlain,
-        Self::McClure,
-        Self::Leeuwenberg,
-        Self::Koriba,
-        Self::Prevost,
-        Self::Fagerlind,
-        Self::Petit,
-        Self::Nozeran,
-        Self::Aubreville,
-        Self::Massart,
-        Self::Roux,
-        Self::Cook,
-        Self::Scarrone,
-        Self::Stone,
-        Self::Rauh,
-        Self::Attims,
-        Self::Mangenot,
-        Self::Champagnat,
-        Self::Troll,
-    ];
-
-    /// The word of the key `architectural_model`, and of the shipped species in `halle/`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Holttum => "holttum",
-            Self::Corner => "corner",
-            Self::Tomlinson => "tomlinson",
-            Self::Schoute => "schoute",
-            Self::Chamberlain => "chamberlain",
-            Self::McClure => "mcclure",
-            Self::Leeuwenberg => "leeuwenberg",
-            Self::Koriba => "koriba",
-            Self::Prevost => "prevost",
-            Self::Fagerlind => "fagerlind",
-            Self::Petit => "petit",
-            Self::Nozeran => "nozeran",
-            Self::Aubreville => "aubreville",
-            Self::Massart => "massart",
-            Self::Roux => "roux",
-            Self::Cook => "cook",
-            Self::Scarrone => "scarrone",
-            Self::Stone => "stone",
-            Self::Rauh => "rauh",
-            Self::Attims => "attims",
-            Self::Mangenot => "mangenot",
-            Self::Champagnat => "champagnat",
-            Self::Troll => "troll",
-        }
     }
 }
 
