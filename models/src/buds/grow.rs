@@ -214,6 +214,7 @@ impl<'a> Axis<'a> {
         Ok(())
     }
 
+    #[inline]
     fn read_node(&mut self) {
         if self.laws.node.width == 0 {
             return;

@@ -181,7 +181,13 @@ impl GrowthModel for BudModel {
     }
 
     fn expectation(&self, until: Tick) -> Option<Expectation> {
-        if self.asks_the_bud() { None } else { self.expectation_from(1, until) }
+        if self.asks_the_bud() {
+            return None;
+        }
+        match until.min(self.until) {
+            last if last == self.until => self.expected.get_or_init(|| self.expectation_from(1, last)).clone(),
+            age => self.expectation_from(1, age),
+        }
     }
 
     /// Diameter at birth plus the thickening of the internode's order at the plant's age and its own.

@@ -236,9 +236,10 @@ impl Grid {
     /// The cell of a point, clamped to the grid.
     #[inline]
     pub fn cell(&self, at: At) -> usize {
-        if self.len == 1 {
-            return 0;
-        }
+        if self.len == 1 { 0 } else { self.cell_among(&at) }
+    }
+
+    fn cell_among(&self, at: &At) -> usize {
         let at = at.all();
         let along = |axis: usize| at[axis].saturating_sub(self.first[axis]).min(self.span[axis]) * self.stride[axis];
         let mut cell = along(STATE);

@@ -28,8 +28,9 @@ use crate::fault::{self, Fault, Path};
 use crate::law::{Asked, Domain, ValueTable};
 use compiler::Compiler;
 use phytomer_sim::clock::LAST_TICK;
+use phytomer_sim::expectation::Expectation;
 use phytomer_sim::plant::{Habit, OrganTrends, Trend};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// The most orders that a species may have.
 const MOST_ORDERS: usize = 16;
@@ -41,6 +42,8 @@ pub struct BudModel {
     pub(super) states: usize,
     pub(super) until: u32,
     pub(super) habit: Arc<Habit>,
+    /// The expectation up to the last age, once it has been asked for: several ask before the first tick.
+    pub(super) expected: OnceLock<Option<Expectation>>,
 }
 
 /// The compiled laws of one order.
@@ -85,7 +88,7 @@ impl Buds {
         }
         let habit = Habit { trends, looks, organ_trends, wood };
         let states = self.states.len().max(1);
-        Ok(BudModel { orders, states, until, habit: Arc::new(habit) })
+        Ok(BudModel { orders, states, until, habit: Arc::new(habit), expected: OnceLock::new() })
     }
 
     fn check(&self, until: u32, path: &Path) -> Vec<Fault> {

@@ -75,7 +75,10 @@ impl Chance {
     /// Whether it happens, the `nth` time (from 0) in this record.
     #[inline]
     pub fn happens(&self, words: &[u32], nth: u32, at: At) -> bool {
-        self.fixed.unwrap_or_else(|| self.table.happens(self.slot.word(words, nth), at))
+        match self.fixed {
+            Some(fixed) => fixed,
+            None => self.table.happens(self.slot.word(words, nth), at),
+        }
     }
 }
 
@@ -97,7 +100,10 @@ impl Number {
     /// How many, the `nth` time (from 0) in this record.
     #[inline]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> u32 {
-        self.fixed.unwrap_or_else(|| self.table.sample(self.slot.word(words, nth), at))
+        match self.fixed {
+            Some(fixed) => fixed,
+            None => self.table.sample(self.slot.word(words, nth), at),
+        }
     }
 }
 
@@ -120,6 +126,9 @@ impl Measure {
     /// The value in SI units or radians, the `nth` time (from 0) in this record.
     #[inline]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> f32 {
-        self.fixed.unwrap_or_else(|| self.table.draw(self.slot.word(words, nth), at) * self.unit)
+        match self.fixed {
+            Some(fixed) => fixed,
+            None => self.table.draw(self.slot.word(words, nth), at) * self.unit,
+        }
     }
 }

@@ -78,8 +78,7 @@ fn stated(order: &Order) -> Option<&[Zone]> {
 
 impl Zones {
     /// The zones of an order, their own laws of ramification with words for the axillary buds of a node, at most so
-    /// many;
-    /// `None`: every node.
+    /// many; `None`: every node.
     pub fn compile(
         order: &Order,
         ranks: &ZoneRanks,

@@ -26,8 +26,7 @@ pub struct Internode {
     /// axes, or one for each state in which an axis can start.
     pub shape: ByState<ShapeName>,
     /// The thickness of internodes that are blades, mm, in [0.001, 1000], for their stiffness, volume and mass; left
-    /// out:
-    /// 0.3, assumed, as petals and leaf blades have 0.1 to 0.5. Other shapes have none.
+    /// out: 0.3, assumed, as petals and leaf blades have 0.1 to 0.5. Other shapes have none.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 0.001, "maximum" = 1000))]
     pub thickness_mm: Option<Constant>,
