@@ -4,9 +4,9 @@
 //! - The pipe model (Shinozaki et al. 1964): each leaf above adds a pipe of one section. Pipes stay in the wood when
 //!   their leaves fall.
 //! - Da Vinci's rule (Prusinkiewicz & Lindenmayer 1990 §2, "da Vinci's postulate"): at a fork d^Δ is the sum of d^Δ
-//! above.
+//!   above.
 //! - Rings: each tick adds a ring of one width, or a section in proportion to the foliage above (Pressler's law), as
-//! far as   its leaves have expanded.
+//!   far as its leaves have expanded.
 //!
 //! Fallen branches count on in what lay below them: wood does not vanish. Absent: heartwood, and growth that differs
 //! around the stem.
