@@ -1,11 +1,10 @@
 //! The variables of laws: each declared once with its name, its meaning and its range, and which of them can be known
 //! where a law is asked.
 //!
-//! De Reffye et al. 1988 §3: "the age of a node or a bud [is] its date of birth according to the clock of the model,
-//! with time 0 being the time when the seed begins to grow; the dimension of a node or a bud is its age relative to the
-//! birthday of its axis". Neither moves while the bud pauses. Those are `bud_birth` and `bud_dimension`; `age` and
-//! `dimension` are those of the clock at the moment of the draw, and move with every tick. Of a node that is being made
-//! the paper's age and dimension are `age` and `dimension`: it is born at that tick.
+//! In de Reffye et al. 1988 §3 the age of a bud or a node is the tick at which it was born, counted from the seed, and
+//! its dimension the same tick counted from the birth of its axis, so neither moves while the bud pauses. Those are
+//! `bud_birth` and `bud_dimension` here; `age` and `dimension` are read from the clock at the moment of the draw and
+//! move with every tick. For a node that is being made both meanings agree, because it is born at that tick.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
