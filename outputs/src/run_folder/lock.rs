@@ -108,6 +108,8 @@ impl Drop for Lock {
     fn drop(&mut self) {
         // A name that stays does no harm: only the lock says whether somebody is there.
         let _ = self.file.set_len(0);
+        // Closing would do, but a child process that is just being started holds copies of all open files for a moment.
+        let _ = self.file.unlock();
     }
 }
 
@@ -127,7 +129,10 @@ pub fn holder_of(folder: &Path) -> Option<Holder> {
     let file = File::open(folder.join(LOCK)).ok()?;
     match file.try_lock_shared() {
         Err(TryLockError::WouldBlock) => Some(Holder::named_in(&file)),
-        _ => None,
+        _ => {
+            let _ = file.unlock();
+            None
+        }
     }
 }
 
