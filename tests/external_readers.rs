@@ -115,7 +115,7 @@ fn independent_readers_agree_on_a_small_run() {
     std::fs::write(&scenario, SCENARIO).expect("a scenario file");
     let run = grow(folder.path(), scenario.to_str().expect("a path in UTF-8"));
     read(&python, "tables.py", &[&run]);
-    read(&python, "meshes.py", &[&run, "8", "tubes"]);
+    read(&python, "meshes.py", &[&run, "tubes"]);
 }
 
 #[test]
@@ -126,7 +126,7 @@ fn independent_readers_agree_on_plants_that_bend() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let run = grow(folder.path(), &format!("{ROOT}/tests/data/runs/bending.toml"));
     read(&python, "tables.py", &[&run]);
-    read(&python, "meshes.py", &[&run, "8"]);
+    read(&python, "meshes.py", &[&run]);
 }
 
 /// Rhizome, shoots and panicle: kinds of their own, each with its Plant Ontology term.
@@ -138,7 +138,7 @@ fn independent_readers_agree_on_herbs_on_a_rhizome() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let run = grow(folder.path(), "meadow_grass");
     read(&python, "tables.py", &[&run]);
-    read(&python, "meshes.py", &[&run, "8"]);
+    read(&python, "meshes.py", &[&run]);
 }
 
 #[test]
@@ -163,7 +163,7 @@ fn independent_readers_agree_on_the_shipped_gmt1() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let run = grow(folder.path(), "gmt1");
     read(&python, "tables.py", &[&run]);
-    read(&python, "meshes.py", &[&run, "8", "tubes"]);
+    read(&python, "meshes.py", &[&run, "tubes"]);
 }
 
 #[test]
@@ -240,5 +240,5 @@ fn independent_readers_agree_on_a_given_run() {
     };
     let run = run.to_str().expect("a path in UTF-8").to_owned();
     read(&python, "tables.py", &[&run]);
-    read(&python, "meshes.py", &[&run, "8"]);
+    read(&python, "meshes.py", &[&run]);
 }

@@ -1,7 +1,7 @@
-"""Five readers of PLY read every mesh of a run folder: meshes.py RUN SIDES
+"""Five readers of PLY read every mesh of a run folder: meshes.py RUN [tubes]
 
 Vertex and face counts are those of the header. Each internode is a closed tube: watertight, of positive volume, within
-1 % of the sum of polygonal frusta h/3 (A1 + A2 + sqrt(A1 A2)) of the recorded lengths and diameters.
+1 % of the sum of the round frusta of the recorded lengths and diameters, which tubes keep whatever their sides.
 """
 
 import math
@@ -16,7 +16,7 @@ import plyfile
 import pyvista
 import trimesh
 
-run, sides = Path(sys.argv[1]), int(sys.argv[2])
+run = Path(sys.argv[1])
 PROFILE = [
     "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha", "s", "t",
     "birth_age", "death_age", "component_id", "kind",
@@ -47,13 +47,8 @@ def readers(path):
     yield "pyvista", mesh.n_points, mesh.n_cells
 
 
-def polygon(diameter):
-    return sides / 2 * (diameter / 2) ** 2 * math.sin(2 * math.pi / sides)
-
-
 def frustum(length, base, tip):
-    lower, upper = polygon(base), polygon(tip)
-    return length / 3 * (lower + upper + math.sqrt(lower * upper))
+    return math.pi * length / 12 * (base * base + base * tip + tip * tip)
 
 
 def tubes(path, plant, age):
@@ -90,7 +85,7 @@ for path in meshes:
         assert (vertices, faces) == expected, f"{name} reads {vertices} vertices and {faces} faces of {path}: {expected}"
     print(f"{path.name}: {expected[0]} vertices, {expected[1]} faces, five readers agree")
 
-if len(sys.argv) > 3:
+if len(sys.argv) > 2:
     path = meshes[0]
     plant, age = (int(part.split("-")[1]) for part in path.stem.split("_")[:2])
     print(f"{tubes(path, plant, age)} closed tubes, volumes as the frusta")
