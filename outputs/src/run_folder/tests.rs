@@ -210,7 +210,7 @@ fn one_process_at_a_time_has_a_folder() {
     }
     assert_eq!(contents(home.path()), before);
     let found = check(home.path(), Depth::Bytes, &Checking::default()).unwrap();
-    assert_eq!((found.state, found.findings.len(), found.files), (State::InProgress, 0, 4));
+    assert_eq!((found.state, found.findings.len(), found.files), (State::InProgress, 0, 5));
     drop(folder);
     assert_eq!(check(home.path(), Depth::Bytes, &Checking::default()).unwrap().state, State::Unfinished);
     RunFolder::create(home.path(), plan(2, 1), Mode::Overwrite).unwrap();
