@@ -207,7 +207,7 @@ impl CountTable {
         self.distributions.iter().map(|distribution| distribution.first + distribution.len).max().unwrap_or(0)
     }
 
-    /// The largest count that can be drawn in a run of any length, or [`MAX_COUNT`] where nothing has looked for it or
+    /// The largest count that can be drawn in a run of any length, or `MAX_COUNT` where nothing has looked for it or
     /// that would take too long: for so many there is a place in a stream of words.
     pub fn max_in_any_run(&self) -> u32 {
         self.goes_on_to.unwrap_or_else(|| self.max())
@@ -243,7 +243,7 @@ impl CountTable {
 
 /// The largest count that sources can draw together in a run of any length: that of their distributions where each
 /// parameter stands at the end that makes counts larger, since each kind grows with its parameters, but the negative
-/// binomial with a smaller p. [`MAX_COUNT`] where a law has too many points to look at.
+/// binomial with a smaller p. `MAX_COUNT` where a law has too many points to look at.
 fn most_in_any_run(sources: &[Source], path: &Path) -> u32 {
     let ends = |source: &Source| -> Option<Vec<f64>> {
         let parameters = source.parameters.iter().enumerate();
