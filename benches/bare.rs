@@ -14,8 +14,8 @@ use phytomer::models::fault::Path;
 use phytomer::models::law::{Count, Law};
 use phytomer::sim::plant::{MOST_COMPONENTS, Seed};
 use phytomer::sim::pose::pose;
-use phytomer::sim::{GrowthModel, Plot, Tick};
-use specimen::{plain_write_of_frames, plain_write_of_growth};
+use phytomer::sim::{Plot, Tick};
+use specimen::{grow_alone, plain_write_of_frames, plain_write_of_growth};
 use std::hint::black_box;
 
 struct Bare {
@@ -53,22 +53,22 @@ impl Bare {
         let model = self.species().compile(self.until, &Path::root()).expect("sound laws");
         let seed = Seed { plant: 1, run_seed: 1, component_limit: MOST_COMPONENTS, keep_events: false };
         let mut plot = Plot::of_one(&model, &seed);
-        model.grow_to(self.until, &mut plot.plants, &plot.site).expect("room to grow");
+        plot.grow_to(self.until).expect("room to grow");
         let internodes = plot.plants[0].nodes.len() as u64;
         let grown = plot.clone();
         let mut group = self.group(criterion, "growth (internodes)", internodes);
         group.bench_function("axis by axis", |bencher| {
             bencher.iter(|| {
-                plot.resow(&model, &seed);
-                model.grow_to(self.until, &mut plot.plants, &plot.site).expect("room to grow");
+                plot.resow(&seed);
+                grow_alone(&mut plot, self.until);
                 black_box(&plot);
             });
         });
         group.bench_function("tick by tick", |bencher| {
             bencher.iter(|| {
-                plot.resow(&model, &seed);
+                plot.resow(&seed);
                 for age in 1..=self.until {
-                    model.grow_to(age, &mut plot.plants, &plot.site).expect("room to grow");
+                    grow_alone(&mut plot, age);
                 }
                 black_box(&plot);
             });

@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
     let model = poplar.compile(UNTIL, &Path::root()).map_err(|faults| format!("{faults:?}"))?;
     let seed = Seed { plant: 0, run_seed: 1988, component_limit: u32::MAX, keep_events: false };
     println!("| age, years | height, m | DBH, cm | f₁ simulated, Hz | f₁ of broadleaves, Hz |\n|---|---|---|---|---|");
-    grow(&model, &mut Plot::of_one(&model, &seed), UNTIL, &mut Rows)?;
+    grow(&mut Plot::of_one(&model, &seed), UNTIL, &mut Rows)?;
     Ok(())
 }
 

@@ -42,7 +42,7 @@ fn characters_of(plant: u32, model: &dyn GrowthModel, until: Tick) -> Result<Opt
     let mut plot = Plot::of_one(model, &seed);
     let bends = model.habit().wood.as_ref().is_some_and(|wood| wood.bends);
     let mut poses = Poses { ages: if bends { recorded_alone(until) } else { Vec::new() }, rows: Vec::new() };
-    let Ending::Complete = grow(model, &mut plot, until, &mut poses)? else { return Ok(None) };
+    let Ending::Complete = grow(&mut plot, until, &mut poses)? else { return Ok(None) };
     let components = components_of(&plot, &plot.plants[0], until)?;
     Ok(Some((Characters::of(&components, &poses.rows), plot.plants[0].components())))
 }

@@ -211,14 +211,15 @@ impl Grower<'_> {
             if self.progress.is_stopped() {
                 return Ok(None);
             }
-            plot.resow(model, &seed_of(scenario, plant));
+            plot.resow(&seed_of(scenario, plant));
             plot.plants[0].place = place_of(scenario, plant);
             if !keeper.grow_plot(&mut plot, plant)? {
                 return Ok(None);
             }
         }
         // A large plant takes as long to give back its memory as a file to reach the disk.
-        rayon::spawn(move || drop(plot));
+        let plants = plot.plants;
+        rayon::spawn(move || drop(plants));
         keeper.commit().map(Some)
     }
 
@@ -241,10 +242,10 @@ struct Keeper<'a> {
 
 impl Keeper<'_> {
     /// Grows one plot to its end; `false` where it was told to stop.
-    fn grow_plot(&mut self, plot: &mut Plot, plant: u32) -> Result<bool> {
+    fn grow_plot(&mut self, plot: &mut Plot<'_>, plant: u32) -> Result<bool> {
         self.plant = plant;
         let Grower { resolved, progress, .. } = self.grower;
-        let ending = match grow(resolved.model.as_ref(), plot, resolved.scenario.ages.until, self) {
+        let ending = match grow(plot, resolved.scenario.ages.until, self) {
             Ok(ending) => ending,
             Err(error) if error.is::<Stopped>() => return Ok(false),
             Err(error) => return Err(anyhow::anyhow!(error)),

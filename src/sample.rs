@@ -142,7 +142,7 @@ fn seen_of(plant: u32, model: &dyn GrowthModel, ages: &[Tick], last: Tick) -> Re
     let seed = Seed { plant, run_seed: DEFAULT_SEED, component_limit: COMPONENT_LIMIT, keep_events: false };
     let mut plot = Plot::of_one(model, &seed);
     let mut view = View { ages, seen: Vec::new() };
-    match grow(model, &mut plot, last, &mut view) {
+    match grow(&mut plot, last, &mut view) {
         Ok(Ending::Complete) => Ok((view.seen, u64::from(plot.plants[0].components()))),
         Ok(Ending::Overgrown { age, .. }) => {
             Err(format!("a plant has more than {COMPONENT_LIMIT} components at age {age}"))

@@ -154,9 +154,9 @@ fn exactly_one_sibling_at_a_fork_of_koriba_becomes_the_trunk() {
     assert!(seen >= 3, "{seen} forks");
 }
 
-fn grown(resolved: &Resolved) -> Plot {
+fn grown(resolved: &Resolved) -> Plot<'_> {
     let mut plot = Plot::of_one(resolved.model.as_ref(), &seed_of(&resolved.scenario, 0));
-    grow(resolved.model.as_ref(), &mut plot, resolved.scenario.ages.until, &mut ()).unwrap();
+    grow(&mut plot, resolved.scenario.ages.until, &mut ()).unwrap();
     plot
 }
 

@@ -44,7 +44,7 @@ fn plant_of(name: &str) -> Resolved {
         let mut seed = seed_of(&resolved.scenario, 0);
         seed.component_limit = MOST_COMPONENTS;
         let mut plot = Plot::of_one(model.as_ref(), &seed);
-        let grown = grow(model.as_ref(), &mut plot, *until, &mut ());
+        let grown = grow(&mut plot, *until, &mut ());
         matches!(grown, Ok(Ending::Complete)).then_some((*until, model))
     };
     let (until, model) = ages.iter().find_map(grows).unwrap_or_else(|| panic!("{name} is too large at any age"));

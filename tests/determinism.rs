@@ -57,7 +57,7 @@ fn most_waiting(name: &str) -> usize {
     let Resolved { scenario, model, .. } =
         validate(&data(name)).unwrap_or_else(|report| panic!("{}", report.render(false)));
     let mut plot = Plot::of_one(model.as_ref(), &seed_of(&scenario, 0));
-    model.grow_to(scenario.ages.until, &mut plot.plants, &plot.site).unwrap();
+    plot.grow_to(scenario.ages.until).unwrap();
     let orders = &plot.plants[0].axes.order;
     (1..=4).map(|order| orders.iter().filter(|of| **of == order).count()).max().unwrap()
 }

@@ -8,10 +8,10 @@
 use peak_alloc::PeakAlloc;
 use phytomer::config::scenario::{BYTES_A_COMPONENT, Every, Record};
 use phytomer::config::validate;
+use phytomer::models::buds::LivingBuds;
 use phytomer::run::{self, Progress, Settings, seed_of};
+use phytomer::sim::mechanics::{Bench, bend};
 use phytomer::sim::plant::{Plant, Seed};
-use phytomer::sim::pose::pose;
-use phytomer::sim::shed::shed;
 use phytomer::sim::{Plot, Tick, grow};
 use std::sync::{Mutex, PoisonError};
 
@@ -21,20 +21,19 @@ static ALLOCATED: PeakAlloc = PeakAlloc;
 /// One test at a time: what another allocates meanwhile would count too.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// A plant of a shipped scenario, grown to an age, shed, thickened and posed, without a log of events; and the bytes
-/// that it has allocated.
-fn grown(scenario: &str, until: Option<Tick>) -> (Plot, usize) {
+/// A plant of a shipped scenario, grown to an age, shed, thickened and posed, without a log of events; its living buds, and
+/// the bytes that it has allocated.
+fn grown(scenario: &str, until: Option<Tick>) -> (Plant, usize, usize) {
     let resolved = validate(scenario).unwrap_or_else(|report| panic!("{}", report.render(false)));
     let until = until.unwrap_or(resolved.scenario.ages.until);
     let before = ALLOCATED.current_usage();
     let seed = Seed { keep_events: false, ..seed_of(&resolved.scenario, 0) };
     let mut plot = Plot::of_one(resolved.model.as_ref(), &seed);
-    resolved.model.grow_to(until, &mut plot.plants, &plot.site).expect("room to grow");
-    plot.plants.iter_mut().for_each(shed);
-    resolved.model.thicken(until, &mut plot.plants[0]);
-    pose(&mut plot.plants[0], until);
+    plot.grow_to(until).expect("room to grow");
+    plot.stand(until);
     let allocated = ALLOCATED.current_usage() - before;
-    (plot, allocated)
+    let living = plot.lives[0].get::<LivingBuds>().0.len();
+    (plot.plants.remove(0), living, allocated)
 }
 
 /// The bytes that a plant's columns hold, without what its vectors keep spare.
@@ -53,11 +52,10 @@ fn a_component_takes_at_most_96_bytes() {
     for (scenario, until) in
         [("poplar_30y", None), ("poplar_30y", Some(15)), ("poplar_5m", None), ("coffee", None), ("coffee", Some(48))]
     {
-        let (plot, allocated) = grown(scenario, until);
-        let plant = &plot.plants[0];
+        let (plant, living, allocated) = grown(scenario, until);
         assert_eq!(plant.frames.base.len(), plant.nodes.len(), "every internode is posed");
         let components = f64::from(plant.components());
-        let [held, allocated] = [held(plant), allocated].map(|bytes| bytes as f64 / components);
+        let [held, allocated] = [held(&plant), allocated].map(|bytes| bytes as f64 / components);
         println!(
             "{scenario} at age {}: {components} components ({} axes, {} internodes, {} organs, {} living buds), \
              {held:.1} bytes each, {allocated:.1} with what vectors keep spare",
@@ -65,7 +63,7 @@ fn a_component_takes_at_most_96_bytes() {
             plant.axes.len(),
             plant.nodes.len(),
             plant.organs.len(),
-            plant.buds.len()
+            living
         );
         assert!(components > 500.0, "{scenario}: too small to measure");
         assert!(held <= BYTES_A_COMPONENT as f64, "{scenario}: {held:.1} bytes a component");
@@ -110,12 +108,11 @@ fn bending_keeps_at_most_24_bytes_an_internode() {
     let resolved = validate("willow").unwrap_or_else(|report| panic!("{}", report.render(false)));
     let seed = Seed { keep_events: false, ..seed_of(&resolved.scenario, 0) };
     let mut plot = Plot::of_one(resolved.model.as_ref(), &seed);
-    grow(resolved.model.as_ref(), &mut plot, 60, &mut ()).expect("nothing is written");
-    let before = ALLOCATED.current_usage();
-    let bench = std::mem::take(&mut plot.bench);
-    drop(bench);
-    let scratch = before - ALLOCATED.current_usage();
+    grow(&mut plot, 60, &mut ()).expect("nothing is written");
     let plant = &mut plot.plants[0];
+    let (before, mut bench) = (ALLOCATED.current_usage(), Bench::default());
+    bend(plant, 60, &plot.site, &mut bench);
+    let scratch = ALLOCATED.current_usage() - before;
     let internodes = plant.nodes.len() as f64;
     let bent = held(plant);
     plant.strain = Default::default();

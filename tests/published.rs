@@ -10,8 +10,8 @@ use phytomer_config::{Kind, Model, presets, validate_species};
 use phytomer_models::buds::BudModel;
 use phytomer_models::buds::params::Reiteration;
 use phytomer_models::fault::Path;
+use phytomer_sim::Plot;
 use phytomer_sim::plant::Seed;
-use phytomer_sim::{GrowthModel as _, Plot};
 use program::run;
 use std::fs;
 use tempfile::tempdir;
@@ -100,6 +100,6 @@ fn stems_die_at_the_ages_that_are_told() {
 fn end_of_stem(model: &BudModel, plant: u32, until: u32) -> u32 {
     let seed = Seed { plant, run_seed: 1988, component_limit: u32::MAX, keep_events: false };
     let mut plot = Plot::of_one(model, &seed);
-    model.grow_to(until, &mut plot.plants, &plot.site).expect("within the limit");
+    plot.grow_to(until).expect("within the limit");
     plot.plants[0].axes.apex_end[0]
 }

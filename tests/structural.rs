@@ -2,7 +2,6 @@
 //! 16), and a bamboo, grown like any plant and told apart by the kinds of their components.
 
 use phytomer_sim::plant::{ApexFate, AxisId, Class, Kind, NodeId, Origin, Plant, Seed};
-use phytomer_sim::pose::pose;
 use phytomer_sim::{Plot, Tick};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,12 +10,10 @@ fn grown(name: &str, number: u32, age: Tick) -> Plant {
     let found = phytomer_config::validate_species(name, age).unwrap_or_else(|report| panic!("{name}: {report}"));
     let seed = Seed { plant: number, run_seed: 1988, component_limit: 5_000_000, keep_events: false };
     let mut plot = Plot::of_one(found.model.as_ref(), &seed);
-    found.model.grow_to(age, &mut plot.plants, &plot.site).expect("within the limit");
-    let mut plant = plot.plants.remove(0);
-    phytomer_sim::shed::shed(&mut plant);
-    found.model.thicken(age, &mut plant);
-    pose(&mut plant, age);
-    plant
+    plot.grow_to(age).expect("within the limit");
+    plot.site.gravity = 0.0;
+    plot.stand(age);
+    plot.plants.remove(0)
 }
 
 /// How many components of each kind stand.

@@ -21,7 +21,7 @@ fn grown(buds: &Buds, until: Tick, gravity: f64) -> Plant {
     let seed = Seed { plant: 0, run_seed: 1988, component_limit: u32::MAX, keep_events: true };
     let mut plot = Plot::of_one(&model, &seed);
     plot.site = Site { gravity, ..Site::default() };
-    grow(&model, &mut plot, until, &mut ()).expect("nothing is written");
+    grow(&mut plot, until, &mut ()).expect("nothing is written");
     plot.plants.remove(0)
 }
 

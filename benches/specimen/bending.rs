@@ -2,17 +2,17 @@
 //!
 //! A specimen without wood of its own is given that of a birch. Absent: whether it bends rightly.
 
-use super::Specimen;
+use super::{Specimen, grow_alone};
 use criterion::{BatchSize, Criterion, Throughput};
 use phytomer::config::Model;
 use phytomer::models::buds::BudModel;
 use phytomer::models::buds::params::Wood;
 use phytomer::models::fault::Path;
 use phytomer::run::seed_of;
-use phytomer::sim::mechanics::{Strain, bend};
+use phytomer::sim::mechanics::{Bench, Strain, bend};
 use phytomer::sim::plant::NodeId;
 use phytomer::sim::pose::pose;
-use phytomer::sim::{GrowthModel, Plot, RecordError, Recorder, Tick, grow};
+use phytomer::sim::{Plot, RecordError, Recorder, Tick, grow};
 use std::cell::RefCell;
 use std::hint::black_box;
 
@@ -52,10 +52,10 @@ impl Specimen {
         let until = self.until();
         let mut plot = Plot::of_one(&model, &seed_of(&self.resolved.scenario, 0));
         let mut before = Before::default();
-        grow(&model, &mut plot, until, &mut before).expect("nothing is written");
+        grow(&mut plot, until, &mut before).expect("nothing is written");
         let plant = &plot.plants[0];
         let stood = (0..plant.nodes.len() as u32).filter(|&node| plant.stands(NodeId(node), until)).count() as u64;
-        let mut rest = plot.plants[0].clone();
+        let (mut rest, mut bench) = (plot.plants[0].clone(), Bench::default());
         let mut group = self.group(criterion, "bending (internodes)", Throughput::Elements(stood));
         group.bench_function("the pose at rest (baseline)", |bencher| {
             bencher.iter(|| {
@@ -64,10 +64,10 @@ impl Specimen {
             });
         });
         group.bench_function("one step, in equilibrium", |bencher| {
-            bencher.iter(|| black_box(bend(&mut plot.plants[0], self.until(), &plot.site, &mut plot.bench)));
+            bencher.iter(|| black_box(bend(&mut plot.plants[0], self.until(), &plot.site, &mut bench)));
         });
         plot.plants[0].strain.clone_from(&before.strain);
-        let tick = bend(&mut plot.plants[0], until, &plot.site, &mut plot.bench);
+        let tick = bend(&mut plot.plants[0], until, &plot.site, &mut bench);
         assert!(tick.settled, "{tick:?}");
         let plot = RefCell::new(plot);
         let unbend = || plot.borrow_mut().plants[0].strain.clone_from(&before.strain);
@@ -75,8 +75,8 @@ impl Specimen {
             bencher.iter_batched(
                 unbend,
                 |()| {
-                    let Plot { plants, site, bench, .. } = &mut *plot.borrow_mut();
-                    black_box(bend(&mut plants[0], self.until(), site, bench))
+                    let Plot { plants, site, .. } = &mut *plot.borrow_mut();
+                    black_box(bend(&mut plants[0], self.until(), site, &mut bench))
                 },
                 BatchSize::PerIteration,
             );
@@ -89,21 +89,21 @@ impl Specimen {
         let model = self.wooden();
         let seed = seed_of(&self.resolved.scenario, 0);
         let mut plot = Plot::of_one(&model, &seed);
-        grow(&model, &mut plot, until, &mut ()).expect("nothing is written");
+        grow(&mut plot, until, &mut ()).expect("nothing is written");
         let internodes = plot.plants[0].nodes.len() as u64;
         let what = format!("{until} ticks of life (internodes)");
         let mut group = self.group(criterion, &what, Throughput::Elements(internodes));
         group.bench_function(format!("growth of {internodes} with bending at every tick"), |bencher| {
             bencher.iter(|| {
-                plot.resow(&model, &seed);
-                grow(&model, &mut plot, until, &mut ()).expect("nothing is written");
+                plot.resow(&seed);
+                grow(&mut plot, until, &mut ()).expect("nothing is written");
                 black_box(&plot);
             });
         });
         group.bench_function("growth alone (baseline)", |bencher| {
             bencher.iter(|| {
-                plot.resow(&model, &seed);
-                model.grow_to(until, &mut plot.plants, &plot.site).expect("room to grow");
+                plot.resow(&seed);
+                grow_alone(&mut plot, until);
                 black_box(&plot);
             });
         });

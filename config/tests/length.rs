@@ -11,7 +11,6 @@ use phytomer_models::contract::{seed_of, sown, the_length_of_the_run_leaves_no_t
 use phytomer_sim::Tick;
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::Seed;
-use phytomer_sim::site::Site;
 use std::sync::Arc;
 
 /// The last age looked at, where plants stay small enough: past the life of most herbs, in ticks.
@@ -36,10 +35,7 @@ fn species() -> Vec<(String, Model)> {
 }
 
 fn stays_small(model: &dyn GrowthModel, age: Tick) -> bool {
-    (0..2).all(|number| {
-        let mut plant = sown(model, &Seed { component_limit: MOST, ..seed_of(5, number) });
-        model.grow_to(age, std::slice::from_mut(&mut plant), &Site::default()).is_ok()
-    })
+    (0..2).all(|number| sown(model, &Seed { component_limit: MOST, ..seed_of(5, number) }).grow_to(age).is_ok())
 }
 
 /// The largest age that can be looked at, with the model compiled for it.

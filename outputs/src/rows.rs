@@ -263,7 +263,7 @@ mod tests {
         let rows = run.components(1).unwrap();
         assert!(rows.len() > 20 && rows.iter().all(|row| row.plant_id == 0));
         let mut plot = specimen::plot(0, 100_000);
-        grow(&specimen::Sapling, &mut plot, last, &mut ()).unwrap();
+        grow(&mut plot, last, &mut ()).unwrap();
         assert_eq!(rows, components_of(&plot, &plot.plants[0], last).unwrap());
         pose(&mut plot.plants[0], last);
         let poses: Vec<_> = run.poses(1).unwrap().into_iter().filter(|row| row.age == last).collect();

@@ -10,8 +10,8 @@ use phytomer_sim::plant::{
     ApexFate, AxisId, Cause, EventKind, Form, Habit, Kind, LineageKey, Looks, NewAxis, NewNode, NewOrgan, NodeId,
     Origin, Plant, Seed, Shape, Trend, key::Place,
 };
-use phytomer_sim::site::Site;
-use phytomer_sim::{Ending, Growth, GrowthModel, NEVER, Plot, Tick, grow};
+use phytomer_sim::site::View;
+use phytomer_sim::{Ending, Grow, Growth, GrowthModel, NEVER, Plot, Tick, grow};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -23,7 +23,9 @@ pub struct Wooden(pub Option<Wood>);
 
 const TRUNK_DIES: Tick = 8;
 
-impl GrowthModel for Sapling {
+impl Grow for Sapling {
+    type Life = ();
+
     fn growth(&self) -> Growth {
         Growth::Extends
     }
@@ -37,8 +39,8 @@ impl GrowthModel for Sapling {
         axis(plant, None, 0);
     }
 
-    fn grow_to(&self, age: Tick, plants: &mut [Plant], _site: &Site) -> Result<(), Overgrown> {
-        plants.iter_mut().try_for_each(|plant| (plant.age + 1..=age).try_for_each(|tick| step(plant, tick)))
+    fn grow_to(&self, age: Tick, plant: &mut Plant, (): &mut (), _view: &View<'_>) -> Result<(), Overgrown> {
+        (plant.age + 1..=age).try_for_each(|tick| step(plant, tick))
     }
 
     fn thicken(&self, age: Tick, plant: &mut Plant) {
@@ -50,25 +52,27 @@ impl GrowthModel for Sapling {
     }
 }
 
-impl GrowthModel for Wooden {
+impl Grow for Wooden {
+    type Life = ();
+
     fn growth(&self) -> Growth {
-        Sapling.growth()
+        Grow::growth(&Sapling)
     }
 
     fn habit(&self) -> Arc<Habit> {
-        Arc::new(Habit { wood: self.0.clone(), ..(*Sapling.habit()).clone() })
+        Arc::new(Habit { wood: self.0.clone(), ..(*Grow::habit(&Sapling)).clone() })
     }
 
     fn sow(&self, plant: &mut Plant) {
-        Sapling.sow(plant);
+        Grow::sow(&Sapling, plant);
     }
 
-    fn grow_to(&self, age: Tick, plants: &mut [Plant], site: &Site) -> Result<(), Overgrown> {
-        Sapling.grow_to(age, plants, site)
+    fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut (), view: &View<'_>) -> Result<(), Overgrown> {
+        Grow::grow_to(&Sapling, age, plant, life, view)
     }
 
     fn thicken(&self, age: Tick, plant: &mut Plant) {
-        Sapling.thicken(age, plant);
+        Grow::thicken(&Sapling, age, plant);
     }
 }
 
@@ -187,7 +191,7 @@ pub fn plan(plots: u32, plots_per_part: u32) -> RunPlan {
 }
 
 /// A sown plot.
-pub fn plot(plant: u32, component_limit: u32) -> Plot {
+pub fn plot(plant: u32, component_limit: u32) -> Plot<'static> {
     Plot::of_one(&Sapling, &seed(plant, component_limit))
 }
 
@@ -204,7 +208,7 @@ fn grow_shard_of(model: &dyn GrowthModel, folder: &RunFolder, shard: u32, compon
     let mut open = folder.shard(shard).unwrap();
     for id in folder.plan().plots_of(shard) {
         let mut plot = Plot::of_one(model, &seed(id, component_limit));
-        let ending = grow(model, &mut plot, folder.plan().until, &mut open).unwrap();
+        let ending = grow(&mut plot, folder.plan().until, &mut open).unwrap();
         assert_eq!(matches!(ending, Ending::Complete), component_limit > 1000);
         open.end_plot(&plot, ending).unwrap();
     }

@@ -1,106 +1,172 @@
-//! The loop: a plot from its seeds to the last age.
+//! The loop: a plot from its seeds to the last tick.
 //!
-//! Where the site feeds nothing back, growth runs ahead to the last age, axis by axis in the order of
-//! their births, and the loop reads the plant at each age from birth and death ticks. Where it does, growth follows the
-//! clock. The draws are keyed, so both give the same plant, which is also that of the prefix traversal of de Reffye
-//! 1988 §4. Wood remembers: a plant that bends or lays rings thickens and bends at each age, one that does neither at
-//! the ages that are recorded.
+//! Where the site feeds nothing back, growth runs ahead to the last tick, axis by axis in the order of their births,
+//! and the loop reads the plants at each tick from birth and death ticks. Where it does, growth follows the clock. The
+//! draws are keyed, so both give the same plants, which are also those of the prefix traversal of de Reffye 1988 §4.
+//! Plants stand (thicken, bend, are posed) whenever something looks: the recorder, wood that remembers, or the site.
+//! The members of a plot grow and stand side by side on all threads; none sees what another does in the same tick.
+//! [`Plot::ahead`], [`Plot::grow_to`] and [`Plot::stand`] are the only way to do either.
 
+use crate::cells::Claims;
 use crate::clock::Tick;
-use crate::mechanics::{Thickening, bend, thicken};
-use crate::model::{Growth, GrowthModel, Overgrown};
-use crate::plot::Plot;
+use crate::mechanics::{Bench, Thickening, bend, thicken};
+use crate::model::{Growth, GrowthModel, Life, Overgrown};
+use crate::plant::Plant;
+use crate::plot::{Member, Plot};
 use crate::record::{RecordError, Recorder};
 use crate::shed::{note_falls, shed};
+use crate::site::{Site, View};
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
+use std::cell::Cell;
 
 /// How a plot came to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
-    /// It reached the last age.
+    /// It reached the last tick.
     Complete,
-    /// A plant came to its limit; the ages before `age` are recorded.
+    /// A plant came to its limit; the ticks before `age` are recorded.
     Overgrown {
-        /// The tick that it could not finish.
+        /// The tick of the plot that it could not finish.
         age: Tick,
         /// Which plant, and its limit.
         limit: Overgrown,
     },
 }
 
-/// Grows `plot` to the age `until` and shows it to `recorder` at each age that it wants.
+/// Grows `plot` to the tick `until` and shows it to `recorder` at each tick that it wants.
 ///
 /// # Errors
 /// The recorder's.
-pub fn grow(
-    model: &dyn GrowthModel,
-    plot: &mut Plot,
-    until: Tick,
-    recorder: &mut dyn Recorder,
-) -> Result<Ending, RecordError> {
-    let ending = follow_ages(model, plot, until, recorder)?;
-    let last = plot.site.age;
-    plot.plants.iter_mut().for_each(|plant| note_falls(plant, last));
+pub fn grow(plot: &mut Plot<'_>, until: Tick, recorder: &mut dyn Recorder) -> Result<Ending, RecordError> {
+    let ending = follow_ticks(plot, until, recorder)?;
+    let last = plot.site.tick;
+    for (plant, member) in plot.plants.iter_mut().zip(&plot.members) {
+        if let Some(age) = member.age_at(last) {
+            note_falls(plant, age);
+        }
+    }
     Ok(ending)
 }
 
-fn follow_ages(
-    model: &dyn GrowthModel,
-    plot: &mut Plot,
-    until: Tick,
-    recorder: &mut dyn Recorder,
-) -> Result<Ending, RecordError> {
-    let ahead = run_ahead(model, plot, until);
+fn follow_ticks(plot: &mut Plot<'_>, until: Tick, recorder: &mut dyn Recorder) -> Result<Ending, RecordError> {
+    let ahead = plot.ahead(until);
     if ahead {
         recorder.grown(until, plot)?;
     }
-    for age in 1..=until {
-        plot.site.begin(age);
-        if !ahead && follows(model, plot, age, recorder) {
-            if let Err(limit) = model.grow_to(age, &mut plot.plants, &plot.site) {
-                return Ok(Ending::Overgrown { age, limit });
+    for tick in 1..=until {
+        plot.site.begin(tick);
+        if !ahead && plot.follows(tick, recorder) {
+            if let Err(limit) = plot.grow_to(tick) {
+                return Ok(Ending::Overgrown { age: tick, limit });
             }
-            plot.plants.iter_mut().for_each(shed);
         }
-        let wanted = recorder.wants(age);
-        if wanted || plot.remembers() {
-            stand(model, plot, age);
+        let wanted = recorder.wants(tick);
+        if wanted || plot.is_looked_at() {
+            plot.stand(tick);
         }
         if wanted {
-            recorder.record(age, plot)?;
+            recorder.record(tick, plot)?;
         }
     }
     Ok(Ending::Complete)
 }
 
-/// Gives each internode its diameter and its place at `age`.
-fn stand(model: &dyn GrowthModel, plot: &mut Plot, age: Tick) {
-    let Plot { plants, site, bench, .. } = plot;
-    for plant in plants {
-        bench.remember(plant);
-        match plant.habit.thickening() {
-            Thickening::Law => model.thicken(age, plant),
-            rule => thicken(plant, age, rule, bench),
+impl Plot<'_> {
+    /// Grows all members to the tick `until` at once, where that is allowed; whether it did. A plot in which a plant is
+    /// too large for its limit starts again by the clock, so that the ticks before the limit are kept.
+    pub fn ahead(&mut self, until: Tick) -> bool {
+        if self.site.feeds_back() || self.species.iter().any(|model| model.growth() == Growth::Rebuilds) {
+            return false;
         }
-        bend(plant, age, site, bench);
+        let fits = self.grow_to(until).is_ok();
+        if !fits {
+            self.restart();
+        }
+        fits
+    }
+
+    /// Grows all members to `tick`, and sheds what is dead: at once where nothing feeds back, else from tick to tick,
+    /// each plant standing as it stood at the end of the last tick.
+    ///
+    /// # Errors
+    /// [`Overgrown`], of the first plant in the order of the plot that passed its limit.
+    pub fn grow_to(&mut self, tick: Tick) -> Result<(), Overgrown> {
+        let claims = if self.site.cells.shared { self.claims(tick) } else { Vec::new() };
+        let granted = self.site.cells.grant(&claims);
+        let site = &self.site;
+        let grown = |number: usize, model: &dyn GrowthModel, age: Tick, plant: &mut Plant, life: &mut Life| {
+            let view = View { site, granted: granted.get(number).map_or(&[], Vec::as_slice) };
+            model.grow_to(age, plant, life, &view)?;
+            shed(plant);
+            Ok(())
+        };
+        let Self { species, plants, lives, members, .. } = self;
+        let one = |(number, ((plant, life), member)): (usize, ((&mut Plant, &mut Life), &Member))| {
+            let Some(age) = member.age_at(tick).filter(|age| *age > 0) else { return Ok(()) };
+            grown(number, species[member.species], age, plant, life)
+        };
+        if let ([plant], [life], [member]) = (&mut plants[..], &mut lives[..], &members[..]) {
+            return one((0, ((plant, life), member)));
+        }
+        let side_by_side = plants.par_iter_mut().zip(lives).zip(&*members).enumerate();
+        let ends: Vec<Result<(), Overgrown>> = side_by_side.map(one).collect();
+        ends.into_iter().collect()
+    }
+
+    /// What each member claims of the site for `tick`, in the order of the plot.
+    fn claims(&self, tick: Tick) -> Vec<(u32, Claims)> {
+        let members = self.plants.iter().zip(&self.lives).zip(&self.members);
+        let claimed = members.map(|((plant, life), member)| {
+            let mut claims = Claims::default();
+            if member.age_at(tick).is_some_and(|age| age > 0) {
+                self.species[member.species].claim(plant, life, &mut claims);
+            }
+            (plant.id, claims)
+        });
+        claimed.collect()
+    }
+
+    /// Gives each internode of all members its diameter and its place at `tick`.
+    pub fn stand(&mut self, tick: Tick) {
+        let Self { species, plants, members, site, .. } = self;
+        let one = |(plant, member): (&mut Plant, &Member)| {
+            if let Some(age) = member.age_at(tick) {
+                stand(species[member.species], plant, age, site);
+            }
+        };
+        match (&mut plants[..], &members[..]) {
+            ([plant], [member]) => one((plant, member)),
+            (plants, members) => plants.par_iter_mut().zip(members).for_each(one),
+        }
+    }
+
+    /// Whether plants must stand at every tick: wood remembers its shape, or the site sees where buds are.
+    fn is_looked_at(&self) -> bool {
+        self.remembers() || self.site.sees_buds()
+    }
+
+    /// A model that rebuilds the plant has work only at ticks that are recorded.
+    fn follows(&self, tick: Tick, recorder: &dyn Recorder) -> bool {
+        let extends = self.species.iter().any(|model| model.growth() != Growth::Rebuilds);
+        extends || self.site.feeds_back() || recorder.wants(tick)
     }
 }
 
-/// Grows the whole plot to its last age at once, where that is allowed. A plot too large for its limit starts again by
-/// the clock, so that the ages before the limit are kept.
-fn run_ahead(model: &dyn GrowthModel, plot: &mut Plot, until: Tick) -> bool {
-    if model.growth() == Growth::Rebuilds || plot.site.feeds_back() {
-        return false;
-    }
-    let fits = model.grow_to(until, &mut plot.plants, &plot.site).is_ok();
-    if fits {
-        plot.plants.iter_mut().for_each(shed);
-    } else {
-        plot.restart(model);
-    }
-    fits
+thread_local! {
+    /// The scratch of mechanics: of the thread, not of the plot, so that a plot of many plants needs no more of it.
+    static SCRATCH: Cell<Bench> = Cell::default();
 }
 
-/// A model that rebuilds the plant has work only at ages that are recorded.
-fn follows(model: &dyn GrowthModel, plot: &Plot, age: Tick, recorder: &dyn Recorder) -> bool {
-    model.growth() == Growth::Extends || plot.site.feeds_back() || recorder.wants(age)
+/// Gives each internode of one plant its diameter and its place at its age `age`: thickens it by its species' rule, and
+/// bends and poses it. Wood that remembers must have stood at each age before.
+pub fn stand(model: &dyn GrowthModel, plant: &mut Plant, age: Tick, site: &Site) {
+    // Taken out meanwhile: nothing that may run on this thread in between finds it in use.
+    let mut bench = SCRATCH.take();
+    bench.remember(plant);
+    match plant.habit.thickening() {
+        Thickening::Law => model.thicken(age, plant),
+        rule => thicken(plant, age, rule, &mut bench),
+    }
+    bend(plant, age, site, &mut bench);
+    SCRATCH.set(bench);
 }

@@ -2,6 +2,7 @@
 //!
 //! Absent on purpose: files, TOML, Arrow, triangles and species.
 
+pub mod cells;
 pub mod clock;
 pub mod expectation;
 pub mod grow;
@@ -19,7 +20,7 @@ mod vector;
 
 pub use clock::{NEVER, Tick};
 pub use grow::{Ending, grow};
-pub use model::{Growth, GrowthModel, Overgrown};
+pub use model::{Grow, Growth, GrowthModel, Life, Overgrown};
 pub use plant::Plant;
-pub use plot::Plot;
+pub use plot::{Member, Plot, Sowing};
 pub use record::{RecordError, Recorder};

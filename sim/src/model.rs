@@ -1,18 +1,23 @@
-//! What a growth model is to the loop: something that sows a plant and grows it to an age.
+//! What a growth model is to the loop: a checked, immutable species that sows plants and grows each to an age.
 //!
-//! The trait is called once a tick and plot, never once a node. Absent: parameters, species and files; a model's own
-//! crate knows them.
+//! What a model remembers of a plant between ticks (living buds, a string of modules, stems) is the plant's [`Life`].
+//! It belongs to the model, is boxed once a plant and stands beside the plant, which knows nothing of it. A model is
+//! written by its own type of life ([`Grow`]); the loop and everything above it see a [`GrowthModel`], in which that
+//! type is erased. Both are called once a tick and plant, never once a node. Absent: parameters, species and files.
 
+use crate::cells::Claims;
 use crate::clock::Tick;
 use crate::expectation::Expectation;
 use crate::plant::{Habit, Plant};
-use crate::site::Site;
+use crate::site::View;
+use std::any::Any;
+use std::fmt::Debug;
 use std::sync::Arc;
 
 /// How a model goes from one age to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Growth {
-    /// It adds to the plant that stands there (buds, L-systems); many ticks at once, or one by one, with one result.
+    /// It adds to the plant that stands there (buds); many ticks at once, or tick by tick, with the same result.
     Extends,
     /// It makes the plant anew at each age (geometric and parametric models).
     Rebuilds,
@@ -28,31 +33,165 @@ pub struct Overgrown {
     pub limit: u32,
 }
 
-/// A growth model with its parameters, compiled and checked.
-pub trait GrowthModel: Send + Sync {
-    /// Whether it extends or rebuilds.
+/// A growth model with its parameters, compiled and checked: what the author of a model writes.
+///
+/// The growth of a plant may depend on the plant, its life and the view of the site, on nothing else: plants of a plot
+/// grow side by side in any order. Draws are keyed (`Plant::random`).
+pub trait Grow: Send + Sync {
+    /// What the model remembers of one plant between ticks; `()` where the plant itself tells everything.
+    type Life: Clone + Debug + PartialEq + Send + Sync + 'static;
+
+    /// How it goes from one age to the next.
     fn growth(&self) -> Growth;
 
     /// What its plants carry of their species.
     fn habit(&self) -> Arc<Habit>;
 
-    /// Puts the first bud into an empty plant.
-    fn sow(&self, plant: &mut Plant);
+    /// Puts the first axis into an empty plant, at its age 0; the plant's life.
+    fn sow(&self, plant: &mut Plant) -> Self::Life;
 
-    /// Grows each plant from its age to `age`: topology, rest geometry, fates of buds and organs.
+    /// Grows a plant from its age to `age`: topology, rest geometry, fates of buds and organs.
     ///
     /// # Errors
-    /// [`Overgrown`] where a plant would pass its limit of components; the plant then holds part of its growth.
-    fn grow_to(&self, age: Tick, plants: &mut [Plant], site: &Site) -> Result<(), Overgrown>;
+    /// [`Overgrown`] where the plant would pass its limit of components; it then holds part of its growth.
+    fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Self::Life, view: &View<'_>) -> Result<(), Overgrown>;
 
     /// Writes the diameters of each internode as they are at `age`, by the model's law; where the species states
     /// another rule of secondary growth, the loop applies that one after it.
     fn thicken(&self, age: Tick, plant: &mut Plant);
+
+    /// Claims the cells of space that the plant wants at the next tick, before any plant of the plot grows; what is
+    /// granted stands in the view of that tick. Asked only where plants grow tick by tick.
+    fn claim(&self, plant: &Plant, life: &Self::Life, claims: &mut Claims) {
+        let _ = (plant, life, claims);
+    }
 
     /// The means of what a plant makes up to `until`, or bounds or estimates of them, as it says; `None` where the
     /// model has none.
     fn expectation(&self, until: Tick) -> Option<Expectation> {
         let _ = until;
         None
+    }
+}
+
+/// A growth model whose type of life is erased; every [`Grow`] is one. The methods are those of [`Grow`].
+#[expect(missing_docs, reason = "the methods are described in Grow")]
+pub trait GrowthModel: Send + Sync {
+    fn growth(&self) -> Growth;
+    fn habit(&self) -> Arc<Habit>;
+    fn sow(&self, plant: &mut Plant) -> Life;
+
+    /// As [`Grow::grow_to`].
+    ///
+    /// # Errors
+    /// As there.
+    ///
+    /// # Panics
+    /// Where `life` is that of another model's plant.
+    fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Life, view: &View<'_>) -> Result<(), Overgrown>;
+
+    fn thicken(&self, age: Tick, plant: &mut Plant);
+
+    /// As [`Grow::claim`].
+    ///
+    /// # Panics
+    /// Where `life` is that of another model's plant.
+    fn claim(&self, plant: &Plant, life: &Life, claims: &mut Claims);
+
+    fn expectation(&self, until: Tick) -> Option<Expectation>;
+}
+
+impl<M: Grow> GrowthModel for M {
+    fn growth(&self) -> Growth {
+        Grow::growth(self)
+    }
+
+    fn habit(&self) -> Arc<Habit> {
+        Grow::habit(self)
+    }
+
+    fn sow(&self, plant: &mut Plant) -> Life {
+        Life::of(Grow::sow(self, plant))
+    }
+
+    fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Life, view: &View<'_>) -> Result<(), Overgrown> {
+        Grow::grow_to(self, age, plant, life.get_mut(), view)
+    }
+
+    fn thicken(&self, age: Tick, plant: &mut Plant) {
+        Grow::thicken(self, age, plant);
+    }
+
+    fn claim(&self, plant: &Plant, life: &Life, claims: &mut Claims) {
+        Grow::claim(self, plant, life.get(), claims);
+    }
+
+    fn expectation(&self, until: Tick) -> Option<Expectation> {
+        Grow::expectation(self, until)
+    }
+}
+
+/// What a model remembers of one plant, with its type erased: two pointers a plant.
+#[derive(Debug)]
+pub struct Life(Box<dyn Remembered>);
+
+/// What the erased life must still be able to do.
+trait Remembered: Any + Debug + Send + Sync {
+    fn boxed(&self) -> Box<dyn Remembered>;
+    fn equals(&self, other: &dyn Any) -> bool;
+    fn as_any(&self) -> &dyn Any;
+    fn as_any_mut(&mut self) -> &mut dyn Any;
+}
+
+impl<T: Clone + Debug + PartialEq + Send + Sync + 'static> Remembered for T {
+    fn boxed(&self) -> Box<dyn Remembered> {
+        Box::new(self.clone())
+    }
+
+    fn equals(&self, other: &dyn Any) -> bool {
+        other.downcast_ref::<T>() == Some(self)
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+}
+
+impl Life {
+    /// Erases the type of a life.
+    pub fn of<T: Clone + Debug + PartialEq + Send + Sync + 'static>(life: T) -> Self {
+        Self(Box::new(life))
+    }
+
+    /// The life by its type.
+    ///
+    /// # Panics
+    /// Where it is of another type: the plant was sown by another model.
+    pub fn get<T: 'static>(&self) -> &T {
+        (*self.0).as_any().downcast_ref().expect("a plant is grown by the model that sowed it")
+    }
+
+    /// The life by its type, to be changed.
+    ///
+    /// # Panics
+    /// As [`Life::get`].
+    pub fn get_mut<T: 'static>(&mut self) -> &mut T {
+        (*self.0).as_any_mut().downcast_mut().expect("a plant is grown by the model that sowed it")
+    }
+}
+
+impl Clone for Life {
+    fn clone(&self) -> Self {
+        Self((*self.0).boxed())
+    }
+}
+
+impl PartialEq for Life {
+    fn eq(&self, other: &Self) -> bool {
+        (*self.0).equals((*other.0).as_any())
     }
 }

@@ -1,41 +1,106 @@
 //! A plot: the plants that share a site; the unit of parallel work, of resuming and of distribution.
 //!
-//! Where nothing is shared a plot is one plant.
+//! A plot has a tick of its own, and each member an age: the ticks since it was sown. So later sowing, gaps and
+//! replanting are data, not special cases. Where nothing is shared a plot is one plant. Growth and standing of all
+//! members stand in [`crate::grow`].
 
-use crate::mechanics::{Bench, Wood};
-use crate::model::GrowthModel;
+use crate::clock::Tick;
+use crate::mechanics::Wood;
+use crate::model::{GrowthModel, Life};
 use crate::plant::{Plant, Seed};
 use crate::site::Site;
 
-/// The plants of one site.
+/// What one member of a plot is sown from.
 #[derive(Debug, Clone)]
-pub struct Plot {
-    /// The plot's number in the run, from 0.
-    pub id: u32,
-    /// Its plants.
-    pub plants: Vec<Plant>,
-    /// What they stand on.
-    pub site: Site,
-    /// Scratch of mechanics, kept for its memory.
-    pub bench: Bench,
+pub struct Sowing {
+    /// The species, as a place in the plot's list of species.
+    pub species: usize,
+    /// The plant's number, its draws and its limit.
+    pub seed: Seed,
+    /// Where the seed lies, metres.
+    pub place: [f64; 3],
+    /// The tick of the plot at which it is sown: the plant has age 0 then, and its first clock signal one tick later.
+    pub sown: Tick,
 }
 
-impl Plot {
-    /// A plot of one plant, sown by `model`.
-    pub fn of_one(model: &dyn GrowthModel, seed: &Seed) -> Self {
-        let mut plant = Plant::new(seed, model.habit());
-        model.sow(&mut plant);
-        Self { id: seed.plant, plants: vec![plant], site: Site::default(), bench: Bench::default() }
+/// The plants of one site. Columns: one entry a member in `plants`, `lives` and `members`.
+#[derive(Clone)]
+pub struct Plot<'m> {
+    /// The plot's number in the run, from 0.
+    pub id: u32,
+    /// Its species.
+    pub species: Vec<&'m dyn GrowthModel>,
+    /// Its plants, in the order of their sowings in the list.
+    pub plants: Vec<Plant>,
+    /// What the model of each plant remembers of it.
+    pub lives: Vec<Life>,
+    /// What each plant is in this plot.
+    pub members: Vec<Member>,
+    /// What they stand on.
+    pub site: Site,
+}
+
+/// What a plant is in its plot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Member {
+    /// Its species, as a place in the plot's list.
+    pub species: usize,
+    /// The tick of the plot at which it was sown.
+    pub sown: Tick,
+}
+
+impl Member {
+    /// The plant's age at a tick of the plot; `None` before it is sown.
+    pub fn age_at(&self, tick: Tick) -> Option<Tick> {
+        tick.checked_sub(self.sown)
+    }
+}
+
+impl<'m> Plot<'m> {
+    /// A plot on open ground.
+    ///
+    /// # Panics
+    /// Where a sowing names a species that is not in the list.
+    pub fn new(id: u32, species: Vec<&'m dyn GrowthModel>, sowings: &[Sowing]) -> Self {
+        let (plants, lives) = sowings.iter().map(|sowing| sown(species[sowing.species], sowing)).unzip();
+        let members = sowings.iter().map(|sowing| Member { species: sowing.species, sown: sowing.sown }).collect();
+        Self { id, species, plants, lives, members, site: Site::default() }
+    }
+
+    /// A plot of one plant at the origin, sown at tick 0 by `model`.
+    pub fn of_one(model: &'m dyn GrowthModel, seed: &Seed) -> Self {
+        Self::new(seed.plant, vec![model], &[Sowing { species: 0, seed: seed.clone(), place: [0.0; 3], sown: 0 }])
     }
 
     /// Sows a plot of one plant anew from another seed, keeping the memory of its columns.
-    pub fn resow(&mut self, model: &dyn GrowthModel, seed: &Seed) {
+    pub fn resow(&mut self, seed: &Seed) {
         self.id = seed.plant;
-        self.site.begin(0);
-        for plant in &mut self.plants {
-            plant.resow(seed);
-            model.sow(plant);
+        self.plants.iter_mut().for_each(|plant| plant.resow(seed));
+        self.sow();
+    }
+
+    /// Takes every plant back to its seed.
+    pub fn restart(&mut self) {
+        self.plants.iter_mut().for_each(Plant::clear);
+        self.sow();
+    }
+
+    fn sow(&mut self) {
+        let Self { species, plants, lives, members, site, .. } = self;
+        site.restart();
+        for ((plant, life), member) in plants.iter_mut().zip(lives).zip(members) {
+            *life = species[member.species].sow(plant);
         }
+    }
+
+    /// The plants that have been sown by `tick`, with their ages then.
+    pub fn sown_by(&self, tick: Tick) -> impl Iterator<Item = (&Plant, Tick)> {
+        self.plants.iter().zip(&self.members).filter_map(move |(plant, member)| Some((plant, member.age_at(tick)?)))
+    }
+
+    /// The model of a member.
+    pub fn model_of(&self, member: usize) -> &'m dyn GrowthModel {
+        self.species[self.members[member].species]
     }
 
     /// Whether the shape of its plants at an age depends on those at the ages before, so that each must be gone
@@ -43,13 +108,11 @@ impl Plot {
     pub fn remembers(&self) -> bool {
         self.plants.iter().any(|plant| plant.habit.wood.as_ref().is_some_and(Wood::remembers))
     }
+}
 
-    /// Takes every plant back to its seed.
-    pub fn restart(&mut self, model: &dyn GrowthModel) {
-        self.site.begin(0);
-        for plant in &mut self.plants {
-            plant.clear();
-            model.sow(plant);
-        }
-    }
+fn sown(model: &dyn GrowthModel, sowing: &Sowing) -> (Plant, Life) {
+    let mut plant = Plant::new(&sowing.seed, model.habit());
+    plant.place = sowing.place;
+    let life = model.sow(&mut plant);
+    (plant, life)
 }

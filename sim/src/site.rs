@@ -1,8 +1,11 @@
-//! The site around the plants of a plot: what its date brings, its fields of force, and whether it feeds anything back
-//! to the buds.
+//! The site around the plants of a plot: what its date brings, its fields of force, and what it feeds back to growth.
 //!
-//! Today a site is open ground under gravity and a steady wind. Light, obstacles and events of the date belong here.
+//! At each tick the site reads all plants as they stood at the end of the last one, the plants grow side by side and see
+//! the site unchanged ([`View`]), and what they did is gathered in the order of the plot. So no result depends on the
+//! threads. Two things feed back today: planes that kill the buds that reach them, and cells of space that plants claim
+//! in the first half of a tick and are granted or refused in the second. Light and events of the date belong here.
 
+use crate::cells::Cells;
 use crate::clock::Tick;
 use crate::math::{pow, sincos};
 use crate::mechanics::Drag;
@@ -17,12 +20,48 @@ pub const AIR_DENSITY: f64 = 1.225;
 /// The ground that the plants of one plot share.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Site {
-    /// The age of the plot: the last tick that has begun.
-    pub age: Tick,
+    /// The tick of the plot: the last one that has begun.
+    pub tick: Tick,
     /// The acceleration of gravity, m/s²; 0 leaves every plant in its pose at rest.
     pub gravity: f64,
     /// The steady wind.
     pub wind: Wind,
+    /// Planes that kill every bud that reaches them.
+    pub planes: Vec<Plane>,
+    /// The cells of space that plants claim, where they do.
+    pub cells: Cells,
+}
+
+/// A plane through the plot that kills buds: a roof, a wall, a mown height.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// A point on it, metres.
+    pub point: [f64; 3],
+    /// The direction of the side on which no bud lives; of any length but 0.
+    pub normal: [f64; 3],
+}
+
+impl Plane {
+    /// Whether a point of the plot, metres, lies on the plane or beyond it.
+    pub fn is_reached_by(&self, point: [f64; 3]) -> bool {
+        (0..3).map(|k| (point[k] - self.point[k]) * self.normal[k]).sum::<f64>() >= 0.0
+    }
+}
+
+/// What a plant sees of its site while it grows.
+#[derive(Debug, Clone, Copy)]
+pub struct View<'a> {
+    /// The site as it was at the end of the last tick.
+    pub site: &'a Site,
+    /// Of each of the plant's claims whether it is granted; empty where it claimed nothing.
+    pub granted: &'a [bool],
+}
+
+impl<'a> View<'a> {
+    /// A view without claims.
+    pub fn of(site: &'a Site) -> Self {
+        Self { site, granted: &[] }
+    }
 }
 
 /// A steady wind, level and the same at every height.
@@ -45,19 +84,35 @@ pub(crate) struct Fields {
 
 impl Default for Site {
     fn default() -> Self {
-        Self { age: 0, gravity: STANDARD_GRAVITY, wind: Wind::default() }
+        Self { tick: 0, gravity: STANDARD_GRAVITY, wind: Wind::default(), planes: Vec::new(), cells: Cells::default() }
     }
 }
 
 impl Site {
     /// Opens a tick.
-    pub fn begin(&mut self, age: Tick) {
-        self.age = age;
+    pub fn begin(&mut self, tick: Tick) {
+        self.tick = tick;
     }
 
-    /// Whether the buds feel what stands around them, so that growth must follow the clock. Nothing does so yet.
+    /// Takes the site back to tick 0.
+    pub fn restart(&mut self) {
+        self.tick = 0;
+        self.cells.clear();
+    }
+
+    /// Whether growth depends on what stands around the plants, so that it must follow the clock.
     pub fn feeds_back(&self) -> bool {
-        false
+        self.cells.shared || self.sees_buds()
+    }
+
+    /// Whether growth depends on where buds stand, so that plants must be posed at every tick.
+    pub fn sees_buds(&self) -> bool {
+        !self.planes.is_empty()
+    }
+
+    /// Whether a bud at this point of the plot, metres, is killed by what it has reached.
+    pub fn kills_at(&self, point: [f64; 3]) -> bool {
+        self.planes.iter().any(|plane| plane.is_reached_by(point))
     }
 
     /// Gravity, and the drag of the wind: ½ ρ C_d U² a square metre with C_d = c U⁻ⁿ.

@@ -10,7 +10,6 @@ use phytomer_config::{Scenario, Species};
 use phytomer_sim::mechanics::Bench;
 use phytomer_sim::mechanics::sway::sway;
 use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
-use phytomer_sim::shed::shed;
 use phytomer_sim::site::Wind;
 use phytomer_sim::{Ending, Growth, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
 use std::borrow::Cow;
@@ -48,7 +47,7 @@ impl Again<'_> {
         let mut shower = Shower { ages, air: self.air, show };
         // To the last age of the run, not to the last that is shown: that is what numbers the components.
         let until = self.scenario.ages.until;
-        let ending = grow(self.model, &mut plot, until, &mut shower).map_err(|error| anyhow::anyhow!(error))?;
+        let ending = grow(&mut plot, until, &mut shower).map_err(|error| anyhow::anyhow!(error))?;
         match (ending, ages.iter().max()) {
             (Ending::Overgrown { age, limit }, Some(last)) if age <= *last => {
                 anyhow::bail!("{limit} at age {age}, before the age {last} that is asked for")
@@ -83,13 +82,9 @@ impl Again<'_> {
             return Ok(until);
         }
         let mut plot = self.sown(plant);
-        let ahead = !plot.site.feeds_back() && self.model.grow_to(until, &mut plot.plants, &plot.site).is_ok();
         let mut last = until;
-        if ahead {
-            plot.plants.iter_mut().for_each(shed);
-        } else {
-            plot.restart(self.model);
-            let ending = grow(self.model, &mut plot, until, &mut ()).map_err(|error| anyhow::anyhow!(error))?;
+        if !plot.ahead(until) {
+            let ending = grow(&mut plot, until, &mut ()).map_err(|error| anyhow::anyhow!(error))?;
             if let Ending::Overgrown { age, limit } = ending {
                 anyhow::ensure!(age > 1, "{limit} at age {age}");
                 last = age - 1;
@@ -98,7 +93,7 @@ impl Again<'_> {
         Ok(prime_of(&plot.plants[0], last, year))
     }
 
-    fn sown(&self, plant: u32) -> Plot {
+    fn sown(&self, plant: u32) -> Plot<'_> {
         let mut plot = Plot::of_one(self.model, &seed_of(self.scenario, plant));
         plot.site = self.scenario.site.felt();
         plot.plants[0].place = place_of(self.scenario, plant);

@@ -8,7 +8,7 @@ use phytomer_models::buds::{Buds, Order};
 use phytomer_models::fault::Path;
 use phytomer_models::law::Count;
 use phytomer_sim::plant::{Plant, Seed};
-use phytomer_sim::{GrowthModel as _, Plot, Tick};
+use phytomer_sim::{Plot, Tick};
 
 /// A shipped species with its first orders alone.
 pub fn shipped(name: &str, orders: usize) -> Buds {
@@ -24,7 +24,7 @@ pub fn grown(buds: &Buds, plants: u32, until: Tick) -> Vec<Plant> {
     let grow = |plant| {
         let seed = Seed { plant, run_seed: 1988, component_limit: 20_000_000, keep_events: false };
         let mut plot = Plot::of_one(&model, &seed);
-        model.grow_to(until, &mut plot.plants, &plot.site).expect("within the limit");
+        plot.grow_to(until).expect("within the limit");
         plot.plants.remove(0)
     };
     (0..plants).map(grow).collect()

@@ -87,8 +87,7 @@ fn unseen(sample: &Sample, foretold: f64) -> f64 {
 fn grown(model: &dyn GrowthModel, plant: u32, age: Tick) -> Plant {
     let seed = Seed { plant, run_seed: 1988, component_limit: 5_000_000, keep_events: true };
     let mut plot = Plot::of_one(model, &seed);
-    model.grow_to(age, &mut plot.plants, &plot.site).expect("within the limit");
-    plot.plants.iter_mut().for_each(phytomer_sim::shed::shed);
+    plot.grow_to(age).expect("within the limit");
     plot.plants.remove(0)
 }
 
@@ -170,6 +169,6 @@ fn flowers_that_open_after_the_last_age_are_neither_foretold_nor_limited() {
     assert_eq!((expected.components(120), expected.certainty()), (121.0, Certainty::Exact));
     let limits = Seed { plant: 0, run_seed: 1, component_limit: 500, keep_events: false };
     let mut plot = Plot::of_one(resolved.model.as_ref(), &limits);
-    resolved.model.grow_to(120, &mut plot.plants, &plot.site).expect("121 components grow");
+    plot.grow_to(120).expect("121 components grow");
     assert_eq!(plot.plants[0].lived_by(120), 121);
 }

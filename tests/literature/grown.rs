@@ -27,11 +27,9 @@ pub fn compiled(buds: &Buds, until: Tick) -> BudModel {
 
 /// Plant number `plant`, grown to `until` and shed.
 pub fn plant(model: &BudModel, plant: u32, until: Tick) -> Plant {
-    use phytomer_sim::GrowthModel as _;
     let seed = Seed { plant, run_seed: 1988, component_limit: 10_000_000, keep_events: false };
     let mut plot = Plot::of_one(model, &seed);
-    model.grow_to(until, &mut plot.plants, &plot.site).expect("within the limit");
-    plot.plants.iter_mut().for_each(phytomer_sim::shed::shed);
+    plot.grow_to(until).expect("within the limit");
     plot.plants.remove(0)
 }
 

@@ -4,8 +4,8 @@
 
 use crate::grown::compiled;
 use phytomer_config::{Kind, Model, presets};
-use phytomer_models::buds::BudModel;
-use phytomer_sim::plant::{ApicalBud, AxisId, EventKind, Hands, LineageKey, NodeId, OrganId, Seed};
+use phytomer_models::buds::{ApicalBud, BudModel, LivingBuds};
+use phytomer_sim::plant::{AxisId, EventKind, Hands, LineageKey, NodeId, OrganId, Seed};
 use phytomer_sim::{GrowthModel, Plant, Plot, Tick};
 use std::collections::BTreeMap;
 
@@ -33,8 +33,9 @@ fn traverse(model: &BudModel, plant: &mut Plant, mut bud: ApicalBud, until: Tick
 }
 
 fn by_traversal(model: &BudModel, until: Tick) -> Plant {
-    let mut plant = Plot::of_one(model, &seed()).plants.remove(0);
-    let bud = plant.buds.remove(0);
+    let mut plot = Plot::of_one(model, &seed());
+    let LivingBuds(buds) = plot.lives[0].get();
+    let (bud, mut plant) = (buds[0], plot.plants.remove(0));
     traverse(model, &mut plant, bud, until);
     phytomer_sim::shed::shed(&mut plant);
     plant
@@ -44,8 +45,7 @@ fn by_the_clock(model: &BudModel, until: Tick) -> Plant {
     let mut plot = Plot::of_one(model, &seed());
     for age in 1..=until {
         plot.site.begin(age);
-        model.grow_to(age, &mut plot.plants, &plot.site).expect("within the limit");
-        plot.plants.iter_mut().for_each(phytomer_sim::shed::shed);
+        plot.grow_to(age).expect("within the limit");
     }
     plot.plants.remove(0)
 }
@@ -54,8 +54,7 @@ fn by_the_clock(model: &BudModel, until: Tick) -> Plant {
 fn ahead(model: &BudModel, until: Tick) -> Plant {
     let mut plot = Plot::of_one(model, &seed());
     plot.plants[0].hands = Hands { threads: 3, worth: 2 };
-    model.grow_to(until, &mut plot.plants, &plot.site).expect("within the limit");
-    plot.plants.iter_mut().for_each(phytomer_sim::shed::shed);
+    plot.grow_to(until).expect("within the limit");
     plot.plants.remove(0)
 }
 

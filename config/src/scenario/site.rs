@@ -46,7 +46,7 @@ impl Site {
     /// The site as plants feel it.
     pub fn felt(&self) -> phytomer_sim::site::Site {
         let wind = self.wind.as_ref().map_or_else(SimWind::default, Wind::felt);
-        phytomer_sim::site::Site { age: 0, gravity: self.gravity_m_s2, wind }
+        phytomer_sim::site::Site { gravity: self.gravity_m_s2, wind, ..phytomer_sim::site::Site::default() }
     }
 }
 

@@ -9,13 +9,12 @@
 //! [`Axis::grow`] takes an axis from any age to any later one; whether a plant grows axis by axis to the end or tick by
 //! tick, each axis makes the same draws at the same steps.
 
+use super::bud::ApicalBud;
 use super::compile::{BudModel, OrderLaws, Passage, Ranks};
 use super::params::ApexEnd;
 use crate::law::At;
 use phytomer_sim::clock::{NEVER, Speed, Tick};
-use phytomer_sim::plant::{
-    ApexFate, ApicalBud, AxisId, Cause, EventKind, Form, Kind, NewAxis, NewOrgan, NodeId, Plant,
-};
+use phytomer_sim::plant::{ApexFate, AxisId, Cause, EventKind, Form, Kind, NewAxis, NewOrgan, NodeId, Plant};
 use phytomer_sim::random::{Purpose, Stream};
 
 /// The words of one axis: its streams, opened when first read, and the record last read from each.
@@ -141,6 +140,13 @@ impl<'a> Axis<'a> {
         }
         self.bud.age = age;
         Ok(Some(self.bud))
+    }
+
+    /// Kills the bud at `tick`, from outside: what follows the death of an apex follows.
+    pub fn kill(mut self, tick: Tick) -> Result<(), Full> {
+        self.tick = tick;
+        self.dimension = tick.saturating_sub(self.birth);
+        self.end(ApexFate::Killed, EventKind::Killed, ApexEnd::Death).map(|_| ())
     }
 
     /// Where laws are asked now, for the node at `rank` of its growth unit; 0 for the bud itself.

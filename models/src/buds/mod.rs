@@ -3,6 +3,7 @@
 //! [`Buds`] are the parameters as people state them, in the laws of [`crate::law`]; [`BudModel`] is the compiled
 //! species that grows. [`expectation`] gives the mean of what grows in closed form.
 
+mod bud;
 mod compile;
 pub mod expectation;
 mod grow;
@@ -20,5 +21,6 @@ mod tests_sets;
 #[cfg(test)]
 mod tests_variables;
 
+pub use bud::{ApicalBud, LivingBuds};
 pub use compile::BudModel;
 pub use params::{Buds, Order};

@@ -3,15 +3,17 @@
 //! A plant grown ahead takes its axes one after another through all their ticks; a plant grown by the clock takes each
 //! living bud through one. Both call the same step. Absent: the step (`grow`) and the node (`node`).
 
+use super::bud::{ApicalBud, LivingBuds};
 use super::compile::{BudModel, OrderLaws};
 use super::grow::{Axis, Full, Words, add_axis, first_bud};
 use crate::law::At;
 use phytomer_sim::Tick;
 use phytomer_sim::expectation::Expectation;
 use phytomer_sim::mechanics::taper;
-use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
-use phytomer_sim::plant::{ApicalBud, AxisId, Habit, Hands, LineageKey, NewAxis, Plant};
-use phytomer_sim::site::Site;
+use phytomer_sim::model::{Grow, Growth, Overgrown};
+use phytomer_sim::plant::{AxisId, Habit, Hands, LineageKey, NewAxis, Plant};
+use phytomer_sim::pose::bud_frame;
+use phytomer_sim::site::{Site, View};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -84,26 +86,43 @@ impl BudModel {
 
     /// Every living bud first, then the axes that arise meanwhile, each through all its ticks: parents come before
     /// their children, and the nodes of an axis grown at once stand together.
-    fn grow_plant(&self, plant: &mut Plant, age: Tick) -> Result<(), Overgrown> {
+    fn grow_plant(&self, plant: &mut Plant, living: &mut Vec<ApicalBud>, age: Tick) -> Result<(), Overgrown> {
         let mut words = Words::default();
-        let mut living = std::mem::take(&mut plant.buds);
         let first_new = plant.axes.len();
-        let mut kept = 0;
-        for place in 0..living.len() {
-            if let Some(bud) = self.grow_with(plant, living[place], age, &mut words)? {
-                living[kept] = bud;
-                kept += 1;
-            }
-        }
-        living.truncate(kept);
+        keep(living, |bud| self.grow_with(plant, bud, age, &mut words))?;
         let mut next = first_new;
         while next < plant.axes.len() {
             let waiting = next..plant.axes.len();
             next = waiting.end;
             living.append(&mut self.grow_waiting(plant, waiting, age, plant.hands)?);
         }
-        plant.buds = living;
         plant.age = age;
+        Ok(())
+    }
+
+    /// Kills each bud that has reached something deadly of its site by the end of the last tick, at the tick `age`,
+    /// before it makes its step. The axes that follow its death start as living buds of that tick.
+    fn kill_reaching(
+        &self,
+        plant: &mut Plant,
+        living: &mut Vec<ApicalBud>,
+        age: Tick,
+        site: &Site,
+    ) -> Result<(), Overgrown> {
+        let mut words = Words::default();
+        let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
+        let first_new = plant.axes.len();
+        keep(living, |bud| {
+            let at = bud_frame(plant, bud.axis).base;
+            let at = [0, 1, 2].map(|k| plant.place[k] + f64::from(at[k]));
+            if !site.kills_at(at) {
+                return Ok(Some(bud));
+            }
+            Axis::new(self, plant, &mut words, bud).kill(age).map_err(|Full| limit)?;
+            Ok(None)
+        })?;
+        let new = first_new..plant.axes.len();
+        living.extend(new.map(|axis| first_bud(self, plant, AxisId(axis as u32))));
         Ok(())
     }
 
@@ -129,9 +148,9 @@ impl BudModel {
             || self.grow_waiting(&mut fragment.plant, rest, age, second),
         );
         // The limit of a fragment is what the whole has left.
-        let (mut living, mut others) = mine.and_then(|mine| Ok((mine, theirs?))).map_err(|_| limit)?;
-        plant.join(fragment, &mut others);
-        living.append(&mut others);
+        let (mut living, others) = mine.and_then(|mine| Ok((mine, theirs?))).map_err(|_| limit)?;
+        let joint = plant.join(fragment);
+        living.extend(others.into_iter().map(|bud| bud.joined(&joint)));
         if plant.is_overgrown() { Err(limit) } else { Ok(living) }
     }
 
@@ -146,6 +165,22 @@ impl BudModel {
     }
 }
 
+/// Takes each living bud through `step`, and keeps what is left of it.
+fn keep(
+    living: &mut Vec<ApicalBud>,
+    mut step: impl FnMut(ApicalBud) -> Result<Option<ApicalBud>, Overgrown>,
+) -> Result<(), Overgrown> {
+    let mut kept = 0;
+    for place in 0..living.len() {
+        if let Some(bud) = step(living[place])? {
+            living[kept] = bud;
+            kept += 1;
+        }
+    }
+    living.truncate(kept);
+    Ok(())
+}
+
 /// Where half of the work on the axes `waiting` lies on either side, by their ticks to come; neither side is empty.
 fn middle_of(births: &[Tick], waiting: Range<usize>, age: Tick) -> usize {
     let ticks = |axis: usize| BEGINNING + u64::from(age.saturating_sub(births[axis]));
@@ -158,7 +193,9 @@ fn middle_of(births: &[Tick], waiting: Range<usize>, age: Tick) -> usize {
     middle.unwrap_or(waiting.end).clamp(waiting.start + 1, waiting.end - 1)
 }
 
-impl GrowthModel for BudModel {
+impl Grow for BudModel {
+    type Life = LivingBuds;
+
     fn growth(&self) -> Growth {
         Growth::Extends
     }
@@ -167,17 +204,25 @@ impl GrowthModel for BudModel {
         Arc::clone(&self.habit)
     }
 
-    fn sow(&self, plant: &mut Plant) {
+    fn sow(&self, plant: &mut Plant) -> LivingBuds {
         let laws = &self.laws(1).head;
         let words = laws.words(&plant.random, LineageKey::SEED);
         let new = NewAxis { insertion: laws.insertion.draw(&words, 0, At::default()), ..NewAxis::OF_THE_SEED };
         let axis = add_axis(self, plant, new);
-        let bud = first_bud(self, plant, axis);
-        plant.buds.push(bud);
+        LivingBuds(vec![first_bud(self, plant, axis)])
     }
 
-    fn grow_to(&self, age: Tick, plants: &mut [Plant], _: &Site) -> Result<(), Overgrown> {
-        plants.iter_mut().try_for_each(|plant| self.grow_plant(plant, age))
+    fn grow_to(
+        &self,
+        age: Tick,
+        plant: &mut Plant,
+        LivingBuds(living): &mut LivingBuds,
+        view: &View<'_>,
+    ) -> Result<(), Overgrown> {
+        if view.site.sees_buds() {
+            self.kill_reaching(plant, living, age, view.site)?;
+        }
+        self.grow_plant(plant, living, age)
     }
 
     fn expectation(&self, until: Tick) -> Option<Expectation> {

@@ -233,6 +233,15 @@ fn species_that_bend_keep_it_too() {
 }
 
 /// A relay stands on the node of its rank, below the tip by as many nodes as stated, at the order of the ended axis.
+/// Two species of buds, and one of buds beside a tree that is rebuilt at each age, in one plot.
+#[test]
+fn species_share_a_plot() {
+    let [trunk, hydra] = [chimera(), hydra()].map(|species| species.compile(14, &Path::root()).unwrap());
+    contract::two_species_share_a_plot([&trunk, &hydra], 14, 6, 0.12);
+    let tree = contract::sound();
+    contract::two_species_share_a_plot([&tree, &hydra], 12, 6, 0.12);
+}
+
 #[test]
 fn relays_and_traumatic_reiterations_keep_the_order_of_the_ended_axis() {
     let model = chimera().compile(14, &Path::root()).unwrap();

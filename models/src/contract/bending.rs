@@ -5,12 +5,11 @@
 //! poses agree to [`ALIKE`] and not to the bit. Absent on purpose: what bending does (`sim::mechanics`).
 
 use super::structure::standing;
-use super::{grow, site_at, sown};
+use super::{grow, sown};
 use phytomer_sim::clock::Tick;
-use phytomer_sim::mechanics::{Bench, Thickening, bend, thicken};
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::{NodeId, Plant, Seed};
-use phytomer_sim::site::{Site, Wind};
+use phytomer_sim::site::Wind;
 
 /// By how much places may differ, metres, and components of unit directions.
 pub const ALIKE: f32 = 1e-5;
@@ -33,23 +32,18 @@ pub fn bends_alike_ahead_and_by_the_clock(model: &dyn GrowthModel, until: Tick, 
 
 /// A plant bent at each age up to `until`, grown ahead or by the clock.
 pub(super) fn bent(model: &dyn GrowthModel, until: Tick, seed: &Seed, ahead: bool) -> Plant {
-    let mut plant = sown(model, seed);
-    let mut bench = Bench::default();
+    let mut plot = sown(model, seed);
+    plot.site.wind = Wind { speed: 2.0, towards: 0.5 };
     if ahead {
-        grow(model, until, &mut plant);
+        grow(&mut plot, until);
     }
     for age in 1..=until {
         if !ahead {
-            grow(model, age, &mut plant);
+            grow(&mut plot, age);
         }
-        bench.remember(&plant);
-        match plant.habit.thickening() {
-            Thickening::Law => model.thicken(age, &mut plant),
-            rule => thicken(&mut plant, age, rule, &mut bench),
-        }
-        bend(&mut plant, age, &Site { wind: Wind { speed: 2.0, towards: 0.5 }, ..site_at(age) }, &mut bench);
+        plot.stand(age);
     }
-    plant
+    plot.plants.remove(0)
 }
 
 /// Base and heading of each internode that stands, by its key.

@@ -6,12 +6,11 @@
 
 use super::component::{Component, assert_same, components, events, numbered};
 use super::structure::standing;
-use super::{grown, grown_by_the_clock, seed_of, site_at, sown};
+use super::{grown, grown_by_the_clock, seed_of, sown};
 use phytomer_sim::clock::{NEVER, Tick};
 use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
 use phytomer_sim::plant::{Hands, NodeId, Plant, Seed};
-use phytomer_sim::shed::shed;
-use std::slice;
+use phytomer_sim::plot::{Plot, Sowing};
 
 /// Growing ahead to `until` equals growing tick by tick, component for component and event for event; a model that
 /// rebuilds numbers its components alike too.
@@ -94,15 +93,44 @@ fn numbers_hold(young: &Plant, old: &Plant) {
 /// # Panics
 /// At the first difference.
 pub fn alone_equals_among_neighbours(model: &dyn GrowthModel, until: Tick, seed: u64) {
-    let mut plot: Vec<Plant> = [4, 1, 9].into_iter().map(|number| sown(model, &seed_of(seed, number))).collect();
-    let done = model.grow_to(until, &mut plot, &site_at(until));
-    assert_eq!(done, Ok(()), "plants without limit come to age {until}");
-    for plant in &mut plot {
-        shed(plant);
+    let sowings = [4, 1, 9].map(|number| sowing(seed, number, 0));
+    let mut plot = Plot::new(0, vec![model], &sowings);
+    super::grow(&mut plot, until);
+    for plant in &plot.plants {
         let alone = grown(model, until, &seed_of(seed, plant.id));
         same_plant("a plant does not depend on its neighbours", &alone, plant);
         same_plant("one seed is one plant", &alone, &grown(model, until, &seed_of(seed, plant.id)));
     }
+}
+
+/// Plants sown at several ticks of a plot are at each tick the plants sown first, so many ticks younger; before it is
+/// sown nothing of a plant is there. Grown tick by tick, and ahead to the last tick.
+///
+/// # Panics
+/// At the first difference.
+pub fn sown_later_is_the_same_later(model: &dyn GrowthModel, until: Tick, seed: u64) {
+    let rule = "a plant sown later is the same plant later";
+    let sowings = [(4, 2), (1, 0), (9, until), (5, until + 1)].map(|(number, tick)| sowing(seed, number, tick));
+    let mut plot = Plot::new(0, vec![model], &sowings);
+    for tick in 1..=until {
+        super::grow(&mut plot, tick);
+    }
+    let mut ahead = Plot::new(0, vec![model], &sowings);
+    super::grow(&mut ahead, until);
+    for (k, sowing) in sowings.iter().enumerate() {
+        let age = plot.members[k].age_at(until);
+        assert_eq!(age, until.checked_sub(sowing.sown), "{rule}: its age counts from its sowing");
+        let first = match age.filter(|age| *age > 0) {
+            Some(age) => grown(model, age, &sowing.seed),
+            None => sown(model, &sowing.seed).plants.remove(0),
+        };
+        same_plant(rule, &first, &ahead.plants[k]);
+        assert_same(rule, &components(&first), &components(&plot.plants[k]));
+    }
+}
+
+fn sowing(run_seed: u64, number: u32, tick: Tick) -> Sowing {
+    Sowing { species: 0, seed: seed_of(run_seed, number), place: [0.0; 3], sown: tick }
 }
 
 /// A plant sown into the memory of another equals one in fresh memory, and so does one taken back to its seed.
@@ -111,15 +139,14 @@ pub fn alone_equals_among_neighbours(model: &dyn GrowthModel, until: Tick, seed:
 /// At the first difference.
 pub fn memory_is_forgotten(model: &dyn GrowthModel, until: Tick, seed: u64) {
     let fresh = grown(model, until, &seed_of(seed, 3));
-    let mut used = grown(model, until, &seed_of(seed, 8));
+    let mut used = sown(model, &seed_of(seed, 8));
+    super::grow(&mut used, until);
     used.resow(&seed_of(seed, 3));
-    model.sow(&mut used);
-    super::grow(model, until, &mut used);
-    same_plant("a plant does not depend on the memory that it is sown into", &fresh, &used);
-    used.clear();
-    model.sow(&mut used);
-    super::grow(model, until, &mut used);
-    same_plant("a plant taken back to its seed grows again as it did", &fresh, &used);
+    super::grow(&mut used, until);
+    same_plant("a plant does not depend on the memory that it is sown into", &fresh, &used.plants[0]);
+    used.restart();
+    super::grow(&mut used, until);
+    same_plant("a plant taken back to its seed grows again as it did", &fresh, &used.plants[0]);
 }
 
 /// A plant whose axes are shared out among several threads, wherever two of them wait, is the one that a single thread
@@ -129,24 +156,24 @@ pub fn memory_is_forgotten(model: &dyn GrowthModel, until: Tick, seed: u64) {
 /// At the first difference.
 pub fn hands_leave_no_trace(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
     let legs = |threads: usize, ages: &[Tick], component_limit: u32| {
-        let mut plant = sown(model, &Seed { component_limit, ..seed.clone() });
-        plant.hands = Hands { threads, worth: 2 };
-        let done = ages.iter().try_for_each(|&age| model.grow_to(age, slice::from_mut(&mut plant), &site_at(age)));
-        (plant, done)
+        let mut plot = sown(model, &Seed { component_limit, ..seed.clone() });
+        plot.plants[0].hands = Hands { threads, worth: 2 };
+        let done = ages.iter().try_for_each(|&age| plot.grow_to(age));
+        (plot, done)
     };
     let needs = grown(model, until, seed).components();
     for (threads, ages) in [(2, vec![until]), (3, vec![until]), (7, vec![until.div_ceil(2), until])] {
         let rule = format!("{threads} threads grow the plant that one grows");
-        let ((mut one, _), (mut many, done)) = (legs(1, &ages, needs), legs(threads, &ages, needs));
+        let ((one, _), (many, done)) = (legs(1, &ages, needs), legs(threads, &ages, needs));
         assert_eq!(done, Ok(()), "{rule}: it fits");
+        assert!(one.lives == many.lives, "{rule}, to what the model remembers of it");
+        let (one, many) = (&one.plants[0], &many.plants[0]);
         assert!(
             one.axes == many.axes && one.nodes == many.nodes && one.organs == many.organs,
             "{rule}, place by place"
         );
-        assert!(one.buds == many.buds && one.events == many.events, "{rule}, to its buds and events in their order");
-        shed(&mut one);
-        shed(&mut many);
-        same_plant(&rule, &one, &many);
+        assert!(one.events == many.events, "{rule}, to its events in their order");
+        same_plant(&rule, one, many);
         let (one, many) = (legs(1, &ages, needs - 1).1, legs(threads, &ages, needs - 1).1);
         assert_eq!(one, many, "{rule}, and say alike where it has no room");
     }
@@ -166,10 +193,9 @@ fn same_plant(rule: &str, one: &Plant, other: &Plant) {
 /// Where this is not so.
 pub fn limit_holds(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
     let needs = grown(model, until, seed).components();
-    let first = sown(model, seed).components();
+    let first = sown(model, seed).plants[0].components();
     let limited = |component_limit| Seed { component_limit, ..seed.clone() };
-    let mut full = sown(model, &limited(needs));
-    let done = model.grow_to(until, slice::from_mut(&mut full), &site_at(until));
+    let done = sown(model, &limited(needs)).grow_to(until);
     assert_eq!(done, Ok(()), "a plant that needs {needs} components grows with a limit of {needs}");
     let between = first + (needs - first) / 2;
     for limit in [first, between, needs - 1].into_iter().filter(|limit| (first..needs).contains(limit)) {
@@ -180,11 +206,12 @@ pub fn limit_holds(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
 
 fn overgrows(model: &dyn GrowthModel, ages: std::ops::RangeInclusive<Tick>, seed: &Seed) {
     let limit = seed.component_limit;
-    let mut plant = sown(model, seed);
+    let mut plot = sown(model, seed);
     for age in ages {
-        let done = model.grow_to(age, slice::from_mut(&mut plant), &site_at(age));
-        let fits = done.is_err() || plant.components() <= limit;
-        assert!(fits, "a plant never passes its limit of {limit} unsaid: {}", plant.components());
+        let done = plot.grow_to(age);
+        let components = plot.plants[0].components();
+        let fits = done.is_err() || components <= limit;
+        assert!(fits, "a plant never passes its limit of {limit} unsaid: {components}");
         if let Err(overgrown) = done {
             assert_eq!(overgrown, Overgrown { plant: seed.plant, limit }, "an overgrown plant is named with its limit");
             return;

@@ -11,10 +11,11 @@ use super::bending::bent;
 use super::component::{assert_same, born_by, events};
 use super::{grown, structure::standing};
 use phytomer_sim::clock::Tick;
-use phytomer_sim::mechanics::{Bench, Thickening, thicken};
+use phytomer_sim::grow::stand;
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::{OrganId, Plant, Seed};
-use phytomer_sim::pose::{organ_frame, pose};
+use phytomer_sim::pose::organ_frame;
+use phytomer_sim::site::Site;
 
 /// A plant grown to `age` by a model that was compiled for a run up to `age` is the plant grown to it by the same model
 /// compiled for a longer run: component for component, event for event, and at ages on the way its diameters, the size
@@ -33,11 +34,11 @@ pub fn the_length_of_the_run_leaves_no_trace(
     assert_same(rule, &born_by(&short, age), &born_by(&long, age));
     assert_same(&format!("{rule}, event for event"), &events(&short), &events(&long));
     assert_eq!(short.death, long.death, "{rule}, to the death of the plant");
+    let weightless = Site { gravity: 0.0, ..Site::default() };
     let ages = [1, age / 3, 2 * age / 3, age].into_iter().filter(|&age| age > 0);
     for age in ages {
         let looks = [(compiled_for_age, &mut short), (compiled_for_more, &mut long)].map(|(model, plant)| {
-            thickened(model, plant, age);
-            pose(plant, age);
+            stand(model, plant, age, &weightless);
             look(plant, age)
         });
         assert!(looks[0] == looks[1], "{rule}, to diameters, sizes and frames at age {age}");
@@ -45,17 +46,6 @@ pub fn the_length_of_the_run_leaves_no_trace(
     if compiled_for_age.habit().wood.as_ref().is_some_and(|wood| wood.bends) {
         let frames = [compiled_for_age, compiled_for_more].map(|model| look(&bent(model, age, seed, true), age));
         assert!(frames[0] == frames[1], "{rule}, to the frames of what bends");
-    }
-}
-
-fn thickened(model: &dyn GrowthModel, plant: &mut Plant, age: Tick) {
-    match plant.habit.thickening() {
-        Thickening::Law => model.thicken(age, plant),
-        rule => {
-            let mut bench = Bench::default();
-            bench.remember(plant);
-            thicken(plant, age, rule, &mut bench);
-        }
     }
 }
 

@@ -11,24 +11,28 @@ mod bending;
 mod component;
 mod growth;
 mod length;
+mod plot;
 mod structure;
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+pub(crate) use tests::sound;
 
 pub use bending::bends_alike_ahead_and_by_the_clock;
 pub use component::{Component, components};
 pub use growth::{
     ages_agree, ahead_equals_the_clock, alone_equals_among_neighbours, hands_leave_no_trace, limit_holds,
-    memory_is_forgotten,
+    memory_is_forgotten, sown_later_is_the_same_later,
 };
 pub use length::the_length_of_the_run_leaves_no_trace;
+pub use plot::two_species_share_a_plot;
 pub use structure::{diameters, events_tell_the_plant, poses, structure};
 
 use phytomer_sim::clock::Tick;
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::{MOST_COMPONENTS, Plant, Seed};
-use phytomer_sim::shed::shed;
-use phytomer_sim::site::Site;
+use phytomer_sim::plot::Plot;
 
 /// Holds `model` to every clause of the contract, on plants of the run seed `seed` grown to the age `until` (at least
 /// 1). For tests; it grows the plant some thirty times and once to each age, so a few thousand components are enough.
@@ -50,6 +54,7 @@ pub fn check(model: &dyn GrowthModel, until: Tick, seed: u64) {
     }
     ages_agree(model, until, &seed_of(seed, 0));
     alone_equals_among_neighbours(model, until, seed);
+    sown_later_is_the_same_later(model, until, seed);
     memory_is_forgotten(model, until, seed);
     limit_holds(model, until, &seed_of(seed, 0));
 }
@@ -59,11 +64,9 @@ pub fn seed_of(run_seed: u64, number: u32) -> Seed {
     Seed { plant: number, run_seed, component_limit: MOST_COMPONENTS, keep_events: true }
 }
 
-/// A plant sown by `model`.
-pub fn sown(model: &dyn GrowthModel, seed: &Seed) -> Plant {
-    let mut plant = Plant::new(seed, model.habit());
-    model.sow(&mut plant);
-    plant
+/// A plot of one plant, sown by `model`.
+pub fn sown<'m>(model: &'m dyn GrowthModel, seed: &Seed) -> Plot<'m> {
+    Plot::of_one(model, seed)
 }
 
 /// A plant grown ahead to `until` at once, and shed.
@@ -71,9 +74,9 @@ pub fn sown(model: &dyn GrowthModel, seed: &Seed) -> Plant {
 /// # Panics
 /// Where the model finds the plant overgrown.
 pub fn grown(model: &dyn GrowthModel, until: Tick, seed: &Seed) -> Plant {
-    let mut plant = sown(model, seed);
-    grow(model, until, &mut plant);
-    plant
+    let mut plot = sown(model, seed);
+    grow(&mut plot, until);
+    plot.plants.remove(0)
 }
 
 /// A plant grown tick by tick to `until`, shed at each.
@@ -81,20 +84,12 @@ pub fn grown(model: &dyn GrowthModel, until: Tick, seed: &Seed) -> Plant {
 /// # Panics
 /// Where the model finds the plant overgrown.
 pub fn grown_by_the_clock(model: &dyn GrowthModel, until: Tick, seed: &Seed) -> Plant {
-    let mut plant = sown(model, seed);
-    (1..=until).for_each(|age| grow(model, age, &mut plant));
-    plant
+    let mut plot = sown(model, seed);
+    (1..=until).for_each(|age| grow(&mut plot, age));
+    plot.plants.remove(0)
 }
 
-/// Open ground at `age`.
-fn site_at(age: Tick) -> Site {
-    let mut site = Site::default();
-    site.begin(age);
-    site
-}
-
-fn grow(model: &dyn GrowthModel, age: Tick, plant: &mut Plant) {
-    let done = model.grow_to(age, std::slice::from_mut(plant), &site_at(age));
-    assert_eq!(done, Ok(()), "a plant without limit comes to age {age}");
-    shed(plant);
+fn grow(plot: &mut Plot<'_>, tick: Tick) {
+    plot.site.begin(tick);
+    assert_eq!(plot.grow_to(tick), Ok(()), "plants without limit come to the tick {tick}");
 }

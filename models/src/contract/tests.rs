@@ -3,11 +3,14 @@
 use super::*;
 use crate::fault::Path;
 use crate::geometric::{Gmt1, Gmt1Model};
-use phytomer_sim::model::{Growth, Overgrown};
+use phytomer_sim::model::{Grow, Growth, Overgrown};
 use phytomer_sim::plant::{Habit, LineageKey, NodeId};
+use phytomer_sim::site::View;
+use std::panic::AssertUnwindSafe;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 
-fn sound() -> Gmt1Model {
+pub fn sound() -> Gmt1Model {
     let tree = Gmt1 {
         h1_deg: 10.0.into(),
         h2_deg: (-60.0).into(),
@@ -26,35 +29,42 @@ fn sound() -> Gmt1Model {
 struct Spoilt {
     tree: Gmt1Model,
     growth: Growth,
-    spoil: fn(Tick, &mut [Plant]),
+    spoil: fn(Tick, &mut Plant),
     tells_limit: bool,
+    /// The plants that were grown, where each is to depend on how many there were before it.
+    crowd: Option<AtomicU32>,
 }
 
-fn spoilt(spoil: fn(Tick, &mut [Plant])) -> Spoilt {
-    Spoilt { tree: sound(), growth: Growth::Rebuilds, spoil, tells_limit: true }
+fn spoilt(spoil: fn(Tick, &mut Plant)) -> Spoilt {
+    Spoilt { tree: sound(), growth: Growth::Rebuilds, spoil, tells_limit: true, crowd: None }
 }
 
-impl GrowthModel for Spoilt {
+impl Grow for Spoilt {
+    type Life = ();
+
     fn growth(&self) -> Growth {
         self.growth
     }
 
     fn habit(&self) -> Arc<Habit> {
-        self.tree.habit()
+        Grow::habit(&self.tree)
     }
 
     fn sow(&self, plant: &mut Plant) {
-        self.tree.sow(plant);
+        Grow::sow(&self.tree, plant);
     }
 
-    fn grow_to(&self, age: Tick, plants: &mut [Plant], site: &Site) -> Result<(), Overgrown> {
-        let done = self.tree.grow_to(age, plants, site);
-        (self.spoil)(age, plants);
+    fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut (), view: &View<'_>) -> Result<(), Overgrown> {
+        let done = Grow::grow_to(&self.tree, age, plant, life, view);
+        (self.spoil)(age, plant);
+        if let Some(crowd) = &self.crowd {
+            set(&mut plant.nodes.length, 3, crowd.fetch_add(1, Ordering::Relaxed) as f32);
+        }
         if self.tells_limit { done } else { Ok(()) }
     }
 
     fn thicken(&self, age: Tick, plant: &mut Plant) {
-        self.tree.thicken(age, plant);
+        Grow::thicken(&self.tree, age, plant);
     }
 }
 
@@ -82,41 +92,40 @@ fn a_sound_model_keeps_it_whether_it_rebuilds_or_extends() {
 
 #[test]
 fn a_rule_of_topology_is_named_when_it_is_broken() {
-    breaks(&spoilt(|_, p| set(&mut p[0].nodes.component, 5, 4)), "component numbers are dense");
-    breaks(&spoilt(|_, p| set(&mut p[0].nodes.parent, 3, NodeId(0))), "stands on the node before it");
-    breaks(&spoilt(|_, p| set(&mut p[0].nodes.parent, 3, NodeId(30))), "a parent's index is smaller");
-    breaks(&spoilt(|_, p| set(&mut p[0].nodes.rank, 1, 7)), "ranks along an axis are 1, 2, 3");
-    breaks(&spoilt(|_, p| set(&mut p[0].axes.order, 1, 1)), "the order of an axis follows from its origin");
-    breaks(&spoilt(|_, p| set(&mut p[0].axes.last_node, 0, NodeId(0))), "an axis knows its last node");
-    breaks(&spoilt(|_, p| set(&mut p[0].axes.key, 1, LineageKey::SEED)), "lineage keys are unique");
+    breaks(&spoilt(|_, p| set(&mut p.nodes.component, 5, 4)), "component numbers are dense");
+    breaks(&spoilt(|_, p| set(&mut p.nodes.parent, 3, NodeId(0))), "stands on the node before it");
+    breaks(&spoilt(|_, p| set(&mut p.nodes.parent, 3, NodeId(30))), "a parent's index is smaller");
+    breaks(&spoilt(|_, p| set(&mut p.nodes.rank, 1, 7)), "ranks along an axis are 1, 2, 3");
+    breaks(&spoilt(|_, p| set(&mut p.axes.order, 1, 1)), "the order of an axis follows from its origin");
+    breaks(&spoilt(|_, p| set(&mut p.axes.last_node, 0, NodeId(0))), "an axis knows its last node");
+    breaks(&spoilt(|_, p| set(&mut p.axes.key, 1, LineageKey::SEED)), "lineage keys are unique");
 }
 
 #[test]
 fn a_rule_of_time_or_measure_is_named_when_it_is_broken() {
-    breaks(&spoilt(|_, p| p[0].age = 0), "has that age");
-    breaks(&spoilt(|_, p| set(&mut p[0].nodes.birth, 0, 0)), "a node appears in 1..=6");
-    breaks(&spoilt(|_, p| set(&mut p[0].nodes.birth, 0, 3)), "no sooner than");
-    breaks(&spoilt(|_, p| set(&mut p[0].nodes.length, 3, f32::NAN)), "finite numbers");
-    breaks(&spoilt(|_, p| p[0].stated_headings.truncate(9)), "for every internode or for none");
-    breaks(&spoilt(|_, p| p[0].events.iter_mut().for_each(Vec::clear)), "the events of growth count the nodes");
+    breaks(&spoilt(|_, p| p.age = 0), "has that age");
+    breaks(&spoilt(|_, p| set(&mut p.nodes.birth, 0, 0)), "a node appears in 1..=6");
+    breaks(&spoilt(|_, p| set(&mut p.nodes.birth, 0, 3)), "no sooner than");
+    breaks(&spoilt(|_, p| set(&mut p.nodes.length, 3, f32::NAN)), "finite numbers");
+    breaks(&spoilt(|_, p| p.stated_headings.truncate(9)), "for every internode or for none");
+    breaks(&spoilt(|_, p| p.events.iter_mut().for_each(Vec::clear)), "the events of growth count the nodes");
 }
 
 #[test]
 fn a_plant_that_depends_on_more_than_its_seed_is_caught() {
-    let crowded = spoilt(|_, plants| {
-        let width = plants.len() as f32;
-        plants.iter_mut().for_each(|p| set(&mut p.nodes.length, 3, width));
-    });
-    breaks(&crowded, "a plant does not depend on its neighbours");
-    let stretching = |age, plants: &mut [Plant]| set(&mut plants[0].nodes.length, 0, age as f32);
+    let crowded = Spoilt { crowd: Some(AtomicU32::new(0)), ..spoilt(|_, _| ()) };
+    let failure = std::panic::catch_unwind(AssertUnwindSafe(|| alone_equals_among_neighbours(&crowded, 6, 1)));
+    let message = failure.expect_err("it is caught").downcast::<String>().expect("a message");
+    assert!(message.contains("a plant does not depend on its neighbours"), "{message}");
+    let stretching = |age, plant: &mut Plant| set(&mut plant.nodes.length, 0, age as f32);
     breaks(&Spoilt { growth: Growth::Extends, ..spoilt(stretching) }, "the plant of age 1 is the plant of age 6 read");
     breaks(&Spoilt { tells_limit: false, ..spoilt(regrown) }, "needs more than its limit");
 }
 
 #[test]
 fn a_plant_that_depends_on_the_length_of_the_run_is_caught() {
-    let spoils: [fn(Tick, &mut [Plant]); 2] =
-        [|_, p| set(&mut p[0].nodes.azimuth, 4, 1.0), |_, p| set(&mut p[0].nodes.primary_diameter, 4, 1.0)];
+    let spoils: [fn(Tick, &mut Plant); 2] =
+        [|_, p| set(&mut p.nodes.azimuth, 4, 1.0), |_, p| set(&mut p.nodes.primary_diameter, 4, 1.0)];
     let seed = seed_of(1, 0);
     the_length_of_the_run_leaves_no_trace(&sound(), &spoilt(|_, _| ()), 6, &seed);
     for spoil in spoils {
@@ -128,6 +137,6 @@ fn a_plant_that_depends_on_the_length_of_the_run_is_caught() {
 }
 
 /// What an overgrown plant must not hide: it stands at the age asked for.
-fn regrown(age: Tick, plants: &mut [Plant]) {
-    plants.iter_mut().for_each(|plant| plant.age = age);
+fn regrown(age: Tick, plant: &mut Plant) {
+    plant.age = age;
 }

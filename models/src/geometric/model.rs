@@ -10,9 +10,9 @@ use super::laws::Laws;
 use super::tree::birth;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::expectation::{Certainty, Expectation, OrderExpectation};
-use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
+use phytomer_sim::model::{Grow, Growth, Overgrown};
 use phytomer_sim::plant::{Habit, Looks, NewAxis, Plant, Shape, Trend};
-use phytomer_sim::site::Site;
+use phytomer_sim::site::View;
 use std::sync::Arc;
 
 /// GMT1 with its parameters checked and compiled.
@@ -83,7 +83,9 @@ impl Gmt1Model {
     }
 }
 
-impl GrowthModel for Gmt1Model {
+impl Grow for Gmt1Model {
+    type Life = ();
+
     fn growth(&self) -> Growth {
         Growth::Rebuilds
     }
@@ -96,8 +98,8 @@ impl GrowthModel for Gmt1Model {
         plant.add_axis(NewAxis::OF_THE_SEED);
     }
 
-    fn grow_to(&self, age: Tick, plants: &mut [Plant], _site: &Site) -> Result<(), Overgrown> {
-        plants.iter_mut().try_for_each(|plant| self.rebuild(age, plant))
+    fn grow_to(&self, age: Tick, plant: &mut Plant, (): &mut (), _view: &View<'_>) -> Result<(), Overgrown> {
+        self.rebuild(age, plant)
     }
 
     /// A branch keeps the diameter that it was made with, and one diameter along its length.

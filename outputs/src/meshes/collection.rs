@@ -138,9 +138,8 @@ mod tests {
     use super::super::{MeshOptions, MeshWriter, Ply};
     use super::*;
     use crate::specimen::Sapling;
+    use phytomer_sim::Plot;
     use phytomer_sim::plant::Seed;
-    use phytomer_sim::pose::pose;
-    use phytomer_sim::{GrowthModel, Plot};
 
     fn payload(bytes: &[u8]) -> &[u8] {
         let end = b"end_header\n";
@@ -153,9 +152,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let seed = Seed { plant: 0, run_seed: 1, component_limit: 1000, keep_events: false };
         let mut plot = Plot::of_one(&Sapling, &seed);
-        Sapling.grow_to(6, &mut plot.plants, &plot.site).unwrap();
-        Sapling.thicken(6, &mut plot.plants[0]);
-        pose(&mut plot.plants[0], 6);
+        plot.grow_to(6).unwrap();
+        plot.stand(6);
         let scene = Scene::new(&plot.plants[0], 6, &MeshOptions::default());
         let about = scene.about(1);
         let mut alone = Vec::new();
@@ -188,15 +186,14 @@ mod tests {
         let mut plants = [0, 1].map(|plant| {
             let seed = Seed { plant, run_seed: 1, component_limit: 1000, keep_events: false };
             let mut plot = Plot::of_one(&Sapling, &seed);
-            Sapling.grow_to(6, &mut plot.plants, &plot.site).unwrap();
-            Sapling.thicken(6, &mut plot.plants[0]);
+            plot.grow_to(6).unwrap();
+            plot.stand(6);
             plot.plants.remove(0)
         });
         let mut collection = Collection::create(&path).unwrap();
         let mut alone = Vec::new();
         for (plant, place) in plants.iter_mut().zip([[1e6, 0.5, 0.0], [1e6 + 3.0, -1.5, 0.25]]) {
             plant.place = place;
-            pose(plant, 6);
             let scene = Scene::new(plant, 6, &MeshOptions::default());
             collection.add(&scene, &scene.about(1)).unwrap();
             alone.push(crate::meshes::mesh_plant(plant, 6, &MeshOptions::default()).vertices);

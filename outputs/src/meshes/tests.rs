@@ -254,8 +254,8 @@ fn a_failed_write_is_reported_as_it_was() {
 #[test]
 fn files_are_named_by_plant_and_age_and_nothing_is_left_beside_them() {
     let folder = tempfile::tempdir().unwrap();
-    let plot =
-        phytomer_sim::Plot { id: 0, plants: vec![specimen()], site: Default::default(), bench: Default::default() };
+    let mut plot = crate::specimen::plot(0, 1000);
+    plot.plants = vec![specimen()];
     let meshes = folder.path().join("meshes");
     let mut recorder = MeshRecorder::new(Ply, &meshes, &[3, 6], 42, MeshOptions::default()).unwrap();
     for age in 1..=6 {

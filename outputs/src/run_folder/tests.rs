@@ -5,7 +5,7 @@
 use super::*;
 use crate::Table;
 use crate::read::Run;
-use crate::specimen::{Sapling, grow_shard, plan, plot, run};
+use crate::specimen::{grow_shard, plan, plot, run};
 use phytomer_sim::grow;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -277,7 +277,7 @@ fn a_further_file_is_named_hashed_and_journalled() {
     let staged = shard.stage("meshes/plant-0.ply").unwrap();
     fs::write(&staged, b"ply").unwrap();
     let mut plot = plot(0, 100_000);
-    let ending = grow(&Sapling, &mut plot, 12, &mut shard).unwrap();
+    let ending = grow(&mut plot, 12, &mut shard).unwrap();
     shard.end_plot(&plot, ending).unwrap();
     let report = shard.commit().unwrap();
     assert_eq!(report.files[5].path, "meshes/plant-0.ply");
@@ -294,9 +294,9 @@ fn an_unfinished_shard_is_not_committed_and_leaves_nothing() {
     let folder = RunFolder::create(home.path(), plan(2, 2), Mode::New).unwrap();
     let mut shard = folder.shard(0).unwrap();
     let mut late = plot(1, 100_000);
-    assert!(grow(&Sapling, &mut late, 12, &mut shard).is_err());
+    assert!(grow(&mut late, 12, &mut shard).is_err());
     let mut first = plot(0, 100_000);
-    let ending = grow(&Sapling, &mut first, 12, &mut shard).unwrap();
+    let ending = grow(&mut first, 12, &mut shard).unwrap();
     shard.end_plot(&first, ending).unwrap();
     assert!(matches!(shard.commit(), Err(Error::UnfinishedShard { ended: 1, plots: 2, .. })));
     assert!(durable::files_in(&home.path().join("records")).unwrap().is_empty());

@@ -86,7 +86,7 @@ mod tests {
         let path = folder.path().join("run");
         run(&path, plan(1, 1));
         let mut kept = Kept(7, Default::default());
-        grow(&crate::specimen::Sapling, &mut plot(0, 100_000), 12, &mut kept).unwrap();
+        grow(&mut plot(0, 100_000), 12, &mut kept).unwrap();
         let mut table = BTreeMap::new();
         for batch in Run::open(&path).unwrap().batches(Table::Records).unwrap() {
             let batch = batch.unwrap();

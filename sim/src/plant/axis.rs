@@ -1,7 +1,7 @@
-//! Axes, each the work of one apical bud (de Reffye 1988 §2), and the buds that still live.
+//! Axes, each the work of one apical bud (de Reffye 1988 §2).
 //!
 //! Orders count from the trunk, 1. Monopodial and sympodial growth are told apart by the origin of an axis. Absent: the
-//! laws by which apices end, and the pose of axes.
+//! laws by which apices end, what a model remembers of a living bud, and the pose of axes.
 
 use super::fragment::Joint;
 use super::key::LineageKey;
@@ -294,33 +294,4 @@ impl Axes {
         self.death.clear();
         self.shed.clear();
     }
-}
-
-/// A living apical bud: what its axis needs in order to grow on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ApicalBud {
-    /// Its axis.
-    pub axis: AxisId,
-    /// The age up to which it has grown.
-    pub age: Tick,
-    /// The clock steps of its axis so far.
-    pub cycle: u32,
-    /// The growth units that it has made.
-    pub units: u32,
-    /// The tick at which the bud came to be: that of the last growth unit, or the birth of its axis.
-    pub birth: Tick,
-    /// The passages into other states that have made relays since the last node of its axis.
-    pub passages: u32,
-    /// The nodes that it has made.
-    pub rank: u32,
-    /// The node at its base: the last of its axis, or the bearing node.
-    pub last_node: NodeId,
-    /// The azimuth of the next node's first leaf, radians.
-    pub azimuth: f32,
-    /// Its state.
-    pub state: u8,
-    /// The axillary buds of the last node that did not ramify and lie dormant, one bit a position.
-    pub dormant: u32,
-    /// Between two positions around the last node, radians.
-    pub bud_spacing: f32,
 }

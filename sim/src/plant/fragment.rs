@@ -5,7 +5,7 @@
 //! numbers of axes, nodes, organs and components follow on. Until then its handles and component numbers are its own,
 //! but for the nodes that bear the axes that it took: those are the whole plant's, and nobody may look them up.
 
-use super::{ApicalBud, Appeared, AxisId, Event, NodeId, OwnTrends, Plant};
+use super::{Appeared, AxisId, Event, NodeId, OwnTrends, Plant};
 use crate::clock::NEVER;
 use crate::mechanics::Strain;
 use crate::pose::Frames;
@@ -50,7 +50,7 @@ pub struct Fragment {
 
 /// How the handles of a fragment become those of the whole.
 #[derive(Debug, Clone)]
-pub(super) struct Joint {
+pub struct Joint {
     /// The axes of the whole that the fragment starts with.
     taken: Range<usize>,
     /// The axes, nodes and components that the whole has when the fragment is joined to it.
@@ -64,7 +64,8 @@ impl Joint {
         axis.index() < self.taken.len()
     }
 
-    pub(super) fn axis(&self, axis: AxisId) -> AxisId {
+    /// An axis of the fragment, as the whole plant numbers it.
+    pub fn axis(&self, axis: AxisId) -> AxisId {
         let start = if self.is_taken(axis) { self.taken.start } else { self.axes - self.taken.len() };
         AxisId((start + axis.index()) as u32)
     }
@@ -75,17 +76,12 @@ impl Joint {
 
     /// The node on which an axis goes on when it has made so many: the bearers of the axes that were taken are the
     /// whole's.
-    pub(super) fn below(&self, node: NodeId, axis: AxisId, made: u32) -> NodeId {
+    pub fn below(&self, node: NodeId, axis: AxisId, made: u32) -> NodeId {
         if made == 0 && self.is_taken(axis) { node } else { self.node(node) }
     }
 
     pub(super) fn component(&self, component: u32) -> u32 {
         self.components + component
-    }
-
-    fn bud(&self, bud: ApicalBud) -> ApicalBud {
-        let last_node = self.below(bud.last_node, bud.axis, bud.rank);
-        ApicalBud { axis: self.axis(bud.axis), last_node, ..bud }
     }
 }
 
@@ -108,7 +104,6 @@ impl Plant {
             nodes: Default::default(),
             appeared: Appeared::default(),
             organs: Default::default(),
-            buds: Vec::new(),
             frames: Frames::default(),
             strain: Strain::default(),
             events: self.events.as_ref().map(|_| Vec::new()),
@@ -124,9 +119,8 @@ impl Plant {
         Fragment { plant, joint: Joint { taken, axes: 0, nodes: 0, components: 0 } }
     }
 
-    /// Joins a fragment that has grown, after everything that the plant has; `buds` are the living ones of the
-    /// fragment, and become the plant's.
-    pub fn join(&mut self, fragment: Fragment, buds: &mut [ApicalBud]) {
+    /// Joins a fragment that has grown, after everything that the plant has; how its handles have become the plant's.
+    pub fn join(&mut self, fragment: Fragment) -> Joint {
         let Fragment { plant, joint } = fragment;
         let (axes, nodes, components) = (self.axes.len(), self.nodes.len(), self.components);
         let joint = Joint { axes, nodes, components, ..joint };
@@ -138,6 +132,6 @@ impl Plant {
         }
         self.axes.join(&plant.axes, joint.taken.clone(), &joint);
         self.components += plant.components;
-        buds.iter_mut().for_each(|bud| *bud = joint.bud(*bud));
+        joint
     }
 }

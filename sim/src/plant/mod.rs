@@ -21,10 +21,10 @@ mod organ;
 pub(crate) mod standing;
 
 pub use appeared::{Appeared, Stretch};
-pub use axis::{ApexFate, ApicalBud, Axes, AxisId, NewAxis, Origin};
+pub use axis::{ApexFate, Axes, AxisId, NewAxis, Origin};
 pub use event::{Event, EventKind};
 pub use form::Form;
-pub use fragment::{Fragment, Hands};
+pub use fragment::{Fragment, Hands, Joint};
 pub use habit::{Habit, OrganTrend, OrganTrends, OwnTrends, Shape, Trend};
 pub use key::LineageKey;
 pub use kind::{Cause, Class, Kind};
@@ -61,8 +61,6 @@ pub struct Plant {
     pub appeared: Appeared,
     /// Its leaves, flowers and fruits.
     pub organs: Organs,
-    /// The living apical buds, in the order of their axes.
-    pub buds: Vec<ApicalBud>,
     /// Where each internode stands, written by the pose.
     pub frames: Frames,
     /// What bending has left in each internode, written by mechanics; empty where the plant does not bend.
@@ -81,7 +79,7 @@ pub struct Plant {
     /// The stated headings of a plant that a geometric model has built, one an internode, as unit vectors in the frame
     /// of the plant; empty where insertion, phyllotaxis and trend make the headings.
     pub stated_headings: Vec<[f32; 3]>,
-    /// Who may grow it; no trace of them is left in it.
+    /// The threads that may grow it at once; they never change the result.
     pub hands: Hands,
     components: u32,
     component_limit: u32,
@@ -111,7 +109,6 @@ impl Plant {
             nodes: Nodes::default(),
             appeared: Appeared::default(),
             organs: Organs::default(),
-            buds: Vec::new(),
             frames: Frames::default(),
             strain: Strain::default(),
             events: seed.keep_events.then(Vec::new),
@@ -143,7 +140,6 @@ impl Plant {
         self.nodes.clear();
         self.appeared.clear();
         self.organs.clear();
-        self.buds.clear();
         self.frames.clear();
         self.strain.clear();
         self.own_trends.clear();
