@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use phytomer_sim::model::GrowthModel;
 
 use crate::scenario::{Ages, DEFAULT_SEED, Every, Limits, Output, Record, Scenario, Site, Table};
-use crate::species::{Model, Species};
+use crate::species::Species;
 use crate::validate::{Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL};
 
 /// A plant of a species that states no age is grown no further than is expected to make it so large.
@@ -50,11 +50,8 @@ impl Species {
     /// The age at which a plant shows its architecture, by its file or by its size; `model` is compiled at least up to
     /// that of the file, else up to [`SPECIES_ALONE_UNTIL`].
     pub fn shown_at(&self, model: &dyn GrowthModel) -> u32 {
-        self.about.shown_at.unwrap_or_else(|| match &self.model {
-            Model::Buds(_) => while_small(model),
-            // Fully grown, as in the figures of Aono & Kunii 1984: growth level 0 is age 1.
-            Model::Gmt1(gmt1) => while_small(model).min(gmt1.levels.value() + 1),
-        })
+        let by_size = || while_small(model).min(self.model.full_grown_at().unwrap_or(u32::MAX));
+        self.about.shown_at.unwrap_or_else(by_size)
     }
 }
 

@@ -4,21 +4,19 @@
 //! by the path that leads there. Absent: the files' triangles, which are no matter of parameters (`phytomer_outputs`).
 
 use crate::document::{Node, Value};
-use crate::inherit::ORDER;
 use crate::library::shown;
 use crate::report::Fault;
 use crate::source::{Origin, Sources};
 use phytomer_models::fault::Path;
-
-/// The parts of an order that have a form.
-const PARTS: [&str; 4] = ["internode", "leaf", "flower", "fruit"];
+use phytomer_models::parameters::Keys;
 
 /// Replaces the file of each mesh by its path.
-pub(crate) fn resolve(species: &mut Node, sources: &Sources, faults: &mut Vec<Fault>) {
-    let Some(Value::Array(orders)) = entry(species, ORDER).map(|orders| &mut orders.value) else { return };
+pub(crate) fn resolve(species: &mut Node, keys: &Keys, sources: &Sources, faults: &mut Vec<Fault>) {
+    let Some(tables) = &keys.by_place else { return };
+    let Some(Value::Array(orders)) = entry(species, tables.list).map(|orders| &mut orders.value) else { return };
     for (index, order) in orders.iter_mut().enumerate() {
-        for part in PARTS {
-            let path = Path::root().key(ORDER).index(index).key(part).key("form");
+        for part in keys.formed {
+            let path = Path::root().key(tables.list).index(index).key(part).key("form");
             let Some(form) = entry(order, part).and_then(|part| entry(part, "form")) else { continue };
             match entry(form, "by_state").map(|states| &mut states.value) {
                 Some(Value::Table(states)) => {

@@ -1,6 +1,7 @@
 //! Inheritance between species, and the defaults that all orders share.
 //!
-//! The nearer file wins; in a file an `[[order]]` wins over `[every_order]`. Tables merge key by key; a value that may
+//! The nearer file wins; in a file an `[[order]]` wins over `[every_order]`, as the bud model calls its tables that
+//! merge by place. Tables merge key by key; a value that may
 //! have several forms (a law, a number or its distribution) and a list are replaced whole. `[[order]]` tables merge by
 //! their place: the second of the child over the second of the parent; one that the parent lacks starts from the
 //! `[every_order]` of both. So each value is written once, by the nearest file that writes it, and keeps its span.
@@ -8,17 +9,15 @@
 
 use serde_json::Value as Json;
 
+use phytomer_models::parameters::ByPlace;
+
 use crate::document::{Entry, Node, Value};
 use crate::schema::{forms, resolve};
 
-/// The key of the tables that merge by place.
-pub const ORDER: &str = "order";
-/// The key of their defaults; gone after merging.
-pub const EVERY_ORDER: &str = "every_order";
-
-/// A species from its chain of files, the eldest ancestor first, under the schema of its model.
-pub fn merge_chain(schema: &Json, chain: Vec<Node>) -> Option<Node> {
-    let merge = Merge { root: schema };
+/// A species from its chain of files, the eldest ancestor first, under the schema of its model, whose tables by place
+/// are those of `by_place`.
+pub fn merge_chain(schema: &Json, by_place: Option<&ByPlace>, chain: Vec<Node>) -> Option<Node> {
+    let merge = Merge { root: schema, by_place };
     let mut generations = chain.into_iter();
     let eldest = generations.next()?;
     let start = Node { span: eldest.span, value: Value::Table(Vec::new()) };
@@ -26,20 +25,24 @@ pub fn merge_chain(schema: &Json, chain: Vec<Node>) -> Option<Node> {
     for child in generations {
         merged = merge.generation(merged, child);
     }
-    merged.remove(EVERY_ORDER);
+    if let Some(tables) = by_place {
+        merged.remove(tables.every);
+    }
     merged.remove("inherits");
     Some(merged)
 }
 
 struct Merge<'s> {
     root: &'s Json,
+    by_place: Option<&'s ByPlace>,
 }
 
 impl<'s> Merge<'s> {
     /// One file over all that came before it.
     fn generation(&self, mut parent: Node, mut child: Node) -> Node {
-        let (old_every, new_every) = (parent.remove(EVERY_ORDER), child.remove(EVERY_ORDER));
-        let (old_orders, new_orders) = (parent.remove(ORDER), child.remove(ORDER));
+        let Some(tables) = self.by_place else { return self.node(Some(self.root), parent, child) };
+        let (old_every, new_every) = (parent.remove(tables.every), child.remove(tables.every));
+        let (old_orders, new_orders) = (parent.remove(tables.list), child.remove(tables.list));
         let orders = self.orders(old_orders, old_every.as_ref(), new_every.as_ref(), new_orders);
         let every = match (old_every, new_every) {
             (Some(old), Some(new)) => Some(self.entry(Some(self.order_schema()), old, new)),
@@ -97,7 +100,7 @@ impl<'s> Merge<'s> {
     }
 
     fn order_schema(&self) -> &'s Json {
-        let list = self.below(Some(self.root), ORDER);
+        let list = self.by_place.and_then(|tables| self.below(Some(self.root), tables.list));
         list.and_then(|list| list.get("items")).and_then(|item| resolve(self.root, item)).unwrap_or(&Json::Null)
     }
 

@@ -5,6 +5,7 @@
 //! Absent: faults of meaning, which `validate` asks the models for.
 
 use phytomer_models::fault::{Path, Segment};
+use phytomer_models::parameters::Keys;
 use serde_json::Value as Json;
 
 use crate::document::{self, Node};
@@ -12,10 +13,11 @@ use crate::forms;
 use crate::inherit::merge_chain;
 use crate::library::{self, Kind};
 use crate::meaning;
+use crate::models::{MODELS, Model, ModelName, any_file};
 use crate::report::Fault;
 use crate::schema;
 use crate::source::{Origin, Source, SourceId, Sources, Span};
-use crate::species::{About, MODELS, Model, ModelName, any_file, split};
+use crate::species::{About, split};
 use crate::woods;
 
 /// More ancestors than this are a mistake even where they are no circle.
@@ -73,11 +75,17 @@ impl Loader {
         (id, document::parse(&self.sources, id, &mut self.faults))
     }
 
-    /// A value of a type from a tree that its schema has checked, with `refused` the faults that it found. Some: the
-    /// value, or what can be made of it without the values refused.
-    pub fn read<T>(&mut self, node: &Node, refused: &[Fault], read: impl Fn(Json) -> Read<T>) -> Option<T> {
+    /// A value of a type from a tree that its schema has checked, with `refused` the faults that it found and `keys` the
+    /// roles of its keys. Some: the value, or what can be made of it without the values refused.
+    pub fn read<T>(
+        &mut self,
+        node: &Node,
+        keys: &Keys,
+        refused: &[Fault],
+        read: impl Fn(Json) -> Read<T>,
+    ) -> Option<T> {
         if !refused.is_empty() {
-            return read(meaning::without(node, refused)?.to_json()).ok();
+            return read(meaning::without(node, keys, refused)?.to_json()).ok();
         }
         read(node.to_json()).map_err(|error| self.refused(node, &error)).ok()
     }
@@ -103,14 +111,15 @@ impl Loader {
         for node in &chain {
             schema::check(name.file_schema(), node, &mut self.faults);
         }
-        let mut node = merge_chain(name.schema(), chain)?;
+        let keys = &name.card().keys;
+        let mut node = merge_chain(name.schema(), keys.by_place.as_ref(), chain)?;
         let mut refused = Vec::new();
-        woods::fill(&mut node, &mut self.sources, &mut refused);
-        forms::resolve(&mut node, &self.sources, &mut refused);
+        woods::fill(&mut node, keys, &mut self.sources, &mut refused);
+        forms::resolve(&mut node, keys, &self.sources, &mut refused);
         schema::check(name.schema(), &node, &mut refused);
         self.faults.extend(refused.iter().cloned());
-        let about = self.read(&node, &refused, |json| serde_path_to_error::deserialize(split(json).0));
-        let model = self.read(&node, &refused, |json| name.read(split(json).1))?;
+        let about = self.read(&node, keys, &refused, |json| serde_path_to_error::deserialize(split(json).0));
+        let model = self.read(&node, keys, &refused, |json| name.read(split(json).1))?;
         Some(Found { about, model, node })
     }
 

@@ -6,36 +6,33 @@
 //! Absent: what is a fault.
 
 use phytomer_models::fault::{self, Path, Segment};
+use phytomer_models::parameters::Keys;
 
 use crate::document::{Node, Value};
-use crate::inherit::ORDER;
 use crate::report::Fault;
 use crate::source::{Sources, Span};
 use crate::spelling::nearest;
 
-/// Keys that others refer to: without them, what is left would look wrong.
-const REFERRED_TO: [&str; 2] = [ORDER, "states"];
-
-/// The wood of a species and of its orders: one cannot be judged without the other.
-const WOOD: &str = "wood";
-
-/// What wood can be judged without.
-const BESIDE_STIFFNESS: [&str; 5] = ["drag", "thickening", "leaf_kg_m2", "flower_kg_m3", "fruit_kg_m3"];
-
-/// The tree without the values at which something was refused; `None` where nothing useful is left.
-pub fn without(node: &Node, faults: &[Fault]) -> Option<Node> {
+/// The tree without the values at which something was refused, by the roles of its model's keys; `None` where nothing
+/// useful is left.
+pub fn without(node: &Node, keys: &Keys, faults: &[Fault]) -> Option<Node> {
     let mut rest = node.clone();
+    let wood = keys.wood.as_ref();
+    let is_wood = |key: &str| wood.is_some_and(|wood| wood.table == key);
+    let by_place = |key: &str| keys.by_place.as_ref().is_some_and(|tables| tables.list == key);
     for fault in faults {
         match fault.path.0.as_slice() {
             [] => {}
-            [Segment::Key(wood), Segment::Key(key), ..] if wood == WOOD && BESIDE_STIFFNESS.contains(&key.as_str()) => {
-                remove_below(&mut rest, wood, key);
+            [Segment::Key(table), Segment::Key(key), ..]
+                if wood.is_some_and(|wood| wood.table == table && wood.apart.contains(&key.as_str())) =>
+            {
+                remove_below(&mut rest, table, key);
             }
-            [Segment::Key(key), ..] | [_, _, Segment::Key(key), ..] if key == WOOD => forget_wood(&mut rest),
-            [Segment::Key(list), Segment::Index(i), Segment::Key(key), ..] if list == ORDER => {
+            [Segment::Key(key), ..] | [_, _, Segment::Key(key), ..] if is_wood(key) => forget(&mut rest, keys, key),
+            [Segment::Key(list), Segment::Index(i), Segment::Key(key), ..] if by_place(list) => {
                 remove_from_item(&mut rest, list, *i, key);
             }
-            [Segment::Key(key), ..] if REFERRED_TO.contains(&key.as_str()) => return None,
+            [Segment::Key(key), ..] if keys.referred_to.contains(&key.as_str()) => return None,
             [Segment::Key(table), Segment::Key(key), ..] => remove_below(&mut rest, table, key),
             [Segment::Key(key), ..] => _ = rest.remove(key),
             _ => return None,
@@ -44,10 +41,12 @@ pub fn without(node: &Node, faults: &[Fault]) -> Option<Node> {
     Some(rest)
 }
 
-fn forget_wood(node: &mut Node) {
-    node.remove(WOOD);
-    if let Some(Value::Array(orders)) = entry_mut(node, ORDER).map(|list| &mut list.value) {
-        orders.iter_mut().for_each(|order| _ = order.remove(WOOD));
+/// Takes a table away, from the species and from each of its tables by place.
+fn forget(node: &mut Node, keys: &Keys, table: &str) {
+    node.remove(table);
+    let Some(tables) = &keys.by_place else { return };
+    if let Some(Value::Array(items)) = entry_mut(node, tables.list).map(|list| &mut list.value) {
+        items.iter_mut().for_each(|item| _ = item.remove(table));
     }
 }
 

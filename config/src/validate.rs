@@ -10,6 +10,7 @@ use std::sync::{Arc, OnceLock};
 
 use phytomer_models::fault;
 use phytomer_models::law::Constant;
+use phytomer_models::parameters::Keys;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::expectation::Certainty;
 use phytomer_sim::model::GrowthModel;
@@ -19,11 +20,12 @@ use crate::document::Node;
 use crate::library::{self, Kind};
 use crate::load::{Found, Loader, Mention, integer_at, path_of};
 use crate::meaning;
+use crate::models::{MODELS, Model, any_file};
 use crate::report::{Fault, Report};
 use crate::scenario::Scenario;
 use crate::schema;
 use crate::source::{Source, Sources};
-use crate::species::{About, Model, Species, any_file};
+use crate::species::{About, Species};
 
 /// The last age over which a species is checked that is not part of a scenario.
 pub const SPECIES_ALONE_UNTIL: u32 = 100;
@@ -106,8 +108,10 @@ pub fn kind_of(name: &str) -> Kind {
 }
 
 fn looks_like_species(node: &Node) -> bool {
-    let has = |key: &&str| node.get(key).is_some();
-    ["model", "order", "every_order", "inherits", "tick"].iter().any(has) && !["species", "ages"].iter().any(has)
+    let has = |key: &str| node.get(key).is_some();
+    let by_place = MODELS.into_iter().filter_map(|model| model.card().keys.by_place.as_ref());
+    let of_models = by_place.flat_map(|tables| [tables.list, tables.every]);
+    ["model", "inherits", "tick"].into_iter().chain(of_models).any(has) && !["species", "ages"].into_iter().any(has)
 }
 
 /// The JSON Schema of a kind of file, as editors want it.
@@ -145,7 +149,7 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let mut refused = Vec::new();
     schema::check(scenario_schema(), &node, &mut refused);
     loader.faults.extend(refused.iter().cloned());
-    let scenario: Option<Scenario> = loader.read(&node, &refused, serde_path_to_error::deserialize);
+    let scenario: Option<Scenario> = loader.read(&node, &Keys::PLAIN, &refused, serde_path_to_error::deserialize);
     if let Some(scenario) = &scenario {
         tell(loader, &node, scenario.faults());
     }

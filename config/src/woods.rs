@@ -9,6 +9,7 @@ use crate::report::Fault;
 use crate::source::{Origin, Source, Sources};
 use crate::spelling::nearest;
 use phytomer_models::fault::Path;
+use phytomer_models::parameters::Keys;
 
 const TABLE: &str = include_str!("../presets/wood.toml");
 
@@ -32,20 +33,21 @@ pub fn woods() -> Vec<ShippedWood> {
 }
 
 /// Fills what the species' `[wood]` leaves to the wood that it is like.
-pub(crate) fn fill(species: &mut Node, sources: &mut Sources, faults: &mut Vec<Fault>) {
-    let Some(like) = species.get("wood").and_then(|wood| wood.get("like")) else { return };
+pub(crate) fn fill(species: &mut Node, keys: &Keys, sources: &mut Sources, faults: &mut Vec<Fault>) {
+    let Some(table) = keys.wood.as_ref().map(|wood| wood.table) else { return };
+    let Some(like) = species.get(table).and_then(|wood| wood.get("like")) else { return };
     let Some(name) = like.text().map(str::to_owned) else { return };
     let span = like.span;
     let rows = read(sources);
     let Some((_, row)) = rows.iter().find(|(known, _)| *known == name) else {
         let near = nearest(&name, rows.iter().map(|(known, _)| known.as_str())).map(str::to_owned);
-        let path = Path::root().key("wood").key("like");
+        let path = Path::root().key(table).key("like");
         let expected = "a wood of the shipped table (`phytomer list woods` has them)";
         faults.push(Fault::new(span, &path, format!("there is no wood `{name}`"), expected).suggest(near));
         return;
     };
     let Value::Table(entries) = &mut species.value else { return };
-    let Some(wood) = entries.iter_mut().find(|entry| entry.key == "wood") else { return };
+    let Some(wood) = entries.iter_mut().find(|entry| entry.key == table) else { return };
     let Value::Table(own) = &mut wood.node.value else { return };
     for entry in row.entries() {
         let stated = own.iter().any(|known| known.key == entry.key);

@@ -9,3 +9,4 @@ pub mod contract;
 pub mod fault;
 pub mod geometric;
 pub mod law;
+pub mod parameters;

@@ -88,7 +88,7 @@ impl Listed {
             Self::Scenarios => presets(Kind::Scenario).iter().map(|(name, _)| scenario(name)).collect(),
             Self::Species => named_species().filter(|name| !is_model(name)).map(species).collect(),
             Self::Models => ArchitecturalModel::ALL.map(|model| described(&format!("halle/{}", model.word()))).into(),
-            Self::GrowthModels => MODELS.map(|model| entry(model.word(), model_in_words(model.word()))).into(),
+            Self::GrowthModels => MODELS.map(|model| entry(model.word(), model.card().about)).into(),
             Self::Woods => woods().iter().map(|wood| entry(&wood.name, &wood.scientific_name)).collect(),
             Self::Forms => {
                 let named = |form: &Form| Some(entry(form.name()?, form.words()));
@@ -129,14 +129,6 @@ fn species(name: &str) -> Entry {
     let about = validate_species(name, 1).ok().map(|species| species.species.about);
     let words = |about: phytomer_config::About| about.scientific_name.or(about.common_name).or(about.description);
     entry(name, &first_sentence(&about.and_then(words).unwrap_or_default()))
-}
-
-fn model_in_words(word: &str) -> &'static str {
-    match word {
-        "buds" => "every bud dies, pauses, grows and branches by laws (de Reffye et al. 1988)",
-        "gmt1" => "two branches at every tip, by ratios and angles (Aono & Kunii 1984)",
-        _ => "",
-    }
 }
 
 /// The words up to the first full stop that a sentence follows; "Fig. 5a" is none.

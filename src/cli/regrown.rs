@@ -11,7 +11,7 @@ use anyhow::Result;
 use clap::Args;
 use phytomer::run::again::{Again, Air};
 use phytomer::run::forms;
-use phytomer_config::{Model, Resolved, ResolvedSpecies, Scenario, Species};
+use phytomer_config::{MODELS, Resolved, ResolvedSpecies, Scenario, Species};
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_sim::mechanics::sway::{Unmoved, yielding};
 use phytomer_sim::site::Wind;
@@ -128,15 +128,18 @@ impl Regrown {
         };
         let file = &self.scenario.species;
         let wind = breeze.wind.unwrap_or_default();
-        Misuse(match &self.species.model {
-            Model::Buds(_) => format!(
+        let model = self.species.model.name();
+        let with_wood = MODELS.into_iter().filter(|model| model.card().keys.wood.is_some());
+        Misuse(match model.card().keys.wood {
+            Some(_) => format!(
                 "--wind {wind}: the species `{name}` has {lacks}. Its file (`{file}`) needs {needs}; a species that ships is \
                  extended by a file of your own with `inherits = \"{name}\"`. `phytomer list woods` has the woods"
             ),
-            model => {
-                let model = model.name().word();
+            None => {
+                let knowing: Vec<String> = with_wood.map(|model| format!("`{}`", model.word())).collect();
+                let (model, knowing) = (model.word(), knowing.join(" and "));
                 format!(
-                    "--wind {wind}: the species `{name}` has {lacks}, and its model `{model}` knows none: only `buds` does"
+                    "--wind {wind}: the species `{name}` has {lacks}, and its model `{model}` knows none: only {knowing} does"
                 )
             }
         })

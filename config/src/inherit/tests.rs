@@ -27,7 +27,11 @@ fn merged(texts: &[&str]) -> (Node, Sources) {
         chain.extend(document::parse(&sources, id, &mut faults));
         assert_eq!(faults, []);
     }
-    (merge_chain(&schema, chain).expect("a chain of at least one"), sources)
+    (
+        merge_chain(&schema, phytomer_models::buds::Buds::CARD.keys.by_place.as_ref(), chain)
+            .expect("a chain of at least one"),
+        sources,
+    )
 }
 
 #[test]

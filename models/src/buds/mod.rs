@@ -4,6 +4,7 @@
 //! species that grows. [`expectation`] gives the mean of what grows in closed form.
 
 mod bud;
+mod card;
 mod compile;
 pub mod expectation;
 mod grow;

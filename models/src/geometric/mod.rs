@@ -7,6 +7,7 @@
 //! Absent on purpose: the deviators, ternary branching and statistics of GMT2 to GMT4.
 
 mod branching;
+mod card;
 mod gmt1;
 mod laws;
 mod model;

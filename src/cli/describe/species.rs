@@ -4,10 +4,8 @@
 //! the schema has (`phytomer schema species`).
 
 use anyhow::Result;
+use phytomer_config::Species;
 use phytomer_config::published::{Measure, Published, Range};
-use phytomer_config::{Model, Species};
-use phytomer_models::buds::Order;
-use phytomer_models::buds::params::Wood;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
@@ -37,17 +35,20 @@ pub fn as_json(species: &Species) -> Result<Value> {
 pub fn as_text(species: &Species) -> Result<String> {
     let json = species.to_json()?;
     let mut text = heading(species);
-    match &species.model {
-        Model::Buds(buds) => {
-            if let Some(wood) = &buds.wood {
-                text += &wood_in_words(wood)?;
-            }
-            for (number, order) in (1..).zip(&buds.order) {
-                let _ = writeln!(text, "\n  order {number}");
-                laws(order, &mut text)?;
+    let model = species.model.name();
+    let keys = &model.card().keys;
+    if let Some(wood) = keys.wood.as_ref().and_then(|wood| json.get(wood.table)) {
+        text += &wood_in_words(wood);
+    }
+    match keys.by_place.as_ref().map(|tables| tables.list) {
+        Some(list) => {
+            let default = model.default_table().unwrap_or_default();
+            for (number, table) in (1..).zip(json[list].as_array().into_iter().flatten()) {
+                let _ = writeln!(text, "\n  {list} {number}");
+                laws(table, &default, &mut text);
             }
         }
-        _ => {
+        None => {
             text += "\n  parameters\n";
             let about = serde_json::to_value(&species.about)?;
             let own = json.as_object().into_iter().flatten();
@@ -91,17 +92,18 @@ fn published(row: &Published, text: &mut String) {
 }
 
 /// The wood: what it is like, how stiff and heavy, whether it bends and how it thickens.
-fn wood_in_words(wood: &Wood) -> Result<String> {
-    let stated = serde_json::to_value(wood)?;
+fn wood_in_words(stated: &Value) -> String {
     let with_unit = |(key, unit): (&str, &str)| Some(format!("{} {unit}", amount(stated.get(key)?)));
-    let mut words: Vec<String> = wood.like.iter().map(|like| format!("like {like}")).collect();
+    let like = stated.get("like").and_then(Value::as_str);
+    let mut words: Vec<String> = like.iter().map(|like| format!("like {like}")).collect();
     words.extend([("modulus_gpa", "GPa"), ("density_kg_m3", "kg/m³")].into_iter().filter_map(with_unit));
-    words.push(if wood.bends { "it bends" } else { "it does not bend" }.to_owned());
+    let bends = stated.get("bends") != Some(&Value::Bool(false));
+    words.push(if bends { "it bends" } else { "it does not bend" }.to_owned());
     let thickens = match stated.get("thickening") {
         Some(rule) => in_words(rule),
-        None => "by the law `internode.thickening_mm` of each order".to_owned(),
+        None => "by the law of each internode".to_owned(),
     };
-    Ok(format!("  {:<18} {}\n  {:<18} {thickens}\n", "wood", words.join(", "), "thickening"))
+    format!("  {:<18} {}\n  {:<18} {thickens}\n", "wood", words.join(", "), "thickening")
 }
 
 /// A number without the note that may stand beside it, or a law.
@@ -109,16 +111,13 @@ fn amount(value: &Value) -> String {
     in_words(value.get("value").unwrap_or(value))
 }
 
-/// What an order states beyond the defaults.
-fn laws(order: &Order, text: &mut String) -> Result<()> {
-    let default = serde_json::to_value(Order::default())?;
-    let stated = serde_json::to_value(order)?;
+/// What a table states beyond the defaults.
+fn laws(stated: &Value, default: &Value, text: &mut String) {
     for (key, value) in stated.as_object().into_iter().flatten() {
         if let Some(value) = beyond(value, &default[key]) {
             law(key, &value, text);
         }
     }
-    Ok(())
 }
 
 /// The part of a value that is not the default's.

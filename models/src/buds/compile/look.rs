@@ -22,8 +22,8 @@ const SHARE: ValueRange = ValueRange { min: 0.0, max: 1.0, what: "a share of the
 /// The looks of a species.
 pub fn compile(buds: &Buds, until: u32, path: &Path, faults: &mut Vec<Fault>) -> Looks {
     let mut looks = Looks { states: buds.states.len().max(1), ..Looks::default() };
-    if buds.own_forms().len() > MOST_OWN {
-        let found = format!("the species names {} meshes of its own", buds.own_forms().len());
+    if buds.meshes_of_its_own().len() > MOST_OWN {
+        let found = format!("the species names {} meshes of its own", buds.meshes_of_its_own().len());
         faults.push(Fault::new(&path.key("order"), found, format!("at most {MOST_OWN}")));
     }
     for index in 0..buds.order.len() {
@@ -41,7 +41,7 @@ pub fn form_of(buds: &Buds, choice: &FormChoice) -> Form {
     match choice {
         FormChoice::Named(name) => Form::from(*name),
         FormChoice::Own(own) => {
-            let place = buds.own_forms().iter().position(|(_, mesh)| *mesh == own.mesh);
+            let place = buds.meshes_of_its_own().iter().position(|(_, mesh)| *mesh == own.mesh);
             Form::Own(place.and_then(|place| u8::try_from(place).ok()).unwrap_or(0))
         }
     }
@@ -50,7 +50,7 @@ pub fn form_of(buds: &Buds, choice: &FormChoice) -> Form {
 impl Buds {
     /// The meshes of its own that the species names, each once, in the order of their numbers, with the place of the
     /// first mention from the top of the species file.
-    pub fn own_forms(&self) -> Vec<(Path, &str)> {
+    pub(crate) fn meshes_of_its_own(&self) -> Vec<(Path, &str)> {
         let mut meshes: Vec<(Path, &str)> = Vec::new();
         for (index, order) in self.order.iter().enumerate() {
             let path = Path::root().key("order").index(index);
@@ -72,13 +72,13 @@ impl Buds {
 impl Buds {
     /// States the area share of leaves that are drawn with a mesh of the user's and state none: that of the mesh, which
     /// `share` tells by the mesh's number, to a millionth. Whether there is any such leaf.
-    pub fn state_area_shares(&mut self, share: impl Fn(usize) -> Option<f64>) -> bool {
-        let meshes: Vec<String> = self.own_forms().into_iter().map(|(_, mesh)| mesh.to_owned()).collect();
+    pub(crate) fn state_shares_of_meshes(&mut self, share: &dyn Fn(usize) -> Option<f64>) -> bool {
+        let meshes: Vec<String> = self.meshes_of_its_own().into_iter().map(|(_, mesh)| mesh.to_owned()).collect();
         let mut stated = false;
         for leaf in self.order.iter_mut().map(|order| &mut order.leaf).filter(|leaf| leaf.area_share.is_none()) {
             let FormChoice::Own(OwnForm { mesh }) = &leaf.form else { continue };
             let place = meshes.iter().position(|known| known == mesh);
-            if let Some(share) = place.and_then(&share) {
+            if let Some(share) = place.and_then(share) {
                 leaf.area_share = Some(Variate::from((share * 1e6).round() / 1e6));
                 stated = true;
             }

@@ -1,0 +1,201 @@
+//! Every growth model that a species file can name, and the schema of its keys.
+//!
+//! A new model is one line in [`registry!`]; everything else about it is told by its parameters
+//! ([`phytomer_models::parameters`]). Absent: keys of one model, which nothing here knows.
+
+use std::sync::{Arc, OnceLock};
+
+use phytomer_models::fault::{Fault, Path};
+use phytomer_models::parameters::{Card, Parameters};
+use phytomer_sim::model::GrowthModel;
+use serde_json::{Value as Json, json};
+
+use crate::schema::{join, of_type, partial, resolve};
+use crate::species::About;
+
+/// Makes the enums of the models from one line a model: the name of its variant, and the type of its parameters.
+macro_rules! registry {
+    ($($name:ident: $parameters:ty,)+) => {
+        /// Every growth model, with its parameters.
+        #[derive(Debug, Clone, PartialEq)]
+        pub enum Model {
+            $(#[doc = concat!("[`", stringify!($parameters), "`]")] $name($parameters),)+
+        }
+
+        /// The names of the models, as the key `model` takes them.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum ModelName {
+            $(#[doc = concat!("That of [`", stringify!($parameters), "`].")] $name,)+
+        }
+
+        /// Every model, in the order of the lists that people see.
+        pub const MODELS: [ModelName; [$(ModelName::$name),+].len()] = [$(ModelName::$name),+];
+
+        impl ModelName {
+            /// What the model is called, and how its keys stand.
+            pub fn card(self) -> &'static Card {
+                match self {
+                    $(ModelName::$name => &<$parameters>::CARD,)+
+                }
+            }
+
+            fn parameters(self) -> Json {
+                match self {
+                    $(ModelName::$name => of_type::<$parameters>(),)+
+                }
+            }
+
+            /// The parameters from their keys.
+            ///
+            /// # Errors
+            /// What serde says of keys that the schema would have refused.
+            pub fn read(self, keys: Json) -> Result<Model, serde_path_to_error::Error<serde_json::Error>> {
+                match self {
+                    $(ModelName::$name => serde_path_to_error::deserialize(keys).map(Model::$name),)+
+                }
+            }
+        }
+
+        impl Model {
+            /// The model's name.
+            pub fn name(&self) -> ModelName {
+                match self {
+                    $(Model::$name(_) => ModelName::$name,)+
+                }
+            }
+
+            fn parameters(&self) -> &dyn Parameters {
+                match self {
+                    $(Model::$name(parameters) => parameters,)+
+                }
+            }
+
+            fn parameters_mut(&mut self) -> &mut dyn Parameters {
+                match self {
+                    $(Model::$name(parameters) => parameters,)+
+                }
+            }
+
+            pub(crate) fn to_json(&self) -> serde_json::Result<Json> {
+                match self {
+                    $(Model::$name(parameters) => serde_json::to_value(parameters),)+
+                }
+            }
+        }
+    };
+}
+
+registry! {
+    Buds: phytomer_models::buds::Buds,
+    Gmt1: phytomer_models::geometric::Gmt1,
+}
+
+impl ModelName {
+    /// The word of the key `model`.
+    pub fn word(self) -> &'static str {
+        self.card().word
+    }
+
+    /// The model of that word.
+    pub fn from_word(word: &str) -> Option<Self> {
+        MODELS.into_iter().find(|model| model.word() == word)
+    }
+
+    /// What a table of the list that merges by place states where a file leaves out every key that it can; `None` for a
+    /// model without such a list.
+    pub fn default_table(self) -> Option<Json> {
+        let list = self.card().keys.by_place.as_ref()?.list;
+        let model = self.read(json!({list: [{}]})).ok()?;
+        model.to_json().ok()?.get_mut(list)?.get_mut(0).map(Json::take)
+    }
+
+    /// The schema of a complete species of this model.
+    pub fn schema(self) -> &'static Json {
+        static SCHEMAS: [OnceLock<Json>; MODELS.len()] = [const { OnceLock::new() }; MODELS.len()];
+        SCHEMAS[self as usize].get_or_init(|| complete(self))
+    }
+
+    /// The schema of one file of this model, which may leave keys to its ancestors and share them between the tables
+    /// that merge by place.
+    pub fn file_schema(self) -> &'static Json {
+        static SCHEMAS: [OnceLock<Json>; MODELS.len()] = [const { OnceLock::new() }; MODELS.len()];
+        SCHEMAS[self as usize].get_or_init(|| one_file(self))
+    }
+}
+
+impl Model {
+    /// The model compiled for all ages up to `until`, every law checked over its whole range.
+    ///
+    /// # Errors
+    /// Every fault that there is, each with its path from the top of the species file.
+    pub fn compile(&self, until: u32) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
+        self.parameters().model(until, &Path::root())
+    }
+
+    /// As [`Parameters::own_forms`].
+    pub fn own_forms(&self) -> Vec<(Path, &str)> {
+        self.parameters().own_forms()
+    }
+
+    /// As [`Parameters::state_area_shares`].
+    pub fn state_area_shares(&mut self, share: impl Fn(usize) -> Option<f64>) -> bool {
+        self.parameters_mut().state_area_shares(&share)
+    }
+
+    /// As [`Parameters::full_grown_at`].
+    pub fn full_grown_at(&self) -> Option<u32> {
+        self.parameters().full_grown_at()
+    }
+
+    /// As [`Parameters::year`].
+    pub(crate) fn year(&self) -> Option<(Path, u32)> {
+        self.parameters().year()
+    }
+}
+
+fn complete(model: ModelName) -> Json {
+    let mut schema = of_type::<About>();
+    join(&mut schema, &model.parameters());
+    let says = "The growth model, which decides the other keys.";
+    schema["properties"]["model"] = json!({"type": "string", "const": model.word(), "description": says});
+    schema["title"] = format!("A phytomer species of the model {}", model.word()).into();
+    let listed = model.card().keys.by_place.as_ref().map(|tables| tables.list);
+    for key in ["model"].into_iter().chain(listed) {
+        let known = schema["properties"].get(key).is_some();
+        let required = schema["required"].as_array_mut().filter(|r| known && !r.contains(&key.into()));
+        required.into_iter().for_each(|r| r.push(key.into()));
+    }
+    schema["additionalProperties"] = false.into();
+    schema
+}
+
+fn one_file(model: ModelName) -> Json {
+    let Some(tables) = &model.card().keys.by_place else { return partial(model.schema(), None) };
+    let mut schema = partial(model.schema(), Some(tables.list));
+    let item = schema["properties"][tables.list].get("items").and_then(|items| resolve(&schema, items)).cloned();
+    if let Some(mut every) = item {
+        every["description"] = format!("What holds for each [[{}]] that does not say otherwise.", tables.list).into();
+        schema["properties"][tables.every] = every;
+    }
+    schema
+}
+
+/// The schema of a species file of any model, for editors.
+pub(crate) fn any_file() -> Json {
+    let mut any = json!({
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "A phytomer species",
+        "type": "object",
+        "definitions": {},
+        "anyOf": [],
+    });
+    for model in MODELS {
+        let mut schema = model.file_schema().clone();
+        join(&mut any, &json!({"definitions": schema["definitions"]}));
+        if let (Some(keys), Some(forms)) = (schema.as_object_mut(), any["anyOf"].as_array_mut()) {
+            keys.retain(|key, _| key != "definitions" && key != "$schema");
+            forms.push(schema);
+        }
+    }
+    any
+}

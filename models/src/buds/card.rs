@@ -1,0 +1,50 @@
+//! What the bud model offers to everything above it.
+//!
+//! Absent: the parameters themselves (`params`) and what they compile to (`compile`).
+
+use super::Buds;
+use crate::fault::{Fault, Path};
+use crate::parameters::{ByPlace, Card, Keys, Parameters, Together};
+use phytomer_sim::Tick;
+use phytomer_sim::model::GrowthModel;
+use std::sync::Arc;
+
+/// What wood can be judged without; stiffness and density it cannot.
+const BESIDE_STIFFNESS: [&str; 5] = ["drag", "thickening", "leaf_kg_m2", "flower_kg_m3", "fruit_kg_m3"];
+
+impl Buds {
+    /// What the model is called, and how its keys stand.
+    pub const CARD: Card = Card {
+        word: "buds",
+        about: "every bud dies, pauses, grows and branches by laws (de Reffye et al. 1988)",
+        keys: Keys {
+            by_place: Some(ByPlace { list: "order", every: "every_order" }),
+            referred_to: &["order", "states"],
+            wood: Some(Together { table: "wood", apart: &BESIDE_STIFFNESS }),
+            formed: &["internode", "leaf", "flower", "fruit"],
+        },
+    };
+}
+
+impl Parameters for Buds {
+    fn card(&self) -> &'static Card {
+        &Self::CARD
+    }
+
+    fn model(&self, until: Tick, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
+        Ok(Arc::new(self.compile(until, top)?))
+    }
+
+    fn own_forms(&self) -> Vec<(Path, &str)> {
+        self.meshes_of_its_own()
+    }
+
+    fn state_area_shares(&mut self, share: &dyn Fn(usize) -> Option<f64>) -> bool {
+        self.state_shares_of_meshes(share)
+    }
+
+    fn year(&self) -> Option<(Path, u32)> {
+        let path = Path::root().key("season").key("ticks_per_year");
+        self.season.as_ref().map(|season| (path, season.ticks_per_year.value()))
+    }
+}

@@ -1,0 +1,34 @@
+//! What GMT1 offers to everything above it.
+//!
+//! Absent: its parameters (`gmt1`).
+
+use super::Gmt1;
+use crate::fault::{Fault, Path};
+use crate::parameters::{Card, Keys, Parameters};
+use phytomer_sim::Tick;
+use phytomer_sim::model::GrowthModel;
+use std::sync::Arc;
+
+impl Gmt1 {
+    /// What the model is called, and how its keys stand.
+    pub const CARD: Card = Card {
+        word: "gmt1",
+        about: "two branches at every tip, by ratios and angles (Aono & Kunii 1984)",
+        keys: Keys::PLAIN,
+    };
+}
+
+impl Parameters for Gmt1 {
+    fn card(&self) -> &'static Card {
+        &Self::CARD
+    }
+
+    fn model(&self, until: Tick, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
+        Ok(Arc::new(self.compile(until, top)?))
+    }
+
+    /// As in the figures of the paper: growth level 0 is age 1.
+    fn full_grown_at(&self) -> Option<Tick> {
+        Some(self.levels.value() + 1)
+    }
+}
