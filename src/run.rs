@@ -26,7 +26,7 @@ use phytomer_outputs::{
     Checkup, FreeSpace, Mode, Opening, RunFolder, RunPlan, RunReport, Shard, ShardReport, SystemSpace,
 };
 use phytomer_sim::plant::Hands;
-use phytomer_sim::{Growth, Plot, RecordError, Recorder, Tick, grow};
+use phytomer_sim::{Plot, RecordError, Recorder, Tick, grow};
 use progress::Stopped;
 use rayon::ThreadPool;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -267,10 +267,10 @@ impl Keeper<'_> {
 }
 
 impl Recorder for Keeper<'_> {
-    /// A model that rebuilds the plant must also make it at the last age, of which the components are written.
+    /// A model that makes the plant anew must also make it at the last age, of which the components are written.
     fn wants(&self, age: Tick) -> bool {
         let resolved = self.grower.resolved;
-        let last = age == resolved.scenario.ages.until && resolved.model.growth() == Growth::Rebuilds;
+        let last = age == resolved.scenario.ages.until && !resolved.model.growth().keeps_its_past();
         last || self.shard.wants(age) || self.draws(age)
     }
 

@@ -12,7 +12,7 @@ use phytomer_sim::{Plot, Tick, grow};
 fn buds(species: &str) -> Option<Buds> {
     match validate_species(species, 1).expect("a shipped species").species.model {
         Model::Buds(buds) => Some(buds),
-        Model::Gmt1(_) => None,
+        _ => None,
     }
 }
 

@@ -9,4 +9,5 @@ pub mod contract;
 pub mod fault;
 pub mod geometric;
 pub mod law;
+pub mod lsystem;
 pub mod parameters;

@@ -10,7 +10,7 @@
 use crate::cells::Claims;
 use crate::clock::Tick;
 use crate::mechanics::{Bench, Thickening, bend, thicken};
-use crate::model::{Growth, GrowthModel, Life, Overgrown};
+use crate::model::{GrowthModel, Life, Overgrown};
 use crate::plant::Plant;
 use crate::plot::{Member, Plot};
 use crate::record::{RecordError, Recorder};
@@ -75,7 +75,7 @@ impl Plot<'_> {
     /// Grows all members to the tick `until` at once, where that is allowed; whether it did. A plot in which a plant is
     /// too large for its limit starts again by the clock, so that the ticks before the limit are kept.
     pub fn ahead(&mut self, until: Tick) -> bool {
-        if self.site.feeds_back() || self.species.iter().any(|model| model.growth() == Growth::Rebuilds) {
+        if self.site.feeds_back() || self.species.iter().any(|model| !model.growth().keeps_its_past()) {
             return false;
         }
         let fits = self.grow_to(until).is_ok();
@@ -145,9 +145,9 @@ impl Plot<'_> {
         self.remembers() || self.site.sees_buds()
     }
 
-    /// A model that rebuilds the plant has work only at ticks that are recorded.
+    /// A model that makes the plant anew has work only at ticks that are recorded.
     fn follows(&self, tick: Tick, recorder: &dyn Recorder) -> bool {
-        let extends = self.species.iter().any(|model| model.growth() != Growth::Rebuilds);
+        let extends = self.species.iter().any(|model| model.growth().keeps_its_past());
         extends || self.site.feeds_back() || recorder.wants(tick)
     }
 }

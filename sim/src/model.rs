@@ -19,8 +19,19 @@ use std::sync::Arc;
 pub enum Growth {
     /// It adds to the plant that stands there (buds); many ticks at once, or tick by tick, with the same result.
     Extends,
-    /// It makes the plant anew at each age (geometric and parametric models).
+    /// It makes the plant anew at any age, directly (geometric and parametric models).
     Rebuilds,
+    /// It takes its own state from tick to tick and writes the plant anew from it (L-systems). What it puts between two
+    /// nodes of an axis is numbered after both; a component keeps its number.
+    Rewrites,
+}
+
+impl Growth {
+    /// Whether a plant grown to an age can be read at every age before, so that growth may run ahead. Else the plant is
+    /// grown to each age at which something looks at it.
+    pub fn keeps_its_past(self) -> bool {
+        self == Self::Extends
+    }
 }
 
 /// A plant came to its limit of components.

@@ -11,7 +11,7 @@ use phytomer_sim::mechanics::Bench;
 use phytomer_sim::mechanics::sway::sway;
 use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
 use phytomer_sim::site::Wind;
-use phytomer_sim::{Ending, Growth, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
+use phytomer_sim::{Ending, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
 use std::borrow::Cow;
 
 /// Air that moves a plant for one frame.
@@ -72,13 +72,13 @@ impl Again<'_> {
 
     /// The prime of a plant: its last year with at least nine tenths of the largest leaf area that it ever bears, and
     /// in it the first age that is so, which is spring where there are seasons. Of a plant without leaves internodes
-    /// and organs are counted instead; a geometric model has its prime at the last age. A year has so many ticks.
+    /// and organs are counted instead; a model that makes its plant anew at each age has its prime at the last. A year has so many ticks.
     ///
     /// # Errors
     /// Where it comes to its limit at its first age.
     pub fn prime(&self, plant: u32, year: Tick) -> Result<Tick> {
         let until = self.scenario.ages.until;
-        if self.model.growth() == Growth::Rebuilds {
+        if !self.model.growth().keeps_its_past() {
             return Ok(until);
         }
         let mut plot = self.sown(plant);

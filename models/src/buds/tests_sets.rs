@@ -11,6 +11,7 @@ use super::{BudModel, Buds, Order};
 use crate::contract;
 use crate::fault::Path;
 use crate::law::{Count, CountForm, Law, LawForm, Poisson};
+use phytomer_sim::Growth;
 use phytomer_sim::plant::{ApexFate, Origin, Plant};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -133,7 +134,7 @@ fn species_made_to_break_it_keep_the_contract() {
         let model = compiled(&["a", "b"], order, until);
         for plant in 0..4 {
             let seed = contract::seed_of(u64::from(number), plant);
-            contract::structure(&contract::grown(&model, until, &seed), until);
+            contract::structure(&contract::grown(&model, until, &seed), Growth::Extends, until);
             contract::hands_leave_no_trace(&model, until, &seed);
         }
         contract::ahead_equals_the_clock(&model, until, &contract::seed_of(u64::from(number), 0));

@@ -24,8 +24,11 @@ pub fn ahead_equals_the_clock(model: &dyn GrowthModel, until: Tick, seed: &Seed)
     assert_same(rule, &components(&ahead), &components(&by_clock));
     assert_eq!(ahead.death, by_clock.death, "{rule}, to the death of the plant");
     assert_same(&format!("{rule}, event for event"), &events(&ahead), &events(&by_clock));
-    if model.growth() == Growth::Rebuilds {
-        assert!(numbered(&ahead) == numbered(&by_clock), "a model that rebuilds numbers components alike at each time");
+    if !model.growth().keeps_its_past() {
+        assert!(
+            numbered(&ahead) == numbered(&by_clock),
+            "a model that makes its plant anew numbers components alike at each time"
+        );
     }
 }
 
@@ -42,7 +45,7 @@ pub fn ages_agree(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
         let rule = format!("the plant of age {age} is the plant of age {until} read at {age}");
         let read = |all: &[Component]| all.iter().filter_map(|c| at(c, age, model.growth())).collect::<Vec<_>>();
         assert_same(&rule, &read(&components(&then)), &read(&whole));
-        if model.growth() == Growth::Extends {
+        if model.growth().keeps_its_past() {
             model.thicken(age, &mut then);
             model.thicken(age, &mut last);
             let alike = thicknesses(&then, age) == thicknesses(&last, age);
@@ -60,8 +63,11 @@ fn at(component: &Component, age: Tick, growth: Growth) -> Option<Component> {
     known.death = past(known.death);
     known.shed = past(known.shed);
     known.state.clear();
-    if growth == Growth::Rebuilds {
+    if !growth.keeps_its_past() {
         known.measures.clear();
+    }
+    if growth == Growth::Rewrites {
+        known.parent = None;
     }
     (component.birth <= age).then_some(known)
 }

@@ -42,7 +42,7 @@ use phytomer_sim::plot::Plot;
 pub fn check(model: &dyn GrowthModel, until: Tick, seed: u64) {
     for number in [0, 1, 77] {
         let mut plant = grown(model, until, &seed_of(seed, number));
-        structure(&plant, until);
+        structure(&plant, model.growth(), until);
         events_tell_the_plant(&plant, until);
         diameters(model, &mut plant, until);
         poses(&mut plant);

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use phytomer_sim::clock::{NEVER, Tick};
-use phytomer_sim::model::GrowthModel;
+use phytomer_sim::model::{Growth, GrowthModel};
 use phytomer_sim::plant::{ApexFate, EventKind, NodeId, OrganId, Origin, Plant};
 use phytomer_sim::pose::{organ_frame, pose};
 
@@ -14,13 +14,17 @@ use phytomer_sim::pose::{organ_frame, pose};
 ///
 /// # Panics
 /// At the first rule that is broken.
-pub fn structure(plant: &Plant, until: Tick) {
+pub fn structure(plant: &Plant, growth: Growth, until: Tick) {
     assert_eq!(plant.age, until, "a plant grown to an age has that age");
     assert!(!plant.axes.is_empty(), "a plant has the axis of its seed");
     numbers(plant);
     keys(plant);
-    (0..plant.axes.len()).for_each(|i| axis(plant, i, until));
-    (0..plant.nodes.len()).for_each(|i| node(plant, i, until));
+    (0..plant.axes.len()).for_each(|i| axis(plant, i, growth, until));
+    (0..plant.nodes.len()).for_each(|i| node(plant, i, growth, until));
+    if growth != Growth::Rewrites {
+        (0..plant.axes.len()).for_each(|i| axis_comes_after(plant, i));
+        (0..plant.nodes.len()).for_each(|i| node_comes_after(plant, i));
+    }
     (0..plant.organs.len()).for_each(|i| organ(plant, i, until));
     ranks(plant);
     headings(plant);
@@ -50,16 +54,40 @@ fn keys(plant: &Plant) {
     }
 }
 
-fn axis(plant: &Plant, i: usize, until: Tick) {
+/// The first tick at which something of a plant may appear: what a model rewrites is there with the seed.
+fn first_tick(growth: Growth) -> Tick {
+    if growth == Growth::Rewrites { 0 } else { 1 }
+}
+
+/// An axis comes after its bearing node, in number and in time: a model that rewrites may put nodes below it later.
+fn axis_comes_after(plant: &Plant, i: usize) {
+    let (axes, nodes) = (&plant.axes, &plant.nodes);
+    if let Some(bearer) = axes.bearer[i].some() {
+        let b = bearer.index();
+        assert!(nodes.component[b] < axes.component[i], "a bearing node's number comes before its axis's: axis {i}");
+        assert!(nodes.birth[b] <= axes.appearance[i], "an axis appears no sooner than its bearing node: axis {i}");
+    }
+}
+
+/// A node comes after its parent, in number and in time, as axes do.
+fn node_comes_after(plant: &Plant, i: usize) {
+    let nodes = &plant.nodes;
+    if let Some(parent) = nodes.parent[i].some() {
+        let p = parent.index();
+        assert!(nodes.component[p] < nodes.component[i], "a parent's number is smaller than its child's: node {i}");
+        assert!(nodes.birth[p] <= nodes.birth[i], "a node appears no sooner than its parent: node {i}");
+    }
+}
+
+fn axis(plant: &Plant, i: usize, growth: Growth, until: Tick) {
+    let first = first_tick(growth);
     let (axes, nodes) = (&plant.axes, &plant.nodes);
     assert_eq!(axes.bearer[i].some().is_none(), i == 0, "the first axis, and it alone, has no bearer: axis {i}");
     assert_eq!(axes.origin[i] == Origin::Seed, i == 0, "the first axis, and it alone, comes out of the seed: axis {i}");
     if let Some(bearer) = axes.bearer[i].some() {
         let b = bearer.index();
         assert!(nodes.axis[b].index() < i, "a bearing axis comes before the axis that it bears: axis {i}");
-        assert!(nodes.component[b] < axes.component[i], "a bearing node's number comes before its axis's: axis {i}");
-        assert!(nodes.birth[b] <= axes.appearance[i], "an axis appears no sooner than its bearing node: axis {i}");
-        assert!((1..=until).contains(&axes.appearance[i]), "an axis appears in 1..={until}: axis {i}");
+        assert!((first..=until).contains(&axes.appearance[i]), "an axis appears in {first}..={until}: axis {i}");
     }
     order(plant, i);
     assert!(i > 0 || axes.appearance[i] <= 1, "the bud of the seed is there at the first tick");
@@ -84,19 +112,18 @@ fn order(plant: &Plant, i: usize) {
     assert!(right, "the order of an axis follows from its origin: axis {i}, {origin}, has {order} on {bearing}");
 }
 
-fn node(plant: &Plant, i: usize, until: Tick) {
+fn node(plant: &Plant, i: usize, growth: Growth, until: Tick) {
+    let first = first_tick(growth);
     let (axes, nodes) = (&plant.axes, &plant.nodes);
     let axis = nodes.axis[i].index();
     assert!(axis < axes.len(), "a node stands on an axis of its plant: node {i}");
-    assert!((1..=until).contains(&nodes.birth[i]), "a node appears in 1..={until}: node {i}");
+    assert!((first..=until).contains(&nodes.birth[i]), "a node appears in {first}..={until}: node {i}");
     assert!(axes.birth[axis] <= nodes.birth[i], "a node appears no sooner than its axis: node {i}");
     assert!(nodes.birth[i] <= axes.apex_end[axis], "a node appears while its apex lives: node {i}");
     assert!(axes.component[axis] < nodes.component[i], "a bud's number comes before its nodes': node {i}");
     if let Some(parent) = nodes.parent[i].some() {
         let p = parent.index();
         assert!(p < i, "a parent's index is smaller than its child's: node {i} on {p}");
-        assert!(nodes.component[p] < nodes.component[i], "a parent's number is smaller than its child's: node {i}");
-        assert!(nodes.birth[p] <= nodes.birth[i], "a node appears no sooner than its parent: node {i}");
     }
     let measures = [nodes.length[i], nodes.primary_diameter[i]];
     finite(&measures, "the measures of node", i);
@@ -172,10 +199,14 @@ pub fn events_tell_the_plant(plant: &Plant, until: Tick) {
             _ => {}
         }
     }
+    // What is there with the seed has no event.
+    (0..plant.nodes.len()).filter(|&i| plant.nodes.birth[i] == 0).for_each(|i| nodes[plant.nodes.axis[i].index()] += 1);
     for i in 0..plant.axes.len() {
         let last = plant.axes.last_node[i].some().map_or(0, |node| plant.nodes.rank[node.index()]);
         assert_eq!(nodes[i], last, "the events of growth count the nodes of an axis: axis {i}");
-        assert_eq!(appeared[i], u32::from(i > 0), "an axis appears in one event, the seed's in none: axis {i}");
+        let once = u32::from(plant.axes.appearance[i] > 0);
+        assert!(i == 0 || appeared[i] == once, "an axis appears in one event, what is in the seed in none: axis {i}");
+        assert!(i > 0 || appeared[i] == 0, "the axis of the seed appears in no event");
     }
 }
 
@@ -194,7 +225,7 @@ fn appearance_of(origin: Origin) -> Option<EventKind> {
 /// # Panics
 /// Where it does not.
 pub fn diameters(model: &dyn GrowthModel, plant: &mut Plant, until: Tick) {
-    let ages = if model.growth() == phytomer_sim::Growth::Rebuilds { until..=until } else { 1..=until };
+    let ages = if model.growth().keeps_its_past() { 1..=until } else { until..=until };
     for age in ages {
         model.thicken(age, plant);
         for i in standing(plant, age) {

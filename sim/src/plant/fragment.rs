@@ -115,6 +115,7 @@ impl Plant {
             hands: self.hands,
             components: 0,
             component_limit: self.component_limit.saturating_sub(self.components),
+            named_by_number: self.named_by_number,
         };
         Fragment { plant, joint: Joint { taken, axes: 0, nodes: 0, components: 0 } }
     }

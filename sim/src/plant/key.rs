@@ -39,6 +39,8 @@ pub enum Place {
     Fork(u16),
     /// An organ by its kind's number and its position.
     Organ(u8, u16),
+    /// A component of a plant whose components are named by their numbers; the number stands for the rank.
+    Numbered,
 }
 
 /// The most positions of relays, and of released buds, on a node: they share a class of places.
@@ -63,6 +65,7 @@ impl Place {
                 return u64::from(rank) << 32 | AGAIN | u64::from(before) << 6 | u64::from(position);
             }
             Self::Fork(position) => (5, position),
+            Self::Numbered => (6, 0),
             Self::Organ(kind, position) => (16 + u64::from(kind), position),
         };
         u64::from(rank) << 32 | class << 16 | u64::from(position)
@@ -112,6 +115,7 @@ mod tests {
         };
         for rank in [0, 1, 2, 63, 64, 65_536, (1 << 30) - 1, u32::MAX] {
             distinct(Place::Node, rank);
+            distinct(Place::Numbered, rank);
             for position in 0..MOST_POSITIONS {
                 let (relay, released) = (Place::Relay(position), Place::Released(position));
                 let others = [Place::Axillary(position), Place::Reiteration(position), Place::Fork(position)];

@@ -83,6 +83,8 @@ pub struct Plant {
     pub hands: Hands,
     components: u32,
     component_limit: u32,
+    /// Whether lineage keys follow from the numbers of components instead of their places on the axes.
+    named_by_number: bool,
 }
 
 /// What a plant starts from.
@@ -120,6 +122,7 @@ impl Plant {
             hands: Hands::default(),
             components: 0,
             component_limit: seed.component_limit.min(MOST_COMPONENTS),
+            named_by_number: false,
         }
     }
 
@@ -134,7 +137,16 @@ impl Plant {
 
     /// Takes everything off the plant, for a model that rebuilds it.
     pub fn clear(&mut self) {
+        self.begin_rewriting();
         self.age = 0;
+        self.components = 0;
+        if let Some(events) = &mut self.events {
+            events.clear();
+        }
+    }
+
+    /// Takes the columns off the plant, for a model that writes them anew: component numbers and events go on.
+    pub fn begin_rewriting(&mut self) {
         self.death = NEVER;
         self.axes.clear();
         self.nodes.clear();
@@ -144,10 +156,6 @@ impl Plant {
         self.strain.clear();
         self.own_trends.clear();
         self.stated_headings.clear();
-        self.components = 0;
-        if let Some(events) = &mut self.events {
-            events.clear();
-        }
     }
 
     /// Whether `more` components still fit under the plant's limit.
@@ -203,6 +211,29 @@ impl Plant {
         self.organs.push(organ, component)
     }
 
+    /// The components of this plant are named by their numbers: what a model rewrites in mid-axis changes its rank, but
+    /// not its number.
+    pub fn name_by_number(&mut self) {
+        self.named_by_number = true;
+    }
+
+    /// A component number that no component of the plant has yet.
+    pub fn next_number(&mut self) -> u32 {
+        self.number()
+    }
+
+    /// Adds an axis as the component of a number that was given before; its key follows from the number.
+    pub fn place_axis(&mut self, axis: NewAxis, component: u32) -> AxisId {
+        self.axes.push(NewAxis { key: numbered(component), ..axis }, component)
+    }
+
+    /// Adds an internode with its node at the tip of its axis, as the component of a number that was given before.
+    pub fn place_node(&mut self, node: NewNode, component: u32) -> NodeId {
+        let id = self.nodes.push(node, component);
+        self.axes.grown(node.axis, id);
+        id
+    }
+
     /// Notes an event, where the run keeps them.
     #[inline]
     pub fn note(&mut self, tick: Tick, axis: AxisId, kind: EventKind, count: u32) {
@@ -229,13 +260,19 @@ impl Plant {
         self.nodes.birth[node.index()] <= age && age < self.shed_of(node)
     }
 
-    /// The lineage key of a node: it depends on its axis and its rank alone.
+    /// The lineage key of a node: it depends on its axis and its rank alone, or on its number.
     pub fn node_key(&self, node: NodeId) -> LineageKey {
+        if self.named_by_number {
+            return numbered(self.nodes.component[node.index()]);
+        }
         self.axes.key[self.nodes.axis[node.index()].index()].child(key::Place::Node.on(self.nodes.rank[node.index()]))
     }
 
-    /// The lineage key of an organ: it depends on its node, its kind and its position alone.
+    /// The lineage key of an organ: it depends on its node, its kind and its position alone, or on its number.
     pub fn organ_key(&self, organ: OrganId) -> LineageKey {
+        if self.named_by_number {
+            return numbered(self.organs.component[organ.index()]);
+        }
         let node = self.organs.node[organ.index()];
         let axis = self.nodes.axis[node.index()];
         let place = key::Place::Organ(self.organs.kind[organ.index()] as u8, self.organs.position[organ.index()]);
@@ -314,4 +351,9 @@ impl Plant {
         self.components += 1;
         component
     }
+}
+
+/// The lineage key of a component that is named by its number.
+fn numbered(component: u32) -> LineageKey {
+    LineageKey::SEED.child(key::Place::Numbered.on(component))
 }

@@ -1,0 +1,77 @@
+//! A D0L-system as the loop sees it: its string rewritten tick by tick, and the plant written anew from it.
+//!
+//! Age n has the string of n rewritings; the paper counts growth levels from 1, so that level n is the age n − 1.
+//! Absent: rewriting (`string`) and drawing (`draw`).
+
+use super::draw::{Size, draw, note_new};
+use super::string::{Born, Living, Rules};
+use phytomer_sim::clock::Tick;
+use phytomer_sim::model::{Grow, Growth, Overgrown};
+use phytomer_sim::plant::{Habit, Looks, Plant, Shape, Trend};
+use phytomer_sim::site::View;
+use std::sync::Arc;
+
+/// A D0L-system with its parameters checked and compiled.
+#[derive(Debug, Clone)]
+pub struct D0lModel {
+    rules: Rules,
+    sizes: Vec<Size>,
+    angle: f32,
+    habit: Arc<Habit>,
+}
+
+/// The axis of the seed: the first component.
+const TRUNK: Born = Born { number: 0, at: 0 };
+
+impl D0lModel {
+    pub(super) fn new(rules: Rules, sizes: &[[f64; 2]], angle: f64) -> Self {
+        let size = |[length, diameter]: &[f64; 2]| Size { length: *length as f32, diameter: (diameter * 0.001) as f32 };
+        let looks = Looks::of_shape(Shape::Cylinder);
+        let habit = Habit { trends: vec![Trend::STRAIGHT], looks, organ_trends: vec![], wood: None };
+        Self { rules, sizes: sizes.iter().map(size).collect(), angle: angle as f32, habit: Arc::new(habit) }
+    }
+}
+
+impl Grow for D0lModel {
+    type Life = Living;
+
+    fn growth(&self) -> Growth {
+        Growth::Rewrites
+    }
+
+    fn habit(&self) -> Arc<Habit> {
+        Arc::clone(&self.habit)
+    }
+
+    fn sow(&self, plant: &mut Plant) -> Living {
+        plant.name_by_number();
+        plant.next_number();
+        let living = self.rules.sow(|| plant.next_number());
+        draw(&living, TRUNK, &self.sizes, self.angle, plant);
+        living
+    }
+
+    fn grow_to(&self, age: Tick, plant: &mut Plant, living: &mut Living, _: &View<'_>) -> Result<(), Overgrown> {
+        let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
+        // Each component is at least one module, and a branch two.
+        let most = 2 * limit.limit as usize;
+        for tick in plant.age + 1..=age {
+            if !self.rules.rewrite(living, tick, most, || plant.next_number()) || plant.is_overgrown() {
+                return Err(limit);
+            }
+        }
+        let last = plant.age;
+        plant.begin_rewriting();
+        draw(living, TRUNK, &self.sizes, self.angle, plant);
+        plant.age = age;
+        note_new(plant, last);
+        Ok(())
+    }
+
+    /// A cell has one diameter along its length, that of its kind.
+    fn thicken(&self, _age: Tick, plant: &mut Plant) {
+        let nodes = &mut plant.nodes;
+        nodes.diameter.copy_from_slice(&nodes.primary_diameter);
+        nodes.diameter_tip.copy_from_slice(&nodes.primary_diameter);
+    }
+}

@@ -1,0 +1,88 @@
+//! The string of one plant, in which each cell and each branch keeps its number, and its rewriting.
+//!
+//! Rules are applied to all symbols at once (Aono & Kunii 1984, "L-system model"). A cell that is rewritten is the first
+//! cell of what it becomes: it differentiates and keeps its number, and the others are new. So `F → F F` lets the first
+//! internode keep its number, and in `g → d(g)g` the apical cell becomes the internode below the new apex. New cells and
+//! branches are numbered in the order of the string. Absent: where they stand (`draw`).
+
+use super::text::Symbol;
+use phytomer_sim::clock::Tick;
+
+/// The most kinds of cells.
+pub(super) const MOST_CELLS: usize = 64;
+
+/// The compiled system.
+#[derive(Debug, Clone)]
+pub(super) struct Rules {
+    /// The string at age 0.
+    pub axiom: Vec<Symbol>,
+    /// What each cell becomes; `None`: it stays. What it becomes begins with a cell.
+    pub productions: Vec<Option<Vec<Symbol>>>,
+}
+
+/// A cell or a branch of a plant: its component number, and the tick at which it appeared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Born {
+    pub number: u32,
+    pub at: Tick,
+}
+
+/// A symbol of a plant's string.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Module {
+    /// A cell, by the place of its letter.
+    Cell(u8, Born),
+    /// The beginning of a branch.
+    Open(Born),
+    /// The end of a branch.
+    Close,
+}
+
+/// The string of one plant.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Living {
+    /// Its modules.
+    pub(super) modules: Vec<Module>,
+}
+
+impl Rules {
+    /// The string of a new plant; `number` gives component numbers.
+    pub fn sow(&self, mut number: impl FnMut() -> u32) -> Living {
+        let modules = self.axiom.iter().map(|symbol| module(*symbol, 0, &mut number)).collect();
+        Living { modules }
+    }
+
+    /// The string after the tick `at`. The number of modules that it may have is `most`; `false` where it would have
+    /// more, and the string is then part of what it should be.
+    pub fn rewrite(&self, living: &mut Living, at: Tick, most: usize, mut number: impl FnMut() -> u32) -> bool {
+        let Living { modules } = living;
+        for old in std::mem::take(modules) {
+            match self.production(old) {
+                Some((Symbol::Cell(letter), others, born)) => {
+                    modules.push(Module::Cell(*letter, born));
+                    modules.extend(others.iter().map(|symbol| module(*symbol, at, &mut number)));
+                }
+                _ => modules.push(old),
+            }
+            if modules.len() > most {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// What a module becomes, if it is a cell that is rewritten: the first symbol and the others, and which cell it is.
+    fn production(&self, old: Module) -> Option<(&Symbol, &[Symbol], Born)> {
+        let Module::Cell(letter, born) = old else { return None };
+        let (first, others) = self.productions[usize::from(letter)].as_ref()?.split_first()?;
+        Some((first, others, born))
+    }
+}
+
+fn module(symbol: Symbol, at: Tick, number: &mut impl FnMut() -> u32) -> Module {
+    match symbol {
+        Symbol::Cell(letter) => Module::Cell(letter, Born { number: number(), at }),
+        Symbol::Open => Module::Open(Born { number: number(), at }),
+        Symbol::Close => Module::Close,
+    }
+}
