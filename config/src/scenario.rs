@@ -90,7 +90,8 @@ pub struct Ages {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Record {
-    /// Every age from 1, or the word that says so.
+    /// Every age from 1, or the word that says so. Age 0, the seed or the axiom, is recorded where a list or `from` names
+    /// it.
     All(All),
     /// These ages.
     List(#[schemars(length(min = 1))] BTreeSet<u32>),
@@ -107,7 +108,6 @@ pub struct Every {
     pub every: u32,
     /// The first recorded age. The same as `every` if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 1))]
     pub from: Option<u32>,
 }
 
@@ -242,12 +242,12 @@ impl Scenario {
 
     fn check_ages(&self, list: &BTreeSet<u32>, path: &Path, faults: &mut Vec<Fault>) {
         let until = self.ages.until;
-        let outside: Vec<String> = list.iter().filter(|age| !(1..=until).contains(age)).map(u32::to_string).collect();
+        let outside: Vec<String> = list.iter().filter(|age| **age > until).map(u32::to_string).collect();
         if !outside.is_empty() {
             let (noun, verb) = if outside.len() == 1 { ("age", "is") } else { ("ages", "are") };
             let list = list_some(&outside);
             let problem = format!("the {noun} {list} {verb} outside the run, which ends at {until}");
-            faults.push(Fault::new(path, problem, format!("ages in [1, {until}]")));
+            faults.push(Fault::new(path, problem, format!("ages in [0, {until}]")));
         }
     }
 
@@ -255,7 +255,7 @@ impl Scenario {
         let (key, first) = every.from.map_or(("every", every.every), |from| ("from", from));
         if first > self.ages.until {
             let problem = format!("no age is recorded: the first is {first} and the run ends at {}", self.ages.until);
-            faults.push(Fault::new(&path.key(key), problem, format!("a first age in [1, {}]", self.ages.until)));
+            faults.push(Fault::new(&path.key(key), problem, format!("a first age in [0, {}]", self.ages.until)));
         }
     }
 }

@@ -110,8 +110,8 @@ impl Regrown {
     /// An age or a plant outside of the run, by the option that names it.
     pub fn check(&self, (age_option, ages): (&str, &[Tick]), (plant_option, plants): (&str, &[u32])) -> Result<()> {
         let (until, count) = (self.scenario.ages.until, self.scenario.plants);
-        if let Some(age) = ages.iter().find(|age| !(1..=until).contains(*age)) {
-            return Err(Misuse(format!("{age_option} {age}: the run has the ages 1 to {until}")).into());
+        if let Some(age) = ages.iter().find(|age| **age > until) {
+            return Err(Misuse(format!("{age_option} {age}: the run has the ages 0 to {until}")).into());
         }
         if let Some(plant) = plants.iter().find(|plant| **plant >= count) {
             return Err(Misuse(format!("{plant_option} {plant}: the run has the plants 0 to {}", count - 1)).into());
