@@ -283,7 +283,7 @@ fn complete(model: ModelName) -> Json {
 }
 
 fn one_file(model: ModelName) -> Json {
-    let mut schema = partial(model.schema());
+    let mut schema = partial(model.schema(), ORDER);
     let order = schema["properties"][ORDER].get("items").and_then(|items| resolve(&schema, items)).cloned();
     if let Some(mut order) = order {
         order["description"] = "What holds for each [[order]] that does not say otherwise.".into();

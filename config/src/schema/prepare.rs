@@ -8,8 +8,7 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value as Json};
 
-use super::forms;
-use crate::inherit::ORDER;
+use super::parts::forms;
 
 /// The JSON Schema of a type, without nulls.
 pub fn of_type<T: JsonSchema>() -> Json {
@@ -65,13 +64,14 @@ fn drop_null_forms(map: &mut Map<String, Json>) {
 }
 
 /// The same table type for a file that may leave keys to its ancestors: no key is required in any table that merges.
-pub fn partial(root: &Json) -> Json {
+/// Of lists only that under the key `by_place` holds tables that merge, each with the one at its place.
+pub fn partial(root: &Json, by_place: &str) -> Json {
     let mut schema = root.clone();
     let mut tables = vec![String::new()];
     let mut seen = 0;
     while let Some(pointer) = tables.get(seen).cloned() {
         seen += 1;
-        for below in plain_tables(root, &pointer) {
+        for below in plain_tables(root, &pointer, by_place) {
             if !tables.contains(&below) {
                 tables.push(below);
             }
@@ -84,12 +84,14 @@ pub fn partial(root: &Json) -> Json {
 }
 
 /// JSON pointers to the types of a table's values that are tables with one form, or lists of such.
-fn plain_tables(root: &Json, pointer: &str) -> Vec<String> {
+fn plain_tables(root: &Json, pointer: &str, by_place: &str) -> Vec<String> {
     let Some(table) = root.pointer(pointer) else { return Vec::new() };
     let properties = table.get("properties").and_then(Json::as_object);
     let keys = properties.into_iter().flat_map(|p| p.keys());
     let places = keys.map(|key| (key, format!("{pointer}/properties/{}", key.replace('~', "~0").replace('/', "~1"))));
-    places.filter_map(|(key, place)| plain_table(root, if key == ORDER { place + "/items" } else { place })).collect()
+    places
+        .filter_map(|(key, place)| plain_table(root, if key == by_place { place + "/items" } else { place }))
+        .collect()
 }
 
 /// Follows references from `pointer` to a table with one form.
