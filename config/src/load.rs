@@ -4,7 +4,7 @@
 //! merged species is held against the complete schema, so that a missing key is told once for the whole chain.
 //! Absent: faults of meaning, which `validate` asks the models for.
 
-use phytomer_models::fault::{Path, Segment};
+use phytomer_law::fault::{Path, Segment};
 use serde_json::Value as Json;
 
 use crate::document::{self, Node};

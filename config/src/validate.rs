@@ -8,8 +8,8 @@ use std::fmt;
 use std::path::Path as FilePath;
 use std::sync::{Arc, OnceLock};
 
-use phytomer_models::fault;
-use phytomer_models::law::Constant;
+use phytomer_law::Constant;
+use phytomer_law::fault;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::expectation::Certainty;
 use phytomer_sim::model::GrowthModel;

@@ -16,7 +16,7 @@ pub use prepare::{join, of_type, partial};
 
 use std::collections::BTreeSet;
 
-use phytomer_models::fault::Path;
+use phytomer_law::fault::{Path, Segment};
 use serde_json::Value as Json;
 
 use parts::{MAX_FORMS, item_schema, known_keys, missing_keys, property};
@@ -51,8 +51,8 @@ impl Place<'_> {
     /// How a message calls the value.
     fn name(&self) -> String {
         match self.path.0.last() {
-            Some(phytomer_models::fault::Segment::Key(key)) => format!("`{key}`"),
-            Some(phytomer_models::fault::Segment::Index(i)) => format!("item {} of the list", i + 1),
+            Some(Segment::Key(key)) => format!("`{key}`"),
+            Some(Segment::Index(i)) => format!("item {} of the list", i + 1),
             None => "the file".to_owned(),
         }
     }
