@@ -1,8 +1,10 @@
-//! No two neighbours in a folder of source use each other, directly or by way of others, but for the circles in [`KNOWN`].
+//! No two neighbours in a folder of source use each other, directly or by way of others, but for the circles in
+//! [`KNOWN`].
 //!
-//! Neighbours are the files of a folder, and its folders, each with all that is in it. What one uses is read from the text:
-//! `use` lines and paths that begin with `crate` or `super`, followed through the names that a folder passes on with `pub
-//! use`. A circle cannot be read, tested or taken away piece by piece, so the list is there to get shorter.
+//! Neighbours are the files of a folder, and its folders, each with all that is in it. What one of them uses is read
+//! from the text: `use` lines and paths that begin with `crate` or `super`, followed through the names that a folder
+//! passes on with `pub use`. Files of a circle can only be read, tested and taken away together, so the list is there
+//! to get shorter.
 //! Absent: tests, what a folder's own file and the files in it ask of each other, `use super::*`, and methods of a type
 //! that are written in several files.
 

@@ -1,5 +1,5 @@
-//! The parts of a JSON Schema, read: where a reference leads, the forms of a value, its type and its options, the keys of
-//! a table type.
+//! The parts of a JSON Schema, read: where a reference leads, the forms of a value, its type and its options, the keys
+//! of a table type.
 //!
 //! The walk, the choice of a form and the words of messages all read schemas by these. Absent: bounds (`bounds`), and
 //! what is told where a value does not fit.

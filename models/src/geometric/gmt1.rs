@@ -1,5 +1,5 @@
-//! The parameters of GMT1 (Aono & Kunii 1984, "3-D geometric model GMT1" and Table 1), and the sizes that follow from the
-//! growth level alone.
+//! The parameters of GMT1 (Aono & Kunii 1984, "3-D geometric model GMT1" and Table 1), and the numbers of components
+//! that follow from the growth level alone.
 //!
 //! Names and units follow Table 1: h1, h2, R1, R2, R_diam, div, g_level. The paper gives no size; the length and the
 //! diameter of the first branch are assumed where a file does not give them. The paper's trees have fixed numbers; here
