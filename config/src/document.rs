@@ -5,7 +5,7 @@
 //! after a slip finds more on the same line that is only its echo.
 //! Absent: meaning. What keys there may be is the schema's business.
 
-use phytomer_models::fault::{Path, Segment};
+use phytomer_law::fault::{Path, Segment};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 

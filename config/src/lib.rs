@@ -5,6 +5,7 @@
 //! it and gives a run that can begin.
 //! Absent: growth formulas, and anything that runs.
 
+mod about;
 mod alone;
 mod architectural_model;
 mod document;
@@ -24,6 +25,7 @@ mod spelling;
 mod validate;
 mod woods;
 
+pub use about::About;
 pub use alone::recorded_alone;
 pub use architectural_model::ArchitecturalModel;
 pub use library::{Kind, presets};
@@ -32,6 +34,6 @@ pub use published::Published;
 pub use report::{Fault, FaultRecord, Report};
 pub use scenario::Scenario;
 pub use source::{Origin, Source, SourceId, Sources, Span};
-pub use species::{About, Species};
+pub use species::Species;
 pub use validate::{Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, kind_of, schema_of, validate, validate_species};
 pub use woods::{ShippedWood, woods};

@@ -4,10 +4,11 @@
 //! merged species is held against the complete schema, so that a missing key is told once for the whole chain.
 //! Absent: faults of meaning, which `validate` asks the models for.
 
-use phytomer_models::fault::{Path, Segment};
+use phytomer_law::fault::{Path, Segment};
 use phytomer_models::parameters::Keys;
 use serde_json::Value as Json;
 
+use crate::about::About;
 use crate::document::{self, Node};
 use crate::forms;
 use crate::inherit::merge_chain;
@@ -17,7 +18,7 @@ use crate::models::{MODELS, Model, ModelName, any_file};
 use crate::report::Fault;
 use crate::schema;
 use crate::source::{Origin, Source, SourceId, Sources, Span};
-use crate::species::{About, split};
+use crate::species::split;
 use crate::woods;
 
 /// More ancestors than this are a mistake even where they are no circle.

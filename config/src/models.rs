@@ -5,13 +5,13 @@
 
 use std::sync::{Arc, OnceLock};
 
-use phytomer_models::fault::{Fault, Path};
+use phytomer_law::fault::{Fault, Path};
 use phytomer_models::parameters::{Card, Parameters};
 use phytomer_sim::model::GrowthModel;
 use serde_json::{Value as Json, json};
 
+use crate::about::About;
 use crate::schema::{join, of_type, partial, resolve};
-use crate::species::About;
 
 /// Makes the enums of the models from one line a model: the name of its variant, and the type of its parameters.
 macro_rules! registry {

@@ -4,7 +4,7 @@
 //! sown still live. A species file states such ranges in `[[published]]`; `validate` grows a sample and holds it
 //! against them. Absent: the growing and the measuring, which the root package does (`phytomer::sample`).
 
-use phytomer_models::fault::{Fault, Path};
+use phytomer_law::fault::{Fault, Path};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet, Title};
-use phytomer_models::fault::Path;
+use phytomer_law::fault::Path;
 use serde::Serialize;
 
 use crate::source::{Sources, Span};

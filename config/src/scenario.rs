@@ -14,7 +14,7 @@ pub use tables::Table;
 
 use std::collections::BTreeSet;
 
-use phytomer_models::fault::{Fault, Path};
+use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::clock::LAST_TICK;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -8,14 +8,15 @@ use std::fmt;
 use std::path::Path as FilePath;
 use std::sync::{Arc, OnceLock};
 
-use phytomer_models::fault;
-use phytomer_models::law::Constant;
+use phytomer_law::Constant;
+use phytomer_law::fault;
 use phytomer_models::parameters::Keys;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::expectation::Certainty;
 use phytomer_sim::model::GrowthModel;
 use serde_json::{Value as Json, json};
 
+use crate::about::About;
 use crate::document::Node;
 use crate::library::{self, Kind};
 use crate::load::{Found, Loader, Mention, integer_at, path_of};
@@ -25,7 +26,7 @@ use crate::report::{Fault, Report};
 use crate::scenario::Scenario;
 use crate::schema;
 use crate::source::{Source, Sources};
-use crate::species::{About, Species};
+use crate::species::Species;
 
 /// The last age over which a species is checked that is not part of a scenario.
 pub const SPECIES_ALONE_UNTIL: u32 = 100;

@@ -3,7 +3,7 @@
 //! Absent: what a mesh looks like, and its format.
 
 use super::{All, Scenario, list_some};
-use phytomer_models::fault::{Fault, Path};
+use phytomer_law::fault::{Fault, Path};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;

@@ -6,39 +6,11 @@
 
 use serde_json::Value as Json;
 
-use super::{Place, Walk, expected, forms, known_keys, missing_keys, property, resolve};
-use crate::document::{Entry, Node, Value};
+use super::parts::{forms, has_type, known_keys, missing_keys, options, property, resolve};
+use super::{Place, Walk, expected};
+use crate::document::{Entry, Value};
 use crate::report::Fault;
 use crate::spelling::nearest;
-
-/// Whether the node's type is one that the schema's `type` allows; any is where it names none, but for dates.
-pub fn has_type(schema: &Json, node: &Node) -> bool {
-    match schema.get("type") {
-        None => !matches!(node.value, Value::Date(_)),
-        Some(Json::Array(types)) => types.iter().filter_map(Json::as_str).any(|t| is_type(t, node)),
-        Some(one) => one.as_str().is_some_and(|t| is_type(t, node)),
-    }
-}
-
-fn is_type(name: &str, node: &Node) -> bool {
-    match &node.value {
-        Value::Text(_) => name == "string",
-        Value::Integer(_) => name == "integer" || name == "number",
-        Value::Float(_) => name == "number",
-        Value::Boolean(_) => name == "boolean",
-        Value::Array(_) => name == "array",
-        Value::Table(_) => name == "object",
-        Value::Date(_) => false,
-    }
-}
-
-/// The values that `enum` or `const` allow.
-pub fn options(schema: &Json) -> Option<Vec<&Json>> {
-    match schema.get("enum").and_then(Json::as_array) {
-        Some(options) => Some(options.iter().collect()),
-        None => schema.get("const").map(|one| vec![one]),
-    }
-}
 
 impl<'s> Walk<'s> {
     /// Checks a value against the form that fits it best.

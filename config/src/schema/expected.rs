@@ -7,7 +7,7 @@
 use serde_json::Value as Json;
 
 use super::bounds::{count, format_range, number};
-use super::{choice, forms, known_keys, missing_keys, resolve};
+use super::parts::{forms, known_keys, missing_keys, options, resolve};
 use crate::document::{Node, Value};
 
 /// A message names at most this many keys or options.
@@ -43,7 +43,7 @@ fn describe_at(root: &Json, schema: &Json, depth: usize) -> String {
     if !forms(schema).is_empty() {
         return describe_forms(root, schema, depth);
     }
-    if let Some(options) = choice::options(schema) {
+    if let Some(options) = options(schema) {
         return list_options(&options);
     }
     match schema.get("type").and_then(Json::as_str) {
@@ -107,7 +107,7 @@ fn describe_forms(root: &Json, schema: &Json, depth: usize) -> String {
     let mut named: Vec<&Json> = Vec::new();
     for form in forms(schema) {
         let Some(resolved) = resolve(root, form) else { continue };
-        if let Some(options) = choice::options(resolved) {
+        if let Some(options) = options(resolved) {
             named.extend(options);
             continue;
         }

@@ -8,22 +8,23 @@
 mod bounds;
 mod choice;
 mod expected;
+mod parts;
 mod prepare;
 
+pub use parts::{forms, resolve};
 pub use prepare::{join, of_type, partial};
 
 use std::collections::BTreeSet;
 
-use phytomer_models::fault::Path;
+use phytomer_law::fault::{Path, Segment};
 use serde_json::Value as Json;
+
+use parts::{MAX_FORMS, item_schema, known_keys, missing_keys, property};
 
 use crate::document::{Entry, Node, Value};
 use crate::report::{Fault, MOST_FAULTS};
 use crate::source::Span;
 use crate::spelling::nearest;
-
-/// References and forms nest at most this deep at one value.
-const MAX_FORMS: usize = 32;
 
 /// Trying forms one by one may take this many visits in one document; then the first that fits by shape is taken.
 const FUEL: usize = 200_000;
@@ -33,36 +34,6 @@ pub fn check(schema: &Json, node: &Node, faults: &mut Vec<Fault>) {
     let mut walk = Walk { root: schema, faults: Vec::new(), fuel: FUEL };
     walk.visit(schema, &Place { node, at: node.span, path: Path::root() }, 0);
     faults.append(&mut walk.faults);
-}
-
-/// Where `$ref` leads; the schema itself when it has none. draft 7 wraps a reference that has a description into an
-/// `allOf` of one, which is followed too. `None` for a reference that leads nowhere or in circles.
-pub fn resolve<'s>(root: &'s Json, mut schema: &'s Json) -> Option<&'s Json> {
-    for _ in 0..MAX_FORMS {
-        schema = match (schema.get("$ref").and_then(Json::as_str), wrapped(schema)) {
-            (Some(reference), _) => root.pointer(reference.strip_prefix('#')?)?,
-            (None, Some(inner)) => inner,
-            (None, None) => return Some(schema),
-        };
-    }
-    None
-}
-
-/// What may stand beside an `allOf` of one without asking anything of a value.
-const ASKS_NOTHING: [&str; 7] = ["allOf", "description", "default", "title", "minimum", "maximum", "exclusiveMinimum"];
-
-/// The inside of an `allOf` of one beside which nothing is asked. Bounds beside it are for editors, which see the bare
-/// number alone: where the same number may be drawn, the model checks all that can come of it.
-fn wrapped(schema: &Json) -> Option<&Json> {
-    let keys = schema.as_object()?;
-    let [inner] = keys.get("allOf")?.as_array()?.as_slice() else { return None };
-    keys.keys().all(|key| ASKS_NOTHING.contains(&key.as_str())).then_some(inner)
-}
-
-/// The forms that a value may have: the branches of `anyOf` or `oneOf`, none for a value with one form.
-pub fn forms(schema: &Json) -> &[Json] {
-    let branches = schema.get("anyOf").or_else(|| schema.get("oneOf"));
-    branches.and_then(Json::as_array).map_or(&[], Vec::as_slice)
 }
 
 /// A value on the way, with its path and what to underline when it is wrong as a whole.
@@ -80,8 +51,8 @@ impl Place<'_> {
     /// How a message calls the value.
     fn name(&self) -> String {
         match self.path.0.last() {
-            Some(phytomer_models::fault::Segment::Key(key)) => format!("`{key}`"),
-            Some(phytomer_models::fault::Segment::Index(i)) => format!("item {} of the list", i + 1),
+            Some(Segment::Key(key)) => format!("`{key}`"),
+            Some(Segment::Index(i)) => format!("item {} of the list", i + 1),
             None => "the file".to_owned(),
         }
     }
@@ -118,7 +89,7 @@ impl<'s> Walk<'s> {
 
     /// Whether the value has the schema's type; tells if not.
     fn check_type(&mut self, schema: &Json, place: &Place<'_>) -> bool {
-        let fits = choice::has_type(schema, place.node);
+        let fits = parts::has_type(schema, place.node);
         if !fits {
             let problem = format!("{} is {}", place.name(), expected::found(place.node));
             let mut expected = expected::describe(self.root, schema);
@@ -131,7 +102,7 @@ impl<'s> Walk<'s> {
     }
 
     fn check_value(&mut self, schema: &'s Json, place: &Place<'_>, depth: usize) {
-        if let Some(options) = choice::options(schema) {
+        if let Some(options) = parts::options(schema) {
             self.check_options(&options, place, &expected::list_options(&options));
         }
         match &place.node.value {
@@ -223,37 +194,6 @@ impl<'s> Walk<'s> {
         self.faults.push(fault.suggest(near));
         near
     }
-}
-
-/// The schema of an array's item: by place (`prefixItems`, or `items` as a list), else for all.
-fn item_schema(schema: &Json, i: usize) -> Option<&Json> {
-    match (schema.get("prefixItems"), schema.get("items")) {
-        (Some(Json::Array(places)), rest) if i < places.len() => places.get(i).or(rest),
-        (_, Some(Json::Array(places))) => places.get(i).or_else(|| schema.get("additionalItems")),
-        (_, rest) => rest,
-    }
-}
-
-/// `None`: the key is not allowed. `Some(None)`: allowed, whatever its value.
-fn property<'s>(schema: &'s Json, key: &str) -> Option<Option<&'s Json>> {
-    if let Some(property) = schema.get("properties").and_then(|p| p.get(key)) {
-        return Some(Some(property));
-    }
-    match schema.get("additionalProperties") {
-        Some(Json::Bool(false)) => None,
-        Some(Json::Bool(true)) | None => Some(None),
-        Some(other) => Some(Some(other)),
-    }
-}
-
-fn known_keys(schema: &Json) -> Vec<&str> {
-    let properties = schema.get("properties").and_then(Json::as_object);
-    properties.into_iter().flat_map(|p| p.keys().map(String::as_str)).collect()
-}
-
-fn missing_keys<'s>(schema: &'s Json, entries: &[Entry]) -> Vec<&'s str> {
-    let required = schema.get("required").and_then(Json::as_array).into_iter().flatten();
-    required.filter_map(Json::as_str).filter(|key| entries.iter().all(|e| e.key != **key)).collect()
 }
 
 #[cfg(test)]

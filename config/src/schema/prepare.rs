@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value as Json};
 
-use super::forms;
+use super::parts::forms;
 
 /// The JSON Schema of a type, without nulls.
 pub fn of_type<T: JsonSchema>() -> Json {

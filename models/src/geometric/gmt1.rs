@@ -1,19 +1,17 @@
-//! The parameters of GMT1 (Aono & Kunii 1984, "3-D geometric model GMT1" and Table 1), with what is checked of them.
+//! The parameters of GMT1 (Aono & Kunii 1984, "3-D geometric model GMT1" and Table 1), and the numbers of components
+//! that follow from the growth level alone.
 //!
 //! Names and units follow Table 1: h1, h2, R1, R2, R_diam, div, g_level. The paper gives no size; the length and the
 //! diameter of the first branch are assumed where a file does not give them. The paper's trees have fixed numbers; here
 //! each real one may also be a random variable, of which a plant draws one value for its whole life.
-//! Absent on purpose: the equations (`branching`), the tree (`tree`, `model`), the draws (`laws`) and the name and
-//! source of a tree, which every species file has whatever its model.
+//! Absent on purpose: the equations (`branching`), the tree (`tree`, `model`), the draws (`laws`), what is checked
+//! (`compile`) and the name and source of a tree, which every species file has whatever its model.
 
-use phytomer_sim::clock::{LAST_TICK, Tick};
+use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::MOST_COMPONENTS;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::laws::Laws;
-use super::model::Gmt1Model;
-use crate::fault::{Fault, Path};
 use crate::law::{Quantity, Variate, VariateForm};
 
 /// The most growth levels: at level n a tree has 2ⁿ⁺¹ − 1 branches and 2ⁿ apical buds, and they must stay under
@@ -75,26 +73,6 @@ fn assumed(number: f64) -> Variate {
 }
 
 impl Gmt1 {
-    /// Every fault of meaning in the parameters, which stand at `path` in their file.
-    pub fn check(&self, path: &Path) -> Vec<Fault> {
-        let mut faults = Vec::new();
-        self.laws(path, &mut faults);
-        faults
-    }
-
-    /// The model, grown at most to the age `until`; the parameters stand at `path` in their file.
-    ///
-    /// # Errors
-    /// All the faults that [`Gmt1::check`] finds, and an age past the last tick.
-    pub fn compile(&self, until: Tick, path: &Path) -> Result<Gmt1Model, Vec<Fault>> {
-        let mut faults = Vec::new();
-        let laws = self.laws(path, &mut faults);
-        if until > LAST_TICK {
-            faults.push(Fault::new(path, format!("the last age is {until}"), format!("at most {LAST_TICK}")));
-        }
-        if faults.is_empty() { Ok(Gmt1Model::new(self, laws)) } else { Err(faults) }
-    }
-
     /// The growth level of the tree at `age`, `None` for the seed.
     pub fn level_at(&self, age: Tick) -> Option<u32> {
         age.checked_sub(1).map(|level| level.min(self.levels.value()))
@@ -103,28 +81,5 @@ impl Gmt1 {
     /// The components of the tree at `age`: at growth level n its 2ⁿ⁺¹ − 1 branches and 2ⁿ apical buds.
     pub fn components_at(&self, age: Tick) -> u64 {
         self.level_at(age).map_or(1, |level| (3_u64 << level.min(MOST_LEVELS)) - 1)
-    }
-
-    /// The laws of the parameters, with every fault in what can be drawn of them.
-    fn laws(&self, path: &Path, faults: &mut Vec<Fault>) -> Laws {
-        let laws = Laws::compile(self, path, faults);
-        laws.check_angles(path, faults);
-        self.check_levels(path, faults);
-        if faults.is_empty() {
-            laws.check_smallest(self.levels.value(), path, faults);
-        }
-        laws
-    }
-
-    fn check_levels(&self, path: &Path, faults: &mut Vec<Fault>) {
-        let levels = self.levels.value();
-        if levels > MOST_LEVELS {
-            let path = match self.levels {
-                Quantity::Number(_) => path.key("levels"),
-                Quantity::Form(_) => path.key("levels").key("value"),
-            };
-            let problem = format!("levels is {levels}: a tree of 2^{} branches", u64::from(levels) + 1);
-            faults.push(Fault::new(&path, problem, format!("at most {MOST_LEVELS} growth levels")));
-        }
     }
 }

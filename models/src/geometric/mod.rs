@@ -2,12 +2,14 @@
 //! *Botanical Tree Image Generation*, IEEE CG&A 4(5), 1984).
 //!
 //! [`Gmt1`] is the parameter struct, `laws` what a plant draws of it, `branching` the paper's equations, `tree` a tree
-//! that they build and `model` its growth, level by level. Such a model knows no buds, and no chance once a plant has
-//! its parameters: it rebuilds the plant at each age, and states the heading of each internode itself.
+//! that they build, `model` its growth, level by level, and `compile` the way from the parameters to the model. Such a
+//! model knows no buds, and no chance once a plant has its parameters: it rebuilds the plant at each age, and states
+//! the heading of each internode itself.
 //! Absent on purpose: the deviators, ternary branching and statistics of GMT2 to GMT4.
 
 mod branching;
 mod card;
+mod compile;
 mod gmt1;
 mod laws;
 mod model;

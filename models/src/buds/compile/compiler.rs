@@ -20,6 +20,8 @@ use std::ops::RangeInclusive;
 const MEASURE: ValueRange = ValueRange { min: 0.0, max: 100_000.0, what: "a measure" };
 /// An angle in degrees.
 const ANGLE: ValueRange = ValueRange { min: -360.0, max: 360.0, what: "an angle in degrees" };
+/// The longest delay or life length, in ticks.
+pub const LONGEST: u32 = 65_535;
 /// The last rank that can be named.
 const LAST_RANK: u32 = 65_535;
 /// A part of a whole.

@@ -4,9 +4,8 @@
 //! They are asked at the plant's age and the axis's state at its birth, and stand in one record of words at the head of
 //! the axis's bud stream. Absent: the insertion of axes out of buds, which the bearing node or the ended axis draws.
 
-use super::compiler::Compiler;
+use super::compiler::{Compiler, LONGEST};
 use super::geometry::{DEGREE, first_azimuth};
-use super::node::LONGEST;
 use super::step::MOST_NODES;
 use super::trend::Trends;
 use super::words::{Layout, Measure, Number};

@@ -4,6 +4,7 @@
 //! Each random quantity has a fixed slot in the words of its stream (see [`words`]); a quantity that is constant takes
 //! no word at all.
 
+mod branching;
 mod compiler;
 mod geometry;
 mod head;
@@ -17,9 +18,10 @@ mod wood;
 pub(super) mod words;
 mod zone;
 
+pub(super) use branching::Branching;
 pub(super) use head::HeadLaws;
 pub(super) use node::NodeLaws;
-pub(super) use relay::{Branching, EndLaws};
+pub(super) use relay::EndLaws;
 pub(super) use step::{Passage, StepLaws};
 pub(super) use zone::{Ramification, Ranks};
 

@@ -3,9 +3,9 @@
 //! Every random quantity of a node has its slot in the node's record of words. Absent: the growing of a node
 //! (`buds::node`), and what happens at a clock step (`step`).
 
-use super::compiler::Compiler;
+use super::branching::{Branching, MOST_BUDS};
+use super::compiler::{Compiler, LONGEST};
 use super::geometry::{DEGREE, divergence};
-use super::relay::Branching;
 use super::step::StepLaws;
 use super::words::{Chance, Layout, Measure, Number};
 use super::zone::{Ramification, Ranks, Zones};
@@ -23,10 +23,6 @@ const AREA_SHARE: ValueRange = ValueRange { min: 0.0, max: 20.0, what: "a share 
 
 /// The most organs of one kind on a node.
 const MOST_ORGANS: u32 = 64;
-/// The most buds of one kind on a node: dormant buds are kept as bits.
-pub const MOST_BUDS: u32 = 32;
-/// The longest delay or life length, in ticks.
-pub const LONGEST: u32 = 65_535;
 
 /// The laws of one node of an order.
 #[derive(Debug, Clone)]

@@ -1,47 +1,13 @@
-//! The laws of new axes, and of what follows the end of an apex: relays and traumatic reiteration.
+//! The laws of what follows the end of an apex: relays, forks and traumatic reiteration.
 //!
 //! De Reffye 1988 §2: sympodial growth and traumatic reiteration. These laws are asked at the end of an axis, where no
 //! rank applies. Absent: the axes themselves, which `buds::node` adds.
 
-use super::compiler::Compiler;
-use super::geometry::DEGREE;
-use super::node::{LONGEST, MOST_BUDS};
-use super::words::{Chance, Layout, Measure, Number};
+use super::branching::{Branching, MOST_BUDS};
+use super::compiler::{Compiler, LONGEST};
+use super::words::{Layout, Number};
 use crate::buds::params::{ApexEnd, Fork, Order};
 use crate::law::{CountTable, ProbabilityTable, VariateTable};
-
-/// How buds at one place become axes.
-#[derive(Debug, Clone)]
-pub struct Branching {
-    pub count: Number,
-    pub chance: Chance,
-    pub delay: Number,
-    /// The insertion angle of the new axis.
-    pub insertion: Measure,
-    /// The state of the new axis; `None`: that of the bearing one.
-    pub state: Option<u8>,
-}
-
-impl Branching {
-    /// Gives each quantity its words.
-    pub fn new(
-        words: &mut Layout,
-        count: CountTable,
-        chance: ProbabilityTable,
-        delay: CountTable,
-        insertion: VariateTable,
-        state: Option<u8>,
-    ) -> Self {
-        let most = count.max_in_any_run();
-        Self {
-            count: words.number(count, 1),
-            chance: words.chance(chance, most),
-            delay: words.number(delay, most),
-            insertion: words.measure(insertion, DEGREE, most),
-            state,
-        }
-    }
-}
 
 /// What follows the end of an apex of an order.
 #[derive(Debug, Clone)]
