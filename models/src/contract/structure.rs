@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use phytomer_sim::clock::{NEVER, Tick};
 use phytomer_sim::model::GrowthModel;
-use phytomer_sim::plant::{ApexFate, EventKind, NodeId, OrganId, Origin, Plant};
+use phytomer_sim::plant::{ApexFate, EventKind, NodeId, OrganId, Origin, Plant, Rest};
 use phytomer_sim::pose::{organ_frame, pose};
 
 /// Topology, ticks, keys and rest geometry of a plant grown to `until` and shed.
@@ -139,12 +139,14 @@ fn ranks(plant: &Plant) {
     }
 }
 
+/// What is stated of rest frames is finite, and a heading a unit vector.
 fn headings(plant: &Plant) {
-    let headings = &plant.stated_headings;
-    let stated = headings.is_empty() || headings.len() == plant.nodes.len();
-    assert!(stated, "headings are stated for every internode or for none: {}", headings.len());
-    for (i, &[x, y, z]) in headings.iter().enumerate() {
-        assert!((x * x + y * y + z * z - 1.0).abs() < 1e-5, "a stated heading is a unit vector: node {i}");
+    for i in 0..plant.nodes.len() {
+        let node = NodeId(i as u32);
+        if let Rest::Heading([x, y, z]) = plant.rest_of(node, plant.age) {
+            assert!((x * x + y * y + z * z - 1.0).abs() < 1e-5, "a stated heading is a unit vector: node {i}");
+        }
+        finite(&plant.start_of(node), "the start of node", i);
     }
 }
 

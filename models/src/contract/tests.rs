@@ -4,7 +4,7 @@ use super::*;
 use crate::fault::Path;
 use crate::geometric::{Gmt1, Gmt1Model};
 use phytomer_sim::model::{Growth, Overgrown};
-use phytomer_sim::plant::{Habit, LineageKey, NodeId};
+use phytomer_sim::plant::{Habit, LineageKey, NodeId, Rest};
 use std::sync::Arc;
 
 fn sound() -> Gmt1Model {
@@ -97,7 +97,8 @@ fn a_rule_of_time_or_measure_is_named_when_it_is_broken() {
     breaks(&spoilt(|_, p| set(&mut p[0].nodes.birth, 0, 0)), "a node appears in 1..=6");
     breaks(&spoilt(|_, p| set(&mut p[0].nodes.birth, 0, 3)), "no sooner than");
     breaks(&spoilt(|_, p| set(&mut p[0].nodes.length, 3, f32::NAN)), "finite numbers");
-    breaks(&spoilt(|_, p| p[0].stated_headings.truncate(9)), "for every internode or for none");
+    let long = |_, p: &mut [Plant]| p[0].state_rest(NodeId(3), Rest::Heading([2.0, 0.0, 0.0]));
+    breaks(&spoilt(long), "a stated heading is a unit vector");
     breaks(&spoilt(|_, p| p[0].events.iter_mut().for_each(Vec::clear)), "the events of growth count the nodes");
 }
 

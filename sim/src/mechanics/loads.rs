@@ -20,7 +20,7 @@ use super::wood::Wood;
 use crate::clock::Tick;
 use crate::plant::borne::{Borne, Down};
 use crate::plant::standing::{Run, Standing};
-use crate::plant::{AxisId, OrganId, Plant};
+use crate::plant::{AxisId, NodeId, OrganId, Part, Plant};
 use crate::site::Fields;
 use crate::vector::Vector;
 
@@ -207,10 +207,15 @@ impl Scan<'_> {
         let tissue = self.wood.tissue(self.plant.axes.order[run.axis.index()]);
         let mut load = self.loads[run.axis.index()];
         let section = Section::of(self.plant.look_of(run.axis));
+        let starts = self.plant.stated.has_starts_of_axes();
         let mut holds = true;
         for node in run.nodes().rev() {
+            let mut below = starts.then(Load::default);
             while let Some(axis) = laterals.on(node) {
-                load.add(&self.loads[axis]);
+                match &mut below {
+                    Some(below) if self.begins_below(node, axis) => below.add(&self.loads[axis]),
+                    _ => load.add(&self.loads[axis]),
+                }
             }
             while let Some(organ) = organs.on(node) {
                 self.hang(&mut load, node, organ);
@@ -223,9 +228,19 @@ impl Scan<'_> {
             let answered;
             (load, answered) = self.answer(load, node, &felt, flexural, piece.length);
             holds &= answered;
+            if let Some(below) = below {
+                load.add(&below);
+            }
         }
         self.loads[run.axis.index()] = load;
         holds
+    }
+
+    /// Whether `axis` begins nearer to the base of the internode of `node` than to its tip, so that the middle of the
+    /// internode does not feel it.
+    fn begins_below(&self, node: usize, axis: usize) -> bool {
+        let [along, ..] = self.plant.stated.start(Part::Axis(AxisId(axis as u32)));
+        along < -0.5 * self.plant.posed_length(NodeId(node as u32))
     }
 
     /// An organ pulls at its node.

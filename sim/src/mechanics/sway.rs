@@ -71,7 +71,7 @@ pub fn sway(
             (still + (steady - still) * swing) as f32
         });
     }
-    bench.pose(plant);
+    bench.pose(plant, age);
     Ok(())
 }
 

@@ -5,7 +5,7 @@
 //! numbers of axes, nodes, organs and components follow on. Until then its handles and component numbers are its own,
 //! but for the nodes that bear the axes that it took: those are the whole plant's, and nobody may look them up.
 
-use super::{ApicalBud, Appeared, AxisId, Event, NodeId, OwnTrends, Plant};
+use super::{ApicalBud, Appeared, AxisId, Event, NodeId, OwnTrends, Plant, StatedFrames};
 use crate::clock::NEVER;
 use crate::mechanics::Strain;
 use crate::pose::Frames;
@@ -116,7 +116,7 @@ impl Plant {
             own_trends: OwnTrends::default(),
             random: self.random.clone(),
             place: self.place,
-            stated_headings: Vec::new(),
+            stated: StatedFrames::default(),
             hands: self.hands,
             components: 0,
             component_limit: self.component_limit.saturating_sub(self.components),
@@ -131,6 +131,7 @@ impl Plant {
         let (axes, nodes, components) = (self.axes.len(), self.nodes.len(), self.components);
         let joint = Joint { axes, nodes, components, ..joint };
         self.own_trends.join(plant.own_trends, |axis| joint.axis(axis));
+        self.stated.join(&plant.stated, &joint);
         self.nodes.join(&plant.nodes, &joint);
         self.organs.join(&plant.organs, &joint);
         if let (Some(events), Some(more)) = (&mut self.events, plant.events) {

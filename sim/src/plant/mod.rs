@@ -18,7 +18,9 @@ mod kind;
 mod look;
 mod node;
 mod organ;
+mod rare;
 pub(crate) mod standing;
+pub mod stated;
 
 pub use appeared::{Appeared, Stretch};
 pub use axis::{ApexFate, ApicalBud, Axes, AxisId, NewAxis, Origin};
@@ -31,6 +33,7 @@ pub use kind::{Cause, Class, Kind};
 pub use look::{Bark, Colour, InternodeLook, Looks, OrganLook, OrganLooks};
 pub use node::{NewNode, NodeId, Nodes};
 pub use organ::{NewOrgan, OrganId, Organs};
+pub use stated::{Part, Rest, StatedFrames};
 
 use crate::clock::{NEVER, Tick};
 use crate::mechanics::Strain;
@@ -78,9 +81,8 @@ pub struct Plant {
     /// Where its seed lies in the plot, metres. Nothing else of a plant is told from there: its pose and all that
     /// follows from it are told from the seed, so that a plant is the same to the bit wherever it stands.
     pub place: [f64; 3],
-    /// The stated headings of a plant that a geometric model has built, one an internode, as unit vectors in the frame
-    /// of the plant; empty where insertion, phyllotaxis and trend make the headings.
-    pub stated_headings: Vec<[f32; 3]>,
+    /// The rest frames that a model or an event has stated; empty where insertion, phyllotaxis and trend make them.
+    pub stated: StatedFrames,
     /// Who may grow it; no trace of them is left in it.
     pub hands: Hands,
     components: u32,
@@ -119,7 +121,7 @@ impl Plant {
             own_trends: OwnTrends::default(),
             random: PlantRandom::new(seed.run_seed, u64::from(seed.plant)),
             place: [0.0; 3],
-            stated_headings: Vec::new(),
+            stated: StatedFrames::default(),
             hands: Hands::default(),
             components: 0,
             component_limit: seed.component_limit.min(MOST_COMPONENTS),
@@ -147,7 +149,7 @@ impl Plant {
         self.frames.clear();
         self.strain.clear();
         self.own_trends.clear();
-        self.stated_headings.clear();
+        self.stated.clear();
         self.components = 0;
         if let Some(events) = &mut self.events {
             events.clear();
@@ -244,6 +246,12 @@ impl Plant {
         let axis = self.nodes.axis[node.index()];
         let place = key::Place::Organ(self.organs.kind[organ.index()] as u8, self.organs.position[organ.index()]);
         self.axes.key[axis.index()].child(place.on(self.nodes.rank[node.index()]))
+    }
+
+    /// The length of an internode at the age of its frame, m.
+    #[inline]
+    pub fn posed_length(&self, node: NodeId) -> f32 {
+        self.nodes.length[node.index()]
     }
 
     /// The trends from which the internodes of an axis name theirs.

@@ -56,9 +56,13 @@ pub(super) fn facing_the_sky(frame: Frame) -> Frame {
 
 impl Plane {
     /// The plane and the first slope of an axis that starts in `frame`, whose directions need only be nearly unit.
+    #[inline]
     pub fn of(frame: &Frame) -> (Self, Slope) {
-        let heading = Vector::from(frame.heading);
-        let up = Vector::from(frame.up);
+        Self::through(Vector::from(frame.heading), Vector::from(frame.up))
+    }
+
+    /// The same of directions in double precision.
+    pub fn through(heading: Vector, up: Vector) -> (Self, Slope) {
         let level = (heading.x * heading.x + heading.y * heading.y).sqrt();
         let slope = Slope { z: heading.z, r: level, angle: f64::NAN };
         let (e, slope) = if slope.r > VERTICAL {

@@ -4,19 +4,22 @@
 //! azimuth φ is cos φ · up + sin φ · (heading × up). An axis that leaves at azimuth φ and insertion angle β from a
 //! heading h with the direction d at φ has the heading cos β · h + sin β · d and the upper side sin β · h − cos β · d.
 //! The first internode of an axis keeps that direction; each one after it turns its share of the angle to the axis's
-//! trend, in the vertical plane of its heading (`course` has the formula). The axis of the seed leaves the upward
+//! trend, in the vertical plane of its heading (`course` has the formula). Other models state rest frames instead
+//! (`rest`): both ways go through the same scans. The axis of the seed leaves the upward
 //! vertical, whose `up` is the X axis. The seed is the origin of all frames: a plant far away in its plot keeps the
 //! precision of one at home. Absent: bending, which is the work of mechanics; the plant's place, which nothing here
 //! asks.
 
 pub(crate) mod bent;
 mod course;
+mod rest;
 mod scan;
-mod stated;
 
 use crate::clock::Tick;
 use crate::math::sincosf;
+use crate::plant::stated::{Part, Rest};
 use crate::plant::{AxisId, NodeId, OrganId, Plant};
+use crate::vector::Vector;
 use scan::Tip;
 
 /// The columns of the pose, one entry a node, in metres from the seed and unit vectors; Z is up.
@@ -30,6 +33,12 @@ pub struct Frames {
     pub up: Vec<[f32; 3]>,
     /// Where each axis goes on from, in double precision: one entry an axis.
     tips: Vec<Tip>,
+    /// The directions with which each axis goes on, where frames are stated; else empty.
+    courses: Vec<rest::Stated>,
+    /// The lengths of internodes at the age of the frames; empty where they are those of their birth.
+    lengths: Vec<f32>,
+    /// The age of the frames.
+    age: Tick,
     /// The age before which they are made: what appeared earlier has its frame.
     posed: Tick,
 }
@@ -53,7 +62,14 @@ impl Frames {
     fn begin(&mut self, nodes: usize, axes: usize, age: Tick) -> Tick {
         self.resize_nodes(nodes);
         self.tips.resize(axes, Tip::default());
+        self.age = age;
         std::mem::replace(&mut self.posed, age + 1)
+    }
+
+    /// Room for the frames of every node of a plant that stands bent at `age`.
+    fn bend(&mut self, nodes: usize, age: Tick) {
+        self.resize_nodes(nodes);
+        self.age = age;
     }
 
     fn resize_nodes(&mut self, nodes: usize) {
@@ -104,15 +120,19 @@ impl Frame {
 
 /// Poses every internode of `plant` that appeared by `age` and has no frame yet. The frames of the others stay: the
 /// pose at rest of a node depends on the nodes before it alone, and to the last bit neither on the order in which the
-/// axes grew nor on how often the plant was posed.
+/// axes grew nor on how often the plant was posed. Where a rest frame has changed since the age of the frames, all are
+/// made anew.
 pub fn pose(plant: &mut Plant, age: Tick) {
+    if plant.frames.posed > 0 && plant.stated.differ(plant.frames.age, age) {
+        plant.frames.clear();
+    }
     if age < plant.frames.posed {
         return;
     }
-    if plant.stated_headings.is_empty() {
-        scan::follow_trends(plant, age);
+    if plant.stated.is_empty() {
+        scan::follow::<rest::Trended>(plant, age);
     } else {
-        stated::follow_headings(plant, age);
+        scan::follow::<rest::Stated>(plant, age);
     }
 }
 
@@ -140,14 +160,32 @@ pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
 /// The frame at the tip of an internode, where its node is: the directions of the internode, its end as the base.
 #[inline]
 pub fn node_frame(plant: &Plant, node: NodeId) -> Frame {
-    plant.frames.at(node).advanced(plant.nodes.length[node.index()])
+    plant.frames.at(node).advanced(plant.posed_length(node))
 }
 
-/// The pose of the bud that an axis starts as: on its bearing node, in the direction of its insertion.
+/// The pose of the bud that an axis starts as: on its bearing node, in the direction of its insertion, or as its rest
+/// frame is stated. Of a plant that is bent the bearer counts as straight.
 pub fn start_frame(plant: &Plant, axis: AxisId) -> Frame {
-    let axes = &plant.axes;
     let bearing = bearing_frame(plant, axis);
-    bearing.inserted(axes.azimuth[axis.index()], axes.insertion[axis.index()])
+    if plant.stated.is_empty() {
+        return inserted(plant, bearing, axis);
+    }
+    let directions = [bearing.heading, bearing.up].map(Vector::from);
+    let start = plant.stated.start(Part::Axis(axis)).map(f64::from);
+    let base = (Vector::from(bearing.base) + rest::placed(directions, start)).single();
+    match plant.stated.rest(Part::Axis(axis), plant.frames.age) {
+        Rest::Follows => Frame { base, ..inserted(plant, bearing, axis) },
+        rest => {
+            let [heading, up] = rest::turned(directions, rest).map(Vector::single);
+            Frame { base, heading, up }
+        }
+    }
+}
+
+/// What an axis is that leaves `bearing` at its insertion and azimuth.
+#[inline]
+fn inserted(plant: &Plant, bearing: Frame, axis: AxisId) -> Frame {
+    bearing.inserted(plant.axes.azimuth[axis.index()], plant.axes.insertion[axis.index()])
 }
 
 /// The pose of the apical bud of an axis: at the tip of the last node that it has made so far, or where it starts. For
@@ -174,5 +212,7 @@ const GROUND: Frame = Frame { base: [0.0; 3], heading: [0.0, 0.0, 1.0], up: [1.0
 mod precision_tests;
 #[cfg(test)]
 mod specimen;
+#[cfg(test)]
+mod stated_tests;
 #[cfg(test)]
 mod tests;
