@@ -84,6 +84,7 @@ impl Bench {
 
     fn prepare(&mut self, plant: &mut Plant, age: Tick) {
         plant.strain.resize(plant.nodes.len());
+        plant.measure(age);
         self.standing.find(plant, age);
         self.laterals.arrange(&plant.axes.bearer);
         self.organs.arrange(&plant.organs.node);
@@ -133,7 +134,8 @@ impl Bench {
 
     fn weigh(&mut self, plant: &Plant, wood: &Wood, age: Tick, fields: &Fields) -> Option<AxisId> {
         let Self { natural, loads, responses, .. } = self;
-        let scan = Scan { plant, wood, age, fields: *fields, natural, loads, responses };
+        let lengths = plant.posed_lengths();
+        let scan = Scan { plant, wood, age, fields: *fields, lengths, natural, loads, responses };
         scan.weigh(&self.standing, &self.laterals, &self.organs)
     }
 
@@ -165,8 +167,9 @@ impl Bench {
 fn each_flexural(plant: &Plant, wood: &Wood, age: Tick, standing: &Standing, mut show: impl FnMut(usize, [f64; 2])) {
     for run in &standing.runs {
         let tissue = wood.tissue(plant.axes.order[run.axis.index()]);
-        let section = Section::of(plant.look_of(run.axis));
+        let of_axis = Section::of(plant.look_of(run.axis));
         for node in run.nodes() {
+            let section = of_axis.at(plant, node);
             let middle = f64::from(plant.nodes.diameter[node] + plant.nodes.diameter_tip[node]) * 0.5;
             let modulus = tissue.modulus(age - plant.nodes.birth[node]);
             let flexural = section.second_moments(middle).map(|moment| modulus * moment);

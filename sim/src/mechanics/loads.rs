@@ -20,7 +20,7 @@ use super::wood::Wood;
 use crate::clock::Tick;
 use crate::plant::borne::{Borne, Down};
 use crate::plant::standing::{Run, Standing};
-use crate::plant::{AxisId, NodeId, OrganId, Part, Plant};
+use crate::plant::{AxisId, OrganId, Part, Plant};
 use crate::site::Fields;
 use crate::vector::Vector;
 
@@ -69,6 +69,8 @@ pub(super) struct Scan<'a> {
     pub wood: &'a Wood,
     pub age: Tick,
     pub fields: Fields,
+    /// The lengths of the internodes at the age, m.
+    pub lengths: &'a [f32],
     /// The curvature that each internode would have without load, rad/m.
     pub natural: &'a [[f32; 2]],
     /// Scratch, one entry an axis.
@@ -206,7 +208,7 @@ impl Scan<'_> {
     fn weigh_run<const WINDY: bool>(&mut self, run: &Run, laterals: &mut Down<'_>, organs: &mut Down<'_>) -> bool {
         let tissue = self.wood.tissue(self.plant.axes.order[run.axis.index()]);
         let mut load = self.loads[run.axis.index()];
-        let section = Section::of(self.plant.look_of(run.axis));
+        let of_axis = Section::of(self.plant.look_of(run.axis));
         let starts = self.plant.stated.has_starts_of_axes();
         let mut holds = true;
         for node in run.nodes().rev() {
@@ -221,6 +223,7 @@ impl Scan<'_> {
                 self.hang(&mut load, node, organ);
             }
             let own_age = self.age - self.plant.nodes.birth[node];
+            let section = of_axis.at(self.plant, node);
             let piece = self.piece(node, section, tissue.density(own_age));
             let felt = piece.pass::<WINDY>(&mut load, &self.fields);
             let modulus = tissue.modulus(own_age);
@@ -240,7 +243,7 @@ impl Scan<'_> {
     /// internode does not feel it.
     fn begins_below(&self, node: usize, axis: usize) -> bool {
         let [along, ..] = self.plant.stated.start(Part::Axis(AxisId(axis as u32)));
-        along < -0.5 * self.plant.posed_length(NodeId(node as u32))
+        along < -0.5 * self.lengths[node]
     }
 
     /// An organ pulls at its node.
@@ -251,7 +254,7 @@ impl Scan<'_> {
             return;
         }
         let frames = &self.plant.frames;
-        let along = Vector::from(frames.heading[node]) * f64::from(self.plant.nodes.length[node]);
+        let along = Vector::from(frames.heading[node]) * f64::from(self.lengths[node]);
         let at = Vector::from(frames.base[node]) + along;
         load.put(at, self.wood.organs.of(self.plant, organ, self.age));
         let area: f64 = self.plant.organ_area(OrganId(organ as u32), self.age);
@@ -263,7 +266,7 @@ impl Scan<'_> {
         let Plant { nodes, frames, .. } = self.plant;
         let (base, tip) = (f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]));
         Piece {
-            length: f64::from(nodes.length[node]),
+            length: f64::from(self.lengths[node]),
             heading: Vector::from(frames.heading[node]),
             foot: Vector::from(frames.base[node]),
             diameters: [base, 0.5 * (base + tip), tip],

@@ -152,7 +152,7 @@ impl OrganMass {
 #[inline]
 pub fn wood_volume(plant: &Plant, node: NodeId) -> f64 {
     let nodes = &plant.nodes;
+    let (section, length) = (Section::of(plant.look_of_node(node)), plant.posed_length(node));
     let node = node.index();
-    let section = Section::of(plant.look_of(nodes.axis[node]));
-    section.volume(f64::from(nodes.length[node]), f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]))
+    section.volume(f64::from(length), f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]))
 }

@@ -5,7 +5,7 @@
 //! numbers of axes, nodes, organs and components follow on. Until then its handles and component numbers are its own,
 //! but for the nodes that bear the axes that it took: those are the whole plant's, and nobody may look them up.
 
-use super::{ApicalBud, Appeared, AxisId, Event, NodeId, OwnTrends, Plant, StatedFrames};
+use super::{ApicalBud, Appeared, AxisId, Event, NodeId, OwnTrends, Plant};
 use crate::clock::NEVER;
 use crate::mechanics::Strain;
 use crate::pose::Frames;
@@ -116,7 +116,11 @@ impl Plant {
             own_trends: OwnTrends::default(),
             random: self.random.clone(),
             place: self.place,
-            stated: StatedFrames::default(),
+            stated: Default::default(),
+            stated_organs: Default::default(),
+            rewritten: Default::default(),
+            own_looks: Default::default(),
+            cuts: Default::default(),
             hands: self.hands,
             components: 0,
             component_limit: self.component_limit.saturating_sub(self.components),
@@ -132,6 +136,9 @@ impl Plant {
         let joint = Joint { axes, nodes, components, ..joint };
         self.own_trends.join(plant.own_trends, |axis| joint.axis(axis));
         self.stated.join(&plant.stated, &joint);
+        self.stated_organs.join(&plant.stated_organs, self.organs.len());
+        self.rewritten.join(&plant.rewritten, &joint);
+        self.own_looks.join(&plant.own_looks, [nodes, self.organs.len()]);
         self.nodes.join(&plant.nodes, &joint);
         self.organs.join(&plant.organs, &joint);
         if let (Some(events), Some(more)) = (&mut self.events, plant.events) {

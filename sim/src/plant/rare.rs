@@ -37,6 +37,12 @@ impl<T: Copy + Default> Rare<T> {
         }
     }
 
+    /// Changes every entry from a place on.
+    pub fn change_from(&mut self, place: usize, change: impl Fn(T) -> T) {
+        let values = self.values.get_mut(place..).unwrap_or_default();
+        values.iter_mut().for_each(|value| *value = change(*value));
+    }
+
     /// Forgets every entry and keeps the memory.
     pub fn clear(&mut self) {
         self.values.clear();

@@ -14,7 +14,6 @@ use super::axis::AxisId;
 use super::fragment::Joint;
 use super::node::{NodeId, Nodes};
 use super::rare::Rare;
-use super::standing::begins_axis;
 use crate::clock::Tick;
 use crate::rotation::Rotation;
 
@@ -198,7 +197,7 @@ impl StatedFrames {
 /// What is said of the first node of an axis is said of the axis.
 fn one_entry(nodes: &Nodes, part: Part) -> Part {
     match part {
-        Part::Node(node) if begins_axis(nodes, node.index()) => Part::Axis(nodes.axis[node.index()]),
+        Part::Node(node) if nodes.rank[node.index()] == 1 => Part::Axis(nodes.axis[node.index()]),
         part => part,
     }
 }

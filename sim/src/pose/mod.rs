@@ -18,7 +18,7 @@ mod scan;
 use crate::clock::Tick;
 use crate::math::sincosf;
 use crate::plant::stated::{Part, Rest};
-use crate::plant::{AxisId, NodeId, OrganId, Plant};
+use crate::plant::{AxisId, NodeId, Nodes, OrganId, Plant};
 use crate::vector::Vector;
 use scan::Tip;
 
@@ -36,7 +36,7 @@ pub struct Frames {
     /// The directions with which each axis goes on, where frames are stated; else empty.
     courses: Vec<rest::Stated>,
     /// The lengths of internodes at the age of the frames; empty where they are those of their birth.
-    lengths: Vec<f32>,
+    pub(crate) lengths: Vec<f32>,
     /// The age of the frames.
     age: Tick,
     /// The age before which they are made: what appeared earlier has its frame.
@@ -55,6 +55,12 @@ impl Frames {
     /// that the next pose writes is not written twice.
     pub fn clear(&mut self) {
         self.posed = 0;
+    }
+
+    /// The lengths of internodes at the age of the frames.
+    #[inline]
+    pub(crate) fn lengths<'a>(&'a self, nodes: &'a Nodes) -> &'a [f32] {
+        if self.lengths.is_empty() { &nodes.length } else { &self.lengths }
     }
 
     /// Room for the frames of every node and the tip of every axis, to be posed up to `age`; the age before which they
@@ -120,15 +126,17 @@ impl Frame {
 
 /// Poses every internode of `plant` that appeared by `age` and has no frame yet. The frames of the others stay: the
 /// pose at rest of a node depends on the nodes before it alone, and to the last bit neither on the order in which the
-/// axes grew nor on how often the plant was posed. Where a rest frame has changed since the age of the frames, all are
-/// made anew.
+/// axes grew nor on how often the plant was posed. Where a rest frame or a length has changed since the age of the
+/// frames, all are made anew.
 pub fn pose(plant: &mut Plant, age: Tick) {
-    if plant.frames.posed > 0 && plant.stated.differ(plant.frames.age, age) {
+    let posed = plant.frames.age;
+    if plant.frames.posed > 0 && (plant.stated.differ(posed, age) || plant.lengths_differ(posed, age)) {
         plant.frames.clear();
     }
     if age < plant.frames.posed {
         return;
     }
+    plant.measure(age);
     if plant.stated.is_empty() {
         scan::follow::<rest::Trended>(plant, age);
     } else {
@@ -144,6 +152,9 @@ pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
     let Plant { organs, nodes, axes, habit, .. } = plant;
     let organ = organ.index();
     let node = organs.node[organ];
+    if let Some(stated) = stated_organ_frame(plant, OrganId(organ as u32)) {
+        return stated;
+    }
     let inserted = node_frame(plant, node).inserted(organs.azimuth[organ], organs.insertion[organ]);
     if habit.organ_trends.is_empty() {
         return inserted;
@@ -155,6 +166,20 @@ pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
         None => inserted,
     };
     if habit.faces_the_sky(order, kind) { course::facing_the_sky(turned) } else { turned }
+}
+
+/// The frame of an organ that states it: for all ages, and at its own start.
+#[inline]
+pub fn stated_organ_frame(plant: &Plant, organ: OrganId) -> Option<Frame> {
+    if plant.stated_organs.keep_insertion() {
+        return None;
+    }
+    let (rotation, start) = plant.stated_organs.frame(organ)?;
+    let bearing = node_frame(plant, plant.organs.node[organ.index()]);
+    let directions = [bearing.heading, bearing.up].map(Vector::from);
+    let base = Vector::from(bearing.base) + rest::placed(directions, start.map(f64::from));
+    let [heading, up] = rest::within(directions, rotation).map(Vector::single);
+    Some(Frame { base: base.single(), heading, up })
 }
 
 /// The frame at the tip of an internode, where its node is: the directions of the internode, its end as the base.
@@ -211,7 +236,7 @@ const GROUND: Frame = Frame { base: [0.0; 3], heading: [0.0, 0.0, 1.0], up: [1.0
 #[cfg(test)]
 mod precision_tests;
 #[cfg(test)]
-mod specimen;
+pub(crate) mod specimen;
 #[cfg(test)]
 mod stated_tests;
 #[cfg(test)]
