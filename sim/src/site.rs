@@ -5,7 +5,7 @@
 
 use crate::clock::Tick;
 use crate::math::{pow, sincos};
-use crate::mechanics::Drag;
+use crate::plant::Drag;
 use crate::vector::Vector;
 
 /// The acceleration of gravity by convention, m/s².

@@ -11,11 +11,11 @@ use super::secondary::Above;
 use super::section::Section;
 use super::turn::{Kept, Turned};
 use super::uprighting::straighten;
-use super::wood::Wood;
+
 use crate::clock::Tick;
 use crate::plant::borne::Borne;
 use crate::plant::standing::Standing;
-use crate::plant::{AxisId, EventKind, Plant};
+use crate::plant::{AxisId, EventKind, Plant, Wood};
 use crate::pose::bent::{Stances, follow_bends};
 use crate::pose::pose;
 use crate::site::Fields;

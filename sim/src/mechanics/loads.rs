@@ -16,11 +16,11 @@
 //! buckles.
 
 use super::section::Section;
-use super::wood::Wood;
+
 use crate::clock::Tick;
 use crate::plant::borne::{Borne, Down};
 use crate::plant::standing::{Run, Standing};
-use crate::plant::{AxisId, OrganId, Part, Plant};
+use crate::plant::{AxisId, OrganId, Part, Plant, Wood};
 use crate::site::Fields;
 use crate::vector::Vector;
 

@@ -10,16 +10,15 @@ mod bend;
 mod loads;
 mod secondary;
 mod section;
-mod strain;
 pub mod sway;
 mod turn;
 mod uprighting;
 mod wood;
 
+pub use crate::plant::{Drag, OrganMass, Strain, Thickening, Tissue, Uprighting, Wood};
 pub use bend::{Bench, MOST_STEPS, Outcome, SETTLED, bend};
-pub use secondary::{Thickening, taper, thicken};
-pub use strain::Strain;
-pub use wood::{Drag, OrganMass, Tissue, Uprighting, Wood, wood_volume};
+pub use secondary::{taper, thicken};
+pub use wood::wood_volume;
 
 #[cfg(test)]
 mod tests;

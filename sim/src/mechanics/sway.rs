@@ -9,10 +9,10 @@
 
 use super::bend::Bench;
 use super::section::Section;
-use super::wood::{Wood, wood_volume};
+use super::wood::wood_volume;
 use crate::clock::Tick;
 use crate::math::{exp, sincos};
-use crate::plant::{Habit, LineageKey, NodeId, OrganId, Plant};
+use crate::plant::{Habit, LineageKey, NodeId, OrganId, Plant, Wood};
 use crate::site::{Site, Wind};
 use std::f64::consts::TAU;
 

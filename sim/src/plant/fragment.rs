@@ -5,10 +5,8 @@
 //! numbers of axes, nodes, organs and components follow on. Until then its handles and component numbers are its own,
 //! but for the nodes that bear the axes that it took: those are the whole plant's, and nobody may look them up.
 
-use super::{ApicalBud, Appeared, AxisId, Event, NodeId, OwnTrends, Plant};
+use super::{ApicalBud, Appeared, AxisId, Event, Frames, NodeId, OwnTrends, Plant, Strain};
 use crate::clock::NEVER;
-use crate::mechanics::Strain;
-use crate::pose::Frames;
 use std::ops::Range;
 
 /// Who may grow one plant at once.

@@ -68,7 +68,7 @@ impl Plant {
     /// The length of an internode at the age of the frames, m.
     #[inline]
     pub fn posed_length(&self, node: NodeId) -> f32 {
-        self.frames.lengths(&self.nodes)[node.index()]
+        self.frames.lengths.get(node.index()).copied().unwrap_or(self.nodes.length[node.index()])
     }
 
     /// The lengths of all internodes at the age of the frames, m.

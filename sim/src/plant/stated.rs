@@ -206,9 +206,22 @@ impl Plant {
     /// States the rest frame of a node or an axis, for all ages.
     #[inline]
     pub fn state_rest(&mut self, part: impl Into<Part>, rest: Rest) {
-        match one_entry(&self.nodes, part.into()) {
+        let part = one_entry(&self.nodes, part.into());
+        match part {
             Part::Axis(axis) => self.stated.axes.state(axis.index(), rest),
             Part::Node(node) => self.stated.nodes.state(node.index(), rest),
+        }
+        self.pose_again(part);
+    }
+
+    /// Forgets the frames where that of `part` may be among them.
+    fn pose_again(&mut self, part: Part) {
+        let appeared = match part {
+            Part::Axis(axis) => self.axes.appearance[axis.index()],
+            Part::Node(node) => self.nodes.birth[node.index()],
+        };
+        if appeared < self.frames.posed {
+            self.frames.clear();
         }
     }
 
@@ -216,13 +229,15 @@ impl Plant {
     /// heading, to its left and to its upper side. A child in the middle of its bearer begins half of that one's length
     /// behind its tip.
     pub fn state_start(&mut self, part: impl Into<Part>, offset: [f32; 3]) {
-        let (column, place) = match one_entry(&self.nodes, part.into()) {
+        let part = one_entry(&self.nodes, part.into());
+        let (column, place) = match part {
             Part::Axis(axis) => (&mut self.stated.axes.starts, axis.index()),
             Part::Node(node) => (&mut self.stated.nodes.starts, node.index()),
         };
         if offset != [0.0; 3] || !column.is_empty() {
             column.set(place, offset);
         }
+        self.pose_again(part);
     }
 
     /// Changes a rest frame from `tick` on; the ages before keep theirs. Of two changes of one tick the later call

@@ -7,11 +7,10 @@
 //! half of one turn and half of the next are taken as one, exp((w + w')/2): the two axes nearly agree. The axes of the
 //! plant at rest are followed as they would stand without load, so trends are felt at rest and carried along.
 
-use super::course::Plane;
-use super::rest::{Course, Directions, Stated, Trended, Way};
-use super::{Frame, GROUND};
+use super::rest::{Course, Way};
 use crate::clock::Tick;
 use crate::plant::borne::{Borne, Up};
+use crate::plant::frames::{Directions, Frame, Plane, Stated, Trended};
 use crate::plant::standing::{Run, Standing};
 use crate::plant::{Axes, Plant};
 use crate::rotation::Rotation;
@@ -159,7 +158,7 @@ fn follow_run<C: Course>(
 /// Where an axis starts that nothing bears.
 fn ground_left<C: Course>(axes: &Axes, axis: usize) -> Stance<C> {
     let tip = Tip { base: Vector::default(), turned: Rotation::NONE, half: Vector::default() };
-    let (plane, slope) = Plane::of(&GROUND);
+    let (plane, slope) = Plane::of(&Frame::GROUND);
     Stance { course: C::leaving([plane.heading(slope), plane.up(slope)], 0.0, axes, axis), tip }
 }
 

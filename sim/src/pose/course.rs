@@ -8,33 +8,13 @@
 //! and across it. An axis that stands upright or hangs has no horizontal direction of its own and turns towards that of
 //! its `up`.
 
-use super::Frame;
 use crate::math::{half_turn_of, sincos_half_turn};
 use crate::plant::Trend;
+use crate::plant::frames::{Frame, Plane, Slope};
 use crate::vector::Vector;
 
 /// Below this sine of the angle to the vertical a heading has no horizontal direction of its own; that of `up` serves.
 const VERTICAL: f64 = 1e-6;
-
-/// The vertical plane of an axis, with the components of `up` that do not change along it.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Plane {
-    /// The horizontal direction.
-    e: [f64; 2],
-    /// Of `up` across the plane, along Z × e.
-    across: f64,
-    /// Of `up` in the plane, along z · e − r · Z.
-    within: f64,
-}
-
-/// The direction of a heading in its plane: z along the vertical, r along e.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Slope {
-    z: f64,
-    r: f64,
-    /// The angle to the upward vertical; NaN while the axis has not turned, for many never do.
-    angle: f64,
-}
 
 /// What stands in `frame`, turned once.
 pub(super) fn turned(frame: Frame, trend: &Trend) -> Frame {

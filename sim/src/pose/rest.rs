@@ -5,9 +5,8 @@
 //! of plants in which some frames are stated: each node, and each axis, by what it states or by insertion and trend.
 //! Heading and upper side are carried in double precision, so that a stated axis of many nodes does not drift.
 
-use super::course::{Plane, Slope};
-use super::{Frame, Frames};
 use crate::clock::Tick;
+use crate::plant::frames::{Along, Directions, Frame, Frames, Plane, Stated, Trended};
 use crate::plant::stated::{Part, Rest, StatedFrames};
 use crate::plant::{Axes, AxisId, NodeId, Trend};
 use crate::rotation::Rotation;
@@ -15,9 +14,6 @@ use crate::vector::Vector;
 
 /// Below this square of its length a vector has no direction.
 const NOTHING: f64 = 1e-12;
-
-/// Heading and upper side.
-pub(crate) type Directions = [Vector; 2];
 
 /// What a course reads on its way along one axis.
 pub(crate) struct Way<'a> {
@@ -58,13 +54,6 @@ pub(crate) trait Course: Copy {
 
     /// Leaves the course for [`Course::resumed`].
     fn keep(self, frames: &mut Frames, axis: usize);
-}
-
-/// The course of an axis by insertion and trend.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Trended {
-    plane: Plane,
-    slope: Slope,
 }
 
 impl Trended {
@@ -116,20 +105,6 @@ impl Course for Trended {
     fn keep(self, frames: &mut Frames, axis: usize) {
         frames.tips[axis].slope = self.slope;
     }
-}
-
-/// The course of an axis of a plant in which frames are stated.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Stated {
-    along: Along,
-    length: f64,
-}
-
-/// How the directions go on from here.
-#[derive(Debug, Clone, Copy)]
-enum Along {
-    Trended(Trended),
-    Turned(Directions),
 }
 
 impl Stated {

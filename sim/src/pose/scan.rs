@@ -1,27 +1,18 @@
 //! The forward scan of a plant at rest, whichever way its rest geometry is stated ([`super::rest`]).
 //!
 //! Runs of nodes that follow one another on one axis are the unit of work: base and directions stay in registers as f64
-//! and are rounded to f32 only where they are stored. Where an axis goes on later, it goes on from its [`Tip`], so that
+//! and are rounded to f32 only where they are stored. Where an axis goes on later, it goes on from its [`crate::plant::frames::Tip`], so that
 //! the frames are the same bits whether axes were grown one by one or tick by tick. An axis starts from the stored f32
 //! frame of its bearing node: 40 m from the seed that is 2 µm, once an order.
 
-use super::course::Slope;
+use super::bearing_frame;
 use super::rest::{Course, Way, placed};
-use super::{Frames, bearing_frame};
 use crate::clock::Tick;
+use crate::plant::frames::Frames;
 use crate::plant::standing::begins_axis;
 use crate::plant::{AxisId, Nodes, Plant};
 use crate::vector::Vector;
 use std::ops::Range;
-
-/// Where an axis goes on from.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Tip {
-    /// The end of its last internode, metres.
-    pub base: Vector,
-    /// The direction of its last internode, where it follows insertion and trend.
-    pub slope: Slope,
-}
 
 /// Poses the nodes that appeared by `age` and have no frame yet, run by run.
 pub(super) fn follow<C: Course>(plant: &mut Plant, age: Tick) {

@@ -72,7 +72,7 @@ fn specimen(growth: Growth, bends: bool) -> Specimen {
 
 /// The frame that a node leaves.
 fn bearer_of(plant: &Plant, node: usize) -> Frame {
-    plant.nodes.parent[node].some().map_or(GROUND, |parent| node_frame(plant, parent))
+    plant.nodes.parent[node].some().map_or(Frame::GROUND, |parent| node_frame(plant, parent))
 }
 
 /// How a frame is turned in that of its bearer.
@@ -272,4 +272,30 @@ fn a_frame_changes_at_its_tick_and_earlier_ages_keep_the_old_one() {
         }
     }
     assert_eq!(plant.axes.origin[0], Origin::Axillary);
+}
+
+/// Frames may be stated after a plant was posed, of what stands and of what is still to come.
+#[test]
+fn frames_that_are_stated_late_are_those_that_were_stated_at_once() {
+    let plant = Specimen::grown(&tree()[..2], &trends(), Growth::TickByTick).plant;
+    let state = |plant: &mut Plant, node: u32| {
+        plant.state_rest(NodeId(node), Rest::Turned(Rotation::about([0.3, 1.0, 0.2], 0.4)));
+    };
+    let of_birth = |birth: u32| (0..plant.nodes.len()).find(|&node| plant.nodes.birth[node] == birth).unwrap() as u32;
+    let (early, late) = (of_birth(30), of_birth(90));
+    let mut at_once = plant.clone();
+    for node in [early, late] {
+        state(&mut at_once, node);
+    }
+    pose(&mut at_once, LAST);
+    for order in [[late, early], [early, late]] {
+        let mut in_turn = plant.clone();
+        for (age, node) in [50, 60].into_iter().zip(order) {
+            pose(&mut in_turn, age);
+            state(&mut in_turn, node);
+        }
+        pose(&mut in_turn, 70);
+        pose(&mut in_turn, LAST);
+        assert_eq!(in_turn.frames.base, at_once.frames.base);
+    }
 }
