@@ -210,13 +210,13 @@ impl Scan<'_> {
         let mut load = self.loads[run.axis.index()];
         let of_axis = Section::of(self.plant.look_of(run.axis));
         let starts = self.plant.stated.has_starts_of_axes();
-        let mut holds = true;
+        let (mut low, mut holds) = (Vec::new(), true);
         for node in run.nodes().rev() {
-            let mut below = starts.then(Load::default);
             while let Some(axis) = laterals.on(node) {
-                match &mut below {
-                    Some(below) if self.begins_below(node, axis) => below.add(&self.loads[axis]),
-                    _ => load.add(&self.loads[axis]),
+                if starts && self.begins_below(node, axis) {
+                    low.push(axis);
+                } else {
+                    load.add(&self.loads[axis]);
                 }
             }
             while let Some(organ) = organs.on(node) {
@@ -231,8 +231,8 @@ impl Scan<'_> {
             let answered;
             (load, answered) = self.answer(load, node, &felt, flexural, piece.length);
             holds &= answered;
-            if let Some(below) = below {
-                load.add(&below);
+            if starts {
+                low.drain(..).for_each(|axis| load.add(&self.loads[axis]));
             }
         }
         self.loads[run.axis.index()] = load;
