@@ -249,6 +249,33 @@ fn what_begins_low_on_its_bearer_does_not_weigh_on_its_middle() {
     assert!(moment(0.0) > 1.2 * moment(-0.3) && moment(-0.3) > 1.2 * bare, "{} {} {bare}", moment(0.0), moment(-0.3));
 }
 
+/// A branch from the middle of a bent internode stands where it does on two internodes of half the length: on the
+/// chord, turned by half of what the internode turns.
+#[test]
+fn a_branch_from_the_middle_of_a_bent_internode_stands_between_its_ends() {
+    let bent = |branches: &[Branch], start: f32| {
+        let mut plant = Specimen::grown(branches, &trends(), Growth::AxisByAxis).plant;
+        plant.habit = Arc::new(Habit { wood: Some(wood()), ..(*plant.habit).clone() });
+        plant.nodes.diameter.fill(0.03);
+        plant.nodes.diameter_tip.fill(0.03);
+        plant.state_start(AxisId(1), [start, 0.0, 0.0]);
+        bend(&mut plant, LAST, &Site::default(), &mut Bench::default());
+        plant
+    };
+    let rod = |nodes: u32, length: f32| Branch { insertion: 1.4, ..Branch::trunk(nodes, length) };
+    let branch = |rank| Branch { nodes: 1, length: 0.01, ..Branch::on(0, rank) };
+    let whole = bent(&[rod(10, 0.4), branch(3)], -0.2);
+    let halves = bent(&[rod(20, 0.2), branch(5)], 0.0);
+    let (found, expected) = (whole.frames.at(NodeId(10)), halves.frames.at(NodeId(20)));
+    let apart = |a: [f32; 3], b: [f32; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f32::max);
+    let bearer = whole.frames.at(NodeId(2));
+    let turn = apart(whole.frames.at(NodeId(3)).heading, bearer.heading);
+    assert!(turn > 0.02, "it bends: by {turn} an internode");
+    assert!(apart(found.base, bearer.advanced(0.2).base) < 1e-6, "on the chord");
+    assert!(apart(found.heading, expected.heading) < 0.1 * turn, "{found:?} {expected:?}");
+    assert!(apart(found.base, expected.base) < 0.1 * turn, "{found:?} {expected:?}");
+}
+
 #[test]
 fn a_frame_changes_at_its_tick_and_earlier_ages_keep_the_old_one() {
     let mut plant = Specimen::grown(&[Branch::trunk(6, 1.0), Branch::on(0, 3)], &trends(), Growth::AxisByAxis).plant;
@@ -283,17 +310,14 @@ fn frames_that_are_stated_late_are_those_that_were_stated_at_once() {
     };
     let of_birth = |birth: u32| (0..plant.nodes.len()).find(|&node| plant.nodes.birth[node] == birth).unwrap() as u32;
     let (early, late) = (of_birth(30), of_birth(90));
-    let mut at_once = plant.clone();
-    for node in [early, late] {
-        state(&mut at_once, node);
-    }
-    pose(&mut at_once, LAST);
-    for order in [[late, early], [early, late]] {
-        let mut in_turn = plant.clone();
+    for order in [[late, late], [late, early], [early, late]] {
+        let (mut at_once, mut in_turn) = (plant.clone(), plant.clone());
         for (age, node) in [50, 60].into_iter().zip(order) {
+            state(&mut at_once, node);
             pose(&mut in_turn, age);
             state(&mut in_turn, node);
         }
+        pose(&mut at_once, LAST);
         pose(&mut in_turn, 70);
         pose(&mut in_turn, LAST);
         assert_eq!(in_turn.frames.base, at_once.frames.base);
