@@ -14,6 +14,7 @@ pub mod plot;
 pub mod pose;
 pub mod random;
 pub mod record;
+pub mod rotation;
 pub mod shed;
 pub mod site;
 mod vector;

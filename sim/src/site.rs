@@ -8,7 +8,7 @@
 use crate::cells::Cells;
 use crate::clock::Tick;
 use crate::math::{pow, sincos};
-use crate::mechanics::Drag;
+use crate::plant::Drag;
 use crate::vector::Vector;
 
 /// The acceleration of gravity by convention, m/s².

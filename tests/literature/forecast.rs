@@ -9,7 +9,7 @@ use crate::grown::Sample;
 use phytomer_config::{Kind, SPECIES_ALONE_UNTIL, presets, validate, validate_species};
 use phytomer_sim::expectation::{Certainty, Expectation, OrderExpectation};
 use phytomer_sim::plant::{EventKind, Seed};
-use phytomer_sim::{Growth, GrowthModel, Plant, Plot, Tick};
+use phytomer_sim::{GrowthModel, Plant, Plot, Tick};
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
 /// A plant that is expected to have more components is looked at while it is younger.
@@ -110,10 +110,10 @@ fn counted(plant: &Plant, ages: &[Tick], orders: usize) -> Counts {
     counts
 }
 
-/// A model that rebuilds its plant leaves no events; its growth units are its nodes.
+/// Of a model that makes its plant anew at each age growth units are its nodes.
 fn differences_of(name: &str, model: &dyn GrowthModel, until: Tick) -> Vec<String> {
     let mut differences = differences(name, model, until, COMPONENTS);
-    if model.growth() == Growth::Rebuilds {
+    if !model.growth().keeps_its_past() {
         differences.retain(|difference| !difference.contains("growth units"));
     }
     differences

@@ -11,7 +11,7 @@ use phytomer_sim::Tick;
 use phytomer_sim::expectation::Expectation;
 use phytomer_sim::mechanics::taper;
 use phytomer_sim::model::{Grow, Growth, Overgrown};
-use phytomer_sim::plant::{AxisId, Habit, Hands, LineageKey, NewAxis, Plant};
+use phytomer_sim::plant::{ApexFate, AxisId, Habit, Hands, LineageKey, NewAxis, Plant};
 use phytomer_sim::pose::bud_frame;
 use phytomer_sim::site::{Site, View};
 use std::ops::Range;
@@ -89,6 +89,10 @@ impl BudModel {
     fn grow_plant(&self, plant: &mut Plant, living: &mut Vec<ApicalBud>, age: Tick) -> Result<(), Overgrown> {
         let mut words = Words::default();
         let first_new = plant.axes.len();
+        if !plant.cuts.all().is_empty() {
+            // The buds of what was cut off since the last tick.
+            living.retain(|bud| plant.axes.apex_fate[bud.axis.index()] == ApexFate::Alive);
+        }
         keep(living, |bud| self.grow_with(plant, bud, age, &mut words))?;
         let mut next = first_new;
         while next < plant.axes.len() {

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::fmt::Debug;
 
 use phytomer_sim::clock::Tick;
-use phytomer_sim::plant::{AxisId, LineageKey, NodeId, OrganId, Plant};
+use phytomer_sim::plant::{AxisId, LineageKey, NodeId, OrganId, Plant, Rest};
 
 /// One component of a plant.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -95,7 +95,12 @@ fn axis(plant: &Plant, i: usize) -> Component {
 
 fn node(plant: &Plant, i: usize) -> Component {
     let nodes = &plant.nodes;
-    let heading = plant.stated_headings.get(i).copied().unwrap_or_default();
+    let rest = match plant.rest_of(NodeId(i as u32), plant.age) {
+        Rest::Follows => [0.0; 3],
+        Rest::Heading(heading) => heading.map(f64::from),
+        Rest::Turned(rotation) => rotation.turned([1.0, 2.0, 3.0]),
+    };
+    let start = plant.start_of(NodeId(i as u32));
     Component {
         key: plant.node_key(NodeId(i as u32)),
         what: "node",
@@ -110,14 +115,11 @@ fn node(plant: &Plant, i: usize) -> Component {
             nodes.formation[i].is_neoformed().into(),
             nodes.trend[i].into(),
         ],
-        measures: bits(&[
-            nodes.length[i],
-            nodes.primary_diameter[i],
-            nodes.azimuth[i],
-            heading[0],
-            heading[1],
-            heading[2],
-        ]),
+        measures: [bits(&[nodes.length[i], nodes.primary_diameter[i], nodes.azimuth[i]]), bits(&start)]
+            .concat()
+            .into_iter()
+            .chain(rest.into_iter().flat_map(|x| [x.to_bits() as u32, (x.to_bits() >> 32) as u32]))
+            .collect(),
     }
 }
 

@@ -4,7 +4,7 @@ use super::*;
 use crate::fault::Path;
 use crate::geometric::{Gmt1, Gmt1Model};
 use phytomer_sim::model::{Grow, Growth, Overgrown};
-use phytomer_sim::plant::{Habit, LineageKey, NodeId};
+use phytomer_sim::plant::{Habit, LineageKey, NodeId, Rest};
 use phytomer_sim::site::View;
 use std::panic::AssertUnwindSafe;
 use std::sync::Arc;
@@ -107,7 +107,8 @@ fn a_rule_of_time_or_measure_is_named_when_it_is_broken() {
     breaks(&spoilt(|_, p| set(&mut p.nodes.birth, 0, 0)), "a node appears in 1..=6");
     breaks(&spoilt(|_, p| set(&mut p.nodes.birth, 0, 3)), "no sooner than");
     breaks(&spoilt(|_, p| set(&mut p.nodes.length, 3, f32::NAN)), "finite numbers");
-    breaks(&spoilt(|_, p| p.stated_headings.truncate(9)), "for every internode or for none");
+    let long = |_, p: &mut Plant| p.state_rest(NodeId(3), Rest::Heading([2.0, 0.0, 0.0]));
+    breaks(&spoilt(long), "a stated heading is a unit vector");
     breaks(&spoilt(|_, p| p.events.iter_mut().for_each(Vec::clear)), "the events of growth count the nodes");
 }
 

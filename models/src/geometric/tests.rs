@@ -8,7 +8,7 @@ use crate::law::{Quantity, Variate};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::math;
 use phytomer_sim::model::GrowthModel;
-use phytomer_sim::plant::{NodeId, Origin, Plant};
+use phytomer_sim::plant::{NodeId, Origin, Plant, Rest};
 use std::f64::consts::PI;
 
 /// Figure, h1, h2, R1, R2, divergence, growth level; R_diam is 0.7 in every row. Rows `5c&e` and `5d&f` are two each.
@@ -59,13 +59,21 @@ fn grown(tree: &Gmt1, age: Tick) -> Plant {
     contract::grown(&model(tree), age, &contract::seed_of(1, 0))
 }
 
+/// The heading that a node of a plant states; 0 where it states none.
+pub(super) fn heading(plant: &Plant, node: usize) -> [f32; 3] {
+    match plant.rest_of(NodeId(node as u32), plant.age) {
+        Rest::Heading(heading) => heading,
+        _ => [0.0; 3],
+    }
+}
+
 /// The tip of each internode, from the columns: lengths along stated headings.
 fn tips(plant: &Plant) -> Vec<[f64; 3]> {
     let mut tips: Vec<[f64; 3]> = Vec::new();
     for i in 0..plant.nodes.len() {
         let base = plant.nodes.parent[i].some().map_or([0.0; 3], |parent| tips[parent.index()]);
         let long = f64::from(plant.nodes.length[i]);
-        tips.push([0, 1, 2].map(|k| base[k] + long * f64::from(plant.stated_headings[i][k])));
+        tips.push([0, 1, 2].map(|k| base[k] + long * f64::from(heading(plant, i)[k])));
     }
     tips
 }
@@ -199,7 +207,7 @@ fn the_kth_lateral_of_an_upright_trunk_stands_at_k_divergence_angles() {
         let on_trunk = |&axis: &usize| plant.axes.order[axis] == 2;
         for (k, axis) in (0..plant.axes.len()).filter(on_trunk).enumerate() {
             let first = (0..plant.nodes.len()).find(|&i| plant.nodes.axis[i].index() == axis).expect("a branch");
-            let [x, y, _] = plant.stated_headings[first].map(f64::from);
+            let [x, y, _] = heading(&plant, first).map(f64::from);
             let expected = (k * 140 % 360) as f64 * PI / 180.0;
             let off = math::sin(math::atan2(y, x) - expected).abs() + 1.0 - math::cos(math::atan2(y, x) - expected);
             assert!(off < 1e-5, "{name}: lateral {k} is off by {off}");
@@ -215,7 +223,7 @@ fn without_divergence_all_that_a_straight_trunk_bears_first_lies_in_the_front_pl
     let plant = grown(&tree, 10);
     let laterals = (0..plant.nodes.len()).filter(|&i| plant.nodes.rank[i] == 1 && plant.nodes.birth[i] > 1);
     let of_trunk = |&i: &usize| plant.axes.order[plant.nodes.axis[i].index()] == 2;
-    assert!(laterals.filter(of_trunk).all(|i| plant.stated_headings[i][1] == 0.0));
+    assert!(laterals.filter(of_trunk).all(|i| heading(&plant, i)[1] == 0.0));
 }
 
 /// How far a tip stands from the line of the trunk.

@@ -4,6 +4,7 @@
 //! Every value is read back from the columns of a grown plant. Seeds are fixed; bounds are 4 standard errors of the
 //! stated distribution. Absent: the draws themselves, which stand with the laws.
 
+use super::tests::heading as stated_heading;
 use super::{Gmt1, Gmt1Model};
 use crate::contract;
 use crate::fault::Path;
@@ -41,7 +42,7 @@ fn drawn(levels: u32) -> Value {
 fn found(plant: &Plant) -> [f64; 8] {
     let nodes = &plant.nodes;
     let [length, thick] = [&nodes.length, &nodes.primary_diameter].map(|column| |i: usize| f64::from(column[i]));
-    let heading = |i: usize| plant.stated_headings[i].map(f64::from);
+    let heading = |i: usize| stated_heading(plant, i).map(f64::from);
     // A child of the upright trunk leans by h in the front plane, left where h is above 0.
     let lean = |i: usize| phytomer_sim::math::atan2(-heading(i)[0], heading(i)[2]).to_degrees();
     // The trunk is carried on by the left child here; azimuths count the divergence at its next branching.
@@ -110,7 +111,7 @@ fn a_plant_keeps_its_parameters_at_each_level_and_another_has_others() {
         let young = contract::grown(&model, age, &seed);
         let n = young.nodes.len();
         assert_eq!(young.nodes.length, whole.nodes.length[..n], "at age {age}");
-        assert_eq!(young.stated_headings, whole.stated_headings[..n], "at age {age}");
+        assert!((0..n).all(|i| stated_heading(&young, i) == stated_heading(&whole, i)), "at age {age}");
         assert_eq!(young.nodes.primary_diameter, whole.nodes.primary_diameter[..n], "at age {age}");
     }
     let other = contract::grown(&model, 7, &contract::seed_of(9, 5));
@@ -128,7 +129,7 @@ fn drawn_angles_decide_which_child_carries_the_axis_on() {
     for number in 0..400 {
         let plant = contract::grown(&model, 3, &contract::seed_of(2, number));
         let continues = plant.nodes.axis[1].0 == 0;
-        let [x, _, z] = plant.stated_headings[1].map(f64::from);
+        let [x, _, z] = stated_heading(&plant, 1).map(f64::from);
         assert_eq!(continues, phytomer_sim::math::atan2(-x, z).to_degrees() < 30.0);
         left += u32::from(continues);
     }
@@ -165,7 +166,7 @@ fn a_constant_is_the_same_tree_however_it_is_written() {
     for other in [sourced, degenerate] {
         let other = contract::grown(&compiled(other), 6, &seed);
         assert_eq!(one.nodes.length, other.nodes.length);
-        assert_eq!(one.stated_headings, other.stated_headings);
+        assert_eq!(one.stated, other.stated);
         assert_eq!(one.nodes.primary_diameter, other.nodes.primary_diameter);
     }
 }

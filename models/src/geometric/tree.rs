@@ -9,7 +9,7 @@ use super::branching::{child, length};
 use phytomer_sim::clock::{NEVER, Tick};
 use phytomer_sim::math;
 use phytomer_sim::plant::key::Place;
-use phytomer_sim::plant::{AxisId, EventKind, NewAxis, NewNode, NodeId, Origin, Plant};
+use phytomer_sim::plant::{AxisId, EventKind, NewAxis, NewNode, NodeId, Origin, Plant, Rest};
 use std::f64::consts::PI;
 
 /// The numbers of one tree.
@@ -118,7 +118,7 @@ impl Tree {
             diameter: diameter as f32,
             azimuth: radians(around(self.turn_deg(rank))) as f32,
         });
-        plant.stated_headings.push(vector.map(|x| (x / long) as f32));
+        plant.state_rest(node, Rest::Heading(vector.map(|x| (x / long) as f32)));
         plant.note(birth(level), axis, EventKind::Grew, 1);
         Branch { node, axis, rank, vector, diameter }
     }

@@ -2,8 +2,8 @@
 //!
 //! Each cell is a straight internode (1), of the length of its kind (3); the first stands upright (2); a pair of
 //! parentheses is a branch (4). The branches along an axis stand on opposite sides by turns, the first of each axis on the
-//! left (5), also where several stand at one cell (6), at one angle in one plane: x–z, with x to the right. Two
-//! branches or more behind which their axis does not go on are a fork: the axis ends there, and they are of its order.
+//! left (5), also where several stand at one cell (6), at one angle in one plane: x–z, with x to the right. Where an
+//! axis divides its apex ends, and the branches are of its order.
 //!
 //! Internodes stand in the columns in the order of the string, axes in that of their numbers, which a branch never
 //! changes. Absent: rewriting (`string`).
@@ -36,8 +36,10 @@ struct Axis {
     left: f32,
     azimuth: f32,
     position: u16,
-    /// The tick of its first branch since the last cell.
-    forked: u32,
+    /// Whether it is one of those into which its bearing axis has divided.
+    fork: bool,
+    /// The tick at which it divided.
+    divided: Tick,
     /// The place of the axis that bears it, in the order of the string.
     bearing: usize,
 }
@@ -65,8 +67,8 @@ pub(super) fn draw(living: &Living, trunk: Born, sizes: &[Size], angle: f32, pla
                 cells.push(Cell { letter, born, axis: at, parent: axis.last, rank: axis.rank });
                 axis.last = node;
             }
-            Module::Open(born) => {
-                let branch = axes[at].branch(born, at);
+            Module::Open(born, fork) => {
+                let branch = axes[at].branch(born, fork, at);
                 at = axes.len();
                 axes.push(branch);
             }
@@ -106,32 +108,29 @@ impl Axis {
             left: 0.0,
             azimuth: 0.0,
             position: 0,
-            forked: NEVER,
+            fork: false,
+            divided: NEVER,
             bearing,
         }
     }
 
     /// The next branch, borne by the last cell; `place` is this axis's. The reference direction of a branch lies on the
     /// side of the axis that bears it, so that its left is opposite where it stands on the left, and else along it.
-    fn branch(&mut self, born: Born, place: usize) -> Self {
+    fn branch(&mut self, born: Born, fork: bool, place: usize) -> Self {
         let on_left = self.branches.is_multiple_of(2);
-        self.forked = if self.at_last == 0 { born.at } else { self.forked.min(born.at) };
+        self.divided = if fork { self.divided.min(born.at) } else { self.divided };
         let opposite = if self.left == 0.0 { PI } else { 0.0 };
         let azimuth = if on_left { self.left } else { opposite };
         let branch = Self {
             azimuth,
             left: if on_left { PI } else { 0.0 },
             position: self.at_last,
+            fork,
             ..Self::new(born, self.last, place)
         };
         self.branches = self.branches.wrapping_add(1);
         self.at_last = self.at_last.saturating_add(1);
         branch
-    }
-
-    /// Whether its last branches are the axes into which it has divided.
-    fn is_forked(&self) -> bool {
-        self.at_last > 1
     }
 }
 
@@ -144,10 +143,9 @@ fn place_axes(axes: &[Axis], angle: f32, plant: &mut Plant) -> Vec<AxisId> {
         let axis = &axes[place];
         let bearing = axes.get(axis.bearing);
         let order = bearing.map_or(0, |_| plant.axes.order[places[axis.bearing].index()]);
-        // The branches behind the last cell of an axis that has divided there.
         let origin = match bearing {
             None => Origin::Seed,
-            Some(bearing) if bearing.is_forked() && axis.bearer == bearing.last => Origin::Fork,
+            Some(_) if axis.fork => Origin::Fork,
             Some(_) => Origin::Axillary,
         };
         let new = NewAxis {
@@ -164,8 +162,8 @@ fn place_axes(axes: &[Axis], angle: f32, plant: &mut Plant) -> Vec<AxisId> {
             ..NewAxis::OF_THE_SEED
         };
         places[place] = plant.place_axis(new, axis.born.number);
-        if axis.is_forked() {
-            plant.axes.end_apex(places[place], axis.forked.max(1), ApexFate::Completed);
+        if axis.divided != NEVER {
+            plant.axes.end_apex(places[place], axis.divided.max(1), ApexFate::Completed);
         }
     }
     places

@@ -3,9 +3,11 @@
 //! Age n has the string of n rewritings; the paper counts growth levels from 1, so that level n is the age n − 1.
 //! Absent: rewriting (`string`) and drawing (`draw`).
 
+use super::count::expectation;
 use super::draw::{Size, draw, note_new};
 use super::string::{Born, Living, Rules};
 use phytomer_sim::clock::Tick;
+use phytomer_sim::expectation::Expectation;
 use phytomer_sim::model::{Grow, Growth, Overgrown};
 use phytomer_sim::plant::{Habit, Looks, Plant, Shape, Trend};
 use phytomer_sim::site::View;
@@ -66,6 +68,11 @@ impl Grow for D0lModel {
         plant.age = age;
         note_new(plant, last);
         Ok(())
+    }
+
+    /// No count is left to chance: the counts themselves.
+    fn expectation(&self, until: Tick) -> Option<Expectation> {
+        Some(expectation(&self.rules, until))
     }
 
     /// A cell has one diameter along its length, that of its kind.

@@ -3,9 +3,10 @@
 //! Rules are applied to all symbols at once (Aono & Kunii 1984, "L-system model"). A cell that is rewritten is the first
 //! cell of what it becomes: it differentiates and keeps its number, and the others are new. So `F → F F` lets the first
 //! internode keep its number, and in `g → d(g)g` the apical cell becomes the internode below the new apex. New cells and
-//! branches are numbered in the order of the string. Absent: where they stand (`draw`).
+//! branches are numbered in the order of the string. A branch is a fork, or a lateral one, from its birth on. Absent:
+//! where they stand (`draw`).
 
-use super::text::Symbol;
+use super::text::{Branching, Symbol};
 use phytomer_sim::clock::Tick;
 
 /// The most kinds of cells.
@@ -32,8 +33,8 @@ pub(super) struct Born {
 pub(super) enum Module {
     /// A cell, by the place of its letter.
     Cell(u8, Born),
-    /// The beginning of a branch.
-    Open(Born),
+    /// The beginning of a branch, and whether its axis divides into it.
+    Open(Born, bool),
     /// The end of a branch.
     Close,
 }
@@ -48,7 +49,7 @@ pub struct Living {
 impl Rules {
     /// The string of a new plant; `number` gives component numbers.
     pub fn sow(&self, mut number: impl FnMut() -> u32) -> Living {
-        let modules = self.axiom.iter().map(|symbol| module(*symbol, 0, &mut number)).collect();
+        let modules = self.axiom.iter().map(|symbol| module(*symbol, true, 0, &mut number)).collect();
         Living { modules }
     }
 
@@ -56,11 +57,13 @@ impl Rules {
     /// more, and the string is then part of what it should be.
     pub fn rewrite(&self, living: &mut Living, at: Tick, most: usize, mut number: impl FnMut() -> u32) -> bool {
         let Living { modules } = living;
-        for old in std::mem::take(modules) {
+        let last = std::mem::take(modules);
+        let ends = ends_of_axes(&last);
+        for (old, end) in last.into_iter().zip(ends) {
             match self.production(old) {
                 Some((Symbol::Cell(letter), others, born)) => {
                     modules.push(Module::Cell(*letter, born));
-                    modules.extend(others.iter().map(|symbol| module(*symbol, at, &mut number)));
+                    modules.extend(others.iter().map(|symbol| module(*symbol, end, at, &mut number)));
                 }
                 _ => modules.push(old),
             }
@@ -79,10 +82,29 @@ impl Rules {
     }
 }
 
-fn module(symbol: Symbol, at: Tick, number: &mut impl FnMut() -> u32) -> Module {
+/// Of each module whether it is the last cell of its axis.
+fn ends_of_axes(modules: &[Module]) -> Vec<bool> {
+    let mut ends = vec![false; modules.len()];
+    // From the end: of each axis that is open whether a cell of it was met.
+    let mut axes = vec![false];
+    for (module, end) in modules.iter().zip(&mut ends).rev() {
+        match module {
+            Module::Close => axes.push(false),
+            Module::Open(..) => _ = axes.pop(),
+            Module::Cell(..) => *end = axes.last_mut().is_some_and(|met| !std::mem::replace(met, true)),
+        }
+    }
+    ends
+}
+
+/// A new module; `end` tells whether the cell that becomes its string is the last of its axis.
+fn module(symbol: Symbol, end: bool, at: Tick, number: &mut impl FnMut() -> u32) -> Module {
     match symbol {
         Symbol::Cell(letter) => Module::Cell(letter, Born { number: number(), at }),
-        Symbol::Open => Module::Open(Born { number: number(), at }),
+        Symbol::Open(branching) => {
+            let forks = branching == Branching::Fork || (branching == Branching::ForkAtEnd && end);
+            Module::Open(Born { number: number(), at }, forks)
+        }
         Symbol::Close => Module::Close,
     }
 }

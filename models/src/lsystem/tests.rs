@@ -47,7 +47,7 @@ fn string(system: &D0l, age: Tick) -> String {
     let living: &super::string::Living = plot.lives[0].get();
     let write = |module: &Module| match module {
         Module::Cell(letter, _) => letters[usize::from(*letter)].clone(),
-        Module::Open(_) => "(".to_owned(),
+        Module::Open(..) => "(".to_owned(),
         Module::Close => ")".to_owned(),
     };
     living.modules.iter().map(write).collect()
@@ -174,5 +174,36 @@ fn a_string_that_explodes_stops_at_the_limit_of_components() {
     let seed = phytomer_sim::plant::Seed { component_limit: 10_000, ..contract::seed_of(1, 0) };
     let mut plot = contract::sown(&model, &seed);
     assert!(plot.grow_to(20).is_err());
-    assert!(model.expectation(20).is_none());
+}
+
+/// The numbers that are foretold are those of the strings, order by order, also where branches behind the last cell of an
+/// axis are a fork and the same branches in mid-axis are not.
+#[test]
+fn the_forecast_counts_every_string() {
+    let cells = [("a", 0.1), ("b", 0.2)];
+    let systems = [
+        k("d(g)g"),
+        k("d(g)(g)"),
+        system("F", &[("F", "FF")], &[("F", 0.1)]),
+        system("ab(a)", &[("a", "b(a)a"), ("b", "bb")], &cells),
+        system("a(b)(a)", &[("a", "b(a)(a)"), ("b", "ab")], &cells),
+        system("ab", &[("a", "b(a(b)(b))(a)"), ("b", "b(a)")], &cells),
+    ];
+    for system in systems {
+        let expected = compiled(&system).expectation(5).expect("a forecast");
+        for age in 0..=5 {
+            let plant = grown(&system, age);
+            for (order, foretold) in (1..).zip(&expected.orders) {
+                let axes = plant.axes.order.iter().filter(|of| **of == order).count() as f64;
+                let on = |axis: &&phytomer_sim::plant::AxisId| plant.axes.order[axis.index()] == order;
+                let nodes = plant.nodes.axis.iter().filter(on).count() as f64;
+                let at = age as usize;
+                let (of, string) = ((foretold.axes[at], foretold.nodes[at]), string(&system, age));
+                assert_eq!(of, (axes, nodes), "axes and cells of order {order} at age {age}: {string}");
+            }
+            assert_eq!(expected.components(age), f64::from(plant.components()), "age {age}");
+        }
+    }
+    let doubling = compiled(&system("F", &[("F", "FF")], &[("F", 0.1)]));
+    assert_eq!(doubling.expectation(65_535).expect("a forecast").components(65_535), f64::INFINITY);
 }

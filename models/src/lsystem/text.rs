@@ -9,9 +9,20 @@ pub(super) enum Symbol {
     /// A cell, by the place of its letter.
     Cell(u8),
     /// The beginning of a branch.
-    Open,
+    Open(Branching),
     /// The end of a branch.
     Close,
+}
+
+/// How a branch stands to its axis, which is settled when it appears.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Branching {
+    /// It is one of the next order.
+    Lateral,
+    /// It is one of two or more into which its axis divides, behind its last cell: of the same order.
+    Fork,
+    /// The same, if no cell follows on the axis behind the cell that becomes this string.
+    ForkAtEnd,
 }
 
 /// The symbols of a text, and where not: what is wrong with it and what was expected.
@@ -20,7 +31,7 @@ pub(super) fn parse(text: &str, letters: &[char]) -> Result<Vec<Symbol>, (String
     let mut open = 0_usize;
     for (column, character) in (1..).zip(text.chars()).filter(|(_, character)| !character.is_whitespace()) {
         let symbol = match character {
-            '(' => Symbol::Open,
+            '(' => Symbol::Open(Branching::Lateral),
             ')' => Symbol::Close,
             letter => match letters.iter().position(|known| *known == letter) {
                 Some(place) => Symbol::Cell(place as u8),
@@ -34,15 +45,15 @@ pub(super) fn parse(text: &str, letters: &[char]) -> Result<Vec<Symbol>, (String
                 }
             },
         };
-        let behind_cell = !matches!(symbols.last(), None | Some(Symbol::Open));
+        let behind_cell = !matches!(symbols.last(), None | Some(Symbol::Open(_)));
         match symbol {
-            Symbol::Open if !behind_cell => {
+            Symbol::Open(_) if !behind_cell => {
                 return Err((
                     format!("the branch at column {column} is borne by nothing"),
                     "a cell before it".to_owned(),
                 ));
             }
-            Symbol::Open => open += 1,
+            Symbol::Open(_) => open += 1,
             Symbol::Close if open == 0 => {
                 return Err((format!("no branch begins before column {column}"), "a `(` for each `)`".to_owned()));
             }
@@ -57,6 +68,32 @@ pub(super) fn parse(text: &str, letters: &[char]) -> Result<Vec<Symbol>, (String
     match symbols.first() {
         None => Err(("the string is empty".to_owned(), "at least one cell".to_owned())),
         Some(_) if open > 0 => Err((format!("{open} branches do not end"), "a `)` for each `(`".to_owned())),
-        Some(_) => Ok(symbols),
+        Some(_) => {
+            mark_forks(&mut symbols);
+            Ok(symbols)
+        }
+    }
+}
+
+/// Tells the branches that are forks: two or more behind the last cell of an axis.
+fn mark_forks(symbols: &mut [Symbol]) {
+    // Of each axis that is open, the places of the branches behind its last cell.
+    let mut axes: Vec<Vec<usize>> = vec![Vec::new()];
+    for place in 0..symbols.len() {
+        match symbols[place] {
+            Symbol::Cell(_) => axes.iter_mut().last().into_iter().for_each(Vec::clear),
+            Symbol::Open(_) => {
+                axes.iter_mut().last().into_iter().for_each(|branches| branches.push(place));
+                axes.push(Vec::new());
+            }
+            Symbol::Close => mark(symbols, axes.pop(), Branching::Fork),
+        }
+    }
+    mark(symbols, axes.pop(), Branching::ForkAtEnd);
+}
+
+fn mark(symbols: &mut [Symbol], branches: Option<Vec<usize>>, as_: Branching) {
+    for place in branches.into_iter().filter(|branches| branches.len() > 1).flatten() {
+        symbols[place] = Symbol::Open(as_);
     }
 }

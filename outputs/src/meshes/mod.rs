@@ -14,11 +14,14 @@ mod file;
 mod forms;
 #[cfg(test)]
 mod measure;
+mod outline;
 mod palette;
 mod ply;
 mod scene;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_stated;
 mod tube;
 
 pub use chunk::{Chunk, Face, Sink, Tag, Vertex};

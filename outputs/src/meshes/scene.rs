@@ -8,12 +8,13 @@
 use super::MeshOptions;
 use super::chunk::{Chunk, Face, Sink, Tag, Vertex};
 use super::forms::{Placement, Shape};
+use super::outline::{self, Outlines};
 use super::tube::{Frustum, Strip, Tube};
 use super::{About, Mesh, colour};
 use bytemuck::Zeroable;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{AxisId, InternodeLook, NodeId, OrganId, Plant, Shape as Stem};
-use phytomer_sim::pose::organ_frame;
+use phytomer_sim::pose::{Frame, organ_frame, stated_organ_frame};
 use std::io;
 use std::ops::Range;
 
@@ -42,6 +43,33 @@ pub struct Scene<'a> {
     options: MeshOptions,
     /// How internodes are drawn, by the place of their look in the habit's; at the end those of none.
     stems: Vec<Drawn>,
+    /// The triangles of organs that fill polygons.
+    outlines: Outlines,
+}
+
+/// How an organ is drawn.
+#[derive(Debug, Clone, Copy)]
+enum OrganForm<'s> {
+    Shape(&'s Shape),
+    Outline(&'s [[f32; 3]], &'s [[u32; 3]]),
+}
+
+impl<'s> OrganForm<'s> {
+    #[inline]
+    fn vertices(self) -> usize {
+        match self {
+            Self::Shape(shape) => shape.points.len(),
+            Self::Outline(corners, _) => corners.len(),
+        }
+    }
+
+    #[inline]
+    fn faces(self) -> &'s [[u32; 3]] {
+        match self {
+            Self::Shape(shape) => &shape.faces,
+            Self::Outline(_, faces) => faces,
+        }
+    }
 }
 
 /// How an internode is drawn.
@@ -82,9 +110,10 @@ impl Drawn {
 impl<'a> Scene<'a> {
     /// What stands of `plant` at `age`; its frames and diameters must be those of that age.
     pub fn new(plant: &'a Plant, age: Tick, options: &MeshOptions) -> Self {
-        let mut stems: Vec<Drawn> = plant.habit.looks.internodes.iter().map(|look| Drawn::of(look, options)).collect();
+        let looks = plant.habit.looks.internodes.iter().chain(&plant.habit.looks.apart);
+        let mut stems: Vec<Drawn> = looks.map(|look| Drawn::of(look, options)).collect();
         stems.push(Drawn::Tube(Tube::new(options.sides)));
-        Self { plant, age, options: options.clone(), stems }
+        Self { plant, age, options: options.clone(), stems, outlines: Outlines::of(plant) }
     }
 
     /// What a file says of it.
@@ -105,8 +134,8 @@ impl<'a> Scene<'a> {
             count(stem.vertices(), stem.faces().len());
         });
         self.organs().for_each(|organ| {
-            let shape = self.shape(organ);
-            count(shape.points.len(), shape.faces.len());
+            let form = self.form(organ);
+            count(form.vertices(), form.faces().len());
         });
         counts
     }
@@ -121,9 +150,8 @@ impl<'a> Scene<'a> {
             self.write_stem(stem, node, chunk.room(stem.vertices(), sink)?);
         }
         for organ in self.organs() {
-            let shape = self.shape(organ);
-            let out = chunk.room::<Vertex>(shape.points.len(), sink)?;
-            shape.write(&self.placement(organ, shape), &self.organ_tags(organ), out);
+            let form = self.form(organ);
+            self.write_organ(form, organ, chunk.room::<Vertex>(form.vertices(), sink)?);
         }
         sink(chunk)
     }
@@ -140,9 +168,9 @@ impl<'a> Scene<'a> {
             first += stem.vertices() as u32;
         }
         for organ in self.organs() {
-            let shape = self.shape(organ);
-            put_faces(first, &shape.faces, chunk, sink)?;
-            first += shape.points.len() as u32;
+            let form = self.form(organ);
+            put_faces(first, form.faces(), chunk, sink)?;
+            first += form.vertices() as u32;
         }
         sink(chunk)
     }
@@ -166,9 +194,8 @@ impl<'a> Scene<'a> {
             });
         } else {
             self.organs_of(span(block - of_nodes, self.plant.organs.len())).for_each(|organ| {
-                let shape = self.shape(organ);
-                let out = appended(mesh, shape.points.len(), &shape.faces);
-                shape.write(&self.placement(organ, shape), &self.organ_tags(organ), out);
+                let form = self.form(organ);
+                self.write_organ(form, organ, appended(mesh, form.vertices(), form.faces()));
             });
         }
     }
@@ -190,22 +217,40 @@ impl<'a> Scene<'a> {
     }
 
     fn organs_of(&self, range: Range<usize>) -> impl Iterator<Item = OrganId> {
-        let (organs, age, kinds) = (&self.plant.organs, self.age, self.options.kinds);
+        let (plant, age, kinds) = (self.plant, self.age, self.options.kinds);
         let drawn = move |&organ: &usize| {
-            organs.birth[organ] <= age && age < organs.death[organ] && kinds[organs.kind[organ] as usize]
+            plant.organ_stands(OrganId(organ as u32), age) && kinds[plant.organs.kind[organ] as usize]
         };
         range.filter(drawn).map(|organ| OrganId(organ as u32))
     }
 
     #[inline]
-    fn shape(&self, organ: OrganId) -> &Shape {
-        self.options.shape(self.plant.organs.form[organ.index()])
+    fn form(&self, organ: OrganId) -> OrganForm<'_> {
+        match self.outlines.faces(organ) {
+            Some(faces) => OrganForm::Outline(self.plant.outline_of(organ), faces),
+            None => OrganForm::Shape(self.options.shape(self.plant.organs.form[organ.index()])),
+        }
+    }
+
+    #[inline]
+    fn write_organ(&self, form: OrganForm<'_>, organ: OrganId, out: &mut [Vertex]) {
+        let tags = self.organ_tags(organ);
+        match form {
+            OrganForm::Shape(shape) => shape.write(&self.placement(organ, shape), &tags, out),
+            OrganForm::Outline(corners, _) => {
+                let (frame, share) = (self.organ_base(organ), self.plant.expanded(organ, self.age));
+                outline::write(corners, &frame, share, &tags[0], out);
+            }
+        }
     }
 
     /// How an internode is drawn.
     #[inline]
     fn stem(&self, node: NodeId) -> &Drawn {
-        let Plant { axes, nodes, habit, .. } = self.plant;
+        let Plant { axes, nodes, habit, own_looks, .. } = self.plant;
+        if let Some(apart) = own_looks.of_node(node).filter(|&place| place < habit.looks.apart.len()) {
+            return &self.stems[habit.looks.internodes.len() + apart];
+        }
         let axis: AxisId = nodes.axis[node.index()];
         let place = habit.looks.place(axes.order[axis.index()], axes.state[axis.index()]);
         &self.stems[place.unwrap_or(self.stems.len() - 1)]
@@ -224,37 +269,47 @@ impl<'a> Scene<'a> {
     fn stands(&self, node: NodeId) -> Placement {
         let frame = self.plant.frames.at(node);
         let nodes = &self.plant.nodes;
-        let size = [nodes.length[node.index()], nodes.diameter[node.index()]];
+        let size = [self.plant.posed_length(node), nodes.diameter[node.index()]];
         Placement { base: frame.base, heading: frame.heading, up: frame.up, size, fullness: 1.0 }
     }
 
     #[inline]
     fn frustum(&self, node: NodeId) -> Frustum {
         let frame = self.plant.frames.at(node);
-        let nodes = &self.plant.nodes;
+        let (nodes, length) = (&self.plant.nodes, self.plant.posed_length(node));
         let node = node.index();
         let radii = [nodes.diameter[node] * 0.5, nodes.diameter_tip[node] * 0.5];
-        Frustum { base: frame.base, heading: frame.heading, up: frame.up, length: nodes.length[node], radii }
+        Frustum { base: frame.base, heading: frame.heading, up: frame.up, length, radii }
     }
 
     /// Where an organ stands, how large it is at its age, and how full it is for the area that the tables state of it.
     fn placement(&self, organ: OrganId, shape: &Shape) -> Placement {
-        let frame = organ_frame(self.plant, organ, self.age);
+        let frame = self.organ_base(organ);
         let organs = &self.plant.organs;
-        let node = organs.node[organ.index()];
-        let out = outward(self.plant.frames.heading[node.index()], frame.heading);
-        let radius = 0.5 * self.plant.nodes.diameter_tip[node.index()];
-        let base = [0, 1, 2].map(|k| frame.base[k] + radius * out[k]);
         let share = self.plant.expanded(organ, self.age);
         let full = [organs.length[organ.index()], organs.width[organ.index()]];
         // It expands in proportion, so that its fullness is that of its full size.
         let fullness = shape.fullness(full, organs.area[organ.index()]);
-        Placement { base, heading: frame.heading, up: frame.up, size: full.map(|size| size * share), fullness }
+        let size = full.map(|size| size * share);
+        Placement { base: frame.base, heading: frame.heading, up: frame.up, size, fullness }
+    }
+
+    /// The frame of an organ with its base where it is drawn: where it states, or on the surface of its stem.
+    #[inline]
+    fn organ_base(&self, organ: OrganId) -> Frame {
+        if let Some(stated) = stated_organ_frame(self.plant, organ) {
+            return stated;
+        }
+        let frame = organ_frame(self.plant, organ, self.age);
+        let node = self.plant.organs.node[organ.index()];
+        let out = outward(self.plant.frames.heading[node.index()], frame.heading);
+        let radius = 0.5 * self.plant.nodes.diameter_tip[node.index()];
+        Frame { base: [0, 1, 2].map(|k| frame.base[k] + radius * out[k]), ..frame }
     }
 
     #[inline]
     fn wood_tag(&self, node: NodeId) -> Tag {
-        let look = self.plant.look_of(self.plant.nodes.axis[node.index()]);
+        let look = self.plant.look_of_node(node);
         let nodes = &self.plant.nodes;
         let death = self.plant.death_of(node);
         let node = node.index();

@@ -228,13 +228,14 @@ struct Stuff {
 
 /// The stuff of each kind of a plant.
 fn stuff(plant: &Plant) -> [Stuff; Kind::ALL.len()] {
-    let looks = &plant.habit.looks.internodes;
+    let looks = plant.habit.looks.internodes.iter().chain(&plant.habit.looks.apart);
     Kind::ALL.map(|kind| {
         let stem = kind.class() == Class::Internode;
         let look =
             |look: &&InternodeLook| look.kind == kind || (kind == Kind::ShortInternode && look.kind == Kind::Internode);
-        let thin = if stem { looks.iter().filter(look).any(|look| look.shape == Shape::Blade) } else { is_leafy(kind) };
-        let closed = stem && looks.iter().filter(look).all(|look| look.form.is_none() && look.shape != Shape::Blade);
+        let thin =
+            if stem { looks.clone().filter(look).any(|look| look.shape == Shape::Blade) } else { is_leafy(kind) };
+        let closed = stem && looks.clone().filter(look).all(|look| look.form.is_none() && look.shape != Shape::Blade);
         Stuff { thin, closed }
     })
 }

@@ -126,9 +126,9 @@ fn of_node(plant: &Plant, node: NodeId, standing: &Standing) -> Row {
         length: nodes.length[i],
         birth_diameter: nodes.primary_diameter[i],
         area: f32::NAN,
-        death: axes.death[axis.index()],
-        shed: axes.shed[axis.index()],
-        cause: Cause::Branch,
+        death: plant.death_of(node),
+        shed: plant.shed_of(node),
+        cause: plant.cause_of_death(node),
         trend: standing.trend(plant, node),
     }
 }
@@ -139,7 +139,7 @@ fn of_organ(plant: &Plant, organ: OrganId) -> Row {
     let i = organ.index();
     let node = organs.node[i].index();
     let axis = nodes.axis[node];
-    let end = super::standing::organ_end(plant, organ);
+    let end = plant.organ_end(organ);
     Row {
         component: organs.component[i],
         key: plant.organ_key(organ),

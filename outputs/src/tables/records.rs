@@ -150,6 +150,12 @@ impl<'a> Bearing<'a> {
         }
     }
 
+    /// The look of one of its internodes.
+    #[inline]
+    fn look_of(&self, plant: &'a Plant, node: NodeId) -> &'a InternodeLook {
+        if plant.own_looks.is_empty() { self.look } else { plant.look_of_node(node) }
+    }
+
     #[inline]
     fn turn_to(&mut self, scene: &Scene<'a>, axis: AxisId) {
         if self.axis != axis {
@@ -169,11 +175,11 @@ impl<'a> Scene<'a> {
             parent: number_of(self.plant, nodes.parent[i]),
             axis: bearing.component,
             order: bearing.order,
-            kind: bearing.look.kind(nodes.formation[i].is_short()),
+            kind: bearing.look_of(self.plant, node).kind(nodes.formation[i].is_short()),
             rank: nodes.rank[i],
             birth: nodes.birth[i],
             frame: self.plant.frames.at(node),
-            length: nodes.length[i],
+            length: self.plant.posed_length(node),
             diameter: nodes.diameter[i],
             diameter_tip: nodes.diameter_tip[i],
             area: f32::NAN,

@@ -76,7 +76,7 @@ impl Standing {
             self.put(nodes.component[node], 0, node, nodes.birth[node], plant.shed_of(NodeId(node as u32)));
         }
         for organ in 0..organs.len() {
-            self.put(organs.component[organ], 1, organ, organs.birth[organ], organ_end(plant, OrganId(organ as u32)));
+            self.put(organs.component[organ], 1, organ, organs.birth[organ], plant.organ_end(OrganId(organ as u32)));
         }
         for axis in 0..axes.len() {
             self.put(axes.component[axis], 2, axis, axes.appearance[axis], plant.bud_end(AxisId(axis as u32)));
@@ -154,9 +154,9 @@ impl Standing {
     pub fn find_tips(&mut self, plant: &Plant, age: Tick) {
         self.tips.clear();
         self.tips.resize(plant.axes.len(), NodeId::NONE);
-        for stretch in plant.stretches(age).iter() {
+        plant.each_standing(age, |stretch| {
             self.tips[stretch.axis.index()] = NodeId(stretch.nodes().end as u32 - 1);
-        }
+        });
     }
 
     /// The last internode of an axis at the age of [`Standing::find_tips`]; [`NodeId::NONE`] before the first.
@@ -168,10 +168,4 @@ impl Standing {
 
 fn inclination(trend: &Trend) -> f32 {
     trend.inclination_deg().unwrap_or(f32::NAN)
-}
-
-/// The tick at which an organ is gone: its own fall, or the fall of its branch if that should come first.
-#[inline]
-pub fn organ_end(plant: &Plant, organ: OrganId) -> Tick {
-    plant.organs.death[organ.index()].min(plant.shed_of(plant.organs.node[organ.index()]))
 }

@@ -3,7 +3,7 @@
 //! Sums run in the order of the plant's columns, in double precision: the same bits on any number of threads.
 
 use super::buffers::{NULL, columns};
-use super::standing::{Standing, organ_end};
+use super::standing::Standing;
 use crate::error::Error;
 use phytomer_sim::mechanics::wood_volume;
 use phytomer_sim::plant::{AxisId, Class, Kind, NodeId, OrganId, Plant};
@@ -78,16 +78,13 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
     let mut low = [f32::INFINITY; 3];
     let mut high = [f32::NEG_INFINITY; 3];
     // The internodes of an axis die and fall together.
-    for stretch in plant.stretches(age).iter() {
+    plant.each_standing(age, |stretch| {
         let (axis, standing) = (stretch.axis, stretch.nodes());
-        if axes.shed[axis.index()] <= age {
-            continue;
-        }
         let frusta = standing.clone().map(|node| wood_volume(plant, NodeId(node as u32)));
         summary.wood_volume = frusta.fold(summary.wood_volume, |sum, frustum| sum + frustum);
         if age >= axes.death[axis.index()] {
             summary.dead_internodes += standing.len() as u32;
-            continue;
+            return;
         }
         summary.internodes += standing.len() as u32;
         for node in standing {
@@ -97,7 +94,7 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
                 high[k] = high[k].max(tip[k]);
             }
         }
-    }
+    });
     let extent = |k: usize| f64::from(high[k]) - f64::from(low[k]);
     let lives = summary.internodes > 0;
     summary.height = if lives { f64::from(high[2]) } else { f64::NAN };
@@ -107,7 +104,7 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
 fn count_organs(plant: &Plant, age: Tick, summary: &mut Summary) {
     let organs = &plant.organs;
     for organ in 0..organs.len() {
-        if organs.birth[organ] > age || age >= organ_end(plant, OrganId(organ as u32)) {
+        if organs.birth[organ] > age || age >= plant.organ_end(OrganId(organ as u32)) {
             continue;
         }
         let kind = organs.kind[organ];

@@ -11,12 +11,12 @@ use super::secondary::Above;
 use super::section::Section;
 use super::turn::{Kept, Turned};
 use super::uprighting::straighten;
-use super::wood::Wood;
+
 use crate::clock::Tick;
 use crate::plant::borne::Borne;
 use crate::plant::standing::Standing;
-use crate::plant::{AxisId, EventKind, Plant};
-use crate::pose::bent::{Stance, follow_bends};
+use crate::plant::{AxisId, EventKind, Plant, Wood};
+use crate::pose::bent::{Stances, follow_bends};
 use crate::pose::pose;
 use crate::site::Fields;
 use crate::site::Site;
@@ -38,7 +38,7 @@ pub struct Bench {
     natural: Vec<[f32; 2]>,
     responses: Vec<Response>,
     loads: Vec<Load>,
-    stances: Vec<Stance>,
+    stances: Stances,
     turns: Vec<Vector>,
     /// The diameters of the last tick, where reaction wood is made.
     before: Vec<f32>,
@@ -65,7 +65,7 @@ pub fn bend(plant: &mut Plant, age: Tick, site: &Site, bench: &mut Bench) -> Out
         return Outcome { steps: 0, settled: true, yields: None };
     };
     bench.prepare(plant, age);
-    bench.pose(plant);
+    bench.pose(plant, age);
     bench.freeze(plant, wood, age);
     straighten(plant, wood, age, &bench.standing, &bench.before, &mut bench.natural);
     let outcome = bench.settle(plant, wood, age, &site.fields(&wood.drag));
@@ -84,6 +84,7 @@ impl Bench {
 
     fn prepare(&mut self, plant: &mut Plant, age: Tick) {
         plant.strain.resize(plant.nodes.len());
+        plant.measure(age);
         self.standing.find(plant, age);
         self.laterals.arrange(&plant.axes.bearer);
         self.organs.arrange(&plant.organs.node);
@@ -95,7 +96,7 @@ impl Bench {
     pub(super) fn lean(&mut self, plant: &mut Plant, wood: &Wood, age: Tick, site: &Site) -> Vec<[f32; 2]> {
         self.prepare(plant, age);
         let stood = plant.strain.curvature.clone();
-        self.pose(plant);
+        self.pose(plant, age);
         self.freeze(plant, wood, age);
         self.settle(plant, wood, age, &site.fields(&wood.drag));
         stood
@@ -107,24 +108,25 @@ impl Bench {
             let yields = self.weigh(plant, wood, age, fields);
             outcome.yields = outcome.yields.or(yields);
             outcome.steps += 1;
-            outcome.settled = self.turn(plant) <= SETTLED;
+            outcome.settled = self.turn(plant, age) <= SETTLED;
         }
         self.load(plant, wood, age);
         outcome
     }
 
     /// Poses the plant with the curvatures that it has.
-    pub(super) fn pose(&mut self, plant: &mut Plant) {
+    pub(super) fn pose(&mut self, plant: &mut Plant, age: Tick) {
         let curvature = std::mem::take(&mut plant.strain.curvature);
-        follow_bends(plant, &self.standing, &self.laterals, &mut self.stances, &mut Kept(&curvature));
+        let along = (&self.standing, &self.laterals);
+        follow_bends(plant, age, along, &mut self.stances, &mut Kept(&curvature));
         plant.strain.curvature = curvature;
     }
 
     /// Turns each internode as it answered, and poses it so; the largest turn, rad.
-    fn turn(&mut self, plant: &mut Plant) -> f64 {
+    fn turn(&mut self, plant: &mut Plant, age: Tick) -> f64 {
         let mut curvature = std::mem::take(&mut plant.strain.curvature);
         let mut turned = Turned::new(&mut curvature, &self.responses, &mut self.turns, plant.axes.len());
-        follow_bends(plant, &self.standing, &self.laterals, &mut self.stances, &mut turned);
+        follow_bends(plant, age, (&self.standing, &self.laterals), &mut self.stances, &mut turned);
         let largest = turned.largest();
         plant.strain.curvature = curvature;
         largest
@@ -132,7 +134,8 @@ impl Bench {
 
     fn weigh(&mut self, plant: &Plant, wood: &Wood, age: Tick, fields: &Fields) -> Option<AxisId> {
         let Self { natural, loads, responses, .. } = self;
-        let scan = Scan { plant, wood, age, fields: *fields, natural, loads, responses };
+        let lengths = plant.posed_lengths();
+        let scan = Scan { plant, wood, age, fields: *fields, lengths, natural, loads, responses };
         scan.weigh(&self.standing, &self.laterals, &self.organs)
     }
 
@@ -164,8 +167,9 @@ impl Bench {
 fn each_flexural(plant: &Plant, wood: &Wood, age: Tick, standing: &Standing, mut show: impl FnMut(usize, [f64; 2])) {
     for run in &standing.runs {
         let tissue = wood.tissue(plant.axes.order[run.axis.index()]);
-        let section = Section::of(plant.look_of(run.axis));
+        let of_axis = Section::of(plant.look_of(run.axis));
         for node in run.nodes() {
+            let section = of_axis.at(plant, node);
             let middle = f64::from(plant.nodes.diameter[node] + plant.nodes.diameter_tip[node]) * 0.5;
             let modulus = tissue.modulus(age - plant.nodes.birth[node]);
             let flexural = section.second_moments(middle).map(|moment| modulus * moment);

@@ -16,11 +16,11 @@
 //! buckles.
 
 use super::section::Section;
-use super::wood::Wood;
+
 use crate::clock::Tick;
 use crate::plant::borne::{Borne, Down};
 use crate::plant::standing::{Run, Standing};
-use crate::plant::{AxisId, OrganId, Plant};
+use crate::plant::{AxisId, OrganId, Part, Plant, Wood};
 use crate::site::Fields;
 use crate::vector::Vector;
 
@@ -69,6 +69,8 @@ pub(super) struct Scan<'a> {
     pub wood: &'a Wood,
     pub age: Tick,
     pub fields: Fields,
+    /// The lengths of the internodes at the age, m.
+    pub lengths: &'a [f32],
     /// The curvature that each internode would have without load, rad/m.
     pub natural: &'a [[f32; 2]],
     /// Scratch, one entry an axis.
@@ -206,16 +208,22 @@ impl Scan<'_> {
     fn weigh_run<const WINDY: bool>(&mut self, run: &Run, laterals: &mut Down<'_>, organs: &mut Down<'_>) -> bool {
         let tissue = self.wood.tissue(self.plant.axes.order[run.axis.index()]);
         let mut load = self.loads[run.axis.index()];
-        let section = Section::of(self.plant.look_of(run.axis));
-        let mut holds = true;
+        let of_axis = Section::of(self.plant.look_of(run.axis));
+        let starts = self.plant.stated.has_starts_of_axes();
+        let (mut low, mut holds) = (Vec::new(), true);
         for node in run.nodes().rev() {
             while let Some(axis) = laterals.on(node) {
-                load.add(&self.loads[axis]);
+                if starts && self.begins_below(node, axis) {
+                    low.push(axis);
+                } else {
+                    load.add(&self.loads[axis]);
+                }
             }
             while let Some(organ) = organs.on(node) {
                 self.hang(&mut load, node, organ);
             }
             let own_age = self.age - self.plant.nodes.birth[node];
+            let section = of_axis.at(self.plant, node);
             let piece = self.piece(node, section, tissue.density(own_age));
             let felt = piece.pass::<WINDY>(&mut load, &self.fields);
             let modulus = tissue.modulus(own_age);
@@ -223,9 +231,19 @@ impl Scan<'_> {
             let answered;
             (load, answered) = self.answer(load, node, &felt, flexural, piece.length);
             holds &= answered;
+            if starts {
+                low.drain(..).for_each(|axis| load.add(&self.loads[axis]));
+            }
         }
         self.loads[run.axis.index()] = load;
         holds
+    }
+
+    /// Whether `axis` begins nearer to the base of the internode of `node` than to its tip, so that the middle of the
+    /// internode does not feel it.
+    fn begins_below(&self, node: usize, axis: usize) -> bool {
+        let [along, ..] = self.plant.stated.start(Part::Axis(AxisId(axis as u32)));
+        along < -0.5 * self.lengths[node]
     }
 
     /// An organ pulls at its node.
@@ -236,7 +254,7 @@ impl Scan<'_> {
             return;
         }
         let frames = &self.plant.frames;
-        let along = Vector::from(frames.heading[node]) * f64::from(self.plant.nodes.length[node]);
+        let along = Vector::from(frames.heading[node]) * f64::from(self.lengths[node]);
         let at = Vector::from(frames.base[node]) + along;
         load.put(at, self.wood.organs.of(self.plant, organ, self.age));
         let area: f64 = self.plant.organ_area(OrganId(organ as u32), self.age);
@@ -248,7 +266,7 @@ impl Scan<'_> {
         let Plant { nodes, frames, .. } = self.plant;
         let (base, tip) = (f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]));
         Piece {
-            length: f64::from(nodes.length[node]),
+            length: f64::from(self.lengths[node]),
             heading: Vector::from(frames.heading[node]),
             foot: Vector::from(frames.base[node]),
             diameters: [base, 0.5 * (base + tip), tip],

@@ -3,23 +3,22 @@
 //!
 //! Each tick internodes gain diameter (`secondary`), then loads and shape are brought to equilibrium (`bend`: moments
 //! in one reverse scan in `loads`, curvatures and pose in one forward scan in `turn`). What bending leaves is
-//! frozen in the wood (`strain`). Axes right themselves by reaction wood and as young shoots (`uprighting`); `sway`
+//! frozen in the wood ([`crate::plant::Strain`]). Axes right themselves by reaction wood and as young shoots (`uprighting`); `sway`
 //! moves a plant of one age in the wind. Absent: twisting, creep and breaking.
 
 mod bend;
 mod loads;
 mod secondary;
 mod section;
-mod strain;
 pub mod sway;
 mod turn;
 mod uprighting;
 mod wood;
 
+pub use crate::plant::{Drag, OrganMass, Strain, Thickening, Tissue, Uprighting, Wood};
 pub use bend::{Bench, MOST_STEPS, Outcome, SETTLED, bend};
-pub use secondary::{Thickening, taper, thicken};
-pub use strain::Strain;
-pub use wood::{Drag, OrganMass, Tissue, Uprighting, Wood, wood_volume};
+pub use secondary::{taper, thicken};
+pub use wood::wood_volume;
 
 #[cfg(test)]
 mod tests;

@@ -14,36 +14,8 @@
 use super::bend::Bench;
 use crate::clock::Tick;
 use crate::math::pow;
-use crate::plant::{NodeId, OrganId, Plant, Shape};
+use crate::plant::{NodeId, OrganId, Plant, Shape, Thickening};
 use std::f64::consts::PI;
-
-/// How the internodes of a species gain diameter.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Thickening {
-    /// By the model's law of age.
-    #[default]
-    Law,
-    /// The section at birth and `per_leaf` m² for each leaf above: for each that lives, or for each that ever was.
-    Pipe {
-        /// The section of one pipe, m².
-        per_leaf: f64,
-        /// Whether only living leaves count; the pipes of fallen ones stay in the wood.
-        living: bool,
-    },
-    /// d^Δ of an internode is the sum of d^Δ of the internodes on its node; where one stands there, the internode is at
-    /// least as thick as it was born.
-    DaVinci {
-        /// Δ.
-        exponent: f64,
-    },
-    /// A ring a tick while the axis lives.
-    Rings {
-        /// The width of a ring, m.
-        width: f64,
-        /// The section that a square metre of living leaves above adds in a tick, m²/m².
-        per_foliage: f64,
-    },
-}
 
 /// Gives each internode of `plant` its diameters at `age` by a rule other than the model's law. Called at each tick, in
 /// order: rings stand on the last tick's diameters.

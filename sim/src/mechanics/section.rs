@@ -4,7 +4,7 @@
 //! b t³/12; in its plane, about `up`, with t b³/12 (Euler–Bernoulli). A round stem has π d⁴/64 about either. Absent:
 //! torsion, and stems that are hollow.
 
-use crate::plant::{InternodeLook, Shape};
+use crate::plant::{InternodeLook, NodeId, Plant, Shape};
 use std::f64::consts::PI;
 
 /// The cross-section of the internodes of an axis.
@@ -23,6 +23,12 @@ impl Section {
             Shape::Blade => Self::Blade(f64::from(look.thickness)),
             Shape::Cylinder | Shape::Cone => Self::Round,
         }
+    }
+
+    /// That of one node of an axis whose internodes have this: nodes may have looks of their own.
+    #[inline]
+    pub fn at(self, plant: &Plant, node: usize) -> Self {
+        if plant.own_looks.is_empty() { self } else { Self::of(plant.look_of_node(NodeId(node as u32))) }
     }
 
     /// The second moments of area about `up` and about `heading × up`, m⁴, of a diameter or width.

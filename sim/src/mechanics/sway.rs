@@ -9,10 +9,10 @@
 
 use super::bend::Bench;
 use super::section::Section;
-use super::wood::{Wood, wood_volume};
+use super::wood::wood_volume;
 use crate::clock::Tick;
 use crate::math::{exp, sincos};
-use crate::plant::{Habit, LineageKey, NodeId, Plant};
+use crate::plant::{Habit, LineageKey, NodeId, OrganId, Plant, Wood};
 use crate::site::{Site, Wind};
 use std::f64::consts::TAU;
 
@@ -71,7 +71,7 @@ pub fn sway(
             (still + (steady - still) * swing) as f32
         });
     }
-    bench.pose(plant);
+    bench.pose(plant, age);
     Ok(())
 }
 
@@ -90,7 +90,7 @@ pub fn frequencies(plant: &Plant, wood: &Wood, age: Tick) -> Vec<f64> {
     let stands = |node: usize| plant.stands(NodeId(node as u32), age);
     for organ in 0..plant.organs.len() {
         let node = plant.organs.node[organ].index();
-        if plant.organs.birth[organ] <= age && age < plant.organs.death[organ] && stands(node) {
+        if plant.organ_stands(OrganId(organ as u32), age) && stands(node) {
             axes[plant.nodes.axis[node].index()].mass += wood.organs.of(plant, organ, age);
         }
     }
@@ -124,12 +124,12 @@ impl Beam {
         let own_age = age - plant.nodes.birth[node];
         let tissue = wood.tissue(plant.axes.order[plant.nodes.axis[node].index()]);
         if self.length == 0.0 {
-            let section = Section::of(plant.look_of(plant.nodes.axis[node]));
+            let section = Section::of(plant.look_of_node(NodeId(node as u32)));
             self.diameter = section.gyration(f64::from(plant.nodes.diameter[node]));
             self.modulus = tissue.modulus(own_age);
         }
         let volume = wood_volume(plant, NodeId(node as u32));
-        self.length += f64::from(plant.nodes.length[node]);
+        self.length += f64::from(plant.posed_length(NodeId(node as u32)));
         self.volume += volume;
         self.mass += volume * tissue.density(own_age);
     }

@@ -6,10 +6,9 @@
 //! the angle between h and t: the response of shoots to their inclination. A young internode adds its rate times
 //! sin γ each tick. Both change the curvature that the internode has without load: it is frozen in like growth.
 
-use super::wood::{Uprighting, Wood};
 use crate::clock::Tick;
 use crate::plant::standing::Standing;
-use crate::plant::{Plant, Shape};
+use crate::plant::{Plant, Shape, Uprighting, Wood};
 use crate::vector::Vector;
 
 /// Adds what this tick's righting changes to the curvatures without load. `before` holds the diameters of the last

@@ -1,150 +1,15 @@
-//! What wood, leaves and fruits are made of, as mechanics needs it: stiffness, weight, drag, and how axes right
-//! themselves.
+//! What mechanics asks of the wood of a species: whether it has cause to bend, and the volume of an internode.
 //!
-//! All of it is compiled: laws of age are tables, angles are cosines. Absent: where the numbers come from, which is in
-//! the species file, and the equations that use them.
+//! The compiled numbers themselves are part of the habit ([`crate::plant::Wood`]).
 
-use super::secondary::Thickening;
 use super::section::Section;
-use crate::clock::Tick;
-use crate::plant::{Class, NodeId, OrganId, Plant};
+use crate::plant::{NodeId, Plant, Wood};
 use crate::site::Fields;
 
-/// The mechanical side of a species.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Wood {
-    /// The wood of each order, from 1; orders past the last are as the last.
-    pub tissues: Vec<Tissue>,
-    /// How internodes gain diameter.
-    pub thickening: Thickening,
-    /// Whether axes bend under what they bear.
-    pub bends: bool,
-    /// The fresh mass of organs.
-    pub organs: OrganMass,
-    /// What wind finds in leaves and wood.
-    pub drag: Drag,
-}
-
-/// The wood of one order, by the age of the internode in ticks; ages past a table's last are as its last.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Tissue {
-    /// Young's modulus, Pa.
-    pub modulus: Vec<f32>,
-    /// Green density, kg/m³.
-    pub density: Vec<f32>,
-    /// How axes of the order right themselves.
-    pub uprighting: Uprighting,
-}
-
-/// Gravitropic righting: the direction that an axis keeps to, and by what.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Uprighting {
-    /// Cosine of the angle between the direction kept to and the upward vertical.
-    pub cos_inclination: f32,
-    /// Sine of the same angle.
-    pub sin_inclination: f32,
-    /// The difference of maturation strain between the two sides of new wood, Δε.
-    pub strain: f32,
-    /// The curvature that a young internode gains in a tick, square to the direction kept to, rad/m.
-    pub rate: f32,
-    /// For how many ticks an internode is young.
-    pub young: u32,
-}
-
-impl Default for Uprighting {
-    fn default() -> Self {
-        Self { cos_inclination: 1.0, sin_inclination: 0.0, strain: 0.0, rate: 0.0, young: 0 }
-    }
-}
-
-impl Uprighting {
-    /// Whether the axes do right themselves.
-    pub fn acts(&self) -> bool {
-        self.strain != 0.0 || (self.rate != 0.0 && self.young > 0)
-    }
-}
-
-/// Fresh mass of organs.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct OrganMass {
-    /// Of a leaf, a square metre of one side, kg/m².
-    pub leaf: f32,
-    /// Of a flower, as the ellipsoid of its length and width, kg/m³.
-    pub flower: f32,
-    /// Of a fruit, likewise, kg/m³.
-    pub fruit: f32,
-}
-
-/// Drag that falls with the speed of the wind, as crowns give way: F = ½ ρ C_d A U² with C_d = c U⁻ⁿ.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Drag {
-    /// c, for U in m/s.
-    pub coefficient: f32,
-    /// n.
-    pub exponent: f32,
-}
-
 impl Wood {
-    /// The tissue of an order.
-    #[inline]
-    pub fn tissue(&self, order: u8) -> &Tissue {
-        let place = usize::from(order).saturating_sub(1).min(self.tissues.len() - 1);
-        &self.tissues[place]
-    }
-
-    /// Whether what stands at an age depends on the ages before: on frozen curvature, on rings, on pipes of fallen
-    /// leaves.
-    pub(crate) fn remembers(&self) -> bool {
-        self.bends || self.thickening != Thickening::Law
-    }
-
     /// Whether axes have cause to bend in these fields of force, or right themselves.
     pub(crate) fn feels(&self, fields: &Fields) -> bool {
         self.bends && (*fields != Fields::NONE || self.tissues.iter().any(|tissue| tissue.uprighting.acts()))
-    }
-
-    /// Whether any order rights itself by reaction wood, which needs to know what each internode gained.
-    pub fn makes_reaction_wood(&self) -> bool {
-        self.tissues.iter().any(|tissue| tissue.uprighting.strain != 0.0)
-    }
-}
-
-impl Tissue {
-    /// Young's modulus of an internode `age` ticks old, Pa.
-    #[inline]
-    pub fn modulus(&self, age: u32) -> f64 {
-        at(&self.modulus, age)
-    }
-
-    /// Green density of an internode `age` ticks old, kg/m³.
-    #[inline]
-    pub fn density(&self, age: u32) -> f64 {
-        at(&self.density, age)
-    }
-}
-
-#[inline]
-fn at(table: &[f32], age: u32) -> f64 {
-    let last = table.len().saturating_sub(1);
-    table.get((age as usize).min(last)).map_or(0.0, |&value| f64::from(value))
-}
-
-impl OrganMass {
-    /// The fresh mass of an organ at `age`, kg.
-    #[inline]
-    pub fn of(&self, plant: &Plant, organ: usize, age: Tick) -> f64 {
-        let organs = &plant.organs;
-        let ellipsoid = || {
-            let share = f64::from(plant.expanded(OrganId(organ as u32), age));
-            let (length, width) = (share * f64::from(organs.length[organ]), share * f64::from(organs.width[organ]));
-            std::f64::consts::PI / 6.0 * length * width * width
-        };
-        match organs.kind[organ].class() {
-            Class::Leaf => f64::from(self.leaf) * plant.organ_area::<f64>(OrganId(organ as u32), age),
-            Class::Flower => f64::from(self.flower) * ellipsoid(),
-            Class::Fruit => f64::from(self.fruit) * ellipsoid(),
-            Class::Internode | Class::Bud => 0.0,
-        }
     }
 }
 
@@ -152,7 +17,7 @@ impl OrganMass {
 #[inline]
 pub fn wood_volume(plant: &Plant, node: NodeId) -> f64 {
     let nodes = &plant.nodes;
+    let (section, length) = (Section::of(plant.look_of_node(node)), plant.posed_length(node));
     let node = node.index();
-    let section = Section::of(plant.look_of(nodes.axis[node]));
-    section.volume(f64::from(nodes.length[node]), f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]))
+    section.volume(f64::from(length), f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]))
 }

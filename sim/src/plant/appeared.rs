@@ -24,6 +24,12 @@ impl Stretch {
     pub fn nodes(&self) -> Range<usize> {
         self.start as usize..self.end as usize
     }
+
+    /// Its first internodes, at most so many; `None` of none.
+    pub(super) fn first(self, count: usize) -> Option<Self> {
+        let count = count.min(self.nodes().len());
+        (count > 0).then(|| Self { end: self.start + count as u32, ..self })
+    }
 }
 
 /// The stretches of one plant at the age at which they were last asked for.

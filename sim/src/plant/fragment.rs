@@ -5,10 +5,8 @@
 //! numbers of axes, nodes, organs and components follow on. Until then its handles and component numbers are its own,
 //! but for the nodes that bear the axes that it took: those are the whole plant's, and nobody may look them up.
 
-use super::{Appeared, AxisId, Event, NodeId, OwnTrends, Plant};
+use super::{Appeared, AxisId, Event, Frames, NodeId, OwnTrends, Plant, Strain};
 use crate::clock::NEVER;
-use crate::mechanics::Strain;
-use crate::pose::Frames;
 use std::ops::Range;
 
 /// Who may grow one plant at once.
@@ -111,7 +109,11 @@ impl Plant {
             own_trends: OwnTrends::default(),
             random: self.random.clone(),
             place: self.place,
-            stated_headings: Vec::new(),
+            stated: Default::default(),
+            stated_organs: Default::default(),
+            rewritten: Default::default(),
+            own_looks: Default::default(),
+            cuts: Default::default(),
             hands: self.hands,
             components: 0,
             component_limit: self.component_limit.saturating_sub(self.components),
@@ -126,6 +128,10 @@ impl Plant {
         let (axes, nodes, components) = (self.axes.len(), self.nodes.len(), self.components);
         let joint = Joint { axes, nodes, components, ..joint };
         self.own_trends.join(plant.own_trends, |axis| joint.axis(axis));
+        self.stated.join(&plant.stated, &joint);
+        self.stated_organs.join(&plant.stated_organs, self.organs.len());
+        self.rewritten.join(&plant.rewritten, &joint);
+        self.own_looks.join(&plant.own_looks, [nodes, self.organs.len()]);
         self.nodes.join(&plant.nodes, &joint);
         self.organs.join(&plant.organs, &joint);
         if let (Some(events), Some(more)) = (&mut self.events, plant.events) {

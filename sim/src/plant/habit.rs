@@ -6,8 +6,8 @@
 use super::axis::AxisId;
 use super::kind::{Class, Kind};
 use super::look::Looks;
+use super::wood::{Thickening, Wood};
 use crate::clock::Tick;
-use crate::mechanics::{Thickening, Wood};
 use std::ops::Range;
 
 /// The direction that an axis tends to, and how fast it turns there.

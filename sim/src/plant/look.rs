@@ -21,6 +21,10 @@ pub struct Looks {
     pub internodes: Vec<InternodeLook>,
     /// Of organs, by order from 1.
     pub organs: Vec<OrganLooks>,
+    /// Looks that single nodes name, whatever their order and state.
+    pub apart: Vec<InternodeLook>,
+    /// Looks that single organs name.
+    pub organs_apart: Vec<OrganLook>,
 }
 
 /// What the internodes of an axis are and look like.
@@ -38,6 +42,8 @@ pub struct InternodeLook {
     pub form: Option<Form>,
     /// Their stated colours.
     pub bark: Bark,
+    /// The share of their full length, by their own age in ticks, the last one for ever; empty: full at birth.
+    pub expansion: Vec<f32>,
 }
 
 /// The stated colours of internodes.
@@ -94,7 +100,21 @@ impl InternodeLook {
     /// A tube of a shape, and nothing else stated.
     pub const fn of_shape(shape: Shape) -> Self {
         let bark = Bark { shoot: None, young: None, old: None, dead: None, forms_in: None, darkens_in: None };
-        Self { kind: Kind::Internode, shape, thickness: Self::BLADE_THICKNESS, sides: None, form: None, bark }
+        Self {
+            kind: Kind::Internode,
+            shape,
+            thickness: Self::BLADE_THICKNESS,
+            sides: None,
+            form: None,
+            bark,
+            expansion: Vec::new(),
+        }
+    }
+
+    /// The share of its full length that one of them has at its own age.
+    #[inline]
+    pub fn share(&self, own_age: Tick) -> f32 {
+        share(&self.expansion, own_age)
     }
 
     /// The kind of one of them.
@@ -107,7 +127,7 @@ impl InternodeLook {
 impl Looks {
     /// Those of a species whose internodes are all of one shape.
     pub fn of_shape(shape: Shape) -> Self {
-        Self { states: 1, internodes: vec![InternodeLook::of_shape(shape)], organs: Vec::new() }
+        Self { states: 1, internodes: vec![InternodeLook::of_shape(shape)], ..Self::default() }
     }
 
     /// The place in [`Looks::internodes`] of an axis of `order` that started in `state`; orders past the last are as
@@ -117,6 +137,11 @@ impl Looks {
         let states = self.states.max(1);
         let last = (self.internodes.len() / states).checked_sub(1)?;
         Some(usize::from(order).saturating_sub(1).min(last) * states + usize::from(state).min(states - 1))
+    }
+
+    /// Whether any internodes go on to grow in length after they have appeared.
+    pub fn lengthen(&self) -> bool {
+        self.internodes.iter().chain(&self.apart).any(|look| !look.expansion.is_empty())
     }
 
     /// The look of the internodes of an axis of `order` that started in `state`.
@@ -144,10 +169,16 @@ impl OrganLook {
     /// The share of its full length and width at its own age.
     #[inline]
     pub fn share(&self, own_age: Tick) -> f32 {
-        match self.expansion.len() {
-            0 => 1.0,
-            ages => self.expansion[(own_age as usize).min(ages - 1)],
-        }
+        share(&self.expansion, own_age)
+    }
+}
+
+/// The entry of a table at an own age: past its end the last one, of an empty table 1.
+#[inline]
+fn share(table: &[f32], own_age: Tick) -> f32 {
+    match table.len() {
+        0 => 1.0,
+        ages => table[(own_age as usize).min(ages - 1)],
     }
 }
 
@@ -159,7 +190,7 @@ mod tests {
     fn looks_are_found_by_order_and_state() {
         let look = |kind| InternodeLook { kind, ..InternodeLook::of_shape(Shape::Blade) };
         let kinds = [Kind::Internode, Kind::CulmInternode, Kind::SepalInternode, Kind::PetalInternode];
-        let looks = Looks { states: 2, internodes: kinds.map(look).to_vec(), organs: Vec::new() };
+        let looks = Looks { states: 2, internodes: kinds.map(look).to_vec(), ..Looks::default() };
         let found = [(1, 0), (1, 1), (2, 0), (2, 1), (7, 1), (0, 0), (2, 9)].map(|(o, s)| looks.internode(o, s).kind);
         assert_eq!(found[..4], kinds);
         assert_eq!(found[4..], [Kind::PetalInternode, Kind::Internode, Kind::PetalInternode]);

@@ -9,34 +9,48 @@
 mod appeared;
 mod axis;
 pub(crate) mod borne;
+mod cut;
 mod event;
 mod form;
 mod fragment;
+pub(crate) mod frames;
 mod habit;
 pub mod key;
 mod kind;
+mod length;
 mod look;
 mod node;
 mod organ;
+mod outline;
+mod own_look;
+mod rare;
 pub(crate) mod standing;
+pub mod stated;
+mod strain;
+mod wood;
 
 pub use appeared::{Appeared, Stretch};
 pub use axis::{ApexFate, Axes, AxisId, NewAxis, Origin};
+pub use cut::{Cut, Cuts};
 pub use event::{Event, EventKind};
 pub use form::Form;
 pub use fragment::{Fragment, Hands, Joint};
+pub use frames::{Frame, Frames};
 pub use habit::{Habit, OrganTrend, OrganTrends, OwnTrends, Shape, Trend};
 pub use key::LineageKey;
 pub use kind::{Cause, Class, Kind};
+pub use length::Rewritten;
 pub use look::{Bark, Colour, InternodeLook, Looks, OrganLook, OrganLooks};
 pub use node::{NewNode, NodeId, Nodes};
 pub use organ::{NewOrgan, OrganId, Organs};
+pub use outline::StatedOrgans;
+pub use own_look::OwnLooks;
+pub use stated::{Part, Rest, StatedFrames};
+pub use strain::Strain;
+pub use wood::{Drag, OrganMass, Thickening, Tissue, Uprighting, Wood};
 
 use crate::clock::{NEVER, Tick};
-use crate::mechanics::Strain;
-use crate::pose::Frames;
 use crate::random::PlantRandom;
-use std::borrow::Cow;
 use std::ops::Mul;
 use std::sync::Arc;
 
@@ -76,9 +90,16 @@ pub struct Plant {
     /// Where its seed lies in the plot, metres. Nothing else of a plant is told from there: its pose and all that
     /// follows from it are told from the seed, so that a plant is the same to the bit wherever it stands.
     pub place: [f64; 3],
-    /// The stated headings of a plant that a geometric model has built, one an internode, as unit vectors in the frame
-    /// of the plant; empty where insertion, phyllotaxis and trend make the headings.
-    pub stated_headings: Vec<[f32; 3]>,
+    /// The rest frames that a model or an event has stated; empty where insertion, phyllotaxis and trend make them.
+    pub stated: StatedFrames,
+    /// What single organs state of their frames and outlines.
+    pub stated_organs: StatedOrgans,
+    /// The lengths that a model has rewritten.
+    pub rewritten: Rewritten,
+    /// The looks that single nodes and organs have of their own.
+    pub own_looks: OwnLooks,
+    /// What was cut off.
+    pub cuts: Cuts,
     /// The threads that may grow it at once; they never change the result.
     pub hands: Hands,
     components: u32,
@@ -118,7 +139,11 @@ impl Plant {
             own_trends: OwnTrends::default(),
             random: PlantRandom::new(seed.run_seed, u64::from(seed.plant)),
             place: [0.0; 3],
-            stated_headings: Vec::new(),
+            stated: StatedFrames::default(),
+            stated_organs: StatedOrgans::default(),
+            rewritten: Rewritten::default(),
+            own_looks: OwnLooks::default(),
+            cuts: Cuts::default(),
             hands: Hands::default(),
             components: 0,
             component_limit: seed.component_limit.min(MOST_COMPONENTS),
@@ -155,7 +180,11 @@ impl Plant {
         self.frames.clear();
         self.strain.clear();
         self.own_trends.clear();
-        self.stated_headings.clear();
+        self.stated.clear();
+        self.stated_organs.clear();
+        self.rewritten.clear();
+        self.own_looks.clear();
+        self.cuts.clear();
     }
 
     /// Whether `more` components still fit under the plant's limit.
@@ -242,24 +271,6 @@ impl Plant {
         }
     }
 
-    /// The tick at which an internode died: with its axis.
-    #[inline]
-    pub fn death_of(&self, node: NodeId) -> Tick {
-        self.axes.death[self.nodes.axis[node.index()].index()]
-    }
-
-    /// The tick at which an internode left the plant: with its axis.
-    #[inline]
-    pub fn shed_of(&self, node: NodeId) -> Tick {
-        self.axes.shed[self.nodes.axis[node.index()].index()]
-    }
-
-    /// Whether an internode is on the plant at `age`, living or dead.
-    #[inline]
-    pub fn stands(&self, node: NodeId, age: Tick) -> bool {
-        self.nodes.birth[node.index()] <= age && age < self.shed_of(node)
-    }
-
     /// The lineage key of a node: it depends on its axis and its rank alone, or on its number.
     pub fn node_key(&self, node: NodeId) -> LineageKey {
         if self.named_by_number {
@@ -291,16 +302,27 @@ impl Plant {
         self.habit.looks.internode(self.axes.order[axis.index()], self.axes.state[axis.index()])
     }
 
+    /// What one internode looks like: its own look, or that of its axis.
+    #[inline]
+    pub fn look_of_node(&self, node: NodeId) -> &InternodeLook {
+        let own = self.own_looks.of_node(node).and_then(|place| self.habit.looks.apart.get(place));
+        own.unwrap_or_else(|| self.look_of(self.nodes.axis[node.index()]))
+    }
+
     /// The kind of an internode.
     #[inline]
     pub fn kind_of(&self, node: NodeId) -> Kind {
-        let node = node.index();
-        self.look_of(self.nodes.axis[node]).kind(self.nodes.formation[node].is_short())
+        self.look_of_node(node).kind(self.nodes.formation[node.index()].is_short())
     }
 
-    /// What the species says of the look of an organ, if it says anything.
+    /// What the species says of the look of an organ, if it says anything: its own look, or that of its class and
+    /// order.
     #[inline]
     pub fn look_of_organ(&self, organ: OrganId) -> Option<&OrganLook> {
+        let own = self.own_looks.of_organ(organ).and_then(|place| self.habit.looks.organs_apart.get(place));
+        if own.is_some() {
+            return own;
+        }
         let axis = self.nodes.axis[self.organs.node[organ.index()].index()];
         self.habit.looks.organ(self.axes.order[axis.index()], self.organs.kind[organ.index()].class())
     }
@@ -321,31 +343,6 @@ impl Plant {
         T::from(self.organs.area[organ.index()]) * share * share
     }
 
-    /// The internodes that have appeared by `age`, along their axes.
-    pub fn stretches(&self, age: Tick) -> Cow<'_, [Stretch]> {
-        self.appeared.read(age, &self.nodes)
-    }
-
-    /// Whether an apical bud lives at `age`: it has appeared and its axis has not come to its end.
-    pub fn bud_lives(&self, axis: AxisId, age: Tick) -> bool {
-        self.axes.appearance[axis.index()] <= age && age < self.bud_end(axis)
-    }
-
-    /// The tick at which an apical bud is gone: it ends as a bud when its apex ends, whatever the apex becomes, or it
-    /// falls with its branch.
-    #[inline]
-    pub fn bud_end(&self, axis: AxisId) -> Tick {
-        self.axes.apex_end[axis.index()].min(self.axes.shed[axis.index()])
-    }
-
-    /// Whether the plant lives at `age`, which is when any of its components does: a bud, or an internode on whose
-    /// branch an apex that has become a flower or has completed its growth is not yet spent. A plant may live on
-    /// without a bud.
-    #[inline]
-    pub fn lives(&self, age: Tick) -> bool {
-        age < self.death
-    }
-
     fn number(&mut self) -> u32 {
         let component = self.components;
         self.components += 1;
@@ -357,3 +354,8 @@ impl Plant {
 fn numbered(component: u32) -> LineageKey {
     LineageKey::SEED.child(key::Place::Numbered.on(component))
 }
+
+#[cfg(test)]
+mod tests_cuts;
+#[cfg(test)]
+mod tests_states;

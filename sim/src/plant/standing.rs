@@ -1,9 +1,13 @@
-//! The internodes that stand at an age, as runs of one axis: what pose and mechanics walk along.
+//! What stands of a plant at an age: the one place that knows.
 //!
-//! Runs forward meet a parent before its child, runs backward a child before its parent.
+//! An internode stands from its birth until its branch falls or a cut takes it, an organ from its birth until its own
+//! fall or that of its branch, a bud until its apex ends. Pose and mechanics walk along the standing internodes as runs
+//! of one axis: runs forward meet a parent before its child, runs backward a child before its parent. Births and deaths
+//! themselves are columns, written by models and by [`crate::shed`].
 
-use super::{AxisId, Nodes, Plant};
-use crate::clock::Tick;
+use super::{AxisId, Cause, NodeId, Nodes, OrganId, Plant, Stretch};
+use crate::clock::{NEVER, Tick};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Internodes that follow one another on one axis, in the order of the nodes.
@@ -34,16 +38,14 @@ pub(crate) struct Standing {
 }
 
 impl Standing {
-    /// Finds the runs of the internodes of `plant` that appeared by `age` and have not been shed.
+    /// Finds the runs of the internodes of `plant` that appeared by `age` and have neither been shed nor cut off.
     pub fn find(&mut self, plant: &Plant, age: Tick) {
-        let stretches = plant.stretches(age);
-        let standing = stretches.iter().filter(|stretch| age < plant.axes.shed[stretch.axis.index()]);
         self.runs.clear();
-        self.runs.extend(standing.map(|stretch| {
+        plant.each_standing(age, |stretch| {
             let Range { start, end } = stretch.nodes();
             let begins = begins_axis(&plant.nodes, start);
-            Run { axis: stretch.axis, start: start as u32, end: end as u32, begins }
-        }));
+            self.runs.push(Run { axis: stretch.axis, start: start as u32, end: end as u32, begins });
+        });
     }
 }
 
@@ -51,4 +53,97 @@ impl Standing {
 #[inline]
 pub(crate) fn begins_axis(nodes: &Nodes, node: usize) -> bool {
     nodes.parent[node].some().is_none_or(|parent| nodes.axis[parent.index()] != nodes.axis[node])
+}
+
+impl Plant {
+    /// The internodes that have appeared by `age`, along their axes, whether they stand or have fallen.
+    pub fn stretches(&self, age: Tick) -> Cow<'_, [Stretch]> {
+        self.appeared.read(age, &self.nodes)
+    }
+
+    /// Shows the internodes that stand at `age`, along their axes.
+    #[inline]
+    pub fn each_standing(&self, age: Tick, mut show: impl FnMut(Stretch)) {
+        for &stretch in self.stretches(age).iter() {
+            if self.axes.shed[stretch.axis.index()] <= age {
+                continue;
+            }
+            if self.cuts.is_empty() {
+                show(stretch);
+            } else if let Some(left) = self.left_of(stretch, age) {
+                show(left);
+            }
+        }
+    }
+
+    /// What cuts have left of a stretch.
+    fn left_of(&self, stretch: Stretch, age: Tick) -> Option<Stretch> {
+        let first = self.nodes.rank[stretch.nodes().start];
+        let highest = self.cuts.highest(stretch.axis, age);
+        stretch.first((highest.saturating_add(1).saturating_sub(first)) as usize)
+    }
+
+    /// The tick at which an internode died: with its axis, or cut off.
+    #[inline]
+    pub fn death_of(&self, node: NodeId) -> Tick {
+        let death = self.axes.death[self.nodes.axis[node.index()].index()];
+        if self.cuts.is_empty() { death } else { death.min(self.cut_of(node)) }
+    }
+
+    /// The tick at which an internode left the plant: with its axis, or cut off.
+    #[inline]
+    pub fn shed_of(&self, node: NodeId) -> Tick {
+        let shed = self.axes.shed[self.nodes.axis[node.index()].index()];
+        if self.cuts.is_empty() { shed } else { shed.min(self.cut_of(node)) }
+    }
+
+    /// Why an internode, and what it bears, dies when it does: with its branch, or because it is cut off.
+    #[inline]
+    pub fn cause_of_death(&self, node: NodeId) -> Cause {
+        let cut = self.cut_of(node);
+        if cut != NEVER && cut <= self.death_of(node) { Cause::Pruned } else { Cause::Branch }
+    }
+
+    /// The tick at which a cut took an internode; never, mostly.
+    fn cut_of(&self, node: NodeId) -> Tick {
+        self.cuts.of(self.nodes.axis[node.index()], self.nodes.rank[node.index()])
+    }
+
+    /// Whether an internode is on the plant at `age`, living or dead.
+    #[inline]
+    pub fn stands(&self, node: NodeId, age: Tick) -> bool {
+        self.nodes.birth[node.index()] <= age && age < self.shed_of(node)
+    }
+
+    /// Whether an organ is on the plant at `age`; the plant is shed.
+    #[inline]
+    pub fn organ_stands(&self, organ: OrganId, age: Tick) -> bool {
+        self.organs.birth[organ.index()] <= age && age < self.organs.death[organ.index()]
+    }
+
+    /// The tick at which an organ is gone: its own fall, or that of its branch if it should come first.
+    #[inline]
+    pub fn organ_end(&self, organ: OrganId) -> Tick {
+        self.organs.death[organ.index()].min(self.shed_of(self.organs.node[organ.index()]))
+    }
+
+    /// Whether an apical bud lives at `age`: it has appeared and its axis has not come to its end.
+    pub fn bud_lives(&self, axis: AxisId, age: Tick) -> bool {
+        self.axes.appearance[axis.index()] <= age && age < self.bud_end(axis)
+    }
+
+    /// The tick at which an apical bud is gone: it ends as a bud when its apex ends, whatever the apex becomes, or it
+    /// falls with its branch.
+    #[inline]
+    pub fn bud_end(&self, axis: AxisId) -> Tick {
+        self.axes.apex_end[axis.index()].min(self.axes.shed[axis.index()])
+    }
+
+    /// Whether the plant lives at `age`, which is when any of its components does: a bud, or an internode on whose
+    /// branch an apex that has become a flower or has completed its growth is not yet spent. A plant may live on
+    /// without a bud.
+    #[inline]
+    pub fn lives(&self, age: Tick) -> bool {
+        age < self.death
+    }
 }

@@ -7,16 +7,14 @@
 //! half of one turn and half of the next are taken as one, exp((w + w')/2): the two axes nearly agree. The axes of the
 //! plant at rest are followed as they would stand without load, so trends are felt at rest and carried along.
 
-use super::course::{Plane, Slope};
-use super::{Frame, GROUND};
-use crate::math::sincos;
+use super::rest::{Course, Way};
+use crate::clock::Tick;
 use crate::plant::borne::{Borne, Up};
+use crate::plant::frames::{Directions, Frame, Plane, Stated, Trended};
 use crate::plant::standing::{Run, Standing};
-use crate::plant::{Axes, Plant, Trend};
+use crate::plant::{Axes, Plant};
+use crate::rotation::Rotation;
 use crate::vector::Vector;
-
-/// The square of the turn from which on it is no longer small, rad².
-const FAR: f64 = 0.25;
 
 /// Who states the curvature, while the scan goes from the base to the tips. What it carries along an axis goes from
 /// hand to hand by value, so that it stays in registers.
@@ -43,10 +41,16 @@ pub(crate) trait Curvature {
 
 /// Where an axis goes on from: at rest, and as it stands.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Stance {
-    plane: Plane,
-    slope: Slope,
+struct Stance<C> {
+    course: C,
     tip: Tip,
+}
+
+/// Scratch of the scan, one entry an axis, kept for its memory; of either course the plants that take it fill theirs.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Stances {
+    trended: Vec<Stance<Trended>>,
+    stated: Vec<Stance<Stated>>,
 }
 
 /// The end of an axis as it stands.
@@ -59,158 +63,139 @@ struct Tip {
     half: Vector,
 }
 
-/// A rotation as a unit quaternion.
-#[derive(Debug, Clone, Copy)]
-struct Rotation {
-    scalar: f64,
-    vector: Vector,
-}
-
 /// The columns that the scan walks along.
 struct Columns<'a> {
-    length: &'a [f32],
     trend: &'a [u8],
     base: &'a mut [[f32; 3]],
     heading: &'a mut [[f32; 3]],
     up: &'a mut [[f32; 3]],
 }
 
-impl Rotation {
-    const NONE: Self = Self { scalar: 1.0, vector: Vector { x: 0.0, y: 0.0, z: 0.0 } };
-
-    /// This, and then within it the rotation by a small vector w. Of tan(θ/2) θ/2 + θ³/24 is taken, and of the length
-    /// of the product, which is √(1 + tan²(θ/2)), the first terms of its series: together they are 10⁻⁵ rad short for a
-    /// turn of half a radian.
-    #[inline]
-    fn then(self, turn: Vector) -> Self {
-        let square = turn.dot(turn);
-        if square > FAR {
-            return self.then_far(turn, square);
-        }
-        let vector = turn * (0.5 + square * (1.0 / 24.0));
-        let t = vector.dot(vector);
-        let shrink = 1.0 - t * (0.5 - t * (0.375 - t * 0.3125));
-        self.within(shrink, vector * shrink)
-    }
-
-    /// The same for any turn.
-    #[cold]
-    fn then_far(self, turn: Vector, square: f64) -> Self {
-        let angle = square.sqrt();
-        let (sin, cos) = sincos(0.5 * angle);
-        self.within(cos, turn * (sin / angle))
-    }
-
-    #[inline]
-    fn within(self, scalar: f64, vector: Vector) -> Self {
-        Self {
-            scalar: self.scalar * scalar - self.vector.dot(vector),
-            vector: vector * self.scalar + self.vector * scalar + self.vector.cross(vector),
-        }
-    }
-
-    #[inline]
-    fn of(self, direction: Vector) -> Vector {
-        let across = self.vector.cross(direction) * 2.0;
-        direction + across * self.scalar + self.vector.cross(across)
-    }
-
-    /// With its length, from which rounding has moved it, back at 1.
-    fn normalized(self) -> Self {
-        let scale = 1.0 / (self.scalar * self.scalar + self.vector.dot(self.vector)).sqrt();
-        Self { scalar: self.scalar * scale, vector: self.vector * scale }
+/// Poses every internode that stands at `age`, bent by the curvature that is stated on the way.
+pub(crate) fn follow_bends(
+    plant: &mut Plant,
+    age: Tick,
+    (standing, laterals): (&Standing, &Borne),
+    stances: &mut Stances,
+    curvature: &mut impl Curvature,
+) {
+    if plant.stated.is_empty() {
+        follow(plant, age, (standing, laterals), &mut stances.trended, curvature);
+    } else {
+        follow(plant, age, (standing, laterals), &mut stances.stated, curvature);
     }
 }
 
-/// Poses every internode that stands, bent by the curvature that is stated on the way. `stances` is scratch, one entry
-/// an axis.
-pub(crate) fn follow_bends(
+fn follow<C: Course>(
     plant: &mut Plant,
-    standing: &Standing,
-    laterals: &Borne,
-    stances: &mut Vec<Stance>,
+    age: Tick,
+    (standing, laterals): (&Standing, &Borne),
+    stances: &mut Vec<Stance<C>>,
     curvature: &mut impl Curvature,
 ) {
-    let ground = Stance::from_rest(&GROUND, Vector::default(), Rotation::NONE);
+    plant.frames.bend(plant.nodes.len(), age);
+    let Plant { axes, nodes, frames, habit, own_trends, stated, .. } = plant;
     stances.clear();
-    stances.resize(plant.axes.len(), ground);
-    plant.frames.resize_nodes(plant.nodes.len());
-    let Plant { axes, nodes, frames, habit, own_trends, .. } = plant;
+    if !axes.is_empty() {
+        // Each is written by its bearer, or below, before it is read.
+        stances.resize(axes.len(), ground_left(axes, 0));
+    }
     let mut borne = Up::new(laterals, &axes.bearer);
-    let mut columns = Columns {
-        length: &nodes.length,
-        trend: &nodes.trend,
-        base: &mut frames.base,
-        heading: &mut frames.heading,
-        up: &mut frames.up,
-    };
+    let lengths = std::mem::take(&mut frames.lengths);
+    let mut columns =
+        Columns { trend: &nodes.trend, base: &mut frames.base, heading: &mut frames.heading, up: &mut frames.up };
     for run in &standing.runs {
         let axis = run.axis.index();
         if run.begins && axes.bearer[axis].some().is_none() {
-            stances[axis] = ground.leaving(axes, axis);
+            stances[axis] = ground_left(axes, axis);
         }
-        let trends = own_trends.of(run.axis).unwrap_or(&habit.trends);
-        follow_run(&mut columns, axes, trends, run, &mut borne, stances, curvature);
+        let way = Way {
+            axes,
+            axis: run.axis,
+            trends: own_trends.of(run.axis).unwrap_or(&habit.trends),
+            stated,
+            lengths: if lengths.is_empty() { &nodes.length } else { &lengths },
+            age,
+        };
+        follow_run(&mut columns, &way, run, &mut borne, stances, curvature);
     }
+    frames.lengths = lengths;
 }
 
 #[inline]
-fn follow_run(
+fn follow_run<C: Course>(
     columns: &mut Columns<'_>,
-    axes: &Axes,
-    trends: &[Trend],
+    way: &Way<'_>,
     run: &Run,
     borne: &mut Up<'_>,
-    stances: &mut [Stance],
+    stances: &mut [Stance<C>],
     curvature: &mut impl Curvature,
 ) {
     let axis = run.axis.index();
-    let (Stance { plane, mut slope, mut tip }, mut carried) = (stances[axis], curvature.enter(axis));
-    let mut straight = run.begins;
+    let (Stance { mut course, mut tip }, mut carried) = (stances[axis], curvature.enter(axis));
+    let mut begins = run.begins;
     for node in run.nodes() {
-        let trend = trends.get(usize::from(columns.trend[node])).filter(|trend| trend.share > 0.0 && !straight);
-        if let Some(trend) = trend {
-            slope = slope.turned(trend);
+        if let Some(start) = course.start(way, node, begins) {
+            tip = tip.beside(course.directions(), course.length(), start);
         }
-        straight = false;
-        let length = f64::from(columns.length[node]);
+        course.next(way, node, columns.trend[node], begins);
+        begins = false;
+        let length = f64::from(way.lengths[node]);
         let curved;
         (carried, curved) = curvature.next(carried, node, length, columns.heading[node], columns.up[node]);
-        let rest = [plane.heading(slope), plane.up(slope)];
         let frame;
-        (tip, frame) = tip.extended(rest, length, curved);
+        (tip, frame) = tip.extended(course.directions(), length, curved);
         (columns.base[node], columns.heading[node], columns.up[node]) = (frame.base, frame.heading, frame.up);
         while let Some(lateral) = borne.on(node) {
-            stances[lateral] = Stance { plane, slope, tip }.leaving(axes, lateral);
+            stances[lateral] = Stance { course, tip }.leaving(length, way.axes, lateral);
             curvature.leave(carried, lateral);
         }
     }
-    stances[axis] = Stance { plane, slope, tip };
+    stances[axis] = Stance { course, tip };
     curvature.leave(carried, axis);
 }
 
-impl Stance {
-    fn from_rest(rest: &Frame, base: Vector, turned: Rotation) -> Self {
-        let (plane, slope) = Plane::of(rest);
-        Self { plane, slope, tip: Tip { base, turned, half: Vector::default() } }
-    }
+/// Where an axis starts that nothing bears.
+fn ground_left<C: Course>(axes: &Axes, axis: usize) -> Stance<C> {
+    let tip = Tip { base: Vector::default(), turned: Rotation::NONE, half: Vector::default() };
+    let (plane, slope) = Plane::of(&Frame::GROUND);
+    Stance { course: C::leaving([plane.heading(slope), plane.up(slope)], 0.0, axes, axis), tip }
+}
 
+impl<C: Course> Stance<C> {
     /// Where `axis` starts, which leaves the internode that this stance has come to.
-    fn leaving(self, axes: &Axes, axis: usize) -> Self {
-        let (heading, up) = (self.plane.heading(self.slope), self.plane.up(self.slope));
-        let rest = Frame { base: [0.0; 3], heading: heading.single(), up: up.single() };
-        let rest = rest.inserted(axes.azimuth[axis], axes.insertion[axis]);
-        Self::from_rest(&rest, self.tip.base, self.tip.turned.then(self.tip.half).normalized())
+    #[inline]
+    fn leaving(self, length: f64, axes: &Axes, axis: usize) -> Self {
+        let course = C::leaving(self.course.directions(), length, axes, axis);
+        let tip = if C::STATED { self.tip } else { self.tip.ended() };
+        Self { course, tip }
     }
 }
 
 impl Tip {
+    /// At the end of its internode, with the whole of that one's turn.
+    #[inline]
+    fn ended(self) -> Self {
+        let turned = self.turned.by(self.half).normalized();
+        Self { turned, half: Vector::default(), ..self }
+    }
+
+    /// Beside the end of its internode, of these directions at rest and of this length, at an offset in its frame. What
+    /// begins on the internode itself lies on its chord, turned as far as the internode has turned there.
+    fn beside(self, [heading, up]: Directions, length: f64, [x, y, z]: [f64; 3]) -> Self {
+        let share = if length > 0.0 { (1.0 + x / length).clamp(0.0, 1.0) } else { 1.0 };
+        let turned = self.turned.by(self.half * (2.0 * share - 1.0)).normalized();
+        let along = if x < 0.0 { self.turned.of(heading) } else { turned.of(heading) };
+        let across = turned.of(up.cross(heading) * y + up * z);
+        Self { base: self.base + along * x + across, turned, half: Vector::default() }
+    }
+
     /// At the tip of the next internode, whose heading and `up` at rest are given, and that internode's frame.
     #[inline]
-    fn extended(self, [heading, up]: [Vector; 2], length: f64, curvature: [f32; 2]) -> (Self, Frame) {
+    fn extended(self, [heading, up]: Directions, length: f64, curvature: [f32; 2]) -> (Self, Frame) {
         let curvature = |k: usize| 0.5 * f64::from(curvature[k]) * length;
         let half = up * curvature(0) + heading.cross(up) * curvature(1);
-        let turned = self.turned.then(self.half + half);
+        let turned = self.turned.by(self.half + half);
         let (heading, up) = (turned.of(heading), turned.of(up));
         let frame = Frame { base: self.base.single(), heading: heading.single(), up: up.single() };
         (Self { base: self.base + heading * length, turned, half }, frame)

@@ -8,33 +8,13 @@
 //! and across it. An axis that stands upright or hangs has no horizontal direction of its own and turns towards that of
 //! its `up`.
 
-use super::Frame;
 use crate::math::{half_turn_of, sincos_half_turn};
 use crate::plant::Trend;
+use crate::plant::frames::{Frame, Plane, Slope};
 use crate::vector::Vector;
 
 /// Below this sine of the angle to the vertical a heading has no horizontal direction of its own; that of `up` serves.
 const VERTICAL: f64 = 1e-6;
-
-/// The vertical plane of an axis, with the components of `up` that do not change along it.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Plane {
-    /// The horizontal direction.
-    e: [f64; 2],
-    /// Of `up` across the plane, along Z × e.
-    across: f64,
-    /// Of `up` in the plane, along z · e − r · Z.
-    within: f64,
-}
-
-/// The direction of a heading in its plane: z along the vertical, r along e.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Slope {
-    z: f64,
-    r: f64,
-    /// The angle to the upward vertical; NaN while the axis has not turned, for many never do.
-    angle: f64,
-}
 
 /// What stands in `frame`, turned once.
 pub(super) fn turned(frame: Frame, trend: &Trend) -> Frame {
@@ -56,9 +36,13 @@ pub(super) fn facing_the_sky(frame: Frame) -> Frame {
 
 impl Plane {
     /// The plane and the first slope of an axis that starts in `frame`, whose directions need only be nearly unit.
+    #[inline]
     pub fn of(frame: &Frame) -> (Self, Slope) {
-        let heading = Vector::from(frame.heading);
-        let up = Vector::from(frame.up);
+        Self::through(Vector::from(frame.heading), Vector::from(frame.up))
+    }
+
+    /// The same of directions in double precision.
+    pub fn through(heading: Vector, up: Vector) -> (Self, Slope) {
         let level = (heading.x * heading.x + heading.y * heading.y).sqrt();
         let slope = Slope { z: heading.z, r: level, angle: f64::NAN };
         let (e, slope) = if slope.r > VERTICAL {

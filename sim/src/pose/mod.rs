@@ -4,116 +4,50 @@
 //! azimuth φ is cos φ · up + sin φ · (heading × up). An axis that leaves at azimuth φ and insertion angle β from a
 //! heading h with the direction d at φ has the heading cos β · h + sin β · d and the upper side sin β · h − cos β · d.
 //! The first internode of an axis keeps that direction; each one after it turns its share of the angle to the axis's
-//! trend, in the vertical plane of its heading (`course` has the formula). The axis of the seed leaves the upward
-//! vertical, whose `up` is the X axis. The seed is the origin of all frames: a plant far away in its plot keeps the
-//! precision of one at home. Absent: bending, which is the work of mechanics; the plant's place, which nothing here
-//! asks.
+//! trend, in the vertical plane of its heading (`course` has the formula). Other models state rest frames instead
+//! (`rest`): both ways go through the same scans. The axis of the seed leaves the upward vertical, whose `up` is
+//! the X axis. The seed is the origin of all frames: a plant far away in its plot keeps the precision of one at home.
+//! Absent: the columns of the pose, which are the plant's; bending, which is the work of mechanics; the plant's place,
+//! which nothing here asks.
 
 pub(crate) mod bent;
 mod course;
+mod rest;
 mod scan;
-mod stated;
 
 use crate::clock::Tick;
-use crate::math::sincosf;
+use crate::plant::frames::{Stated, Trended};
+use crate::plant::stated::{Part, Rest};
 use crate::plant::{AxisId, NodeId, OrganId, Plant};
-use scan::Tip;
+use crate::vector::Vector;
 
-/// The columns of the pose, one entry a node, in metres from the seed and unit vectors; Z is up.
-#[derive(Debug, Clone, Default)]
-pub struct Frames {
-    /// The base of the internode.
-    pub base: Vec<[f32; 3]>,
-    /// Its direction.
-    pub heading: Vec<[f32; 3]>,
-    /// Its reference direction, from which azimuths count.
-    pub up: Vec<[f32; 3]>,
-    /// Where each axis goes on from, in double precision: one entry an axis.
-    tips: Vec<Tip>,
-    /// The age before which they are made: what appeared earlier has its frame.
-    posed: Tick,
-}
-
-impl Frames {
-    /// The frame at the base of the internode of `node`, which must be posed.
-    #[inline]
-    pub fn at(&self, node: NodeId) -> Frame {
-        let node = node.index();
-        Frame { base: self.base[node], heading: self.heading[node], up: self.up[node] }
-    }
-
-    /// Forgets every frame, so that the next pose makes them all. The columns keep their length, so that the memory
-    /// that the next pose writes is not written twice.
-    pub fn clear(&mut self) {
-        self.posed = 0;
-    }
-
-    /// Room for the frames of every node and the tip of every axis, to be posed up to `age`; the age before which they
-    /// were.
-    fn begin(&mut self, nodes: usize, axes: usize, age: Tick) -> Tick {
-        self.resize_nodes(nodes);
-        self.tips.resize(axes, Tip::default());
-        std::mem::replace(&mut self.posed, age + 1)
-    }
-
-    fn resize_nodes(&mut self, nodes: usize) {
-        for column in [&mut self.base, &mut self.heading, &mut self.up] {
-            if column.is_empty() {
-                // Zeroed by the system as it comes to be written, instead of twice.
-                *column = vec![[0.0; 3]; nodes];
-            }
-            column.resize(nodes, [0.0; 3]);
-        }
-    }
-}
-
-/// A point with two directions: the pose of one component.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Frame {
-    /// The base point, metres from the seed.
-    pub base: [f32; 3],
-    /// The direction in which the component points.
-    pub heading: [f32; 3],
-    /// The direction of its upper side.
-    pub up: [f32; 3],
-}
-
-impl Frame {
-    /// The same directions at `distance` metres along the heading.
-    #[inline]
-    pub fn advanced(self, distance: f32) -> Self {
-        let along = |k: usize| self.base[k] + distance * self.heading[k];
-        Self { base: [along(0), along(1), along(2)], ..self }
-    }
-
-    /// What leaves this frame's base at `azimuth` and `insertion`, radians.
-    #[inline]
-    pub fn inserted(self, azimuth: f32, insertion: f32) -> Self {
-        let (sin_azimuth, cos_azimuth) = sincosf(azimuth);
-        let (sin, cos) = sincosf(insertion);
-        let (h, up) = (self.heading, self.up);
-        let side = [h[1] * up[2] - h[2] * up[1], h[2] * up[0] - h[0] * up[2], h[0] * up[1] - h[1] * up[0]];
-        let outward = [0, 1, 2].map(|k| cos_azimuth * up[k] + sin_azimuth * side[k]);
-        Self {
-            base: self.base,
-            heading: [0, 1, 2].map(|k| cos * h[k] + sin * outward[k]),
-            up: [0, 1, 2].map(|k| sin * h[k] - cos * outward[k]),
-        }
-    }
-}
+pub use crate::plant::frames::{Frame, Frames};
 
 /// Poses every internode of `plant` that appeared by `age` and has no frame yet. The frames of the others stay: the
 /// pose at rest of a node depends on the nodes before it alone, and to the last bit neither on the order in which the
-/// axes grew nor on how often the plant was posed.
+/// axes grew nor on how often the plant was posed. Where a rest frame or a length has changed since the age of the
+/// frames, all are made anew.
 pub fn pose(plant: &mut Plant, age: Tick) {
+    if plant.frames.posed > 0 && is_stale(plant, age) {
+        plant.frames.clear();
+    }
     if age < plant.frames.posed {
         return;
     }
-    if plant.stated_headings.is_empty() {
-        scan::follow_trends(plant, age);
+    plant.measure(age);
+    if plant.stated.is_empty() {
+        scan::follow::<Trended>(plant, age);
     } else {
-        stated::follow_headings(plant, age);
+        scan::follow::<Stated>(plant, age);
     }
+}
+
+/// Whether frames that are there are not those of `age`: a rest frame or a length is another, or the first frame was
+/// stated after they were made.
+fn is_stale(plant: &Plant, age: Tick) -> bool {
+    let Plant { stated, frames, .. } = plant;
+    let newly = !stated.is_empty() && frames.courses.is_empty();
+    newly || stated.differ(frames.age, age) || plant.lengths_differ(frames.age, age)
 }
 
 /// The pose at `age` of an organ on its node, whose frame must be there: its insertion, turned as far as the habit's
@@ -124,6 +58,9 @@ pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
     let Plant { organs, nodes, axes, habit, .. } = plant;
     let organ = organ.index();
     let node = organs.node[organ];
+    if let Some(stated) = stated_organ_frame(plant, OrganId(organ as u32)) {
+        return stated;
+    }
     let inserted = node_frame(plant, node).inserted(organs.azimuth[organ], organs.insertion[organ]);
     if habit.organ_trends.is_empty() {
         return inserted;
@@ -137,17 +74,49 @@ pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
     if habit.faces_the_sky(order, kind) { course::facing_the_sky(turned) } else { turned }
 }
 
+/// The frame of an organ that states it: for all ages, and at its own start.
+#[inline]
+pub fn stated_organ_frame(plant: &Plant, organ: OrganId) -> Option<Frame> {
+    if plant.stated_organs.keep_insertion() {
+        return None;
+    }
+    let (rotation, start) = plant.stated_organs.frame(organ)?;
+    let bearing = node_frame(plant, plant.organs.node[organ.index()]);
+    let directions = [bearing.heading, bearing.up].map(Vector::from);
+    let base = Vector::from(bearing.base) + rest::placed(directions, start.map(f64::from));
+    let [heading, up] = rest::within(directions, rotation).map(Vector::single);
+    Some(Frame { base: base.single(), heading, up })
+}
+
 /// The frame at the tip of an internode, where its node is: the directions of the internode, its end as the base.
 #[inline]
 pub fn node_frame(plant: &Plant, node: NodeId) -> Frame {
-    plant.frames.at(node).advanced(plant.nodes.length[node.index()])
+    plant.frames.at(node).advanced(plant.posed_length(node))
 }
 
-/// The pose of the bud that an axis starts as: on its bearing node, in the direction of its insertion.
+/// The pose of the bud that an axis starts as: on its bearing node, in the direction of its insertion, or as its rest
+/// frame is stated. Of a plant that is bent the bearer counts as straight.
 pub fn start_frame(plant: &Plant, axis: AxisId) -> Frame {
-    let axes = &plant.axes;
     let bearing = bearing_frame(plant, axis);
-    bearing.inserted(axes.azimuth[axis.index()], axes.insertion[axis.index()])
+    if plant.stated.is_empty() {
+        return inserted(plant, bearing, axis);
+    }
+    let directions = [bearing.heading, bearing.up].map(Vector::from);
+    let start = plant.stated.start(Part::Axis(axis)).map(f64::from);
+    let base = (Vector::from(bearing.base) + rest::placed(directions, start)).single();
+    match plant.stated.rest(Part::Axis(axis), plant.frames.age) {
+        Rest::Follows => Frame { base, ..inserted(plant, bearing, axis) },
+        rest => {
+            let [heading, up] = rest::turned(directions, rest).map(Vector::single);
+            Frame { base, heading, up }
+        }
+    }
+}
+
+/// What an axis is that leaves `bearing` at its insertion and azimuth.
+#[inline]
+fn inserted(plant: &Plant, bearing: Frame, axis: AxisId) -> Frame {
+    bearing.inserted(plant.axes.azimuth[axis.index()], plant.axes.insertion[axis.index()])
 }
 
 /// The pose of the apical bud of an axis: at the tip of the last node that it has made so far, or where it starts. For
@@ -163,16 +132,15 @@ pub fn bud_frame(plant: &Plant, axis: AxisId) -> Frame {
 fn bearing_frame(plant: &Plant, axis: AxisId) -> Frame {
     match plant.axes.bearer[axis.index()].some() {
         Some(bearer) => node_frame(plant, bearer),
-        None => GROUND,
+        None => Frame::GROUND,
     }
 }
-
-/// The frame that the axis of the seed leaves.
-const GROUND: Frame = Frame { base: [0.0; 3], heading: [0.0, 0.0, 1.0], up: [1.0, 0.0, 0.0] };
 
 #[cfg(test)]
 mod precision_tests;
 #[cfg(test)]
-mod specimen;
+pub(crate) mod specimen;
+#[cfg(test)]
+mod stated_tests;
 #[cfg(test)]
 mod tests;

@@ -1,29 +1,21 @@
-//! The forward scan of a plant whose headings follow from insertion, phyllotaxis and trend.
+//! The forward scan of a plant at rest, whichever way its rest geometry is stated ([`super::rest`]).
 //!
-//! Runs of nodes that follow one another on one axis are the unit of work: base and slope stay in registers as f64 and
-//! are rounded to f32 only where they are stored. Where an axis goes on later, it goes on from its [`Tip`], so that the
-//! frames are the same bits whether axes were grown one by one or tick by tick. An axis starts from the stored f32
+//! Runs of nodes that follow one another on one axis are the unit of work: base and directions stay in registers as f64
+//! and are rounded to f32 only where they are stored. Where an axis goes on later, it goes on from its [`crate::plant::frames::Tip`], so that
+//! the frames are the same bits whether axes were grown one by one or tick by tick. An axis starts from the stored f32
 //! frame of its bearing node: 40 m from the seed that is 2 µm, once an order.
 
-use super::course::{Plane, Slope};
-use super::{Frames, start_frame};
+use super::bearing_frame;
+use super::rest::{Course, Way, placed};
 use crate::clock::Tick;
+use crate::plant::frames::Frames;
 use crate::plant::standing::begins_axis;
-use crate::plant::{AxisId, Nodes, Plant, Trend};
+use crate::plant::{AxisId, Nodes, Plant};
 use crate::vector::Vector;
 use std::ops::Range;
 
-/// Where an axis goes on from.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Tip {
-    /// The end of its last internode, metres.
-    pub base: Vector,
-    /// The direction of its last internode.
-    pub slope: Slope,
-}
-
 /// Poses the nodes that appeared by `age` and have no frame yet, run by run.
-pub(super) fn follow_trends(plant: &mut Plant, age: Tick) {
+pub(super) fn follow<C: Course>(plant: &mut Plant, age: Tick) {
     let posed = plant.frames.begin(plant.nodes.len(), plant.axes.len(), age);
     let mut appeared = std::mem::take(&mut plant.appeared);
     for stretch in appeared.by(age, &plant.nodes) {
@@ -31,51 +23,68 @@ pub(super) fn follow_trends(plant: &mut Plant, age: Tick) {
         let birth = &plant.nodes.birth[born.clone()];
         let old = if birth[0] < posed { birth.partition_point(|&birth| birth < posed) } else { 0 };
         if old < born.len() {
-            follow_axis(plant, stretch.axis, born.start + old..born.end);
+            follow_axis::<C>(plant, stretch.axis, born.start + old..born.end, age);
         }
     }
     plant.appeared = appeared;
 }
 
 #[inline]
-fn follow_axis(plant: &mut Plant, axis: AxisId, run: Range<usize>) {
-    let start = start_frame(plant, axis);
-    let (plane, slope) = Plane::of(&start);
-    let Plant { nodes, frames, habit, own_trends, .. } = plant;
-    let trends = own_trends.of(axis).unwrap_or(&habit.trends);
+fn follow_axis<C: Course>(plant: &mut Plant, axis: AxisId, run: Range<usize>, age: Tick) {
+    let bearing = bearing_frame(plant, axis);
+    let bearer = plant.axes.bearer[axis.index()].some();
+    let length = bearer.map_or(0.0, |bearer| f64::from(plant.posed_length(bearer)));
+    let Plant { axes, nodes, frames, habit, own_trends, stated, .. } = plant;
+    let left = C::leaving([bearing.heading, bearing.up].map(Vector::from), length, axes, axis.index());
     let begins = begins_axis(nodes, run.start);
-    let tip = if begins { Tip { base: Vector::from(start.base), slope } } else { frames.tips[axis.index()] };
-    frames.tips[axis.index()] = extend(frames, nodes, trends, &plane, tip, run, begins);
+    let (base, course) = if begins {
+        (Vector::from(bearing.base), left)
+    } else {
+        (frames.tips[axis.index()].base, C::resumed(frames, axis.index(), left))
+    };
+    let lengths = std::mem::take(&mut frames.lengths);
+    let way = Way {
+        axes,
+        axis,
+        trends: own_trends.of(axis).unwrap_or(&habit.trends),
+        stated,
+        lengths: if lengths.is_empty() { &nodes.length } else { &lengths },
+        age,
+    };
+    let (base, course) = extend(frames, nodes, &way, (base, course), run, begins);
+    frames.lengths = lengths;
+    frames.tips[axis.index()].base = base;
+    course.keep(frames, axis.index());
 }
 
-/// Writes the frames of a run that goes on from `tip`, on an axis of the given trends. The first node of an axis, and
-/// one whose trend is not among them, goes straight on.
+/// Writes the frames of a run that goes on from a base with a course.
 #[inline]
-fn extend(
+fn extend<C: Course>(
     frames: &mut Frames,
     nodes: &Nodes,
-    trends: &[Trend],
-    plane: &Plane,
-    tip: Tip,
+    way: &Way<'_>,
+    (mut base, mut course): (Vector, C),
     run: Range<usize>,
-    begins: bool,
-) -> Tip {
-    let Tip { mut base, mut slope } = tip;
-    let mut heading = plane.heading(slope);
-    let (mut stored, mut straight) = ((heading.single(), plane.up(slope).single()), begins);
+    mut begins: bool,
+) -> (Vector, C) {
+    let first = run.start;
+    let [mut heading, up] = course.directions();
+    let mut stored = (heading.single(), up.single());
     let columns = frames.base[run.clone()].iter_mut().zip(&mut frames.heading[run.clone()]);
-    let columns = columns.zip(&mut frames.up[run.clone()]).zip(&nodes.length[run.clone()]);
-    for ((((at, along), up), &length), &trend) in columns.zip(&nodes.trend[run]) {
-        let turn = trends.get(usize::from(trend)).filter(|trend| trend.share > 0.0 && !straight);
-        if let Some(trend) = turn {
-            slope = slope.turned(trend);
-            heading = plane.heading(slope);
-            stored = (heading.single(), plane.up(slope).single());
+    let columns = columns.zip(&mut frames.up[run.clone()]).zip(&way.lengths[run.clone()]);
+    for (place, ((((at, along), up), &length), &trend)) in columns.zip(&nodes.trend[run]).enumerate() {
+        if let Some(start) = course.start(way, first + place, begins) {
+            base = base + placed(course.directions(), start);
         }
-        straight = false;
+        if course.next(way, first + place, trend, begins) {
+            let directions = course.directions();
+            heading = directions[0];
+            stored = (heading.single(), directions[1].single());
+        }
+        begins = false;
         *at = base.single();
         (*along, *up) = stored;
         base = base + heading * f64::from(length);
     }
-    Tip { base, slope }
+    (base, course)
 }

@@ -144,7 +144,10 @@ fn the_order_of_growth_does_not_change_a_bit() {
 fn stated_headings_are_kept_and_up_turns_no_more_than_it_must() {
     let mut specimen = Specimen::grown(&[Branch::trunk(5, 1.0)], &[], Growth::AxisByAxis);
     let slant = [0.6, 0.0, 0.8];
-    specimen.plant.stated_headings = vec![[0.0, 0.0, 1.0], slant, [1.0, 0.0, 0.0], [0.0, 0.0, -2.0], [f32::NAN; 3]];
+    let headings = [[0.0, 0.0, 1.0], slant, [1.0, 0.0, 0.0], [0.0, 0.0, -2.0], [f32::NAN; 3]];
+    for (node, heading) in headings.into_iter().enumerate() {
+        specimen.plant.state_rest(NodeId(node as u32), Rest::Heading(heading));
+    }
     pose(&mut specimen.plant, LAST);
     let frames = &specimen.plant.frames;
     assert_eq!(frames.up[0], [1.0, 0.0, 0.0]);

@@ -222,7 +222,7 @@ fn scaled_normal(normal: [f32; 3], cofactors: [f32; 3]) -> [f32; 3] {
 }
 
 /// The normal of a plane polygon, by Newell's sum over its edges.
-fn plane_normal(corners: &[[f32; 3]]) -> [f32; 3] {
+pub(super) fn plane_normal(corners: &[[f32; 3]]) -> [f32; 3] {
     let mut sum = [0.0; 3];
     for (k, a) in corners.iter().enumerate() {
         let b = corners[(k + 1) % corners.len()];

@@ -10,7 +10,7 @@
 mod glb;
 mod obj;
 mod ply;
-mod polygon;
+pub(in crate::meshes) mod polygon;
 #[cfg(test)]
 mod tests;
 

@@ -3,7 +3,7 @@
 //! Both are taken in the axes of the material, along `up` and along `heading × up` of the internode, so that they keep
 //! their meaning while the branch turns. There is no component along the heading: internodes bend and do not twist.
 
-use crate::plant::AxisId;
+use super::AxisId;
 
 /// The state of bending, one entry an internode; empty until a plant bends.
 #[derive(Debug, Clone, Default)]
@@ -25,7 +25,7 @@ impl Strain {
     }
 
     /// Room for `nodes` internodes; new ones are straight and free of load.
-    pub(super) fn resize(&mut self, nodes: usize) {
+    pub(crate) fn resize(&mut self, nodes: usize) {
         self.curvature.resize(nodes, [0.0; 2]);
         self.moment.resize(nodes, [0.0; 2]);
     }

@@ -1,0 +1,170 @@
+//! The columns of the pose, one frame a node, and where each axis goes on from: written by [`crate::pose`] at rest and
+//! by [`crate::mechanics`] where a plant bends.
+//!
+//! A frame is a base point, a heading along the internode and a reference direction `up` across it. What an axis goes on
+//! from is kept in double precision. Absent: how frames follow from rest geometry, which is the pose's.
+
+use super::node::{NodeId, Nodes};
+use crate::clock::Tick;
+use crate::math::sincosf;
+use crate::vector::Vector;
+
+/// The columns of the pose, one entry a node, in metres from the seed and unit vectors; Z is up.
+#[derive(Debug, Clone, Default)]
+pub struct Frames {
+    /// The base of the internode.
+    pub base: Vec<[f32; 3]>,
+    /// Its direction.
+    pub heading: Vec<[f32; 3]>,
+    /// Its reference direction, from which azimuths count.
+    pub up: Vec<[f32; 3]>,
+    /// Where each axis goes on from, in double precision: one entry an axis.
+    pub(crate) tips: Vec<Tip>,
+    /// The directions with which each axis goes on, where frames are stated; else empty.
+    pub(crate) courses: Vec<Stated>,
+    /// The lengths of internodes at the age of the frames; empty where they are those of their birth.
+    pub(crate) lengths: Vec<f32>,
+    /// The age of the frames.
+    pub(crate) age: Tick,
+    /// The age before which they are made: what appeared earlier has its frame.
+    pub(crate) posed: Tick,
+}
+
+impl Frames {
+    /// The frame at the base of the internode of `node`, which must be posed.
+    #[inline]
+    pub fn at(&self, node: NodeId) -> Frame {
+        let node = node.index();
+        Frame { base: self.base[node], heading: self.heading[node], up: self.up[node] }
+    }
+
+    /// Forgets every frame, so that the next pose makes them all. The columns keep their length, so that the memory
+    /// that the next pose writes is not written twice.
+    pub fn clear(&mut self) {
+        self.posed = 0;
+        self.courses.clear();
+        self.lengths.clear();
+    }
+
+    /// The lengths of internodes at the age of the frames.
+    #[inline]
+    pub(crate) fn lengths<'a>(&'a self, nodes: &'a Nodes) -> &'a [f32] {
+        if self.lengths.is_empty() { &nodes.length } else { &self.lengths }
+    }
+
+    /// Room for the frames of every node and the tip of every axis, to be posed up to `age`; the age before which they
+    /// were.
+    pub(crate) fn begin(&mut self, nodes: usize, axes: usize, age: Tick) -> Tick {
+        self.resize_nodes(nodes);
+        self.tips.resize(axes, Tip::default());
+        self.age = age;
+        std::mem::replace(&mut self.posed, age + 1)
+    }
+
+    /// Room for the frames of every node of a plant that stands bent at `age`.
+    pub(crate) fn bend(&mut self, nodes: usize, age: Tick) {
+        self.resize_nodes(nodes);
+        self.age = age;
+    }
+
+    fn resize_nodes(&mut self, nodes: usize) {
+        for column in [&mut self.base, &mut self.heading, &mut self.up] {
+            if column.is_empty() {
+                // Zeroed by the system as it comes to be written, instead of twice.
+                *column = vec![[0.0; 3]; nodes];
+            }
+            column.resize(nodes, [0.0; 3]);
+        }
+    }
+}
+
+/// A point with two directions: the pose of one component.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// The base point, metres from the seed.
+    pub base: [f32; 3],
+    /// The direction in which the component points.
+    pub heading: [f32; 3],
+    /// The direction of its upper side.
+    pub up: [f32; 3],
+}
+
+impl Frame {
+    /// The frame that the axis of the seed leaves.
+    pub(crate) const GROUND: Self = Self { base: [0.0; 3], heading: [0.0, 0.0, 1.0], up: [1.0, 0.0, 0.0] };
+
+    /// The same directions at `distance` metres along the heading.
+    #[inline]
+    pub fn advanced(self, distance: f32) -> Self {
+        let along = |k: usize| self.base[k] + distance * self.heading[k];
+        Self { base: [along(0), along(1), along(2)], ..self }
+    }
+
+    /// What leaves this frame's base at `azimuth` and `insertion`, radians.
+    #[inline]
+    pub fn inserted(self, azimuth: f32, insertion: f32) -> Self {
+        let (sin_azimuth, cos_azimuth) = sincosf(azimuth);
+        let (sin, cos) = sincosf(insertion);
+        let (h, up) = (self.heading, self.up);
+        let side = [h[1] * up[2] - h[2] * up[1], h[2] * up[0] - h[0] * up[2], h[0] * up[1] - h[1] * up[0]];
+        let outward = [0, 1, 2].map(|k| cos_azimuth * up[k] + sin_azimuth * side[k]);
+        Self {
+            base: self.base,
+            heading: [0, 1, 2].map(|k| cos * h[k] + sin * outward[k]),
+            up: [0, 1, 2].map(|k| sin * h[k] - cos * outward[k]),
+        }
+    }
+}
+
+/// Where an axis goes on from.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Tip {
+    /// The end of its last internode, metres.
+    pub base: Vector,
+    /// The direction of its last internode, where it follows insertion and trend.
+    pub slope: Slope,
+}
+
+/// Heading and upper side.
+pub(crate) type Directions = [Vector; 2];
+
+/// The course of an axis by insertion and trend.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Trended {
+    pub plane: Plane,
+    pub slope: Slope,
+}
+
+/// The course of an axis of a plant in which frames are stated.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stated {
+    pub along: Along,
+    pub length: f64,
+}
+
+/// How the directions go on from here.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Along {
+    Trended(Trended),
+    Turned(Directions),
+}
+
+/// The vertical plane of an axis, with the components of `up` that do not change along it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Plane {
+    /// The horizontal direction.
+    pub e: [f64; 2],
+    /// Of `up` across the plane, along Z × e.
+    pub across: f64,
+    /// Of `up` in the plane, along z · e − r · Z.
+    pub within: f64,
+}
+
+/// The direction of a heading in its plane: z along the vertical, r along e.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Slope {
+    pub z: f64,
+    pub r: f64,
+    /// The angle to the upward vertical; NaN while the axis has not turned, for many never do.
+    pub angle: f64,
+}

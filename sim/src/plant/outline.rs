@@ -1,0 +1,101 @@
+//! What single organs state of themselves: their frame in that of their node, and the polygon that they fill.
+//!
+//! An organ that states its frame keeps it: neither insertion nor trends turn it, and it begins where it says, not on
+//! the surface of its stem. An outline is a list of corners in the organ's frame, x along it, y to its left, z to its
+//! upper side, in metres when it is full-grown; the area of the organ is then that of the polygon. The corners of all
+//! organs share one list. A plant whose organs state nothing has empty columns.
+//! Absent: triangles, which a mesh makes of an outline.
+
+use super::Plant;
+use super::organ::OrganId;
+use super::rare::Rare;
+use crate::rotation::Rotation;
+use crate::vector::Vector;
+
+/// Everything that organs of one plant state of themselves.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StatedOrgans {
+    /// Unit quaternions; all 0 where an organ follows insertion and trend.
+    turns: Rare<[f64; 4]>,
+    /// Offsets in the frame of the node, metres.
+    starts: Rare<[f32; 3]>,
+    /// The first corner and the number of corners.
+    spans: Rare<[u32; 2]>,
+    corners: Vec<[f32; 3]>,
+}
+
+impl StatedOrgans {
+    /// Whether no organ states a frame.
+    #[inline]
+    pub fn keep_insertion(&self) -> bool {
+        self.turns.is_empty()
+    }
+
+    /// Whether no organ has an outline.
+    #[inline]
+    pub fn have_forms(&self) -> bool {
+        self.spans.is_empty()
+    }
+
+    /// How an organ is turned in the frame of its node, and where it begins there; `None` where it states no frame.
+    pub(crate) fn frame(&self, organ: OrganId) -> Option<(Rotation, [f32; 3])> {
+        let turn = self.turns.at(organ.index());
+        (turn != [0.0; 4]).then(|| (Rotation::of_parts(turn), self.starts.at(organ.index())))
+    }
+
+    /// Takes over what the organs of a fragment state, of which the first becomes the organ `first`.
+    pub(super) fn join(&mut self, more: &Self, first: usize) {
+        self.turns.join(&more.turns, |organ| first + organ);
+        self.starts.join(&more.starts, |organ| first + organ);
+        let corners = self.corners.len() as u32;
+        self.spans.join(&more.spans, |organ| first + organ);
+        if !more.spans.is_empty() {
+            self.spans.change_from(first, |[start, count]| [start + corners, count]);
+            self.corners.extend_from_slice(&more.corners);
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.turns.clear();
+        self.starts.clear();
+        self.spans.clear();
+        self.corners.clear();
+    }
+}
+
+impl Plant {
+    /// States the frame of an organ in that of its node: how it is turned, and where it begins from the tip of the
+    /// internode, metres along its heading, to its left and to its upper side.
+    pub fn state_organ(&mut self, organ: OrganId, rotation: Rotation, offset: [f32; 3]) {
+        self.stated_organs.turns.set(organ.index(), rotation.parts());
+        if offset != [0.0; 3] || !self.stated_organs.starts.is_empty() {
+            self.stated_organs.starts.set(organ.index(), offset);
+        }
+    }
+
+    /// Gives an organ the polygon that it fills, and the area of it; of fewer than three corners none.
+    pub fn state_outline(&mut self, organ: OrganId, corners: &[[f32; 3]]) {
+        let of = &mut self.stated_organs;
+        let count = if corners.len() < 3 { 0 } else { corners.len() };
+        of.spans.set(organ.index(), [of.corners.len() as u32, count as u32]);
+        of.corners.extend_from_slice(&corners[..count]);
+        self.organs.area[organ.index()] = area(&corners[..count]) as f32;
+    }
+
+    /// The corners of the polygon that an organ fills, in its frame, metres when it is full-grown; empty where it has
+    /// the shape of its form.
+    #[inline]
+    pub fn outline_of(&self, organ: OrganId) -> &[[f32; 3]] {
+        let [start, count] = self.stated_organs.spans.at(organ.index());
+        &self.stated_organs.corners[start as usize..(start + count) as usize]
+    }
+}
+
+/// The area of a plane polygon by Newell's sum over its edges, m²; of one that is not plane that of its shadow along its
+/// mean normal.
+fn area(corners: &[[f32; 3]]) -> f64 {
+    let Some(&first) = corners.first() else { return 0.0 };
+    let from = |corner: &[f32; 3]| Vector::from(*corner) - Vector::from(first);
+    let sum = corners.windows(2).fold(Vector::default(), |sum, edge| sum + from(&edge[0]).cross(from(&edge[1])));
+    0.5 * sum.dot(sum).sqrt()
+}

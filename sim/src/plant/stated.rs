@@ -1,0 +1,264 @@
+//! Rest frames that a model, or an event, states: of nodes and axes, instead of insertion, phyllotaxis and trend.
+//!
+//! A node states how it is turned in the frame of its parent node, and the first node of an axis, or the bud that the
+//! axis still is, in the frame of its bearing node; an axis without a bearer in the frame of the ground, whose heading
+//! is the upward vertical and whose upper side faces along X. A frame stands at the tip of its internode; what begins
+//! elsewhere states its start, as an offset in the coordinates of that frame ([`crate::rotation`] has them). What is
+//! said of the first node of an axis is said of the axis: both are one entry.
+//! A change holds from its tick on, earlier ages keep what was there before. What states nothing follows insertion and
+//! trend, also in a plant in which others state; a plant that states nothing has empty columns.
+//! Absent: what follows from the frames, which is the work of [`crate::pose`] and [`crate::mechanics`].
+
+use super::Plant;
+use super::axis::AxisId;
+use super::fragment::Joint;
+use super::node::{NodeId, Nodes};
+use super::rare::Rare;
+use crate::clock::Tick;
+use crate::rotation::Rotation;
+
+/// What is said of the rest frame of a node or of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Rest {
+    /// Nothing: it follows insertion, phyllotaxis and trend.
+    #[default]
+    Follows,
+    /// How it is turned in the frame of what bears it.
+    Turned(Rotation),
+    /// Its heading in the frame of the plant. Its upper side is that of what bears it, turned no more than the heading
+    /// is. A heading without a direction is that of what bears it.
+    Heading([f32; 3]),
+}
+
+/// What has a rest frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Part {
+    /// An axis, from its bud on: the frame of its first node.
+    Axis(AxisId),
+    /// A node.
+    Node(NodeId),
+}
+
+impl From<AxisId> for Part {
+    fn from(axis: AxisId) -> Self {
+        Self::Axis(axis)
+    }
+}
+
+impl From<NodeId> for Part {
+    fn from(node: NodeId) -> Self {
+        Self::Node(node)
+    }
+}
+
+/// A rest frame from a tick on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Change {
+    part: Part,
+    tick: Tick,
+    rest: Rest,
+}
+
+/// Everything that is stated of the rest frames of one plant.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StatedFrames {
+    axes: Column,
+    nodes: Column,
+    /// Sorted by part and tick.
+    changes: Vec<Change>,
+}
+
+/// What axes, or nodes, state at their birth.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Column {
+    /// Unit quaternions; all 0 where none is stated.
+    turns: Rare<[f64; 4]>,
+    /// Directions in the frame of the plant; all 0 where none is stated.
+    headings: Rare<[f32; 3]>,
+    /// Offsets in the frame of the bearer, metres.
+    starts: Rare<[f32; 3]>,
+}
+
+impl Column {
+    #[inline]
+    fn rest(&self, place: usize) -> Rest {
+        let turn = self.turns.at(place);
+        if turn != [0.0; 4] {
+            return Rest::Turned(Rotation::of_parts(turn));
+        }
+        let heading = self.headings.at(place);
+        if heading == [0.0; 3] { Rest::Follows } else { Rest::Heading(heading) }
+    }
+
+    fn state(&mut self, place: usize, rest: Rest) {
+        let (turn, heading) = match rest {
+            Rest::Follows => ([0.0; 4], [0.0; 3]),
+            Rest::Turned(rotation) => (rotation.parts(), [0.0; 3]),
+            Rest::Heading(heading) => ([0.0; 4], heading),
+        };
+        if turn != [0.0; 4] || !self.turns.is_empty() {
+            self.turns.set(place, turn);
+        }
+        if heading != [0.0; 3] || !self.headings.is_empty() {
+            self.headings.set(place, heading);
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.turns.is_empty() && self.headings.is_empty() && self.starts.is_empty()
+    }
+
+    fn join(&mut self, more: &Self, place: impl Fn(usize) -> usize) {
+        self.turns.join(&more.turns, &place);
+        self.headings.join(&more.headings, &place);
+        self.starts.join(&more.starts, &place);
+    }
+
+    fn clear(&mut self) {
+        self.turns.clear();
+        self.headings.clear();
+        self.starts.clear();
+    }
+}
+
+impl StatedFrames {
+    /// Whether nothing is stated.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.axes.is_empty() && self.nodes.is_empty() && self.changes.is_empty()
+    }
+
+    /// What an axis, or a node that is not the first of its axis, states at `age`.
+    #[inline]
+    pub(crate) fn rest(&self, part: Part, age: Tick) -> Rest {
+        if let Some(rest) = self.changed(part, age) {
+            return rest;
+        }
+        match part {
+            Part::Axis(axis) => self.axes.rest(axis.index()),
+            Part::Node(node) => self.nodes.rest(node.index()),
+        }
+    }
+
+    #[inline]
+    fn changed(&self, part: Part, age: Tick) -> Option<Rest> {
+        if self.changes.is_empty() {
+            return None;
+        }
+        let after = self.changes.partition_point(|change| (change.part, change.tick) <= (part, age));
+        let last = self.changes[..after].last()?;
+        (last.part == part).then_some(last.rest)
+    }
+
+    /// Where it begins, in the frame of what bears it, from the tip of that.
+    #[inline]
+    pub(crate) fn start(&self, part: Part) -> [f32; 3] {
+        match part {
+            Part::Axis(axis) => self.axes.starts.at(axis.index()),
+            Part::Node(node) => self.nodes.starts.at(node.index()),
+        }
+    }
+
+    /// Whether any axis begins elsewhere than at the tip of its bearer.
+    #[inline]
+    pub(crate) fn has_starts_of_axes(&self) -> bool {
+        !self.axes.starts.is_empty()
+    }
+
+    /// Whether a rest frame of `one` age is another at the `other`.
+    pub(crate) fn differ(&self, one: Tick, other: Tick) -> bool {
+        let span = one.min(other) + 1..=one.max(other);
+        self.changes.iter().any(|change| span.contains(&change.tick))
+    }
+
+    pub(super) fn join(&mut self, more: &Self, joint: &Joint) {
+        if more.is_empty() {
+            return;
+        }
+        self.axes.join(&more.axes, |axis| joint.axis(AxisId(axis as u32)).index());
+        self.nodes.join(&more.nodes, |node| joint.node(NodeId(node as u32)).index());
+        self.changes.extend(more.changes.iter().map(|change| {
+            let part = match change.part {
+                Part::Axis(axis) => Part::Axis(joint.axis(axis)),
+                Part::Node(node) => Part::Node(joint.node(node)),
+            };
+            Change { part, ..*change }
+        }));
+        self.changes.sort_by_key(|change| (change.part, change.tick));
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.axes.clear();
+        self.nodes.clear();
+        self.changes.clear();
+    }
+}
+
+/// What is said of the first node of an axis is said of the axis.
+fn one_entry(nodes: &Nodes, part: Part) -> Part {
+    match part {
+        Part::Node(node) if nodes.rank[node.index()] == 1 => Part::Axis(nodes.axis[node.index()]),
+        part => part,
+    }
+}
+
+impl Plant {
+    /// States the rest frame of a node or an axis, for all ages.
+    #[inline]
+    pub fn state_rest(&mut self, part: impl Into<Part>, rest: Rest) {
+        let part = one_entry(&self.nodes, part.into());
+        match part {
+            Part::Axis(axis) => self.stated.axes.state(axis.index(), rest),
+            Part::Node(node) => self.stated.nodes.state(node.index(), rest),
+        }
+        self.pose_again(part);
+    }
+
+    /// Forgets the frames where that of `part` may be among them.
+    fn pose_again(&mut self, part: Part) {
+        let appeared = match part {
+            Part::Axis(axis) => self.axes.appearance[axis.index()],
+            Part::Node(node) => self.nodes.birth[node.index()],
+        };
+        if appeared < self.frames.posed {
+            self.frames.clear();
+        }
+    }
+
+    /// States where a node or an axis begins, for all ages: an offset from the tip of what bears it, metres, along its
+    /// heading, to its left and to its upper side. A child in the middle of its bearer begins half of that one's length
+    /// behind its tip.
+    pub fn state_start(&mut self, part: impl Into<Part>, offset: [f32; 3]) {
+        let part = one_entry(&self.nodes, part.into());
+        let (column, place) = match part {
+            Part::Axis(axis) => (&mut self.stated.axes.starts, axis.index()),
+            Part::Node(node) => (&mut self.stated.nodes.starts, node.index()),
+        };
+        if offset != [0.0; 3] || !column.is_empty() {
+            column.set(place, offset);
+        }
+        self.pose_again(part);
+    }
+
+    /// Changes a rest frame from `tick` on; the ages before keep theirs. Of two changes of one tick the later call
+    /// holds.
+    pub fn change_rest(&mut self, part: impl Into<Part>, tick: Tick, rest: Rest) {
+        let part = one_entry(&self.nodes, part.into());
+        let changes = &mut self.stated.changes;
+        match changes.binary_search_by_key(&(part, tick), |change| (change.part, change.tick)) {
+            Ok(place) => changes[place].rest = rest,
+            Err(place) => changes.insert(place, Change { part, tick, rest }),
+        }
+        self.frames.clear();
+    }
+
+    /// What is stated of the rest frame of a node at `age`; of the first node of an axis that of the axis.
+    pub fn rest_of(&self, part: impl Into<Part>, age: Tick) -> Rest {
+        self.stated.rest(one_entry(&self.nodes, part.into()), age)
+    }
+
+    /// Where a node or an axis begins, as [`Plant::state_start`] has it.
+    pub fn start_of(&self, part: impl Into<Part>) -> [f32; 3] {
+        self.stated.start(one_entry(&self.nodes, part.into()))
+    }
+}

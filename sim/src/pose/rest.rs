@@ -1,0 +1,229 @@
+//! The directions of an axis at rest, internode by internode: the one thing that the two ways to state rest geometry do
+//! apart. The scans of the pose (`scan`, `bent`) are written once over both.
+//!
+//! [`Trended`] is the course of plants of which insertion, phyllotaxis and trend make the directions. [`Stated`] is that
+//! of plants in which some frames are stated: each node, and each axis, by what it states or by insertion and trend.
+//! Heading and upper side are carried in double precision, so that a stated axis of many nodes does not drift.
+
+use crate::clock::Tick;
+use crate::plant::frames::{Along, Directions, Frame, Frames, Plane, Stated, Trended};
+use crate::plant::stated::{Part, Rest, StatedFrames};
+use crate::plant::{Axes, AxisId, NodeId, Trend};
+use crate::rotation::Rotation;
+use crate::vector::Vector;
+
+/// Below this square of its length a vector has no direction.
+const NOTHING: f64 = 1e-12;
+
+/// What a course reads on its way along one axis.
+pub(crate) struct Way<'a> {
+    pub axes: &'a Axes,
+    pub axis: AxisId,
+    /// The trends from which its internodes name theirs.
+    pub trends: &'a [Trend],
+    pub stated: &'a StatedFrames,
+    /// The lengths of the internodes of the plant at the age.
+    pub lengths: &'a [f32],
+    pub age: Tick,
+}
+
+/// The directions at rest of one axis, as far as a scan has come.
+pub(crate) trait Course: Copy {
+    /// Whether what an axis leaves is found with its first node, and nodes may begin beside their bearer.
+    const STATED: bool;
+
+    /// The course of `axis`, which leaves an internode of these directions and this length.
+    fn leaving(bearing: Directions, length: f64, axes: &Axes, axis: usize) -> Self;
+
+    /// Where the next node begins: an offset in the frame that the course has come to, where one is stated.
+    /// `begins`: it is the first of its axis.
+    fn start(&self, way: &Way<'_>, node: usize, begins: bool) -> Option<[f64; 3]>;
+
+    /// Goes on to `node`, which names `trend`; whether the directions have changed. The first node of an axis, and one
+    /// whose trend is not among those of the way, goes straight on.
+    fn next(&mut self, way: &Way<'_>, node: usize, trend: u8, begins: bool) -> bool;
+
+    /// The directions that it has come to.
+    fn directions(&self) -> Directions;
+
+    /// The length of the internode that it has come to; asked where it is [`Course::STATED`].
+    fn length(&self) -> f64;
+
+    /// The course of an axis that goes on, which left with the course `left`.
+    fn resumed(frames: &Frames, axis: usize, left: Self) -> Self;
+
+    /// Leaves the course for [`Course::resumed`].
+    fn keep(self, frames: &mut Frames, axis: usize);
+}
+
+impl Trended {
+    fn inserted([heading, up]: Directions, axes: &Axes, axis: usize) -> Self {
+        let rest = Frame { base: [0.0; 3], heading: heading.single(), up: up.single() };
+        let (plane, slope) = Plane::of(&rest.inserted(axes.azimuth[axis], axes.insertion[axis]));
+        Self { plane, slope }
+    }
+}
+
+impl Course for Trended {
+    const STATED: bool = false;
+
+    #[inline]
+    fn leaving(bearing: Directions, _: f64, axes: &Axes, axis: usize) -> Self {
+        Self::inserted(bearing, axes, axis)
+    }
+
+    #[inline(always)]
+    fn start(&self, _: &Way<'_>, _: usize, _: bool) -> Option<[f64; 3]> {
+        None
+    }
+
+    #[inline(always)]
+    fn next(&mut self, way: &Way<'_>, _: usize, trend: u8, begins: bool) -> bool {
+        let turn = way.trends.get(usize::from(trend)).filter(|trend| trend.share > 0.0 && !begins);
+        if let Some(trend) = turn {
+            self.slope = self.slope.turned(trend);
+        }
+        turn.is_some()
+    }
+
+    #[inline(always)]
+    fn directions(&self) -> Directions {
+        [self.plane.heading(self.slope), self.plane.up(self.slope)]
+    }
+
+    #[inline(always)]
+    fn length(&self) -> f64 {
+        0.0
+    }
+
+    #[inline]
+    fn resumed(frames: &Frames, axis: usize, left: Self) -> Self {
+        Self { slope: frames.tips[axis].slope, ..left }
+    }
+
+    #[inline]
+    fn keep(self, frames: &mut Frames, axis: usize) {
+        frames.tips[axis].slope = self.slope;
+    }
+}
+
+impl Stated {
+    /// The first internode of an axis that leaves these directions.
+    fn begun(bearing: Directions, way: &Way<'_>) -> Along {
+        match way.stated.rest(Part::Axis(way.axis), way.age) {
+            Rest::Follows => Along::Trended(Trended::inserted(bearing, way.axes, way.axis.index())),
+            rest => Along::Turned(turned(bearing, rest)),
+        }
+    }
+
+    /// Directions that turn to a trend, whatever made them.
+    fn tending(&self) -> Trended {
+        match self.along {
+            Along::Trended(trended) => trended,
+            Along::Turned([heading, up]) => {
+                let (plane, slope) = Plane::through(heading, up);
+                Trended { plane, slope }
+            }
+        }
+    }
+}
+
+impl Course for Stated {
+    const STATED: bool = true;
+
+    fn leaving(bearing: Directions, length: f64, _: &Axes, _: usize) -> Self {
+        Self { along: Along::Turned(bearing), length }
+    }
+
+    fn start(&self, way: &Way<'_>, node: usize, begins: bool) -> Option<[f64; 3]> {
+        let part = if begins { Part::Axis(way.axis) } else { Part::Node(NodeId(node as u32)) };
+        let start = way.stated.start(part);
+        (begins || start != [0.0; 3]).then(|| start.map(f64::from))
+    }
+
+    fn next(&mut self, way: &Way<'_>, node: usize, trend: u8, begins: bool) -> bool {
+        self.length = f64::from(way.lengths[node]);
+        if begins {
+            self.along = Self::begun(self.directions(), way);
+            return true;
+        }
+        match way.stated.rest(Part::Node(NodeId(node as u32)), way.age) {
+            Rest::Follows => {
+                let mut trended = self.tending();
+                let turns = trended.next(way, node, trend, begins);
+                if turns {
+                    self.along = Along::Trended(trended);
+                }
+                turns
+            }
+            rest => {
+                self.along = Along::Turned(turned(self.directions(), rest));
+                true
+            }
+        }
+    }
+
+    fn directions(&self) -> Directions {
+        match &self.along {
+            Along::Trended(trended) => trended.directions(),
+            Along::Turned(directions) => *directions,
+        }
+    }
+
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    fn resumed(frames: &Frames, axis: usize, left: Self) -> Self {
+        frames.courses.get(axis).copied().unwrap_or(left)
+    }
+
+    fn keep(self, frames: &mut Frames, axis: usize) {
+        if frames.courses.len() <= axis {
+            frames.courses.resize(frames.tips.len().max(axis + 1), self);
+        }
+        frames.courses[axis] = self;
+    }
+}
+
+/// The directions of what states its rest frame on a bearer of the directions `bearing`.
+pub(super) fn turned(bearing: Directions, rest: Rest) -> Directions {
+    match rest {
+        Rest::Follows => bearing,
+        Rest::Turned(rotation) => within(bearing, rotation),
+        Rest::Heading(heading) => {
+            // From what is stored of the bearer, in single precision.
+            let [was, up] = bearing.map(|direction| Vector::from(direction.single()));
+            let heading = direction_of(heading).unwrap_or(was);
+            [heading, carried(up, was, heading)]
+        }
+    }
+}
+
+/// The directions after a rotation within a frame.
+pub(super) fn within(bearing: Directions, rotation: Rotation) -> Directions {
+    let [x, z] = [Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 0.0, 1.0)].map(|axis| rotation.of(axis));
+    [placed(bearing, [x.x, x.y, x.z]), placed(bearing, [z.x, z.y, z.z])]
+}
+
+/// Coordinates in a frame as a vector of the plant.
+pub(crate) fn placed([heading, up]: Directions, [x, y, z]: [f64; 3]) -> Vector {
+    heading * x + up.cross(heading) * y + up * z
+}
+
+/// A stated heading, where it is a direction.
+fn direction_of(heading: [f32; 3]) -> Option<Vector> {
+    let heading = Vector::from(heading);
+    let square = heading.dot(heading);
+    (square > NOTHING && square.is_finite()).then(|| heading * (1.0 / square.sqrt()))
+}
+
+/// `up` of a bearer with heading `was`, carried to a child with `heading` by projection, so that it turns no more than
+/// the heading does. Where the heading turns into `up` itself, the bearer's own direction takes its place.
+fn carried(up: Vector, was: Vector, heading: Vector) -> Vector {
+    let along = up.dot(heading);
+    let across = up - heading * along;
+    let across = if across.dot(across) > NOTHING { across } else { was * -along.signum() };
+    let across = across - heading * across.dot(heading);
+    across * (1.0 / across.dot(across).sqrt())
+}

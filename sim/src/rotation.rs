@@ -1,0 +1,194 @@
+//! Rotations in double precision: how a component stands in the frame of what bears it.
+//!
+//! The coordinates of a frame are x along its heading, y to its left (up × heading) and z along its upper side. A
+//! rotation turns within those: `a.then(b)` is a, and then b in the frame that a has made, as a turtle turns.
+
+use crate::math::sincos;
+use crate::vector::Vector;
+
+/// The square of the turn from which on it is no longer small, rad².
+const FAR: f64 = 0.25;
+
+/// Below this square of its length a vector has no direction.
+const NOTHING: f64 = 1e-24;
+
+/// A rotation as a unit quaternion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rotation {
+    scalar: f64,
+    vector: Vector,
+}
+
+impl Rotation {
+    /// What turns nothing.
+    pub const NONE: Self = Self { scalar: 1.0, vector: Vector { x: 0.0, y: 0.0, z: 0.0 } };
+
+    /// By `angle`, radians, about an axis by the rule of the right hand; nothing about an axis without direction.
+    pub fn about(axis: [f64; 3], angle: f64) -> Self {
+        let axis = Vector::of(axis);
+        let square = axis.dot(axis);
+        if !(square > NOTHING && square.is_finite() && angle.is_finite()) {
+            return Self::NONE;
+        }
+        let (sin, cos) = sincos(0.5 * angle);
+        Self { scalar: cos, vector: axis * (sin / square.sqrt()) }
+    }
+
+    /// The rotation after which a component has this heading and this upper side, both in the coordinates of the frame
+    /// that bears it. Of `up` the part across the heading counts. Where either has no direction, or both have the same,
+    /// the turn from x to the heading that is the shortest.
+    pub fn to(heading: [f64; 3], up: [f64; 3]) -> Self {
+        let heading = Vector::of(heading);
+        let Some(x) = heading.unit() else { return Self::NONE };
+        let up = Vector::of(up);
+        let Some(z) = (up - x * up.dot(x)).unit() else { return Self::shortest(x) };
+        Self::of_basis(x, z.cross(x), z)
+    }
+
+    /// The quaternion of a right-handed basis (Shepperd 1978): the largest of its four parts is divided by, so that
+    /// nothing is lost near half a turn.
+    fn of_basis(x: Vector, y: Vector, z: Vector) -> Self {
+        let squares = [1.0 + x.x + y.y + z.z, 1.0 + x.x - y.y - z.z, 1.0 - x.x + y.y - z.z, 1.0 - x.x - y.y + z.z];
+        let [w, a, b, c] = squares;
+        let (scalar, vector) = if w >= a && w >= b && w >= c {
+            (w, Vector::new(y.z - z.y, z.x - x.z, x.y - y.x))
+        } else if a >= b && a >= c {
+            (y.z - z.y, Vector::new(a, x.y + y.x, z.x + x.z))
+        } else if b >= c {
+            (z.x - x.z, Vector::new(x.y + y.x, b, y.z + z.y))
+        } else {
+            (x.y - y.x, Vector::new(z.x + x.z, y.z + z.y, c))
+        };
+        Self { scalar, vector }.normalized()
+    }
+
+    fn shortest(x: Vector) -> Self {
+        let scalar = 1.0 + x.x;
+        if scalar > 1e-12 {
+            Self { scalar, vector: Vector::new(0.0, -x.z, x.y) }.normalized()
+        } else {
+            Self { scalar: 0.0, vector: Vector::new(0.0, 0.0, 1.0) }
+        }
+    }
+
+    /// This, and then `next` in the frame that this has made.
+    #[inline]
+    pub fn then(self, next: Self) -> Self {
+        self.within(next.scalar, next.vector)
+    }
+
+    /// A vector, turned.
+    pub fn turned(self, vector: [f64; 3]) -> [f64; 3] {
+        let Vector { x, y, z } = self.of(Vector::of(vector));
+        [x, y, z]
+    }
+
+    /// Scalar and vector as they are stored: of a unit quaternion, never all 0.
+    #[inline]
+    pub(crate) fn parts(self) -> [f64; 4] {
+        [self.scalar, self.vector.x, self.vector.y, self.vector.z]
+    }
+
+    /// The rotation of stored parts.
+    #[inline]
+    pub(crate) fn of_parts([scalar, x, y, z]: [f64; 4]) -> Self {
+        Self { scalar, vector: Vector::new(x, y, z) }
+    }
+
+    /// This, and then within it the rotation by a small vector w. Of tan(θ/2) θ/2 + θ³/24 is taken, and of the length
+    /// of the product, which is √(1 + tan²(θ/2)), the first terms of its series: together they are 10⁻⁵ rad short for a
+    /// turn of half a radian.
+    #[inline]
+    pub(crate) fn by(self, turn: Vector) -> Self {
+        let square = turn.dot(turn);
+        if square > FAR {
+            return self.by_far(turn, square);
+        }
+        let vector = turn * (0.5 + square * (1.0 / 24.0));
+        let t = vector.dot(vector);
+        let shrink = 1.0 - t * (0.5 - t * (0.375 - t * 0.3125));
+        self.within(shrink, vector * shrink)
+    }
+
+    /// The same for any turn.
+    #[cold]
+    fn by_far(self, turn: Vector, square: f64) -> Self {
+        let angle = square.sqrt();
+        let (sin, cos) = sincos(0.5 * angle);
+        self.within(cos, turn * (sin / angle))
+    }
+
+    #[inline]
+    fn within(self, scalar: f64, vector: Vector) -> Self {
+        Self {
+            scalar: self.scalar * scalar - self.vector.dot(vector),
+            vector: vector * self.scalar + self.vector * scalar + self.vector.cross(vector),
+        }
+    }
+
+    #[inline]
+    pub(crate) fn of(self, direction: Vector) -> Vector {
+        let across = self.vector.cross(direction) * 2.0;
+        direction + across * self.scalar + self.vector.cross(across)
+    }
+
+    /// With its length, from which rounding has moved it, back at 1.
+    pub(crate) fn normalized(self) -> Self {
+        let scale = 1.0 / (self.scalar * self.scalar + self.vector.dot(self.vector)).sqrt();
+        Self { scalar: self.scalar * scale, vector: self.vector * scale }
+    }
+}
+
+impl Vector {
+    fn of([x, y, z]: [f64; 3]) -> Self {
+        Self::new(x, y, z)
+    }
+
+    /// Its direction, where it has one.
+    pub(crate) fn unit(self) -> Option<Self> {
+        let square = self.dot(self);
+        (square > NOTHING && square.is_finite()).then(|| self * (1.0 / square.sqrt()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    fn near(a: [f64; 3], b: [f64; 3]) {
+        assert!((0..3).all(|k| (a[k] - b[k]).abs() < 1e-12), "{a:?} {b:?}");
+    }
+
+    #[test]
+    fn a_turtle_turns_in_its_own_frame() {
+        let left = Rotation::about([0.0, 0.0, 1.0], FRAC_PI_2);
+        let rolled = left.then(Rotation::about([1.0, 0.0, 0.0], FRAC_PI_2));
+        near(left.turned([1.0, 0.0, 0.0]), [0.0, 1.0, 0.0]);
+        near(rolled.turned([1.0, 0.0, 0.0]), [0.0, 1.0, 0.0]);
+        near(rolled.turned([0.0, 0.0, 1.0]), [1.0, 0.0, 0.0]);
+    }
+
+    /// Whatever the angle, up to half a turn about any axis.
+    #[test]
+    fn a_rotation_is_found_from_its_directions() {
+        for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 2.0, -0.5], [-0.3, 0.1, 0.9]] {
+            for angle in [0.0, 1e-9, 0.3, FRAC_PI_2, 3.0, PI - 1e-9, PI, -2.0] {
+                let rotation = Rotation::about(axis, angle);
+                let (heading, up) = (rotation.turned([1.0, 0.0, 0.0]), rotation.turned([0.0, 0.0, 1.0]));
+                let found = Rotation::to(heading, up.map(|x| 3.0 * x));
+                near(found.turned([0.2, -0.7, 1.1]), rotation.turned([0.2, -0.7, 1.1]));
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_no_direction_turns_nothing_and_no_upper_side_is_the_shortest_turn() {
+        assert_eq!(Rotation::to([0.0; 3], [0.0, 0.0, 1.0]), Rotation::NONE);
+        assert_eq!(Rotation::to([f64::NAN; 3], [0.0, 0.0, 1.0]), Rotation::NONE);
+        assert_eq!(Rotation::about([0.0; 3], 1.0), Rotation::NONE);
+        for heading in [[0.0, 0.6, 0.8], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]] {
+            near(Rotation::to(heading, heading).turned([1.0, 0.0, 0.0]), heading);
+        }
+    }
+}
