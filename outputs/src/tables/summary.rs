@@ -77,7 +77,7 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
     let axes = &plant.axes;
     let mut low = [f32::INFINITY; 3];
     let mut high = [f32::NEG_INFINITY; 3];
-    // The internodes of an axis die and fall together.
+    // What stands of an axis lives, or is dead, as a whole.
     plant.each_standing(age, |stretch| {
         let (axis, standing) = (stretch.axis, stretch.nodes());
         let frusta = standing.clone().map(|node| wood_volume(plant, NodeId(node as u32)));

@@ -25,7 +25,7 @@ mod outline;
 mod own_look;
 mod rare;
 pub(crate) mod standing;
-pub mod stated;
+pub(crate) mod stated;
 mod strain;
 mod wood;
 
