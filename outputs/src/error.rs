@@ -3,7 +3,8 @@
 //! A failed write ends the run: nothing here is logged and passed over. A message does not repeat its cause, which
 //! `source` has: a person is shown the whole chain.
 
-use crate::run_folder::{Bytes, Differences, Holder};
+use crate::run_folder::{Differences, Holder};
+use crate::storage::space::Bytes;
 use parquet::errors::ParquetError;
 use std::path::{Path, PathBuf};
 

@@ -13,13 +13,14 @@ pub mod rows;
 pub mod run_folder;
 #[cfg(test)]
 mod specimen;
+mod storage;
 pub mod tables;
 
 pub use destination::Destination;
 pub use error::Error;
 pub use run_folder::{
-    Bytes, Checking, Checkup, Depth, Difference, Differences, FileReport, Finding, FreeSpace, Holder, Input, Mode,
-    Opening, OvergrownPlot, Provenance, RunFolder, RunPlan, RunReport, Shard, ShardReport, Space, State, SystemSpace,
-    Trouble, check,
+    Checking, Checkup, Depth, Difference, Differences, FileReport, Finding, Holder, Mode, Opening, OvergrownPlot,
+    RunFolder, RunReport, Shard, ShardReport, State, Trouble, check,
 };
-pub use tables::Table;
+pub use storage::space::{Bytes, FreeSpace, Space, SystemSpace};
+pub use tables::{Input, Provenance, RunPlan, Table};

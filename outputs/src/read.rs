@@ -5,7 +5,8 @@
 //! from what it says.
 
 use crate::Error;
-use crate::run_folder::{Papers, RunJson, files_in};
+use crate::run_folder::{Papers, RunJson};
+use crate::storage::durable::files_in;
 use crate::tables::Table;
 use arrow_array::types::{Float64Type, Int32Type};
 use arrow_array::{Array, BooleanArray, PrimitiveArray, RecordBatch};

@@ -6,6 +6,7 @@
 //! itself (Hallé, Oldeman & Tomlinson 1978), so all that it bears is left aside; but an axis of order 1 out of the base
 //! of another of order 1 is a basal shoot, of which Tomlinson's and McClure's models are made. Absent: any judgement.
 
+use super::tolerance::PLAGIOTROPIC_DEG;
 use phytomer_outputs::rows::ComponentRow;
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{Cause, Class, Kind, Origin};
@@ -100,6 +101,11 @@ impl Axis {
     pub fn last_trend(&self) -> Option<f32> {
         self.nodes.last().and_then(|node| node.trend)
     }
+}
+
+/// Whether an axis that tends to such an angle to the vertical, in degrees, is plagiotropic.
+pub fn is_plagiotropic(trend_deg: f32) -> bool {
+    trend_deg > PLAGIOTROPIC_DEG
 }
 
 /// The axes of a plant by their numbers, those among them that are buds still: a bearing axis comes before those that

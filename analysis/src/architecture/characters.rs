@@ -5,39 +5,13 @@
 //! weight, and how a trunk's base rights itself, are read from recorded directions, because two models are defined by
 //! it. Absent: the models, which `models` states over these.
 
-use super::axes::{Axis, Standing, axes_of};
+use super::axes::{Axis, Standing, axes_of, is_plagiotropic};
 use super::lie::{Lie, lie_of};
 use super::relays::{Relays, relays_of};
-use super::tolerance::{PLAGIOTROPIC_DEG, TIER_SHARE};
+use super::share::Share;
+use super::tolerance::TIER_SHARE;
 use phytomer_outputs::rows::{ComponentRow, PoseRow};
 use phytomer_sim::plant::{Cause, Kind, Origin};
-
-/// How many of those that were asked have a character.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Share {
-    /// Those that have it.
-    pub yes: u32,
-    /// Those that were asked.
-    pub of: u32,
-}
-
-impl Share {
-    /// Counts one more.
-    pub fn add(&mut self, has: bool) {
-        self.yes += u32::from(has);
-        self.of += 1;
-    }
-
-    /// The share; `None` where none was asked.
-    pub fn value(self) -> Option<f64> {
-        (self.of > 0).then(|| f64::from(self.yes) / f64::from(self.of))
-    }
-
-    /// Whether some were asked and at least `least` of them have it.
-    pub fn is_at_least(self, least: f64) -> bool {
-        self.value().is_some_and(|share| share >= least)
-    }
-}
 
 /// The characters of one plant.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -148,11 +122,6 @@ impl Characters {
             }
         }
     }
-}
-
-/// Whether an axis that tends to such an angle to the vertical, in degrees, is plagiotropic.
-pub fn is_plagiotropic(trend_deg: f32) -> bool {
-    trend_deg > PLAGIOTROPIC_DEG
 }
 
 /// Whether the branches of the trunk stand in the outer halves of growth units. A growth unit of fewer than four nodes

@@ -4,12 +4,9 @@
 //! turn before they fall with the season, fruits ripen by way of a third colour. What a species states holds; the rest
 //! is a palette by kind and form, by eye: nothing is measured from it. Every picture takes its colours from here.
 
-use super::palette;
+use super::palette::{self, Rgb};
 use phytomer_sim::clock::{NEVER, Tick};
 use phytomer_sim::plant::{Cause, Class, Colour, InternodeLook, OrganId, OrganLook, Plant};
-
-/// Red, green and blue, 0 to 255.
-pub(super) type Rgb = [f32; 3];
 
 const DEAD_WOOD: Rgb = [150.0, 145.0, 138.0];
 /// The share of that colour in dead wood.

@@ -2,8 +2,10 @@
 //!
 //! By eye, after fresh plants in daylight; sRGB. Absent: how colours change with age and season (`colour`).
 
-use super::colour::Rgb;
 use phytomer_sim::plant::{Class, Form, Kind};
+
+/// Red, green and blue, 0 to 255.
+pub type Rgb = [f32; 3];
 
 /// The colours of an organ.
 #[derive(Debug, Clone, Copy)]

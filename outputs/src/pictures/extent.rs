@@ -3,7 +3,7 @@
 //! Under perspective a picture is bounded by four planes through the eye; the farthest point of a plant across each is
 //! all that is needed to find the nearest eye that sees it whole. Maxima do not depend on the order of points.
 
-use super::camera::Gaze;
+use super::gaze::Gaze;
 use glam::Vec3;
 
 /// What is bounded, as seen along a gaze.

@@ -15,6 +15,7 @@ mod colouring;
 mod draw;
 mod extent;
 mod film;
+mod gaze;
 mod ground;
 mod letters;
 mod palette;
@@ -35,8 +36,8 @@ pub use colouring::colour_columns;
 
 use crate::Error;
 use crate::meshes::OwnForms;
-use camera::Gaze;
 use cast::Cast;
+use gaze::Gaze;
 use glam::Vec3;
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;

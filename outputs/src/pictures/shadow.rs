@@ -4,9 +4,10 @@
 //! something lies nearer to the sun; the taps of a penumbra widen with the distance to it, as those of the sun's disc
 //! do.
 
-use super::camera::{Camera, Gaze};
+use super::camera::Camera;
 use super::extent::Extent;
 use super::film::keep_nearest;
+use super::gaze::Gaze;
 use super::raster::{UPRIGHT, Window, cover};
 use glam::Vec3;
 use phytomer_sim::math::sincosf;

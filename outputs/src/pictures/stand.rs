@@ -5,9 +5,10 @@
 //! picture of ten million triangles needs no more memory than one of ten. What is left by them is sums of whole numbers
 //! and maxima, so their order shows nowhere.
 
-use super::camera::{Camera, Gaze};
+use super::camera::Camera;
 use super::extent::Extent;
 use super::film::{Film, Paint};
+use super::gaze::Gaze;
 use super::raster::{Window, turn};
 use super::shade::Light;
 use super::shadow::Shadow;

@@ -4,14 +4,14 @@
 //! `run.json` names the others with their hashes and ends with a check of itself, so that damage to any of them is
 //! found. Absent: the tables themselves, and the journal, which holds a run together until these are written.
 
-use super::durable;
+use super::identity::{fingerprint, identity};
 use super::journal::{FileReport, JOURNAL, OvergrownPlot, ShardReport};
-use super::plan::RunPlan;
 use super::seal::DOCUMENT;
 use crate::Error;
-use crate::tables::Table;
+use crate::storage::durable;
 use crate::tables::arrow::plant_ontology;
 use crate::tables::schema::{Column, Type};
+use crate::tables::{RunPlan, Table};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -109,8 +109,8 @@ pub fn write_end(
 
 fn run(plan: &RunPlan, status: &str) -> Map<String, Value> {
     let mut run = Map::from_iter([("format".to_owned(), json!("phytomer run")), ("status".to_owned(), json!(status))]);
-    run.extend(plan.identity());
-    run.insert("fingerprint".to_owned(), json!(plan.fingerprint()));
+    run.extend(identity(plan));
+    run.insert("fingerprint".to_owned(), json!(fingerprint(plan)));
     run.insert("resolved_scenario".to_owned(), plan.provenance.resolved.clone());
     run
 }

@@ -5,9 +5,9 @@
 //! next one too. Where two lines name the same shard the later one holds. No line ever follows a torn one: what a
 //! failed write left is taken back, and where even that fails the journal takes no more.
 
-use super::durable;
 use super::seal::LINE;
 use crate::Error;
+use crate::storage::durable;
 use crate::tables::Table;
 use phytomer_sim::Tick;
 use serde::{Deserialize, Serialize};
@@ -78,7 +78,7 @@ impl ShardReport {
     }
 }
 
-/// A line of the journal: a shard, and the run that it belongs to ([`super::plan::RunPlan::fingerprint`]).
+/// A line of the journal: a shard, and the run that it belongs to ([`super::identity::fingerprint`]).
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Line {
     #[serde(flatten)]

@@ -3,9 +3,10 @@
 //! Its files are written beside their final names and get those names in [`Shard::commit`], which ends with the shard's
 //! line in the journal. A shard that is dropped before leaves nothing.
 
+use super::RunFolder;
 use super::journal::{FileReport, OvergrownPlot, ShardReport};
-use super::{RunFolder, durable};
 use crate::Error;
+use crate::storage::durable;
 use crate::tables::{
     Columns, ComponentColumns, ComponentRow, EventColumns, Part, PartReport, PlantColumns, Queue, RecordColumns,
     RecordRow, Scene, Standing, SummaryColumns, Table, sort_events, summarise,

@@ -2,10 +2,9 @@
 //!
 //! Nothing in a file depends on the clock, the machine or the number of threads; `created_by` names this program.
 
-use super::Table;
 use super::columns::{PLANT_ONTOLOGY, SCHEMA_VERSION};
 use super::schema::{Column, Encoding, Type};
-use crate::run_folder::RunPlan;
+use super::{RunPlan, Table};
 use arrow_schema::{DataType, Field, Schema, SchemaRef};
 use parquet::basic::{Compression, Encoding as ParquetEncoding, ZstdLevel};
 use parquet::errors::ParquetError;

@@ -6,9 +6,10 @@
 use super::buffers::{Columns, Values};
 use super::encode::{Job, Queue, RowGroup};
 use super::schema::{Column, Named, Type};
-use super::{ROW_GROUP, Table, arrow};
+use super::{Provenance, ROW_GROUP, RunPlan, Table, arrow};
 use crate::Error;
-use crate::run_folder::{HashingFile, Provenance, RunPlan, Watch};
+use crate::storage::durable::HashingFile;
+use crate::storage::space::Watch;
 use arrow_array::StringArray;
 use arrow_schema::SchemaRef;
 use parquet::arrow::ArrowWriter;

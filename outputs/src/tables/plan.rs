@@ -1,16 +1,14 @@
-//! What a run is to write, known before its first tick; a run is resumed only under an equal plan.
+//! What a run is to write, known before its first tick: tables, ages, parts, and where the figures come from.
 //!
-//! The identity of a plan is everything that the bytes of the tables depend on; limits and threads are not in it.
+//! A table is written under a plan; a run folder is resumed under a plan equal to its own. Absent: limits and threads,
+//! which change no byte.
 
-use crate::tables::Table;
-use crate::tables::schema::Column;
+use super::Table;
+use super::schema::Column;
 use phytomer_sim::Tick;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::Value;
 use std::ops::Range;
-
-/// The version of the run folder's own files: 2 has checks in `run.json` and in each line of the journal.
-pub const FORMAT_VERSION: u32 = 2;
 
 /// The plan of a run.
 #[derive(Debug, Clone)]
@@ -80,38 +78,5 @@ impl RunPlan {
     /// The columns of a table in this run.
     pub fn columns(&self, table: Table) -> &'static [Column] {
         table.columns(self.mechanics)
-    }
-
-    /// Everything that the bytes of the tables depend on, key by key; the resolved scenario as its hash.
-    pub(super) fn identity(&self) -> Map<String, Value> {
-        let provenance = &self.provenance;
-        let identity = json!({
-            "format_version": FORMAT_VERSION,
-            "schema_version": crate::tables::columns::SCHEMA_VERSION,
-            "version": provenance.version,
-            "git_hash": provenance.git_hash,
-            "scenario": provenance.scenario,
-            "scenario_sha256": super::durable::sha256_of(provenance.resolved.to_string().as_bytes()),
-            "treatment": provenance.treatment,
-            "seed": provenance.seed,
-            "inputs": provenance.inputs,
-            "tables": self.tables,
-            "recorded_ages": self.recorded,
-            "until": self.until,
-            "plots": self.plots,
-            "plots_per_part": self.plots_per_part,
-            "compression": { "codec": "zstd", "level": self.compression_level },
-            "precision_m": self.precision_m,
-        });
-        let Value::Object(mut identity) = identity else { return Map::new() };
-        if self.mechanics {
-            identity.insert("mechanics".to_owned(), json!(true));
-        }
-        identity
-    }
-
-    /// A short name of the identity: the lines of the journal say by it which run they belong to.
-    pub(super) fn fingerprint(&self) -> String {
-        super::seal::check_of(Value::Object(self.identity()).to_string().as_bytes())
     }
 }
