@@ -5,7 +5,6 @@
 //! whole. Absent on purpose: growth rules.
 
 pub mod destination;
-mod error;
 pub mod meshes;
 pub mod pictures;
 pub mod read;
@@ -17,10 +16,10 @@ mod storage;
 pub mod tables;
 
 pub use destination::Destination;
-pub use error::Error;
 pub use run_folder::{
-    Checking, Checkup, Depth, Difference, Differences, FileReport, Finding, Holder, Mode, Opening, OvergrownPlot,
-    RunFolder, RunReport, Shard, ShardReport, State, Trouble, check,
+    Checking, Checkup, Depth, Difference, Differences, Error, FileReport, Finding, Holder, Mode, Opening,
+    OvergrownPlot, RunFolder, RunReport, Shard, ShardReport, State, Trouble, check,
 };
+pub use storage::FileError;
 pub use storage::space::{Bytes, FreeSpace, Space, SystemSpace};
 pub use tables::{Input, Provenance, RunPlan, Table};

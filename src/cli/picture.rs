@@ -10,11 +10,11 @@ use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use phytomer::run::drawing::{Portrait, portrait};
+use phytomer_outputs::Destination;
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::pictures::{
-    Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, colour_columns, draw, sheet, write_png,
+    Canvas, Compression, MOST_SUBJECTS, Picture as Style, PictureError, View, colour_columns, draw, sheet, write_png,
 };
-use phytomer_outputs::{Destination, Error};
 use phytomer_sim::Tick;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -142,7 +142,7 @@ impl Picture {
         Ok(Verdict::Done)
     }
 
-    fn draw(&self, portrait: &Portrait, forms: &Arc<OwnForms>) -> std::result::Result<Canvas, Error> {
+    fn draw(&self, portrait: &Portrait, forms: &Arc<OwnForms>) -> std::result::Result<Canvas, PictureError> {
         let view = match self.view {
             From::Perspective => Some(View::Perspective),
             From::Top => Some(View::Top),

@@ -8,10 +8,10 @@ use super::canvas::Canvas;
 use super::caption::{Align, fitting, letter_size, scale_bar, write, write_row};
 use super::colouring::{self, Legend, colours};
 use super::draw::{self, Set};
+use super::error::PictureError;
 use super::extent::Extent;
-use super::stand::Standing;
+use super::placed::PlacedPlant;
 use super::{MOST_SUBJECTS, Picture, Subject, View, letters};
-use crate::Error;
 use crate::meshes::MeshOptions;
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ const FLAT: f32 = 1.4;
 
 /// The plants of a picture with what is written of them.
 pub struct Cast<'a> {
-    plants: Vec<Standing<'a>>,
+    plants: Vec<PlacedPlant<'a>>,
     labels: Vec<&'a str>,
     legend: Option<Legend>,
     /// The angle by which whoever looks has gone on around them.
@@ -30,7 +30,7 @@ pub struct Cast<'a> {
 
 impl<'a> Cast<'a> {
     /// The plants of a picture, not yet in their places.
-    pub fn of(subjects: &'a [Subject], picture: &Picture) -> Result<Self, Error> {
+    pub fn of(subjects: &'a [Subject], picture: &Picture) -> Result<Self, PictureError> {
         let options = MeshOptions { sides: picture.sides, own: Arc::clone(&picture.own), ..MeshOptions::default() };
         let subjects = &subjects[..subjects.len().min(MOST_SUBJECTS)];
         let coloured = picture.colour_by.as_ref().map(|column| colours(column, subjects)).transpose()?;
@@ -38,7 +38,7 @@ impl<'a> Cast<'a> {
         let mut colours = colours.map(Vec::into_iter);
         let plants = subjects.iter().zip(0_u8..).map(|(subject, number)| {
             let colours = colours.as_mut().and_then(Iterator::next);
-            Standing::new(subject.plant, subject.age, &options, colours, number)
+            PlacedPlant::new(subject.plant, subject.age, &options, colours, number)
         });
         let labels = subjects.iter().map(|subject| subject.label.as_str()).collect();
         Ok(Self { plants: plants.collect(), labels, legend, turn: 0.0 })

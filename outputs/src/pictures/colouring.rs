@@ -6,8 +6,8 @@
 use super::Subject;
 use super::canvas::Canvas;
 use super::caption::{Align, write};
-use super::palette::{NOTHING, of_class, of_share};
-use crate::Error;
+use super::error::PictureError;
+use super::value_colours::{NOTHING, of_class, of_share};
 use crate::tables::columns::RECORDS;
 use crate::tables::record_values;
 use crate::tables::schema::{Column, Type};
@@ -41,17 +41,17 @@ pub fn colour_columns() -> impl Iterator<Item = &'static str> {
 /// The colours of every component of some plants by a column of `records`.
 ///
 /// # Errors
-/// [`Error::NoSuchColumn`]; [`Error::NothingToColour`] where no component has a value; a plant too large for tables.
-pub fn colours(column: &str, subjects: &[Subject]) -> Result<(Colours, Legend), Error> {
+/// [`PictureError::NoSuchColumn`]; [`PictureError::NothingToColour`] where no component has a value; a plant too large for tables.
+pub fn colours(column: &str, subjects: &[Subject]) -> Result<(Colours, Legend), PictureError> {
     let known = RECORDS.iter().find(|known| known.name == column);
-    let column = known.ok_or_else(|| Error::NoSuchColumn { column: column.to_owned() })?;
+    let column = known.ok_or_else(|| PictureError::NoSuchColumn { column: column.to_owned() })?;
     let values = subjects.iter().map(|subject| record_values(subject.plant, subject.age, column));
     let values: Vec<Vec<f64>> = values.collect::<Result<_, _>>()?;
     let all = || values.iter().flatten().copied().filter(|value| !value.is_nan());
     let (low, high) =
         all().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
     if low > high {
-        return Err(Error::NothingToColour { column: column.name, reason: reason(column.name, subjects) });
+        return Err(PictureError::NothingToColour { column: column.name, reason: reason(column.name, subjects) });
     }
     let means = means(column, low, high);
     let colour = |value: &f64| match &means {

@@ -7,9 +7,9 @@ use super::camera::Camera;
 use super::canvas::Canvas;
 use super::film::Film;
 use super::ground::{Behind, Footing, Ground};
+use super::placed::PlacedPlant;
 use super::raster::Window;
 use super::shade::{Light, shade};
-use super::stand::Standing;
 use super::tone;
 use glam::Vec3;
 use rayon::prelude::*;
@@ -25,7 +25,7 @@ const SHIFTS: &[f32] = &[-0.375, 0.125, -0.125, 0.375];
 #[derive(Debug)]
 pub struct Set<'a> {
     /// The plants, in their places.
-    pub plants: &'a [Standing<'a>],
+    pub plants: &'a [PlacedPlant<'a>],
     /// Their light, one each.
     pub lights: &'a [Light],
     /// The camera.
@@ -68,7 +68,7 @@ pub fn draw(set: &Set, [width, height]: [u32; 2]) -> Canvas {
     canvas
 }
 
-fn footing<'a>(plant: &Standing, light: &'a Light) -> Footing<'a> {
+fn footing<'a>(plant: &PlacedPlant, light: &'a Light) -> Footing<'a> {
     let [low, high] = plant.bounds();
     Footing { light, offset: plant.offset, foot: plant.offset, size: (high - low).length() }
 }

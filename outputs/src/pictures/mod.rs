@@ -2,7 +2,7 @@
 //! own.
 //!
 //! No kept crate serves: those in pure Rust draw flat shapes, or are studies of one person that fix their own mesh in
-//! memory. What happens: plants are put side by side (`stand`), a camera is fitted to them (`camera`, `extent`), sun
+//! memory. What happens: plants are put side by side (`placed`), a camera is fitted to them (`camera`, `extent`), sun
 //! and sky are let fall on each (`shadow`, `sky`), triangles are covered with samples (`raster`, `film`), samples
 //! are shaded and averaged (`shade`, `ground`, `draw`), and what they show is written below (`caption`).
 //! The same plants and the same [`Picture`] give the same bytes on any number of threads. Absent: films; textures.
@@ -13,28 +13,29 @@ mod caption;
 mod cast;
 mod colouring;
 mod draw;
+mod error;
 mod extent;
 mod film;
 mod gaze;
 mod ground;
 mod letters;
-mod palette;
+mod placed;
 mod png;
 mod raster;
 mod shade;
 mod shadow;
 mod sky;
-mod stand;
 #[cfg(test)]
 mod tests;
 mod tone;
+mod value_colours;
 
 pub use self::png::write_png;
 pub use ::png::Compression;
 pub use canvas::Canvas;
 pub use colouring::colour_columns;
+pub use error::PictureError;
 
-use crate::Error;
 use crate::meshes::OwnForms;
 use cast::Cast;
 use gaze::Gaze;
@@ -147,7 +148,7 @@ pub struct Subject<'a> {
 ///
 /// # Errors
 /// Where the plants cannot be coloured by the column that is asked for.
-pub fn draw(subjects: &[Subject], title: &str, picture: &Picture) -> Result<Canvas, Error> {
+pub fn draw(subjects: &[Subject], title: &str, picture: &Picture) -> Result<Canvas, PictureError> {
     let mut cast = Cast::of(subjects, picture)?;
     let camera = cast.aim(picture, f32::INFINITY);
     Ok(cast.draw(picture, &camera, title))
@@ -157,7 +158,7 @@ pub fn draw(subjects: &[Subject], title: &str, picture: &Picture) -> Result<Canv
 ///
 /// # Errors
 /// As [`draw`].
-pub fn sheet(subjects: &[Subject], title: &str, picture: &Picture) -> Result<Canvas, Error> {
+pub fn sheet(subjects: &[Subject], title: &str, picture: &Picture) -> Result<Canvas, PictureError> {
     let [width, height] = picture.size;
     let mut cast = Cast::of(subjects, picture)?;
     let mut canvas = Canvas::new(width, height);

@@ -8,10 +8,11 @@
 //! Absent: mending.
 
 use super::documents::{PACKAGE, RUN, VIEWS};
+use super::error::Error;
+use super::holder::Holder;
 use super::journal::{FileReport, JOURNAL, ShardReport};
-use super::lock::{Holder, LOCK, holder_of};
+use super::lock::{LOCK, holder_of};
 use super::papers::{Papers, RunJson};
-use crate::Error;
 use crate::storage::durable;
 use crate::tables::Table;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};

@@ -4,10 +4,10 @@
 //! `run.json` names the others with their hashes and ends with a check of itself, so that damage to any of them is
 //! found. Absent: the tables themselves, and the journal, which holds a run together until these are written.
 
+use super::error::Error;
 use super::identity::{fingerprint, identity};
 use super::journal::{FileReport, JOURNAL, OvergrownPlot, ShardReport};
 use super::seal::DOCUMENT;
-use crate::Error;
 use crate::storage::durable;
 use crate::tables::arrow::plant_ontology;
 use crate::tables::schema::{Column, Type};
@@ -78,7 +78,7 @@ pub fn write_start(path: &Path, plan: &RunPlan) -> Result<(), Error> {
 
 /// `views.sql`, which depends on the plan alone.
 pub fn write_views(path: &Path, plan: &RunPlan) -> Result<(), Error> {
-    durable::write(&path.join(VIEWS), views(plan).as_bytes())
+    Ok(durable::write(&path.join(VIEWS), views(plan).as_bytes())?)
 }
 
 /// The files that a finished run has; its journal is in order.
@@ -123,7 +123,7 @@ fn document(name: &str, content: &[u8]) -> FileReport {
 fn write_run(path: &Path, run: Map<String, Value>) -> Result<(), Error> {
     let file = path.join(RUN);
     let text = serde_json::to_vec_pretty(&Value::Object(run)).map_err(Error::json(&file))?;
-    durable::write(&file, &DOCUMENT.put(text))
+    Ok(durable::write(&file, &DOCUMENT.put(text))?)
 }
 
 fn pretty(path: &Path, value: &Value) -> Result<Vec<u8>, Error> {

@@ -8,6 +8,8 @@
 mod check;
 mod difference;
 mod documents;
+mod error;
+mod holder;
 mod identity;
 mod journal;
 mod lock;
@@ -20,12 +22,12 @@ mod tests;
 pub use check::{Checking, Checkup, Depth, Finding, State, Trouble, check};
 pub use difference::{Difference, Differences};
 pub use documents::RunReport;
+pub use error::Error;
+pub use holder::Holder;
 pub use journal::{FileReport, OvergrownPlot, ShardReport};
-pub use lock::Holder;
 pub(crate) use papers::{Papers, RunJson};
 pub use shard::Shard;
 
-use crate::Error;
 use crate::storage::durable;
 use crate::storage::space::{FreeSpace, SystemSpace, Watch};
 use crate::tables::RunPlan;
@@ -96,7 +98,7 @@ impl RunFolder {
         let mut done = BTreeMap::new();
         let mut found = None;
         if mode == Mode::Resume && is_run {
-            let checkup = look(path, &papers, &plan, opening.checking)?;
+            let checkup = check_resumed(path, &papers, &plan, opening.checking)?;
             done = kept(&papers, &plan, &checkup);
             found = Some(checkup);
         } else if is_run {
@@ -176,7 +178,7 @@ fn refuse(path: &Path, mode: Mode, is_run: bool) -> Result<(), Error> {
 }
 
 /// Looks at all that a run to be resumed has, if it is this run.
-fn look(path: &Path, papers: &Papers, plan: &RunPlan, checking: &Checking) -> Result<Checkup, Error> {
+fn check_resumed(path: &Path, papers: &Papers, plan: &RunPlan, checking: &Checking) -> Result<Checkup, Error> {
     let run = fingerprint(plan);
     match &papers.run {
         RunJson::Whole(there) | RunJson::Older(there) => {
@@ -246,5 +248,5 @@ fn clear(path: &Path, papers: &Papers) -> Result<(), Error> {
         let _ = fs::remove_dir(path.join(name));
     }
     // `run.json` last: until then the folder is a run, which can be replaced.
-    check::DOCUMENTS.iter().rev().try_for_each(|name| durable::remove(&path.join(name)))
+    Ok(check::DOCUMENTS.iter().rev().try_for_each(|name| durable::remove(&path.join(name)))?)
 }

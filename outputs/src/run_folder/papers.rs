@@ -3,9 +3,9 @@
 //! Absent: whether the files that they name are there, which is `check`'s.
 
 use super::documents::RUN;
+use super::error::Error;
 use super::journal::{self, FileReport, JOURNAL, Reading, ShardReport};
 use super::seal::DOCUMENT;
-use crate::Error;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;

@@ -2,8 +2,8 @@
 //!
 //! A crash at any moment leaves the old file, the new one, or a file beside its name that a resumed run removes.
 
+use super::error::FileError;
 use super::space::Watch;
-use crate::Error;
 use sha2::{Digest, Sha256};
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -29,16 +29,16 @@ pub struct HashingFile {
 
 impl HashingFile {
     /// Creates the file, replacing what is there; the watch looks at the disk as the file grows.
-    pub fn create(path: &Path, watch: &Arc<Watch>) -> Result<Self, Error> {
-        let file = File::create(path).map_err(Error::io("create", path))?;
+    pub fn create(path: &Path, watch: &Arc<Watch>) -> Result<Self, FileError> {
+        let file = File::create(path).map_err(FileError::io("create", path))?;
         let (path, watch) = (path.to_path_buf(), Arc::clone(watch));
         Ok(Self { file, path, hash: Sha256::new(), bytes: 0, sent: 0, sending: None, watch })
     }
 
     /// Makes sure that the file is on the disk; its bytes and its hash.
-    pub fn finish(mut self) -> Result<(u64, String), Error> {
+    pub fn finish(mut self) -> Result<(u64, String), FileError> {
         // The system tells of a lost block once: to the first that asks.
-        self.sent().and_then(|()| self.file.sync_all()).map_err(Error::io("write to disk", &self.path))?;
+        self.sent().and_then(|()| self.file.sync_all()).map_err(FileError::io("write to disk", &self.path))?;
         Ok((self.bytes, hexadecimal(&self.hash.finalize())))
     }
 
@@ -94,33 +94,33 @@ pub fn is_beside(path: &Path) -> bool {
 }
 
 /// Writes a whole small file.
-pub fn write(path: &Path, content: &[u8]) -> Result<(), Error> {
+pub fn write(path: &Path, content: &[u8]) -> Result<(), FileError> {
     let staged = beside(path);
-    let mut file = File::create(&staged).map_err(Error::io("create", &staged))?;
-    file.write_all(content).map_err(Error::io("write", &staged))?;
-    file.sync_all().map_err(Error::io("write to disk", &staged))?;
+    let mut file = File::create(&staged).map_err(FileError::io("create", &staged))?;
+    file.write_all(content).map_err(FileError::io("write", &staged))?;
+    file.sync_all().map_err(FileError::io("write to disk", &staged))?;
     rename(&staged, path)
 }
 
 /// Gives a synced file its final name, and makes sure that the name is on the disk.
-pub fn rename(from: &Path, to: &Path) -> Result<(), Error> {
-    fs::rename(from, to).map_err(Error::io("rename", from))?;
+pub fn rename(from: &Path, to: &Path) -> Result<(), FileError> {
+    fs::rename(from, to).map_err(FileError::io("rename", from))?;
     sync_folder_of(to)
 }
 
 /// Makes sure that the names in the folder of `path` are on the disk, where a system can say so.
-pub fn sync_folder_of(path: &Path) -> Result<(), Error> {
+pub fn sync_folder_of(path: &Path) -> Result<(), FileError> {
     let Some(folder) = path.parent().filter(|folder| cfg!(unix) && !folder.as_os_str().is_empty()) else {
         return Ok(());
     };
-    File::open(folder).and_then(|folder| folder.sync_all()).map_err(Error::io("write to disk", folder))
+    File::open(folder).and_then(|folder| folder.sync_all()).map_err(FileError::io("write to disk", folder))
 }
 
 /// Syncs a file that someone else has written; its bytes and its hash.
-pub fn sync_and_hash(path: &Path) -> Result<(u64, String), Error> {
-    let mut file = File::open(path).map_err(Error::io("open", path))?;
-    file.sync_all().map_err(Error::io("write to disk", path))?;
-    hash(&mut file, |_| Ok(())).map_err(Error::io("read", path))
+pub fn sync_and_hash(path: &Path) -> Result<(u64, String), FileError> {
+    let mut file = File::open(path).map_err(FileError::io("open", path))?;
+    file.sync_all().map_err(FileError::io("write to disk", path))?;
+    hash(&mut file, |_| Ok(())).map_err(FileError::io("read", path))
 }
 
 /// The bytes and the hash of a file; `progress` is told of each block and can end it by an error.
@@ -140,22 +140,22 @@ pub fn hash(file: &mut File, mut progress: impl FnMut(u64) -> io::Result<()>) ->
 }
 
 /// Removes a file if it is there.
-pub fn remove(path: &Path) -> Result<(), Error> {
+pub fn remove(path: &Path) -> Result<(), FileError> {
     match fs::remove_file(path) {
-        Err(source) if source.kind() != io::ErrorKind::NotFound => Err(Error::io("remove", path)(source)),
+        Err(source) if source.kind() != io::ErrorKind::NotFound => Err(FileError::io("remove", path)(source)),
         _ => Ok(()),
     }
 }
 
 /// The files directly in a folder, sorted; none where there is no folder.
-pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>, FileError> {
     let entries = match fs::read_dir(folder) {
         Err(source) if source.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
-        entries => entries.map_err(Error::io("read", folder))?,
+        entries => entries.map_err(FileError::io("read", folder))?,
     };
     let mut files = Vec::new();
     for entry in entries {
-        files.push(entry.map_err(Error::io("read", folder))?.path());
+        files.push(entry.map_err(FileError::io("read", folder))?.path());
     }
     files.sort();
     Ok(files)

@@ -3,4 +3,7 @@
 //! Absent: what the files hold, and what a run is expected to need.
 
 pub mod durable;
+mod error;
 pub mod space;
+
+pub use error::FileError;

@@ -5,7 +5,6 @@
 //! they are. Where a system does not tell its free space a run goes on unwatched. Absent: what a run is expected to
 //! need.
 
-use crate::Error;
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -54,6 +53,18 @@ impl FreeSpace for SystemSpace {
     }
 }
 
+/// The disk has less room than a run leaves.
+#[derive(Debug, thiserror::Error)]
+#[error("the disk of {} has {free} left, and a run leaves {reserve} free", path.display())]
+pub struct AlmostFull {
+    /// The folder.
+    pub path: PathBuf,
+    /// What is free.
+    pub free: Bytes,
+    /// What is left free.
+    pub reserve: Bytes,
+}
+
 /// Looks at the free space while a run folder is filled.
 #[derive(Debug)]
 pub struct Watch {
@@ -71,21 +82,21 @@ impl Watch {
     /// So many bytes were written; looks at the disk now and then.
     ///
     /// # Errors
-    /// As [`Watch::look`].
+    /// As [`Watch::check`].
     pub fn wrote(&self, bytes: u64) -> io::Result<()> {
         let before = self.written.fetch_add(bytes, Relaxed);
-        if before / STEP == before.saturating_add(bytes) / STEP { Ok(()) } else { self.look() }
+        if before / STEP == before.saturating_add(bytes) / STEP { Ok(()) } else { self.check() }
     }
 
     /// Looks at the disk.
     ///
     /// # Errors
-    /// `StorageFull` with an [`Error::AlmostFull`] where less is free than a run leaves.
-    pub fn look(&self) -> io::Result<()> {
+    /// `StorageFull` with an [`AlmostFull`] where less is free than a run leaves.
+    pub fn check(&self) -> io::Result<()> {
         match self.space.space(&self.folder) {
             Some(space) if space.free < space.reserve() => {
                 let (path, free, reserve) = (self.folder.clone(), Bytes(space.free), Bytes(space.reserve()));
-                Err(io::Error::new(io::ErrorKind::StorageFull, Error::AlmostFull { path, free, reserve }))
+                Err(io::Error::new(io::ErrorKind::StorageFull, AlmostFull { path, free, reserve }))
             }
             _ => Ok(()),
         }
@@ -131,7 +142,7 @@ mod tests {
         let written = (0..).take_while(|_| watch.wrote(STEP / 4).is_ok()).count() as u64;
         // A twentieth of the disk is 50 steps: 54, 53, 52, 51 and 50 are seen, 49 is too little.
         assert_eq!(written / 4, 5);
-        let error = watch.look().unwrap_err();
+        let error = watch.check().unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::StorageFull);
         let told = error.to_string();
         assert!(told.contains("runs/a") && told.contains("52.4 MB"), "{told}");

@@ -79,7 +79,7 @@ fn sorting(table: Table, columns: &[Column]) -> Vec<SortingColumn> {
 }
 
 /// The key-value metadata of every file of a table.
-fn key_values(table: Table, plan: &RunPlan) -> Vec<KeyValue> {
+pub fn key_values(table: Table, plan: &RunPlan) -> Vec<KeyValue> {
     let provenance = &plan.provenance;
     let entry = |key: &str, value: String| KeyValue::new(format!("phytomer.{key}"), value);
     vec![

@@ -1,56 +1,24 @@
-//! Everything that can go wrong between a plant and a file, in words for the person who must set it right.
+//! What can go wrong with a run folder, in words for the person who must set it right.
 //!
-//! A failed write ends the run: nothing here is logged and passed over. A message does not repeat its cause, which
-//! `source` has: a person is shown the whole chain.
+//! What a table or a file refuses is told in its own words. A failed write ends the run: nothing here is logged and passed
+//! over. A message does not repeat its cause, which `source` has: a person is shown the whole chain.
 
-use crate::run_folder::{Differences, Holder};
-use crate::storage::space::Bytes;
-use parquet::errors::ParquetError;
+use super::difference::Differences;
+use super::holder::Holder;
+use crate::storage::FileError;
+use crate::tables::TableError;
+use std::io;
 use std::path::{Path, PathBuf};
 
-/// A failure of this crate.
+/// A failure of a run folder.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The file system refused.
-    #[error("cannot {doing} {}", path.display())]
-    Io {
-        /// What was tried: "create", "rename", …
-        doing: &'static str,
-        /// The file or folder.
-        path: PathBuf,
-        /// The system's answer.
-        source: std::io::Error,
-    },
-    /// A file was to be written where a folder is.
-    #[error("cannot write {}: it is a folder, and the name of a file is expected", path.display())]
-    IsFolder {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// A table could not be written.
-    #[error("cannot write the table {}", path.display())]
-    Table {
-        /// The part file.
-        path: PathBuf,
-        /// The writer's answer.
-        source: Cause,
-    },
-    /// A table could not be read.
-    #[error("cannot read the table {}", path.display())]
-    Read {
-        /// The part file.
-        path: PathBuf,
-        /// The reader's answer.
-        source: Cause,
-    },
-    /// A column of a table is not of the type that its schema states.
-    #[error("the table {} has no column `{column}` of the stated type", path.display())]
-    Column {
-        /// The part file.
-        path: PathBuf,
-        /// The column.
-        column: &'static str,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A table could not be written or read.
+    #[error(transparent)]
+    Table(#[from] TableError),
     /// A JSON file could not be understood.
     #[error("cannot understand {}", path.display())]
     Json {
@@ -129,19 +97,6 @@ pub enum Error {
         /// The folder.
         path: PathBuf,
     },
-    /// The disk has less room than a run leaves.
-    #[error(
-        "the disk of {} has {free} left, and a run leaves {reserve} free",
-        path.display()
-    )]
-    AlmostFull {
-        /// The folder.
-        path: PathBuf,
-        /// What is free.
-        free: Bytes,
-        /// What is left free.
-        reserve: Bytes,
-    },
     /// The check of the files was told to stop.
     #[error("the check of the files was told to stop")]
     Stopped,
@@ -191,58 +146,13 @@ pub enum Error {
         /// How many.
         missing: usize,
     },
-    /// A picture was to be coloured by a column that `records` does not have.
-    #[error("`records` has no column `{column}` to colour by")]
-    NoSuchColumn {
-        /// The column.
-        column: String,
-    },
-    /// No component that is drawn has a value in the column that a picture was to be coloured by.
-    #[error("no component has a value of `{column}` to colour by: {reason}")]
-    NothingToColour {
-        /// The column.
-        column: &'static str,
-        /// What its values would need.
-        reason: &'static str,
-    },
-    /// A plant has more components than the tables can hold.
-    #[error("plant {plant} has {components} components; tables hold at most {most} a plant: lower max_components")]
-    PlantTooLarge {
-        /// The plant's number.
-        plant: u32,
-        /// Its components.
-        components: u32,
-        /// The most that a table holds.
-        most: u32,
-    },
-}
-
-/// The cause of a failure, as whoever met it told it.
-pub type Cause = Box<dyn std::error::Error + Send + Sync>;
-
-/// What stands behind an error of the Parquet crate, which tells an outer cause twice: in its words and as its source.
-fn cause(error: ParquetError) -> Cause {
-    match error {
-        ParquetError::External(cause) => cause,
-        error => error.into(),
-    }
 }
 
 impl Error {
-    /// Makes an [`Error::Io`] of the system's answer.
-    pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
-        let path = path.to_path_buf();
-        move |source| Self::Io { doing, path, source }
-    }
-
-    pub(crate) fn table(path: &Path) -> impl FnOnce(ParquetError) -> Self {
-        let path = path.to_path_buf();
-        move |error| Self::Table { path, source: cause(error) }
-    }
-
-    pub(crate) fn read(path: &Path) -> impl FnOnce(ParquetError) -> Self {
-        let path = path.to_path_buf();
-        move |error| Self::Read { path, source: cause(error) }
+    /// The file system's answer, as the file that it is about tells it.
+    pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let told = FileError::io(doing, path);
+        move |source| Self::File(told(source))
     }
 
     pub(crate) fn json(path: &Path) -> impl FnOnce(serde_json::Error) -> Self {

@@ -4,7 +4,7 @@
 //! columns of a plant are laid out once by number: which component it is, from when and until when it stands. An age is
 //! then one straight scan.
 
-use crate::Error;
+use super::TableError;
 use phytomer_sim::plant::{AxisId, NodeId, OrganId, Plant, Trend};
 use phytomer_sim::{NEVER, Tick};
 use std::ops::Range;
@@ -29,7 +29,7 @@ pub enum Component {
 
 /// The components of one plant by their numbers.
 #[derive(Debug, Default)]
-pub struct Standing {
+pub struct ComponentIndex {
     of: Option<(u32, Tick, u32)>,
     places: Vec<u32>,
     from: Vec<Tick>,
@@ -41,15 +41,15 @@ pub struct Standing {
     trends: Vec<f32>,
 }
 
-impl Standing {
+impl ComponentIndex {
     /// Lays out `plant`, unless it is laid out already: a plant changes its columns only with its age.
     ///
     /// # Errors
-    /// [`Error::PlantTooLarge`].
-    pub fn read(&mut self, plant: &Plant) -> Result<(), Error> {
+    /// [`TableError::PlantTooLarge`].
+    pub fn read(&mut self, plant: &Plant) -> Result<(), TableError> {
         let components = plant.components();
         if components > INDEX {
-            return Err(Error::PlantTooLarge { plant: plant.id, components, most: INDEX });
+            return Err(TableError::PlantTooLarge { plant: plant.id, components, most: INDEX });
         }
         let now = Some((plant.id, plant.age, components));
         if self.of != now {
@@ -150,7 +150,7 @@ impl Standing {
         self.places.len() as u32
     }
 
-    /// Finds the last internode of each axis at `age`, for [`Standing::tip`].
+    /// Finds the last internode of each axis at `age`, for [`ComponentIndex::tip`].
     pub fn find_tips(&mut self, plant: &Plant, age: Tick) {
         self.tips.clear();
         self.tips.resize(plant.axes.len(), NodeId::NONE);
@@ -159,7 +159,7 @@ impl Standing {
         }
     }
 
-    /// The last internode of an axis at the age of [`Standing::find_tips`]; [`NodeId::NONE`] before the first.
+    /// The last internode of an axis at the age of [`ComponentIndex::find_tips`]; [`NodeId::NONE`] before the first.
     #[inline]
     pub fn tip(&self, axis: AxisId) -> NodeId {
         self.tips[axis.index()]

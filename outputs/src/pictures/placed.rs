@@ -24,7 +24,7 @@ const EMPTY: Vec3 = Vec3::Z;
 
 /// A plant at an age in a picture.
 #[derive(Debug)]
-pub struct Standing<'a> {
+pub struct PlacedPlant<'a> {
     scene: Scene<'a>,
     /// The colours of its components by their numbers, where they do not have their own.
     colours: Option<Vec<[u8; 3]>>,
@@ -43,7 +43,7 @@ struct Seen {
     corners: Vec<Vec3>,
 }
 
-impl<'a> Standing<'a> {
+impl<'a> PlacedPlant<'a> {
     /// A plant as it stands at `age`.
     pub fn new(plant: &'a Plant, age: Tick, options: &MeshOptions, colours: Option<Vec<[u8; 3]>>, number: u8) -> Self {
         let scene = Scene::new(plant, age, options);
