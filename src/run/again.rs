@@ -4,8 +4,7 @@
 //! run has recorded. In a wind each age is shown as a frame that the wind has moved, for that age alone. Where nobody
 //! says an age, a plant is shown at that of its species or in its prime. Absent: what is made of it.
 
-use super::{place_of, seed_of};
-use anyhow::Result;
+use super::{RunError, place_of, seed_of};
 use phytomer_config::{Scenario, Species};
 use phytomer_sim::mechanics::Bench;
 use phytomer_sim::mechanics::sway::sway;
@@ -43,15 +42,15 @@ impl Again<'_> {
     ///
     /// # Errors
     /// What `show` says; a plant that comes to its limit before the last of the ages.
-    pub fn show(&self, plant: u32, ages: &[Tick], show: &mut Show<'_>) -> Result<()> {
+    pub fn show(&self, plant: u32, ages: &[Tick], show: &mut Show<'_>) -> Result<(), RunError> {
         let mut plot = self.sown(plant);
         let mut shower = Shower { ages, air: self.air, show };
         // To the last age of the run, not to the last that is shown: that is what numbers the components.
         let until = self.scenario.ages.until;
-        let ending = grow(self.model, &mut plot, until, &mut shower).map_err(|error| anyhow::anyhow!(error))?;
+        let ending = grow(self.model, &mut plot, until, &mut shower).map_err(RunError::of_recorder)?;
         match (ending, ages.iter().max()) {
             (Ending::Overgrown { age, limit }, Some(last)) if age <= *last => {
-                anyhow::bail!("{limit} at age {age}, before the age {last} that is asked for")
+                Err(RunError::Overgrown { limit, age, last: *last })
             }
             _ => Ok(()),
         }
@@ -62,7 +61,7 @@ impl Again<'_> {
     ///
     /// # Errors
     /// As [`Again::prime`].
-    pub fn shown_at(&self, species: &Species, plant: u32) -> Result<Tick> {
+    pub fn shown_at(&self, species: &Species, plant: u32) -> Result<Tick, RunError> {
         let until = self.scenario.ages.until;
         species
             .about
@@ -77,7 +76,7 @@ impl Again<'_> {
     ///
     /// # Errors
     /// Where it comes to its limit at its first age.
-    pub fn prime(&self, plant: u32, year: Tick) -> Result<Tick> {
+    pub fn prime(&self, plant: u32, year: Tick) -> Result<Tick, RunError> {
         let until = self.scenario.ages.until;
         if self.model.growth() == Growth::Rebuilds {
             return Ok(until);
@@ -89,9 +88,11 @@ impl Again<'_> {
             plot.plants.iter_mut().for_each(shed);
         } else {
             plot.restart(self.model);
-            let ending = grow(self.model, &mut plot, until, &mut ()).map_err(|error| anyhow::anyhow!(error))?;
+            let ending = grow(self.model, &mut plot, until, &mut ()).map_err(RunError::of_recorder)?;
             if let Ending::Overgrown { age, limit } = ending {
-                anyhow::ensure!(age > 1, "{limit} at age {age}");
+                if age <= 1 {
+                    return Err(RunError::OvergrownAtOnce { limit, age });
+                }
                 last = age - 1;
             }
         }

@@ -4,8 +4,8 @@
 //! plants at an age are therefore one file where the run has one part, and one a part where it has more.
 //! Absent: forms and formats, which are `phytomer_outputs::meshes`'.
 
+use super::RunError;
 use super::again::Again;
-use anyhow::{Context, Result, ensure};
 use phytomer_config::scenario::{MeshFile, Meshes};
 use phytomer_config::{About, Resolved, Scenario, Species};
 use phytomer_outputs::Shard;
@@ -15,7 +15,7 @@ use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::Write;
+use std::io::{self, Write};
 use std::sync::Arc;
 
 /// The most vertices that 32-bit signed indices reach.
@@ -48,16 +48,17 @@ pub fn write_mesh(
     run_seed: u64,
     options: &MeshOptions,
     out: &mut (dyn Write + Send),
-) -> Result<()> {
+) -> io::Result<()> {
     let scene = Scene::new(plant, age, options);
     let vertices = scene.counts().vertices;
-    ensure!(
-        vertices <= MOST_VERTICES,
-        "the mesh of plant {} at age {age} would have {vertices} vertices, and a mesh file holds at most {MOST_VERTICES}: \
-         choose fewer sides",
-        plant.id
-    );
-    Ok(Ply.write(&scene, &scene.about(run_seed), out)?)
+    if vertices > MOST_VERTICES {
+        return Err(io::Error::other(format!(
+            "the mesh of plant {} at age {age} would have {vertices} vertices, and a mesh file holds at most \
+             {MOST_VERTICES}: choose fewer sides",
+            plant.id
+        )));
+    }
+    Ply.write(&scene, &scene.about(run_seed), out)
 }
 
 impl<'a> Drawing<'a> {
@@ -78,14 +79,15 @@ impl<'a> Drawing<'a> {
     ///
     /// # Errors
     /// Where its mesh cannot be written.
-    pub fn draw(&mut self, age: Tick, plant: &Plant, shard: &mut Shard) -> Result<()> {
+    pub fn draw(&mut self, age: Tick, plant: &Plant, shard: &mut Shard) -> Result<(), RunError> {
         let id = plant.id;
         match self.meshes.per {
             MeshFile::PlantAge => {
                 let path = shard.stage(&format!("meshes/plant-{id:05}_age-{age:04}.ply"))?;
-                let doing = || format!("cannot write the mesh {}", path.display());
-                let mut file = File::create(&path).with_context(doing)?;
-                write_mesh(plant, age, self.scenario.seed, &self.options, &mut file).with_context(doing)
+                let seed = self.scenario.seed;
+                let written =
+                    File::create(&path).and_then(|mut file| write_mesh(plant, age, seed, &self.options, &mut file));
+                written.map_err(failed(&path.display().to_string()))
             }
             MeshFile::Plant => self.collect(format!("meshes/plant-{id:05}.ply"), age, plant, shard),
             MeshFile::Age if self.parts == 1 => self.collect(format!("meshes/age-{age:04}.ply"), age, plant, shard),
@@ -96,22 +98,21 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    fn collect(&mut self, path: String, age: Tick, plant: &Plant, shard: &mut Shard) -> Result<()> {
+    fn collect(&mut self, path: String, age: Tick, plant: &Plant, shard: &mut Shard) -> Result<(), RunError> {
         let scene = Scene::new(plant, age, &self.options);
-        let doing = || format!("cannot write the mesh {path}");
         if !self.open.contains_key(&path) {
-            let new = Collection::create(&shard.stage(&path)?).with_context(doing)?;
+            let new = Collection::create(&shard.stage(&path)?).map_err(failed(&path))?;
             self.open.insert(path.clone(), new);
         }
         let Some(collection) = self.open.get_mut(&path) else { return Ok(()) };
-        collection.add(&scene, &scene.about(self.scenario.seed)).with_context(doing)
+        collection.add(&scene, &scene.about(self.scenario.seed)).map_err(failed(&path))
     }
 
     /// The last age of a plant is past.
     ///
     /// # Errors
     /// Where its file cannot be written.
-    pub fn end_plant(&mut self) -> Result<()> {
+    pub fn end_plant(&mut self) -> Result<(), RunError> {
         if self.meshes.per == MeshFile::Plant { self.finish() } else { Ok(()) }
     }
 
@@ -119,12 +120,18 @@ impl<'a> Drawing<'a> {
     ///
     /// # Errors
     /// Where they cannot be written.
-    pub fn finish(&mut self) -> Result<()> {
+    pub fn finish(&mut self) -> Result<(), RunError> {
         for (path, collection) in std::mem::take(&mut self.open) {
-            collection.finish().with_context(|| format!("cannot write the mesh {path}"))?;
+            collection.finish().map_err(failed(&path))?;
         }
         Ok(())
     }
+}
+
+/// Tells which mesh could not be written.
+fn failed(path: &str) -> impl FnOnce(io::Error) -> RunError {
+    let path = path.to_owned();
+    move |source| RunError::Mesh { path, source }
 }
 
 /// The plants of one picture, and what is written on it.
@@ -150,7 +157,7 @@ impl Portrait {
 ///
 /// # Errors
 /// Those of growing.
-pub fn portrait(again: &Again, species: &Species, plants: &[u32], ages: &[Tick]) -> Result<Portrait> {
+pub fn portrait(again: &Again, species: &Species, plants: &[u32], ages: &[Tick]) -> Result<Portrait, RunError> {
     let about = &species.about;
     let mut subjects = Vec::new();
     for &number in plants {
