@@ -7,7 +7,6 @@
 //!
 //! Absent: growth (`sim`, `models`), files (`outputs`), and everything that a person sees (`cli`).
 
-pub mod again;
 pub mod disk;
 pub mod drawing;
 mod error;
@@ -16,13 +15,14 @@ pub mod forms;
 mod in_memory;
 mod plan;
 mod progress;
+pub mod regrowth;
 
 pub use error::RunError;
 pub use in_memory::{InMemory, in_memory};
 pub use plan::{Program, component_limit, place_of, plan_of, seed_of};
 pub use progress::Progress;
 
-use drawing::Drawing;
+use drawing::RunMeshes;
 use phytomer_config::Resolved;
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::{
@@ -37,19 +37,19 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// How a run is made, beside what its scenario says. Nothing here shows in the bytes of a table or a mesh but the
-/// program's name.
+/// How a run is made, beside what its scenario says. Of all this only the name of the program is in the bytes of tables and
+/// meshes.
 #[derive(Debug, Clone)]
 pub struct Settings {
     /// The run folder.
     pub folder: PathBuf,
     /// What to do where the folder holds files already.
     pub mode: Mode,
-    /// Threads; 0 takes as many as the machine has.
+    /// The number of threads; it never changes the result. 0 takes as many as the machine has.
     pub threads: usize,
     /// The program that the files name as their maker.
     pub program: Program,
-    /// Who knows the free space of the disk.
+    /// What tells the free space of the disk: the system, or a test.
     pub space: Arc<dyn FreeSpace>,
     /// Whether a run begins that the disk seems too small for.
     pub ignore_disk: bool,
@@ -180,8 +180,8 @@ fn grow_shards(
 ) -> Result<Vec<ShardReport>, RunError> {
     let grower = Grower { resolved, plan: folder.plan(), progress };
     let grown = missing.into_par_iter().map(|shard| {
-        let drawing = Drawing::of(resolved, forms, folder.plan().shards());
-        let mut keeper = FolderKeeper { grower: &grower, shard: folder.shard(*shard)?, drawing, plot: 0 };
+        let meshes = RunMeshes::of(resolved, forms, folder.plan().shards());
+        let mut keeper = FolderKeeper { grower: &grower, shard: folder.shard(*shard)?, meshes, plot: 0 };
         Ok(if grower.grow_shard(*shard, &mut keeper)? { Some(keeper.commit()?) } else { None })
     });
     // A failed write ends the run: the other shards need not go on.
@@ -262,18 +262,18 @@ impl Grower<'_> {
 struct FolderKeeper<'a> {
     grower: &'a Grower<'a>,
     shard: Shard<'a>,
-    drawing: Option<Drawing<'a>>,
+    meshes: Option<RunMeshes<'a>>,
     plot: u32,
 }
 
 impl FolderKeeper<'_> {
     fn commit(mut self) -> Result<ShardReport, RunError> {
-        self.drawing.iter_mut().try_for_each(Drawing::finish)?;
+        self.meshes.iter_mut().try_for_each(RunMeshes::finish)?;
         Ok(self.shard.commit()?)
     }
 
     fn draws(&self, age: Tick) -> bool {
-        self.drawing.as_ref().is_some_and(|drawing| drawing.wants(self.plot, age))
+        self.meshes.as_ref().is_some_and(|meshes| meshes.wants(self.plot, age))
     }
 }
 
@@ -284,7 +284,7 @@ impl Keeper for FolderKeeper<'_> {
 
     fn end_plot(&mut self, plot: &Plot, ending: Ending) -> Result<(), RunError> {
         self.shard.end_plot(plot, ending)?;
-        self.drawing.iter_mut().try_for_each(Drawing::end_plant)
+        self.meshes.iter_mut().try_for_each(RunMeshes::end_plant)
     }
 }
 
@@ -303,10 +303,10 @@ impl Recorder for FolderKeeper<'_> {
             self.shard.record(age, plot)?;
         }
         if self.draws(age)
-            && let Some(drawing) = &mut self.drawing
+            && let Some(meshes) = &mut self.meshes
         {
             self.shard.look_at_disk()?;
-            drawing.draw(age, &plot.plants[0], &mut self.shard)?;
+            meshes.draw(age, &plot.plants[0], &mut self.shard)?;
         }
         self.grower.progress.end_age();
         Ok(())

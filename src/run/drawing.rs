@@ -5,7 +5,7 @@
 //! Absent: forms and formats, which are `phytomer_outputs::meshes`'.
 
 use super::RunError;
-use super::again::Again;
+use super::regrowth::Regrowth;
 use phytomer_config::scenario::{MeshFile, Meshes};
 use phytomer_config::{About, Resolved, Scenario, Species};
 use phytomer_outputs::Shard;
@@ -22,7 +22,7 @@ use std::sync::Arc;
 const MOST_VERTICES: u64 = i32::MAX as u64;
 
 /// What is drawn of the plants of one shard.
-pub struct Drawing<'a> {
+pub struct RunMeshes<'a> {
     scenario: &'a Scenario,
     meshes: &'a Meshes,
     ages: Vec<Tick>,
@@ -61,7 +61,7 @@ pub fn write_mesh(
     Ply.write(&scene, &scene.about(run_seed), out)
 }
 
-impl<'a> Drawing<'a> {
+impl<'a> RunMeshes<'a> {
     /// What is drawn of a run of so many parts; `None` where the scenario asks for no meshes.
     pub fn of(resolved: &'a Resolved, own: &Arc<OwnForms>, parts: u32) -> Option<Self> {
         let scenario = &resolved.scenario;
@@ -136,7 +136,7 @@ fn failed(path: &str) -> impl FnOnce(io::Error) -> RunError {
 
 /// The plants of one picture, and what is written on it.
 #[derive(Debug)]
-pub struct Portrait {
+pub struct PicturedPlants {
     /// Each plant at each age, with what is written below it.
     pub subjects: Vec<(Plant, Tick, String)>,
     /// The name of the species.
@@ -145,7 +145,7 @@ pub struct Portrait {
     pub note: String,
 }
 
-impl Portrait {
+impl PicturedPlants {
     /// The plants as a picture takes them.
     pub fn subjects(&self) -> Vec<Subject<'_>> {
         let all = self.subjects.iter();
@@ -157,12 +157,17 @@ impl Portrait {
 ///
 /// # Errors
 /// Those of growing.
-pub fn portrait(again: &Again, species: &Species, plants: &[u32], ages: &[Tick]) -> Result<Portrait, RunError> {
+pub fn pictured_plants(
+    regrowth: &Regrowth,
+    species: &Species,
+    plants: &[u32],
+    ages: &[Tick],
+) -> Result<PicturedPlants, RunError> {
     let about = &species.about;
     let mut subjects = Vec::new();
     for &number in plants {
         let mut seen = BTreeMap::new();
-        again.show(number, ages, &mut |age, plant| {
+        regrowth.show(number, ages, &mut |age, plant| {
             seen.insert(age, plant.clone());
             Ok(())
         })?;
@@ -174,8 +179,8 @@ pub fn portrait(again: &Again, species: &Species, plants: &[u32], ages: &[Tick])
         }
     }
     let title = title_of(about);
-    let note = format!("{}: plants {plants:?} at the ages {ages:?} of seed {}", about.name, again.scenario.seed);
-    Ok(Portrait { subjects, title, note })
+    let note = format!("{}: plants {plants:?} at the ages {ages:?} of seed {}", about.name, regrowth.scenario.seed);
+    Ok(PicturedPlants { subjects, title, note })
 }
 
 /// What a species is called below its picture: by its scientific name, if it is one and no list of examples.

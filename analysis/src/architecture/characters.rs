@@ -5,7 +5,7 @@
 //! weight, and how a trunk's base rights itself, are read from recorded directions, because two models are defined by
 //! it. Absent: the models, which `models` states over these.
 
-use super::axes::{Axis, Standing, axes_of, is_plagiotropic};
+use super::axes::{Axis, Role, axes_of, is_plagiotropic};
 use super::lie::{Lie, lie_of};
 use super::relays::{Relays, relays_of};
 use super::share::Share;
@@ -82,7 +82,7 @@ impl Characters {
         let trunk = axis.order == 1;
         self.axes += 1;
         self.trunks += u32::from(trunk);
-        self.basal += u32::from(axis.standing == Standing::Basal);
+        self.basal += u32::from(axis.role == Role::Basal);
         self.axillary += u32::from(axis.origin == Origin::Axillary);
         self.lateral_flowers += axis.lateral_flowers;
         self.flowered_trunks += u32::from(trunk && axis.flowered());
@@ -110,8 +110,7 @@ impl Characters {
     }
 
     fn count_branches(&mut self, axes: &[Axis]) {
-        let of_trunk =
-            |axis: &&Axis| axis.order == 2 && axis.standing == Standing::Own && axis.origin == Origin::Axillary;
+        let of_trunk = |axis: &&Axis| axis.order == 2 && axis.role == Role::Own && axis.origin == Origin::Axillary;
         for axis in axes.iter().filter(of_trunk) {
             let Some((_, cause)) = axis.end else { continue };
             let determinate = cause == Cause::Completed;
@@ -130,7 +129,7 @@ fn tiers(axes: &[Axis]) -> Option<bool> {
     const LEAST_NODES: usize = 4;
     const LEAST_BRANCHES: u32 = 3;
     let mut outer = Share::default();
-    for trunk in axes.iter().filter(|axis| axis.order == 1 && axis.standing == Standing::Own) {
+    for trunk in axes.iter().filter(|axis| axis.order == 1 && axis.role == Role::Own) {
         let units = units_of(trunk);
         let borne = trunk.bears.iter().map(|&place| &axes[place]);
         let branches = borne.filter(|axis| axis.origin == Origin::Axillary);

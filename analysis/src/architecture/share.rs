@@ -2,12 +2,12 @@
 //!
 //! Counts are kept whole, so that a share of nothing is told from a share of 0.
 
-/// How many of those that were asked have a character.
+/// How many axes, or sets of axes, have a character, of how many that could have it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Share {
-    /// Those that have it.
+    /// How many have it.
     pub yes: u32,
-    /// Those that were asked.
+    /// How many could have it.
     pub of: u32,
 }
 
@@ -18,12 +18,12 @@ impl Share {
         self.of += 1;
     }
 
-    /// The share; `None` where none was asked.
+    /// The share; `None` of none.
     pub fn value(self) -> Option<f64> {
         (self.of > 0).then(|| f64::from(self.yes) / f64::from(self.of))
     }
 
-    /// Whether some were asked and at least `least` of them have it.
+    /// Whether at least the share `least` has it; never of none.
     pub fn is_at_least(self, least: f64) -> bool {
         self.value().is_some_and(|share| share >= least)
     }

@@ -95,7 +95,7 @@ fn compare(key: String, run: Option<&Value>, now: Option<&Value>, found: &mut Ve
     }
 }
 
-/// The keys of both, those of the first before those that only the second has.
+/// The keys of both tables: first the keys of the run, then the keys that only the new run has.
 fn names<'a>(run: &'a Map<String, Value>, now: &'a Map<String, Value>) -> impl Iterator<Item = &'a String> {
     run.keys().chain(now.keys().filter(|name| !run.contains_key(*name)))
 }

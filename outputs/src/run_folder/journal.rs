@@ -180,7 +180,7 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// The runs that its lines name: one, where nobody has meddled.
+    /// The runs that its lines name: a single run, unless the file was edited.
     pub fn runs(&self) -> BTreeSet<&str> {
         self.lines.iter().map(|(_, line)| line.run.as_str()).collect()
     }

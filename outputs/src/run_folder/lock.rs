@@ -1,7 +1,7 @@
 //! The lock of a run folder: of two processes that would fill it, the second is refused.
 //!
 //! `run.lock` is locked by the system for as long as a process fills the folder, and freed by it when that process
-//! ends, however it ends. Its content names the process, for people; an empty one says that nobody is there. The file
+//! ends, however it ends. Its content names the process, for people; an empty file says that no process does. The file
 //! is never removed: a second process could then lock a new file of that name beside the first one. Some network file
 //! systems know no locks; a run in one of them says so ([`Lock::unlockable`]) and goes on.
 
@@ -65,7 +65,7 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // A name that stays does no harm: only the lock says whether somebody is there.
+        // A name that stays does no harm: only the lock says whether a process fills the folder.
         let _ = self.file.set_len(0);
         // Closing would do, but a child process that is just being started holds copies of all open files for a moment.
         let _ = self.file.unlock();
@@ -83,7 +83,7 @@ fn patiently(mut lock: impl FnMut() -> Result<(), TryLockError>) -> Result<(), T
     lock()
 }
 
-/// Who fills a run folder now; `None` where nobody does, or where the file system does not tell.
+/// The process that fills a run folder now; `None` where there is none, or where the file system does not tell.
 pub fn holder_of(folder: &Path) -> Option<Holder> {
     let file = File::open(folder.join(LOCK)).ok()?;
     match file.try_lock_shared() {

@@ -55,7 +55,7 @@ pub enum Mode {
 pub struct Opening<'a> {
     /// How far the check of what a resumed run keeps has come.
     pub checking: &'a Checking,
-    /// Who knows the free space of the disk.
+    /// What tells the free space of the disk: the system, or a test.
     pub space: Arc<dyn FreeSpace>,
 }
 

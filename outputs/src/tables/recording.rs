@@ -27,7 +27,7 @@ pub struct Recording<S> {
     recorded: Vec<Tick>,
     until: Tick,
     mechanics: bool,
-    /// Of the plot whose turn it is: already, because its growth ran ahead.
+    /// Whether the components of the present plot are written already, which they are where its growth ran ahead.
     components_written: bool,
     index: ComponentIndex,
     numbers: Vec<u32>,

@@ -34,7 +34,7 @@ columns! {
     }
 }
 
-/// Whose summary it is.
+/// The plant and the age that a summary is of.
 struct OfPlant<'a> {
     plot: &'a Plot,
     plant: &'a Plant,

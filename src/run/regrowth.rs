@@ -1,8 +1,8 @@
 //! One plant of a run grown again from its seed, and shown at some ages: what meshes and pictures are made of.
 //!
 //! Draws are keyed by the run's seed and the plant, so it is the same plant, with the same component numbers, that the
-//! run has recorded. In a wind each age is shown as a frame that the wind has moved, for that age alone. Where nobody
-//! says an age, a plant is shown at that of its species or in its prime. Absent: what is made of it.
+//! run has recorded. In a wind each age is shown as a frame that the wind has moved, for that age alone. Where no
+//! age is given, a plant is shown at that of its species or in its prime. Absent: what is made of it.
 
 use super::{RunError, place_of, seed_of};
 use phytomer_config::{Scenario, Species};
@@ -25,7 +25,7 @@ pub struct Air {
 
 /// The plants of a scenario, to be grown again.
 #[derive(Clone, Copy)]
-pub struct Again<'a> {
+pub struct Regrowth<'a> {
     /// The scenario.
     pub scenario: &'a Scenario,
     /// The species' model, compiled for all its ages.
@@ -37,17 +37,17 @@ pub struct Again<'a> {
 /// What is done with a plant at an age.
 pub type Show<'a> = dyn FnMut(Tick, &Plant) -> Result<(), RecordError> + 'a;
 
-impl Again<'_> {
+impl Regrowth<'_> {
     /// Grows a plant and shows it at `ages`, in their order of time.
     ///
     /// # Errors
     /// What `show` says; a plant that comes to its limit before the last of the ages.
     pub fn show(&self, plant: u32, ages: &[Tick], show: &mut Show<'_>) -> Result<(), RunError> {
         let mut plot = self.sown(plant);
-        let mut shower = Shower { ages, air: self.air, show };
+        let mut shown = ShownAges { ages, air: self.air, show };
         // To the last age of the run, not to the last that is shown: that is what numbers the components.
         let until = self.scenario.ages.until;
-        let ending = grow(self.model, &mut plot, until, &mut shower).map_err(RunError::of_recorder)?;
+        let ending = grow(self.model, &mut plot, until, &mut shown).map_err(RunError::of_recorder)?;
         match (ending, ages.iter().max()) {
             (Ending::Overgrown { age, limit }, Some(last)) if age <= *last => {
                 Err(RunError::Overgrown { limit, age, last: *last })
@@ -56,11 +56,11 @@ impl Again<'_> {
         }
     }
 
-    /// The age at which a plant is shown where nobody says otherwise: that which its species states (`shown_at`), if
+    /// The age at which a plant is shown where none is given: the age that its species states (`shown_at`), if
     /// the scenario has it, else its prime.
     ///
     /// # Errors
-    /// As [`Again::prime`].
+    /// As [`Regrowth::prime`].
     pub fn shown_at(&self, species: &Species, plant: u32) -> Result<Tick, RunError> {
         let until = self.scenario.ages.until;
         species
@@ -157,13 +157,13 @@ fn last_of_most(lives: impl Iterator<Item = (Tick, Tick, f64)>, last: Tick, year
 }
 
 /// Shows the first plant of a plot at some ages.
-struct Shower<'a, 's> {
+struct ShownAges<'a, 's> {
     ages: &'a [Tick],
     air: Option<Air>,
     show: &'a mut Show<'s>,
 }
 
-impl Recorder for Shower<'_, '_> {
+impl Recorder for ShownAges<'_, '_> {
     fn wants(&self, age: Tick) -> bool {
         self.ages.contains(&age)
     }

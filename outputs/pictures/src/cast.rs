@@ -8,11 +8,10 @@ use super::canvas::Canvas;
 use super::caption::{Align, fitting, letter_size, scale_bar, write, write_row};
 use super::colouring::{self, Legend, colours};
 use super::draw::{self, Set};
-use super::error::PictureError;
 use super::extent::Extent;
 use super::placed::PlacedPlant;
 use super::{MOST_SUBJECTS, Picture, Subject, View, letters};
-use crate::meshes::MeshOptions;
+use phytomer_meshes::MeshOptions;
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 
@@ -30,18 +29,17 @@ pub struct Cast<'a> {
 
 impl<'a> Cast<'a> {
     /// The plants of a picture, not yet in their places.
-    pub fn of(subjects: &'a [Subject], picture: &Picture) -> Result<Self, PictureError> {
+    pub fn of(subjects: &'a [Subject], picture: &Picture) -> Self {
         let options = MeshOptions { sides: picture.sides, own: Arc::clone(&picture.own), ..MeshOptions::default() };
         let subjects = &subjects[..subjects.len().min(MOST_SUBJECTS)];
-        let coloured = picture.colour_by.as_ref().map(|column| colours(column, subjects)).transpose()?;
-        let (colours, legend) = coloured.unzip();
+        let (colours, legend) = picture.colour_by.as_ref().map(colours).unzip();
         let mut colours = colours.map(Vec::into_iter);
         let plants = subjects.iter().zip(0_u8..).map(|(subject, number)| {
             let colours = colours.as_mut().and_then(Iterator::next);
             PlacedPlant::new(subject.plant, subject.age, &options, colours, number)
         });
         let labels = subjects.iter().map(|subject| subject.label.as_str()).collect();
-        Ok(Self { plants: plants.collect(), labels, legend, turn: 0.0 })
+        Self { plants: plants.collect(), labels, legend: legend.flatten(), turn: 0.0 }
     }
 
     /// Puts the plants side by side, the first at the left, and finds the camera that sees them all, at no more than

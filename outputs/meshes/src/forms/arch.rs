@@ -4,37 +4,37 @@
 //! A blade that arches is four stretches of a strip, one after another; its length runs along the bend. A petal is two
 //! stretches folded along the middle, hollow above (plane polygons, as in de Reffye 1988 §6). Absent: stalks.
 
-use super::{Depth, Shape, along};
+use super::{Depth, FormMesh, along};
 use phytomer_sim::math::sincosf;
 
 /// The half widths of a strip at the ends of its four stretches.
 type Widths = [f32; 5];
 
 /// A grass leaf: it leaves its stem steeply and bends over through a right angle and more.
-pub fn arching() -> Shape {
+pub fn arching() -> FormMesh {
     strip(1.9, [0.36, 0.5, 0.46, 0.3, 0.0])
 }
 
 /// A banana leaf: narrow as its stalk at the base, then a broad oblong that hangs at the end.
-pub fn paddle() -> Shape {
+pub fn paddle() -> FormMesh {
     strip(1.1, [0.07, 0.44, 0.5, 0.42, 0.12])
 }
 
 /// A petal: a claw below, broad and hollow above, its rim bent back a little.
-pub fn petal() -> Shape {
+pub fn petal() -> FormMesh {
     let spine = [[0.0, 0.0], [0.5, 0.05], [1.0, -0.06]];
     hollow(spine, &[[0.0, 0.09], [0.7, 0.4], [1.0, 0.46]], &[[0.0, 0.46], [0.5, 0.5], [0.85, 0.34], [1.0, 0.1]])
 }
 
 /// A sepal: broad below, pointed above.
-pub fn sepal() -> Shape {
+pub fn sepal() -> FormMesh {
     let spine = [[0.0, 0.0], [0.45, 0.02], [1.0, 0.12]];
     hollow(spine, &[[0.0, 0.34], [0.5, 0.47], [1.0, 0.48]], &[[0.0, 0.48], [0.3, 0.44], [1.0, 0.0]])
 }
 
 /// Four stretches along an arc of `bend` radians, which starts along x and turns down.
-fn strip(bend: f32, widths: Widths) -> Shape {
-    let mut shape = Shape::new(Depth::Length);
+fn strip(bend: f32, widths: Widths) -> FormMesh {
+    let mut shape = FormMesh::new(Depth::Length);
     let spine: Vec<[f32; 2]> = (0..=4_u8)
         .map(|k| {
             let (sin, cos) = sincosf(bend * f32::from(k) / 4.0);
@@ -55,8 +55,8 @@ fn strip(bend: f32, widths: Widths) -> Shape {
 
 /// Two stretches along a spine of places along x and z, each in two halves: pairs of the share of the stretch and of
 /// the half width there. The edges rise by half of the half width.
-fn hollow(spine: [[f32; 2]; 3], lower: &[[f32; 2]], upper: &[[f32; 2]]) -> Shape {
-    let mut shape = Shape::new(Depth::Width);
+fn hollow(spine: [[f32; 2]; 3], lower: &[[f32; 2]], upper: &[[f32; 2]]) -> FormMesh {
+    let mut shape = FormMesh::new(Depth::Width);
     for (ends, outline) in spine.windows(2).zip([lower, upper]) {
         let on_spine = |share: f32| [0, 1].map(|k| ends[0][k] + share * (ends[1][k] - ends[0][k]));
         let edge = |&[share, wide]: &[f32; 2], side: f32| {

@@ -71,7 +71,7 @@ fn write_overlapped(scene: &Scene, out: &mut (dyn Write + Send)) -> io::Result<(
         let written = to_write.iter().try_for_each(|mut chunk| {
             out.write_all(chunk.filled())?;
             chunk.clear();
-            // The drawing thread may have ended: then nobody needs the chunk.
+            // The drawing thread may have ended: then no thread needs the chunk.
             let _ = empty.send(chunk);
             Ok(())
         });

@@ -10,7 +10,6 @@ use super::shadow::Shadow;
 use super::sky::{Crown, falling_on};
 use super::*;
 use phytomer_sim::math::{sincosf, tan};
-use phytomer_sim::mechanics::{Tissue, Wood};
 use phytomer_sim::plant::{Habit, Looks, NewAxis, NewNode, NodeId, Seed, Shape, Trend};
 use phytomer_sim::pose::pose;
 use std::sync::Arc;
@@ -54,7 +53,7 @@ fn pole(length: f32, diameter: f32) -> Plant {
 
 fn alone(plant: &Plant, age: Tick, picture: &Picture) -> Canvas {
     let subject = Subject { plant, age, label: "a".to_owned() };
-    draw(&[subject], "b", picture).unwrap()
+    draw(&[subject], "b", picture)
 }
 
 #[test]
@@ -277,35 +276,23 @@ fn a_place_where_nothing_is_left_is_drawn_too() {
         let bare = Picture { ground: true, ..picture([160, 120], view) };
         assert!(view == View::Front || alone(&plant, 0, &bare).pixels.iter().all(|pixel| pixel[3] == 0));
     }
-    assert!(
-        sheet(&[Subject { plant: &plant, age: 0, label: String::new() }], "", &picture([99, 77], View::Top)).is_ok()
-    );
+    let empty = Subject { plant: &plant, age: 0, label: String::new() };
+    assert_eq!(sheet(&[empty], "", &picture([99, 77], View::Top)).pixels.len(), 99 * 77);
 }
 
-/// A plant that cannot be coloured tells what it lacks, not what some other column needs.
+/// Amounts run from one end of the ramp to the other, classes have colours of their own, and the legend names them.
 #[test]
-fn nothing_to_colour_by_has_the_reason_of_its_column() {
-    let reason = |plant: &Plant, age: Tick, column: &str| {
-        let subject = Subject { plant, age, label: String::new() };
-        let coloured = Picture { colour_by: Some(column.to_owned()), ..picture([64, 64], View::Front) };
-        draw(&[subject], "", &coloured).expect_err("nothing to colour by").to_string()
-    };
-    let told = |plant: &Plant, age: Tick, column: &str, meant: &str| {
-        let reason = reason(plant, age, column);
-        assert_eq!(reason, format!("no component has a value of `{column}` to colour by: {meant}"));
-    };
-    let mut plant = pole(1.0, 0.1);
-    told(&plant, 1, "area_m2", "nothing that stands has an area, as leaves have");
-    told(&plant, 1, "parent_id", "everything that stands grows on the seed itself");
-    for column in ["fresh_mass_kg", "curvature_per_m", "bending_moment_N_m"] {
-        told(&plant, 1, column, "the species states no `[wood]`");
-    }
-    let wood = Wood { tissues: vec![Tissue::default()], ..Wood::default() };
-    plant.habit = Arc::new(Habit { wood: Some(Wood { bends: false, ..wood }), ..(*plant.habit).clone() });
-    told(&plant, 1, "fresh_mass_kg", "the `[wood]` of the species states no `density_kg_m3`");
-    for column in ["curvature_per_m", "bending_moment_N_m"] {
-        told(&plant, 1, column, "the wood of the species does not bend (`bends = false` in its `[wood]`)");
-    }
-    told(&plant, 0, "area_m2", "nothing but buds stands at that age");
-    told(&plant, 0, "diameter_tip_m", "no internode stands at that age");
+fn values_become_colours_and_a_legend() {
+    use super::colouring::colours;
+    use super::value_colours::{NOTHING, of_class, of_share};
+    let of = |scale: Scale, values: Vec<f64>| colours(&Colouring { name: "a".to_owned(), values: vec![values], scale });
+    let (amounts, legend) = of(Scale::Amounts, vec![2.0, f64::NAN, 4.0, 3.0]);
+    assert_eq!(amounts, [[of_share(0.0), NOTHING, of_share(1.0), of_share(0.5)]]);
+    assert!(legend.is_some());
+    let names = ["order 1", "order 2", "order 3"].map(str::to_owned).to_vec();
+    let (classes, legend) = of(Scale::Classes { first: 1, names }, vec![3.0, 2.0, f64::NAN]);
+    assert_eq!(classes, [[of_class(2), of_class(1), NOTHING]]);
+    let told = format!("{:?}", legend.expect("a legend"));
+    assert!(told.contains("order 2") && told.contains("order 3") && !told.contains("order 1"), "{told}");
+    assert_eq!(of(Scale::Amounts, vec![f64::NAN]), (vec![vec![NOTHING]], None));
 }

@@ -14,7 +14,7 @@ mod polygon;
 #[cfg(test)]
 mod tests;
 
-use super::{Depth, Point, Shape};
+use super::{Depth, FormMesh, Point};
 
 /// The most triangles of one mesh: an organ is drawn thousands of times.
 pub const MOST_TRIANGLES: usize = 10_000;
@@ -28,7 +28,7 @@ pub struct OwnForms {
 /// A mesh of the user's.
 #[derive(Debug, Clone, PartialEq)]
 struct OwnForm {
-    shape: Shape,
+    shape: FormMesh,
     /// How many times as wide as long it is in its file.
     aspect: f64,
 }
@@ -103,7 +103,7 @@ impl OwnForms {
     }
 
     /// The shape at a place.
-    pub(crate) fn shape(&self, place: u8) -> Option<&Shape> {
+    pub(crate) fn shape(&self, place: u8) -> Option<&FormMesh> {
         self.forms.get(usize::from(place)).map(|form| &form.shape)
     }
 
@@ -160,13 +160,13 @@ fn shape(soup: &Soup) -> Read<OwnForm> {
 }
 
 /// A shape of the vertices that are used, without triangles of no area.
-fn in_box(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Read<Shape> {
+fn in_box(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Read<FormMesh> {
     let mut normals = vec![[0.0_f32; 3]; points.len()];
     let mut faces: Vec<[u32; 3]> = Vec::new();
     for triangle in triangles {
         let [a, b, c] = triangle.map(|corner| points[corner as usize]);
         let edge = |to: [f32; 3]| [to[0] - a[0], to[1] - a[1], to[2] - a[2]];
-        let across = crate::meshes::tube::cross(edge(b), edge(c));
+        let across = crate::tube::cross(edge(b), edge(c));
         if !across.iter().all(|x| x.is_finite()) || across.iter().all(|&x| x == 0.0) {
             continue;
         }
@@ -178,7 +178,7 @@ fn in_box(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Read<Shape> {
     if faces.is_empty() {
         return Err(MeshFault::new("the whole", "no triangle has an area", "at least one that has"));
     }
-    let mut shape = Shape::new(Depth::Width);
+    let mut shape = FormMesh::new(Depth::Width);
     let mut numbers = vec![u32::MAX; points.len()];
     for face in faces {
         let face = face.map(|corner| {

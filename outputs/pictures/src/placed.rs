@@ -1,7 +1,7 @@
 //! The plants of a picture, each told from its seed and put where it is to be seen, and the ways through their
 //! triangles.
 //!
-//! Meshes are those of [`crate::meshes`], made block by block on whatever thread is free, looked at and thrown away: a
+//! Meshes are those of [`phytomer_meshes`], made block by block on whatever thread is free, looked at and thrown away: a
 //! picture of ten million triangles needs no more memory than one of ten. What is left by them is sums of whole numbers
 //! and maxima, so their order shows nowhere.
 
@@ -13,8 +13,8 @@ use super::raster::{Window, turn};
 use super::shade::Light;
 use super::shadow::Shadow;
 use super::sky::Crown;
-use crate::meshes::{Mesh, MeshOptions, Scene, Tag, Vertex};
 use glam::Vec3;
+use phytomer_meshes::{Mesh, MeshOptions, Scene, Tag, Vertex};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! Pictures of plants, without a graphics processor: the meshes of [`crate::meshes`] through a small rasteriser of our
+//! Pictures of plants, without a graphics processor: the meshes of [`phytomer_meshes`] through a small rasteriser of our
 //! own.
 //!
 //! No kept crate serves: those in pure Rust draw flat shapes, or are studies of one person that fix their own mesh in
@@ -13,7 +13,6 @@ mod caption;
 mod cast;
 mod colouring;
 mod draw;
-mod error;
 mod extent;
 mod film;
 mod gaze;
@@ -33,13 +32,12 @@ mod value_colours;
 pub use self::png::write_png;
 pub use ::png::Compression;
 pub use canvas::Canvas;
-pub use colouring::colour_columns;
-pub use error::PictureError;
+pub use colouring::{Colouring, Scale};
 
-use crate::meshes::OwnForms;
 use cast::Cast;
 use gaze::Gaze;
 use glam::Vec3;
+use phytomer_meshes::OwnForms;
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::f32::consts::{FRAC_PI_2, PI};
@@ -111,8 +109,8 @@ pub struct Picture {
     pub sides: u8,
     /// The meshes of its own that the species names.
     pub own: Arc<OwnForms>,
-    /// The column of `records` whose values colour the components; their own colours if not given.
-    pub colour_by: Option<String>,
+    /// What colours the components, its plants those of the picture; their own colours if not given.
+    pub colour_by: Option<Colouring>,
 }
 
 impl Default for Picture {
@@ -145,22 +143,17 @@ pub struct Subject<'a> {
 }
 
 /// Draws plants side by side, in one scale on one ground, `title` written in the corner.
-///
-/// # Errors
-/// Where the plants cannot be coloured by the column that is asked for.
-pub fn draw(subjects: &[Subject], title: &str, picture: &Picture) -> Result<Canvas, PictureError> {
-    let mut cast = Cast::of(subjects, picture)?;
+/// All plants are in memory, but of their triangles only some blocks at a time.
+pub fn draw(subjects: &[Subject], title: &str, picture: &Picture) -> Canvas {
+    let mut cast = Cast::of(subjects, picture);
     let camera = cast.aim(picture, f32::INFINITY);
-    Ok(cast.draw(picture, &camera, title))
+    cast.draw(picture, &camera, title)
 }
 
 /// Draws the four parallel views of plants on one sheet, in one scale: front and side above, top and oblique below.
-///
-/// # Errors
-/// As [`draw`].
-pub fn sheet(subjects: &[Subject], title: &str, picture: &Picture) -> Result<Canvas, PictureError> {
+pub fn sheet(subjects: &[Subject], title: &str, picture: &Picture) -> Canvas {
     let [width, height] = picture.size;
-    let mut cast = Cast::of(subjects, picture)?;
+    let mut cast = Cast::of(subjects, picture);
     let mut canvas = Canvas::new(width, height);
     let halves = [[width / 2, height / 2], [width - width / 2, height - height / 2]];
     let views = [View::Front, View::Side, View::Top, View::Oblique];
@@ -175,5 +168,5 @@ pub fn sheet(subjects: &[Subject], title: &str, picture: &Picture) -> Result<Can
         let drawn = cast.draw(part, &camera, if number == 3 { title } else { "" });
         canvas.put(&drawn, [0, width / 2][number % 2], [0, height / 2][number / 2]);
     }
-    Ok(canvas)
+    canvas
 }

@@ -19,7 +19,7 @@ pub struct Paint {
     pub thin: bool,
     /// Whether the colour stands for something: light then changes it little.
     pub stained: bool,
-    /// Whose it is: the place of its plant in the picture.
+    /// The plant that it belongs to, by its place in the picture.
     pub subject: u8,
 }
 

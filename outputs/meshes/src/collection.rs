@@ -137,10 +137,8 @@ fn shift(chunk: &Chunk, first: u32, out: &mut impl Write) -> io::Result<()> {
 mod tests {
     use super::super::{MeshOptions, MeshWriter, Ply};
     use super::*;
-    use crate::specimen::Sapling;
-    use phytomer_sim::plant::Seed;
+    use crate::tests::{LAST, specimen};
     use phytomer_sim::pose::pose;
-    use phytomer_sim::{GrowthModel, Plot};
 
     fn payload(bytes: &[u8]) -> &[u8] {
         let end = b"end_header\n";
@@ -151,12 +149,8 @@ mod tests {
     #[test]
     fn one_scene_is_that_of_its_own_file_and_a_second_follows_it() {
         let folder = tempfile::tempdir().unwrap();
-        let seed = Seed { plant: 0, run_seed: 1, component_limit: 1000, keep_events: false };
-        let mut plot = Plot::of_one(&Sapling, &seed);
-        Sapling.grow_to(6, &mut plot.plants, &plot.site).unwrap();
-        Sapling.thicken(6, &mut plot.plants[0]);
-        pose(&mut plot.plants[0], 6);
-        let scene = Scene::new(&plot.plants[0], 6, &MeshOptions::default());
+        let plant = specimen();
+        let scene = Scene::new(&plant, 6, &MeshOptions::default());
         let about = scene.about(1);
         let mut alone = Vec::new();
         Ply.write(&scene, &about, &mut alone).unwrap();
@@ -185,21 +179,20 @@ mod tests {
     fn plants_stand_apart_as_they_do_in_the_plot() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("two.ply");
-        let mut plants = [0, 1].map(|plant| {
-            let seed = Seed { plant, run_seed: 1, component_limit: 1000, keep_events: false };
-            let mut plot = Plot::of_one(&Sapling, &seed);
-            Sapling.grow_to(6, &mut plot.plants, &plot.site).unwrap();
-            Sapling.thicken(6, &mut plot.plants[0]);
-            plot.plants.remove(0)
+        let mut plants = [0, 1].map(|id| {
+            let mut plant = specimen();
+            plant.id = id;
+            plant.nodes.length[0] += 0.01 * id as f32;
+            plant
         });
         let mut collection = Collection::create(&path).unwrap();
         let mut alone = Vec::new();
         for (plant, place) in plants.iter_mut().zip([[1e6, 0.5, 0.0], [1e6 + 3.0, -1.5, 0.25]]) {
             plant.place = place;
-            pose(plant, 6);
+            pose(plant, LAST);
             let scene = Scene::new(plant, 6, &MeshOptions::default());
             collection.add(&scene, &scene.about(1)).unwrap();
-            alone.push(crate::meshes::mesh_plant(plant, 6, &MeshOptions::default()).vertices);
+            alone.push(crate::mesh_plant(plant, 6, &MeshOptions::default()).vertices);
         }
         collection.finish().unwrap();
         let bytes = fs::read(path).unwrap();

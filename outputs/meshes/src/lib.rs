@@ -47,7 +47,7 @@ pub struct MeshOptions {
 impl MeshOptions {
     /// The shape of a form.
     #[inline]
-    pub(crate) fn shape(&self, form: Form) -> &forms::Shape {
+    pub(crate) fn shape(&self, form: Form) -> &forms::FormMesh {
         match form {
             Form::Own(place) => self.own.shape(place).unwrap_or_else(|| forms::shape(form)),
             form => forms::shape(form),

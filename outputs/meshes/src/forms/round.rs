@@ -3,22 +3,22 @@
 //! A few rings of triangles are enough at the size of a fruit (de Reffye 1988 §6 draws a few vectors). A solid may be
 //! bent: its rings then stand on a curve. Every solid here but the tube of a corolla is closed.
 
-use super::{Depth, Point, Shape, unit};
+use super::{Depth, FormMesh, Point, unit};
 use phytomer_sim::math::sincosf;
 use std::f32::consts::TAU;
 
 const SIDES: u16 = 6;
 
 /// An egg, widest near its base, with a stalk's breadth at neither end.
-pub fn cone() -> Shape {
-    let mut shape = Shape::new(Depth::Width);
+pub fn cone() -> FormMesh {
+    let mut shape = FormMesh::new(Depth::Width);
     revolve(&mut shape, &[[0.0, 0.0], [0.1, 0.36], [0.3, 0.5], [0.7, 0.34], [1.0, 0.0]], SIDES, false);
     shape
 }
 
 /// A spindle with rings of scales.
-pub fn catkin() -> Shape {
-    let mut shape = Shape::new(Depth::Width);
+pub fn catkin() -> FormMesh {
+    let mut shape = FormMesh::new(Depth::Width);
     let rings = [
         [0.0, 0.0],
         [0.05, 0.32],
@@ -38,15 +38,15 @@ pub fn catkin() -> Shape {
 }
 
 /// A spindle of four sides.
-pub fn spikelet() -> Shape {
-    let mut shape = Shape::new(Depth::Width);
+pub fn spikelet() -> FormMesh {
+    let mut shape = FormMesh::new(Depth::Width);
     revolve(&mut shape, &[[0.0, 0.0], [0.18, 0.42], [0.42, 0.5], [0.72, 0.3], [1.0, 0.0]], 4, false);
     shape
 }
 
 /// Turns a meridian, places along x with radii, around the x axis: a ring of `sides` + 1 points at each of its places,
 /// or a fan at an end without a radius. Normals are the mean of the neighbouring zones'.
-pub(super) fn revolve(shape: &mut Shape, meridian: &[[f32; 2]], sides: u16, stalk: bool) {
+pub(super) fn revolve(shape: &mut FormMesh, meridian: &[[f32; 2]], sides: u16, stalk: bool) {
     let rings: Vec<u32> = (0..meridian.len()).map(|row| ring(shape, meridian, row, sides, stalk)).collect();
     for (zone, ring) in meridian.windows(2).zip(rings.windows(2)) {
         for k in 0..u32::from(sides) {
@@ -63,7 +63,7 @@ pub(super) fn revolve(shape: &mut Shape, meridian: &[[f32; 2]], sides: u16, stal
 
 /// Adds a ring and says at which number its corner 0 is. At a pole each triangle has a corner of its own, so that there
 /// is one fewer: the first pole lacks the last corner, the other one corner 0.
-fn ring(shape: &mut Shape, meridian: &[[f32; 2]], row: usize, sides: u16, stalk: bool) -> u32 {
+fn ring(shape: &mut FormMesh, meridian: &[[f32; 2]], row: usize, sides: u16, stalk: bool) -> u32 {
     let [x, r] = meridian[row];
     let [along, across] = meridian_normal(meridian, row);
     let (first_pole, last_pole) = (r == 0.0 && row == 0, r == 0.0 && row > 0);
@@ -90,7 +90,7 @@ fn meridian_normal(meridian: &[[f32; 2]], row: usize) -> [f32; 2] {
 
 /// The same around a curve: rings at places along x that rise, each with the height of the curve there and its radius.
 /// Rings stay across x, so that the surface leans where the curve rises.
-pub(super) fn swept(shape: &mut Shape, rings: &[[f32; 3]], sides: u16, stalk: bool) {
+pub(super) fn swept(shape: &mut FormMesh, rings: &[[f32; 3]], sides: u16, stalk: bool) {
     let first = shape.points.len();
     let meridian: Vec<[f32; 2]> = rings.iter().map(|&[x, _, r]| [x, r]).collect();
     revolve(shape, &meridian, sides, stalk);

@@ -59,7 +59,7 @@ fn add_axis(plant: &mut Plant, bearer: Option<NodeId>, nodes: u32) -> Vec<NodeId
 }
 
 /// An age at which every node of a specimen is there.
-const LAST: Tick = 20_000;
+pub const LAST: Tick = 20_000;
 
 fn add_organ(plant: &mut Plant, node: NodeId, position: u16) {
     let (form, kind) = FORMS[usize::from(position) % FORMS.len()];
@@ -80,7 +80,7 @@ fn add_organ(plant: &mut Plant, node: NodeId, position: u16) {
 }
 
 /// A trunk of 5 nodes with a branch that dies at 4 and falls at 8, and an organ of each form at its top.
-fn specimen() -> Plant {
+pub fn specimen() -> Plant {
     let trend = Trend { inclination: 0.0, share: 0.1 };
     let habit = Habit { trends: vec![trend], looks: Looks::of_shape(Shape::Cone), organ_trends: vec![], wood: None };
     let seed = Seed { plant: 7, run_seed: 42, component_limit: 1000, keep_events: false };

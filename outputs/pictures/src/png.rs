@@ -1,4 +1,4 @@
-//! PNG files: eight bits a channel, with opacity where the picture has any, and who made it.
+//! PNG files: eight bits a channel, with opacity where the picture has any, and the name of the program that made it.
 //!
 //! The `png` crate encodes; its version is in the lock file, so the same picture has the same bytes. Absent: other
 //! formats.

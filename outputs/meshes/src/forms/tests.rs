@@ -142,7 +142,7 @@ fn polygons_are_plane_and_convex() {
         for (k, corner) in corners.iter().enumerate() {
             assert!(dot(minus(corner.at, corners[0].at), normal).abs() < 1e-5, "{form:?}: corner {k} is out of plane");
             let [next, after] = [1, 2].map(|n| corners[(k + n) % corners.len()].at);
-            let turn = crate::meshes::tube::cross(minus(next, corner.at), minus(after, next));
+            let turn = crate::tube::cross(minus(next, corner.at), minus(after, next));
             assert!(dot(turn, normal) > -1e-6, "{form:?}: the polygon of corner {k} is hollow");
         }
     }

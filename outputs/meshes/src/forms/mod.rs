@@ -53,7 +53,7 @@ pub enum Depth {
 
 /// A mesh in its unit box.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shape {
+pub struct FormMesh {
     /// Its corners.
     pub points: Vec<Point>,
     /// Its triangles, by the numbers of its corners.
@@ -82,14 +82,14 @@ pub struct Placement {
 }
 
 /// The shape of a form of the library; of a mesh of the user's that is not at hand, a broad blade.
-pub fn shape(form: Form) -> &'static Shape {
-    static LIBRARY: LazyLock<Vec<Shape>> =
+pub fn shape(form: Form) -> &'static FormMesh {
+    static LIBRARY: LazyLock<Vec<FormMesh>> =
         LazyLock::new(|| Form::LIBRARY.iter().map(|&form| made(form).measured()).collect());
     LIBRARY.get(form.number()).unwrap_or(&LIBRARY[0])
 }
 
 /// Makes the shape of a form.
-fn made(form: Form) -> Shape {
+fn made(form: Form) -> FormMesh {
     match form {
         Form::Elliptic | Form::Own(_) => blade::elliptic(),
         Form::Lanceolate => blade::lanceolate(),
@@ -131,7 +131,7 @@ fn made(form: Form) -> Shape {
     }
 }
 
-impl Shape {
+impl FormMesh {
     fn new(depth: Depth) -> Self {
         let (points, faces) = (Vec::new(), Vec::new());
         let side = Side::of(&points, &faces, depth);

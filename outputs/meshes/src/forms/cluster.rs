@@ -5,13 +5,13 @@
 //! component each (de Reffye 1988 §6 likewise draws small fruits as a few vectors). Needles are triangles, flowers
 //! plane polygons. Absent: inflorescences that are plants of their own (§5), which species files grow.
 
-use super::{Depth, Shape, along};
+use super::{Depth, FormMesh, along};
 use phytomer_sim::math::sincosf;
 use std::f32::consts::TAU;
 
 /// A rosette of needles on a short shoot: a cedar's, a larch's. Its width is that across the outer tips.
-pub fn tuft() -> Shape {
-    let mut shape = Shape::new(Depth::Width);
+pub fn tuft() -> FormMesh {
+    let mut shape = FormMesh::new(Depth::Width);
     // Around the axis: how many needles, and how far along and out their tips are.
     for (needles, tip, turn) in [(8_u8, [0.42, 0.5], 0.0), (6, [0.8, 0.36], 0.5), (3, [1.0, 0.12], 0.25)] {
         for number in 0..needles {
@@ -26,9 +26,9 @@ pub fn tuft() -> Shape {
 
 /// A piece of shoot with a row of needles on either side: a fir's or a yew's. Its length is that of the shoot with the
 /// last needles, its width that across two needles.
-pub fn spray() -> Shape {
+pub fn spray() -> FormMesh {
     const PAIRS: u8 = 6;
-    let mut shape = Shape::new(Depth::Width);
+    let mut shape = FormMesh::new(Depth::Width);
     for pair in 0..PAIRS {
         let from = 0.82 * f32::from(pair) / f32::from(PAIRS);
         let (tip, lift) = (from + 0.3, if pair % 2 == 0 { 0.05 } else { 0.16 });
@@ -41,10 +41,10 @@ pub fn spray() -> Shape {
 }
 
 /// A pyramid of side branches full of small flowers: a mango's panicle.
-pub fn panicle() -> Shape {
+pub fn panicle() -> FormMesh {
     const WHORLS: u8 = 6;
     const BRANCHES: u8 = 5;
-    let mut shape = Shape::new(Depth::Width);
+    let mut shape = FormMesh::new(Depth::Width);
     stem(&mut shape, [0.0, 0.0, 0.0], [0.94, 0.0, 0.0], 0.025);
     for whorl in 0..WHORLS {
         let share = f32::from(whorl) / f32::from(WHORLS);
@@ -62,8 +62,8 @@ pub fn panicle() -> Shape {
 }
 
 /// Seven flowers of five petals on a dome of stalks: a frangipani's cyme.
-pub fn cyme() -> Shape {
-    let mut shape = Shape::new(Depth::Width);
+pub fn cyme() -> FormMesh {
+    let mut shape = FormMesh::new(Depth::Width);
     blossom(&mut shape, [0.0, 0.0]);
     for number in 0..6_u8 {
         let (sin, cos) = sincosf(TAU * f32::from(number) / 6.0);
@@ -73,7 +73,7 @@ pub fn cyme() -> Shape {
 }
 
 /// A five-petalled flower on its stalk, `out` from the axis.
-fn blossom(shape: &mut Shape, [y, z]: [f32; 2]) {
+fn blossom(shape: &mut FormMesh, [y, z]: [f32; 2]) {
     let height = 0.76 - 1.2 * (y * y + z * z);
     stem(shape, [0.0, 0.0, 0.0], [height, y, z], 0.02);
     for petal in 0..5_u8 {
@@ -88,14 +88,14 @@ fn blossom(shape: &mut Shape, [y, z]: [f32; 2]) {
 }
 
 /// A small flat flower that faces away from the axis, in the direction around it of that sine and cosine.
-fn flower(shape: &mut Shape, [x, y, z]: [f32; 3], [sin, cos]: [f32; 2], half: f32) {
+fn flower(shape: &mut FormMesh, [x, y, z]: [f32; 3], [sin, cos]: [f32; 2], half: f32) {
     let (aside, across) = (half * sin, half * cos);
     let corners = [[x - half, y, z], [x, y - aside, z + across], [x + half, y, z], [x, y + aside, z - across]];
     shape.polygon(&corners, along, false);
 }
 
 /// A stalk as two narrow triangles across one another.
-fn stem(shape: &mut Shape, from: [f32; 3], to: [f32; 3], half: f32) {
+fn stem(shape: &mut FormMesh, from: [f32; 3], to: [f32; 3], half: f32) {
     let [x, y, z] = from;
     shape.polygon(&[[x, y - half, z], to, [x, y + half, z]], along, true);
     shape.polygon(&[[x, y, z - half], to, [x, y, z + half]], along, true);

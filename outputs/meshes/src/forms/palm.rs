@@ -3,7 +3,7 @@
 //!
 //! De Reffye 1988 §5 (Fig. 16) grows a palm as a growth unit of its own, as species files can; here it is one organ.
 
-use super::{Depth, Point, Shape};
+use super::{Depth, FormMesh, Point};
 use phytomer_sim::math::sincosf;
 
 /// The angle through which the rachis bends from base to tip, radians.
@@ -20,8 +20,8 @@ const AHEAD: f32 = 0.16;
 const HANG: f32 = 0.05;
 
 /// A rachis with its leaflets.
-pub fn palm() -> Shape {
-    let mut shape = Shape::new(Depth::Length);
+pub fn palm() -> FormMesh {
+    let mut shape = FormMesh::new(Depth::Length);
     rachis(&mut shape);
     for pair in 0..PAIRS {
         let place = STALK + (0.97 - STALK) * f32::from(pair) / f32::from(PAIRS - 1);
@@ -38,7 +38,7 @@ fn arch(share: f32) -> ([f32; 2], [f32; 2]) {
     ([sin / ARCH, (cos - 1.0) / ARCH], [cos, -sin])
 }
 
-fn rachis(shape: &mut Shape) {
+fn rachis(shape: &mut FormMesh) {
     let first = shape.points.len() as u32;
     for step in 0..=STEPS {
         let share = f32::from(step) / f32::from(STEPS);
@@ -60,7 +60,7 @@ fn rachis(shape: &mut Shape) {
 }
 
 /// A leaflet at a share of the rachis, to the left (1) or the right (−1): longest below the middle.
-fn leaflet(shape: &mut Shape, place: f32, side: f32) {
+fn leaflet(shape: &mut FormMesh, place: f32, side: f32) {
     let ([x, z], [along_x, along_z]) = arch(place);
     let among = (place - STALK) / (1.0 - STALK);
     let reach = 0.5 * ((0.25 + 1.6 * among) * (1.0 - 0.93 * among) / 0.68).min(1.0).sqrt();
@@ -77,8 +77,8 @@ fn leaflet(shape: &mut Shape, place: f32, side: f32) {
 }
 
 /// Four pairs of leaflets and one at the end, each a plane polygon, on a thin rachis: an ash leaf.
-pub fn pinnate() -> Shape {
-    let mut shape = Shape::new(Depth::Width);
+pub fn pinnate() -> FormMesh {
+    let mut shape = FormMesh::new(Depth::Width);
     let rachis = [[0.0, -0.02], [0.75, -0.01], [0.75, 0.01], [0.0, 0.02]];
     shape.part(&rachis.map(|[x, y]| [[x, 0.0, 0.0], [0.0, y, 0.0]]), true);
     let place = |foot: f32, [cos, sin]: [f32; 2], long: f32, rise: f32| {

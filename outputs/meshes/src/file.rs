@@ -49,7 +49,7 @@ pub enum MeshError {
 pub struct MeshFile {
     /// Where it is.
     pub path: PathBuf,
-    /// Whose mesh it is.
+    /// The number of the plant that is drawn.
     pub plant: u32,
     /// At which age.
     pub age: Tick,

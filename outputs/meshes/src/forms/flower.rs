@@ -4,19 +4,19 @@
 //! their own (§5), which species files grow; catkins and spikelets are solids (`round`).
 
 use super::round::{revolve, swept};
-use super::{Depth, Shape};
+use super::{Depth, FormMesh};
 use phytomer_sim::math::sincosf;
 use std::f32::consts::TAU;
 
 const PETALS: u8 = 5;
 
 /// Five petals on a tube, spreading from its mouth: a coffee flower.
-pub fn corolla() -> Shape {
+pub fn corolla() -> FormMesh {
     const MOUTH: [f32; 2] = [0.5, 0.05];
     const RIM: [f32; 2] = [1.0, 0.5];
     const HALF_WIDTH: f32 = 0.19;
     const WIDEST: f32 = 0.6;
-    let mut shape = Shape::new(Depth::Width);
+    let mut shape = FormMesh::new(Depth::Width);
     revolve(&mut shape, &[[0.0, 0.03], MOUTH], 5, true);
     let middle = [0, 1].map(|k| MOUTH[k] + WIDEST * (RIM[k] - MOUTH[k]));
     let kite = [(MOUTH, 0.0), (middle, -HALF_WIDTH), (RIM, 0.0), (middle, HALF_WIDTH)];
@@ -25,8 +25,8 @@ pub fn corolla() -> Shape {
 }
 
 /// Five broad petals, nearly flat, around a tuft of stamens on a stalk: a cherry flower.
-pub fn rosette() -> Shape {
-    let mut shape = Shape::new(Depth::Width);
+pub fn rosette() -> FormMesh {
+    let mut shape = FormMesh::new(Depth::Width);
     swept(
         &mut shape,
         &[[0.0, 0.0, 0.0], [0.02, 0.0, 0.02], [0.62, 0.0, 0.025], [0.7, 0.0, 0.08], [0.9, 0.0, 0.0]],
@@ -48,16 +48,16 @@ pub fn rosette() -> Shape {
 }
 
 /// A filament with its anther.
-pub fn stamen() -> Shape {
-    let mut shape = Shape::new(Depth::Width);
+pub fn stamen() -> FormMesh {
+    let mut shape = FormMesh::new(Depth::Width);
     swept(&mut shape, &[[0.0, 0.0, 0.0], [0.02, 0.0, 0.12], [0.78, 0.12, 0.09], [0.8, 0.12, 0.0]], 4, true);
     swept(&mut shape, &[[0.74, 0.12, 0.0], [0.8, 0.12, 0.38], [0.94, 0.12, 0.34], [1.0, 0.12, 0.0]], 4, false);
     shape
 }
 
 /// An ovary with its style, and the stigma on it.
-pub fn pistil() -> Shape {
-    let mut shape = Shape::new(Depth::Width);
+pub fn pistil() -> FormMesh {
+    let mut shape = FormMesh::new(Depth::Width);
     let ovary =
         [[0.0, 0.0, 0.0], [0.05, 0.0, 0.38], [0.22, 0.0, 0.44], [0.38, 0.0, 0.14], [0.88, 0.0, 0.1], [0.9, 0.0, 0.0]];
     swept(&mut shape, &ovary, 6, true);
@@ -71,7 +71,7 @@ pub fn pistil() -> Shape {
 }
 
 /// Five petals around the x axis: each a plane polygon of places along x and out from the axis, and aside.
-fn petals(shape: &mut Shape, petal: &[([f32; 2], f32)]) {
+fn petals(shape: &mut FormMesh, petal: &[([f32; 2], f32)]) {
     for number in 0..PETALS {
         let (sin, cos) = sincosf(TAU * f32::from(number) / f32::from(PETALS));
         let at = |&([x, r], aside): &([f32; 2], f32)| [x, r * cos - aside * sin, r * sin + aside * cos];

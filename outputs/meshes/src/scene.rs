@@ -7,7 +7,7 @@
 
 use super::MeshOptions;
 use super::chunk::{Chunk, Face, Sink, Tag, Vertex};
-use super::forms::{Placement, Shape};
+use super::forms::{FormMesh, Placement};
 use super::tube::{Frustum, Strip, Tube};
 use super::{About, Mesh, colour};
 use bytemuck::Zeroable;
@@ -50,13 +50,13 @@ enum Drawn {
     Tube(Tube),
     Strip,
     /// As an organ is, with the internode's length and diameter.
-    Shape(Shape),
+    Form(FormMesh),
 }
 
 impl Drawn {
     fn of(look: &InternodeLook, options: &MeshOptions) -> Self {
         match (look.form, look.shape) {
-            (Some(form), _) => Self::Shape(options.shape(form).clone()),
+            (Some(form), _) => Self::Form(options.shape(form).clone()),
             (None, Stem::Blade) => Self::Strip,
             (None, Stem::Cylinder | Stem::Cone) => Self::Tube(Tube::new(look.sides.unwrap_or(options.sides))),
         }
@@ -66,7 +66,7 @@ impl Drawn {
         match self {
             Self::Tube(tube) => tube.vertices(),
             Self::Strip => Strip::VERTICES,
-            Self::Shape(shape) => shape.points.len(),
+            Self::Form(shape) => shape.points.len(),
         }
     }
 
@@ -74,7 +74,7 @@ impl Drawn {
         match self {
             Self::Tube(tube) => tube.faces(),
             Self::Strip => &Strip::FACES,
-            Self::Shape(shape) => &shape.faces,
+            Self::Form(shape) => &shape.faces,
         }
     }
 }
@@ -198,7 +198,7 @@ impl<'a> Scene<'a> {
     }
 
     #[inline]
-    fn shape(&self, organ: OrganId) -> &Shape {
+    fn shape(&self, organ: OrganId) -> &FormMesh {
         self.options.shape(self.plant.organs.form[organ.index()])
     }
 
@@ -216,7 +216,7 @@ impl<'a> Scene<'a> {
         match stem {
             Drawn::Tube(tube) => tube.write(&self.frustum(node), &self.wood_tag(node), out),
             Drawn::Strip => Strip::write(&self.frustum(node), &self.wood_tag(node), out),
-            Drawn::Shape(shape) => shape.write(&self.stands(node), &[self.wood_tag(node); 2], out),
+            Drawn::Form(shape) => shape.write(&self.stands(node), &[self.wood_tag(node); 2], out),
         }
     }
 
@@ -238,7 +238,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Where an organ stands, how large it is at its age, and how full it is for the area that the tables state of it.
-    fn placement(&self, organ: OrganId, shape: &Shape) -> Placement {
+    fn placement(&self, organ: OrganId, shape: &FormMesh) -> Placement {
         let frame = organ_frame(self.plant, organ, self.age);
         let organs = &self.plant.organs;
         let node = organs.node[organ.index()];
