@@ -37,8 +37,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// How a run is made, beside what its scenario says. Of all this only the name of the program is in the bytes of tables and
-/// meshes.
+/// How a run is made, beside what its scenario says. Of all this only the name of the program is in the bytes of tables
+/// and meshes.
 #[derive(Debug, Clone)]
 pub struct Settings {
     /// The run folder.
@@ -243,8 +243,8 @@ impl Grower<'_> {
         Ok(true)
     }
 
-    /// Whether a model must make the plant at this age whatever is recorded: one that rebuilds it must at the last age, of
-    /// which the components are written.
+    /// Whether a model must make the plant at this age whatever is recorded: one that rebuilds it must at the last age,
+    /// of which the components are written.
     fn must_make(&self, age: Tick) -> bool {
         age == self.resolved.scenario.ages.until && self.resolved.model.growth() == Growth::Rebuilds
     }

@@ -73,7 +73,8 @@ pub fn check_room(needed: f64, there: There, space: Space, folder: &Path) -> Res
     Err(TooSmall { folder: folder.to_path_buf(), needed, free, reserve })
 }
 
-/// The same for a scenario and its settings; where there is no forecast, or the system tells no free space, nothing is refused.
+/// The same for a scenario and its settings; where there is no forecast, or the system tells no free space, nothing is
+/// refused.
 ///
 /// # Errors
 /// [`TooSmall`].

@@ -1,7 +1,8 @@
-//! A run whose tables stay in memory, as Arrow record batches: for query engines, and for programs that bind this crate.
+//! A run whose tables stay in memory, as Arrow record batches: for query engines, and for programs that bind this
+//! crate.
 //!
-//! The batches have the rows, the schema and the metadata of the Parquet files that the same scenario writes; a batch is
-//! a row group of one part. Absent: meshes, a journal, resuming and any file.
+//! The batches have the rows, the schema and the metadata of the Parquet files that the same scenario writes; a batch
+//! is a row group of one part. Absent: meshes, a journal, resuming and any file.
 
 use super::{Grower, Keeper, Program, Progress, RunError, forms, plan_of, pool};
 use phytomer_config::Resolved;
@@ -19,11 +20,12 @@ pub struct InMemory {
     pub overgrown: Vec<OvergrownPlot>,
 }
 
-/// Grows every plant of a scenario and keeps its tables in memory, on so many threads; 0 takes as many as the machine has.
+/// Grows every plant of a scenario and keeps its tables in memory, on so many threads; 0 takes as many as the machine
+/// has.
 ///
 /// All rows are in memory at once: about 0.1 kB a row of `records` and of `components`, which
-/// [`Forecast`](super::forecast::Forecast) counts beforehand. The number of threads does not change the rows, nor how they
-/// are parted into batches.
+/// [`Forecast`](super::forecast::Forecast) counts beforehand. The number of threads does not change the rows, nor how
+/// they are parted into batches.
 ///
 /// ```
 /// use phytomer::outputs::Table;

@@ -1,5 +1,5 @@
-//! Pictures of plants, without a graphics processor: the meshes of [`phytomer_meshes`] through a small rasteriser of our
-//! own.
+//! Pictures of plants, without a graphics processor: the meshes of [`phytomer_meshes`] through a small rasteriser of
+//! our own.
 //!
 //! No kept crate serves: those in pure Rust draw flat shapes, or are studies of one person that fix their own mesh in
 //! memory. What happens: plants are put side by side (`placed`), a camera is fitted to them (`camera`, `extent`), sun

@@ -1,9 +1,9 @@
 //! The plants of a picture, each told from its seed and put where it is to be seen, and the ways through their
 //! triangles.
 //!
-//! Meshes are those of [`phytomer_meshes`], made block by block on whatever thread is free, looked at and thrown away: a
-//! picture of ten million triangles needs no more memory than one of ten. What is left by them is sums of whole numbers
-//! and maxima, so their order shows nowhere.
+//! Meshes are those of [`phytomer_meshes`], made block by block on whatever thread is free, looked at and thrown away:
+//! a picture of ten million triangles needs no more memory than one of ten. What is left by them is sums of whole
+//! numbers and maxima, so their order shows nowhere.
 
 use super::camera::Camera;
 use super::extent::Extent;

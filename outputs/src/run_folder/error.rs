@@ -1,7 +1,7 @@
 //! What can go wrong with a run folder, in words for the person who must set it right.
 //!
-//! What a table or a file refuses is told in its own words. A failed write ends the run: nothing here is logged and passed
-//! over. A message does not repeat its cause, which `source` has: a person is shown the whole chain.
+//! What a table or a file refuses is told in its own words. A failed write ends the run: nothing here is logged and
+//! passed over. A message does not repeat its cause, which `source` has: a person is shown the whole chain.
 
 use super::difference::Differences;
 use super::holder::Holder;

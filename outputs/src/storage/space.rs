@@ -1,9 +1,9 @@
 //! The free space of a disk, and the watch that ends a run before there is none.
 //!
 //! A disk that is full to its last byte hurts everything else on the machine, and a run that is told of it by a failed
-//! write may have torn a file of another program. So tables look at the free space as they are written, and meshes before
-//! they are. Where a system does not tell its free space a run goes on unwatched. Absent: what a run is expected to
-//! need.
+//! write may have torn a file of another program. So tables look at the free space as they are written, and meshes
+//! before they are. Where a system does not tell its free space a run goes on unwatched. Absent: what a run is expected
+//! to need.
 
 use std::fmt;
 use std::io;

@@ -1,10 +1,10 @@
 //! The five tables of a run, from the plant's columns to Parquet part files, or to Arrow record batches in memory.
 //!
 //! [`columns`] declares what a table holds; `records`, `components`, `events`, `summary` and `plants` fill column
-//! buffers from a plant; `recording` says which rows are written when, for files and for memory alike. `part` turns full
-//! buffers into row groups of one file, encoded column by column on as many threads as there are (`encode`); `memory`
-//! keeps them as Arrow record batches. The bytes do not depend on the number of threads: a row group is a fixed number
-//! of rows and its columns are put into the file in their order.
+//! buffers from a plant; `recording` says which rows are written when, for files and for memory alike. `part` turns
+//! full buffers into row groups of one file, encoded column by column on as many threads as there are (`encode`);
+//! `memory` keeps them as Arrow record batches. The bytes do not depend on the number of threads: a row group is a
+//! fixed number of rows and its columns are put into the file in their order.
 
 pub mod arrow;
 mod buffers;

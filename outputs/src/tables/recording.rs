@@ -1,8 +1,8 @@
 //! The tables of a range of plots, filled from what the loop of growth shows: which rows are written, and when.
 //!
-//! Files and memory are filled by the same code, so a table in memory has the rows of the Parquet file. The components of
-//! a plant are written once, as soon as their lives are known; `records` and `summary` at each recorded age; events and
-//! plants when the plot has ended. Absent: where row groups go, which is the [`Sink`]'s.
+//! Files and memory are filled by the same code, so a table in memory has the rows of the Parquet file. The components
+//! of a plant are written once, as soon as their lives are known; `records` and `summary` at each recorded age; events
+//! and plants when the plot has ended. Absent: where row groups go, which is the [`Sink`]'s.
 
 use super::sink::{Rows, Sink};
 use super::{
@@ -70,8 +70,8 @@ impl<S: Sink> Recording<S> {
         wanted && self.recorded.binary_search(&age).is_ok()
     }
 
-    /// Growth has run ahead to `until`: the components of the plot, the largest table of a plant, are written before its
-    /// first age, so that other threads can encode them while this thread makes the ages ready.
+    /// Growth has run ahead to `until`: the components of the plot, the largest table of a plant, are written before
+    /// its first age, so that other threads can encode them while this thread makes the ages ready.
     pub fn grown(&mut self, until: Tick, plot: &Plot) -> Result<(), TableError> {
         for plant in &plot.plants {
             self.write_components(plot, plant, until)?;

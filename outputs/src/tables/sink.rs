@@ -1,7 +1,7 @@
 //! Where full row groups of a table go: to a Parquet file (`part`) or into memory (`memory`).
 //!
-//! A [`Rows`] is a table being filled: rows go into its column buffers, and a full row group goes to the sink. Memory is
-//! bounded by one row group and by what the sink keeps.
+//! A [`Rows`] is a table being filled: rows go into its column buffers, and a full row group goes to the sink. Memory
+//! is bounded by one row group and by what the sink keeps.
 
 use super::buffers::{Columns, Values};
 use super::{ROW_GROUP, TableError};
