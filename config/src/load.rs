@@ -12,7 +12,7 @@ use crate::about::About;
 use crate::document::{self, Node};
 use crate::forms;
 use crate::inherit::merge_chain;
-use crate::library::{self, Kind};
+use crate::library::{Kind, Library};
 use crate::meaning;
 use crate::models::{MODELS, Model, ModelName, any_file};
 use crate::report::Fault;
@@ -27,6 +27,7 @@ const MOST_ANCESTORS: usize = 16;
 /// What was read so far, and what was wrong with it.
 #[derive(Default)]
 pub(crate) struct Loader {
+    pub library: Library,
     pub sources: Sources,
     pub faults: Vec<Fault>,
 }
@@ -54,7 +55,7 @@ impl Loader {
     /// A file by its name; `None`, with a fault, where there is none.
     pub fn find(&mut self, kind: Kind, mention: &Mention) -> Option<Source> {
         let beside = mention.place.as_ref().map(|(span, _)| self.sources.get(span.source).origin.clone());
-        match library::find(kind, &mention.name, beside.as_ref()) {
+        match self.library.find(kind, &mention.name, beside.as_ref()) {
             Ok(source) => Some(source),
             Err(missing) => {
                 let place = mention.place.clone();
@@ -212,7 +213,7 @@ pub(crate) fn looks_like_scenario(node: &Node) -> bool {
 fn identity(origin: &Origin) -> Origin {
     match origin {
         Origin::File(path) => Origin::File(path.canonicalize().unwrap_or_else(|_| path.clone())),
-        preset => preset.clone(),
+        other => other.clone(),
     }
 }
 

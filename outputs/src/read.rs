@@ -4,9 +4,10 @@
 //! read where `run.json` or the journal names it. A `run.json` whose check does not hold is refused, since plants grow
 //! from what it says.
 
-use crate::Error;
-use crate::run_folder::{Papers, RunJson, files_in};
-use crate::tables::Table;
+use crate::run_folder::{Error, Papers, RunJson};
+use crate::storage::FileError;
+use crate::storage::durable::files_in;
+use crate::tables::{Table, TableError};
 use arrow_array::types::{Float64Type, Int32Type};
 use arrow_array::{Array, BooleanArray, PrimitiveArray, RecordBatch};
 use arrow_schema::SchemaRef;
@@ -171,9 +172,9 @@ impl Run {
     }
 }
 
-fn open(part: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, Error> {
-    let file = File::open(part).map_err(Error::io("open", part))?;
-    ParquetRecordBatchReaderBuilder::try_new(file).map_err(Error::read(part))
+fn open(part: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, TableError> {
+    let file = File::open(part).map_err(FileError::io("open", part))?;
+    ParquetRecordBatchReaderBuilder::try_new(file).map_err(TableError::read(part))
 }
 
 /// The record batches of a table.
@@ -184,21 +185,22 @@ pub struct Batches {
 }
 
 impl Batches {
-    fn open_next(&mut self) -> Option<Result<(), Error>> {
+    fn open_next(&mut self) -> Option<Result<(), TableError>> {
         let part = self.parts.next()?;
-        let reader = open(&part).and_then(|file| file.with_batch_size(self.rows).build().map_err(Error::read(&part)));
+        let reader =
+            open(&part).and_then(|file| file.with_batch_size(self.rows).build().map_err(TableError::read(&part)));
         Some(reader.map(|reader| self.now = Some((part, reader))))
     }
 }
 
 impl Iterator for Batches {
-    type Item = Result<RecordBatch, Error>;
+    type Item = Result<RecordBatch, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             let batch = self.now.as_mut().and_then(|(part, reader)| Some((part.clone(), reader.next()?)));
             if let Some((part, batch)) = batch {
-                return Some(batch.map_err(|source| Error::read(&part)(source.into())));
+                return Some(batch.map_err(|source| TableError::read(&part)(source.into())));
             }
             if let Err(error) = self.open_next()? {
                 return Some(Err(error));
@@ -213,7 +215,7 @@ struct SummaryBatch<'a> {
 }
 
 impl SummaryBatch<'_> {
-    fn row(&self, row: usize) -> Result<SummaryRow, Error> {
+    fn row(&self, row: usize) -> Result<SummaryRow, TableError> {
         Ok(SummaryRow {
             plot_id: self.count("plot_id", row)?,
             plant_id: self.count("plant_id", row)?,
@@ -235,21 +237,21 @@ impl SummaryBatch<'_> {
         })
     }
 
-    fn column<A: 'static>(&self, column: &'static str) -> Result<&A, Error> {
+    fn column<A: 'static>(&self, column: &'static str) -> Result<&A, TableError> {
         let array = self.batch.column_by_name(column).and_then(|array| array.as_any().downcast_ref());
-        array.ok_or(Error::Column { path: self.path.join(Table::Summary.name()), column })
+        array.ok_or(TableError::Column { path: self.path.join(Table::Summary.name()), column })
     }
 
-    fn number(&self, column: &'static str, row: usize) -> Result<Option<u32>, Error> {
+    fn number(&self, column: &'static str, row: usize) -> Result<Option<u32>, TableError> {
         let array = self.column::<PrimitiveArray<Int32Type>>(column)?;
         Ok(array.is_valid(row).then(|| array.value(row).unsigned_abs()))
     }
 
-    fn count(&self, column: &'static str, row: usize) -> Result<u32, Error> {
+    fn count(&self, column: &'static str, row: usize) -> Result<u32, TableError> {
         Ok(self.number(column, row)?.unwrap_or_default())
     }
 
-    fn real(&self, column: &'static str, row: usize) -> Result<Option<f64>, Error> {
+    fn real(&self, column: &'static str, row: usize) -> Result<Option<f64>, TableError> {
         let array = self.column::<PrimitiveArray<Float64Type>>(column)?;
         Ok(array.is_valid(row).then(|| array.value(row)))
     }

@@ -240,3 +240,22 @@ fn positions_are_rounded_to_the_stated_precision() {
     }
     assert_eq!(floats(&exact, "diameter_m"), floats(&rounded, "diameter_m"));
 }
+
+/// A trunk of seven internodes is cut above the third at tick 7. Before, ten of its plant's internodes live, and four are
+/// of dead branches that still stand; after, no bud lives, and the trunk's three stand with the two of the branch on the
+/// third, for the branches below have fallen.
+#[test]
+fn what_is_cut_off_is_counted_no_more() {
+    let mut plot = crate::specimen::plot(0, 1000);
+    plot.grow_to(7).unwrap();
+    plot.stand(7);
+    let plant = &mut plot.plants[0];
+    let counts = |plant: &phytomer_sim::Plant| {
+        let summary = Summary::of(plant, 7).unwrap();
+        (summary.internodes, summary.dead_internodes, summary.leaves > 0)
+    };
+    assert_eq!(counts(plant), (10, 4, true));
+    plant.cut(phytomer_sim::plant::AxisId::TRUNK, 3, 7);
+    phytomer_sim::shed::shed(plant);
+    assert_eq!(counts(plant), (0, 5, false));
+}
