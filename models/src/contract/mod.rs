@@ -9,6 +9,7 @@
 
 mod bending;
 mod component;
+mod cuts;
 mod growth;
 mod length;
 mod plot;
@@ -21,6 +22,7 @@ pub(crate) use tests::sound;
 
 pub use bending::bends_alike_ahead_and_by_the_clock;
 pub use component::{Component, components};
+pub use cuts::a_cut_takes_what_is_above_it;
 pub use growth::{
     ages_agree, ahead_equals_the_clock, alone_equals_among_neighbours, hands_leave_no_trace, limit_holds,
     memory_is_forgotten, sown_later_is_the_same_later,
@@ -57,6 +59,9 @@ pub fn check(model: &dyn GrowthModel, until: Tick, seed: u64) {
     sown_later_is_the_same_later(model, until, seed);
     memory_is_forgotten(model, until, seed);
     limit_holds(model, until, &seed_of(seed, 0));
+    if model.growth().keeps_its_past() && until > 1 {
+        [0, 1].iter().for_each(|&number| a_cut_takes_what_is_above_it(model, until, &seed_of(seed, number)));
+    }
 }
 
 /// The seed of plant `number` in the run `run_seed`, without limit, with its events kept.
