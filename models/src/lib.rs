@@ -2,10 +2,11 @@
 //!
 //! A model reads no file and draws no triangle; it grows plants of `phytomer_sim` and tells its faults by paths. A new
 //! one is a folder here, a line here, and a variant in `config`. What a number of a file may be, bare, with its source
-//! or drawn, is one for all models: [`law`].
+//! or drawn, is the same for all models and has a crate of its own, `phytomer_law`, which is [`law`] here.
 
 pub mod buds;
 pub mod contract;
-pub mod fault;
 pub mod geometric;
-pub mod law;
+
+pub use phytomer_law as law;
+pub use phytomer_law::fault;

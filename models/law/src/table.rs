@@ -81,6 +81,7 @@ impl ProbabilityTable {
     }
 
     /// The probability at a point, as it is drawn (to 1.2e-10).
+    #[inline]
     pub fn probability(&self, at: At) -> f64 {
         match (self.constant, self.thresholds[self.grid.cell(at)]) {
             (Some(p), _) => p,
@@ -111,11 +112,13 @@ impl ProbabilityTable {
     }
 
     /// Whether it happens at no point of a run of any length, so that no draw is needed.
+    #[inline]
     pub fn is_never(&self) -> bool {
         self.constant == Some(0.0) && !self.goes_on
     }
 
     /// Whether it happens at every point of a run of any length, so that no draw is needed.
+    #[inline]
     pub fn is_certain(&self) -> bool {
         self.constant == Some(1.0) && !self.goes_on
     }

@@ -30,7 +30,7 @@ impl Law {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::law::LawForm;
+    use crate::LawForm;
     use std::collections::BTreeMap;
 
     const SHARE: ValueRange = ValueRange { min: 0.0, max: 1.0, what: "a share" };

@@ -5,7 +5,8 @@
 //! [`Variate`] are random variables whose parameters are laws; [`Speeds`] are exact ratios, a [`Quantity`] is a whole
 //! number and a [`Constant`] a real one that is not drawn. All are written in TOML, checked over their whole
 //! [`Domain`] and compiled to tables before the first tick; during growth a draw is one look-up and one comparison.
-//! Absent on purpose: files, spans and the draws themselves (a table is handed one 32-bit word).
+//! What is wrong with a parameter is a [`fault`], told by its path. Absent on purpose: any model, files, spans and the
+//! draws themselves (a table is handed one 32-bit word).
 
 mod bare;
 mod constant;
@@ -15,6 +16,7 @@ mod count_table;
 mod curves;
 mod domain;
 mod expression;
+pub mod fault;
 mod form;
 mod formula;
 mod mass;
@@ -51,4 +53,4 @@ pub use variate_table::VariateTable;
 /// The most cells that one compiled law may have (64 MiB of thresholds).
 pub const MAX_CELLS: u64 = 16 * 1024 * 1024;
 /// The most steps of evaluation that one law may take to compile: some seconds.
-pub(crate) const MAX_WORK: u64 = 1 << 28;
+const MAX_WORK: u64 = 1 << 28;

@@ -9,12 +9,10 @@ use phytomer_sim::math;
 use super::domain::{At, Domain, Grid};
 use super::form::Law;
 use super::formula::{self, Formula};
-use super::quantile::{density, deviate, phi};
+use super::quantile::{density, deviate, fraction, phi};
 use super::range::ValueRange;
 use super::variate::{Lognormal, Normal, Uniform, Variate, VariateForm};
 use crate::fault::{Fault, Path};
-
-const WORDS: f64 = 4_294_967_296.0;
 
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
@@ -278,6 +276,7 @@ impl VariateTable {
         }
     }
 
+    #[inline]
     fn clamp(&self, value: f64) -> f64 {
         value.max(self.low).min(self.high)
     }
@@ -317,11 +316,6 @@ fn part(bound: f64, probability: f64) -> f64 {
 fn of_logarithm([mean, sd]: [f64; 2]) -> [f64; 2] {
     let variance = math::log1p((sd / mean) * (sd / mean));
     [math::log(mean) - variance / 2.0, variance.sqrt()]
-}
-
-#[inline]
-pub(super) fn fraction(word: u32) -> f64 {
-    (f64::from(word) + 0.5) / WORDS
 }
 
 /// The place that a word picks among `len` equally likely ones.

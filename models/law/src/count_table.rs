@@ -193,11 +193,13 @@ impl CountTable {
     }
 
     /// The mean at a point.
+    #[inline]
     pub fn mean(&self, at: At) -> f64 {
         self.at(at).0.mean
     }
 
     /// The variance at a point.
+    #[inline]
     pub fn variance(&self, at: At) -> f64 {
         self.at(at).0.variance
     }
