@@ -11,7 +11,7 @@ use crate::document::{Node, Value};
 use crate::inherit::ORDER;
 use crate::report::Fault;
 use crate::source::{Sources, Span};
-use crate::spelling::nearest;
+use phytomer_models::law::spelling::nearest;
 
 /// Keys that others refer to: without them, what is left would look wrong.
 const REFERRED_TO: [&str; 2] = [ORDER, "states"];

@@ -9,7 +9,7 @@ use serde_json::Value as Json;
 use super::{Place, Walk, expected, forms, known_keys, missing_keys, property, resolve};
 use crate::document::{Entry, Node, Value};
 use crate::report::Fault;
-use crate::spelling::nearest;
+use phytomer_models::law::spelling::nearest;
 
 /// Whether the node's type is one that the schema's `type` allows; any is where it names none, but for dates.
 pub fn has_type(schema: &Json, node: &Node) -> bool {

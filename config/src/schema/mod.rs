@@ -20,7 +20,7 @@ use serde_json::Value as Json;
 use crate::document::{Entry, Node, Value};
 use crate::report::{Fault, MOST_FAULTS};
 use crate::source::Span;
-use crate::spelling::nearest;
+use phytomer_models::law::spelling::nearest;
 
 /// References and forms nest at most this deep at one value.
 const MAX_FORMS: usize = 32;

@@ -9,7 +9,7 @@
 
 use std::fmt::Debug;
 
-use phytomer_models::law::{At, Count, Domain, Speeds, ValueRange, Variate};
+use phytomer_law::{At, Count, Domain, Speeds, ValueRange, Variate};
 use phytomer_sim::math;
 use phytomer_sim::plant::key::LineageKey;
 use phytomer_sim::random::{PlantRandom, Purpose, Stream};
@@ -21,7 +21,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
 #[allow(dead_code, reason = "the measured counts of `tests/fitted` ask for more")]
-#[path = "../../tests/fitted/chi2.rs"]
+#[path = "../../../tests/fitted/chi2.rs"]
 mod chi2;
 
 /// Draws in each of the two samples.
