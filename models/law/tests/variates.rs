@@ -4,8 +4,8 @@
 //! Ours draws by inverse transform from the words of a plant's stream, `rand_distr` by its own methods from a generator
 //! of its own; the seeds are fixed. Counts are compared by Pearson's χ² test of homogeneity, real numbers by the
 //! two-sample test of Kolmogorov and Smirnov and, for spread and tails, by χ² over cells that are cut at ranks of both
-//! samples together. A test fails where its statistic lies in the upper tail that a normal variable has beyond 4 standard
-//! errors. Absent: closed forms of moments, which the unit tests of `law` have.
+//! samples together. A test fails where its statistic lies in the upper tail that a normal variable has beyond 4
+//! standard errors. Absent: closed forms of moments, which the unit tests of `law` have.
 
 use std::fmt::Debug;
 
@@ -97,8 +97,8 @@ fn chance_of_counts(ours: &[u32], theirs: &[u32]) -> f64 {
 }
 
 /// The probability of a greatest distance between two empirical distribution functions so large by chance: Q(λ) = 2 Σ
-/// (−1)ᵏ⁻¹ exp(−2 k² λ²), λ = D √(n m / (n + m)), k from 1 (Smirnov 1948, *Annals of Mathematical Statistics* 19). Where
-/// values are equal the distance is taken after the last of them, which makes the test milder and never stricter.
+/// (−1)ᵏ⁻¹ exp(−2 k² λ²), λ = D √(n m / (n + m)), k from 1 (Smirnov 1948, *Annals of Mathematical Statistics* 19).
+/// Where values are equal the distance is taken after the last of them, which makes the test milder and never stricter.
 fn chance_of_distance(ours: &[f64], theirs: &[f64]) -> f64 {
     let (mut i, mut j, mut distance) = (0, 0, 0.0_f64);
     while i < ours.len() && j < theirs.len() {
@@ -364,8 +364,8 @@ fn parameters_a_little_wrong_are_seen() {
     }
 }
 
-/// The 4 standard errors, and points of Smirnov's table (1948): 1 − L(0.83) = 0.4962, 1 − L(1.36) = 0.0495, 1 − L(1.63) =
-/// 0.0098.
+/// The 4 standard errors, and points of Smirnov's table (1948): 1 − L(0.83) = 0.4962, 1 − L(1.36) = 0.0495 and
+/// 1 − L(1.63) = 0.0098.
 #[test]
 fn probabilities_are_those_of_the_tables() {
     assert!((0.5 * chi2::tail(16.0, 1) / LEVEL - 1.0).abs() < 1e-6, "{}", 0.5 * chi2::tail(16.0, 1));

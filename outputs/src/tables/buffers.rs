@@ -173,7 +173,10 @@ pub trait Columns: Default {
 
 /// Makes a struct of column buffers; the fields stand in the order of the table's columns.
 macro_rules! columns {
-    ($(#[$meta:meta])* $name:ident { $first:ident: $first_values:ident($first_type:ty), $($field:ident: $values:ident($type:ty)),* $(,)? }) => {
+    ($(#[$meta:meta])* $name:ident {
+        $first:ident: $first_values:ident($first_type:ty),
+        $($field:ident: $values:ident($type:ty)),* $(,)?
+    }) => {
         $(#[$meta])*
         #[derive(Debug, Default)]
         pub struct $name {
