@@ -14,7 +14,6 @@ const EXTREMES: [u64; 12] =
 pub fn input(seeds: &[Vec<u8>], seed: u64, number: u64) -> Vec<u8> {
     let mut draw = Draw::of_mutation(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(number));
     let mut bytes = seeds[draw.below(seeds.len())].clone();
-    // The first byte of a run folder tells which file it is.
     let other = &seeds[draw.below(seeds.len())];
     for _ in 0..=draw.below(4) {
         match draw.below(2) {

@@ -129,6 +129,11 @@ fn form(name: &str, data: &[u8]) {
     }
 }
 
+/// The bit of a choice by which checks are made right again.
+pub const SEALED: u8 = 0x80;
+/// The bit of a choice by which a run is resumed, which takes ten times as long as to read it.
+pub const RESUMED: u8 = 0x40;
+
 /// A whole run of which files are replaced.
 struct Base {
     resolved: Resolved,
@@ -154,24 +159,27 @@ pub fn files_of_a_run() -> &'static [(String, Vec<u8>)] {
     &base().files
 }
 
-/// A run folder one of whose files is replaced. The first byte tells which one, and by its highest bit whether the
-/// checks within that file are made right again; the rest is the file.
+/// A run folder one of whose files is replaced. The first byte tells which one, and whether the checks within that file
+/// are made right again ([`SEALED`]) and the run is then resumed ([`RESUMED`]); the rest is the file.
 pub fn run_folder(data: &[u8]) {
     let Base { resolved, files } = base();
     let Some((&choice, content)) = data.split_first() else { return };
-    let replaced = usize::from(choice & 0x7f) % files.len();
+    let replaced = usize::from(choice & !(SEALED | RESUMED)) % files.len();
     let home = tempfile::tempdir_in(home()).expect("a folder");
     let folder: PathBuf = home.path().join("run");
     for (place, (name, bytes)) in files.iter().enumerate() {
         let sealed = documents::sealed(name, content);
         let bytes = match place == replaced {
-            true if choice & 0x80 != 0 => &sealed,
+            true if choice & SEALED != 0 => &sealed,
             true => content,
             false => bytes,
         };
         documents::put(&folder, name, bytes);
     }
     read(&folder);
+    if choice & RESUMED == 0 {
+        return;
+    }
     let settings = Settings { mode: Mode::Resume, threads: 1, ..Settings::in_folder(&folder) };
     let progress = Progress::default();
     if begin(resolved, &settings, &progress).and_then(|begun| begun.grow(&progress)).is_ok() {
@@ -190,8 +198,7 @@ fn read(folder: &Path) {
     for table in Table::ALL {
         let _ = (run.schema(table), run.metadata(table), run.parquet(table));
         if let Ok(batches) = run.batches(table) {
-            // An iterator that has failed ends, or it would be read without end.
-            batches.take_while(Result::is_ok).for_each(drop);
+            batches.for_each(drop);
         }
     }
 }

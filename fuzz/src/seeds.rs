@@ -3,7 +3,7 @@
 //!
 //! Absent: a corpus that grows by coverage, which libFuzzer keeps by itself.
 
-use crate::files_of_a_run;
+use crate::{RESUMED, SEALED, files_of_a_run};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -61,23 +61,25 @@ fn of_config(scenarios: bool) -> Vec<Vec<u8>> {
     files.into_iter().map(|(_, text)| text).filter(|text| is_scenario(text) == scenarios).collect()
 }
 
-/// Each file of a run, as it is and with its checks made right again, and a `run.json` of a program that wrote none.
+/// Each file of a run: one in four to be resumed, documents also with checks made right again. And a `run.json` of a
+/// program that wrote no checks.
 fn of_run_folder() -> Vec<Vec<u8>> {
     let mut seeds = Vec::new();
     for (place, (name, bytes)) in files_of_a_run().iter().enumerate() {
         let place = u8::try_from(place).expect("few files");
-        seeds.push([&[place], bytes.as_slice()].concat());
-        if name == "run.json" || name == "journal.jsonl" {
-            seeds.extend([[&[place | 0x80], bytes.as_slice()].concat(), [&[place | 0x80], bytes.as_slice()].concat()]);
-        }
+        let is_sealed = name == "run.json" || name == "journal.jsonl";
+        let bits = if is_sealed { [0, SEALED, SEALED, SEALED | RESUMED] } else { [0, 0, 0, RESUMED] };
+        seeds.extend(bits.map(|bits| [&[place | bits], bytes.as_slice()].concat()));
         if name == "run.json" {
-            let older: Vec<&[u8]> = bytes
-                .split_inclusive(|byte| *byte == b'\n')
-                .filter(|line| !line.starts_with(b"  \"check\"") && !line.starts_with(b"  \"format_version\""))
-                .collect();
-            let older = String::from_utf8_lossy(&older.concat()).trim_end().replace(",\n}", "\n}");
-            seeds.push([&[place], older.as_bytes()].concat());
+            seeds.push([&[place], unsealed(bytes).as_slice()].concat());
         }
     }
     seeds
+}
+
+/// Without its check and the version of its format.
+fn unsealed(document: &[u8]) -> Vec<u8> {
+    let is_kept = |line: &&[u8]| !line.starts_with(b"  \"check\"") && !line.starts_with(b"  \"format_version\"");
+    let lines: Vec<&[u8]> = document.split_inclusive(|byte| *byte == b'\n').filter(is_kept).collect();
+    String::from_utf8_lossy(&lines.concat()).trim_end().replace(",\n}", "\n}").into_bytes()
 }
