@@ -8,8 +8,8 @@
 use anyhow::{Context, Result, anyhow};
 use phytomer::config::{Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, presets, validate, validate_species};
 use phytomer::outputs::pictures::{Canvas, Compression, Picture, Subject, draw, write_png};
-use phytomer::run::again::Again;
-use phytomer::run::drawing::{Portrait, portrait};
+use phytomer::run::drawing::{PicturedPlants, pictured_plants};
+use phytomer::run::regrowth::Regrowth;
 use phytomer::sim::{GrowthModel, Tick};
 use std::fmt::Write as _;
 use std::fs::{self, File};
@@ -56,12 +56,12 @@ fn main() -> Result<()> {
 /// Draws one species and says what is seen.
 fn sit(name: &str, folder: &Path) -> Result<String> {
     let sitter = Sitter::of(name)?;
-    let again = sitter.again();
-    let age = again.shown_at(&sitter.species, 0)?;
-    let portrait = portrait(&again, &sitter.species, &[0], &[age])?;
+    let regrowth = sitter.regrowth();
+    let age = regrowth.shown_at(&sitter.species, 0)?;
+    let pictured = pictured_plants(&regrowth, &sitter.species, &[0], &[age])?;
     let file = format!("gallery/{name}.png");
-    let canvas = drawn(&portrait, SIZE)?;
-    save(&canvas, &portrait.note, &folder.join(&file))?;
+    let canvas = drawn(&pictured, SIZE);
+    save(&canvas, &pictured.note, &folder.join(&file))?;
     println!("{name}: age {age}");
     let about = &sitter.species.about;
     let called = about.common_name.as_deref().unwrap_or(&about.name);
@@ -83,24 +83,24 @@ impl Sitter {
         Ok(Self { scenario, species, model })
     }
 
-    fn again(&self) -> Again<'_> {
-        Again { scenario: &self.scenario, model: self.model.as_ref(), air: None }
+    fn regrowth(&self) -> Regrowth<'_> {
+        Regrowth { scenario: &self.scenario, model: self.model.as_ref(), air: None }
     }
 }
 
 /// One tree from a seedling to its death.
 fn strip(path: &Path) -> Result<()> {
     let sitter = Sitter::of(LIFE_OF)?;
-    let mut portrait = portrait(&sitter.again(), &sitter.species, &[0], &LIFE)?;
-    portrait.subjects.iter_mut().for_each(|(_, age, label)| *label = format!("{age}"));
-    portrait.title = format!("{}, ages in months", portrait.title);
-    save(&drawn(&portrait, STRIP)?, &portrait.note, path)
+    let mut pictured = pictured_plants(&sitter.regrowth(), &sitter.species, &[0], &LIFE)?;
+    pictured.subjects.iter_mut().for_each(|(_, age, label)| *label = format!("{age}"));
+    pictured.title = format!("{}, ages in months", pictured.title);
+    save(&drawn(&pictured, STRIP), &pictured.note, path)
 }
 
-fn drawn(portrait: &Portrait, size: [u32; 2]) -> Result<Canvas> {
+fn drawn(pictured: &PicturedPlants, size: [u32; 2]) -> Canvas {
     let style = Picture { size, ..Picture::default() };
-    let subjects: Vec<Subject> = portrait.subjects();
-    Ok(draw(&subjects, &portrait.title, &style)?)
+    let subjects: Vec<Subject> = pictured.subjects();
+    draw(&subjects, &pictured.title, &style)
 }
 
 fn save(canvas: &Canvas, note: &str, path: &Path) -> Result<()> {

@@ -1,4 +1,4 @@
-//! A run: from a scenario to its run folder.
+//! A run: from a scenario to its run folder, or to its tables in memory.
 //!
 //! The plants are dealt into shards of neighbours. Each shard sows its plants one after another into the same columns,
 //! grows each from seed to the last age, shows it to the tables and the meshes at the ages asked for, and commits its
@@ -7,27 +7,29 @@
 //!
 //! Absent: growth (`sim`, `models`), files (`outputs`), and everything that a person sees (`cli`).
 
-pub mod again;
 pub mod disk;
 pub mod drawing;
+mod error;
 pub mod forecast;
 pub mod forms;
+mod in_memory;
 mod plan;
 mod progress;
+pub mod regrowth;
 
+pub use error::RunError;
+pub use in_memory::{InMemory, in_memory};
 pub use plan::{Program, component_limit, place_of, plan_of, seed_of};
 pub use progress::Progress;
 
-use anyhow::{Context, Result};
-use drawing::Drawing;
+use drawing::RunMeshes;
 use phytomer_config::Resolved;
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::{
     Checkup, FreeSpace, Mode, Opening, RunFolder, RunPlan, RunReport, Shard, ShardReport, SystemSpace,
 };
 use phytomer_sim::plant::Hands;
-use phytomer_sim::{Growth, Plot, RecordError, Recorder, Tick, grow};
-use progress::Stopped;
+use phytomer_sim::{Ending, Growth, Plot, RecordError, Recorder, Tick, grow};
 use rayon::ThreadPool;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use std::borrow::Cow;
@@ -35,19 +37,19 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// How a run is made, beside what its scenario says. Nothing here shows in the bytes of a table or a mesh but the
-/// program's name.
+/// How a run is made, beside what its scenario says. Of all this only the name of the program is in the bytes of tables
+/// and meshes.
 #[derive(Debug, Clone)]
 pub struct Settings {
     /// The run folder.
     pub folder: PathBuf,
     /// What to do where the folder holds files already.
     pub mode: Mode,
-    /// Threads; 0 takes as many as the machine has.
+    /// The number of threads; it never changes the result. 0 takes as many as the machine has.
     pub threads: usize,
     /// The program that the files name as their maker.
     pub program: Program,
-    /// Who knows the free space of the disk.
+    /// What tells the free space of the disk: the system, or a test.
     pub space: Arc<dyn FreeSpace>,
     /// Whether a run begins that the disk seems too small for.
     pub ignore_disk: bool,
@@ -94,8 +96,8 @@ impl Outcome {
 /// Grows every plant of a scenario and writes the run folder.
 ///
 /// # Errors
-/// As [`begin`], and where a file cannot be written.
-pub fn run(resolved: &Resolved, settings: &Settings, progress: &Progress) -> Result<Outcome> {
+/// [`RunError`]: as [`begin`], and where a file cannot be written.
+pub fn run(resolved: &Resolved, settings: &Settings, progress: &Progress) -> Result<Outcome, RunError> {
     begin(resolved, settings, progress)?.grow(progress)
 }
 
@@ -113,7 +115,7 @@ pub struct Begun<'a> {
 /// # Errors
 /// Where a file cannot be written, where the folder holds another run or another process fills it, or where the disk is
 /// too small ([`disk::TooSmall`]).
-pub fn begin<'a>(resolved: &'a Resolved, settings: &Settings, progress: &Progress) -> Result<Begun<'a>> {
+pub fn begin<'a>(resolved: &'a Resolved, settings: &Settings, progress: &Progress) -> Result<Begun<'a>, RunError> {
     let start = Instant::now();
     let (resolved, forms) = forms::settled(resolved)?;
     let plan = plan_of(&resolved, &settings.program)?;
@@ -143,7 +145,7 @@ impl Begun<'_> {
     ///
     /// # Errors
     /// Where a file cannot be written.
-    pub fn grow(self, progress: &Progress) -> Result<Outcome> {
+    pub fn grow(self, progress: &Progress) -> Result<Outcome, RunError> {
         let Self { resolved, forms, folder, pool, start } = self;
         let shards = folder.plan().shards();
         let missing = folder.missing_shards();
@@ -163,9 +165,9 @@ impl Begun<'_> {
 }
 
 /// A pool of so many threads, apart from any that the caller may have.
-fn pool(threads: usize) -> Result<ThreadPool> {
+fn pool(threads: usize) -> Result<ThreadPool, RunError> {
     let builder = rayon::ThreadPoolBuilder::new().num_threads(threads).thread_name(|i| format!("grow-{i}"));
-    builder.build().context("cannot start the threads")
+    builder.build().map_err(RunError::Threads)
 }
 
 /// The shards that were committed; fewer than `missing` after a stop.
@@ -175,102 +177,120 @@ fn grow_shards(
     folder: &RunFolder,
     missing: &[u32],
     progress: &Progress,
-) -> Result<Vec<ShardReport>> {
-    let grown: Result<Vec<_>> = missing
-        .into_par_iter()
-        .map(|shard| {
-            let grown = Grower { resolved, folder, progress, forms }.grow_shard(*shard);
-            // A failed write ends the run: the other shards need not go on.
-            grown.inspect_err(|_| progress.stop())
-        })
-        .collect();
-    Ok(grown?.into_iter().flatten().collect())
+) -> Result<Vec<ShardReport>, RunError> {
+    let grower = Grower { resolved, plan: folder.plan(), progress };
+    let grown = missing.into_par_iter().map(|shard| {
+        let meshes = RunMeshes::of(resolved, forms, folder.plan().shards());
+        let mut keeper = FolderKeeper { grower: &grower, shard: folder.shard(*shard)?, meshes, plot: 0 };
+        Ok(if grower.grow_shard(*shard, &mut keeper)? { Some(keeper.commit()?) } else { None })
+    });
+    // A failed write ends the run: the other shards need not go on.
+    let grown = grown.map(|grown: Result<_, RunError>| grown.inspect_err(|_| progress.stop()));
+    Ok(grown.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
 }
 
 /// What the plants of all shards share.
 struct Grower<'a> {
     resolved: &'a Resolved,
-    folder: &'a RunFolder,
+    plan: &'a RunPlan,
     progress: &'a Progress,
-    /// The forms of its own that the species names.
-    forms: &'a Arc<OwnForms>,
+}
+
+/// What keeps the plots of a shard, in files or in memory.
+trait Keeper: Recorder {
+    /// A plot is about to grow.
+    fn begin_plot(&mut self, plot: u32);
+
+    /// A plot has come to its end.
+    fn end_plot(&mut self, plot: &Plot, ending: Ending) -> Result<(), RunError>;
 }
 
 impl Grower<'_> {
-    /// Grows the plants of one shard, one after another in the same columns; `None` where it was told to stop.
-    fn grow_shard(&self, shard: u32) -> Result<Option<ShardReport>> {
-        let plants = self.folder.plan().plots_of(shard);
+    /// Grows the plants of one shard, one after another in the same columns; `false` where it was told to stop.
+    fn grow_shard(&self, shard: u32, keeper: &mut impl Keeper) -> Result<bool, RunError> {
+        let plants = self.plan.plots_of(shard);
         let model = self.resolved.model.as_ref();
         let scenario = &self.resolved.scenario;
         let mut plot = Plot::of_one(model, &seed_of(scenario, plants.start));
         plot.site = scenario.site.felt();
         plot.plants[0].hands = self.hands();
-        let drawing = Drawing::of(self.resolved, self.forms, self.folder.plan().shards());
-        let mut keeper = Keeper { shard: self.folder.shard(shard)?, drawing, grower: self, plant: plants.start };
         for plant in plants {
             if self.progress.is_stopped() {
-                return Ok(None);
+                return Ok(false);
             }
             plot.resow(model, &seed_of(scenario, plant));
             plot.plants[0].place = place_of(scenario, plant);
-            if !keeper.grow_plot(&mut plot, plant)? {
-                return Ok(None);
+            if !self.grow_plot(&mut plot, keeper)? {
+                return Ok(false);
             }
         }
         // A large plant takes as long to give back its memory as a file to reach the disk.
         rayon::spawn(move || drop(plot));
-        keeper.commit().map(Some)
+        Ok(true)
+    }
+
+    /// Grows one plot to its end; `false` where it was told to stop.
+    fn grow_plot(&self, plot: &mut Plot, keeper: &mut impl Keeper) -> Result<bool, RunError> {
+        keeper.begin_plot(plot.id);
+        let grown = grow(self.resolved.model.as_ref(), plot, self.resolved.scenario.ages.until, keeper);
+        let ending = match grown.map_err(RunError::of_recorder) {
+            Ok(ending) => ending,
+            Err(RunError::Stopped) => return Ok(false),
+            Err(error) => return Err(error),
+        };
+        keeper.end_plot(plot, ending)?;
+        self.progress.end_plant(&plot.plants[0]);
+        Ok(true)
+    }
+
+    /// Whether a model must make the plant at this age whatever is recorded: one that rebuilds it must at the last age,
+    /// of which the components are written.
+    fn must_make(&self, age: Tick) -> bool {
+        age == self.resolved.scenario.ages.until && self.resolved.model.growth() == Growth::Rebuilds
     }
 
     /// The threads for which there is no shard help with the plants of the others. Where every thread has a shard of
     /// its own none helps: one that waits for its helper would begin with a further shard meanwhile, and keep two
     /// plants.
     fn hands(&self) -> Hands {
-        let shards = self.folder.plan().shards() as usize;
+        let shards = self.plan.shards() as usize;
         Hands { threads: (rayon::current_num_threads() / shards).max(1), ..Hands::default() }
     }
 }
 
 /// Shows each plot of a shard to the shard's tables and meshes.
-struct Keeper<'a> {
-    shard: Shard<'a>,
-    drawing: Option<Drawing<'a>>,
+struct FolderKeeper<'a> {
     grower: &'a Grower<'a>,
-    plant: u32,
+    shard: Shard<'a>,
+    meshes: Option<RunMeshes<'a>>,
+    plot: u32,
 }
 
-impl Keeper<'_> {
-    /// Grows one plot to its end; `false` where it was told to stop.
-    fn grow_plot(&mut self, plot: &mut Plot, plant: u32) -> Result<bool> {
-        self.plant = plant;
-        let Grower { resolved, progress, .. } = self.grower;
-        let ending = match grow(resolved.model.as_ref(), plot, resolved.scenario.ages.until, self) {
-            Ok(ending) => ending,
-            Err(error) if error.is::<Stopped>() => return Ok(false),
-            Err(error) => return Err(anyhow::anyhow!(error)),
-        };
-        self.shard.end_plot(plot, ending)?;
-        self.drawing.iter_mut().try_for_each(Drawing::end_plant)?;
-        progress.end_plant(&plot.plants[0]);
-        Ok(true)
-    }
-
-    fn commit(mut self) -> Result<ShardReport> {
-        self.drawing.iter_mut().try_for_each(Drawing::finish)?;
+impl FolderKeeper<'_> {
+    fn commit(mut self) -> Result<ShardReport, RunError> {
+        self.meshes.iter_mut().try_for_each(RunMeshes::finish)?;
         Ok(self.shard.commit()?)
     }
 
     fn draws(&self, age: Tick) -> bool {
-        self.drawing.as_ref().is_some_and(|drawing| drawing.wants(self.plant, age))
+        self.meshes.as_ref().is_some_and(|meshes| meshes.wants(self.plot, age))
     }
 }
 
-impl Recorder for Keeper<'_> {
-    /// A model that rebuilds the plant must also make it at the last age, of which the components are written.
+impl Keeper for FolderKeeper<'_> {
+    fn begin_plot(&mut self, plot: u32) {
+        self.plot = plot;
+    }
+
+    fn end_plot(&mut self, plot: &Plot, ending: Ending) -> Result<(), RunError> {
+        self.shard.end_plot(plot, ending)?;
+        self.meshes.iter_mut().try_for_each(RunMeshes::end_plant)
+    }
+}
+
+impl Recorder for FolderKeeper<'_> {
     fn wants(&self, age: Tick) -> bool {
-        let resolved = self.grower.resolved;
-        let last = age == resolved.scenario.ages.until && resolved.model.growth() == Growth::Rebuilds;
-        last || self.shard.wants(age) || self.draws(age)
+        self.grower.must_make(age) || self.shard.wants(age) || self.draws(age)
     }
 
     fn grown(&mut self, until: Tick, plot: &Plot) -> Result<(), RecordError> {
@@ -283,10 +303,10 @@ impl Recorder for Keeper<'_> {
             self.shard.record(age, plot)?;
         }
         if self.draws(age)
-            && let Some(drawing) = &mut self.drawing
+            && let Some(meshes) = &mut self.meshes
         {
             self.shard.look_at_disk()?;
-            drawing.draw(age, &plot.plants[0], &mut self.shard)?;
+            meshes.draw(age, &plot.plants[0], &mut self.shard)?;
         }
         self.grower.progress.end_age();
         Ok(())

@@ -7,7 +7,7 @@ use super::Specimen;
 use criterion::{Criterion, Throughput};
 use phytomer::outputs::meshes::{Mesh, MeshOptions, Scene};
 use phytomer::outputs::pictures::{Canvas, Compression, Picture, Subject, draw, write_png};
-use phytomer::run::again::Again;
+use phytomer::run::regrowth::Regrowth;
 use phytomer::sim::Tick;
 use phytomer::sim::plant::Plant;
 use rayon::prelude::*;
@@ -18,10 +18,10 @@ const TRIANGLES: u64 = 1_000_000;
 /// The first of a specimen's plants, at the first age at which it is large enough.
 fn large(specimen: &Specimen) -> (Plant, Tick) {
     let resolved = &specimen.resolved;
-    let again = Again { scenario: &resolved.scenario, model: resolved.model.as_ref(), air: None };
+    let regrowth = Regrowth { scenario: &resolved.scenario, model: resolved.model.as_ref(), air: None };
     let ages: Vec<Tick> = (1..=resolved.scenario.ages.until).collect();
     let mut large = None;
-    let shown = again.show(0, &ages, &mut |age, plant| {
+    let shown = regrowth.show(0, &ages, &mut |age, plant| {
         let triangles = Scene::new(plant, age, &MeshOptions::default()).counts().faces;
         if large.is_none() && triangles >= TRIANGLES {
             large = Some((plant.clone(), age));
@@ -38,7 +38,7 @@ pub fn picture(specimen: &Specimen, criterion: &mut Criterion) {
     let scene = Scene::new(&plant, age, &MeshOptions::default());
     let mut group = specimen.group(criterion, "picture (triangles)", Throughput::Elements(scene.counts().faces));
     let style = Picture { size: [1920, 1080], ..Picture::default() };
-    let drawn = || draw(&[Subject { plant: &plant, age, label: format!("age {age}") }], "", &style).expect("a picture");
+    let drawn = || draw(&[Subject { plant: &plant, age, label: format!("age {age}") }], "", &style);
     let encoded =
         |canvas: &Canvas| write_png(canvas, "", Compression::Balanced, Vec::new()).expect("memory does not fail");
     group.bench_function("drawn and encoded", |bencher| bencher.iter(|| encoded(&drawn())));

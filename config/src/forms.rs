@@ -43,7 +43,11 @@ fn of_form(form: &mut Node, path: &Path, sources: &Sources, faults: &mut Vec<Fau
     let (path, span) = (path.key("mesh"), mesh.span);
     let Some(name) = mesh.text().filter(|name| !name.is_empty()).map(str::to_owned) else { return };
     let Origin::File(file) = &sources.get(span.source).origin else {
-        let problem = format!("a species that ships names the file `{name}`");
+        let species = match &sources.get(span.source).origin {
+            Origin::Memory(_) => "a species in memory",
+            _ => "a species that ships",
+        };
+        let problem = format!("{species} names the file `{name}`");
         return faults.push(Fault::new(span, &path, problem, "a form of the library (`phytomer list forms` has them)"));
     };
     let beside = file.parent().map_or_else(|| name.clone().into(), |folder| folder.join(&name));

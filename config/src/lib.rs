@@ -30,5 +30,7 @@ pub use report::{Fault, FaultRecord, Report};
 pub use scenario::Scenario;
 pub use source::{Origin, Source, SourceId, Sources, Span};
 pub use species::{About, MODELS, Model, ModelName, Species};
-pub use validate::{Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, kind_of, schema_of, validate, validate_species};
+pub use validate::{
+    Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, kind_of, schema_of, validate, validate_species, validate_texts,
+};
 pub use woods::{ShippedWood, woods};

@@ -3,7 +3,8 @@
 //! What ends in `.toml` is a file and nothing else. What contains a separator is a file where there is one, else a
 //! preset (`gmt1/5a`). A bare name is looked up beside the file that names it first, then among the presets; on the
 //! command line there is no such file, and a bare name is a preset.
-//! Presets are compiled into the program, so that an installed binary needs no data folder.
+//! Presets are compiled into the program, so that an installed binary needs no data folder. A program that hands its
+//! texts over itself reads no file: names then lead to these texts and to presets ([`Library::Memory`]).
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -53,6 +54,44 @@ pub struct NotFound {
     pub expected: String,
     /// The preset nearest in spelling.
     pub suggestion: Option<String>,
+}
+
+/// Where names lead.
+#[derive(Debug, Clone, Default)]
+pub enum Library {
+    /// To files and to presets.
+    #[default]
+    Disk,
+    /// To these texts by their names, and to presets.
+    Memory(Vec<Source>),
+}
+
+impl Library {
+    /// Texts in memory, by their names.
+    pub fn of_texts(texts: &[(&str, &str)]) -> Self {
+        let source = |(name, text): &(&str, &str)| {
+            let name = (*name).to_owned();
+            Source { origin: Origin::Memory(name.clone()), name, text: (*text).into() }
+        };
+        Self::Memory(texts.iter().map(source).collect())
+    }
+
+    /// Finds what `name` names; `beside` is the text that names it. What a preset names is a preset.
+    pub fn find(&self, kind: Kind, name: &str, beside: Option<&Origin>) -> Result<Source, NotFound> {
+        let Self::Memory(texts) = self else { return find(kind, name, beside) };
+        let own = texts.iter().filter(|_| !matches!(beside, Some(Origin::Preset(_))));
+        let own: Vec<&Source> = own.collect();
+        let found = own.iter().find(|text| text.name == name).map(|text| (*text).clone());
+        found.or_else(|| preset(kind, name)).ok_or_else(|| {
+            let near = nearest(name, own.iter().map(|text| text.name.as_str())).map(str::to_owned);
+            let unknown = unknown(kind, name);
+            NotFound {
+                expected: format!("the name of a text in memory, or of a shipped {}", kind.word()),
+                suggestion: near.or(unknown.suggestion.clone()),
+                ..unknown
+            }
+        })
+    }
 }
 
 /// Reads what `name` names; `beside` is the file that names it, `None` on the command line.

@@ -10,7 +10,7 @@ use serde_json::Value as Json;
 use crate::document::{self, Node};
 use crate::forms;
 use crate::inherit::merge_chain;
-use crate::library::{self, Kind};
+use crate::library::{Kind, Library};
 use crate::meaning;
 use crate::report::Fault;
 use crate::schema;
@@ -24,6 +24,7 @@ const MOST_ANCESTORS: usize = 16;
 /// What was read so far, and what was wrong with it.
 #[derive(Default)]
 pub(crate) struct Loader {
+    pub library: Library,
     pub sources: Sources,
     pub faults: Vec<Fault>,
 }
@@ -51,7 +52,7 @@ impl Loader {
     /// A file by its name; `None`, with a fault, where there is none.
     pub fn find(&mut self, kind: Kind, mention: &Mention) -> Option<Source> {
         let beside = mention.place.as_ref().map(|(span, _)| self.sources.get(span.source).origin.clone());
-        match library::find(kind, &mention.name, beside.as_ref()) {
+        match self.library.find(kind, &mention.name, beside.as_ref()) {
             Ok(source) => Some(source),
             Err(missing) => {
                 let place = mention.place.clone();
@@ -202,7 +203,7 @@ pub(crate) fn looks_like_scenario(node: &Node) -> bool {
 fn identity(origin: &Origin) -> Origin {
     match origin {
         Origin::File(path) => Origin::File(path.canonicalize().unwrap_or_else(|_| path.clone())),
-        preset => preset.clone(),
+        other => other.clone(),
     }
 }
 

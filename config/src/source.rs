@@ -13,12 +13,14 @@ pub enum Origin {
     File(std::path::PathBuf),
     /// A preset that ships with the program, by its name (`gmt1/5a`).
     Preset(String),
+    /// A text that a program has handed over, by the name that it gave.
+    Memory(String),
 }
 
 /// One text that was read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Source {
-    /// What messages call it: the path as it was typed, or `preset:coffee`.
+    /// What messages call it: the path as it was typed, `preset:coffee`, or the name of a text in memory.
     pub name: String,
     /// Where it came from.
     pub origin: Origin,

@@ -16,7 +16,7 @@ use phytomer_sim::model::GrowthModel;
 use serde_json::{Value as Json, json};
 
 use crate::document::Node;
-use crate::library::{self, Kind};
+use crate::library::{Kind, Library};
 use crate::load::{Found, Loader, Mention, integer_at, path_of};
 use crate::meaning;
 use crate::report::{Fault, Report};
@@ -60,10 +60,31 @@ pub struct ResolvedSpecies {
 /// # Errors
 /// Every fault of the scenario and of its species.
 pub fn validate(scenario: &str) -> Result<Resolved, Report> {
-    if kind_of(scenario) == Kind::Species && library::find(Kind::Species, scenario, None).is_ok() {
-        return validate_species(scenario, SPECIES_ALONE_UNTIL).map(|species| species.alone(scenario));
+    validate_in(Library::Disk, scenario)
+}
+
+/// The same of texts in memory: `name` is that of one of `texts`, which are pairs of a name and a TOML text, or of a
+/// preset. What a text names (`species`, `inherits`) is another of the texts, else a preset. No file is read, so no
+/// species among the texts can have a mesh of its own.
+///
+/// ```
+/// let species = "inherits = \"coffee\"\nname = \"short_coffee\"";
+/// let scenario = "name = \"trial\"\nspecies = \"short\"\nplants = 9\nages = { until = 12 }";
+/// let resolved = phytomer_config::validate_texts("trial", &[("trial", scenario), ("short", species)]).unwrap();
+/// assert_eq!(resolved.species.about.name, "short_coffee");
+/// ```
+///
+/// # Errors
+/// As [`validate`]; messages call a text by its name.
+pub fn validate_texts(name: &str, texts: &[(&str, &str)]) -> Result<Resolved, Report> {
+    validate_in(Library::of_texts(texts), name)
+}
+
+fn validate_in(library: Library, scenario: &str) -> Result<Resolved, Report> {
+    if kind_in(&library, scenario) == Kind::Species && library.find(Kind::Species, scenario, None).is_ok() {
+        return species_in(library, scenario, SPECIES_ALONE_UNTIL).map(|species| species.alone(scenario));
     }
-    let mut loader = Loader::default();
+    let mut loader = Loader { library, ..Loader::default() };
     let mention = Mention { name: scenario.to_owned(), place: None };
     let found = loader.find(Kind::Scenario, &mention).and_then(|source| check_scenario(&mut loader, source));
     conclude(loader, found, |(scenario, Compiled { species, model, tree }), sources| Resolved {
@@ -80,7 +101,11 @@ pub fn validate(scenario: &str) -> Result<Resolved, Report> {
 /// # Errors
 /// Every fault of the species.
 pub fn validate_species(species: &str, until: u32) -> Result<ResolvedSpecies, Report> {
-    let mut loader = Loader::default();
+    species_in(Library::Disk, species, until)
+}
+
+fn species_in(library: Library, species: &str, until: u32) -> Result<ResolvedSpecies, Report> {
+    let mut loader = Loader { library, ..Loader::default() };
     let mention = Mention { name: species.to_owned(), place: None };
     let until = |about: Option<&About>| {
         Some(about.and_then(|about| about.shown_at).unwrap_or(1).max(until).clamp(1, LAST_TICK))
@@ -97,9 +122,13 @@ pub fn validate_species(species: &str, until: u32) -> Result<ResolvedSpecies, Re
 /// Whether a file by its path is a species or a scenario, by the keys that it has; a bare name is a shipped scenario
 /// if there is one, else a species.
 pub fn kind_of(name: &str) -> Kind {
+    kind_in(&Library::Disk, name)
+}
+
+fn kind_in(library: &Library, name: &str) -> Kind {
     let mut loader = Loader::default();
-    let is_path = FilePath::new(name).is_file();
-    let found = library::find(Kind::Scenario, name, None);
+    let is_path = matches!(library, Library::Disk) && FilePath::new(name).is_file();
+    let found = library.find(Kind::Scenario, name, None);
     let Ok(source) = found else { return if is_path { Kind::Scenario } else { Kind::Species } };
     let (_, node) = loader.parse(source);
     if node.is_some_and(|node| looks_like_species(&node)) { Kind::Species } else { Kind::Scenario }

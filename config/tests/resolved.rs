@@ -3,7 +3,7 @@
 use std::fs;
 
 use phytomer_config::scenario::{DEFAULT_SEED, Table};
-use phytomer_config::{Kind, Model, Origin, kind_of, schema_of, validate, validate_species};
+use phytomer_config::{Kind, Model, Origin, Species, kind_of, schema_of, validate, validate_species, validate_texts};
 
 #[test]
 fn a_minimal_scenario_has_its_defaults() {
@@ -46,6 +46,45 @@ fn every_file_read_is_kept_for_provenance() {
         assert!(matches!(source.origin, Origin::File(_)));
         assert_eq!(&*source.text, fs::read_to_string(&source.name).expect("the file"));
     }
+}
+
+/// The texts of a scenario, of a species and of its ancestor, none of which is on the disk.
+#[test]
+fn texts_in_memory_are_read_as_files_are() {
+    let text = |name: &str| fs::read_to_string(format!("tests/good/{name}.toml")).expect("the file");
+    let (child, parent) = (text("child"), text("coffee_like"));
+    let scenario = "name = \"trial\"\nspecies = \"child\"\nplants = 1\nages = { until = 12 }\n";
+    let texts = [("trial", scenario), ("child", child.as_str()), ("coffee_like.toml", parent.as_str())];
+    let resolved = validate_texts("trial", &texts).expect("it is right");
+    let file = validate_species("tests/good/child.toml", 40).expect("it is right");
+    let json = |species: &Species| species.to_json().expect("a species as JSON");
+    assert_eq!(json(&resolved.species), json(&file.species));
+    let sources: Vec<(&str, &Origin)> = resolved.sources.iter().map(|s| (s.name.as_str(), &s.origin)).collect();
+    let own = ["trial", "child", "coffee_like.toml"].map(|name| (name, Origin::Memory(name.to_owned())));
+    assert_eq!(sources, own.each_ref().map(|(name, origin)| (*name, origin)));
+    let alone = validate_texts("child", &texts).expect("a species is one plant of it");
+    assert_eq!((alone.scenario.plants, json(&alone.species)), (1, json(&file.species)));
+    let shipped = validate_texts("coffee", &[]).expect("a preset");
+    assert_eq!(shipped.scenario, validate("coffee").expect("a preset").scenario);
+}
+
+/// Texts in memory name other texts and presets; a path leads nowhere.
+#[test]
+fn texts_in_memory_read_no_file_and_faults_name_them() {
+    let faults = |species: &str, own: &str| {
+        let scenario = format!("name = \"trial\"\nspecies = \"{species}\"\nplants = 1\nages = {{ until = 12 }}\n");
+        let report = validate_texts("trial", &[("trial", &scenario), ("own", own)]).expect_err("it is wrong");
+        report.render(false)
+    };
+    let told = faults("tests/good/child.toml", "");
+    assert!(told.contains("there is no species `tests/good/child.toml`") && told.contains("trial:2:"), "{told}");
+    let told = faults("owm", "");
+    assert!(told.contains("a text in memory, or of a shipped species") && told.contains("`own`"), "{told}");
+    assert!(faults("own", "inherits = \"own\"").contains("`own` inherits from itself"));
+    let told = faults("own", "inherits = \"coffee\"\n\n[[order]]\npause = 2\n");
+    assert!(told.contains("own:4:"), "{told}");
+    let told = faults("own", "inherits = \"coffee\"\n\n[[order]]\nleaf.form = { mesh = \"leaf.ply\" }\n");
+    assert!(told.contains("a species in memory names the file `leaf.ply`"), "{told}");
 }
 
 #[test]

@@ -5,7 +5,7 @@
 //! the streams of the process below `/dev` and `/proc`. A folder is refused. Absent: the files of a run folder
 //! (`run_folder`), and which format a file has.
 
-use crate::Error;
+use crate::FileError;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -41,15 +41,15 @@ impl Destination {
     /// Begins to write what `path` names.
     ///
     /// # Errors
-    /// [`Error::IsFolder`], and the system's.
-    pub fn create(path: &Path) -> Result<Self, Error> {
-        let refused = Error::io("write", path);
+    /// [`FileError::IsFolder`], and the system's.
+    pub fn create(path: &Path) -> Result<Self, FileError> {
+        let refused = FileError::io("write", path);
         let begun = |sink, beside| Self { named: path.to_owned(), out: BufWriter::new(sink), bytes: 0, beside };
         if is_stdout(path) {
             return Ok(begun(Sink::Stdout(io::stdout()), None));
         }
         if is_folder(path) {
-            return Err(Error::IsFolder { path: path.to_owned() });
+            return Err(FileError::IsFolder { path: path.to_owned() });
         }
         if is_written_through(path) {
             let file = OpenOptions::new().write(true).open(path).map_err(refused)?;
@@ -63,8 +63,8 @@ impl Destination {
     ///
     /// # Errors
     /// The system's. A file that was there before is then as it was.
-    pub fn finish(mut self) -> Result<u64, Error> {
-        self.complete().map_err(Error::io("write", &self.named))?;
+    pub fn finish(mut self) -> Result<u64, FileError> {
+        self.complete().map_err(FileError::io("write", &self.named))?;
         Ok(self.bytes)
     }
 
@@ -184,9 +184,9 @@ mod tests {
     use super::*;
     use tempfile::tempdir;
 
-    fn written(path: &Path, text: &str) -> Result<u64, Error> {
+    fn written(path: &Path, text: &str) -> Result<u64, FileError> {
         let mut destination = Destination::create(path)?;
-        destination.write_all(text.as_bytes()).map_err(Error::io("write", path))?;
+        destination.write_all(text.as_bytes()).map_err(FileError::io("write", path))?;
         destination.finish()
     }
 
@@ -216,7 +216,7 @@ mod tests {
         let folder = tempdir().unwrap();
         let new = folder.path().join("new/");
         for path in [folder.path(), &new, Path::new("."), Path::new("..")] {
-            assert!(matches!(Destination::create(path), Err(Error::IsFolder { .. })), "{}", path.display());
+            assert!(matches!(Destination::create(path), Err(FileError::IsFolder { .. })), "{}", path.display());
         }
         assert!(names_in(folder.path()).is_empty());
     }
@@ -260,11 +260,11 @@ mod tests {
             written(&at("dangling"), "new").unwrap();
             assert_eq!(fs::read(at("absent")).unwrap(), b"new");
             symlink("no/folder", at("astray")).unwrap();
-            assert!(matches!(written(&at("astray"), "x"), Err(Error::Io { doing: "write", .. })));
+            assert!(matches!(written(&at("astray"), "x"), Err(FileError::Io { doing: "write", .. })));
             symlink("circle", at("circle")).unwrap();
-            assert!(matches!(written(&at("circle"), "x"), Err(Error::Io { doing: "write", .. })));
+            assert!(matches!(written(&at("circle"), "x"), Err(FileError::Io { doing: "write", .. })));
             symlink(".", at("here")).unwrap();
-            assert!(matches!(written(&at("here"), "x"), Err(Error::IsFolder { .. })));
+            assert!(matches!(written(&at("here"), "x"), Err(FileError::IsFolder { .. })));
             assert_eq!(names_in(folder.path()), ["absent", "astray", "circle", "dangling", "here"]);
         }
 

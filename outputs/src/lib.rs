@@ -1,25 +1,28 @@
-//! What leaves a run: the run folder with its tables (Parquet), meshes, and the reading back of what was written.
+//! What leaves a run: the run folder with its tables (Parquet), and the reading back of what was written.
 //!
+//! Meshes and pictures are crates of their own, `phytomer-meshes` and `phytomer-pictures`, which need neither Arrow nor
+//! Parquet; they stand here under [`meshes`] and [`pictures`]. [`colouring`] paints a picture by a column of a table.
 //! A run folder is made by [`RunFolder::create`], filled shard by shard and closed by [`RunFolder::finish`]; what it
 //! holds is in `docs` and in its own `datapackage.json`. [`read`] opens it again, [`check()`] tells whether it is
 //! whole. Absent on purpose: growth rules.
 
+pub mod colouring;
 pub mod destination;
-mod error;
-pub mod meshes;
-pub mod pictures;
 pub mod read;
 pub mod rows;
 pub mod run_folder;
 #[cfg(test)]
 mod specimen;
+mod storage;
 pub mod tables;
 
 pub use destination::Destination;
-pub use error::Error;
+pub use phytomer_meshes as meshes;
+pub use phytomer_pictures as pictures;
 pub use run_folder::{
-    Bytes, Checking, Checkup, Depth, Difference, Differences, FileReport, Finding, FreeSpace, Holder, Input, Mode,
-    Opening, OvergrownPlot, Provenance, RunFolder, RunPlan, RunReport, Shard, ShardReport, Space, State, SystemSpace,
-    Trouble, check,
+    Checking, Checkup, Depth, Difference, Differences, Error, FileReport, Finding, Holder, Mode, Opening,
+    OvergrownPlot, RunFolder, RunReport, Shard, ShardReport, State, Trouble, check,
 };
-pub use tables::Table;
+pub use storage::FileError;
+pub use storage::space::{Bytes, FreeSpace, Space, SystemSpace};
+pub use tables::{Input, Provenance, RunPlan, Table};

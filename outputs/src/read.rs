@@ -4,9 +4,10 @@
 //! read where `run.json` or the journal names it. A `run.json` whose check does not hold is refused, since plants grow
 //! from what it says.
 
-use crate::Error;
-use crate::run_folder::{Papers, RunJson, files_in};
-use crate::tables::Table;
+use crate::run_folder::{Error, Papers, RunJson};
+use crate::storage::FileError;
+use crate::storage::durable::files_in;
+use crate::tables::{Table, TableError};
 use arrow_array::types::{Float64Type, Int32Type};
 use arrow_array::{Array, BooleanArray, PrimitiveArray, RecordBatch};
 use arrow_schema::SchemaRef;
@@ -173,9 +174,9 @@ impl Run {
     }
 }
 
-fn open(part: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, Error> {
-    let file = File::open(part).map_err(Error::io("open", part))?;
-    caught(|| ParquetRecordBatchReaderBuilder::try_new(file)).map_err(Error::read(part))
+fn open(part: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, TableError> {
+    let file = File::open(part).map_err(FileError::io("open", part))?;
+    caught(|| ParquetRecordBatchReaderBuilder::try_new(file)).map_err(TableError::read(part))
 }
 
 /// What the crates that read Parquet make of a file. Some of them panic where a damaged file states what they do not
@@ -197,27 +198,27 @@ pub struct Batches {
 }
 
 impl Batches {
-    fn open_next(&mut self) -> Option<Result<(), Error>> {
+    fn open_next(&mut self) -> Option<Result<(), TableError>> {
         let part = self.parts.next()?;
         let build = |file: ParquetRecordBatchReaderBuilder<File>| caught(|| file.with_batch_size(self.rows).build());
-        let reader = open(&part).and_then(|file| build(file).map_err(Error::read(&part)));
+        let reader = open(&part).and_then(|file| build(file).map_err(TableError::read(&part)));
         Some(reader.map(|reader| self.now = Some((part, reader))))
     }
 
     /// Nothing comes after an error.
-    fn ended_by(&mut self, error: Error) -> Error {
+    fn ended_by(&mut self, error: TableError) -> TableError {
         (self.parts, self.now) = (Vec::new().into_iter(), None);
         error
     }
 }
 
 impl Iterator for Batches {
-    type Item = Result<RecordBatch, Error>;
+    type Item = Result<RecordBatch, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             if let Some((part, reader)) = &mut self.now {
-                match caught(|| Ok(reader.next().transpose()?)).map_err(Error::read(part)) {
+                match caught(|| Ok(reader.next().transpose()?)).map_err(TableError::read(part)) {
                     Ok(None) => {}
                     Ok(Some(batch)) => return Some(Ok(batch)),
                     Err(error) => return Some(Err(self.ended_by(error))),
@@ -236,7 +237,7 @@ struct SummaryBatch<'a> {
 }
 
 impl SummaryBatch<'_> {
-    fn row(&self, row: usize) -> Result<SummaryRow, Error> {
+    fn row(&self, row: usize) -> Result<SummaryRow, TableError> {
         Ok(SummaryRow {
             plot_id: self.count("plot_id", row)?,
             plant_id: self.count("plant_id", row)?,
@@ -258,21 +259,21 @@ impl SummaryBatch<'_> {
         })
     }
 
-    fn column<A: 'static>(&self, column: &'static str) -> Result<&A, Error> {
+    fn column<A: 'static>(&self, column: &'static str) -> Result<&A, TableError> {
         let array = self.batch.column_by_name(column).and_then(|array| array.as_any().downcast_ref());
-        array.ok_or(Error::Column { path: self.path.join(Table::Summary.name()), column })
+        array.ok_or(TableError::Column { path: self.path.join(Table::Summary.name()), column })
     }
 
-    fn number(&self, column: &'static str, row: usize) -> Result<Option<u32>, Error> {
+    fn number(&self, column: &'static str, row: usize) -> Result<Option<u32>, TableError> {
         let array = self.column::<PrimitiveArray<Int32Type>>(column)?;
         Ok(array.is_valid(row).then(|| array.value(row).unsigned_abs()))
     }
 
-    fn count(&self, column: &'static str, row: usize) -> Result<u32, Error> {
+    fn count(&self, column: &'static str, row: usize) -> Result<u32, TableError> {
         Ok(self.number(column, row)?.unwrap_or_default())
     }
 
-    fn real(&self, column: &'static str, row: usize) -> Result<Option<f64>, Error> {
+    fn real(&self, column: &'static str, row: usize) -> Result<Option<f64>, TableError> {
         let array = self.column::<PrimitiveArray<Float64Type>>(column)?;
         Ok(array.is_valid(row).then(|| array.value(row)))
     }

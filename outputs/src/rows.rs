@@ -4,10 +4,10 @@
 //! Of `records` only what tells how internodes lie: their direction and curvature. Absent: every other column, which
 //! readers of Parquet have.
 
-use crate::Error;
 use crate::read::Run;
+use crate::run_folder::Error;
 use crate::tables::columns::{CAUSES, KINDS, ORIGINS};
-use crate::tables::{ComponentColumns, RecordColumns, Scene, Standing, Table};
+use crate::tables::{ComponentColumns, ComponentIndex, PlantAtAge, RecordColumns, Table, TableError};
 use arrow_array::types::{Float32Type, Int8Type, Int32Type};
 use arrow_array::{Array, DictionaryArray, PrimitiveArray, RecordBatch, StringArray};
 use phytomer_sim::plant::{Cause, Class, Kind, Origin, Plant};
@@ -51,12 +51,12 @@ pub struct PoseRow {
 /// The rows of `components` of a plant in memory, up to the age `last`.
 ///
 /// # Errors
-/// [`Error::PlantTooLarge`].
-pub fn components_of(plot: &Plot, plant: &Plant, last: Tick) -> Result<Vec<ComponentRow>, Error> {
-    let mut standing = Standing::default();
-    standing.read(plant)?;
+/// [`TableError::PlantTooLarge`].
+pub fn components_of(plot: &Plot, plant: &Plant, last: Tick) -> Result<Vec<ComponentRow>, TableError> {
+    let mut index = ComponentIndex::default();
+    index.read(plant)?;
     let mut columns = ComponentColumns::default();
-    columns.fill(plot, (plant, &standing), 0..standing.len(), last, &mut Vec::new());
+    columns.fill(plot, (plant, &index), 0..index.len(), last, &mut Vec::new());
     let c = &columns;
     let row = |i: usize| ComponentRow {
         plant_id: c.plant[i].unsigned_abs(),
@@ -81,17 +81,17 @@ pub fn components_of(plot: &Plot, plant: &Plant, last: Tick) -> Result<Vec<Compo
 /// How the internodes of a plant in memory lie at `age`, at which it was posed.
 ///
 /// # Errors
-/// [`Error::PlantTooLarge`].
-pub fn poses_of(plot: &Plot, plant: &Plant, age: Tick) -> Result<Vec<PoseRow>, Error> {
-    let mut standing = Standing::default();
-    standing.read(plant)?;
-    standing.find_tips(plant, age);
+/// [`TableError::PlantTooLarge`].
+pub fn poses_of(plot: &Plot, plant: &Plant, age: Tick) -> Result<Vec<PoseRow>, TableError> {
+    let mut index = ComponentIndex::default();
+    index.read(plant)?;
+    index.find_tips(plant, age);
     let (mut columns, mut numbers, mut rows) = (RecordColumns::default(), Vec::new(), Vec::new());
-    let scene = Scene { plant, standing: &standing, age, mechanics: true };
+    let shown = PlantAtAge { plot: plot.id, plant, index: &index, age, mechanics: true };
     let mut next = 0;
-    while next < standing.len() {
-        standing.select(age, usize::MAX, &mut next, &mut numbers);
-        columns.fill(plot.id, &scene, &numbers, &mut rows);
+    while next < index.len() {
+        index.select(age, usize::MAX, &mut next, &mut numbers);
+        columns.fill(&shown, &numbers, &mut rows);
     }
     let c = &columns;
     let row = |i: usize| PoseRow {
@@ -152,7 +152,7 @@ impl Run {
 }
 
 /// Adds the rows of a batch; `false` where the plants that follow are not wanted.
-fn components_in(batch: &Batch<'_>, plants: u32, found: &mut Vec<ComponentRow>) -> Result<bool, Error> {
+fn components_in(batch: &Batch<'_>, plants: u32, found: &mut Vec<ComponentRow>) -> Result<bool, TableError> {
     let int = |name| batch.ints(name);
     let (plant, component, axis) = (int("plant_id")?, int("component_id")?, int("axis_id")?);
     let (bearing, order, position) = (int("bearing_axis_id")?, int("order")?, int("position")?);
@@ -186,7 +186,7 @@ fn components_in(batch: &Batch<'_>, plants: u32, found: &mut Vec<ComponentRow>) 
 }
 
 /// The same of `records`, which are sorted by plot: a plant whose number is too great ends it.
-fn poses_in(batch: &Batch<'_>, plants: u32, found: &mut Vec<PoseRow>) -> Result<bool, Error> {
+fn poses_in(batch: &Batch<'_>, plants: u32, found: &mut Vec<PoseRow>) -> Result<bool, TableError> {
     let (plant, age) = (batch.ints("plant_id")?, batch.ints("age")?);
     let (axis, rank) = (batch.ints("axis_id")?, batch.ints("rank")?);
     let (kind, dir_z) = (batch.words("kind", &KINDS)?, batch.floats("dir_z")?);
@@ -222,23 +222,23 @@ struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    fn column<A: 'static>(&self, column: &'static str) -> Result<&'a A, Error> {
+    fn column<A: 'static>(&self, column: &'static str) -> Result<&'a A, TableError> {
         let array = self.batch.column_by_name(column).and_then(|array| array.as_any().downcast_ref());
-        array.ok_or(Error::Column { path: self.path.join(self.table.name()), column })
+        array.ok_or(TableError::Column { path: self.path.join(self.table.name()), column })
     }
 
-    fn ints(&self, column: &'static str) -> Result<&'a PrimitiveArray<Int32Type>, Error> {
+    fn ints(&self, column: &'static str) -> Result<&'a PrimitiveArray<Int32Type>, TableError> {
         self.column(column)
     }
 
-    fn floats(&self, column: &'static str) -> Result<&'a PrimitiveArray<Float32Type>, Error> {
+    fn floats(&self, column: &'static str) -> Result<&'a PrimitiveArray<Float32Type>, TableError> {
         self.column(column)
     }
 
     /// The place of each row's word in the list of words; `None` for null.
-    fn words(&self, column: &'static str, words: &[&str]) -> Result<Vec<Option<usize>>, Error> {
+    fn words(&self, column: &'static str, words: &[&str]) -> Result<Vec<Option<usize>>, TableError> {
         let array: &DictionaryArray<Int8Type> = self.column(column)?;
-        let missing = || Error::Column { path: self.path.join(self.table.name()), column };
+        let missing = || TableError::Column { path: self.path.join(self.table.name()), column };
         let values: &StringArray = array.values().as_any().downcast_ref().ok_or_else(missing)?;
         let places: Vec<Option<usize>> =
             values.iter().map(|word| words.iter().position(|known| Some(*known) == word)).collect();

@@ -28,6 +28,7 @@ pub fn is_full_disk(error: &Error) -> bool {
 mod tests {
     use super::*;
     use anyhow::Context;
+    use phytomer_outputs::tables::TableError;
     use std::path::PathBuf;
 
     /// Says its cause itself and has it as its source, as many crates do.
@@ -43,11 +44,11 @@ mod tests {
             assert_eq!(text.matches(&full().to_string()).count(), 1, "{text}");
             text
         };
-        let ours = phytomer_outputs::Error::Io { doing: "write", path: PathBuf::from("a/b"), source: full() };
+        let ours = phytomer_outputs::FileError::Io { doing: "write", path: PathBuf::from("a/b"), source: full() };
         let told = once(&Error::new(ours).context("cannot finish"));
         assert!(told.starts_with("cannot finish: cannot write a/b: "), "{told}");
         assert!(told.ends_with("free some space; what is complete is kept"), "{told}");
-        let table = phytomer_outputs::Error::Table { path: PathBuf::from("c"), source: Box::new(Doubling(full())) };
+        let table = TableError::Write { path: PathBuf::from("c"), source: Box::new(Doubling(full())) };
         assert!(once(&Error::new(table)).starts_with("cannot write the table c: External: "));
         once(&Err::<(), _>(full()).with_context(|| "cannot write the mesh d").unwrap_err());
         assert_eq!(in_words(&anyhow::anyhow!("plain")), "plain");

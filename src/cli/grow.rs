@@ -11,7 +11,7 @@ use anyhow::{Context, Result};
 use clap::Args;
 use phytomer::outputs::{Error, Mode};
 use phytomer::run::forecast::Forecast;
-use phytomer::run::{self, Begun, Progress, Settings};
+use phytomer::run::{self, Begun, Progress, RunError, Settings};
 use phytomer::run::{disk, forms};
 use phytomer_config::scenario::MOST_SEED;
 use phytomer_config::{Resolved, validate};
@@ -90,7 +90,7 @@ impl Grow {
         let progress = Arc::new(Progress::default());
         self.listen(&progress)?;
         match self.grow(&resolved, &settings, &progress) {
-            Err(error) if matches!(error.downcast_ref(), Some(Error::Stopped)) => {
+            Err(error) if matches!(error.downcast_ref(), Some(RunError::Outputs(Error::Stopped))) => {
                 terminal::say(&format!("stopped before anything was grown; go on with\n  {}", self.again()));
                 Ok(Verdict::Interrupted)
             }

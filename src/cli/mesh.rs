@@ -58,11 +58,11 @@ impl Mesh {
     fn write(&self, regrown: &Regrown) -> Result<Verdict> {
         let age = self.age.unwrap_or(regrown.scenario.ages.until);
         regrown.check(("--age", &[age]), ("--plant", &[self.plant]))?;
-        let again = regrown.again(&self.breeze)?;
+        let regrowth = regrown.regrowth(&self.breeze)?;
         let mut file = Destination::create(&self.out)?;
         let options = options_of(self.sides, &regrown.forms);
         let seed = regrown.scenario.seed;
-        again.show(self.plant, &[age], &mut |age, plant| {
+        regrowth.show(self.plant, &[age], &mut |age, plant| {
             let written = write_mesh(plant, age, seed, &options, &mut file);
             Ok(written.with_context(|| format!("cannot write {}", self.out.display()))?)
         })?;

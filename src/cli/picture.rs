@@ -9,12 +9,11 @@ use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
-use phytomer::run::drawing::{Portrait, portrait};
+use phytomer::run::drawing::{PicturedPlants, pictured_plants};
+use phytomer_outputs::Destination;
+use phytomer_outputs::colouring::{ColouringError, colour_columns, colouring};
 use phytomer_outputs::meshes::OwnForms;
-use phytomer_outputs::pictures::{
-    Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, colour_columns, draw, sheet, write_png,
-};
-use phytomer_outputs::{Destination, Error};
+use phytomer_outputs::pictures::{Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, draw, sheet, write_png};
 use phytomer_sim::Tick;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -123,18 +122,18 @@ impl Picture {
         let options = [(self.ages.is_empty(), "--age", "--ages"), (self.plants.is_empty(), "--plant", "--plants")];
         let [age_option, plant_option] = options.map(|(one, single, several)| if one { single } else { several });
         regrown.check((age_option, &ages), (plant_option, plants))?;
-        let again = regrown.again(&self.breeze)?;
+        let regrowth = regrown.regrowth(&self.breeze)?;
         if ages.is_empty() {
-            ages.push(again.shown_at(&regrown.species, plants[0])?);
+            ages.push(regrowth.shown_at(&regrown.species, plants[0])?);
         }
         if ages.len() * plants.len() > MOST_SUBJECTS {
             return Err(Misuse(format!("one picture has at most {MOST_SUBJECTS} plants, counted at each age")).into());
         }
         let file = Destination::create(&self.out)?;
-        let portrait = portrait(&again, &regrown.species, plants, &ages)?;
-        let canvas = self.draw(&portrait, &regrown.forms)?;
-        let bytes = amounts::bytes(self.save(&canvas, &portrait.note, file)? as f64);
-        let drawn = portrait.subjects.len();
+        let pictured = pictured_plants(&regrowth, &regrown.species, plants, &ages)?;
+        let canvas = self.draw(&pictured, &regrown.forms)?;
+        let bytes = amounts::bytes(self.save(&canvas, &pictured.note, file)? as f64);
+        let drawn = pictured.subjects.len();
         let whom = if drawn == 1 { format!("plant {}", plants[0]) } else { format!("{drawn} plants") };
         let when = if ages.len() == 1 { format!(" at age {}", ages[0]) } else { String::new() };
         let wind = self.breeze.in_words();
@@ -142,7 +141,7 @@ impl Picture {
         Ok(Verdict::Done)
     }
 
-    fn draw(&self, portrait: &Portrait, forms: &Arc<OwnForms>) -> std::result::Result<Canvas, Error> {
+    fn draw(&self, pictured: &PicturedPlants, forms: &Arc<OwnForms>) -> std::result::Result<Canvas, ColouringError> {
         let view = match self.view {
             From::Perspective => Some(View::Perspective),
             From::Top => Some(View::Top),
@@ -151,6 +150,8 @@ impl Picture {
             From::Oblique => Some(View::Oblique),
             From::Sheet => None,
         };
+        let subjects = pictured.subjects();
+        let colour_by = self.colour_by.as_ref().map(|column| colouring(column, &subjects)).transpose()?;
         let style = Style {
             size: self.size,
             view: view.unwrap_or(View::Front),
@@ -161,14 +162,13 @@ impl Picture {
             sun: self.sun.map(|sun| sun.map(f32::to_radians)),
             sides: self.sides,
             own: Arc::clone(forms),
-            colour_by: self.colour_by.clone(),
+            colour_by,
         };
-        let subjects = portrait.subjects();
-        if view.is_some() {
-            draw(&subjects, &portrait.title, &style)
+        Ok(if view.is_some() {
+            draw(&subjects, &pictured.title, &style)
         } else {
-            sheet(&subjects, &portrait.title, &style)
-        }
+            sheet(&subjects, &pictured.title, &style)
+        })
     }
 
     fn save(&self, canvas: &Canvas, note: &str, mut file: Destination) -> Result<u64> {

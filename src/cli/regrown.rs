@@ -3,14 +3,14 @@
 //!
 //! Nothing is read from the run's tables. A species by itself grows in a scenario made up for it. Absent: growing,
 //! which is
-//! `run::again`'s, and what is made of the plants.
+//! `run::regrowth`'s, and what is made of the plants.
 
 use super::named::{self, Named, Recorded};
 use super::{Misuse, Verdict, refuse};
 use anyhow::Result;
 use clap::Args;
-use phytomer::run::again::{Again, Air};
 use phytomer::run::forms;
+use phytomer::run::regrowth::{Air, Regrowth};
 use phytomer_config::{Model, Resolved, ResolvedSpecies, Scenario, Species};
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_sim::mechanics::sway::{Unmoved, yielding};
@@ -96,12 +96,12 @@ impl Regrown {
     ///
     /// # Errors
     /// Where wind cannot move the species.
-    pub fn again(&self, breeze: &Breeze) -> Result<Again<'_>> {
+    pub fn regrowth(&self, breeze: &Breeze) -> Result<Regrowth<'_>> {
         let air = breeze.air();
         if air.is_some() {
             yielding(&self.model.habit()).map_err(|unmoved| self.unmoved(unmoved, breeze))?;
         }
-        Ok(Again { scenario: &self.scenario, model: self.model.as_ref(), air })
+        Ok(Regrowth { scenario: &self.scenario, model: self.model.as_ref(), air })
     }
 
     /// Refuses what the run does not have.

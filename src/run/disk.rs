@@ -7,7 +7,6 @@
 
 use super::Settings;
 use super::forecast::Forecast;
-use anyhow::Result;
 use phytomer_config::Resolved;
 use phytomer_outputs::{self as outputs, Bytes, Checking, Depth, Error, Mode, Space};
 use std::path::{Path, PathBuf};
@@ -44,7 +43,7 @@ pub struct There {
 ///
 /// # Errors
 /// Where the folder cannot be read.
-pub fn there(settings: &Settings) -> Result<There> {
+pub fn there(settings: &Settings) -> Result<There, Error> {
     let found = match outputs::check(&settings.folder, Depth::Lengths, &Checking::default()) {
         // What the folder is, is not asked here; opening it tells.
         Err(Error::NotARun { .. } | Error::OlderFormat { .. }) => None,
@@ -74,7 +73,8 @@ pub fn check_room(needed: f64, there: There, space: Space, folder: &Path) -> Res
     Err(TooSmall { folder: folder.to_path_buf(), needed, free, reserve })
 }
 
-/// The same for a scenario and its settings; a forecast or a disk that nobody knows refuses nothing.
+/// The same for a scenario and its settings; where there is no forecast, or the system tells no free space, nothing is
+/// refused.
 ///
 /// # Errors
 /// [`TooSmall`].

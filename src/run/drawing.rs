@@ -4,8 +4,8 @@
 //! plants at an age are therefore one file where the run has one part, and one a part where it has more.
 //! Absent: forms and formats, which are `phytomer_outputs::meshes`'.
 
-use super::again::Again;
-use anyhow::{Context, Result, ensure};
+use super::RunError;
+use super::regrowth::Regrowth;
 use phytomer_config::scenario::{MeshFile, Meshes};
 use phytomer_config::{About, Resolved, Scenario, Species};
 use phytomer_outputs::Shard;
@@ -15,14 +15,14 @@ use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::Write;
+use std::io::{self, Write};
 use std::sync::Arc;
 
 /// The most vertices that 32-bit signed indices reach.
 const MOST_VERTICES: u64 = i32::MAX as u64;
 
 /// What is drawn of the plants of one shard.
-pub struct Drawing<'a> {
+pub struct RunMeshes<'a> {
     scenario: &'a Scenario,
     meshes: &'a Meshes,
     ages: Vec<Tick>,
@@ -48,19 +48,20 @@ pub fn write_mesh(
     run_seed: u64,
     options: &MeshOptions,
     out: &mut (dyn Write + Send),
-) -> Result<()> {
+) -> io::Result<()> {
     let scene = Scene::new(plant, age, options);
     let vertices = scene.counts().vertices;
-    ensure!(
-        vertices <= MOST_VERTICES,
-        "the mesh of plant {} at age {age} would have {vertices} vertices, and a mesh file holds at most {MOST_VERTICES}: \
-         choose fewer sides",
-        plant.id
-    );
-    Ok(Ply.write(&scene, &scene.about(run_seed), out)?)
+    if vertices > MOST_VERTICES {
+        return Err(io::Error::other(format!(
+            "the mesh of plant {} at age {age} would have {vertices} vertices, and a mesh file holds at most \
+             {MOST_VERTICES}: choose fewer sides",
+            plant.id
+        )));
+    }
+    Ply.write(&scene, &scene.about(run_seed), out)
 }
 
-impl<'a> Drawing<'a> {
+impl<'a> RunMeshes<'a> {
     /// What is drawn of a run of so many parts; `None` where the scenario asks for no meshes.
     pub fn of(resolved: &'a Resolved, own: &Arc<OwnForms>, parts: u32) -> Option<Self> {
         let scenario = &resolved.scenario;
@@ -78,14 +79,15 @@ impl<'a> Drawing<'a> {
     ///
     /// # Errors
     /// Where its mesh cannot be written.
-    pub fn draw(&mut self, age: Tick, plant: &Plant, shard: &mut Shard) -> Result<()> {
+    pub fn draw(&mut self, age: Tick, plant: &Plant, shard: &mut Shard) -> Result<(), RunError> {
         let id = plant.id;
         match self.meshes.per {
             MeshFile::PlantAge => {
                 let path = shard.stage(&format!("meshes/plant-{id:05}_age-{age:04}.ply"))?;
-                let doing = || format!("cannot write the mesh {}", path.display());
-                let mut file = File::create(&path).with_context(doing)?;
-                write_mesh(plant, age, self.scenario.seed, &self.options, &mut file).with_context(doing)
+                let seed = self.scenario.seed;
+                let written =
+                    File::create(&path).and_then(|mut file| write_mesh(plant, age, seed, &self.options, &mut file));
+                written.map_err(failed(&path.display().to_string()))
             }
             MeshFile::Plant => self.collect(format!("meshes/plant-{id:05}.ply"), age, plant, shard),
             MeshFile::Age if self.parts == 1 => self.collect(format!("meshes/age-{age:04}.ply"), age, plant, shard),
@@ -96,22 +98,21 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    fn collect(&mut self, path: String, age: Tick, plant: &Plant, shard: &mut Shard) -> Result<()> {
+    fn collect(&mut self, path: String, age: Tick, plant: &Plant, shard: &mut Shard) -> Result<(), RunError> {
         let scene = Scene::new(plant, age, &self.options);
-        let doing = || format!("cannot write the mesh {path}");
         if !self.open.contains_key(&path) {
-            let new = Collection::create(&shard.stage(&path)?).with_context(doing)?;
+            let new = Collection::create(&shard.stage(&path)?).map_err(failed(&path))?;
             self.open.insert(path.clone(), new);
         }
         let Some(collection) = self.open.get_mut(&path) else { return Ok(()) };
-        collection.add(&scene, &scene.about(self.scenario.seed)).with_context(doing)
+        collection.add(&scene, &scene.about(self.scenario.seed)).map_err(failed(&path))
     }
 
     /// The last age of a plant is past.
     ///
     /// # Errors
     /// Where its file cannot be written.
-    pub fn end_plant(&mut self) -> Result<()> {
+    pub fn end_plant(&mut self) -> Result<(), RunError> {
         if self.meshes.per == MeshFile::Plant { self.finish() } else { Ok(()) }
     }
 
@@ -119,17 +120,23 @@ impl<'a> Drawing<'a> {
     ///
     /// # Errors
     /// Where they cannot be written.
-    pub fn finish(&mut self) -> Result<()> {
+    pub fn finish(&mut self) -> Result<(), RunError> {
         for (path, collection) in std::mem::take(&mut self.open) {
-            collection.finish().with_context(|| format!("cannot write the mesh {path}"))?;
+            collection.finish().map_err(failed(&path))?;
         }
         Ok(())
     }
 }
 
+/// Tells which mesh could not be written.
+fn failed(path: &str) -> impl FnOnce(io::Error) -> RunError {
+    let path = path.to_owned();
+    move |source| RunError::Mesh { path, source }
+}
+
 /// The plants of one picture, and what is written on it.
 #[derive(Debug)]
-pub struct Portrait {
+pub struct PicturedPlants {
     /// Each plant at each age, with what is written below it.
     pub subjects: Vec<(Plant, Tick, String)>,
     /// The name of the species.
@@ -138,7 +145,7 @@ pub struct Portrait {
     pub note: String,
 }
 
-impl Portrait {
+impl PicturedPlants {
     /// The plants as a picture takes them.
     pub fn subjects(&self) -> Vec<Subject<'_>> {
         let all = self.subjects.iter();
@@ -150,12 +157,17 @@ impl Portrait {
 ///
 /// # Errors
 /// Those of growing.
-pub fn portrait(again: &Again, species: &Species, plants: &[u32], ages: &[Tick]) -> Result<Portrait> {
+pub fn pictured_plants(
+    regrowth: &Regrowth,
+    species: &Species,
+    plants: &[u32],
+    ages: &[Tick],
+) -> Result<PicturedPlants, RunError> {
     let about = &species.about;
     let mut subjects = Vec::new();
     for &number in plants {
         let mut seen = BTreeMap::new();
-        again.show(number, ages, &mut |age, plant| {
+        regrowth.show(number, ages, &mut |age, plant| {
             seen.insert(age, plant.clone());
             Ok(())
         })?;
@@ -167,8 +179,8 @@ pub fn portrait(again: &Again, species: &Species, plants: &[u32], ages: &[Tick])
         }
     }
     let title = title_of(about);
-    let note = format!("{}: plants {plants:?} at the ages {ages:?} of seed {}", about.name, again.scenario.seed);
-    Ok(Portrait { subjects, title, note })
+    let note = format!("{}: plants {plants:?} at the ages {ages:?} of seed {}", about.name, regrowth.scenario.seed);
+    Ok(PicturedPlants { subjects, title, note })
 }
 
 /// What a species is called below its picture: by its scientific name, if it is one and no list of examples.

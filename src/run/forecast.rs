@@ -4,7 +4,6 @@
 //! have *made*; what they have shed by a recorded age is counted as if it still stood, so that the rows of `records`
 //! are a bound from above. Absent: memory and time, which the machine decides.
 
-use super::plan::component_limit;
 use phytomer_config::Resolved;
 use phytomer_config::scenario::{BYTES_A_COMPONENT, Table};
 use phytomer_sim::expectation::{Certainty, Expectation};
@@ -106,7 +105,7 @@ impl Forecast {
                 + component_rows * BYTES_A_COMPONENT_ROW
                 + summary_rows * BYTES_A_SUMMARY_ROW,
             bytes_a_plant: a_plant * BYTES_A_COMPONENT as f64,
-            component_limit: component_limit(scenario),
+            component_limit: scenario.limits.components(),
             shown_a_plant,
         })
     }

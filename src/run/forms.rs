@@ -5,7 +5,7 @@
 //! again with the same triangles or not at all. Absent: what a mesh file may hold, which is
 //! `phytomer_outputs::meshes`'.
 
-use anyhow::{Context, Result, ensure};
+use super::RunError;
 use phytomer_config::{Resolved, Species};
 use phytomer_models::fault::{Fault, Path};
 use phytomer_outputs::meshes::{OwnForms, check_form};
@@ -78,14 +78,14 @@ pub fn state_shares(species: &mut Species, forms: &OwnForms) -> bool {
 ///
 /// # Errors
 /// The first of its faults.
-pub fn settled(resolved: &Resolved) -> Result<(Cow<'_, Resolved>, Arc<OwnForms>)> {
+pub fn settled(resolved: &Resolved) -> Result<(Cow<'_, Resolved>, Arc<OwnForms>), RunError> {
     let forms = of(&resolved.species)?;
     let mut species = resolved.species.clone();
     if !state_shares(&mut species, &forms) {
         return Ok((Cow::Borrowed(resolved), forms));
     }
     let mut settled = resolved.clone();
-    let forms = settle(&mut settled).map_err(first)?;
+    let forms = settle(&mut settled).map_err(RunError::of_species)?;
     Ok((Cow::Owned(settled), forms))
 }
 
@@ -93,24 +93,17 @@ pub fn settled(resolved: &Resolved) -> Result<(Cow<'_, Resolved>, Arc<OwnForms>)
 ///
 /// # Errors
 /// The first of its faults.
-pub fn of(species: &Species) -> Result<Arc<OwnForms>> {
-    read(species).map_err(first)
-}
-
-fn first(faults: Vec<Fault>) -> anyhow::Error {
-    match faults.into_iter().next() {
-        Some(fault) => anyhow::Error::new(fault),
-        None => anyhow::anyhow!("the meshes of the species cannot be read"),
-    }
+pub fn of(species: &Species) -> Result<Arc<OwnForms>, RunError> {
+    read(species).map_err(RunError::of_species)
 }
 
 /// The files as inputs of a run.
 ///
 /// # Errors
 /// Where one cannot be read.
-pub fn inputs(species: &Species) -> Result<Vec<Input>> {
+pub fn inputs(species: &Species) -> Result<Vec<Input>, RunError> {
     let input = |(_, name): (Path, &str)| {
-        let bytes = bytes_of(name).with_context(|| format!("cannot read the mesh {name}"))?;
+        let bytes = bytes_of(name).map_err(|source| RunError::Form { name: name.to_owned(), source })?;
         let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
         Ok(Input { path: name.to_owned(), sha256 })
     };
@@ -121,11 +114,13 @@ pub fn inputs(species: &Species) -> Result<Vec<Input>> {
 ///
 /// # Errors
 /// Where a file is gone or has changed since.
-pub fn of_run(species: &Species, run: &Run) -> Result<Arc<OwnForms>> {
+pub fn of_run(species: &Species, run: &Run) -> Result<Arc<OwnForms>, RunError> {
     let recorded = run.json()["inputs"].as_array().map(Vec::as_slice).unwrap_or_default();
     for input in inputs(species)? {
         let same = recorded.iter().any(|known| known["path"] == input.path && known["sha256"] == input.sha256);
-        ensure!(same, "the mesh {} is not the one with which the run was made", input.path);
+        if !same {
+            return Err(RunError::FormChanged { name: input.path });
+        }
     }
     of(species)
 }

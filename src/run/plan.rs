@@ -3,8 +3,8 @@
 //! Everything here follows from the scenario alone, never from the machine, so that a run can be resumed anywhere and
 //! ends with the same bytes.
 
+use super::RunError;
 use super::forecast::Forecast;
-use anyhow::{Context, Result};
 use phytomer_config::{Resolved, Scenario, scenario};
 use phytomer_outputs::{Input, Provenance, RunPlan, Table};
 use phytomer_sim::plant::Seed;
@@ -41,7 +41,7 @@ impl Default for Program {
 ///
 /// # Errors
 /// Where the scenario cannot be written as JSON, which no checked scenario can fail to be.
-pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan> {
+pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunError> {
     let scenario = &resolved.scenario;
     Ok(RunPlan {
         tables: scenario.written_tables().into_iter().map(table).collect(),
@@ -62,7 +62,7 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan> {
             seed: scenario.seed,
             version: program.version.clone(),
             git_hash: program.git_hash.clone(),
-            resolved: resolved.to_json().context("cannot write the scenario as JSON")?,
+            resolved: resolved.to_json().map_err(RunError::Scenario)?,
             inputs: inputs(resolved)?,
         },
     })
@@ -78,7 +78,7 @@ fn table(table: scenario::Table) -> Table {
     }
 }
 
-fn inputs(resolved: &Resolved) -> Result<Vec<Input>> {
+fn inputs(resolved: &Resolved) -> Result<Vec<Input>, RunError> {
     let hash = |text: &str| Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
     let texts = resolved.sources.iter().map(|source| Input { path: source.name.clone(), sha256: hash(&source.text) });
     Ok(texts.chain(super::forms::inputs(&resolved.species)?).collect())

@@ -3,6 +3,7 @@
 //!
 //! Absent: how they are shown, which is the command line's.
 
+use super::RunError;
 use phytomer_config::Resolved;
 use phytomer_outputs::Checking;
 use phytomer_sim::plant::Plant;
@@ -19,11 +20,6 @@ pub struct Progress {
     components: AtomicU64,
     checking: Checking,
 }
-
-/// The run was told to stop.
-#[derive(Debug, Clone, Copy, thiserror::Error)]
-#[error("the run was told to stop")]
-pub(super) struct Stopped;
 
 impl Progress {
     /// Asks the run to stop soon: shards that are not complete are given up, committed ones stay.
@@ -74,8 +70,8 @@ impl Progress {
         self.plants_in_all.store(plants, Relaxed);
     }
 
-    pub(super) fn check(&self) -> Result<(), Stopped> {
-        if self.is_stopped() { Err(Stopped) } else { Ok(()) }
+    pub(super) fn check(&self) -> Result<(), RunError> {
+        if self.is_stopped() { Err(RunError::Stopped) } else { Ok(()) }
     }
 
     pub(super) fn end_age(&self) {

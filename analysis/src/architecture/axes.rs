@@ -1,11 +1,12 @@
-//! The axes of one recorded plant, put together from the rows of `components`: who bears whom, which nodes, which
-//! flowers.
+//! The axes of one recorded plant, put together from the rows of `components`: which axis bears which, with its nodes
+//! and flowers.
 //!
 //! Axes that are leaves, inflorescences or parts of flowers by the kind of their internodes are organs and no branches.
 //! Reiterates are told apart here. A reiterate repeats the plant's model on the plant and says nothing of the model
 //! itself (Hallé, Oldeman & Tomlinson 1978), so all that it bears is left aside; but an axis of order 1 out of the base
 //! of another of order 1 is a basal shoot, of which Tomlinson's and McClure's models are made. Absent: any judgement.
 
+use super::tolerance::PLAGIOTROPIC_DEG;
 use phytomer_outputs::rows::ComponentRow;
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{Cause, Class, Kind, Origin};
@@ -24,9 +25,9 @@ pub struct Node {
     pub trend: Option<f32>,
 }
 
-/// How an axis stands to the plant.
+/// What an axis is to the plant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Standing {
+pub enum Role {
     /// It belongs to the plant's own architecture.
     Own,
     /// It arose from the base of another trunk.
@@ -46,8 +47,8 @@ pub struct Axis {
     pub order: u32,
     /// How it came to be.
     pub origin: Origin,
-    /// How it stands to the plant.
-    pub standing: Standing,
+    /// What it is to the plant.
+    pub role: Role,
     /// The axis that bears it, as a place in the list.
     pub bearing: Option<usize>,
     /// The rank of the bearing node.
@@ -73,7 +74,7 @@ pub struct Axis {
 impl Axis {
     /// Whether it says something of the model: it is the plant's own, or a basal shoot.
     pub fn is_judged(&self) -> bool {
-        matches!(self.standing, Standing::Own | Standing::Basal)
+        matches!(self.role, Role::Own | Role::Basal)
     }
 
     /// Whether its apex became a flower.
@@ -102,6 +103,11 @@ impl Axis {
     }
 }
 
+/// Whether an axis that tends to such an angle to the vertical, in degrees, is plagiotropic.
+pub fn is_plagiotropic(trend_deg: f32) -> bool {
+    trend_deg > PLAGIOTROPIC_DEG
+}
+
 /// The axes of a plant by their numbers, those among them that are buds still: a bearing axis comes before those that
 /// it bears.
 pub fn axes_of(rows: &[ComponentRow]) -> Vec<Axis> {
@@ -120,7 +126,7 @@ pub fn axes_of(rows: &[ComponentRow]) -> Vec<Axis> {
     let mut axes: Vec<Axis> = axes.into_values().collect();
     for place in 0..axes.len() {
         axes[place].bearing = bearing.get(&axes[place].id).and_then(|bearer| places.get(bearer)).copied();
-        axes[place].standing = standing(&axes, place);
+        axes[place].role = role(&axes, place);
         if let Some(bearing) = axes[place].bearing {
             attach(&mut axes, place, bearing);
         }
@@ -130,11 +136,11 @@ pub fn axes_of(rows: &[ComponentRow]) -> Vec<Axis> {
 
 /// Tells the bearing axis of what it bears. An inflorescence that is an axis is a flower to it.
 fn attach(axes: &mut [Axis], place: usize, bearing: usize) {
-    let Axis { standing, origin, kind, .. } = axes[place];
-    match standing {
-        Standing::Organ if !is_of_flower(kind) || axes[bearing].standing == Standing::Organ => {}
-        Standing::Organ if matches!(origin, Origin::Relay | Origin::Fork) => axes[bearing].blooms = true,
-        Standing::Organ => axes[bearing].lateral_flowers += 1,
+    let Axis { role, origin, kind, .. } = axes[place];
+    match role {
+        Role::Organ if !is_of_flower(kind) || axes[bearing].role == Role::Organ => {}
+        Role::Organ if matches!(origin, Origin::Relay | Origin::Fork) => axes[bearing].blooms = true,
+        Role::Organ => axes[bearing].lateral_flowers += 1,
         _ => axes[bearing].bears.push(place),
     }
 }
@@ -157,7 +163,7 @@ fn begun(bud: &ComponentRow) -> Axis {
         id: bud.axis_id,
         order: bud.order,
         origin: bud.origin,
-        standing: Standing::Own,
+        role: Role::Own,
         bearing: None,
         bearer_rank: bud.rank.unwrap_or_default(),
         birth: bud.birth_age,
@@ -187,20 +193,20 @@ fn add(axis: &mut Axis, row: &ComponentRow) {
     }
 }
 
-fn standing(axes: &[Axis], place: usize) -> Standing {
+fn role(axes: &[Axis], place: usize) -> Role {
     let axis = &axes[place];
     if is_of_leaf(axis.kind) || is_of_flower(axis.kind) {
-        return Standing::Organ;
+        return Role::Organ;
     }
     let Some(bearing) = axis.bearing.map(|bearing| &axes[bearing]) else {
-        return Standing::Own;
+        return Role::Own;
     };
     let base = LEAST_BASE.max((BASE_SHARE * bearing.nodes.len() as f64) as u32);
     let trunks = axis.order == 1 && bearing.order == 1;
     match axis.origin {
-        _ if matches!(bearing.standing, Standing::Reiterate | Standing::Organ) => bearing.standing,
-        Origin::Adaptive if trunks && axis.bearer_rank <= base => Standing::Basal,
-        Origin::Adaptive | Origin::Traumatic => Standing::Reiterate,
-        Origin::Seed | Origin::Axillary | Origin::Relay | Origin::Fork => Standing::Own,
+        _ if matches!(bearing.role, Role::Reiterate | Role::Organ) => bearing.role,
+        Origin::Adaptive if trunks && axis.bearer_rank <= base => Role::Basal,
+        Origin::Adaptive | Origin::Traumatic => Role::Reiterate,
+        Origin::Seed | Origin::Axillary | Origin::Relay | Origin::Fork => Role::Own,
     }
 }

@@ -5,39 +5,13 @@
 //! weight, and how a trunk's base rights itself, are read from recorded directions, because two models are defined by
 //! it. Absent: the models, which `models` states over these.
 
-use super::axes::{Axis, Standing, axes_of};
+use super::axes::{Axis, Role, axes_of, is_plagiotropic};
 use super::lie::{Lie, lie_of};
 use super::relays::{Relays, relays_of};
-use super::tolerance::{PLAGIOTROPIC_DEG, TIER_SHARE};
+use super::share::Share;
+use super::tolerance::TIER_SHARE;
 use phytomer_outputs::rows::{ComponentRow, PoseRow};
 use phytomer_sim::plant::{Cause, Kind, Origin};
-
-/// How many of those that were asked have a character.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Share {
-    /// Those that have it.
-    pub yes: u32,
-    /// Those that were asked.
-    pub of: u32,
-}
-
-impl Share {
-    /// Counts one more.
-    pub fn add(&mut self, has: bool) {
-        self.yes += u32::from(has);
-        self.of += 1;
-    }
-
-    /// The share; `None` where none was asked.
-    pub fn value(self) -> Option<f64> {
-        (self.of > 0).then(|| f64::from(self.yes) / f64::from(self.of))
-    }
-
-    /// Whether some were asked and at least `least` of them have it.
-    pub fn is_at_least(self, least: f64) -> bool {
-        self.value().is_some_and(|share| share >= least)
-    }
-}
 
 /// The characters of one plant.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -108,7 +82,7 @@ impl Characters {
         let trunk = axis.order == 1;
         self.axes += 1;
         self.trunks += u32::from(trunk);
-        self.basal += u32::from(axis.standing == Standing::Basal);
+        self.basal += u32::from(axis.role == Role::Basal);
         self.axillary += u32::from(axis.origin == Origin::Axillary);
         self.lateral_flowers += axis.lateral_flowers;
         self.flowered_trunks += u32::from(trunk && axis.flowered());
@@ -136,8 +110,7 @@ impl Characters {
     }
 
     fn count_branches(&mut self, axes: &[Axis]) {
-        let of_trunk =
-            |axis: &&Axis| axis.order == 2 && axis.standing == Standing::Own && axis.origin == Origin::Axillary;
+        let of_trunk = |axis: &&Axis| axis.order == 2 && axis.role == Role::Own && axis.origin == Origin::Axillary;
         for axis in axes.iter().filter(of_trunk) {
             let Some((_, cause)) = axis.end else { continue };
             let determinate = cause == Cause::Completed;
@@ -150,18 +123,13 @@ impl Characters {
     }
 }
 
-/// Whether an axis that tends to such an angle to the vertical, in degrees, is plagiotropic.
-pub fn is_plagiotropic(trend_deg: f32) -> bool {
-    trend_deg > PLAGIOTROPIC_DEG
-}
-
 /// Whether the branches of the trunk stand in the outer halves of growth units. A growth unit of fewer than four nodes
 /// has no tip to speak of: branches on such units stand in no tier.
 fn tiers(axes: &[Axis]) -> Option<bool> {
     const LEAST_NODES: usize = 4;
     const LEAST_BRANCHES: u32 = 3;
     let mut outer = Share::default();
-    for trunk in axes.iter().filter(|axis| axis.order == 1 && axis.standing == Standing::Own) {
+    for trunk in axes.iter().filter(|axis| axis.order == 1 && axis.role == Role::Own) {
         let units = units_of(trunk);
         let borne = trunk.bears.iter().map(|&place| &axes[place]);
         let branches = borne.filter(|axis| axis.origin == Origin::Axillary);

@@ -5,8 +5,8 @@
 //! weight alone, Troll's are laid by their trend and their bases are erected later (Hallé, Oldeman & Tomlinson 1978).
 //! Both need the recorded columns of mechanics, without which it is not known that anything bent.
 
-use super::axes::Axis;
-use super::characters::{Share, is_plagiotropic};
+use super::axes::{Axis, is_plagiotropic};
+use super::share::Share;
 use super::tolerance::{ERECT, RISEN};
 use phytomer_outputs::rows::PoseRow;
 use phytomer_sim::plant::Origin;

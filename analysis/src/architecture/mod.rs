@@ -11,13 +11,15 @@ mod lie;
 mod models;
 mod of_run;
 mod relays;
+mod share;
 pub mod tolerance;
 
-pub use characters::{Characters, Share};
+pub use characters::Characters;
 pub use lie::Lie;
 pub use models::{ARCHITECTURES, Architecture, Lacks};
 pub use of_run::{LOOKED_AT, Qualified, qualified};
 pub use relays::Relays;
+pub use share::Share;
 
 /// The names of the models for which a plant of these characters qualifies.
 pub fn architectures(characters: &Characters) -> Vec<&'static str> {

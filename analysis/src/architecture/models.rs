@@ -4,7 +4,8 @@
 //! A function gives the first character that the plant lacks. Absent: looks; and every model that a mixture of two
 //! would be.
 
-use super::characters::{Characters, Share};
+use super::characters::Characters;
+use super::share::Share;
 use super::tolerance::{BENT_OVER, HARDLY_ANY, NEARLY_ALL, RELAYED, SEVERAL};
 
 /// What a plant lacks of a model, in words.

@@ -3,8 +3,8 @@
 //! A set of relays stands on one axis and appears at one tick. By substitution the apex of the bearing axis had ended;
 //! by apposition it lived on (Hallé, Oldeman & Tomlinson 1978). Absent: forks of an apex that divides.
 
-use super::axes::Axis;
-use super::characters::{Share, is_plagiotropic};
+use super::axes::{Axis, is_plagiotropic};
+use super::share::Share;
 use super::tolerance::{FIRST_GENERATIONS, NODES_FROM_TURN};
 use phytomer_sim::plant::Origin;
 

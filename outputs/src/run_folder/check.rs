@@ -8,18 +8,19 @@
 //! Absent: mending.
 
 use super::documents::{PACKAGE, RUN, VIEWS};
-use super::durable;
+use super::error::Error;
+use super::holder::Holder;
 use super::journal::{FileReport, JOURNAL, ShardReport};
-use super::lock::{Holder, LOCK, holder_of};
+use super::lock::{LOCK, holder_of};
 use super::papers::{Papers, RunJson};
-use crate::Error;
+use crate::storage::durable;
 use crate::tables::Table;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io;
-use std::path::{Component, Path};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 
 /// The files of the run folder itself.
@@ -184,7 +185,7 @@ pub fn of(
 ) -> Result<Checkup, Error> {
     let done = papers.journal.as_ref().map(|journal| journal.done(run)).unwrap_or_default();
     let in_progress = holder.is_some();
-    let named = named_by(papers, &done, in_progress);
+    let named = papers.named(&done, in_progress);
     let bytes = named.values().map(|file| file.bytes).sum();
     checking.in_all.store(bytes, Relaxed);
     let mut troubles = troubles_of(folder, &named, depth, checking)?;
@@ -231,22 +232,6 @@ fn state_of(findings: &[Finding], in_progress: bool, complete: bool) -> State {
 fn shards_of(run: &Value) -> u32 {
     let number = |key: &str| run[key].as_u64().and_then(|number| u32::try_from(number).ok()).unwrap_or_default();
     number("plots").div_ceil(number("plots_per_part").max(1))
-}
-
-/// The files that a run names: its tables and meshes, and the documents of which `run.json` has the hashes.
-pub fn named_by(papers: &Papers, done: &BTreeMap<u32, ShardReport>, in_progress: bool) -> BTreeMap<String, FileReport> {
-    let of_run = |key: &str| -> Vec<FileReport> {
-        let list = papers.whole().filter(|_| !in_progress).and_then(|run| run.get(key).cloned());
-        list.and_then(|list| serde_json::from_value(list).ok()).unwrap_or_default()
-    };
-    let stated = of_run("files").into_iter().chain(of_run("documents"));
-    let entered = done.values().flat_map(|report| report.files.iter().cloned());
-    stated.chain(entered).filter(|file| is_inside(&file.path)).map(|file| (file.path.clone(), file)).collect()
-}
-
-/// Whether a path leads into the run folder.
-pub fn is_inside(path: &str) -> bool {
-    Path::new(path).components().all(|part| matches!(part, Component::Normal(_)))
 }
 
 /// What is wrong with named files, by path; the files are read on as many threads as there are.

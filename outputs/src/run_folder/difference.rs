@@ -4,7 +4,8 @@
 //! What follows from them alone, such as the list of recorded ages, is told only where they are equal. Absent: what to
 //! do.
 
-use super::plan::RunPlan;
+use super::identity::identity;
+use crate::tables::RunPlan;
 use serde_json::{Map, Value};
 use std::fmt;
 
@@ -38,7 +39,7 @@ impl Differences {
         let mut found = Vec::new();
         compare(String::new(), run.get("resolved_scenario"), Some(&plan.provenance.resolved), &mut found);
         let same_scenario = found.is_empty();
-        for (key, now) in plan.identity() {
+        for (key, now) in identity(plan) {
             let told = if same_scenario { key != "scenario_sha256" } else { OWN.contains(&key.as_str()) };
             if !told {
                 continue;
@@ -94,7 +95,7 @@ fn compare(key: String, run: Option<&Value>, now: Option<&Value>, found: &mut Ve
     }
 }
 
-/// The keys of both, those of the first before those that only the second has.
+/// The keys of both tables: first the keys of the run, then the keys that only the new run has.
 fn names<'a>(run: &'a Map<String, Value>, now: &'a Map<String, Value>) -> impl Iterator<Item = &'a String> {
     run.keys().chain(now.keys().filter(|name| !run.contains_key(*name)))
 }
@@ -115,7 +116,7 @@ mod tests {
 
     fn between(change: impl FnOnce(&mut RunPlan)) -> Vec<String> {
         let before = plan(4, 2);
-        let mut run = Value::Object(before.identity());
+        let mut run = Value::Object(identity(&before));
         run["resolved_scenario"] = before.provenance.resolved.clone();
         let mut now = before;
         change(&mut now);

@@ -4,14 +4,14 @@
 //! `run.json` names the others with their hashes and ends with a check of itself, so that damage to any of them is
 //! found. Absent: the tables themselves, and the journal, which holds a run together until these are written.
 
-use super::durable;
+use super::error::Error;
+use super::identity::{fingerprint, identity};
 use super::journal::{FileReport, JOURNAL, OvergrownPlot, ShardReport};
-use super::plan::RunPlan;
 use super::seal::DOCUMENT;
-use crate::Error;
-use crate::tables::Table;
+use crate::storage::durable;
 use crate::tables::arrow::plant_ontology;
 use crate::tables::schema::{Column, Type};
+use crate::tables::{RunPlan, Table};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -78,7 +78,7 @@ pub fn write_start(path: &Path, plan: &RunPlan) -> Result<(), Error> {
 
 /// `views.sql`, which depends on the plan alone.
 pub fn write_views(path: &Path, plan: &RunPlan) -> Result<(), Error> {
-    durable::write(&path.join(VIEWS), views(plan).as_bytes())
+    Ok(durable::write(&path.join(VIEWS), views(plan).as_bytes())?)
 }
 
 /// The files that a finished run has; its journal is in order.
@@ -109,8 +109,8 @@ pub fn write_end(
 
 fn run(plan: &RunPlan, status: &str) -> Map<String, Value> {
     let mut run = Map::from_iter([("format".to_owned(), json!("phytomer run")), ("status".to_owned(), json!(status))]);
-    run.extend(plan.identity());
-    run.insert("fingerprint".to_owned(), json!(plan.fingerprint()));
+    run.extend(identity(plan));
+    run.insert("fingerprint".to_owned(), json!(fingerprint(plan)));
     run.insert("resolved_scenario".to_owned(), plan.provenance.resolved.clone());
     run
 }
@@ -123,7 +123,7 @@ fn document(name: &str, content: &[u8]) -> FileReport {
 fn write_run(path: &Path, run: Map<String, Value>) -> Result<(), Error> {
     let file = path.join(RUN);
     let text = serde_json::to_vec_pretty(&Value::Object(run)).map_err(Error::json(&file))?;
-    durable::write(&file, &DOCUMENT.put(text))
+    Ok(durable::write(&file, &DOCUMENT.put(text))?)
 }
 
 fn pretty(path: &Path, value: &Value) -> Result<Vec<u8>, Error> {

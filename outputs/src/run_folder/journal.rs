@@ -5,9 +5,9 @@
 //! next one too. Where two lines name the same shard the later one holds. No line ever follows a torn one: what a
 //! failed write left is taken back, and where even that fails the journal takes no more.
 
-use super::durable;
+use super::error::Error;
 use super::seal::LINE;
-use crate::Error;
+use crate::storage::durable;
 use crate::tables::Table;
 use phytomer_sim::Tick;
 use serde::{Deserialize, Serialize};
@@ -78,7 +78,7 @@ impl ShardReport {
     }
 }
 
-/// A line of the journal: a shard, and the run that it belongs to ([`super::plan::RunPlan::fingerprint`]).
+/// A line of the journal: a shard, and the run that it belongs to ([`super::identity::fingerprint`]).
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Line {
     #[serde(flatten)]
@@ -180,7 +180,7 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// The runs that its lines name: one, where nobody has meddled.
+    /// The runs that its lines name: a single run, unless the file was edited.
     pub fn runs(&self) -> BTreeSet<&str> {
         self.lines.iter().map(|(_, line)| line.run.as_str()).collect()
     }
@@ -225,6 +225,7 @@ pub fn read(path: &Path) -> Result<Option<Reading>, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::storage::FileError;
 
     const RUN: &str = "0123456789abcdef";
 
@@ -252,7 +253,7 @@ mod tests {
         let path = home.path().join("journal.jsonl");
         let mut journal = begin(&path);
         journal.enter(report(0)).unwrap();
-        assert!(matches!(journal.enter_by(report(1), half), Err(Error::Io { doing: "write", .. })));
+        assert!(matches!(journal.enter_by(report(1), half), Err(Error::File(FileError::Io { doing: "write", .. }))));
         assert!(!journal.done().contains_key(&1));
         journal.enter(report(2)).unwrap();
         assert_eq!(shards_in(&path), [0, 2]);
@@ -283,7 +284,7 @@ mod tests {
         let mut journal = begin(&path);
         journal.enter(report(0)).unwrap();
         let sound = std::mem::replace(&mut journal.file, File::open(&path).unwrap());
-        assert!(matches!(journal.enter(report(1)), Err(Error::Io { .. })));
+        assert!(matches!(journal.enter(report(1)), Err(Error::File(_))));
         journal.file = sound;
         assert!(matches!(journal.enter(report(2)), Err(Error::TornJournal { .. })));
         assert_eq!(shards_in(&path), [0]);

@@ -8,29 +8,30 @@
 mod check;
 mod difference;
 mod documents;
-mod durable;
+mod error;
+mod holder;
+mod identity;
 mod journal;
 mod lock;
 mod papers;
-mod plan;
 mod seal;
 mod shard;
-mod space;
 #[cfg(test)]
 mod tests;
 
 pub use check::{Checking, Checkup, Depth, Finding, State, Trouble, check};
 pub use difference::{Difference, Differences};
 pub use documents::RunReport;
-pub(crate) use durable::{HashingFile, files_in};
+pub use error::Error;
+pub use holder::Holder;
 pub use journal::{FileReport, OvergrownPlot, ShardReport};
-pub use lock::Holder;
 pub(crate) use papers::{Papers, RunJson};
-pub use plan::{Input, Provenance, RunPlan};
 pub use shard::Shard;
-pub use space::{Bytes, FreeSpace, Space, SystemSpace, Watch};
 
-use crate::Error;
+use crate::storage::durable;
+use crate::storage::space::{FreeSpace, SystemSpace, Watch};
+use crate::tables::RunPlan;
+use identity::fingerprint;
 use journal::{JOURNAL, Journal};
 use lock::{LOCK, Lock};
 use std::collections::{BTreeMap, BTreeSet};
@@ -54,7 +55,7 @@ pub enum Mode {
 pub struct Opening<'a> {
     /// How far the check of what a resumed run keeps has come.
     pub checking: &'a Checking,
-    /// Who knows the free space of the disk.
+    /// What tells the free space of the disk: the system, or a test.
     pub space: Arc<dyn FreeSpace>,
 }
 
@@ -97,7 +98,7 @@ impl RunFolder {
         let mut done = BTreeMap::new();
         let mut found = None;
         if mode == Mode::Resume && is_run {
-            let checkup = look(path, &papers, &plan, opening.checking)?;
+            let checkup = check_resumed(path, &papers, &plan, opening.checking)?;
             done = kept(&papers, &plan, &checkup);
             found = Some(checkup);
         } else if is_run {
@@ -177,8 +178,8 @@ fn refuse(path: &Path, mode: Mode, is_run: bool) -> Result<(), Error> {
 }
 
 /// Looks at all that a run to be resumed has, if it is this run.
-fn look(path: &Path, papers: &Papers, plan: &RunPlan, checking: &Checking) -> Result<Checkup, Error> {
-    let run = plan.fingerprint();
+fn check_resumed(path: &Path, papers: &Papers, plan: &RunPlan, checking: &Checking) -> Result<Checkup, Error> {
+    let run = fingerprint(plan);
     match &papers.run {
         RunJson::Whole(there) | RunJson::Older(there) => {
             let differences = Differences::between(there, plan);
@@ -198,7 +199,7 @@ fn look(path: &Path, papers: &Papers, plan: &RunPlan, checking: &Checking) -> Re
 
 /// The shards that need not be grown again.
 fn kept(papers: &Papers, plan: &RunPlan, found: &Checkup) -> BTreeMap<u32, ShardReport> {
-    let mut done = papers.journal.as_ref().map(|journal| journal.done(&plan.fingerprint())).unwrap_or_default();
+    let mut done = papers.journal.as_ref().map(|journal| journal.done(&fingerprint(plan))).unwrap_or_default();
     done.retain(|shard, _| found.sound.contains(shard));
     done
 }
@@ -212,7 +213,7 @@ fn prepare(path: &Path, plan: &RunPlan, papers: &Papers, done: BTreeMap<u32, Sha
         documents::write_start(path, plan)?;
     }
     make_tables(path, plan)?;
-    let journal = Journal::of(&path.join(JOURNAL), plan.fingerprint(), done)?;
+    let journal = Journal::of(&path.join(JOURNAL), fingerprint(plan), done)?;
     let named = journal.done().values().flat_map(|report| &report.files).map(|file| file.path.as_str()).collect();
     for (left, trouble) in check::others(path, &named)? {
         if trouble == Trouble::Leftover {
@@ -234,7 +235,7 @@ fn make_tables(path: &Path, plan: &RunPlan) -> Result<(), Error> {
 fn clear(path: &Path, papers: &Papers) -> Result<(), Error> {
     // A damaged journal is no hindrance: this is the way to be rid of it.
     let entered = papers.journal.iter().flat_map(journal::Reading::files);
-    for file in entered.filter(|file| check::is_inside(&file.path)) {
+    for file in entered.filter(|file| papers::is_inside(&file.path)) {
         durable::remove(&path.join(&file.path))?;
     }
     for (left, trouble) in check::others(path, &BTreeSet::new())? {
@@ -247,5 +248,5 @@ fn clear(path: &Path, papers: &Papers) -> Result<(), Error> {
         let _ = fs::remove_dir(path.join(name));
     }
     // `run.json` last: until then the folder is a run, which can be replaced.
-    check::DOCUMENTS.iter().rev().try_for_each(|name| durable::remove(&path.join(name)))
+    Ok(check::DOCUMENTS.iter().rev().try_for_each(|name| durable::remove(&path.join(name)))?)
 }

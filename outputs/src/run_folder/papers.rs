@@ -2,15 +2,15 @@
 //!
 //! Absent: whether the files that they name are there, which is `check`'s.
 
-use super::check;
 use super::documents::RUN;
-use super::journal::{self, JOURNAL, Reading};
+use super::error::Error;
+use super::journal::{self, FileReport, JOURNAL, Reading, ShardReport};
 use super::seal::DOCUMENT;
-use crate::Error;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Component, Path};
 
 /// A `run.json`.
 #[derive(Debug)]
@@ -71,14 +71,23 @@ impl Papers {
             if runs.len() == 1 { runs.first().map(|run| (*run).to_owned()) } else { None }
         })
     }
-}
 
-impl Papers {
     /// The files of the run, where `run.json` is whole.
     pub fn names(&self) -> Option<Vec<String>> {
         self.whole()?;
         let done = self.journal.as_ref().zip(self.fingerprint()).map(|(journal, run)| journal.done(&run));
-        Some(check::named_by(self, &done.unwrap_or_default(), false).into_keys().collect())
+        Some(self.named(&done.unwrap_or_default(), false).into_keys().collect())
+    }
+
+    /// The files that the run names: its tables and meshes, and the documents of which `run.json` has the hashes.
+    pub fn named(&self, done: &BTreeMap<u32, ShardReport>, in_progress: bool) -> BTreeMap<String, FileReport> {
+        let of_run = |key: &str| -> Vec<FileReport> {
+            let list = self.whole().filter(|_| !in_progress).and_then(|run| run.get(key).cloned());
+            list.and_then(|list| serde_json::from_value(list).ok()).unwrap_or_default()
+        };
+        let stated = of_run("files").into_iter().chain(of_run("documents"));
+        let entered = done.values().flat_map(|report| report.files.iter().cloned());
+        stated.chain(entered).filter(|file| is_inside(&file.path)).map(|file| (file.path.clone(), file)).collect()
     }
 }
 
@@ -95,4 +104,9 @@ impl RunJson {
             _ => Self::Damaged { ours: text.windows(12).any(|word| word == b"phytomer run") },
         }
     }
+}
+
+/// Whether a path leads into the run folder.
+pub fn is_inside(path: &str) -> bool {
+    Path::new(path).components().all(|part| matches!(part, Component::Normal(_)))
 }

@@ -3,7 +3,7 @@
 //! The check is the first sixteen hexadecimal digits of the SHA-256 of the text as it stands, so that a changed byte is
 //! found wherever it is, also between the values. It guards against damage, not against forgery.
 
-use super::durable::sha256_of;
+use crate::storage::durable::sha256_of;
 
 /// The digits of a check.
 const DIGITS: usize = 16;

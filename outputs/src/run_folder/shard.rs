@@ -3,78 +3,38 @@
 //! Its files are written beside their final names and get those names in [`Shard::commit`], which ends with the shard's
 //! line in the journal. A shard that is dropped before leaves nothing.
 
+use super::RunFolder;
+use super::error::Error;
 use super::journal::{FileReport, OvergrownPlot, ShardReport};
-use super::{RunFolder, durable};
-use crate::Error;
-use crate::tables::{
-    Columns, ComponentColumns, ComponentRow, EventColumns, Part, PartReport, PlantColumns, Queue, RecordColumns,
-    RecordRow, Scene, Standing, SummaryColumns, Table, sort_events, summarise,
-};
-use phytomer_sim::plant::{Event, Plant};
+use crate::storage::durable;
+use crate::tables::{Part, PartReport, Queue, Recording, Table};
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick};
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The tables of a shard, being filled.
-#[derive(Default)]
-struct Parts {
-    components: Option<Part<ComponentColumns>>,
-    records: Option<Part<RecordColumns>>,
-    events: Option<Part<EventColumns>>,
-    summary: Option<Part<SummaryColumns>>,
-    plants: Option<Part<PlantColumns>>,
-}
-
 /// A shard being written: a [`Recorder`] for each of its plots in turn.
 pub struct Shard<'a> {
     folder: &'a RunFolder,
-    parts: Parts,
+    /// `None` once the shard is being committed.
+    tables: Option<Recording<Part>>,
     staged: Vec<String>,
-    standing: Standing,
-    numbers: Vec<u32>,
-    rows: Vec<RecordRow>,
-    lives: Vec<ComponentRow>,
-    sorted: Vec<Event>,
     report: ShardReport,
     ended: u32,
-    /// Of the plot whose turn it is: already, because its growth ran ahead.
-    components_written: bool,
 }
 
 impl<'a> Shard<'a> {
     pub(super) fn create(folder: &'a RunFolder, shard: u32) -> Result<Self, Error> {
         let report = ShardReport { shard, files: Vec::new(), living: 0, dead: 0, components: 0, overgrown: Vec::new() };
-        let mut new = Self {
-            folder,
-            parts: Parts::default(),
-            staged: Vec::new(),
-            standing: Standing::default(),
-            numbers: Vec::new(),
-            rows: Vec::new(),
-            lives: Vec::new(),
-            sorted: Vec::new(),
-            report,
-            ended: 0,
-            components_written: false,
-        };
+        let mut new = Self { folder, tables: None, staged: Vec::new(), report, ended: 0 };
         let queue = Arc::new(Queue::default());
-        new.parts = Parts {
-            components: new.part(Table::Components, &queue)?,
-            records: new.part(Table::Records, &queue)?,
-            events: new.part(Table::Events, &queue)?,
-            summary: new.part(Table::Summary, &queue)?,
-            plants: new.part(Table::Plants, &queue)?,
-        };
+        new.tables = Some(Recording::of(&folder.plan, |table| new.part(table, &queue))?);
         Ok(new)
     }
 
-    fn part<C: Columns>(&mut self, table: Table, queue: &Arc<Queue>) -> Result<Option<Part<C>>, Error> {
-        if !self.folder.plan.tables.contains(&table) {
-            return Ok(None);
-        }
+    fn part(&mut self, table: Table, queue: &Arc<Queue>) -> Result<Part, Error> {
         let path = self.stage(&part_path(table, self.report.shard))?;
-        Part::create(table, &path, &self.folder.plan, (queue, &self.folder.watch)).map(Some)
+        Ok(Part::create(table, &path, &self.folder.plan, (queue, &self.folder.watch))?)
     }
 
     /// Registers a further file of this shard, such as a mesh, by its path in the run folder (with `/`). Write it to
@@ -97,7 +57,7 @@ impl<'a> Shard<'a> {
     /// # Errors
     /// Where less is free than a run leaves.
     pub fn look_at_disk(&self) -> Result<(), Error> {
-        self.folder.watch.look().map_err(Error::io("write more to", &self.folder.path))
+        self.folder.watch.check().map_err(Error::io("write more to", &self.folder.path))
     }
 
     /// The shard's number.
@@ -112,30 +72,19 @@ impl<'a> Shard<'a> {
     /// [`Error::PlotOutOfTurn`], or a failed write.
     pub fn end_plot(&mut self, plot: &Plot, ending: Ending) -> Result<(), Error> {
         self.check_turn(plot)?;
-        let last = match ending {
-            Ending::Complete => self.folder.plan.until,
-            Ending::Overgrown { age, limit } => {
-                let overgrown = OvergrownPlot { plot: plot.id, plant: limit.plant, age, limit: limit.limit };
-                self.report.overgrown.push(overgrown);
-                age.saturating_sub(1)
-            }
-        };
+        let Some(tables) = &mut self.tables else { return Ok(()) };
+        let last = tables.last_age(&ending);
+        tables.end_plot(plot, last)?;
+        if let Ending::Overgrown { age, limit } = ending {
+            let overgrown = OvergrownPlot { plot: plot.id, plant: limit.plant, age, limit: limit.limit };
+            self.report.overgrown.push(overgrown);
+        }
         for plant in &plot.plants {
             let lives = plant.lives(last);
             self.report.dead += u64::from(!lives);
             self.report.living += u64::from(lives);
             self.report.components += plant.lived_by(last);
-            if !self.components_written {
-                self.write_components(plot, plant, last)?;
-            }
-            self.write_events(plot, plant, last)?;
-            if let Some(part) = &mut self.parts.plants {
-                part.columns.add(plot, plant);
-                part.flush_if_full()?;
-            }
         }
-        self.standing.forget();
-        self.components_written = false;
         self.ended += 1;
         Ok(())
     }
@@ -149,49 +98,6 @@ impl<'a> Shard<'a> {
         Err(Error::PlotOutOfTurn { shard: self.report.shard, plot: plot.id, expected })
     }
 
-    fn write_components(&mut self, plot: &Plot, plant: &Plant, last: Tick) -> Result<(), Error> {
-        let Some(part) = &mut self.parts.components else { return Ok(()) };
-        self.standing.read(plant)?;
-        let mut next = 0;
-        while next < self.standing.len() {
-            let numbers = self.standing.following(part.room(), &mut next);
-            part.columns.fill(plot, (plant, &self.standing), numbers, last, &mut self.lives);
-            part.flush_if_full()?;
-        }
-        Ok(())
-    }
-
-    fn write_events(&mut self, plot: &Plot, plant: &Plant, last: Tick) -> Result<(), Error> {
-        let Some(part) = &mut self.parts.events else { return Ok(()) };
-        sort_events(plant, last, &mut self.sorted);
-        let mut left = &self.sorted[..];
-        while !left.is_empty() {
-            let (events, others) = left.split_at(left.len().min(part.room()));
-            part.columns.fill(plot, plant, events);
-            part.flush_if_full()?;
-            left = others;
-        }
-        Ok(())
-    }
-
-    fn write_age(&mut self, age: Tick, plot: &Plot, plant: &Plant) -> Result<(), Error> {
-        self.standing.read(plant)?;
-        self.standing.find_tips(plant, age);
-        if let Some(part) = &mut self.parts.summary {
-            part.columns.add(plot, plant, age, &summarise(plant, &self.standing, age));
-            part.flush_if_full()?;
-        }
-        let Some(part) = &mut self.parts.records else { return Ok(()) };
-        let scene = Scene { plant, standing: &self.standing, age, mechanics: self.folder.plan.mechanics };
-        let mut next = 0;
-        while next < self.standing.len() {
-            self.standing.select(age, part.room(), &mut next, &mut self.numbers);
-            part.columns.fill(plot.id, &scene, &self.numbers, &mut self.rows);
-            part.flush_if_full()?;
-        }
-        Ok(())
-    }
-
     /// Closes the files, gives them their names and enters the shard in the journal.
     ///
     /// # Errors
@@ -201,26 +107,16 @@ impl<'a> Shard<'a> {
         if self.ended < plots {
             return Err(Error::UnfinishedShard { shard: self.report.shard, ended: self.ended, plots });
         }
-        let parts = std::mem::take(&mut self.parts);
-        self.close(Table::Components, parts.components)?;
-        self.close(Table::Records, parts.records)?;
-        self.close(Table::Events, parts.events)?;
-        self.close(Table::Summary, parts.summary)?;
-        self.close(Table::Plants, parts.plants)?;
+        let closed = self.tables.take().map(Recording::close).transpose()?;
+        for (table, PartReport { rows, bytes, sha256 }) in closed.unwrap_or_default() {
+            let path = part_path(table, self.report.shard);
+            self.report.files.push(FileReport { path, table: Some(table), rows: Some(rows), bytes, sha256 });
+        }
         for path in std::mem::take(&mut self.staged) {
             self.name(path)?;
         }
         self.folder.journal().enter(self.report.clone())?;
         Ok(self.report.clone())
-    }
-
-    fn close<C: Columns>(&mut self, table: Table, part: Option<Part<C>>) -> Result<(), Error> {
-        if let Some(part) = part {
-            let PartReport { rows, bytes, sha256 } = part.finish()?;
-            let path = part_path(table, self.report.shard);
-            self.report.files.push(FileReport { path, table: Some(table), rows: Some(rows), bytes, sha256 });
-        }
-        Ok(())
     }
 
     /// Gives a staged file its name; one that is not a table's is synced and hashed first.
@@ -231,32 +127,23 @@ impl<'a> Shard<'a> {
             let (bytes, sha256) = durable::sync_and_hash(&staged)?;
             self.report.files.push(FileReport { path, table: None, rows: None, bytes, sha256 });
         }
-        durable::rename(&staged, &full)
+        Ok(durable::rename(&staged, &full)?)
     }
 }
 
 impl Recorder for Shard<'_> {
     fn wants(&self, age: Tick) -> bool {
-        let wanted = self.parts.records.is_some() || self.parts.summary.is_some();
-        wanted && self.folder.plan.recorded.binary_search(&age).is_ok()
+        self.tables.as_ref().is_some_and(|tables| tables.wants(age))
     }
 
-    /// The largest table of a plant comes first: other threads encode it while this one makes the first ages ready.
     fn grown(&mut self, until: Tick, plot: &Plot) -> Result<(), RecordError> {
         self.check_turn(plot)?;
-        for plant in &plot.plants {
-            self.write_components(plot, plant, until)?;
-        }
-        self.components_written = true;
-        Ok(())
+        self.tables.iter_mut().try_for_each(|tables| Ok(tables.grown(until, plot)?))
     }
 
     fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
         self.check_turn(plot)?;
-        for plant in &plot.plants {
-            self.write_age(age, plot, plant)?;
-        }
-        Ok(())
+        self.tables.iter_mut().try_for_each(|tables| Ok(tables.record(age, plot)?))
     }
 }
 

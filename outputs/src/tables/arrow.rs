@@ -2,10 +2,9 @@
 //!
 //! Nothing in a file depends on the clock, the machine or the number of threads; `created_by` names this program.
 
-use super::Table;
 use super::columns::{PLANT_ONTOLOGY, SCHEMA_VERSION};
 use super::schema::{Column, Encoding, Type};
-use crate::run_folder::RunPlan;
+use super::{RunPlan, Table};
 use arrow_schema::{DataType, Field, Schema, SchemaRef};
 use parquet::basic::{Compression, Encoding as ParquetEncoding, ZstdLevel};
 use parquet::errors::ParquetError;
@@ -80,7 +79,7 @@ fn sorting(table: Table, columns: &[Column]) -> Vec<SortingColumn> {
 }
 
 /// The key-value metadata of every file of a table.
-fn key_values(table: Table, plan: &RunPlan) -> Vec<KeyValue> {
+pub fn key_values(table: Table, plan: &RunPlan) -> Vec<KeyValue> {
     let provenance = &plan.provenance;
     let entry = |key: &str, value: String| KeyValue::new(format!("phytomer.{key}"), value);
     vec![

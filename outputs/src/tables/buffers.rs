@@ -1,7 +1,8 @@
 //! Column buffers: filled row by row, lent to arrow without a copy, and taken back with their memory.
 //!
 //! While a buffer is being filled, a negative integer and a NaN stand for null; they become nulls when the buffer is
-//! lent and never reach a file. [`columns!`] makes a struct of buffers out of a table's columns.
+//! lent and never reach a file. [`columns!`] makes a struct of buffers out of a table's columns and of their values in
+//! a row.
 
 use super::schema::{Column, Rounding};
 use arrow_array::types::{ArrowPrimitiveType, Float32Type, Float64Type, Int8Type, Int32Type, Int64Type};
@@ -171,17 +172,28 @@ pub trait Columns: Default {
     fn give_back(&mut self, values: Vec<Values>);
 }
 
-/// Makes a struct of column buffers; the fields stand in the order of the table's columns.
+/// Makes a struct of column buffers and the way in which rows fill them. Each column is written once, in the order of
+/// the table's list of columns: its buffer, and its value in a row, made of an item and of what all items share. A
+/// column without a value is filled by the table's own code.
 macro_rules! columns {
-    ($(#[$meta:meta])* $name:ident {
-        $first:ident: $first_values:ident($first_type:ty),
-        $($field:ident: $values:ident($type:ty)),* $(,)?
+    ($(#[$meta:meta])* $name:ident of $item:ident: $item_type:ty, $shared:ident: $shared_type:ty {
+        $first:ident: $first_values:ident($first_type:ty) = $first_value:expr,
+        $($field:ident: $values:ident($type:ty) $(= $value:expr)?,)*
     }) => {
         $(#[$meta])*
         #[derive(Debug, Default)]
         pub struct $name {
             pub $first: Vec<$first_type>,
             $(pub $field: Vec<$type>,)*
+        }
+
+        impl $name {
+            /// Adds a row for each item, column by column.
+            #[allow(unused_variables, reason = "some values are those of all items")]
+            fn extend(&mut self, items: &[$item_type], $shared: $shared_type) {
+                self.$first.extend(items.iter().map(|_| $first_value));
+                $($(self.$field.extend(items.iter().map(|$item| $value));)?)*
+            }
         }
 
         impl $crate::tables::buffers::Columns for $name {

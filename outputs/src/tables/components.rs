@@ -3,8 +3,8 @@
 //! Fates later than the last age are not known, whichever way the plant was grown: they are null.
 
 use super::buffers::{NULL, columns, known};
+use super::component_index::{Component, ComponentIndex};
 use super::records::{area_of, number_of};
-use super::standing::{Component, Standing};
 use phytomer_sim::plant::{AxisId, Cause, Kind, LineageKey, NodeId, OrganId, Plant};
 use phytomer_sim::shed::cause_of;
 use phytomer_sim::{Plot, Tick};
@@ -12,18 +12,47 @@ use std::ops::Range;
 
 columns! {
     /// The buffers of `components`.
-    ComponentColumns {
-        treatment: Word(i8), plot: Int(i32), plant: Int(i32), component: Int(i32), key: Key(i64),
-        parent: Int(i32), axis: Int(i32), bearing_axis: Int(i32), order: Int(i32), kind: Word(i8), origin: Word(i8),
-        state: Int(i32), position: Int(i32), rank: Int(i32), unit_rank: Int(i32), neoformed: Bool(i8),
-        birth: Int(i32), birth_dimension: Int(i32), delay: Int(i32),
-        length: Float(f32), birth_diameter: Float(f32), area: Float(f32),
-        death: Int(i32), shed: Int(i32), cause: Word(i8), trend: Float(f32),
+    ComponentColumns of row: ComponentRow, of: &OfPlant<'_> {
+        treatment: Word(i8) = 0,
+        plot: Int(i32) = of.plot.id as i32,
+        plant: Int(i32) = of.plant.id as i32,
+        component: Int(i32) = row.component as i32,
+        key: Key(i64) = row.key.0 as i64,
+        parent: Int(i32) = row.parent,
+        axis: Int(i32) = of.plant.axes.component[row.axis.index()] as i32,
+        bearing_axis: Int(i32) = bearing_axis(of.plant, row.axis),
+        order: Int(i32) = i32::from(of.plant.axes.order[row.axis.index()]),
+        kind: Word(i8) = row.kind as i8,
+        origin: Word(i8) = of.plant.axes.origin[row.axis.index()] as i8,
+        state: Int(i32) = i32::from(of.plant.axes.state[row.axis.index()]),
+        position: Int(i32) = row.position,
+        rank: Int(i32) = row.rank,
+        unit_rank: Int(i32) = row.unit_rank,
+        neoformed: Bool(i8) = row.neoformed,
+        birth: Int(i32) = row.birth as i32,
+        birth_dimension: Int(i32) = row.birth_dimension,
+        delay: Int(i32) = row.delay,
+        length: Float(f32) = row.length,
+        birth_diameter: Float(f32) = row.birth_diameter,
+        area: Float(f32) = row.area,
+        death: Int(i32) = known(row.death, of.last),
+        shed: Int(i32) = known(row.shed, of.last),
+        // Causes are numbered from 1; 0 is "lives".
+        cause: Word(i8) = if known(row.death, of.last) == NULL { -1 } else { row.cause as i8 - 1 },
+        trend: Float(f32) = row.trend,
     }
 }
 
+/// What all rows of one plant share.
+struct OfPlant<'a> {
+    plot: &'a Plot,
+    plant: &'a Plant,
+    /// The last age of which anything is known.
+    last: Tick,
+}
+
 /// What one component puts into a row; numbers of −1 and NaN are nulls.
-pub struct Row {
+pub struct ComponentRow {
     component: u32,
     key: LineageKey,
     parent: i32,
@@ -51,66 +80,29 @@ impl ComponentColumns {
     pub fn fill(
         &mut self,
         plot: &Plot,
-        (plant, standing): (&Plant, &Standing),
+        (plant, index): (&Plant, &ComponentIndex),
         numbers: Range<u32>,
         last: Tick,
-        rows: &mut Vec<Row>,
+        rows: &mut Vec<ComponentRow>,
     ) {
         rows.clear();
-        let row_of = |number| match standing.component(number) {
-            Component::Node(node) => of_node(plant, node, standing),
+        let row_of = |number| match index.component(number) {
+            Component::Node(node) => of_node(plant, node, index),
             Component::Organ(organ) => of_organ(plant, organ),
             Component::Bud(axis) => of_bud(plant, axis),
         };
-        let lived = |row: &Row| row.birth <= last && (row.kind == Kind::ApicalBud || row.birth < row.death);
+        let lived = |row: &ComponentRow| row.birth <= last && (row.kind == Kind::ApicalBud || row.birth < row.death);
         rows.extend(numbers.map(row_of).filter(lived));
-        self.push_identity(rows, plant);
-        self.push_life(rows, last);
-        let rows = self.component.len();
-        self.treatment.resize(rows, 0);
-        self.plot.resize(rows, plot.id as i32);
-        self.plant.resize(rows, plant.id as i32);
-    }
-
-    fn push_identity(&mut self, rows: &[Row], plant: &Plant) {
-        let axes = &plant.axes;
-        self.component.extend(rows.iter().map(|row| row.component as i32));
-        self.key.extend(rows.iter().map(|row| row.key.0 as i64));
-        self.parent.extend(rows.iter().map(|row| row.parent));
-        self.axis.extend(rows.iter().map(|row| axes.component[row.axis.index()] as i32));
-        self.bearing_axis.extend(rows.iter().map(|row| bearing_axis(plant, row.axis)));
-        self.order.extend(rows.iter().map(|row| i32::from(axes.order[row.axis.index()])));
-        self.kind.extend(rows.iter().map(|row| row.kind as i8));
-        self.origin.extend(rows.iter().map(|row| axes.origin[row.axis.index()] as i8));
-        self.state.extend(rows.iter().map(|row| i32::from(axes.state[row.axis.index()])));
-        self.position.extend(rows.iter().map(|row| row.position));
-        self.rank.extend(rows.iter().map(|row| row.rank));
-        self.unit_rank.extend(rows.iter().map(|row| row.unit_rank));
-        self.neoformed.extend(rows.iter().map(|row| row.neoformed));
-    }
-
-    fn push_life(&mut self, rows: &[Row], last: Tick) {
-        self.birth.extend(rows.iter().map(|row| row.birth as i32));
-        self.birth_dimension.extend(rows.iter().map(|row| row.birth_dimension));
-        self.delay.extend(rows.iter().map(|row| row.delay));
-        self.length.extend(rows.iter().map(|row| row.length));
-        self.birth_diameter.extend(rows.iter().map(|row| row.birth_diameter));
-        self.area.extend(rows.iter().map(|row| row.area));
-        self.death.extend(rows.iter().map(|row| known(row.death, last)));
-        self.shed.extend(rows.iter().map(|row| known(row.shed, last)));
-        // Causes are numbered from 1; 0 is "lives".
-        let cause = |row: &Row| if known(row.death, last) == NULL { -1 } else { row.cause as i8 - 1 };
-        self.cause.extend(rows.iter().map(cause));
-        self.trend.extend(rows.iter().map(|row| row.trend));
+        self.extend(rows, &OfPlant { plot, plant, last });
     }
 }
 
 #[inline]
-fn of_node(plant: &Plant, node: NodeId, standing: &Standing) -> Row {
+fn of_node(plant: &Plant, node: NodeId, index: &ComponentIndex) -> ComponentRow {
     let Plant { nodes, axes, .. } = plant;
     let i = node.index();
     let axis = nodes.axis[i];
-    Row {
+    ComponentRow {
         component: nodes.component[i],
         key: plant.node_key(node),
         parent: number_of(plant, nodes.parent[i]),
@@ -129,18 +121,18 @@ fn of_node(plant: &Plant, node: NodeId, standing: &Standing) -> Row {
         death: axes.death[axis.index()],
         shed: axes.shed[axis.index()],
         cause: Cause::Branch,
-        trend: standing.trend(plant, node),
+        trend: index.trend(plant, node),
     }
 }
 
 #[inline]
-fn of_organ(plant: &Plant, organ: OrganId) -> Row {
+fn of_organ(plant: &Plant, organ: OrganId) -> ComponentRow {
     let Plant { organs, nodes, axes, .. } = plant;
     let i = organ.index();
     let node = organs.node[i].index();
     let axis = nodes.axis[node];
-    let end = super::standing::organ_end(plant, organ);
-    Row {
+    let end = super::component_index::organ_end(plant, organ);
+    ComponentRow {
         component: organs.component[i],
         key: plant.organ_key(organ),
         parent: nodes.component[node] as i32,
@@ -165,13 +157,13 @@ fn of_organ(plant: &Plant, organ: OrganId) -> Row {
 }
 
 #[inline]
-fn of_bud(plant: &Plant, axis: AxisId) -> Row {
+fn of_bud(plant: &Plant, axis: AxisId) -> ComponentRow {
     let axes = &plant.axes;
     let i = axis.index();
     let bearer = axes.bearer[i].some().map(NodeId::index);
     // A dead bud does not stand: what the apex became, and the axis that it left, are components of their own.
     let end = plant.bud_end(axis);
-    Row {
+    ComponentRow {
         component: axes.component[i],
         key: axes.key[i],
         parent: number_of(plant, axes.bearer[i]),

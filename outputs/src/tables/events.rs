@@ -9,9 +9,15 @@ use phytomer_sim::{Plot, Tick};
 
 columns! {
     /// The buffers of `events`.
-    EventColumns {
-        treatment: Word(i8), plot: Int(i32), plant: Int(i32), age: Int(i32), component: Int(i32), axis: Int(i32),
-        event: Word(i8), count: Int(i32),
+    EventColumns of event: Event, of: (&Plot, &Plant) {
+        treatment: Word(i8) = 0,
+        plot: Int(i32) = of.0.id as i32,
+        plant: Int(i32) = of.1.id as i32,
+        age: Int(i32) = event.tick as i32,
+        component: Int(i32) = of.1.axes.component[event.axis.index()] as i32,
+        axis: Int(i32),
+        event: Word(i8) = event.kind as i8,
+        count: Int(i32) = event.count as i32,
     }
 }
 
@@ -19,15 +25,8 @@ impl EventColumns {
     /// Adds a row for each of the events of a plant, column by column.
     pub fn fill(&mut self, plot: &Plot, plant: &Plant, events: &[Event]) {
         let before = self.component.len();
-        self.age.extend(events.iter().map(|event| event.tick as i32));
-        self.component.extend(events.iter().map(|event| plant.axes.component[event.axis.index()] as i32));
+        self.extend(events, (plot, plant));
         self.axis.extend_from_slice(&self.component[before..]);
-        self.event.extend(events.iter().map(|event| event.kind as i8));
-        self.count.extend(events.iter().map(|event| event.count as i32));
-        let rows = self.component.len();
-        self.treatment.resize(rows, 0);
-        self.plot.resize(rows, plot.id as i32);
-        self.plant.resize(rows, plant.id as i32);
     }
 }
 

@@ -1,37 +1,46 @@
-//! The five tables of a run, from the plant's columns to Parquet part files.
+//! The five tables of a run, from the plant's columns to Parquet part files, or to Arrow record batches in memory.
 //!
 //! [`columns`] declares what a table holds; `records`, `components`, `events`, `summary` and `plants` fill column
-//! buffers from a plant; `part` turns full buffers into row groups of one file, encoded column by column on as many
-//! threads as there are (`encode`). The bytes do not depend on the number of threads: a row group is a fixed number of
-//! rows and its columns are put into the file in their order.
+//! buffers from a plant; `recording` says which rows are written when, for files and for memory alike. `part` turns
+//! full buffers into row groups of one file, encoded column by column on as many threads as there are (`encode`);
+//! `memory` keeps them as Arrow record batches. The bytes do not depend on the number of threads: a row group is a
+//! fixed number of rows and its columns are put into the file in their order.
 
 pub mod arrow;
 mod buffers;
 pub mod columns;
+mod component_index;
 mod components;
 mod encode;
+mod error;
 mod events;
+mod memory;
 mod part;
+mod plan;
 mod plants;
+mod recording;
 mod records;
 pub mod schema;
 mod single;
-mod standing;
+mod sink;
 mod summary;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod tests_mechanics;
 
-pub(crate) use buffers::Columns;
-pub(crate) use components::{ComponentColumns, Row as ComponentRow};
+pub(crate) use component_index::ComponentIndex;
+pub(crate) use components::{ComponentColumns, ComponentRow};
 pub(crate) use encode::Queue;
+pub use error::{Cause, TableError};
 pub(crate) use events::{EventColumns, sort as sort_events};
+pub use memory::{MemoryTables, TableBatches};
 pub(crate) use part::{Part, PartReport};
+pub use plan::{Input, Provenance, RunPlan};
 pub(crate) use plants::PlantColumns;
-pub(crate) use records::{RecordColumns, Row as RecordRow, Scene};
+pub(crate) use recording::Recording;
+pub(crate) use records::{PlantAtAge, RecordColumns, RecordRow};
 pub(crate) use single::record_values;
-pub(crate) use standing::Standing;
 pub use summary::Summary;
 pub(crate) use summary::{SummaryColumns, summarise};
 

@@ -1,14 +1,15 @@
-//! One part file of one table: rows go into column buffers, full buffers become row groups, row groups go to the file.
+//! One part file of one table: full row groups are encoded column by column and go to the file in their order.
 //!
 //! Memory is bounded by [`IN_FLIGHT`] row groups and the one that is being filled, whatever the number of plants. The
 //! file is hashed as it is written.
 
-use super::buffers::{Columns, Values};
+use super::buffers::Values;
 use super::encode::{Job, Queue, RowGroup};
 use super::schema::{Column, Named, Type};
-use super::{ROW_GROUP, Table, arrow};
-use crate::Error;
-use crate::run_folder::{HashingFile, Provenance, RunPlan, Watch};
+use super::sink::Sink;
+use super::{Provenance, RunPlan, Table, TableError, arrow};
+use crate::storage::durable::HashingFile;
+use crate::storage::space::Watch;
 use arrow_array::StringArray;
 use arrow_schema::SchemaRef;
 use parquet::arrow::ArrowWriter;
@@ -23,9 +24,7 @@ use std::sync::Arc;
 const IN_FLIGHT: usize = 3;
 
 /// A part file being written.
-pub struct Part<C> {
-    /// The rows of the row group that is being filled; [`Part::flush_if_full`] goes after each row.
-    pub columns: C,
+pub struct Part {
     declared: &'static [Column],
     path: PathBuf,
     schema: SchemaRef,
@@ -51,26 +50,24 @@ pub struct PartReport {
     pub sha256: String,
 }
 
-impl<C: Columns> Part<C> {
+impl Part {
     /// Creates the file at `path`, replacing what may be there.
     pub fn create(
         table: Table,
         path: &Path,
         plan: &RunPlan,
         (queue, watch): (&Arc<Queue>, &Arc<Watch>),
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, TableError> {
         let declared = plan.columns(table);
         let schema = arrow::schema(declared);
-        let properties = arrow::properties(table, plan).map_err(Error::table(path))?;
+        let properties = arrow::properties(table, plan).map_err(TableError::write(path))?;
         let writer = ArrowWriter::try_new(HashingFile::create(path, watch)?, schema.clone(), Some(properties));
-        let (file, factory) = writer.and_then(ArrowWriter::into_serialized_writer).map_err(Error::table(path))?;
-        let words = declared.iter().map(|column| words_of(column, &plan.provenance)).collect();
+        let (file, factory) = writer.and_then(ArrowWriter::into_serialized_writer).map_err(TableError::write(path))?;
         Ok(Self {
-            columns: C::default(),
             declared,
             path: path.to_path_buf(),
             schema,
-            words,
+            words: words_of_run(declared, plan),
             precision_m: plan.precision_m.map(|precision| precision as f32),
             queue: queue.clone(),
             file,
@@ -82,37 +79,13 @@ impl<C: Columns> Part<C> {
         })
     }
 
-    /// The rows that still fit into the row group.
-    pub fn room(&self) -> usize {
-        ROW_GROUP - self.columns.rows()
-    }
-
-    /// Sends a full row group on its way.
-    #[inline]
-    pub fn flush_if_full(&mut self) -> Result<(), Error> {
-        if self.columns.rows() < ROW_GROUP { Ok(()) } else { self.flush() }
-    }
-
-    #[cold]
-    fn flush(&mut self) -> Result<(), Error> {
-        let path = self.path.clone();
-        self.submit().map_err(Error::table(&path))?;
-        while self.in_flight.len() > IN_FLIGHT {
-            self.write_first().map_err(Error::table(&path))?;
-        }
-        if let Some(buffers) = self.spare.pop() {
-            self.columns.give_back(buffers);
-        }
-        Ok(())
-    }
-
-    fn submit(&mut self) -> Result<(), ParquetError> {
+    fn submit(&mut self, rows: usize, columns: Vec<Values>) -> Result<(), ParquetError> {
         let writers = self.factory.create_column_writers(self.groups)?;
         self.groups += 1;
-        self.rows += self.columns.rows() as u64;
+        self.rows += rows as u64;
         let group = RowGroup::of(writers.len());
         // Buffers past the columns of this run are empty and dropped.
-        let columns = self.declared.iter().zip(self.columns.take()).zip(writers);
+        let columns = self.declared.iter().zip(columns).zip(writers);
         let job = |(place, ((column, values), writer))| Job {
             group: group.clone(),
             place,
@@ -142,19 +115,33 @@ impl<C: Columns> Part<C> {
         self.spare.push(buffers);
         Ok(())
     }
+}
+
+impl Sink for Part {
+    type Closed = PartReport;
+
+    fn put(&mut self, rows: usize, columns: Vec<Values>) -> Result<Option<Vec<Values>>, TableError> {
+        self.submit(rows, columns).map_err(TableError::write(&self.path))?;
+        while self.in_flight.len() > IN_FLIGHT {
+            self.write_first().map_err(TableError::write(&self.path))?;
+        }
+        Ok(self.spare.pop())
+    }
 
     /// Writes what is left, closes the file and makes sure that it is on the disk.
-    pub fn finish(mut self) -> Result<PartReport, Error> {
-        if self.columns.rows() > 0 {
-            self.flush()?;
-        }
+    fn close(mut self) -> Result<PartReport, TableError> {
         while !self.in_flight.is_empty() {
-            self.write_first().map_err(Error::table(&self.path))?;
+            self.write_first().map_err(TableError::write(&self.path))?;
         }
-        let file = self.file.into_inner().map_err(Error::table(&self.path))?;
+        let file = self.file.into_inner().map_err(TableError::write(&self.path))?;
         let (bytes, sha256) = file.finish()?;
         Ok(PartReport { rows: self.rows, bytes, sha256 })
     }
+}
+
+/// The words of each column of a run; none for a column of numbers.
+pub fn words_of_run(declared: &[Column], plan: &RunPlan) -> Vec<Arc<StringArray>> {
+    declared.iter().map(|column| words_of(column, &plan.provenance)).collect()
 }
 
 fn words_of(column: &Column, provenance: &Provenance) -> Arc<StringArray> {

@@ -10,22 +10,20 @@ use phytomer_sim::plant::Plant;
 
 columns! {
     /// The buffers of `plants`.
-    PlantColumns {
-        treatment: Word(i8), plot: Int(i32), plant: Int(i32), species: Word(i8),
-        x: Double(f64), y: Double(f64), z: Double(f64),
+    PlantColumns of plant: Plant, plot: &Plot {
+        treatment: Word(i8) = 0,
+        plot: Int(i32) = plot.id as i32,
+        plant: Int(i32) = plant.id as i32,
+        species: Word(i8) = 0,
+        x: Double(f64) = plant.place[0],
+        y: Double(f64) = plant.place[1],
+        z: Double(f64) = plant.place[2],
     }
 }
 
 impl PlantColumns {
     /// Adds the row of one plant.
     pub fn add(&mut self, plot: &Plot, plant: &Plant) {
-        let [x, y, z] = plant.place;
-        self.treatment.push(0);
-        self.plot.push(plot.id as i32);
-        self.plant.push(plant.id as i32);
-        self.species.push(0);
-        self.x.push(x);
-        self.y.push(y);
-        self.z.push(z);
+        self.extend(std::slice::from_ref(plant), plot);
     }
 }

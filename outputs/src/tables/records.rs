@@ -5,7 +5,7 @@
 
 use super::buffers::{NULL, columns};
 use super::columns::KINDS;
-use super::standing::{Component, Standing};
+use super::component_index::{Component, ComponentIndex};
 use phytomer_sim::Tick;
 use phytomer_sim::mechanics::wood_volume;
 use phytomer_sim::plant::{AxisId, InternodeLook, Kind, NodeId, OrganId, Plant};
@@ -13,21 +13,41 @@ use phytomer_sim::pose::{Frame, node_frame, organ_frame, start_frame};
 
 columns! {
     /// The buffers of `records`.
-    RecordColumns {
-        treatment: Word(i8), plot: Int(i32), plant: Int(i32), age: Int(i32),
-        component: Int(i32), parent: Int(i32), axis: Int(i32), order: Int(i32), kind: Word(i8), rank: Int(i32),
-        birth: Int(i32),
-        x: Float(f32), y: Float(f32), z: Float(f32),
-        dir_x: Float(f32), dir_y: Float(f32), dir_z: Float(f32),
-        up_x: Float(f32), up_y: Float(f32), up_z: Float(f32),
-        length: Float(f32), diameter: Float(f32), diameter_tip: Float(f32), area: Float(f32),
-        alive: Bool(i8),
-        wood_volume: Float(f32), fresh_mass: Float(f32), curvature: Float(f32), moment: Float(f32),
+    RecordColumns of row: RecordRow, shown: &PlantAtAge<'_> {
+        treatment: Word(i8) = 0,
+        plot: Int(i32) = shown.plot as i32,
+        plant: Int(i32) = shown.plant.id as i32,
+        age: Int(i32) = shown.age as i32,
+        component: Int(i32) = row.component as i32,
+        parent: Int(i32) = row.parent,
+        axis: Int(i32) = row.axis as i32,
+        order: Int(i32) = i32::from(row.order),
+        kind: Word(i8) = row.kind as i8,
+        rank: Int(i32) = row.rank as i32,
+        birth: Int(i32) = row.birth as i32,
+        x: Float(f32) = row.frame.base[0],
+        y: Float(f32) = row.frame.base[1],
+        z: Float(f32) = row.frame.base[2],
+        dir_x: Float(f32) = row.frame.heading[0],
+        dir_y: Float(f32) = row.frame.heading[1],
+        dir_z: Float(f32) = row.frame.heading[2],
+        up_x: Float(f32) = row.frame.up[0],
+        up_y: Float(f32) = row.frame.up[1],
+        up_z: Float(f32) = row.frame.up[2],
+        length: Float(f32) = row.length,
+        diameter: Float(f32) = row.diameter,
+        diameter_tip: Float(f32) = row.diameter_tip,
+        area: Float(f32) = row.area,
+        alive: Bool(i8) = i8::from(row.alive),
+        wood_volume: Float(f32),
+        fresh_mass: Float(f32),
+        curvature: Float(f32),
+        moment: Float(f32),
     }
 }
 
 /// What one component puts into a row; NaN and −1 are nulls.
-pub struct Row {
+pub struct RecordRow {
     component: u32,
     parent: i32,
     axis: u32,
@@ -44,11 +64,13 @@ pub struct Row {
 }
 
 /// What the rows of one plant at one age share.
-pub struct Scene<'a> {
+pub struct PlantAtAge<'a> {
+    /// The number of its plot.
+    pub plot: u32,
     /// The plant.
     pub plant: &'a Plant,
     /// Its components by number, with the tips of its axes at the age.
-    pub standing: &'a Standing,
+    pub index: &'a ComponentIndex,
     /// The age.
     pub age: Tick,
     /// Whether the columns of mechanics are wanted.
@@ -69,58 +91,25 @@ impl Loaded {
 }
 
 impl RecordColumns {
-    /// Adds a row for each of the components `numbers` of a plant in the plot of a number; `rows` is memory to work in.
-    pub fn fill(&mut self, plot: u32, scene: &Scene<'_>, numbers: &[u32], rows: &mut Vec<Row>) {
+    /// Adds a row for each of the components `numbers` of a plant at an age; `rows` is memory to work in.
+    pub fn fill(&mut self, shown: &PlantAtAge<'_>, numbers: &[u32], rows: &mut Vec<RecordRow>) {
         rows.clear();
-        let mut bearing = Bearing::of(scene, AxisId::TRUNK);
-        rows.extend(numbers.iter().map(|&number| match scene.standing.component(number) {
-            Component::Node(node) => scene.of_node(node, &mut bearing),
-            Component::Organ(organ) => scene.of_organ(organ, &mut bearing),
-            Component::Bud(axis) => scene.of_bud(axis),
+        let mut bearing = Bearing::of(shown, AxisId::TRUNK);
+        rows.extend(numbers.iter().map(|&number| match shown.index.component(number) {
+            Component::Node(node) => shown.of_node(node, &mut bearing),
+            Component::Organ(organ) => shown.of_organ(organ, &mut bearing),
+            Component::Bud(axis) => shown.of_bud(axis),
         }));
         // Column by column out of the cache, which is several times as fast as pushing row by row to 25 columns.
-        self.push_identity(rows);
-        self.push_pose(rows);
-        if scene.mechanics {
-            self.push_mechanics(scene, numbers);
+        self.extend(rows, shown);
+        if shown.mechanics {
+            self.push_mechanics(shown, numbers);
         }
-        let rows = self.component.len();
-        self.treatment.resize(rows, 0);
-        self.plot.resize(rows, plot as i32);
-        self.plant.resize(rows, scene.plant.id as i32);
-        self.age.resize(rows, scene.age as i32);
     }
 
-    fn push_identity(&mut self, rows: &[Row]) {
-        self.component.extend(rows.iter().map(|row| row.component as i32));
-        self.parent.extend(rows.iter().map(|row| row.parent));
-        self.axis.extend(rows.iter().map(|row| row.axis as i32));
-        self.order.extend(rows.iter().map(|row| i32::from(row.order)));
-        self.kind.extend(rows.iter().map(|row| row.kind as i8));
-        self.rank.extend(rows.iter().map(|row| row.rank as i32));
-        self.birth.extend(rows.iter().map(|row| row.birth as i32));
-        self.alive.extend(rows.iter().map(|row| i8::from(row.alive)));
-    }
-
-    fn push_pose(&mut self, rows: &[Row]) {
-        self.x.extend(rows.iter().map(|row| row.frame.base[0]));
-        self.y.extend(rows.iter().map(|row| row.frame.base[1]));
-        self.z.extend(rows.iter().map(|row| row.frame.base[2]));
-        self.dir_x.extend(rows.iter().map(|row| row.frame.heading[0]));
-        self.dir_y.extend(rows.iter().map(|row| row.frame.heading[1]));
-        self.dir_z.extend(rows.iter().map(|row| row.frame.heading[2]));
-        self.up_x.extend(rows.iter().map(|row| row.frame.up[0]));
-        self.up_y.extend(rows.iter().map(|row| row.frame.up[1]));
-        self.up_z.extend(rows.iter().map(|row| row.frame.up[2]));
-        self.length.extend(rows.iter().map(|row| row.length));
-        self.diameter.extend(rows.iter().map(|row| row.diameter));
-        self.diameter_tip.extend(rows.iter().map(|row| row.diameter_tip));
-        self.area.extend(rows.iter().map(|row| row.area));
-    }
-
-    fn push_mechanics(&mut self, scene: &Scene<'_>, numbers: &[u32]) {
+    fn push_mechanics(&mut self, shown: &PlantAtAge<'_>, numbers: &[u32]) {
         for number in numbers {
-            let loaded = scene.loaded(scene.standing.component(*number));
+            let loaded = shown.loaded(shown.index.component(*number));
             self.wood_volume.push(loaded.wood_volume);
             self.fresh_mass.push(loaded.fresh_mass);
             self.curvature.push(loaded.curvature);
@@ -139,32 +128,32 @@ struct Bearing<'a> {
 }
 
 impl<'a> Bearing<'a> {
-    fn of(scene: &Scene<'a>, axis: AxisId) -> Self {
-        let axes = &scene.plant.axes;
+    fn of(shown: &PlantAtAge<'a>, axis: AxisId) -> Self {
+        let axes = &shown.plant.axes;
         Self {
             axis,
             component: axes.component[axis.index()],
             order: axes.order[axis.index()],
-            look: scene.plant.look_of(axis),
-            alive: scene.age < axes.death[axis.index()],
+            look: shown.plant.look_of(axis),
+            alive: shown.age < axes.death[axis.index()],
         }
     }
 
     #[inline]
-    fn turn_to(&mut self, scene: &Scene<'a>, axis: AxisId) {
+    fn turn_to(&mut self, shown: &PlantAtAge<'a>, axis: AxisId) {
         if self.axis != axis {
-            *self = Self::of(scene, axis);
+            *self = Self::of(shown, axis);
         }
     }
 }
 
-impl<'a> Scene<'a> {
+impl<'a> PlantAtAge<'a> {
     #[inline]
-    fn of_node(&self, node: NodeId, bearing: &mut Bearing<'a>) -> Row {
+    fn of_node(&self, node: NodeId, bearing: &mut Bearing<'a>) -> RecordRow {
         let nodes = &self.plant.nodes;
         let i = node.index();
         bearing.turn_to(self, nodes.axis[i]);
-        Row {
+        RecordRow {
             component: nodes.component[i],
             parent: number_of(self.plant, nodes.parent[i]),
             axis: bearing.component,
@@ -182,13 +171,13 @@ impl<'a> Scene<'a> {
     }
 
     #[inline]
-    fn of_organ(&self, organ: OrganId, bearing: &mut Bearing<'a>) -> Row {
+    fn of_organ(&self, organ: OrganId, bearing: &mut Bearing<'a>) -> RecordRow {
         let Plant { organs, nodes, .. } = self.plant;
         let i = organ.index();
         let node = organs.node[i];
         bearing.turn_to(self, nodes.axis[node.index()]);
         let share = self.plant.expanded(organ, self.age);
-        Row {
+        RecordRow {
             component: organs.component[i],
             parent: nodes.component[node.index()] as i32,
             axis: bearing.component,
@@ -206,10 +195,10 @@ impl<'a> Scene<'a> {
     }
 
     #[inline]
-    fn of_bud(&self, axis: AxisId) -> Row {
+    fn of_bud(&self, axis: AxisId) -> RecordRow {
         let Plant { axes, nodes, .. } = self.plant;
-        let tip = self.standing.tip(axis).some();
-        Row {
+        let tip = self.index.tip(axis).some();
+        RecordRow {
             component: axes.component[axis.index()],
             parent: number_of(self.plant, axes.bearer[axis.index()]),
             axis: axes.component[axis.index()],
@@ -227,7 +216,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-impl Scene<'_> {
+impl PlantAtAge<'_> {
     fn loaded(&self, component: Component) -> Loaded {
         match component {
             Component::Node(node) => self.loaded_node(node),

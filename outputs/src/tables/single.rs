@@ -5,8 +5,7 @@
 
 use super::buffers::{Columns, Values};
 use super::schema::Column;
-use super::{RecordColumns, Scene, Standing, columns};
-use crate::Error;
+use super::{ComponentIndex, PlantAtAge, RecordColumns, TableError, columns};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 
@@ -17,18 +16,18 @@ const ROWS: usize = 512;
 /// components that do not stand. Words are given by their places in the column's list.
 ///
 /// # Errors
-/// [`Error::PlantTooLarge`].
-pub fn record_values(plant: &Plant, age: Tick, column: &Column) -> Result<Vec<f64>, Error> {
-    let mut standing = Standing::default();
-    standing.read(plant)?;
-    standing.find_tips(plant, age);
+/// [`TableError::PlantTooLarge`].
+pub fn record_values(plant: &Plant, age: Tick, column: &Column) -> Result<Vec<f64>, TableError> {
+    let mut index = ComponentIndex::default();
+    index.read(plant)?;
+    index.find_tips(plant, age);
     let place = columns::RECORDS.iter().position(|known| known.name == column.name).unwrap_or(0);
-    let scene = Scene { plant, standing: &standing, age, mechanics: true };
-    let mut values = vec![f64::NAN; standing.len() as usize];
+    let shown = PlantAtAge { plot: plant.id, plant, index: &index, age, mechanics: true };
+    let mut values = vec![f64::NAN; index.len() as usize];
     let (mut next, mut numbers, mut rows, mut filled) = (0, Vec::new(), Vec::new(), RecordColumns::default());
-    while next < standing.len() {
-        standing.select(age, ROWS, &mut next, &mut numbers);
-        filled.fill(plant.id, &scene, &numbers, &mut rows);
+    while next < index.len() {
+        index.select(age, ROWS, &mut next, &mut numbers);
+        filled.fill(&shown, &numbers, &mut rows);
         let mut taken = filled.take();
         let column = numbers_of(&taken[place]);
         for (number, value) in numbers.iter().zip(column) {

@@ -2,9 +2,9 @@
 //!
 //! Sums run in the order of the plant's columns, in double precision: the same bits on any number of threads.
 
+use super::TableError;
 use super::buffers::{NULL, columns};
-use super::standing::{Standing, organ_end};
-use crate::error::Error;
+use super::component_index::{ComponentIndex, organ_end};
 use phytomer_sim::mechanics::wood_volume;
 use phytomer_sim::plant::{AxisId, Class, Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::node_frame;
@@ -12,13 +12,33 @@ use phytomer_sim::{Plot, Tick};
 
 columns! {
     /// The buffers of `summary`.
-    SummaryColumns {
-        treatment: Word(i8), plot: Int(i32), plant: Int(i32), age: Int(i32),
-        internodes: Int(i32), leaves: Int(i32), flowers: Int(i32), fruits: Int(i32), buds: Int(i32),
-        dead_internodes: Int(i32), axes: Int(i32), max_order: Int(i32),
-        height: Double(f64), crown_width: Double(f64), leaf_area: Double(f64), wood_volume: Double(f64),
-        alive: Bool(i8), death: Int(i32),
+    SummaryColumns of summary: Summary, of: &OfPlant<'_> {
+        treatment: Word(i8) = 0,
+        plot: Int(i32) = of.plot.id as i32,
+        plant: Int(i32) = of.plant.id as i32,
+        age: Int(i32) = of.age as i32,
+        internodes: Int(i32) = summary.internodes as i32,
+        leaves: Int(i32) = summary.leaves as i32,
+        flowers: Int(i32) = summary.flowers as i32,
+        fruits: Int(i32) = summary.fruits as i32,
+        buds: Int(i32) = summary.buds as i32,
+        dead_internodes: Int(i32) = summary.dead_internodes as i32,
+        axes: Int(i32) = summary.axes as i32,
+        max_order: Int(i32) = i32::from(summary.max_order),
+        height: Double(f64) = summary.height,
+        crown_width: Double(f64) = summary.crown_width,
+        leaf_area: Double(f64) = summary.leaf_area,
+        wood_volume: Double(f64) = summary.wood_volume,
+        alive: Bool(i8) = i8::from(of.plant.lives(of.age)),
+        death: Int(i32) = if of.plant.lives(of.age) { NULL } else { of.plant.death as i32 },
     }
+}
+
+/// The plant and the age that a summary is of.
+struct OfPlant<'a> {
+    plot: &'a Plot,
+    plant: &'a Plant,
+    age: Tick,
 }
 
 /// One plant at one age.
@@ -56,20 +76,20 @@ impl Summary {
     ///
     /// # Errors
     /// A plant of more components than fit a table.
-    pub fn of(plant: &Plant, age: Tick) -> Result<Self, Error> {
-        let mut standing = Standing::default();
-        standing.read(plant)?;
-        standing.find_tips(plant, age);
-        Ok(summarise(plant, &standing, age))
+    pub fn of(plant: &Plant, age: Tick) -> Result<Self, TableError> {
+        let mut index = ComponentIndex::default();
+        index.read(plant)?;
+        index.find_tips(plant, age);
+        Ok(summarise(plant, &index, age))
     }
 }
 
-/// Sums up `plant` at `age`; `standing` has the tips of its axes at that age.
-pub fn summarise(plant: &Plant, standing: &Standing, age: Tick) -> Summary {
+/// Sums up `plant` at `age`; `index` has the tips of its axes at that age.
+pub fn summarise(plant: &Plant, index: &ComponentIndex, age: Tick) -> Summary {
     let mut summary = Summary::default();
     count_nodes(plant, age, &mut summary);
     count_organs(plant, age, &mut summary);
-    count_axes(plant, standing, age, &mut summary);
+    count_axes(plant, index, age, &mut summary);
     summary
 }
 
@@ -120,12 +140,12 @@ fn count_organs(plant: &Plant, age: Tick, summary: &mut Summary) {
     }
 }
 
-fn count_axes(plant: &Plant, standing: &Standing, age: Tick, summary: &mut Summary) {
+fn count_axes(plant: &Plant, index: &ComponentIndex, age: Tick, summary: &mut Summary) {
     let axes = &plant.axes;
     for axis in 0..axes.len() {
         let there = age < axes.shed[axis];
         let bud = plant.bud_lives(AxisId(axis as u32), age);
-        let stem = there && standing.tip(AxisId(axis as u32)).some().is_some();
+        let stem = there && index.tip(AxisId(axis as u32)).some().is_some();
         summary.buds += u32::from(bud);
         if bud || stem {
             summary.axes += 1;
@@ -137,24 +157,6 @@ fn count_axes(plant: &Plant, standing: &Standing, age: Tick, summary: &mut Summa
 impl SummaryColumns {
     /// Adds the row of one plant at one age.
     pub fn add(&mut self, plot: &Plot, plant: &Plant, age: Tick, summary: &Summary) {
-        let lives = plant.lives(age);
-        self.treatment.push(0);
-        self.plot.push(plot.id as i32);
-        self.plant.push(plant.id as i32);
-        self.age.push(age as i32);
-        self.internodes.push(summary.internodes as i32);
-        self.leaves.push(summary.leaves as i32);
-        self.flowers.push(summary.flowers as i32);
-        self.fruits.push(summary.fruits as i32);
-        self.buds.push(summary.buds as i32);
-        self.dead_internodes.push(summary.dead_internodes as i32);
-        self.axes.push(summary.axes as i32);
-        self.max_order.push(i32::from(summary.max_order));
-        self.height.push(summary.height);
-        self.crown_width.push(summary.crown_width);
-        self.leaf_area.push(summary.leaf_area);
-        self.wood_volume.push(summary.wood_volume);
-        self.alive.push(i8::from(lives));
-        self.death.push(if lives { NULL } else { plant.death as i32 });
+        self.extend(std::slice::from_ref(summary), &OfPlant { plot, plant, age });
     }
 }

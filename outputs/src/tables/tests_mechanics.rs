@@ -35,7 +35,7 @@ fn grown(wood: Option<Wood>) -> (TempDir, Run) {
 
 /// A row of `records`, with what these tests need of it.
 #[derive(Debug, Clone)]
-struct Row {
+struct MechanicsRow {
     age: i32,
     birth: i32,
     kind: String,
@@ -49,7 +49,7 @@ struct Row {
     mechanics: [Option<f64>; 4],
 }
 
-impl Row {
+impl MechanicsRow {
     fn of(batch: &RecordBatch, row: usize) -> Self {
         let column = |name: &str| batch.column_by_name(name).unwrap();
         let int = |name: &str| column(name).as_primitive::<Int32Type>().value(row);
@@ -84,9 +84,11 @@ impl Row {
     }
 }
 
-fn rows(run: &Run) -> Vec<Row> {
+fn rows(run: &Run) -> Vec<MechanicsRow> {
     let batches = run.batches(Table::Records).unwrap().map(Result::unwrap);
-    batches.flat_map(|batch| (0..batch.num_rows()).map(|row| Row::of(&batch, row)).collect::<Vec<_>>()).collect()
+    batches
+        .flat_map(|batch| (0..batch.num_rows()).map(|row| MechanicsRow::of(&batch, row)).collect::<Vec<_>>())
+        .collect()
 }
 
 fn close(found: f64, expected: f64, share: f64) -> bool {
@@ -145,7 +147,7 @@ fn volumes_and_masses_are_those_of_the_measures() {
 fn the_moment_is_that_of_the_masses_beyond() {
     let (_home, run) = grown(Some(wood(true)));
     for age in [4, 7, 8] {
-        let rows: Vec<Row> = rows(&run).into_iter().filter(|row| row.age == age).collect();
+        let rows: Vec<MechanicsRow> = rows(&run).into_iter().filter(|row| row.age == age).collect();
         let first = rows.iter().find(|row| row.is_internode() && row.order == 1 && row.rank == 1).unwrap();
         let middle = first.point(0.5);
         let mut hanging = [0.0; 2];
@@ -169,7 +171,7 @@ fn the_moment_is_that_of_the_masses_beyond() {
 fn the_curvature_of_new_wood_is_the_moment_over_the_stiffness() {
     let (_home, run) = grown(Some(wood(true)));
     let rows = rows(&run);
-    let new: Vec<&Row> = rows.iter().filter(|row| row.is_internode() && row.birth == row.age).collect();
+    let new: Vec<&MechanicsRow> = rows.iter().filter(|row| row.is_internode() && row.birth == row.age).collect();
     assert!(new.len() >= 5);
     for row in new {
         let [base, tip] = row.diameters.map(Option::unwrap);

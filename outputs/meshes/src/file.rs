@@ -1,0 +1,146 @@
+//! Mesh files of a run: `meshes/plant-00000_age-0010.ply`, one a plant and age.
+//!
+//! A file is written beside its final name as `….tmp`, synced and renamed, so that a name never stands for half a mesh.
+//! The recorder keeps a list of what it has written; the run folder enters it in its journal.
+
+use super::{Counts, MeshOptions, MeshWriter, Scene};
+use phytomer_sim::Plot;
+use phytomer_sim::clock::Tick;
+use phytomer_sim::plant::Plant;
+use phytomer_sim::record::{RecordError, Recorder};
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The most vertices that 32-bit signed indices reach.
+const MOST_VERTICES: u64 = i32::MAX as u64;
+
+/// Why a mesh was not written.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshError {
+    /// The file system refused.
+    #[error("cannot {doing} {}", path.display())]
+    Io {
+        /// What was tried.
+        doing: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// The system's answer.
+        source: io::Error,
+    },
+    /// The mesh has more vertices than its format can count.
+    #[error(
+        "the mesh of plant {plant} at age {age} would have {vertices} vertices, and a mesh file holds at most {}: \
+         choose fewer sides or kinds",
+        MOST_VERTICES
+    )]
+    TooLarge {
+        /// The plant's number.
+        plant: u32,
+        /// Its age.
+        age: Tick,
+        /// How many vertices.
+        vertices: u64,
+    },
+}
+
+/// A mesh file that was written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MeshFile {
+    /// Where it is.
+    pub path: PathBuf,
+    /// The number of the plant that is drawn.
+    pub plant: u32,
+    /// At which age.
+    pub age: Tick,
+    /// How large the mesh is.
+    pub counts: Counts,
+    /// The size of the file.
+    pub bytes: u64,
+}
+
+/// Writes the mesh of what stands of `plant` at `age` into `folder`, which must exist; a file of its name is replaced.
+///
+/// # Errors
+/// [`MeshError::TooLarge`] before anything is written, [`MeshError::Io`] where the file system refuses.
+pub fn write_mesh(
+    writer: &dyn MeshWriter,
+    plant: &Plant,
+    age: Tick,
+    run_seed: u64,
+    options: &MeshOptions,
+    folder: &Path,
+) -> Result<MeshFile, MeshError> {
+    let scene = Scene::new(plant, age, options);
+    let counts = scene.counts();
+    if counts.vertices > MOST_VERTICES {
+        return Err(MeshError::TooLarge { plant: plant.id, age, vertices: counts.vertices });
+    }
+    let name = format!("plant-{:05}_age-{age:04}.{}", plant.id, writer.extension());
+    let path = folder.join(&name);
+    let beside = folder.join(name + ".tmp");
+    let bytes = (|| {
+        let mut file = File::create(&beside)?;
+        writer.write(&scene, &scene.about(run_seed), &mut file)?;
+        file.sync_all()?;
+        file.metadata().map(|metadata| metadata.len())
+    })()
+    .map_err(failed("write", &beside))?;
+    fs::rename(&beside, &path).map_err(failed("rename", &beside))?;
+    Ok(MeshFile { path, plant: plant.id, age, counts, bytes })
+}
+
+fn failed(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> MeshError {
+    let path = path.to_path_buf();
+    move |source| MeshError::Io { doing, path, source }
+}
+
+/// Writes the meshes of the plants of each plot at chosen ages.
+#[derive(Debug)]
+pub struct MeshRecorder<W> {
+    writer: W,
+    folder: PathBuf,
+    ages: Vec<Tick>,
+    run_seed: u64,
+    options: MeshOptions,
+    written: Vec<MeshFile>,
+}
+
+impl<W: MeshWriter> MeshRecorder<W> {
+    /// Meshes at `ages` into `folder`, which is made where it is missing.
+    ///
+    /// # Errors
+    /// [`MeshError::Io`] where the folder cannot be made.
+    pub fn new(
+        writer: W,
+        folder: &Path,
+        ages: &[Tick],
+        run_seed: u64,
+        options: MeshOptions,
+    ) -> Result<Self, MeshError> {
+        fs::create_dir_all(folder).map_err(failed("create", folder))?;
+        Ok(Self { writer, folder: folder.into(), ages: ages.into(), run_seed, options, written: Vec::new() })
+    }
+
+    /// The files written since the last call, in the order of writing.
+    pub fn take_written(&mut self) -> Vec<MeshFile> {
+        std::mem::take(&mut self.written)
+    }
+}
+
+impl<W: MeshWriter> Recorder for MeshRecorder<W> {
+    fn wants(&self, age: Tick) -> bool {
+        self.ages.contains(&age)
+    }
+
+    fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
+        if !self.wants(age) {
+            return Ok(());
+        }
+        for plant in &plot.plants {
+            let file = write_mesh(&self.writer, plant, age, self.run_seed, &self.options, &self.folder)?;
+            self.written.push(file);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,138 @@
+//! PLY, `binary_little_endian`: header and element definitions through ply-rs-bw, the payload in bulk.
+//!
+//! Counts go into the header, so the scene is counted first and then written in one pass. Where the payload is large,
+//! the next chunk is drawn while the last one is written: two threads, the same bytes. Comments state the unit, what
+//! tubes and leaves keep, the plant, its age, the run's seed and the place in the plot from which the vertices are
+//! told; the file has no face properties and no edges.
+
+use super::chunk::{Chunk, Face, Vertex};
+use super::{About, Counts, MeshWriter, Scene};
+use ply_rs_bw::ply::{Addable, DefaultElement, ElementDef, Encoding, Header, PropertyDef, PropertyType, ScalarType};
+use ply_rs_bw::writer::Writer;
+use std::io::{self, Write};
+use std::sync::mpsc::sync_channel;
+use std::thread;
+
+/// Above this size of the payload, drawing and writing overlap.
+const OVERLAP_FROM: u64 = 8 << 20;
+
+/// The chunks under way between drawing and writing.
+const UNDER_WAY: usize = 3;
+
+/// The PLY format.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Ply;
+
+impl MeshWriter for Ply {
+    fn extension(&self) -> &'static str {
+        "ply"
+    }
+
+    fn write(&self, scene: &Scene, about: &About, out: &mut (dyn Write + Send)) -> io::Result<()> {
+        let counts = scene.counts();
+        out.write_all(&header_of(vec![in_words(about), place_comment(about.place)], counts)?)?;
+        if counts.vertices * Vertex::BYTES as u64 + counts.faces * Face::BYTES as u64 > OVERLAP_FROM {
+            write_overlapped(scene, out)
+        } else {
+            write_in_turn(scene, out)
+        }
+    }
+}
+
+fn write_in_turn(scene: &Scene, out: &mut (dyn Write + Send)) -> io::Result<()> {
+    let mut chunk = Chunk::new();
+    let mut sink = |chunk: &mut Chunk| {
+        out.write_all(chunk.filled())?;
+        chunk.clear();
+        Ok(())
+    };
+    scene.vertices(&mut chunk, &mut sink)?;
+    scene.faces(&mut chunk, &mut sink)
+}
+
+/// Draws on a thread of its own; chunks go to the writer full and come back empty.
+fn write_overlapped(scene: &Scene, out: &mut (dyn Write + Send)) -> io::Result<()> {
+    let (full, to_write) = sync_channel::<Chunk>(UNDER_WAY);
+    let (empty, to_fill) = sync_channel::<Chunk>(UNDER_WAY);
+    for _ in 1..UNDER_WAY {
+        empty.send(Chunk::new()).map_err(io::Error::other)?;
+    }
+    thread::scope(|scope| {
+        let drawing = scope.spawn(move || {
+            let mut chunk = Chunk::new();
+            // A closed channel means that the writer failed; it reports why.
+            let mut sink = |chunk: &mut Chunk| {
+                let next = to_fill.recv().map_err(io::Error::other)?;
+                full.send(std::mem::replace(chunk, next)).map_err(|_| io::ErrorKind::BrokenPipe.into())
+            };
+            scene.vertices(&mut chunk, &mut sink)?;
+            scene.faces(&mut chunk, &mut sink)
+        });
+        let written = to_write.iter().try_for_each(|mut chunk| {
+            out.write_all(chunk.filled())?;
+            chunk.clear();
+            // The drawing thread may have ended: then no thread needs the chunk.
+            let _ = empty.send(chunk);
+            Ok(())
+        });
+        drop((to_write, empty));
+        let drawn = drawing.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        written.and(drawn)
+    })
+}
+
+/// Which plant a scene is, at which age, of which run.
+pub(super) fn in_words(about: &About) -> String {
+    format!("plant {} age {} seed {}", about.plant, about.age, about.run_seed)
+}
+
+/// The place from which the vertices of a file are told, in the shortest decimals that read back as the same numbers.
+pub(super) fn place_comment([x, y, z]: [f64; 3]) -> String {
+    format!("place_m {x:?} {y:?} {z:?}")
+}
+
+/// The whole header, with comments of what the file holds.
+pub(super) fn header_of(comments: Vec<String>, counts: Counts) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    Writer::<DefaultElement>::new().write_header(&mut bytes, &header(comments, counts))?;
+    Ok(bytes)
+}
+
+fn header(comments: Vec<String>, counts: Counts) -> Header {
+    let mut header = Header::new();
+    header.encoding = Encoding::BinaryLittleEndian;
+    header.comments = vec![
+        format!("phytomer {}", env!("CARGO_PKG_VERSION")),
+        "unit metre, Z up".into(),
+        "ages in ticks since the seed, death_age inf while the component lives".into(),
+        "tubes keep the section of their diameters and the volume of the wood".into(),
+        "leaves keep area_m2 of the tables: one side, of closed forms half the surface".into(),
+    ];
+    header.comments.extend(comments);
+    header.elements.add(vertex_element(counts.vertices as usize));
+    header.elements.add(face_element(counts.faces as usize));
+    header
+}
+
+fn vertex_element(count: usize) -> ElementDef {
+    let mut element = ElementDef::new("vertex".into());
+    element.count = count;
+    let floats = |names: &'static [&'static str]| names.iter().map(|&name| (name, ScalarType::Float));
+    let bytes = |names: &'static [&'static str]| names.iter().map(|&name| (name, ScalarType::UChar));
+    let properties = floats(&["x", "y", "z", "nx", "ny", "nz"])
+        .chain(bytes(&["red", "green", "blue", "alpha"]))
+        .chain(floats(&["s", "t", "birth_age", "death_age"]))
+        .chain([("component_id", ScalarType::Int), ("kind", ScalarType::UChar)]);
+    for (name, scalar) in properties {
+        element.properties.add(PropertyDef::new(name.into(), PropertyType::Scalar(scalar)));
+    }
+    element
+}
+
+fn face_element(count: usize) -> ElementDef {
+    let mut element = ElementDef::new("face".into());
+    element.count = count;
+    let corners = PropertyType::List(ScalarType::UChar, ScalarType::Int);
+    element.properties.add(PropertyDef::new("vertex_indices".into(), corners));
+    element
+}

@@ -1,0 +1,314 @@
+//! What stands of a plant at an age, as vertices and triangles in chunks.
+//!
+//! An internode stands from its birth until its branch falls, an organ from its birth until its death. A component that
+//! lives has the death age +∞, so that `birth_age <= a and a < death_age` needs no special case and no future is told;
+//! an internode that stands dead has the tick of its death. An organ's base is moved from the line of the axis to the
+//! surface of the stem, half the tip's diameter out towards the organ.
+
+use super::MeshOptions;
+use super::chunk::{Chunk, Face, Sink, Tag, Vertex};
+use super::forms::{FormMesh, Placement};
+use super::tube::{Frustum, Strip, Tube};
+use super::{About, Mesh, colour};
+use bytemuck::Zeroable;
+use phytomer_sim::clock::Tick;
+use phytomer_sim::plant::{AxisId, InternodeLook, NodeId, OrganId, Plant, Shape as Stem};
+use phytomer_sim::pose::organ_frame;
+use std::io;
+use std::ops::Range;
+
+/// The entries of a column that one block of a scene goes through.
+const BLOCK: usize = 256;
+
+/// Below this sine of its insertion angle an organ stands on the tip of the stem, not on its side.
+const TERMINAL: f32 = 1e-3;
+
+/// How large a mesh is.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Its components.
+    pub components: u64,
+    /// Its vertices.
+    pub vertices: u64,
+    /// Its triangles.
+    pub faces: u64,
+}
+
+/// A plant at an age, to be drawn.
+#[derive(Debug)]
+pub struct Scene<'a> {
+    plant: &'a Plant,
+    age: Tick,
+    options: MeshOptions,
+    /// How internodes are drawn, by the place of their look in the habit's; at the end those of none.
+    stems: Vec<Drawn>,
+}
+
+/// How an internode is drawn.
+#[derive(Debug)]
+enum Drawn {
+    Tube(Tube),
+    Strip,
+    /// As an organ is, with the internode's length and diameter.
+    Form(FormMesh),
+}
+
+impl Drawn {
+    fn of(look: &InternodeLook, options: &MeshOptions) -> Self {
+        match (look.form, look.shape) {
+            (Some(form), _) => Self::Form(options.shape(form).clone()),
+            (None, Stem::Blade) => Self::Strip,
+            (None, Stem::Cylinder | Stem::Cone) => Self::Tube(Tube::new(look.sides.unwrap_or(options.sides))),
+        }
+    }
+
+    fn vertices(&self) -> usize {
+        match self {
+            Self::Tube(tube) => tube.vertices(),
+            Self::Strip => Strip::VERTICES,
+            Self::Form(shape) => shape.points.len(),
+        }
+    }
+
+    fn faces(&self) -> &[[u32; 3]] {
+        match self {
+            Self::Tube(tube) => tube.faces(),
+            Self::Strip => &Strip::FACES,
+            Self::Form(shape) => &shape.faces,
+        }
+    }
+}
+
+impl<'a> Scene<'a> {
+    /// What stands of `plant` at `age`; its frames and diameters must be those of that age.
+    pub fn new(plant: &'a Plant, age: Tick, options: &MeshOptions) -> Self {
+        let mut stems: Vec<Drawn> = plant.habit.looks.internodes.iter().map(|look| Drawn::of(look, options)).collect();
+        stems.push(Drawn::Tube(Tube::new(options.sides)));
+        Self { plant, age, options: options.clone(), stems }
+    }
+
+    /// What a file says of it.
+    pub fn about(&self, run_seed: u64) -> About {
+        About { plant: self.plant.id, age: self.age, run_seed, place: self.plant.place }
+    }
+
+    /// How large its mesh is: one scan of births and deaths.
+    pub fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        let mut count = |vertices: usize, faces: usize| {
+            counts.components += 1;
+            counts.vertices += vertices as u64;
+            counts.faces += faces as u64;
+        };
+        self.nodes().for_each(|node| {
+            let stem = self.stem(node);
+            count(stem.vertices(), stem.faces().len());
+        });
+        self.organs().for_each(|organ| {
+            let shape = self.shape(organ);
+            count(shape.points.len(), shape.faces.len());
+        });
+        counts
+    }
+
+    /// Hands the vertices to `sink`, chunk by chunk, the last one too.
+    ///
+    /// # Errors
+    /// The sink's.
+    pub fn vertices(&self, chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
+        for node in self.nodes() {
+            let stem = self.stem(node);
+            self.write_stem(stem, node, chunk.room(stem.vertices(), sink)?);
+        }
+        for organ in self.organs() {
+            let shape = self.shape(organ);
+            let out = chunk.room::<Vertex>(shape.points.len(), sink)?;
+            shape.write(&self.placement(organ, shape), &self.organ_tags(organ), out);
+        }
+        sink(chunk)
+    }
+
+    /// Hands the triangles to `sink`, chunk by chunk, the last one too, in the order of the vertices.
+    ///
+    /// # Errors
+    /// The sink's.
+    pub fn faces(&self, chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
+        let mut first = 0;
+        for node in self.nodes() {
+            let stem = self.stem(node);
+            put_faces(first, stem.faces(), chunk, sink)?;
+            first += stem.vertices() as u32;
+        }
+        for organ in self.organs() {
+            let shape = self.shape(organ);
+            put_faces(first, &shape.faces, chunk, sink)?;
+            first += shape.points.len() as u32;
+        }
+        sink(chunk)
+    }
+
+    /// How many blocks [`Scene::block`] has.
+    pub fn blocks(&self) -> usize {
+        self.plant.nodes.len().div_ceil(BLOCK) + self.plant.organs.len().div_ceil(BLOCK)
+    }
+
+    /// Makes `mesh` the vertices and triangles of one block of neighbouring components, the triangles by the numbers of
+    /// the block's own vertices. All blocks in their order are the mesh of the scene; each can be made by itself, on
+    /// any thread. A block may be empty.
+    pub fn block(&self, block: usize, mesh: &mut Mesh) {
+        mesh.vertices.clear();
+        mesh.faces.clear();
+        let of_nodes = self.plant.nodes.len().div_ceil(BLOCK);
+        if block < of_nodes {
+            self.nodes_of(span(block, self.plant.nodes.len())).for_each(|node| {
+                let stem = self.stem(node);
+                self.write_stem(stem, node, appended(mesh, stem.vertices(), stem.faces()));
+            });
+        } else {
+            self.organs_of(span(block - of_nodes, self.plant.organs.len())).for_each(|organ| {
+                let shape = self.shape(organ);
+                let out = appended(mesh, shape.points.len(), &shape.faces);
+                shape.write(&self.placement(organ, shape), &self.organ_tags(organ), out);
+            });
+        }
+    }
+
+    /// The internodes that are drawn.
+    fn nodes(&self) -> impl Iterator<Item = NodeId> {
+        self.nodes_of(0..self.plant.nodes.len())
+    }
+
+    fn nodes_of(&self, range: Range<usize>) -> impl Iterator<Item = NodeId> {
+        let (plant, age, kinds) = (self.plant, self.age, self.options.kinds);
+        let drawn = move |&node: &NodeId| plant.stands(node, age) && kinds[plant.kind_of(node) as usize];
+        range.map(|node| NodeId(node as u32)).filter(drawn)
+    }
+
+    /// The organs that are drawn.
+    fn organs(&self) -> impl Iterator<Item = OrganId> {
+        self.organs_of(0..self.plant.organs.len())
+    }
+
+    fn organs_of(&self, range: Range<usize>) -> impl Iterator<Item = OrganId> {
+        let (organs, age, kinds) = (&self.plant.organs, self.age, self.options.kinds);
+        let drawn = move |&organ: &usize| {
+            organs.birth[organ] <= age && age < organs.death[organ] && kinds[organs.kind[organ] as usize]
+        };
+        range.filter(drawn).map(|organ| OrganId(organ as u32))
+    }
+
+    #[inline]
+    fn shape(&self, organ: OrganId) -> &FormMesh {
+        self.options.shape(self.plant.organs.form[organ.index()])
+    }
+
+    /// How an internode is drawn.
+    #[inline]
+    fn stem(&self, node: NodeId) -> &Drawn {
+        let Plant { axes, nodes, habit, .. } = self.plant;
+        let axis: AxisId = nodes.axis[node.index()];
+        let place = habit.looks.place(axes.order[axis.index()], axes.state[axis.index()]);
+        &self.stems[place.unwrap_or(self.stems.len() - 1)]
+    }
+
+    #[inline]
+    fn write_stem(&self, stem: &Drawn, node: NodeId, out: &mut [Vertex]) {
+        match stem {
+            Drawn::Tube(tube) => tube.write(&self.frustum(node), &self.wood_tag(node), out),
+            Drawn::Strip => Strip::write(&self.frustum(node), &self.wood_tag(node), out),
+            Drawn::Form(shape) => shape.write(&self.stands(node), &[self.wood_tag(node); 2], out),
+        }
+    }
+
+    /// The place of an internode that is drawn as an organ is.
+    fn stands(&self, node: NodeId) -> Placement {
+        let frame = self.plant.frames.at(node);
+        let nodes = &self.plant.nodes;
+        let size = [nodes.length[node.index()], nodes.diameter[node.index()]];
+        Placement { base: frame.base, heading: frame.heading, up: frame.up, size, fullness: 1.0 }
+    }
+
+    #[inline]
+    fn frustum(&self, node: NodeId) -> Frustum {
+        let frame = self.plant.frames.at(node);
+        let nodes = &self.plant.nodes;
+        let node = node.index();
+        let radii = [nodes.diameter[node] * 0.5, nodes.diameter_tip[node] * 0.5];
+        Frustum { base: frame.base, heading: frame.heading, up: frame.up, length: nodes.length[node], radii }
+    }
+
+    /// Where an organ stands, how large it is at its age, and how full it is for the area that the tables state of it.
+    fn placement(&self, organ: OrganId, shape: &FormMesh) -> Placement {
+        let frame = organ_frame(self.plant, organ, self.age);
+        let organs = &self.plant.organs;
+        let node = organs.node[organ.index()];
+        let out = outward(self.plant.frames.heading[node.index()], frame.heading);
+        let radius = 0.5 * self.plant.nodes.diameter_tip[node.index()];
+        let base = [0, 1, 2].map(|k| frame.base[k] + radius * out[k]);
+        let share = self.plant.expanded(organ, self.age);
+        let full = [organs.length[organ.index()], organs.width[organ.index()]];
+        // It expands in proportion, so that its fullness is that of its full size.
+        let fullness = shape.fullness(full, organs.area[organ.index()]);
+        Placement { base, heading: frame.heading, up: frame.up, size: full.map(|size| size * share), fullness }
+    }
+
+    #[inline]
+    fn wood_tag(&self, node: NodeId) -> Tag {
+        let look = self.plant.look_of(self.plant.nodes.axis[node.index()]);
+        let nodes = &self.plant.nodes;
+        let death = self.plant.death_of(node);
+        let node = node.index();
+        let dead = death <= self.age;
+        Tag {
+            colour: colour::wood(look, self.age - nodes.birth[node], dead),
+            birth: nodes.birth[node] as f32,
+            death: if dead { death as f32 } else { f32::INFINITY },
+            component: nodes.component[node] as i32,
+            kind: look.kind(nodes.formation[node].is_short()) as u8,
+        }
+    }
+
+    /// The tags of an organ and of its stalk.
+    fn organ_tags(&self, organ: OrganId) -> [Tag; 2] {
+        let organs = &self.plant.organs;
+        let place = organ.index();
+        colour::organ(self.plant, organ, self.age).map(|colour| Tag {
+            colour,
+            birth: organs.birth[place] as f32,
+            death: f32::INFINITY,
+            component: organs.component[place] as i32,
+            kind: organs.kind[place] as u8,
+        })
+    }
+}
+
+/// The entries of a column of `length` that a block goes through.
+fn span(block: usize, length: usize) -> Range<usize> {
+    block * BLOCK..((block + 1) * BLOCK).min(length)
+}
+
+/// Room for more vertices at the end of `mesh`, and their triangles in it.
+#[inline]
+fn appended<'m>(mesh: &'m mut Mesh, vertices: usize, faces: &[[u32; 3]]) -> &'m mut [Vertex] {
+    let first = mesh.vertices.len();
+    mesh.faces.extend(faces.iter().map(|face| Face::new(face.map(|corner| first as u32 + corner))));
+    mesh.vertices.resize(first + vertices, Vertex::zeroed());
+    &mut mesh.vertices[first..]
+}
+
+/// The part of an organ's heading across its stem's, as a unit vector; nothing for an organ on the tip.
+fn outward(stem: [f32; 3], organ: [f32; 3]) -> [f32; 3] {
+    let along = stem[0] * organ[0] + stem[1] * organ[1] + stem[2] * organ[2];
+    let across = [0, 1, 2].map(|k| organ[k] - along * stem[k]);
+    let length = (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).sqrt();
+    if length > TERMINAL { across.map(|x| x / length) } else { [0.0; 3] }
+}
+
+#[inline]
+fn put_faces(first: u32, faces: &[[u32; 3]], chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
+    let out = chunk.room(faces.len(), sink)?;
+    for (face, out) in faces.iter().zip(out) {
+        *out = Face::new(face.map(|corner| first + corner));
+    }
+    Ok(())
+}

@@ -1,0 +1,129 @@
+//! The plants of one picture: put side by side, looked for by a camera, drawn, and written below.
+//!
+//! The first plant stands at the left, its foot at the origin of the picture; the others follow along the gaze's right,
+//! as far apart as their crowns need. Absent: what they look like, of which `draw` makes pixels.
+
+use super::camera::{Camera, Frame, tangents};
+use super::canvas::Canvas;
+use super::caption::{Align, fitting, letter_size, scale_bar, write, write_row};
+use super::colouring::{self, Legend, colours};
+use super::draw::{self, Set};
+use super::extent::Extent;
+use super::placed::PlacedPlant;
+use super::{MOST_SUBJECTS, Picture, Subject, View, letters};
+use phytomer_meshes::MeshOptions;
+use std::f32::consts::FRAC_PI_2;
+use std::sync::Arc;
+
+/// A plant is flat if it is so many times as wide from elsewhere.
+const FLAT: f32 = 1.4;
+
+/// The plants of a picture with what is written of them.
+pub struct Cast<'a> {
+    plants: Vec<PlacedPlant<'a>>,
+    labels: Vec<&'a str>,
+    legend: Option<Legend>,
+    /// The angle by which whoever looks has gone on around them.
+    turn: f32,
+}
+
+impl<'a> Cast<'a> {
+    /// The plants of a picture, not yet in their places.
+    pub fn of(subjects: &'a [Subject], picture: &Picture) -> Self {
+        let options = MeshOptions { sides: picture.sides, own: Arc::clone(&picture.own), ..MeshOptions::default() };
+        let subjects = &subjects[..subjects.len().min(MOST_SUBJECTS)];
+        let (colours, legend) = picture.colour_by.as_ref().map(colours).unzip();
+        let mut colours = colours.map(Vec::into_iter);
+        let plants = subjects.iter().zip(0_u8..).map(|(subject, number)| {
+            let colours = colours.as_mut().and_then(Iterator::next);
+            PlacedPlant::new(subject.plant, subject.age, &options, colours, number)
+        });
+        let labels = subjects.iter().map(|subject| subject.label.as_str()).collect();
+        Self { plants: plants.collect(), labels, legend: legend.flatten(), turn: 0.0 }
+    }
+
+    /// Puts the plants side by side, the first at the left, and finds the camera that sees them all, at no more than
+    /// `most` pixels a metre.
+    pub fn aim(&mut self, picture: &Picture, most: f32) -> Camera {
+        self.turn = picture.turn.unwrap_or_else(|| self.wide(picture.view));
+        let gaze = picture.view.gaze(self.turn);
+        let height = picture.size[1] as f32;
+        let frame = self.frame(picture);
+        let tangents = tangents(&frame, height, picture.view == View::Perspective);
+        // Ground that is a surface hides what is below it.
+        let buried = !picture.ground || gaze.forward.z == 0.0;
+        let extents: Vec<Extent> = self.plants.iter().map(|plant| plant.extent(gaze, tangents, buried)).collect();
+        let widest = extents.iter().map(|extent| extent.across[1] - extent.across[0]).fold(0.0, f32::max);
+        let mut all = Extent::new(gaze, tangents);
+        let mut edge = 0.0;
+        for (number, (plant, extent)) in self.plants.iter_mut().zip(&extents).enumerate() {
+            let along = if number == 0 { 0.0 } else { edge + 0.08 * widest - extent.across[0] };
+            edge = along + extent.across[1];
+            plant.offset = gaze.right * along;
+            all = all.join(&extent.moved(plant.offset));
+        }
+        Camera::fitting(&all, &frame, height, most)
+    }
+
+    /// Draws them as a camera sees them.
+    pub fn draw(&self, picture: &Picture, camera: &Camera, title: &str) -> Canvas {
+        let sun = picture.sun.unwrap_or_else(|| picture.view.sun(self.turn));
+        let lights: Vec<_> = self.plants.iter().map(|plant| plant.light(sun)).collect();
+        let Picture { ground, transparent, .. } = *picture;
+        let set = Set { plants: &self.plants, lights: &lights, camera: *camera, ground, transparent };
+        let mut canvas = draw::draw(&set, picture.size);
+        if picture.caption {
+            self.write_below(&mut canvas, title, camera);
+        }
+        canvas
+    }
+
+    /// By how much to go around the first plant to see it where it is wide: not at all unless it is flat.
+    fn wide(&self, view: View) -> f32 {
+        let Some(plant) = self.plants.first().filter(|_| view == View::Perspective) else { return 0.0 };
+        let quarter = FRAC_PI_2 / 2.0;
+        let width = |step: u8| plant.width(view.gaze(f32::from(step) * quarter).right);
+        let straight = width(0);
+        let widest = (1..4).fold((0, straight), |best, step| {
+            let width = width(step);
+            if width > 1.02 * best.1 { (step, width) } else { best }
+        });
+        if widest.1 > FLAT * straight { f32::from(widest.0) * quarter } else { 0.0 }
+    }
+
+    /// The part of a picture that plants fill.
+    fn frame(&self, picture: &Picture) -> Frame {
+        let [width, height] = picture.size.map(|side| side as f32);
+        let margin = 0.045 * width.min(height);
+        let size = letter_size(picture.size[1]);
+        let lines = if self.plants.len() > 1 { 7.6 } else { 4.6 };
+        let (below, aside) = if picture.caption { (lines * size, self.legend_width(size)) } else { (0.0, 0.0) };
+        Frame { left: margin, top: margin, right: width - margin.max(aside), bottom: height - margin.max(below) }
+    }
+
+    fn legend_width(&self, size: f32) -> f32 {
+        if self.legend.is_some() { (colouring::WIDTH + 1.0) * size } else { 0.0 }
+    }
+
+    fn write_below(&self, canvas: &mut Canvas, title: &str, camera: &Camera) {
+        let size = letter_size(canvas.height);
+        let (width, height) = (canvas.width as f32, canvas.height as f32);
+        let line = height - 1.4 * size;
+        let scale = self.plants.first().map_or(1.0, |plant| camera.scale_at(plant.offset));
+        scale_bar(canvas, scale, 0.16 * width, size, [1.6 * size, line]);
+        let (title, edge) = (fitting(title, size, 0.78 * width), width - 1.6 * size);
+        write(canvas, &title, size, [edge, line], Align::Right);
+        let feet = self.plants.iter().map(|plant| camera.project(plant.offset).map_or(0.0, |foot| foot.x));
+        let labels: Vec<(f32, &str)> = feet.zip(self.labels.iter().copied()).collect();
+        if let [(x, label)] = labels[..] {
+            let half = 0.5 * letters::width(label, size);
+            let x = x.max(half + size).min(width - half - size);
+            let free = [2.6 * size + 0.16 * width, edge - letters::width(&title, size) - size];
+            let crowded = x - half < free[0] || x + half > free[1];
+            write(canvas, label, size, [x, if crowded { line - 1.9 * size } else { line }], Align::Middle);
+        } else {
+            write_row(canvas, &labels, size, line - 2.9 * size);
+        }
+        self.legend.iter().for_each(|legend| legend.draw(canvas, size));
+    }
+}

@@ -1,0 +1,78 @@
+//! How far plants reach: in the four directions that bound a picture, along the gaze, and along the three axes.
+//!
+//! Under perspective a picture is bounded by four planes through the eye; the farthest point of a plant across each is
+//! all that is needed to find the nearest eye that sees it whole. Maxima do not depend on the order of points.
+
+use super::gaze::Gaze;
+use glam::Vec3;
+
+/// What is bounded, as seen along a gaze.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    /// The gaze.
+    pub gaze: Gaze,
+    /// The tangents of the sides of the picture, left, right, up and down; zeros under parallel projection.
+    pub tangents: [f32; 4],
+    /// The largest distance beyond the four planes through the origin, left, right, up and down.
+    pub most: [f32; 4],
+    /// The least and the largest distance along the gaze.
+    pub depths: [f32; 2],
+    /// The least and the largest distance to the right.
+    pub across: [f32; 2],
+    /// The least corner of the box along the axes.
+    pub low: Vec3,
+    /// The largest corner of the box along the axes.
+    pub high: Vec3,
+}
+
+impl Extent {
+    /// Of nothing yet.
+    pub fn new(gaze: Gaze, tangents: [f32; 4]) -> Self {
+        Self {
+            gaze,
+            tangents,
+            most: [f32::NEG_INFINITY; 4],
+            depths: [f32::INFINITY, f32::NEG_INFINITY],
+            across: [f32::INFINITY, f32::NEG_INFINITY],
+            low: Vec3::INFINITY,
+            high: Vec3::NEG_INFINITY,
+        }
+    }
+
+    /// Takes a point in.
+    #[inline]
+    pub fn add(&mut self, point: Vec3) {
+        let (a, b, c) = (point.dot(self.gaze.right), point.dot(self.gaze.up), point.dot(self.gaze.forward));
+        let [left, right, up, down] = self.tangents;
+        let beyond = [-a - left * c, a - right * c, b - up * c, -b - down * c];
+        (0..4).for_each(|k| self.most[k] = self.most[k].max(beyond[k]));
+        self.depths = [self.depths[0].min(c), self.depths[1].max(c)];
+        self.across = [self.across[0].min(a), self.across[1].max(a)];
+        self.low = self.low.min(point);
+        self.high = self.high.max(point);
+    }
+
+    /// Takes in what another one holds.
+    pub fn join(mut self, other: &Self) -> Self {
+        (0..4).for_each(|k| self.most[k] = self.most[k].max(other.most[k]));
+        self.depths = [self.depths[0].min(other.depths[0]), self.depths[1].max(other.depths[1])];
+        self.across = [self.across[0].min(other.across[0]), self.across[1].max(other.across[1])];
+        self.low = self.low.min(other.low);
+        self.high = self.high.max(other.high);
+        self
+    }
+
+    /// The same, moved by `offset`.
+    pub fn moved(mut self, offset: Vec3) -> Self {
+        let mut origin = Self::new(self.gaze, self.tangents);
+        origin.add(offset);
+        (0..4).for_each(|k| self.most[k] += origin.most[k]);
+        (0..2).for_each(|k| {
+            self.depths[k] += origin.depths[k];
+            self.across[k] += origin.across[k];
+        });
+        self.low += offset;
+        self.high += offset;
+        self
+    }
+}

@@ -1,0 +1,117 @@
+//! What is seen at each sample of some rows of a picture: how deep, what colour, what stuff, which way its face looks.
+//!
+//! Triangles come on any thread in any order, twice. First each sample keeps the nearest depth, then the paint of the
+//! triangle that has it; two triangles of one depth leave the paint of the larger number. A maximum does not depend on
+//! the order of what it is taken of, so neither does the picture. (This is a depth pass with atomic maxima; no lock, no
+//! sorting, no merging of tiles.)
+
+use super::raster::{Plane, Sample, Window, cover};
+use glam::Vec3;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
+
+/// What a face is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Paint {
+    /// Red, green and blue, as a screen shows them.
+    pub colour: [u8; 3],
+    /// Whether light comes through, as through leaves and petals.
+    pub thin: bool,
+    /// Whether the colour stands for something: light then changes it little.
+    pub stained: bool,
+    /// The plant that it belongs to, by its place in the picture.
+    pub subject: u8,
+}
+
+/// What is seen at a sample.
+#[derive(Debug, Clone, Copy)]
+pub struct Seen {
+    /// How deep.
+    pub depth: f32,
+    /// What.
+    pub paint: Paint,
+    /// The normal there; not quite a unit vector.
+    pub normal: Vec3,
+}
+
+/// The samples of some rows.
+#[derive(Debug, Default)]
+pub struct Film {
+    depths: Vec<AtomicU32>,
+    paints: Vec<AtomicU64>,
+}
+
+const THIN: u64 = 1 << 63;
+const STAINED: u64 = 1 << 62;
+
+impl Film {
+    /// Makes room for the samples of a window, with nothing seen.
+    pub fn clear(&mut self, window: &Window) {
+        let samples = window.len();
+        self.depths.par_iter().take(samples).for_each(|depth| depth.store(0, Relaxed));
+        self.paints.par_iter().take(samples).for_each(|paint| paint.store(0, Relaxed));
+        self.depths.resize_with(samples, AtomicU32::default);
+        self.paints.resize_with(samples, AtomicU64::default);
+    }
+
+    /// The first pass: keeps the nearest depth.
+    #[inline]
+    pub fn deepen(&self, corners: &[Vec3; 3], window: &Window) {
+        cover(corners, window, |sample| keep_nearest(&self.depths[sample.index], sample.depth));
+    }
+
+    /// The second pass: leaves paint where the triangle is the nearest; `normals` are those of its corners.
+    #[inline]
+    pub fn paint(&self, corners: &[Vec3; 3], normals: &[Vec3; 3], paint: &Paint, window: &Window) {
+        let mut planes = None;
+        cover(corners, window, |Sample { index, x, y, depth }| {
+            if self.depths[index].load(Relaxed) != depth.to_bits() {
+                return;
+            }
+            let planes = planes
+                .get_or_insert_with(|| [0, 1, 2].map(|k| Plane::through(corners, normals.map(|normal| normal[k]))));
+            let normal = Vec3::from_array([0, 1, 2].map(|k| planes[k].at(x, y)));
+            self.paints[index].fetch_max(packed(paint, normal), Relaxed);
+        });
+    }
+
+    /// What is seen at a sample.
+    #[inline]
+    pub fn seen(&self, index: usize) -> Option<Seen> {
+        let depth = f32::from_bits(self.depths[index].load(Relaxed));
+        (depth > 0.0).then(|| unpacked(self.paints[index].load(Relaxed), depth))
+    }
+}
+
+/// Keeps the larger of two depths; the bits of positive floats sort as they do.
+#[inline]
+pub fn keep_nearest(kept: &AtomicU32, depth: f32) {
+    let bits = depth.to_bits();
+    // Most triangles lie behind others: looking first spares the dearer exchange.
+    if depth > 0.0 && kept.load(Relaxed) < bits {
+        kept.fetch_max(bits, Relaxed);
+    }
+}
+
+/// Thin and stained 1 bit each, subject 6, colour 24, then the normal in 3 times 10 bits.
+#[inline]
+fn packed(paint: &Paint, normal: Vec3) -> u64 {
+    let ten = |x: f32| (x * 511.0 + 512.5).clamp(0.0, 1023.0) as u64;
+    let [r, g, b] = paint.colour.map(u64::from);
+    let bit = |is: bool, bit: u64| if is { bit } else { 0 };
+    let stuff = bit(paint.thin, THIN) | bit(paint.stained, STAINED) | u64::from(paint.subject & 63) << 56;
+    stuff | r << 48 | g << 40 | b << 32 | ten(normal.x) << 20 | ten(normal.y) << 10 | ten(normal.z)
+}
+
+#[inline]
+fn unpacked(bits: u64, depth: f32) -> Seen {
+    let byte = |shift: u32| (bits >> shift & 255) as u8;
+    let ten = |shift: u32| ((bits >> shift & 1023) as f32 - 512.0) / 511.0;
+    let paint = Paint {
+        colour: [byte(48), byte(40), byte(32)],
+        thin: bits & THIN != 0,
+        stained: bits & STAINED != 0,
+        subject: byte(56) & 63,
+    };
+    Seen { depth, paint, normal: Vec3::new(ten(20), ten(10), ten(0)) }
+}

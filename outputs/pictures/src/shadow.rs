@@ -1,0 +1,136 @@
+//! Where the sun reaches: the nearest depths of a plant as the sun sees it, over a square of texels.
+//!
+//! A shadow map under parallel light, filled by atomic maxima as [`super::film`] is. A point is in shadow where
+//! something lies nearer to the sun; the taps of a penumbra widen with the distance to it, as those of the sun's disc
+//! do.
+
+use super::camera::Camera;
+use super::extent::Extent;
+use super::film::keep_nearest;
+use super::gaze::Gaze;
+use super::raster::{UPRIGHT, Window, cover};
+use glam::Vec3;
+use phytomer_sim::math::sincosf;
+use std::sync::LazyLock;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+/// Texels along the longer side.
+const TEXELS: f32 = 2048.0;
+/// The half-width of the penumbra, metres for each metre between what throws the shadow and what bears it. The sun's
+/// disc has 0.0047; a hazy sky is softer and pleases more.
+const SOFTNESS: f32 = 0.016;
+
+/// How many taps a penumbra has; the samples of a pixel take one each.
+pub const TAPS: usize = 16;
+
+/// And how many that of the ground, which is looked at once a pixel.
+const GROUND_TAPS: usize = 64;
+
+static DISC: LazyLock<[[f32; 2]; TAPS]> = LazyLock::new(disc);
+static GROUND_DISC: LazyLock<[[f32; 2]; GROUND_TAPS]> = LazyLock::new(disc);
+
+/// Places all over the unit disc: Vogel's sunflower spiral.
+fn disc<const N: usize>() -> [[f32; 2]; N] {
+    std::array::from_fn(|k| {
+        let radius = ((k as f32 + 0.5) / N as f32).sqrt();
+        // The golden angle, 137.508 degrees.
+        let (sin, cos) = sincosf(2.399_963 * k as f32);
+        [radius * cos, radius * sin]
+    })
+}
+
+/// The sun over one plant.
+#[derive(Debug)]
+pub struct Shadow {
+    /// Towards the sun.
+    pub sun: Vec3,
+    camera: Camera,
+    window: Window,
+    depths: Vec<AtomicU32>,
+    /// Metres from front to back.
+    reach: f32,
+    /// Metres a texel.
+    texel: f32,
+}
+
+impl Shadow {
+    /// No shadow yet, over what lies in a box, the sun at an azimuth and an elevation, radians.
+    pub fn over(low: Vec3, high: Vec3, [azimuth, elevation]: [f32; 2]) -> Self {
+        let gaze = Gaze::towards(azimuth + std::f32::consts::PI, elevation);
+        let mut seen = Extent::new(gaze, [0.0; 4]);
+        for corner in 0..8 {
+            let side = |bit: usize| if corner >> bit & 1 == 0 { low } else { high };
+            seen.add(Vec3::new(side(0).x, side(1).y, side(2).z));
+        }
+        let [west, east, north, south] = seen.most;
+        let (wide, tall) = ((west + east).max(1e-3), (north + south).max(1e-3));
+        let scale = TEXELS / wide.max(tall);
+        // A texel of margin all around, so that taps beyond the map are in the light.
+        let size = [wide, tall].map(|side| (side * scale).ceil() + 4.0);
+        let middle = [0.5 * (east - west), 0.5 * (north - south)];
+        let camera = Camera::parallel(gaze, middle, seen.depths, scale, size.map(|side| 0.5 * side));
+        let window = Window { width: size[0] as u32, rows: 0..size[1] as u32, shifts: UPRIGHT };
+        let mut depths = Vec::new();
+        depths.resize_with(window.len(), AtomicU32::default);
+        let reach = match camera.lens {
+            super::camera::Lens::Parallel { reach, .. } => reach,
+            super::camera::Lens::Perspective { .. } => 1.0,
+        };
+        Self { sun: -gaze.forward, camera, window, depths, reach, texel: 1.0 / scale }
+    }
+
+    /// Lets a triangle throw its shadow.
+    #[inline]
+    pub fn cast(&self, corners: &[Vec3; 3]) {
+        let [Some(a), Some(b), Some(c)] = corners.map(|corner| self.camera.project(corner)) else { return };
+        cover(&[a, b, c], &self.window, |sample| keep_nearest(&self.depths[sample.index], sample.depth));
+    }
+
+    /// How far above a tap the nearest thing towards the sun lies, metres; `None` in the light.
+    #[inline]
+    fn above(&self, seen: Vec3, tap: [f32; 2], radius: f32) -> Option<f32> {
+        let (x, y) = (seen.x + radius * tap[0], seen.y + radius * tap[1]);
+        let inside = x >= 0.0 && y >= 0.0 && x < self.window.width as f32 && y < self.window.rows.end as f32;
+        if !inside {
+            return None;
+        }
+        let depth = f32::from_bits(self.depths[y as usize * self.window.width as usize + x as usize].load(Relaxed));
+        let above = (depth - seen.z) * self.reach;
+        // A depth of nothing is where nothing was cast; the ground may lie beyond the reach of the map.
+        (depth > 0.0 && above > 0.0).then_some(above)
+    }
+
+    /// A point of a surface as the map sees it, lifted off the surface so that it does not shade itself.
+    #[inline]
+    fn lifted(&self, point: Vec3, normal: Vec3) -> Vec3 {
+        let side = if normal.dot(self.sun) < 0.0 { -normal } else { normal };
+        let lifted = point + side * (1.2 * self.texel) + self.sun * (1.8 * self.texel);
+        self.camera.project(lifted).unwrap_or(Vec3::ZERO)
+    }
+
+    /// Whether one of the taps of a point on a surface is in the light.
+    #[inline]
+    pub fn lit(&self, point: Vec3, normal: Vec3, tap: usize) -> bool {
+        let seen = self.lifted(point, normal);
+        self.above(seen, DISC[tap % TAPS], 1.5).is_none()
+    }
+
+    /// The share of the sun that reaches a point of the ground.
+    pub fn share(&self, point: Vec3) -> f32 {
+        let seen = self.lifted(point, Vec3::Z);
+        let width = self.window.width.max(self.window.rows.end) as f32;
+        let search = 0.5 * SOFTNESS * self.reach / self.texel;
+        let nearby = |seen: Vec3| seen.x < -search || seen.y < -search || seen.x.max(seen.y) > width + search;
+        if nearby(seen) {
+            return 1.0;
+        }
+        let blockers = DISC.iter().filter_map(|tap| self.above(seen, *tap, search));
+        let (count, sum) = blockers.fold((0.0, 0.0), |(count, sum), above| (count + 1.0, sum + above));
+        if count == 0.0 {
+            return 1.0;
+        }
+        let radius = (SOFTNESS * sum / count / self.texel).clamp(1.0, search.max(1.0));
+        let dark = GROUND_DISC.iter().filter(|tap| self.above(seen, **tap, radius).is_some()).count();
+        1.0 - dark as f32 / GROUND_TAPS as f32
+    }
+}

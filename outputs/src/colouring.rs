@@ -1,0 +1,173 @@
+//! Plants of a picture coloured by a column of `records`: the values of the table, which pictures know nothing of.
+//!
+//! Words, truths and orders are classes; all else is an amount. A column of which no component has a value is refused,
+//! with what its values would need. Absent: the colours themselves, which are the pictures'.
+
+use crate::tables::columns::RECORDS;
+use crate::tables::schema::{Column, Type};
+use crate::tables::{TableError, record_values};
+use phytomer_pictures::{Colouring, Scale, Subject};
+
+/// Why plants cannot be coloured by a column.
+#[derive(Debug, thiserror::Error)]
+pub enum ColouringError {
+    /// `records` has no such column.
+    #[error("`records` has no column `{column}` to colour by")]
+    NoSuchColumn {
+        /// The column.
+        column: String,
+    },
+    /// No component that is drawn has a value in the column.
+    #[error("no component has a value of `{column}` to colour by: {reason}")]
+    NothingToColour {
+        /// The column.
+        column: &'static str,
+        /// What its values would need.
+        reason: &'static str,
+    },
+    /// The values of the column cannot be told.
+    #[error(transparent)]
+    Table(#[from] TableError),
+}
+
+/// The names of the columns that plants can be coloured by.
+pub fn colour_columns() -> impl Iterator<Item = &'static str> {
+    RECORDS.iter().map(|column| column.name)
+}
+
+/// The values of a column of `records` for every component of some plants: one number a component.
+///
+/// # Errors
+/// [`ColouringError`].
+pub fn colouring(column: &str, subjects: &[Subject]) -> Result<Colouring, ColouringError> {
+    let known = RECORDS.iter().find(|known| known.name == column);
+    let column = known.ok_or_else(|| ColouringError::NoSuchColumn { column: column.to_owned() })?;
+    let values = subjects.iter().map(|subject| record_values(subject.plant, subject.age, column));
+    let values: Vec<Vec<f64>> = values.collect::<Result<_, _>>()?;
+    let most = values.iter().flatten().copied().filter(|value| !value.is_nan()).fold(f64::NEG_INFINITY, f64::max);
+    if most == f64::NEG_INFINITY {
+        return Err(ColouringError::NothingToColour { column: column.name, reason: reason(column.name, subjects) });
+    }
+    Ok(Colouring { name: column.name.to_owned(), values, scale: scale(column, most as usize) })
+}
+
+/// What the values of a column are, the largest of which is `most`.
+fn scale(column: &Column, most: usize) -> Scale {
+    let classes = |names: Vec<String>| Scale::Classes { first: 0, names };
+    match column.holds {
+        Type::Word(words) => classes(words.iter().map(|word| word.replace('_', " ")).collect()),
+        Type::Bool => classes(vec!["dead".to_owned(), "alive".to_owned()]),
+        Type::Name(_) => classes(vec!["control".to_owned()]),
+        Type::Int if column.name == "order" => {
+            Scale::Classes { first: 1, names: (1..=most).map(|order| format!("order {order}")).collect() }
+        }
+        _ => Scale::Amounts,
+    }
+}
+
+/// Why no component of some plants has a value in a column: what the column's description says of its nulls, held
+/// against what stands and against the wood of the species.
+fn reason(column: &str, subjects: &[Subject]) -> &'static str {
+    let wood = || subjects.iter().filter_map(|subject| subject.plant.habit.wood.as_ref());
+    let of_wood = ["fresh_mass_kg", "curvature_per_m", "bending_moment_N_m"].contains(&column);
+    let of_bending = of_wood && column != "fresh_mass_kg";
+    match column {
+        _ if !any_value("component_id", subjects) => "nothing stands at that age",
+        _ if of_wood && wood().next().is_none() => "the species states no `[wood]`",
+        _ if of_bending && !wood().any(|wood| wood.bends) => {
+            "the wood of the species does not bend (`bends = false` in its `[wood]`)"
+        }
+        "parent_id" => "everything that stands grows on the seed itself",
+        "area_m2" if any_value("length_m", subjects) => "nothing that stands has an area, as leaves have",
+        "fresh_mass_kg" if any_value("length_m", subjects) => "the `[wood]` of the species states no `density_kg_m3`",
+        "length_m" | "diameter_m" | "area_m2" | "fresh_mass_kg" => "nothing but buds stands at that age",
+        _ => "no internode stands at that age",
+    }
+}
+
+/// Whether a component of some plants has a value in a column.
+fn any_value(column: &str, subjects: &[Subject]) -> bool {
+    let column = RECORDS.iter().find(|known| known.name == column);
+    let values = |subject: &Subject| column.and_then(|column| record_values(subject.plant, subject.age, column).ok());
+    subjects.iter().filter_map(values).flatten().any(|value| !value.is_nan())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use phytomer_sim::Tick;
+    use phytomer_sim::mechanics::{Tissue, Wood};
+    use phytomer_sim::plant::{Habit, Looks, NewAxis, NewNode, NodeId, Plant, Seed, Shape, Trend};
+    use phytomer_sim::pose::pose;
+    use std::sync::Arc;
+
+    /// One upright internode.
+    fn pole(length: f32, diameter: f32) -> Plant {
+        let looks = Looks::of_shape(Shape::Cylinder);
+        let habit = Habit { trends: vec![Trend::STRAIGHT], looks, ..Default::default() };
+        let mut plant =
+            Plant::new(&Seed { plant: 0, run_seed: 1, component_limit: 9, keep_events: false }, Arc::new(habit));
+        let axis = plant.add_axis(NewAxis::OF_THE_SEED);
+        let parent = NodeId::NONE;
+        let (birth, rank, unit_rank, trend, azimuth) = (1, 1, 1, 0, 0.0);
+        let (short, neoformed) = (false, false);
+        plant.add_node(NewNode {
+            parent,
+            axis,
+            birth,
+            rank,
+            unit_rank,
+            short,
+            neoformed,
+            trend,
+            length,
+            diameter,
+            azimuth,
+        });
+        pose(&mut plant, 1);
+        plant
+    }
+
+    #[test]
+    fn words_and_orders_are_classes_and_lengths_are_amounts() {
+        let plant = pole(1.0, 0.1);
+        let of = |column: &str| {
+            colouring(column, &[Subject { plant: &plant, age: 1, label: String::new() }]).expect("values")
+        };
+        // The bud and the internode below it.
+        assert_eq!(of("order").scale, Scale::Classes { first: 1, names: vec!["order 1".to_owned()] });
+        assert!(matches!(of("kind").scale, Scale::Classes { first: 0, names } if names[5] == "apical bud"));
+        let length = of("length_m");
+        assert_eq!(length.scale, Scale::Amounts);
+        assert!(length.values[0].contains(&1.0) && length.values[0].iter().any(|value| value.is_nan()));
+        let none = colouring("beauty", &[]);
+        assert!(matches!(none, Err(ColouringError::NoSuchColumn { .. })));
+    }
+
+    /// A plant that cannot be coloured tells what it lacks, not what some other column needs.
+    #[test]
+    fn nothing_to_colour_by_has_the_reason_of_its_column() {
+        let reason = |plant: &Plant, age: Tick, column: &str| {
+            let subject = Subject { plant, age, label: String::new() };
+            colouring(column, &[subject]).expect_err("nothing to colour by").to_string()
+        };
+        let told = |plant: &Plant, age: Tick, column: &str, meant: &str| {
+            let reason = reason(plant, age, column);
+            assert_eq!(reason, format!("no component has a value of `{column}` to colour by: {meant}"));
+        };
+        let mut plant = pole(1.0, 0.1);
+        told(&plant, 1, "area_m2", "nothing that stands has an area, as leaves have");
+        told(&plant, 1, "parent_id", "everything that stands grows on the seed itself");
+        for column in ["fresh_mass_kg", "curvature_per_m", "bending_moment_N_m"] {
+            told(&plant, 1, column, "the species states no `[wood]`");
+        }
+        let wood = Wood { tissues: vec![Tissue::default()], ..Wood::default() };
+        plant.habit = Arc::new(Habit { wood: Some(Wood { bends: false, ..wood }), ..(*plant.habit).clone() });
+        told(&plant, 1, "fresh_mass_kg", "the `[wood]` of the species states no `density_kg_m3`");
+        for column in ["curvature_per_m", "bending_moment_N_m"] {
+            told(&plant, 1, column, "the wood of the species does not bend (`bends = false` in its `[wood]`)");
+        }
+        told(&plant, 0, "area_m2", "nothing but buds stands at that age");
+        told(&plant, 0, "diameter_tip_m", "no internode stands at that age");
+    }
+}

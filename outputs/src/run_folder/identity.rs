@@ -1,0 +1,46 @@
+//! What identifies a run: all that the bytes of its tables depend on. A run is resumed only under an equal identity.
+//!
+//! The identity stands in `run.json`; its fingerprint stands in each line of the journal. Limits and threads are not in
+//! it.
+
+use super::seal::check_of;
+use crate::storage::durable::sha256_of;
+use crate::tables::RunPlan;
+use crate::tables::columns::SCHEMA_VERSION;
+use serde_json::{Map, Value, json};
+
+/// The version of the run folder's own files: 2 has checks in `run.json` and in each line of the journal.
+pub const FORMAT_VERSION: u32 = 2;
+
+/// Everything that the bytes of the tables depend on, key by key; the resolved scenario as its hash.
+pub fn identity(plan: &RunPlan) -> Map<String, Value> {
+    let provenance = &plan.provenance;
+    let identity = json!({
+        "format_version": FORMAT_VERSION,
+        "schema_version": SCHEMA_VERSION,
+        "version": provenance.version,
+        "git_hash": provenance.git_hash,
+        "scenario": provenance.scenario,
+        "scenario_sha256": sha256_of(provenance.resolved.to_string().as_bytes()),
+        "treatment": provenance.treatment,
+        "seed": provenance.seed,
+        "inputs": provenance.inputs,
+        "tables": plan.tables,
+        "recorded_ages": plan.recorded,
+        "until": plan.until,
+        "plots": plan.plots,
+        "plots_per_part": plan.plots_per_part,
+        "compression": { "codec": "zstd", "level": plan.compression_level },
+        "precision_m": plan.precision_m,
+    });
+    let Value::Object(mut identity) = identity else { return Map::new() };
+    if plan.mechanics {
+        identity.insert("mechanics".to_owned(), json!(true));
+    }
+    identity
+}
+
+/// A short name of the identity: the lines of the journal say by it which run they belong to.
+pub fn fingerprint(plan: &RunPlan) -> String {
+    check_of(Value::Object(identity(plan)).to_string().as_bytes())
+}

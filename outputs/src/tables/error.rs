@@ -1,0 +1,81 @@
+//! What can go wrong with a table, as it is written, kept in memory or read back.
+//!
+//! A failed write ends the run: nothing here is logged and passed over. A message does not repeat its cause, which
+//! `source` has: a person is shown the whole chain.
+
+use crate::storage::FileError;
+use parquet::errors::ParquetError;
+use std::path::{Path, PathBuf};
+
+/// A failure of a table.
+#[derive(Debug, thiserror::Error)]
+pub enum TableError {
+    /// The file system refused.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A table could not be written.
+    #[error("cannot write the table {}", path.display())]
+    Write {
+        /// The part file.
+        path: PathBuf,
+        /// The writer's answer.
+        source: Cause,
+    },
+    /// A table could not be read.
+    #[error("cannot read the table {}", path.display())]
+    Read {
+        /// The part file.
+        path: PathBuf,
+        /// The reader's answer.
+        source: Cause,
+    },
+    /// A table could not be kept in memory.
+    #[error("cannot keep the table {table} in memory")]
+    Batch {
+        /// The table.
+        table: &'static str,
+        /// Arrow's answer.
+        source: Cause,
+    },
+    /// A column of a table is not of the type that its schema states.
+    #[error("the table {} has no column `{column}` of the stated type", path.display())]
+    Column {
+        /// The part file.
+        path: PathBuf,
+        /// The column.
+        column: &'static str,
+    },
+    /// A plant has more components than the tables can hold.
+    #[error("plant {plant} has {components} components; tables hold at most {most} a plant: lower max_components")]
+    PlantTooLarge {
+        /// The plant's number.
+        plant: u32,
+        /// Its components.
+        components: u32,
+        /// The most that a table holds.
+        most: u32,
+    },
+}
+
+/// The cause of a failure, as the crate that met it tells it.
+pub type Cause = Box<dyn std::error::Error + Send + Sync>;
+
+/// What stands behind an error of the Parquet crate, which tells an outer cause twice: in its words and as its source.
+fn cause(error: ParquetError) -> Cause {
+    match error {
+        ParquetError::External(cause) => cause,
+        error => error.into(),
+    }
+}
+
+impl TableError {
+    pub(crate) fn write(path: &Path) -> impl FnOnce(ParquetError) -> Self {
+        let path = path.to_path_buf();
+        move |error| Self::Write { path, source: cause(error) }
+    }
+
+    pub(crate) fn read(path: &Path) -> impl FnOnce(ParquetError) -> Self {
+        let path = path.to_path_buf();
+        move |error| Self::Read { path, source: cause(error) }
+    }
+}

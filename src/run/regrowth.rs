@@ -1,0 +1,194 @@
+//! One plant of a run grown again from its seed, and shown at some ages: what meshes and pictures are made of.
+//!
+//! Draws are keyed by the run's seed and the plant, so it is the same plant, with the same component numbers, that the
+//! run has recorded. In a wind each age is shown as a frame that the wind has moved, for that age alone. Where no
+//! age is given, a plant is shown at that of its species or in its prime. Absent: what is made of it.
+
+use super::{RunError, place_of, seed_of};
+use phytomer_config::{Scenario, Species};
+use phytomer_sim::mechanics::Bench;
+use phytomer_sim::mechanics::sway::sway;
+use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
+use phytomer_sim::shed::shed;
+use phytomer_sim::site::Wind;
+use phytomer_sim::{Ending, Growth, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
+use std::borrow::Cow;
+
+/// Air that moves a plant for one frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Air {
+    /// Its gusty wind.
+    pub wind: Wind,
+    /// The moment, seconds.
+    pub time: f64,
+}
+
+/// The plants of a scenario, to be grown again.
+#[derive(Clone, Copy)]
+pub struct Regrowth<'a> {
+    /// The scenario.
+    pub scenario: &'a Scenario,
+    /// The species' model, compiled for all its ages.
+    pub model: &'a dyn GrowthModel,
+    /// What moves the plants, if anything does.
+    pub air: Option<Air>,
+}
+
+/// What is done with a plant at an age.
+pub type Show<'a> = dyn FnMut(Tick, &Plant) -> Result<(), RecordError> + 'a;
+
+impl Regrowth<'_> {
+    /// Grows a plant and shows it at `ages`, in their order of time.
+    ///
+    /// # Errors
+    /// What `show` says; a plant that comes to its limit before the last of the ages.
+    pub fn show(&self, plant: u32, ages: &[Tick], show: &mut Show<'_>) -> Result<(), RunError> {
+        let mut plot = self.sown(plant);
+        let mut shown = ShownAges { ages, air: self.air, show };
+        // To the last age of the run, not to the last that is shown: that is what numbers the components.
+        let until = self.scenario.ages.until;
+        let ending = grow(self.model, &mut plot, until, &mut shown).map_err(RunError::of_recorder)?;
+        match (ending, ages.iter().max()) {
+            (Ending::Overgrown { age, limit }, Some(last)) if age <= *last => {
+                Err(RunError::Overgrown { limit, age, last: *last })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The age at which a plant is shown where none is given: the age that its species states (`shown_at`), if
+    /// the scenario has it, else its prime.
+    ///
+    /// # Errors
+    /// As [`Regrowth::prime`].
+    pub fn shown_at(&self, species: &Species, plant: u32) -> Result<Tick, RunError> {
+        let until = self.scenario.ages.until;
+        species
+            .about
+            .shown_at
+            .filter(|age| (1..=until).contains(age))
+            .map_or_else(|| self.prime(plant, year_of(species)), Ok)
+    }
+
+    /// The prime of a plant: its last year with at least nine tenths of the largest leaf area that it ever bears, and
+    /// in it the first age that is so, which is spring where there are seasons. Of a plant without leaves internodes
+    /// and organs are counted instead; a geometric model has its prime at the last age. A year has so many ticks.
+    ///
+    /// # Errors
+    /// Where it comes to its limit at its first age.
+    pub fn prime(&self, plant: u32, year: Tick) -> Result<Tick, RunError> {
+        let until = self.scenario.ages.until;
+        if self.model.growth() == Growth::Rebuilds {
+            return Ok(until);
+        }
+        let mut plot = self.sown(plant);
+        let ahead = !plot.site.feeds_back() && self.model.grow_to(until, &mut plot.plants, &plot.site).is_ok();
+        let mut last = until;
+        if ahead {
+            plot.plants.iter_mut().for_each(shed);
+        } else {
+            plot.restart(self.model);
+            let ending = grow(self.model, &mut plot, until, &mut ()).map_err(RunError::of_recorder)?;
+            if let Ending::Overgrown { age, limit } = ending {
+                if age <= 1 {
+                    return Err(RunError::OvergrownAtOnce { limit, age });
+                }
+                last = age - 1;
+            }
+        }
+        Ok(prime_of(&plot.plants[0], last, year))
+    }
+
+    fn sown(&self, plant: u32) -> Plot {
+        let mut plot = Plot::of_one(self.model, &seed_of(self.scenario, plant));
+        plot.site = self.scenario.site.felt();
+        plot.plants[0].place = place_of(self.scenario, plant);
+        plot
+    }
+}
+
+/// The ticks of a year, 1 where none are stated.
+fn year_of(species: &Species) -> Tick {
+    species.ticks_per_year().map_or(1, |ticks| ticks.round().max(1.0) as Tick)
+}
+
+/// The prime of a grown plant of which the ages up to `last` are known.
+fn prime_of(plant: &Plant, last: Tick, year: Tick) -> Tick {
+    let (organs, nodes) = (&plant.organs, &plant.nodes);
+    let leaves = (0..organs.len()).filter(|&k| organs.kind[k] == Kind::Leaf);
+    let areas = leaves.flat_map(|k| areas_of(plant, OrganId(k as u32)));
+    let stems = (0..nodes.len()).map(|k| (nodes.birth[k], plant.death_of(NodeId(k as u32)), 1.0));
+    let count = organs.birth.iter().zip(&organs.death).map(|(birth, death)| (*birth, *death, 1.0)).chain(stems);
+    last_of_most(areas, last, year).or_else(|| last_of_most(count, last, year)).unwrap_or(last)
+}
+
+/// The area of a leaf while it expands and until its death, tick by tick and then at once.
+fn areas_of(plant: &Plant, leaf: OrganId) -> impl Iterator<Item = (Tick, Tick, f64)> {
+    let (birth, death) = (plant.organs.birth[leaf.index()], plant.organs.death[leaf.index()]);
+    let last = plant.look_of_organ(leaf).map_or(0, |look| look.expansion.len().saturating_sub(1) as Tick);
+    (0..=last.min(death.saturating_sub(birth))).map(move |own_age| {
+        let from = birth.saturating_add(own_age);
+        let until = if own_age < last { death.min(from.saturating_add(1)) } else { death };
+        (from, until, plant.organ_area(leaf, from))
+    })
+}
+
+/// The last year in which the weights of what lives, from a birth until before a death, come to nine tenths of their
+/// largest sum, and in it the first such age; `None` where that is nothing.
+fn last_of_most(lives: impl Iterator<Item = (Tick, Tick, f64)>, last: Tick, year: Tick) -> Option<Tick> {
+    let mut changes = vec![0.0; last as usize + 2];
+    for (birth, death, weight) in lives.filter(|(birth, death, _)| birth < death && *birth <= last) {
+        changes[birth as usize] += weight;
+        changes[death.min(last + 1) as usize] -= weight;
+    }
+    let sums = changes.iter().take(last as usize + 1).scan(0.0, |sum, change| {
+        *sum += change;
+        Some(*sum)
+    });
+    let sums: Vec<f64> = sums.collect();
+    let most = sums.iter().copied().fold(0.0, f64::max);
+    if most <= 0.0 {
+        return None;
+    }
+    let full = |age: &usize| sums[*age] >= 0.9 * most;
+    let end = (1..sums.len()).rev().find(full)?;
+    let start = (1..=end).rev().take(year as usize).take_while(full).last()?;
+    Some(start as Tick)
+}
+
+/// Shows the first plant of a plot at some ages.
+struct ShownAges<'a, 's> {
+    ages: &'a [Tick],
+    air: Option<Air>,
+    show: &'a mut Show<'s>,
+}
+
+impl Recorder for ShownAges<'_, '_> {
+    fn wants(&self, age: Tick) -> bool {
+        self.ages.contains(&age)
+    }
+
+    fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
+        let mut plant = Cow::Borrowed(&plot.plants[0]);
+        if let Some(Air { wind, time }) = self.air {
+            sway(plant.to_mut(), age, &plot.site, wind, time, &mut Bench::default())?;
+        }
+        (self.show)(age, &plant)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_prime_is_the_spring_of_the_last_full_year() {
+        // Leaves of ticks 2 to 4 of each year of four, more each year; in the fifth there are fewer again.
+        let lives = (0..5_u32).map(|year| (4 * year + 2, 4 * year + 5, [1.0, 4.0, 10.0, 9.5, 3.0][year as usize]));
+        assert_eq!(last_of_most(lives.clone(), 20, 4), Some(14));
+        assert_eq!(last_of_most(lives.clone(), 11, 4), Some(10), "later ages are not known");
+        assert_eq!(last_of_most(lives, 20, 1), Some(16), "a tick is a year");
+        assert_eq!(last_of_most([(3, 9, 1.0)].into_iter(), 20, 12), Some(3), "less than a year");
+        assert_eq!(last_of_most(std::iter::empty(), 20, 1), None);
+    }
+}
