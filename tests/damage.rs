@@ -7,7 +7,8 @@
 mod program;
 
 use phytomer::config::{Resolved, validate};
-use phytomer::outputs::{Checking, Checkup, Depth, FileReport, Mode, State, Trouble, check};
+use phytomer::outputs::read::Run;
+use phytomer::outputs::{Checking, Checkup, Depth, FileReport, Mode, State, Table, Trouble, check};
 use phytomer::run::{self, Progress, Settings};
 use program::{data, run as phytomer};
 use std::collections::BTreeMap;
@@ -322,4 +323,26 @@ fn several_kinds_of_damage_at_once() {
     assert_eq!((found.state, found.to_grow.as_slice()), (State::Damaged, [0].as_slice()));
     resume(&resolved, &folder, &found);
     assert!(compared(&folder) == expected);
+}
+
+/// What a part says of the types of its columns may be damaged in any way: the rows are refused, and nothing panics.
+#[test]
+fn damaged_types_of_columns_are_errors() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("run");
+    undisturbed(home.path(), &folder);
+    let part = folder.join("summary/part-00000.parquet");
+    let whole = fs::read(&part).unwrap();
+    let key = b"ARROW:schema";
+    let start = key.len() + whole.windows(key.len()).position(|bytes| bytes == key).unwrap();
+    let mut refused = 0;
+    for at in start..start + 1500 {
+        let mut bytes = whole.clone();
+        bytes[at] = if bytes[at] == b'A' { b'z' } else { b'A' };
+        fs::write(&part, bytes).unwrap();
+        let run = Run::open(&folder).unwrap();
+        let read = run.batches(Table::Summary).unwrap().collect::<Result<Vec<_>, _>>();
+        refused += u32::from(read.is_err());
+    }
+    assert!(refused > 20, "{refused} refused");
 }

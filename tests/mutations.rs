@@ -10,36 +10,24 @@
 #[path = "../config/tests/mutate/mod.rs"]
 mod mutate;
 mod program;
+#[path = "program/tried.rs"]
+mod tried;
 
 use mutate::{Draw, broken, corpus};
-use phytomer::config::scenario::{All, MeshAges, MeshPlants, Record};
-use phytomer::config::{Kind, Report, Resolved, kind_of, validate};
+use phytomer::config::{Kind, Resolved, kind_of, validate};
 use phytomer::outputs::read::Run;
 use phytomer::outputs::{FileReport, ShardReport, Table};
-use phytomer::run::{self, Outcome, Progress, Settings};
+use phytomer::run::Outcome;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::{Duration, Instant};
+use tried::{SCENARIO, assert_tells, cap, grown};
 
 const MUTATIONS: u64 = 10_000;
 /// No answer may be waited for longer than this, in the slowest build on a busy machine.
 const LONGEST: Duration = Duration::from_secs(20);
-
-/// What a mutant that is right may take of each; more is capped.
-const MOST_PLANTS: u32 = 2;
-const MOST_AGES: u32 = 12;
-const MOST_COMPONENTS: u32 = 2_000;
-
-/// The scenario of a broken species.
-const SCENARIO: &str = r#"
-name = "mutant"
-plants = 2
-seed = 7
-ages = { until = 8, record = { every = 4 } }
-meshes = { sides = 3 }
-"#;
 
 /// How often what came of a mutation.
 #[derive(Default)]
@@ -137,37 +125,12 @@ impl Bench {
             }
         };
         counts.capped.fetch_add(u64::from(cap(&mut resolved)), Relaxed);
-        let settings = Settings { threads: 1, ..Settings::in_folder(&folder) };
-        let outcome = run::run(&resolved, &settings, &Progress::default()).expect("a scenario that is right grows");
+        let outcome = grown(&resolved, &folder);
         assert_whole(&folder, &resolved, &outcome);
         counts.grown.fetch_add(1, Relaxed);
         counts.overgrown.fetch_add(u64::from(!outcome.report.overgrown.is_empty()), Relaxed);
         fs::remove_dir_all(&self.out).expect("the run goes");
     }
-}
-
-fn assert_tells(report: &Report) {
-    assert!(!report.faults.is_empty(), "a report without faults");
-    assert_eq!(report.records().len(), report.faults.len());
-    assert!(report.render(false).ends_with(&format!("{}\n", report.summary())));
-}
-
-/// Makes a long run short, and stops a large plant soon; whether plants or ages were too many.
-fn cap(resolved: &mut Resolved) -> bool {
-    let scenario = &mut resolved.scenario;
-    let asked_for = (scenario.plants, scenario.ages.until);
-    scenario.plants = scenario.plants.min(MOST_PLANTS);
-    scenario.ages.until = scenario.ages.until.min(MOST_AGES);
-    scenario.limits.max_components = scenario.limits.max_components.min(MOST_COMPONENTS);
-    if !scenario.faults().is_empty() {
-        // It names plants or ages that are no more.
-        scenario.ages.record = Record::All(All::All);
-        if let Some(meshes) = &mut scenario.meshes {
-            (meshes.ages, meshes.plants) = (MeshAges::default(), MeshPlants::default());
-        }
-    }
-    assert_eq!(scenario.faults(), []);
-    (scenario.plants, scenario.ages.until) != asked_for
 }
 
 /// Whether a folder holds a run to its end, and nothing else.

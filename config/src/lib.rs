@@ -21,7 +21,6 @@ pub mod scenario;
 mod schema;
 mod source;
 mod species;
-mod spelling;
 mod validate;
 mod woods;
 

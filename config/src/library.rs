@@ -11,7 +11,7 @@ use std::io::{self, Read};
 use std::path::{Component, Path as FilePath, PathBuf};
 
 use crate::source::{Origin, Source};
-use crate::spelling::nearest;
+use phytomer_models::law::spelling::nearest;
 
 include!(concat!(env!("OUT_DIR"), "/presets.rs"));
 

@@ -11,7 +11,7 @@ use phytomer_models::parameters::Keys;
 use crate::document::{Node, Value};
 use crate::report::Fault;
 use crate::source::{Sources, Span};
-use crate::spelling::nearest;
+use phytomer_models::law::spelling::nearest;
 
 /// The tree without the values at which something was refused, by the roles of its model's keys; `None` where nothing
 /// useful is left.

@@ -7,8 +7,8 @@
 use crate::document::{Node, Value, parse};
 use crate::report::Fault;
 use crate::source::{Origin, Source, Sources};
-use crate::spelling::nearest;
 use phytomer_models::fault::Path;
+use phytomer_models::law::spelling::nearest;
 use phytomer_models::parameters::Keys;
 
 const TABLE: &str = include_str!("../presets/wood.toml");

@@ -12,11 +12,13 @@ use arrow_array::types::{Float64Type, Int32Type};
 use arrow_array::{Array, BooleanArray, PrimitiveArray, RecordBatch};
 use arrow_schema::SchemaRef;
 use parquet::arrow::arrow_reader::{ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder};
+use parquet::errors::ParquetError;
 use parquet::file::metadata::ParquetMetaData;
 use phytomer_sim::Tick;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -174,7 +176,18 @@ impl Run {
 
 fn open(part: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, TableError> {
     let file = File::open(part).map_err(FileError::io("open", part))?;
-    ParquetRecordBatchReaderBuilder::try_new(file).map_err(TableError::read(part))
+    caught(|| ParquetRecordBatchReaderBuilder::try_new(file)).map_err(TableError::read(part))
+}
+
+/// What the crates that read Parquet make of a file. Some of them panic where a damaged file states what they do not
+/// know, such as an integer of 33,554,464 bits in its schema: that too is an error of the file. What has panicked must
+/// not be used again.
+fn caught<T>(work: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, ParquetError> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|cause| {
+        let text = cause.downcast_ref::<String>().cloned();
+        let text = text.or_else(|| cause.downcast_ref::<&str>().map(|text| (*text).to_owned()));
+        Err(ParquetError::General(text.unwrap_or_else(|| "a damaged file".to_owned())))
+    })
 }
 
 /// The record batches of a table.
@@ -187,9 +200,15 @@ pub struct Batches {
 impl Batches {
     fn open_next(&mut self) -> Option<Result<(), TableError>> {
         let part = self.parts.next()?;
-        let reader =
-            open(&part).and_then(|file| file.with_batch_size(self.rows).build().map_err(TableError::read(&part)));
+        let build = |file: ParquetRecordBatchReaderBuilder<File>| caught(|| file.with_batch_size(self.rows).build());
+        let reader = open(&part).and_then(|file| build(file).map_err(TableError::read(&part)));
         Some(reader.map(|reader| self.now = Some((part, reader))))
+    }
+
+    /// Nothing comes after an error.
+    fn ended_by(&mut self, error: TableError) -> TableError {
+        (self.parts, self.now) = (Vec::new().into_iter(), None);
+        error
     }
 }
 
@@ -198,12 +217,15 @@ impl Iterator for Batches {
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
-            let batch = self.now.as_mut().and_then(|(part, reader)| Some((part.clone(), reader.next()?)));
-            if let Some((part, batch)) = batch {
-                return Some(batch.map_err(|source| TableError::read(&part)(source.into())));
+            if let Some((part, reader)) = &mut self.now {
+                match caught(|| Ok(reader.next().transpose()?)).map_err(TableError::read(part)) {
+                    Ok(None) => {}
+                    Ok(Some(batch)) => return Some(Ok(batch)),
+                    Err(error) => return Some(Err(self.ended_by(error))),
+                }
             }
             if let Err(error) = self.open_next()? {
-                return Some(Err(error));
+                return Some(Err(self.ended_by(error)));
             }
         }
     }

@@ -1,8 +1,8 @@
 //! What a run will come to, before its first tick, from the closed-form expectation of its model (`--dry-run`).
 //!
 //! Each figure says what it is: the expectation, a bound of it from above, or an estimate. The means are of what plants
-//! have *made*; what they have shed by a recorded age is counted as if it still stood, so that the rows of `records` are
-//! a bound from above. Absent: memory and time, which the machine decides.
+//! have *made*; what they have shed by a recorded age is counted as if it still stood, so that the rows of `records`
+//! are a bound from above. Absent: memory and time, which the machine decides.
 
 use phytomer_config::Resolved;
 use phytomer_config::scenario::{BYTES_A_COMPONENT, Table};

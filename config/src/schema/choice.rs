@@ -10,7 +10,7 @@ use super::parts::{forms, has_type, known_keys, missing_keys, options, property,
 use super::{Place, Walk, expected};
 use crate::document::{Entry, Value};
 use crate::report::Fault;
-use crate::spelling::nearest;
+use phytomer_models::law::spelling::nearest;
 
 impl<'s> Walk<'s> {
     /// Checks a value against the form that fits it best.

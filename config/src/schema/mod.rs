@@ -24,7 +24,7 @@ use parts::{MAX_FORMS, item_schema, known_keys, missing_keys, property};
 use crate::document::{Entry, Node, Value};
 use crate::report::{Fault, MOST_FAULTS};
 use crate::source::Span;
-use crate::spelling::nearest;
+use phytomer_models::law::spelling::nearest;
 
 /// Trying forms one by one may take this many visits in one document; then the first that fits by shape is taken.
 const FUEL: usize = 200_000;

@@ -26,7 +26,7 @@ mod quantile;
 mod quantity;
 mod range;
 mod speed;
-mod spelling;
+pub mod spelling;
 mod table;
 #[cfg(test)]
 mod tests;

@@ -1,38 +1,51 @@
-//! The nearest spelling of a name that nobody knows: of a variable or a function in an expression, of a state.
+//! The nearest spelling: what somebody most likely meant by a name that nobody knows.
 //!
-//! Edit distance over characters, at most a third of the name's length (2 for short names). Absent on purpose:
-//! unknown keys of a file, which `config` finds by itself.
+//! Damerau–Levenshtein distance (a swap of neighbours counts once), with a cut-off of a third of the letters: beyond
+//! that a guess is noise. A missing or wrong unit (`insertion` for `insertion_deg`), or a word half written, is always
+//! near. The rule is one for the keys of files, the names of presets, and the variables, functions and states that laws
+//! name. Absent: any dictionary; candidates are the names that would be right at that place.
 
-/// The candidate nearest to `name`, if any is near; the first of equals.
-pub(super) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // Names are short; a longer one resembles none, and the distance costs the product of the lengths.
-    let name: Vec<char> = name.to_lowercase().chars().take(64).collect();
-    let limit = (name.len() / 3).max(2);
+use std::cmp::Reverse;
+
+/// The candidate nearest to `typed`, if one is near enough; of equals the one that begins most alike, then the first in
+/// alphabetical order.
+pub fn nearest<'c>(typed: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    // A longer word is no slip of the hand, and distance is quadratic in its length.
+    const LONGEST: usize = 64;
+    if typed.is_empty() || typed.len() > LONGEST {
+        return None;
+    }
+    let plain = fold(typed);
+    let cutoff = (plain.chars().count() / 3).max(1);
     candidates
         .into_iter()
-        .map(|candidate| (distance(&name, &candidate.to_lowercase()), candidate))
-        .filter(|&(edits, candidate)| edits <= limit && edits < candidate.chars().count())
-        .min_by_key(|&(edits, _)| edits)
-        .map(|(_, candidate)| candidate)
+        .filter_map(|candidate| {
+            let distance = distance(&plain, &fold(candidate));
+            let alike = plain.chars().zip(candidate.chars()).take_while(|(a, b)| a == b).count();
+            let near = distance <= cutoff && distance < candidate.chars().count();
+            near.then_some((distance, Reverse(alike), candidate))
+        })
+        .min()
+        .map(|(_, _, candidate)| candidate)
 }
 
-fn distance(a: &[char], b: &str) -> usize {
-    let b: Vec<char> = b.chars().take(64).collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.iter().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
+/// Case, hyphens and spaces are no difference that a person sees.
+fn fold(word: &str) -> String {
+    word.trim().to_lowercase().replace(['-', ' '], "_")
+}
+
+fn distance(typed: &str, candidate: &str) -> usize {
+    let unit_apart = |short: &str, long: &str| long.strip_prefix(short).is_some_and(|rest| rest.starts_with('_'));
+    let begun = |short: &str, long: &str| short.len() >= 3 && 2 * short.len() >= long.len() && long.starts_with(short);
+    let near = |short: &str, long: &str| unit_apart(short, long) || (short != long && begun(short, long));
+    if near(typed, candidate) || near(candidate, typed) {
+        return 1;
     }
-    row[b.len()]
+    strsim::damerau_levenshtein(typed, candidate)
 }
 
 /// What was expected in place of an unknown name: the nearest spelling where there is one, else `otherwise`.
-pub(super) fn expected<'a>(
+pub(crate) fn expected<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str> + Clone,
     otherwise: &str,
@@ -45,10 +58,36 @@ pub(super) fn expected<'a>(
 }
 
 /// A text for a message: at most 40 characters of it.
-pub(super) fn clip(text: &str) -> String {
+pub(crate) fn clip(text: &str) -> String {
     let mut clipped: String = text.chars().take(40).collect();
     if clipped.len() < text.len() {
         clipped.push('…');
     }
     clipped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{expected, nearest};
+
+    #[test]
+    fn finds_slips_and_refuses_noise() {
+        let keys = ["insertion_deg", "internode", "death", "pause"];
+        assert_eq!(nearest("insertoin_deg", keys), Some("insertion_deg"));
+        assert_eq!(nearest("insertion", keys), Some("insertion_deg"));
+        assert_eq!(nearest("Insertion-deg", keys), Some("insertion_deg"));
+        assert_eq!(nearest("deth", keys), Some("death"));
+        assert_eq!(nearest("insertion_degrees", keys), Some("insertion_deg"));
+        assert_eq!(nearest("colour", keys), None);
+        assert_eq!(nearest("", keys), None);
+        assert_eq!(nearest("x", ["a"]), None);
+        assert_eq!(nearest("poplar_30", ["poplar", "poplar_30y"]), Some("poplar_30y"));
+    }
+
+    #[test]
+    fn what_was_expected_names_the_nearest_or_all() {
+        let states = ["juvenile", "adult"];
+        assert_eq!(expected("adlut", states, "a state"), "a state; the nearest is `adult`");
+        assert_eq!(expected("old", states, "a state"), "a state: juvenile, adult");
+    }
 }

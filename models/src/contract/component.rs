@@ -40,8 +40,8 @@ pub fn components(plant: &Plant) -> Vec<Component> {
     components
 }
 
-/// As [`components`], of a plant of that age: without organs that are still to appear, and without what axes draw once at
-/// their birth, the time to their fall and trends of their own, where that is still to come.
+/// As [`components`], of a plant of that age: without organs that are still to appear, and without what axes draw once
+/// at their birth, the time to their fall and trends of their own, where that is still to come.
 pub(super) fn born_by(plant: &Plant, age: Tick) -> Vec<Component> {
     let unborn = |i: &usize| plant.axes.birth[*i] > age;
     let waiting: BTreeSet<LineageKey> = (0..plant.axes.len()).filter(unborn).map(|i| plant.axes.key[i]).collect();

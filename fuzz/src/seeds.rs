@@ -1,0 +1,85 @@
+//! What is broken: the species and scenarios that ship, the good and the bad fixtures of `config`, small meshes, and
+//! the files of a small run.
+//!
+//! Absent: a corpus that grows by coverage, which libFuzzer keeps by itself.
+
+use crate::{RESUMED, SEALED, files_of_a_run};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+#[path = "../../config/tests/mutate/mod.rs"]
+pub(crate) mod mutate;
+
+/// The scenario of the run whose files are broken: every table, one mesh, two shards.
+pub const BASE: &str = r#"
+name = "base"
+species = "coffee"
+plants = 2
+seed = 7
+ages = { until = 6, record = { every = 3 } }
+meshes = { sides = 3, plants = [1] }
+output = { plants_per_part = 1 }
+"#;
+
+/// The folder of the project.
+fn project() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Lays what ships and the good fixtures into a folder, where a broken file finds them beside it.
+pub fn lay(folder: &Path) {
+    mutate::corpus(&project().join("config/tests/good"), folder);
+}
+
+/// The seeds of a target, in an order that is always the same.
+pub fn of(target: &str) -> Vec<Vec<u8>> {
+    match target {
+        "run_folder" => of_run_folder(),
+        "species" | "scenario" => of_config(target == "scenario"),
+        ending => of_folder(&project().join("fuzz/seeds"), ending),
+    }
+}
+
+/// The contents of the files in a folder that end so, sorted by their names.
+fn of_folder(folder: &Path, ending: &str) -> Vec<Vec<u8>> {
+    let entries = fs::read_dir(folder).expect("a folder of seeds");
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|is| is == ending));
+    paths.sort();
+    paths.iter().map(|path| fs::read(path).expect("a seed")).collect()
+}
+
+/// Scenarios name a species or state ages; all else is a species.
+fn of_config(scenarios: bool) -> Vec<Vec<u8>> {
+    let home = tempfile::tempdir().expect("a folder");
+    let mut files = mutate::corpus(&project().join("config/tests/good"), home.path());
+    let bad = of_folder(&project().join("config/tests/bad"), "toml");
+    files.extend(bad.into_iter().map(|text| (String::new(), text)));
+    let is_scenario = |text: &[u8]| {
+        text.split(|byte| *byte == b'\n').any(|line| line.starts_with(b"species") || line.starts_with(b"ages"))
+    };
+    files.into_iter().map(|(_, text)| text).filter(|text| is_scenario(text) == scenarios).collect()
+}
+
+/// Each file of a run: one in four to be resumed, documents also with checks made right again. And a `run.json` of a
+/// program that wrote no checks.
+fn of_run_folder() -> Vec<Vec<u8>> {
+    let mut seeds = Vec::new();
+    for (place, (name, bytes)) in files_of_a_run().iter().enumerate() {
+        let place = u8::try_from(place).expect("few files");
+        let is_sealed = name == "run.json" || name == "journal.jsonl";
+        let bits = if is_sealed { [0, SEALED, SEALED, SEALED | RESUMED] } else { [0, 0, 0, RESUMED] };
+        seeds.extend(bits.map(|bits| [&[place | bits], bytes.as_slice()].concat()));
+        if name == "run.json" {
+            seeds.push([&[place], unsealed(bytes).as_slice()].concat());
+        }
+    }
+    seeds
+}
+
+/// Without its check and the version of its format.
+fn unsealed(document: &[u8]) -> Vec<u8> {
+    let is_kept = |line: &&[u8]| !line.starts_with(b"  \"check\"") && !line.starts_with(b"  \"format_version\"");
+    let lines: Vec<&[u8]> = document.split_inclusive(|byte| *byte == b'\n').filter(is_kept).collect();
+    String::from_utf8_lossy(&lines.concat()).trim_end().replace(",\n}", "\n}").into_bytes()
+}
