@@ -1,29 +1,14 @@
-//! No two neighbours in a folder of source use each other, directly or by way of others, but for the circles in
-//! [`KNOWN`].
+//! No two neighbours in a folder of source use each other, directly or by way of others.
 //!
 //! Neighbours are the files of a folder, and its folders, each with all that is in it. What one of them uses is read
 //! from the text: `use` lines and paths that begin with `crate` or `super`, followed through the names that a folder
-//! passes on with `pub use`. Files of a circle can only be read, tested and taken away together, so the list is there
-//! to get shorter.
+//! passes on with `pub use`. Files of a circle can only be read, tested and taken away together.
 //! Absent: tests, what a folder's own file and the files in it ask of each other, `use super::*`, and methods of a type
 //! that are written in several files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// The circles that there are: the folder, and the neighbours in it that use each other.
-const KNOWN: [&str; 9] = [
-    "analysis/src/architecture: characters, lie, relays",
-    "outputs/src/meshes: colour, palette",
-    "outputs/src/pictures: camera, extent",
-    "outputs/src/run_folder: check, papers",
-    "outputs/src: error, run_folder, tables",
-    "sim/src/mechanics: bend, loads, secondary, turn, uprighting, wood",
-    "sim/src/plant: appeared, axis, event, fragment, habit, look, node",
-    "sim/src: mechanics, plant, pose, random, site",
-    "src/run: forecast, plan",
-];
 
 /// The names from the root of a crate to a module.
 type Place = Vec<String>;
@@ -39,7 +24,7 @@ struct Module {
 type Modules = BTreeMap<Place, Module>;
 
 #[test]
-fn no_neighbours_use_each_other_but_for_the_known_circles() {
+fn no_neighbours_use_each_other() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let (mut found, mut files) = (BTreeSet::new(), 0);
     for source in sources(root) {
@@ -49,11 +34,7 @@ fn no_neighbours_use_each_other_but_for_the_known_circles() {
         found.extend(circles(&modules).into_iter().map(|circle| format!("{folder}{circle}")));
     }
     assert!(files > 150, "only {files} files are found");
-    let known: BTreeSet<String> = KNOWN.map(str::to_owned).into();
-    let new: Vec<_> = found.difference(&known).collect();
-    assert!(new.is_empty(), "these use each other, which must go one way only: {new:#?}");
-    let gone: Vec<_> = known.difference(&found).collect();
-    assert!(gone.is_empty(), "these are no circles any more; take them out of the list of known ones: {gone:#?}");
+    assert!(found.is_empty(), "these use each other, which must go one way only: {found:#?}");
 }
 
 #[test]

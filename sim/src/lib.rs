@@ -6,6 +6,7 @@ pub mod cells;
 pub mod clock;
 pub mod expectation;
 pub mod grow;
+pub mod key;
 pub mod math;
 pub mod mechanics;
 pub mod model;

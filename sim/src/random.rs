@@ -9,7 +9,7 @@
 //! holds. That crate makes four blocks at each seek; growth by the clock needs a few words of each of many streams, so
 //! the block is made here, one at a time.
 
-use crate::plant::key::{LineageKey, mix, scramble};
+use crate::key::{LineageKey, mix, scramble};
 
 /// What the words of a stream decide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,21 +6,19 @@
 //! − κ₀). It is found by Newton steps: moments and answers from the tips down (`loads`), curvatures and pose from the
 //! base up (`turn`).
 
-use super::loads::{Load, Response, Scan};
-use super::secondary::Above;
+use super::bench::Bench;
+use super::loads::{Response, Scan};
 use super::section::Section;
 use super::turn::{Kept, Turned};
 use super::uprighting::straighten;
 
 use crate::clock::Tick;
-use crate::plant::borne::Borne;
 use crate::plant::standing::Standing;
 use crate::plant::{AxisId, EventKind, Plant, Wood};
-use crate::pose::bent::{Stances, follow_bends};
+use crate::pose::bent::follow_bends;
 use crate::pose::pose;
 use crate::site::Fields;
 use crate::site::Site;
-use crate::vector::Vector;
 
 /// A plant is in equilibrium when a step turns no internode by more, rad. The steps converge quadratically, so what is
 /// left then is far less.
@@ -28,22 +26,6 @@ pub const SETTLED: f64 = 1e-4;
 
 /// The most steps of a tick; a plant that still moves is reported.
 pub const MOST_STEPS: u32 = 60;
-
-/// Scratch of the bending of one plant after another, kept for its memory.
-#[derive(Debug, Clone, Default)]
-pub struct Bench {
-    standing: Standing,
-    laterals: Borne,
-    organs: Borne,
-    natural: Vec<[f32; 2]>,
-    responses: Vec<Response>,
-    loads: Vec<Load>,
-    stances: Stances,
-    turns: Vec<Vector>,
-    /// The diameters of the last tick, where reaction wood is made.
-    before: Vec<f32>,
-    pub(super) above: Vec<Above>,
-}
 
 /// How a tick of bending came out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,6 +6,7 @@
 //! frozen in the wood ([`crate::plant::Strain`]). Axes right themselves by reaction wood and as young shoots (`uprighting`); `sway`
 //! moves a plant of one age in the wind. Absent: twisting, creep and breaking.
 
+mod bench;
 mod bend;
 mod loads;
 mod secondary;
@@ -16,7 +17,8 @@ mod uprighting;
 mod wood;
 
 pub use crate::plant::{Drag, OrganMass, Strain, Thickening, Tissue, Uprighting, Wood};
-pub use bend::{Bench, MOST_STEPS, Outcome, SETTLED, bend};
+pub use bench::Bench;
+pub use bend::{MOST_STEPS, Outcome, SETTLED, bend};
 pub use secondary::{taper, thicken};
 pub use wood::wood_volume;
 

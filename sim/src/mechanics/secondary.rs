@@ -11,7 +11,7 @@
 //! Fallen branches count on in what lay below them: wood does not vanish. Absent: heartwood, and growth that differs
 //! around the stem.
 
-use super::bend::Bench;
+use super::bench::{Above, Bench};
 use crate::clock::Tick;
 use crate::math::pow;
 use crate::plant::{NodeId, OrganId, Plant, Shape, Thickening};
@@ -44,14 +44,6 @@ pub fn thicken(plant: &mut Plant, age: Tick, rule: Thickening, bench: &mut Bench
         }
     }
     taper(plant, age);
-}
-
-/// What the internodes and leaves above a node amount to.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Above {
-    sum: f64,
-    /// How many internodes stand on the node.
-    branches: u32,
 }
 
 /// Enters what each leaf that has appeared by `age` is worth at its node, by itself and whether it lives.

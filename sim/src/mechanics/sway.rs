@@ -7,7 +7,7 @@
 //! all gusts that ever were add up to a geometric series. So the motion repeats with the gusts, and an animation of
 //! that length loops. Absent: leaves that flutter, vortices, and any trace in the growth of the plant.
 
-use super::bend::Bench;
+use super::bench::Bench;
 use super::section::Section;
 use super::wood::wood_volume;
 use crate::clock::Tick;

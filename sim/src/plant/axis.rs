@@ -3,26 +3,11 @@
 //! Orders count from the trunk, 1. Monopodial and sympodial growth are told apart by the origin of an axis. Absent: the
 //! laws by which apices end, what a model remembers of a living bud, and the pose of axes.
 
-use super::fragment::Joint;
-use super::key::LineageKey;
-use super::node::NodeId;
+use super::handle::{AxisId, NodeId};
+use super::joint::Joint;
 use crate::clock::{NEVER, Tick};
+use crate::key::LineageKey;
 use std::ops::Range;
-
-/// The place of an axis in its plant's columns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct AxisId(pub u32);
-
-impl AxisId {
-    /// The axis that grew out of the seed.
-    pub const TRUNK: Self = Self(0);
-
-    /// As an index into the columns.
-    #[inline]
-    pub const fn index(self) -> usize {
-        self.0 as usize
-    }
-}
 
 /// How an axis came to be; monopodial and sympodial growth are told apart by this, never by looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

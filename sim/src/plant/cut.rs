@@ -7,8 +7,9 @@
 //! organs, as for any death of buds. Growth from below a cut is the model's. A plant without cuts keeps an empty list.
 
 use super::Plant;
-use super::axis::{ApexFate, AxisId};
+use super::axis::ApexFate;
 use super::event::EventKind;
+use super::handle::AxisId;
 use crate::clock::{NEVER, Tick};
 
 /// What is cut off, and when.

@@ -3,7 +3,7 @@
 //! The log is kept only where a run wants it; growth, death and fall are in the columns anyway. Absent: the falls of
 //! organs, which their own columns tell.
 
-use super::axis::AxisId;
+use super::handle::AxisId;
 use crate::clock::Tick;
 
 /// The fate of a bud at a tick.

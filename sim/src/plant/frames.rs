@@ -4,7 +4,8 @@
 //! A frame is a base point, a heading along the internode and a reference direction `up` across it. What an axis goes on
 //! from is kept in double precision. Absent: how frames follow from rest geometry, which is the pose's.
 
-use super::node::{NodeId, Nodes};
+use super::handle::NodeId;
+use super::node::Nodes;
 use crate::clock::Tick;
 use crate::math::sincosf;
 use crate::vector::Vector;

@@ -3,9 +3,9 @@
 //! The development trend is de Reffye's (1988 §4, Fig. 15): an axis leaves its bearing axis at the insertion angle and
 //! turns smoothly towards its trend. Where a trend is a random variable each axis has one of its own ([`OwnTrends`]).
 
-use super::axis::AxisId;
+use super::handle::AxisId;
 use super::kind::{Class, Kind};
-use super::look::Looks;
+use super::look::{Looks, Shape};
 use super::wood::{Thickening, Wood};
 use crate::clock::Tick;
 use std::ops::Range;
@@ -63,18 +63,6 @@ pub struct OrganTrends {
     pub fruit: Option<OrganTrend>,
     /// Whether its leaves twist until their upper side faces the sky, as those of plagiotropic axes do.
     pub leaves_face_the_sky: bool,
-}
-
-/// The shape of an internode at rest (de Reffye 1988 §4).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shape {
-    /// One diameter along the whole internode.
-    Cylinder,
-    /// The tip has the diameter of the base of the internode that follows it on its axis.
-    Cone,
-    /// A plane blade as wide as the diameter, its tip as wide as the internode that follows, of the thickness of its
-    /// look.
-    Blade,
 }
 
 /// The rules of a species that its plants carry with them.

@@ -7,8 +7,8 @@
 //! [`Plant::posed_lengths`] is what pose, loads, meshes and tables read, node by node without a branch.
 
 use super::Plant;
-use super::fragment::Joint;
-use super::node::NodeId;
+use super::handle::NodeId;
+use super::joint::Joint;
 use crate::clock::Tick;
 
 /// The lengths that a model has rewritten.

@@ -5,12 +5,23 @@
 //! what states none (`phytomer_outputs::meshes`).
 
 use super::form::Form;
-use super::habit::Shape;
 use super::kind::{Class, Kind};
 use crate::clock::Tick;
 
 /// A stated colour: red, green and blue, sRGB.
 pub type Colour = [u8; 3];
+
+/// The shape of an internode at rest (de Reffye 1988 §4).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// One diameter along the whole internode.
+    Cylinder,
+    /// The tip has the diameter of the base of the internode that follows it on its axis.
+    Cone,
+    /// A plane blade as wide as the diameter, its tip as wide as the internode that follows, of the thickness of its
+    /// look.
+    Blade,
+}
 
 /// The looks of a species.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -3,30 +3,10 @@
 //! A node stands at the tip of its internode and bears leaves and buds; its rank counts along the axis from 1. Absent:
 //! the curvature that mechanics will write.
 
-use super::axis::AxisId;
-use super::fragment::Joint;
+use super::handle::{AxisId, NodeId};
+use super::joint::Joint;
 use crate::clock::Tick;
 use std::ops::Range;
-
-/// The place of a node in its plant's columns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct NodeId(pub u32);
-
-impl NodeId {
-    /// No node: what the first axis stands on.
-    pub const NONE: Self = Self(u32::MAX);
-
-    /// As an index into the columns.
-    #[inline]
-    pub const fn index(self) -> usize {
-        self.0 as usize
-    }
-
-    /// The node, where there is one.
-    pub fn some(self) -> Option<Self> {
-        (self != Self::NONE).then_some(self)
-    }
-}
 
 /// What a new internode starts from.
 #[derive(Debug, Clone, Copy)]

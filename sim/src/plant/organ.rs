@@ -4,22 +4,10 @@
 //! pose, which follows from that of its node.
 
 use super::form::Form;
-use super::fragment::Joint;
+use super::handle::{NodeId, OrganId};
+use super::joint::Joint;
 use super::kind::{Cause, Kind};
-use super::node::NodeId;
 use crate::clock::Tick;
-
-/// The place of an organ in its plant's columns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct OrganId(pub u32);
-
-impl OrganId {
-    /// As an index into the columns.
-    #[inline]
-    pub const fn index(self) -> usize {
-        self.0 as usize
-    }
-}
 
 /// What a new organ starts from.
 #[derive(Debug, Clone, Copy)]

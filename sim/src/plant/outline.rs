@@ -7,7 +7,7 @@
 //! Absent: triangles, which a mesh makes of an outline.
 
 use super::Plant;
-use super::organ::OrganId;
+use super::handle::OrganId;
 use super::rare::Rare;
 use crate::rotation::Rotation;
 use crate::vector::Vector;

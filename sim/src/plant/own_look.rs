@@ -5,8 +5,7 @@
 //! stands names none. A plant without looks of their own has empty columns.
 
 use super::Plant;
-use super::node::NodeId;
-use super::organ::OrganId;
+use super::handle::{NodeId, OrganId};
 use super::rare::Rare;
 
 /// Which nodes and organs have which looks of their own.

@@ -10,9 +10,9 @@
 //! Absent: what follows from the frames, which is the work of [`crate::pose`] and [`crate::mechanics`].
 
 use super::Plant;
-use super::axis::AxisId;
-use super::fragment::Joint;
-use super::node::{NodeId, Nodes};
+use super::handle::{AxisId, NodeId};
+use super::joint::Joint;
+use super::node::Nodes;
 use super::rare::Rare;
 use crate::clock::Tick;
 use crate::rotation::Rotation;

@@ -5,8 +5,8 @@
 //! the species file, and the equations that use them.
 
 use super::Plant;
+use super::handle::OrganId;
 use super::kind::Class;
-use super::organ::OrganId;
 use crate::clock::Tick;
 
 /// The mechanical side of a species.

@@ -137,10 +137,10 @@ fn bearing_frame(plant: &Plant, axis: AxisId) -> Frame {
 }
 
 #[cfg(test)]
-mod precision_tests;
-#[cfg(test)]
 pub(crate) mod specimen;
 #[cfg(test)]
-mod stated_tests;
-#[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_precision;
+#[cfg(test)]
+mod tests_stated;

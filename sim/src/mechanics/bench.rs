@@ -1,0 +1,34 @@
+//! The scratch of mechanics, which thickening and bending fill anew at each tick.
+//!
+//! It belongs to a thread and goes from plant to plant for its memory alone. Absent: what lasts from tick to tick, which
+//! is the plant's ([`crate::plant::Strain`]).
+
+use super::loads::{Load, Response};
+use crate::plant::borne::Borne;
+use crate::plant::standing::Standing;
+use crate::pose::bent::Stances;
+use crate::vector::Vector;
+
+/// Scratch of the bending of one plant after another, kept for its memory.
+#[derive(Debug, Clone, Default)]
+pub struct Bench {
+    pub(super) standing: Standing,
+    pub(super) laterals: Borne,
+    pub(super) organs: Borne,
+    pub(super) natural: Vec<[f32; 2]>,
+    pub(super) responses: Vec<Response>,
+    pub(super) loads: Vec<Load>,
+    pub(super) stances: Stances,
+    pub(super) turns: Vec<Vector>,
+    /// The diameters of the last tick, where reaction wood is made.
+    pub(super) before: Vec<f32>,
+    pub(super) above: Vec<Above>,
+}
+
+/// What the internodes and leaves above a node amount to.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Above {
+    pub sum: f64,
+    /// How many internodes stand on the node.
+    pub branches: u32,
+}
