@@ -243,8 +243,8 @@ impl Grower<'_> {
         Ok(true)
     }
 
-    /// Whether a model must make the plant at this age whatever is recorded: one that makes it anew must at the last age,
-    /// of which the components are written.
+    /// Whether a model must make the plant at this age whatever is recorded: one that makes it anew must at the last
+    /// age, of which the components are written.
     fn must_make(&self, age: Tick) -> bool {
         age == self.resolved.scenario.ages.until && !self.resolved.model.growth().keeps_its_past()
     }

@@ -21,8 +21,8 @@ static ALLOCATED: PeakAlloc = PeakAlloc;
 /// One test at a time: what another allocates meanwhile would count too.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// A plant of a shipped scenario, grown to an age, shed, thickened and posed, without a log of events; its living buds, and
-/// the bytes that it has allocated.
+/// A plant of a shipped scenario, grown to an age, shed, thickened and posed, without a log of events; its living buds,
+/// and the bytes that it has allocated.
 fn grown(scenario: &str, until: Option<Tick>) -> (Plant, usize, usize) {
     let resolved = validate(scenario).unwrap_or_else(|report| panic!("{}", report.render(false)));
     let until = until.unwrap_or(resolved.scenario.ages.until);

@@ -77,8 +77,8 @@ impl Loader {
         (id, document::parse(&self.sources, id, &mut self.faults))
     }
 
-    /// A value of a type from a tree that its schema has checked, with `refused` the faults that it found and `keys` the
-    /// roles of its keys. Some: the value, or what can be made of it without the values refused.
+    /// A value of a type from a tree that its schema has checked, with `refused` the faults that it found and `keys`
+    /// the roles of its keys. Some: the value, or what can be made of it without the values refused.
     pub fn read<T>(
         &mut self,
         node: &Node,

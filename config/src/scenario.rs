@@ -90,8 +90,8 @@ pub struct Ages {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Record {
-    /// Every age from 1, or the word that says so. Age 0, the seed or the axiom, is recorded where a list or `from` names
-    /// it.
+    /// Every age from 1, or the word that says so. Age 0, the seed or the axiom, is recorded where a list or `from`
+    /// names it.
     All(All),
     /// These ages.
     List(#[schemars(length(min = 1))] BTreeSet<u32>),

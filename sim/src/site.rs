@@ -1,9 +1,10 @@
 //! The site around the plants of a plot: what its date brings, its fields of force, and what it feeds back to growth.
 //!
-//! At each tick the site reads all plants as they stood at the end of the last one, the plants grow side by side and see
-//! the site unchanged ([`View`]), and what they did is gathered in the order of the plot. So no result depends on the
-//! threads. Two things feed back today: planes that kill the buds that reach them, and cells of space that plants claim
-//! in the first half of a tick and are granted or refused in the second. Light and events of the date belong here.
+//! At each tick the site reads all plants as they stood at the end of the last one, the plants grow side by side and
+//! see the site unchanged ([`View`]), and what they did is gathered in the order of the plot. So no result depends on
+//! the threads. Two things feed back today: planes that kill the buds that reach them, and cells of space that plants
+//! claim in the first half of a tick and are granted or refused in the second. Light and events of the date belong
+//! here.
 
 use crate::cells::Cells;
 use crate::clock::Tick;

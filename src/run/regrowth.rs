@@ -71,7 +71,8 @@ impl Regrowth<'_> {
 
     /// The prime of a plant: its last year with at least nine tenths of the largest leaf area that it ever bears, and
     /// in it the first age that is so, which is spring where there are seasons. Of a plant without leaves internodes
-    /// and organs are counted instead; a model that makes its plant anew at each age has its prime at the last. A year has so many ticks.
+    /// and organs are counted instead; a model that makes its plant anew at each age has its prime at the last. A year
+    /// has so many ticks.
     ///
     /// # Errors
     /// Where it comes to its limit at its first age.

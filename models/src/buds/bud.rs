@@ -1,4 +1,5 @@
-//! A living apical bud: what its axis needs in order to grow on, and what a plant of this model remembers between ticks.
+//! A living apical bud: what its axis needs in order to grow on, and what a plant of this model remembers between
+//! ticks.
 //!
 //! Buds of axes that wait in a fragment of a plant name its handles; [`ApicalBud::joined`] makes them the plant's.
 

@@ -1,8 +1,8 @@
-//! The clause of cuts: what is above a cut goes and grows no more, and the rest of the plant grows as if nothing had been
-//! cut.
+//! The clause of cuts: what is above a cut goes and grows no more, and the rest of the plant grows as if nothing had
+//! been cut.
 //!
-//! It holds for models whose plants keep their past and that answer a cut with no growth of their own. Absent on purpose:
-//! what stands after a cut at each age, which holds for any plant (`sim::plant`).
+//! It holds for models whose plants keep their past and that answer a cut with no growth of their own. Absent on
+//! purpose: what stands after a cut at each age, which holds for any plant (`sim::plant`).
 
 use super::component::{Component, assert_same, components};
 use super::{grow, grown_by_the_clock, sown};

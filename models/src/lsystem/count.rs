@@ -1,7 +1,8 @@
 //! How many cells and branches a system makes by each age: sums over kinds of cells, without a string.
 //!
-//! A kind is a letter on an axis of an order, and whether it is the last cell of its axis, which makes branches behind it
-//! forks (`text`). A system without interaction rewrites all cells of a kind alike, so the numbers are exact. Absent: components of a plant (`draw`).
+//! A kind is a letter on an axis of an order, and whether it is the last cell of its axis, which makes branches behind
+//! it forks (`text`). A system without interaction rewrites all cells of a kind alike, so the numbers are exact.
+//! Absent: components of a plant (`draw`).
 
 use super::string::Rules;
 use super::text::{Branching, Symbol};

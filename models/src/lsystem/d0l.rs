@@ -1,7 +1,8 @@
 //! The parameters of a D0L-system (Aono & Kunii 1984, "L-system model"): its cells, its axiom, its productions, and how
 //! its strings are drawn.
 //!
-//! K = ⟨G, w, P⟩: the symbols G are the cells of the table `cell` with the two parentheses, w is `axiom`, and P the table
+//! K = ⟨G, w, P⟩: the symbols G are the cells of the table `cell` with the two parentheses, w is `axiom`, and P the
+//! table
 //! `production`; a cell that has none stays as it is, as d → d does in the paper. Absent: what strings mean (`text`).
 
 use phytomer_sim::clock::{LAST_TICK, Tick};

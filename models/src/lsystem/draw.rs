@@ -1,9 +1,9 @@
 //! The plant of a string, by the drawing rules of Aono & Kunii 1984 ("L-system model").
 //!
 //! Each cell is a straight internode (1), of the length of its kind (3); the first stands upright (2); a pair of
-//! parentheses is a branch (4). The branches along an axis stand on opposite sides by turns, the first of each axis on the
-//! left (5), also where several stand at one cell (6), at one angle in one plane: x–z, with x to the right. Where an
-//! axis divides its apex ends, and the branches are of its order.
+//! parentheses is a branch (4). The branches along an axis stand on opposite sides by turns, the first of each axis on
+//! the left (5), also where several stand at one cell (6), at one angle in one plane: x–z, with x to the right. Where
+//! an axis divides its apex ends, and the branches are of its order.
 //!
 //! Internodes stand in the columns in the order of the string, axes in that of their numbers, which a branch never
 //! changes. Absent: rewriting (`string`).

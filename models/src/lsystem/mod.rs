@@ -2,8 +2,9 @@
 //!
 //! Today the deterministic systems without interaction of Aono & Kunii 1984 ("L-system model") with the paper's drawing
 //! rules: [`D0l`] is the parameter struct, `text` reads its strings, `string` rewrites them and keeps which cell is
-//! which, `draw` makes the plant of a string, `count` tells its size without one, `model` goes from tick to tick. Such a system knows no chance.
-//! Absent on purpose: context, parameters of modules, the turtle's other commands, death of cells, the environment.
+//! which, `draw` makes the plant of a string, `count` tells its size without one, `model` goes from tick to tick. Such
+//! a system knows no chance. Absent on purpose: context, parameters of modules, the turtle's other commands, death of
+//! cells, the environment.
 
 mod card;
 mod count;

@@ -1,10 +1,10 @@
 //! The string of one plant, in which each cell and each branch keeps its number, and its rewriting.
 //!
-//! Rules are applied to all symbols at once (Aono & Kunii 1984, "L-system model"). A cell that is rewritten is the first
-//! cell of what it becomes: it differentiates and keeps its number, and the others are new. So `F → F F` lets the first
-//! internode keep its number, and in `g → d(g)g` the apical cell becomes the internode below the new apex. New cells and
-//! branches are numbered in the order of the string. A branch is a fork, or a lateral one, from its birth on. Absent:
-//! where they stand (`draw`).
+//! Rules are applied to all symbols at once (Aono & Kunii 1984, "L-system model"). A cell that is rewritten is the
+//! first cell of what it becomes: it differentiates and keeps its number, and the others are new. So `F → F F` lets the
+//! first internode keep its number, and in `g → d(g)g` the apical cell becomes the internode below the new apex. New
+//! cells and branches are numbered in the order of the string. A branch is a fork, or a lateral one, from its birth on.
+//! Absent: where they stand (`draw`).
 
 use super::text::{Branching, Symbol};
 use phytomer_sim::clock::Tick;

@@ -1,5 +1,5 @@
-//! The systems K1 and K2 of Aono & Kunii 1984 against their printed strings and drawing rules, a system that rewrites in
-//! mid-axis, and strings that are refused.
+//! The systems K1 and K2 of Aono & Kunii 1984 against their printed strings and drawing rules, a system that rewrites
+//! in mid-axis, and strings that are refused.
 
 use super::string::Module;
 use super::{Cell, D0l, D0lModel};
@@ -66,7 +66,8 @@ fn the_strings_of_four_levels_are_those_of_the_paper() {
     }
 }
 
-/// The mean of the ends of the axes that grow on, x to the right and z up, by the drawing rules with |d| = 2 |g| and 45°.
+/// The mean of the ends of the axes that grow on, x to the right and z up, by the drawing rules with |d| = 2 |g| and
+/// 45°.
 fn mean_of_ends(plant: &Plant) -> [f64; 3] {
     let growing = |axis: &usize| plant.axes.apex_fate[*axis] == ApexFate::Alive;
     let ends =
@@ -176,8 +177,8 @@ fn a_string_that_explodes_stops_at_the_limit_of_components() {
     assert!(plot.grow_to(20).is_err());
 }
 
-/// The numbers that are foretold are those of the strings, order by order, also where branches behind the last cell of an
-/// axis are a fork and the same branches in mid-axis are not.
+/// The numbers that are foretold are those of the strings, order by order, also where branches behind the last cell of
+/// an axis are a fork and the same branches in mid-axis are not.
 #[test]
 fn the_forecast_counts_every_string() {
     let cells = [("a", 0.1), ("b", 0.2)];

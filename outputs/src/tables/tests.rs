@@ -241,9 +241,9 @@ fn positions_are_rounded_to_the_stated_precision() {
     assert_eq!(floats(&exact, "diameter_m"), floats(&rounded, "diameter_m"));
 }
 
-/// A trunk of seven internodes is cut above the third at tick 7. Before, ten of its plant's internodes live, and four are
-/// of dead branches that still stand; after, no bud lives, and the trunk's three stand with the two of the branch on the
-/// third, for the branches below have fallen.
+/// A trunk of seven internodes is cut above the third at tick 7. Before, ten of its plant's internodes live, and four
+/// are of dead branches that still stand; after, no bud lives, and the trunk's three stand with the two of the branch
+/// on the third, for the branches below have fallen.
 #[test]
 fn what_is_cut_off_is_counted_no_more() {
     let mut plot = crate::specimen::plot(0, 1000);

@@ -1,7 +1,7 @@
 //! The scratch of mechanics, which thickening and bending fill anew at each tick.
 //!
-//! It belongs to a thread and goes from plant to plant for its memory alone. Absent: what lasts from tick to tick, which
-//! is the plant's ([`crate::plant::Strain`]).
+//! It belongs to a thread and goes from plant to plant for its memory alone. Absent: what lasts from tick to tick,
+//! which is the plant's ([`crate::plant::Strain`]).
 
 use super::loads::{Load, Response};
 use crate::plant::borne::Borne;

@@ -3,8 +3,8 @@
 //!
 //! Each tick internodes gain diameter (`secondary`), then loads and shape are brought to equilibrium (`bend`: moments
 //! in one reverse scan in `loads`, curvatures and pose in one forward scan in `turn`). What bending leaves is
-//! frozen in the wood ([`crate::plant::Strain`]). Axes right themselves by reaction wood and as young shoots (`uprighting`); `sway`
-//! moves a plant of one age in the wind. Absent: twisting, creep and breaking.
+//! frozen in the wood ([`crate::plant::Strain`]). Axes right themselves by reaction wood and as young shoots
+//! (`uprighting`); `sway` moves a plant of one age in the wind. Absent: twisting, creep and breaking.
 
 mod bench;
 mod bend;

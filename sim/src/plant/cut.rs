@@ -1,10 +1,11 @@
 //! Cuts: at a tick, everything of an axis above a rank is taken off, with all that it bears (topping, a heading cut, a
 //! breakage).
 //!
-//! The nodes of the axis up to the rank stay; rank 0 takes the whole axis off its bearer. The apex of the axis ends with
-//! the cut, if it still lived, and so do the apices of all that is taken. What follows does not depend on the order in
-//! which cuts are told: the earliest cut below a node takes it. [`crate::shed`] draws the consequences for branches and
-//! organs, as for any death of buds. Growth from below a cut is the model's. A plant without cuts keeps an empty list.
+//! The nodes of the axis up to the rank stay; rank 0 takes the whole axis off its bearer. The apex of the axis ends
+//! with the cut, if it still lived, and so do the apices of all that is taken. What follows does not depend on the
+//! order in which cuts are told: the earliest cut below a node takes it. [`crate::shed`] draws the consequences for
+//! branches and organs, as for any death of buds. Growth from below a cut is the model's. A plant without cuts keeps an
+//! empty list.
 
 use super::Plant;
 use super::axis::ApexFate;

@@ -1,8 +1,8 @@
 //! The columns of the pose, one frame a node, and where each axis goes on from: written by [`crate::pose`] at rest and
 //! by [`crate::mechanics`] where a plant bends.
 //!
-//! A frame is a base point, a heading along the internode and a reference direction `up` across it. What an axis goes on
-//! from is kept in double precision. Absent: how frames follow from rest geometry, which is the pose's.
+//! A frame is a base point, a heading along the internode and a reference direction `up` across it. What an axis goes
+//! on from is kept in double precision. Absent: how frames follow from rest geometry, which is the pose's.
 
 use super::handle::NodeId;
 use super::node::Nodes;

@@ -91,8 +91,8 @@ impl Plant {
     }
 }
 
-/// The area of a plane polygon by Newell's sum over its edges, m²; of one that is not plane that of its shadow along its
-/// mean normal.
+/// The area of a plane polygon by Newell's sum over its edges, m²; of one that is not plane that of its shadow along
+/// its mean normal.
 fn area(corners: &[[f32; 3]]) -> f64 {
     let Some(&first) = corners.first() else { return 0.0 };
     let from = |corner: &[f32; 3]| Vector::from(*corner) - Vector::from(first);

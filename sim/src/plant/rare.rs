@@ -1,4 +1,5 @@
-//! A column that most plants leave empty: what is stated of some nodes, axes or organs, beside the columns that all have.
+//! A column that most plants leave empty: what is stated of some nodes, axes or organs, beside the columns that all
+//! have.
 //!
 //! It is as long as the last entry that states something; past its end, and between, stands the default. A plant that
 //! states nothing has an empty column, and reading it costs one comparison with its length.

@@ -1,5 +1,5 @@
-//! Cuts: what is left is what can be reached from the ground, by a walk written apart from the code that it tests; every
-//! component stands or is gone; and the order in which cuts are told does not matter.
+//! Cuts: what is left is what can be reached from the ground, by a walk written apart from the code that it tests;
+//! every component stands or is gone; and the order in which cuts are told does not matter.
 
 use super::*;
 use crate::mechanics::{Bench, Tissue, Uprighting, Wood, bend};

@@ -1,9 +1,9 @@
 //! The directions of an axis at rest, internode by internode: the one thing that the two ways to state rest geometry do
 //! apart. The scans of the pose (`scan`, `bent`) are written once over both.
 //!
-//! [`Trended`] is the course of plants of which insertion, phyllotaxis and trend make the directions. [`Stated`] is that
-//! of plants in which some frames are stated: each node, and each axis, by what it states or by insertion and trend.
-//! Heading and upper side are carried in double precision, so that a stated axis of many nodes does not drift.
+//! [`Trended`] is the course of plants of which insertion, phyllotaxis and trend make the directions. [`Stated`] is
+//! that of plants in which some frames are stated: each node, and each axis, by what it states or by insertion and
+//! trend. Heading and upper side are carried in double precision, so that a stated axis of many nodes does not drift.
 
 use crate::clock::Tick;
 use crate::plant::frames::{Along, Directions, Frame, Frames, Plane, Stated, Trended};

@@ -17,8 +17,8 @@ fn trends() -> Vec<Trend> {
     [(0.0, 0.0), (0.0, 0.02), (1.4, 0.05), (PI, 0.01)].map(|(inclination, share)| Trend { inclination, share }).to_vec()
 }
 
-/// A tree of four orders that leans far from the vertical; the third branch goes on from the tip of the first as a relay
-/// does.
+/// A tree of four orders that leans far from the vertical; the third branch goes on from the tip of the first as a
+/// relay does.
 fn tree() -> Vec<Branch> {
     let on = |bearer, azimuth, insertion, nodes, length, trends| Branch {
         bearer: Some(bearer),
