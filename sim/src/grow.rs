@@ -56,10 +56,12 @@ fn follow_ticks(plot: &mut Plot<'_>, until: Tick, recorder: &mut dyn Recorder) -
     // Tick 0 shows what is sown: seeds, or the axiom of an L-system.
     for tick in 0..=until {
         plot.site.begin(tick);
-        if tick > 0 && !ahead && plot.follows(tick, recorder) {
-            if let Err(limit) = plot.grow_to(tick) {
-                return Ok(Ending::Overgrown { age: tick, limit });
-            }
+        if tick > 0
+            && !ahead
+            && plot.follows(tick, recorder)
+            && let Err(limit) = plot.grow_to(tick)
+        {
+            return Ok(Ending::Overgrown { age: tick, limit });
         }
         let wanted = recorder.wants(tick);
         if wanted || (tick > 0 && plot.is_looked_at()) {
