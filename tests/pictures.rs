@@ -59,8 +59,8 @@ fn every_view_is_another_picture() {
 fn what_cannot_be_drawn_is_refused_with_words() {
     let folder = tempdir().unwrap();
     for (words, code, meant) in [
-        (vec!["coffee", "--age", "0"], 2, "--age 0: the run has the ages 1 to 144"),
-        (vec!["coffee", "--ages", "12,145"], 2, "--ages 145: the run has the ages 1 to 144"),
+        (vec!["coffee", "--age", "145"], 2, "--age 145: the run has the ages 0 to 144"),
+        (vec!["coffee", "--ages", "12,145"], 2, "--ages 145: the run has the ages 0 to 144"),
         (vec!["coffee", "--plants", "0,2000"], 2, "--plants 2000: the run has the plants 0 to 1999"),
         (vec!["coffee", "--size", "9x9"], 2, "1920x1080"),
         (vec!["coffee", "--sun", "10,95"], 2, "3 to 90 degrees"),
