@@ -92,7 +92,7 @@ fn a_sound_model_keeps_it() {
 /// A tree that is made anew at each age keeps all but this where it says that it adds to the plant that stands there.
 #[test]
 fn growth_above_a_cut_is_caught() {
-    breaks(&Spoilt { growth: Growth::Extends, ..spoilt(|_, _| ()) }, "nothing grows on a cut axis");
+    breaks(&Spoilt { growth: Growth::Extends, ..spoilt(|_, _| ()) }, "nothing stands above a cut");
 }
 
 #[test]

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 use super::model::D0lModel;
 use super::string::{MOST_CELLS, Rules};
-use super::text::{Symbol, parse};
+use super::text::{Symbol, UNREADABLE, parse};
 use crate::fault::{Fault, Path};
 use crate::law::{Constant, ValueRange};
 
@@ -98,8 +98,12 @@ impl D0l {
             let letter = characters.next().filter(|letter| letter.is_alphanumeric());
             letter.filter(|_| characters.next().is_none()).unwrap_or_else(|| {
                 let expected = "one letter or digit, such as `g`";
-                faults.push(Fault::new(&path.key(name), format!("the cell `{name}`"), expected));
-                char::REPLACEMENT_CHARACTER
+                faults.push(Fault::new(
+                    &path.key(name),
+                    format!("the cell `{name}` is not named by one letter"),
+                    expected,
+                ));
+                UNREADABLE
             })
         };
         self.cell.keys().map(letter).collect()

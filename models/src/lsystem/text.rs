@@ -3,6 +3,9 @@
 //!
 //! A branch stands behind a cell of its axis, so that there is something that bears it; it is not empty.
 
+/// Stands for a cell whose name is no letter, which is told by itself.
+pub(super) const UNREADABLE: char = char::REPLACEMENT_CHARACTER;
+
 /// A symbol of a string.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Symbol {
@@ -36,7 +39,11 @@ pub(super) fn parse(text: &str, letters: &[char]) -> Result<Vec<Symbol>, (String
             letter => match letters.iter().position(|known| *known == letter) {
                 Some(place) => Symbol::Cell(place as u8),
                 None => {
-                    let known: Vec<String> = letters.iter().map(|letter| format!("`{letter}`")).collect();
+                    let known: Vec<String> = letters
+                        .iter()
+                        .filter(|known| **known != UNREADABLE)
+                        .map(|known| format!("`{known}`"))
+                        .collect();
                     let problem = format!("`{letter}` at column {column} is no cell");
                     return Err((
                         problem,
