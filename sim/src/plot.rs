@@ -2,7 +2,7 @@
 //!
 //! A plot has a tick of its own, and each member an age: the ticks since it was sown. So later sowing, gaps and
 //! replanting are data, not special cases. Where nothing is shared a plot is one plant. Growth and standing of all
-//! members stand in [`crate::grow`].
+//! members stand in `sim::grow`.
 
 use crate::clock::Tick;
 use crate::mechanics::Wood;
