@@ -26,3 +26,6 @@ pub use model::{Grow, Growth, GrowthModel, Life, Overgrown};
 pub use plant::Plant;
 pub use plot::{Member, Plot, Sowing};
 pub use record::{RecordError, Recorder};
+
+#[cfg(test)]
+mod tests_cells;

@@ -93,16 +93,6 @@ impl<'m> Plot<'m> {
         }
     }
 
-    /// The plants that have been sown by `tick`, with their ages then.
-    pub fn sown_by(&self, tick: Tick) -> impl Iterator<Item = (&Plant, Tick)> {
-        self.plants.iter().zip(&self.members).filter_map(move |(plant, member)| Some((plant, member.age_at(tick)?)))
-    }
-
-    /// The model of a member.
-    pub fn model_of(&self, member: usize) -> &'m dyn GrowthModel {
-        self.species[self.members[member].species]
-    }
-
     /// Whether the shape of its plants at an age depends on those at the ages before, so that each must be gone
     /// through.
     pub fn remembers(&self) -> bool {
