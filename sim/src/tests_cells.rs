@@ -9,8 +9,8 @@ use crate::plot::{Plot, Sowing};
 use crate::site::View;
 use std::sync::Arc;
 
-/// A plant that is a list of cells on a line: at each tick its tip wants the next cell to the right, and stays where it is
-/// refused.
+/// A plant that is a list of cells on a line: at each tick its tip wants the next cell to the right, and stays where it
+/// is refused.
 struct Creeper;
 
 impl Grow for Creeper {

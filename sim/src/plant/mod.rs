@@ -1,10 +1,10 @@
 //! The plant as columns: axes, nodes and organs in structures of arrays with typed handles.
 //!
 //! Invariants: a parent's index is smaller than its child's in each column, and its component number too but for models
-//! that rewrite in mid-axis; death is a tick in a column, and a model that extends its plants removes nothing. So poses are one forward scan, loads one reverse scan, and nothing recurses.
-//! One writer a column: models write topology, rest geometry and the fates of buds and organs; [`crate::shed`] alone
-//! writes the death and the fall of branches, the model's `thicken` or secondary growth the diameters,
-//! [`crate::mechanics`] the curvature, [`crate::pose`] the frames.
+//! that rewrite in mid-axis; death is a tick in a column, and a model that extends its plants removes nothing. So poses
+//! are one forward scan, loads one reverse scan, and nothing recurses. One writer a column: models write topology, rest
+//! geometry and the fates of buds and organs; [`crate::shed`] alone writes the death and the fall of branches, the
+//! model's `thicken` or secondary growth the diameters, [`crate::mechanics`] the curvature, [`crate::pose`] the frames.
 
 mod appeared;
 mod axis;
