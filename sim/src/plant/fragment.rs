@@ -5,6 +5,7 @@
 //! numbers of axes, nodes, organs and components follow on. Until then its handles and component numbers are its own,
 //! but for the nodes that bear the axes that it took: those are the whole plant's, and nobody may look them up.
 
+use super::columns::Columns;
 use super::{Appeared, Event, Frames, Joint, OwnTrends, Plant, Strain};
 use crate::clock::NEVER;
 use std::ops::Range;
@@ -87,21 +88,32 @@ impl Plant {
 
     /// Joins a fragment that has grown, after everything that the plant has; how its handles have become the plant's.
     pub fn join(&mut self, fragment: Fragment) -> Joint {
-        let Fragment { plant, joint } = fragment;
+        let Fragment { mut plant, joint } = fragment;
         let (axes, nodes, components) = (self.axes.len(), self.nodes.len(), self.components);
         let joint = Joint { axes, nodes, components, ..joint };
-        self.own_trends.join(plant.own_trends, |axis| joint.axis(axis));
+        self.own_trends.join(std::mem::take(&mut plant.own_trends), |axis| joint.axis(axis));
         self.stated.join(&plant.stated, &joint);
         self.stated_organs.join(&plant.stated_organs, self.organs.len());
         self.rewritten.join(&plant.rewritten, &joint);
         self.own_looks.join(&plant.own_looks, [nodes, self.organs.len()]);
-        self.nodes.join(&plant.nodes, &joint);
-        self.organs.join(&plant.organs, &joint);
-        if let (Some(events), Some(more)) = (&mut self.events, plant.events) {
+        self.nodes.join_runs(&plant.nodes, &joint);
+        self.axes.take_back(&plant.axes, &joint);
+        self.join_columns(&plant, &joint);
+        if let (Some(events), Some(more)) = (&mut self.events, plant.events.take()) {
             events.extend(more.into_iter().map(|event| Event { axis: joint.axis(event.axis), ..event }));
         }
-        self.axes.join(&plant.axes, joint.taken.clone(), &joint);
         self.components += plant.components;
         joint
+    }
+
+    /// Adds the axes that arose in a fragment, its nodes and its organs, each column on whatever thread is free.
+    fn join_columns(&mut self, grown: &Self, joint: &Joint) {
+        let arose = joint.taken.len()..grown.axes.len();
+        let Self { axes, nodes, organs, .. } = self;
+        rayon::in_place_scope(|scope| {
+            nodes.join_columns(&grown.nodes, &(0..grown.nodes.len()), joint, scope);
+            organs.join_columns(&grown.organs, &(0..grown.organs.len()), joint, scope);
+            axes.join_columns(&grown.axes, &arose, joint, scope);
+        });
     }
 }

@@ -9,6 +9,7 @@
 mod appeared;
 mod axis;
 pub(crate) mod borne;
+mod columns;
 mod cut;
 mod event;
 mod form;
