@@ -28,7 +28,7 @@ use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::{
     Checkup, FreeSpace, Mode, Opening, RunFolder, RunPlan, RunReport, Shard, ShardReport, SystemSpace,
 };
-use phytomer_sim::plant::Hands;
+use phytomer_sim::plant::ThreadBudget;
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick, grow};
 use rayon::ThreadPool;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -213,7 +213,7 @@ impl Grower<'_> {
         let scenario = &self.resolved.scenario;
         let mut plot = Plot::of_one(model, &seed_of(scenario, plants.start));
         plot.site = scenario.site.felt();
-        plot.plants[0].hands = self.hands();
+        plot.plants[0].budget = self.budget();
         for plant in plants {
             if self.progress.is_stopped() {
                 return Ok(false);
@@ -249,12 +249,12 @@ impl Grower<'_> {
         age == self.resolved.scenario.ages.until && !self.resolved.model.growth().keeps_its_past()
     }
 
-    /// The threads for which there is no shard help with the plants of the others. Where every thread has a shard of
-    /// its own none helps: one that waits for its helper would begin with a further shard meanwhile, and keep two
-    /// plants.
-    fn hands(&self) -> Hands {
+    /// The threads that may grow one plant: those for which there is no shard help with the plants of other shards.
+    /// Where every thread has a shard of its own there is no help: a thread that waits for its helper would begin a
+    /// further shard meanwhile, and keep two plants in memory.
+    fn budget(&self) -> ThreadBudget {
         let shards = self.plan.shards() as usize;
-        Hands { threads: (rayon::current_num_threads() / shards).max(1), ..Hands::default() }
+        ThreadBudget { threads: (rayon::current_num_threads() / shards).max(1), ..ThreadBudget::default() }
     }
 }
 

@@ -9,7 +9,7 @@ mod program;
 use phytomer::config::{Kind, Resolved, presets, validate};
 use phytomer::run::{self, Program, Progress, Settings, seed_of};
 use phytomer::sim::Plot;
-use phytomer::sim::plant::Hands;
+use phytomer::sim::plant::ThreadBudget;
 use program::{data, hashes, run as phytomer};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -47,7 +47,7 @@ fn a_single_plant_is_the_same_on_any_number_of_threads() {
         hashes(&folder.path().join("runs").join(threads))
     });
     assert_eq!(grown[0].len(), 4, "four tables of one part");
-    assert!(most_waiting("large.toml") >= Hands::default().worth, "axes enough to be shared out");
+    assert!(most_waiting("large.toml") >= ThreadBudget::default().least_axes, "axes enough to be shared out");
     assert_eq!(grown[0], grown[1]);
     assert_eq!(grown[0], grown[2]);
 }

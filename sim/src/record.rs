@@ -15,7 +15,7 @@ pub trait Recorder {
     fn wants(&self, age: Tick) -> bool;
 
     /// Growth has run ahead: the lives of all components are known to the age `until`, before the first age is
-    /// recorded. Who has work that needs no more than that can begin with it, while the ages are made ready.
+    /// recorded. Work that needs no more than that can begin here, while the ages are made ready.
     ///
     /// # Errors
     /// Whatever keeps it from recording; the run then ends.
@@ -30,7 +30,7 @@ pub trait Recorder {
     fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError>;
 }
 
-/// Wants no age: for those who look at the plants that are left.
+/// Records nothing: for a caller that reads the plants after their growth.
 impl Recorder for () {
     fn wants(&self, _: Tick) -> bool {
         false

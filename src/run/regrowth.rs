@@ -6,7 +6,7 @@
 
 use super::{RunError, place_of, seed_of};
 use phytomer_config::{Scenario, Species};
-use phytomer_sim::mechanics::Bench;
+use phytomer_sim::mechanics::Scratch;
 use phytomer_sim::mechanics::sway::sway;
 use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
 use phytomer_sim::site::Wind;
@@ -167,7 +167,7 @@ impl Recorder for ShownAges<'_, '_> {
     fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
         let mut plant = Cow::Borrowed(&plot.plants[0]);
         if let Some(Air { wind, time }) = self.air {
-            sway(plant.to_mut(), age, &plot.site, wind, time, &mut Bench::default())?;
+            sway(plant.to_mut(), age, &plot.site, wind, time, &mut Scratch::default())?;
         }
         (self.show)(age, &plant)
     }

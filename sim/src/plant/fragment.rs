@@ -3,36 +3,36 @@
 //! Axes that wait have no nodes, and none needs to know what the others do. A fragment is a plant that starts with
 //! copies of some of them; joined again, the whole is what it would be had they grown after the axes before them: the
 //! numbers of axes, nodes, organs and components follow on. Until then its handles and component numbers are its own,
-//! but for the nodes that bear the axes that it took: those are the whole plant's, and nobody may look them up.
+//! but for the nodes that bear the axes that it took: those are numbered as in the whole plant, and must not be read in the fragment.
 
 use super::columns::Columns;
 use super::{Appeared, Event, Frames, Joint, OwnTrends, Plant, Strain};
 use crate::clock::NEVER;
 use std::ops::Range;
 
-/// Who may grow one plant at once.
+/// How many threads may grow one plant at once; it never changes the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Hands {
-    /// How many threads: more than one where the others would have nothing to do.
+pub struct ThreadBudget {
+    /// The number of threads: more than 1 where other threads would have nothing to do.
     pub threads: usize,
     /// The fewest axes of which it is worth while to give another thread half. The default's take some 5 ms in a
     /// poplar, far more than to wake a thread and to join what it has grown.
-    pub worth: usize,
+    pub least_axes: usize,
 }
 
-impl Default for Hands {
+impl Default for ThreadBudget {
     fn default() -> Self {
-        Self { threads: 1, worth: 4096 }
+        Self { threads: 1, least_axes: 4096 }
     }
 }
 
-impl Hands {
+impl ThreadBudget {
     /// Whether so many axes are to be shared out.
     pub fn share(self, axes: usize) -> bool {
-        self.threads > 1 && axes >= self.worth.max(2)
+        self.threads > 1 && axes >= self.least_axes.max(2)
     }
 
-    /// The hands of either half.
+    /// The budgets of the two halves.
     pub fn parted(self) -> (Self, Self) {
         let first = self.threads / 2;
         (Self { threads: first, ..self }, Self { threads: self.threads - first, ..self })
@@ -78,7 +78,7 @@ impl Plant {
             rewritten: Default::default(),
             own_looks: Default::default(),
             cuts: Default::default(),
-            hands: self.hands,
+            budget: self.budget,
             components: 0,
             component_limit: self.component_limit.saturating_sub(self.components),
             named_by_number: self.named_by_number,

@@ -36,7 +36,7 @@ pub use axis::{ApexFate, Axes, NewAxis, Origin};
 pub use cut::{Cut, Cuts};
 pub use event::{Event, EventKind};
 pub use form::Form;
-pub use fragment::{Fragment, Hands};
+pub use fragment::{Fragment, ThreadBudget};
 pub use frames::{Frame, Frames};
 pub use habit::{Habit, OrganTrend, OrganTrends, OwnTrends, Trend};
 pub use handle::{AxisId, NodeId, OrganId};
@@ -106,7 +106,7 @@ pub struct Plant {
     /// What was cut off.
     pub cuts: Cuts,
     /// The threads that may grow it at once; they never change the result.
-    pub hands: Hands,
+    pub budget: ThreadBudget,
     components: u32,
     component_limit: u32,
     /// Whether lineage keys follow from the numbers of components instead of their places on the axes.
@@ -149,7 +149,7 @@ impl Plant {
             rewritten: Rewritten::default(),
             own_looks: OwnLooks::default(),
             cuts: Cuts::default(),
-            hands: Hands::default(),
+            budget: ThreadBudget::default(),
             components: 0,
             component_limit: seed.component_limit.min(MOST_COMPONENTS),
             named_by_number: false,

@@ -2,7 +2,7 @@
 //! every component stands or is gone; and the order in which cuts are told does not matter.
 
 use super::*;
-use crate::mechanics::{Bench, Tissue, Uprighting, Wood, bend};
+use crate::mechanics::{Scratch, Tissue, Uprighting, Wood, bend};
 use crate::pose::specimen::{Branch, Growth, Specimen};
 use crate::random::Purpose;
 use crate::shed::{note_falls, shed};
@@ -184,7 +184,7 @@ fn a_topped_rod_bends_as_one_that_was_never_longer() {
     topped.cut(AxisId::TRUNK, 3, 8);
     for plant in [&mut topped, &mut short] {
         shed(plant);
-        bend(plant, 8, &Site::default(), &mut Bench::default());
+        bend(plant, 8, &Site::default(), &mut Scratch::default());
     }
     assert_eq!(topped.strain.curvature[..3], short.strain.curvature[..]);
     assert_eq!(topped.frames.base[..3], short.frames.base[..]);

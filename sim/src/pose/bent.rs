@@ -16,8 +16,8 @@ use crate::plant::{Axes, Plant};
 use crate::rotation::Rotation;
 use crate::vector::Vector;
 
-/// Who states the curvature, while the scan goes from the base to the tips. What it carries along an axis goes from
-/// hand to hand by value, so that it stays in registers.
+/// The source of the curvature, asked while the scan goes from the base to the tips. Its state along an axis is passed
+/// and returned by value, so that it stays in registers.
 pub(crate) trait Curvature {
     /// What is carried along a run.
     type Carried: Copy;

@@ -84,7 +84,7 @@ impl Rod {
     /// The rod bent at once from rest.
     pub fn bent(&self) -> (Plant, Outcome) {
         let mut plant = self.plant();
-        let outcome = bend(&mut plant, 1, &unit_gravity(), &mut Bench::default());
+        let outcome = bend(&mut plant, 1, &unit_gravity(), &mut Scratch::default());
         (plant, outcome)
     }
 }
