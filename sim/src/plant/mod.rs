@@ -198,7 +198,7 @@ impl Plant {
         self.components.saturating_add(more) <= self.component_limit
     }
 
-    /// Whether the plant has more components than it may have: whoever grows it stops and says so.
+    /// Whether the plant has more components than it may have: its model stops growing it and returns the limit.
     #[inline]
     pub fn is_overgrown(&self) -> bool {
         self.components > self.component_limit
