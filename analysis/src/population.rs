@@ -93,6 +93,7 @@ mod tests {
         let plant = |alive, height| SummaryRow {
             plot_id: 0,
             plant_id: 0,
+            tick: 3,
             age: 3,
             internodes: 10,
             leaves: 0,

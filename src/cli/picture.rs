@@ -9,9 +9,10 @@ use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
+use phytomer::run::CONTROL;
 use phytomer::run::drawing::{PicturedPlants, pictured_plants};
 use phytomer_outputs::Destination;
-use phytomer_outputs::colouring::{ColouringError, colour_columns, colouring};
+use phytomer_outputs::colouring::{Belonging, ColouringError, colour_columns, colouring};
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::pictures::{Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, draw, sheet, write_png};
 use phytomer_sim::Tick;
@@ -151,7 +152,9 @@ impl Picture {
             From::Sheet => None,
         };
         let subjects = pictured.subjects();
-        let colour_by = self.colour_by.as_ref().map(|column| colouring(column, &subjects)).transpose()?;
+        let treatments = [CONTROL.to_owned()];
+        let of = Belonging { members: &pictured.members, treatments: &treatments };
+        let colour_by = self.colour_by.as_ref().map(|column| colouring(column, &subjects, of)).transpose()?;
         let style = Style {
             size: self.size,
             view: view.unwrap_or(View::Front),

@@ -27,7 +27,7 @@ pub const VIEWS: &str = "views.sql";
 /// What a finished run has written.
 #[derive(Debug, Clone, Serialize)]
 pub struct RunReport {
-    /// Its plants that live at the last age.
+    /// Its plants that live at the last tick of their plot.
     pub living: u64,
     /// Its plants that have died.
     pub dead: u64,
@@ -138,7 +138,7 @@ fn data_package(plan: &RunPlan, report: &RunReport) -> Value {
         "profile": "data-package",
         "name": slug(&plan.provenance.scenario),
         "title": format!("phytomer run of {}", plan.provenance.scenario),
-        "description": "Plants grown from seed; SI units, ages in ticks since the seed, Z up. The places of components are told \
+        "description": "Plants grown from seed; SI units, ticks of the plot, ages in ticks since the plant was sown, Z up. The places of components are told \
                         from the seed of their plant, whose place in the plot is in the table plants. Null: does not apply.",
         "version": plan.provenance.version,
         "resources": resources,

@@ -42,7 +42,7 @@ fn a_run_folder_holds_what_it_says() {
     let package: Value = serde_json::from_slice(&fs::read(path.join("datapackage.json")).unwrap()).unwrap();
     assert_eq!(package["name"], "sapling");
     assert_eq!(package["resources"][1]["path"][2], "records/part-00002.parquet");
-    assert_eq!(package["resources"][1]["schema"]["fields"][11]["unit"], "m");
+    assert_eq!(package["resources"][1]["schema"]["fields"][12]["unit"], "m");
     let views = fs::read_to_string(path.join("views.sql")).unwrap();
     assert!(views.contains("MACRO at_age(a) AS TABLE SELECT * FROM records_world"));
 }
@@ -256,16 +256,16 @@ fn an_overgrown_plot_keeps_the_ages_before_its_limit() {
     let home = tempdir().unwrap();
     let folder = RunFolder::create(home.path(), plan(2, 1), Mode::New).unwrap();
     let report = grow_shard(&folder, 0, 40);
-    let age = report.overgrown[0].age;
-    assert_eq!(report.overgrown, [OvergrownPlot { plot: 0, plant: 0, age, limit: 40 }]);
+    let tick = report.overgrown[0].tick;
+    assert_eq!(report.overgrown, [OvergrownPlot { plot: 0, plant: 0, tick, limit: 40 }]);
     assert_eq!((report.living, report.dead), (1, 0));
     grow_shard(&folder, 1, 100_000);
     folder.finish(&[]).unwrap();
     let run = Run::open(home.path()).unwrap();
-    assert_eq!(run.json()["overgrown"][0]["age"], age);
+    assert_eq!(run.json()["overgrown"][0]["tick"], tick);
     let rows = run.summary().unwrap();
     let ages: Vec<u32> = rows.iter().filter(|row| row.plant_id == 0).map(|row| row.age).collect();
-    let expected: Vec<u32> = plan(2, 1).recorded.into_iter().filter(|&recorded| recorded < age).collect();
+    let expected: Vec<u32> = plan(2, 1).recorded.into_iter().filter(|&recorded| recorded < tick).collect();
     assert_eq!(ages, expected);
 }
 
