@@ -181,7 +181,7 @@ fn grow_shards(
     let grower = Grower { resolved, plan: folder.plan(), progress };
     let grown = missing.into_par_iter().map(|shard| {
         let meshes = RunMeshes::of(resolved, forms, folder.plan().shards());
-        let mut keeper = FolderKeeper { grower: &grower, shard: folder.shard(*shard)?, meshes, is_drawn: false };
+        let mut keeper = FolderKeeper { grower: &grower, shard: folder.shard(*shard)?, meshes, plot: 0 };
         Ok(if grower.grow_shard(*shard, &mut keeper)? { Some(keeper.commit()?) } else { None })
     });
     // A failed write ends the run: the other shards need not go on.
@@ -199,7 +199,7 @@ struct Grower<'a> {
 /// What keeps the plots of a shard, in files or in memory.
 trait Keeper: Recorder {
     /// A plot is about to grow.
-    fn begin_plot(&mut self, plot: &Plot);
+    fn begin_plot(&mut self, plot: u32);
 
     /// A plot has come to its end.
     fn end_plot(&mut self, plot: &Plot, ending: Ending) -> Result<(), RunError>;
@@ -232,21 +232,21 @@ impl Grower<'_> {
 
     /// Grows one plot to its end; `false` where it was told to stop.
     fn grow_plot(&self, plot: &mut Plot<'_>, keeper: &mut impl Keeper) -> Result<bool, RunError> {
-        keeper.begin_plot(plot);
+        keeper.begin_plot(plot.id);
         let ending = match grow(plot, self.resolved.scenario.ages.until, keeper).map_err(RunError::of_recorder) {
             Ok(ending) => ending,
             Err(RunError::Stopped) => return Ok(false),
             Err(error) => return Err(error),
         };
         keeper.end_plot(plot, ending)?;
-        plot.plants.iter().for_each(|plant| self.progress.end_plant(plant));
+        self.progress.end_plant(&plot.plants[0]);
         Ok(true)
     }
 
-    /// Whether a model must make the plant at this tick whatever is recorded: one that makes it anew must at the last
-    /// tick, of which the components are written.
-    fn must_make(&self, tick: Tick) -> bool {
-        tick == self.resolved.scenario.ages.until && !self.resolved.model.growth().keeps_its_past()
+    /// Whether a model must make the plant at this age whatever is recorded: one that makes it anew must at the last
+    /// age, of which the components are written.
+    fn must_make(&self, age: Tick) -> bool {
+        age == self.resolved.scenario.ages.until && !self.resolved.model.growth().keeps_its_past()
     }
 
     /// The threads for which there is no shard help with the plants of the others. Where every thread has a shard of
@@ -263,8 +263,7 @@ struct FolderKeeper<'a> {
     grower: &'a Grower<'a>,
     shard: Shard<'a>,
     meshes: Option<RunMeshes<'a>>,
-    /// Whether a plant of the present plot is drawn.
-    is_drawn: bool,
+    plot: u32,
 }
 
 impl FolderKeeper<'_> {
@@ -273,41 +272,41 @@ impl FolderKeeper<'_> {
         Ok(self.shard.commit()?)
     }
 
-    fn draws(&self, tick: Tick) -> bool {
-        self.is_drawn && self.meshes.as_ref().is_some_and(|meshes| meshes.wants(tick))
+    fn draws(&self, age: Tick) -> bool {
+        self.meshes.as_ref().is_some_and(|meshes| meshes.wants(self.plot, age))
     }
 }
 
 impl Keeper for FolderKeeper<'_> {
-    fn begin_plot(&mut self, plot: &Plot) {
-        self.is_drawn =
-            self.meshes.as_ref().is_some_and(|meshes| plot.plants.iter().any(|plant| meshes.draws(plant.id)));
+    fn begin_plot(&mut self, plot: u32) {
+        self.plot = plot;
     }
 
     fn end_plot(&mut self, plot: &Plot, ending: Ending) -> Result<(), RunError> {
         self.shard.end_plot(plot, ending)?;
-        self.meshes.iter_mut().try_for_each(RunMeshes::end_plot)
+        self.meshes.iter_mut().try_for_each(RunMeshes::end_plant)
     }
 }
 
 impl Recorder for FolderKeeper<'_> {
-    fn wants(&self, tick: Tick) -> bool {
-        self.grower.must_make(tick) || self.shard.wants(tick) || self.draws(tick)
+    fn wants(&self, age: Tick) -> bool {
+        self.grower.must_make(age) || self.shard.wants(age) || self.draws(age)
     }
 
     fn grown(&mut self, until: Tick, plot: &Plot) -> Result<(), RecordError> {
         self.shard.grown(until, plot)
     }
 
-    fn record(&mut self, tick: Tick, plot: &Plot) -> Result<(), RecordError> {
+    fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
         self.grower.progress.check()?;
-        if self.shard.wants(tick) {
-            self.shard.record(tick, plot)?;
+        if self.shard.wants(age) {
+            self.shard.record(age, plot)?;
         }
-        if self.draws(tick)
+        if self.draws(age)
             && let Some(meshes) = &mut self.meshes
         {
-            meshes.draw_plot(tick, plot, &mut self.shard)?;
+            self.shard.look_at_disk()?;
+            meshes.draw(age, &plot.plants[0], &mut self.shard)?;
         }
         self.grower.progress.end_age();
         Ok(())

@@ -1,9 +1,7 @@
 //! The meshes that a scenario asks for, drawn while its plants grow and registered with the shard that they belong to.
 //!
 //! A file belongs to the shard of its plants, so it is committed, resumed and removed with that shard's tables. All
-//! plants at an age are therefore one file where the run has one part, and one a part where it has more. The ages that a
-//! scenario asks for, and those in the names of files, are ticks of the plot; each plant is drawn at the age that it has
-//! then, and not before it is sown.
+//! plants at an age are therefore one file where the run has one part, and one a part where it has more.
 //! Absent: forms and formats, which are `phytomer_outputs::meshes`'.
 
 use super::RunError;
@@ -13,9 +11,8 @@ use phytomer_config::{About, Resolved, Scenario, Species};
 use phytomer_outputs::Shard;
 use phytomer_outputs::meshes::{Collection, MeshOptions, MeshWriter, OwnForms, Ply, Scene};
 use phytomer_outputs::pictures::Subject;
-use phytomer_outputs::tables::Membership;
+use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
-use phytomer_sim::{Plot, Tick};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Write};
@@ -28,7 +25,7 @@ const MOST_VERTICES: u64 = i32::MAX as u64;
 pub struct RunMeshes<'a> {
     scenario: &'a Scenario,
     meshes: &'a Meshes,
-    ticks: Vec<Tick>,
+    ages: Vec<Tick>,
     options: MeshOptions,
     parts: u32,
     /// The files that are not complete yet, by their paths in the run folder.
@@ -70,48 +67,32 @@ impl<'a> RunMeshes<'a> {
         let scenario = &resolved.scenario;
         let meshes = scenario.meshes.as_ref()?;
         let options = options_of(meshes.sides, own);
-        Some(Self { scenario, meshes, ticks: scenario.mesh_ages(), options, parts, open: BTreeMap::new() })
+        Some(Self { scenario, meshes, ages: scenario.mesh_ages(), options, parts, open: BTreeMap::new() })
     }
 
-    /// Whether plants are drawn at this tick of their plot.
-    pub fn wants(&self, tick: Tick) -> bool {
-        self.ticks.binary_search(&tick).is_ok()
+    /// Whether this plant is drawn at this age.
+    pub fn wants(&self, plant: u32, age: Tick) -> bool {
+        self.ages.binary_search(&age).is_ok() && self.scenario.draws(plant)
     }
 
-    /// Whether this plant is drawn.
-    pub fn draws(&self, plant: u32) -> bool {
-        self.scenario.draws(plant)
-    }
-
-    /// Draws the plants of a plot that are to be drawn, as they stand at a tick.
+    /// Draws a plant as it stands.
     ///
     /// # Errors
-    /// Where a mesh cannot be written.
-    pub fn draw_plot(&mut self, tick: Tick, plot: &Plot, shard: &mut Shard) -> Result<(), RunError> {
-        for (plant, member) in plot.plants.iter().zip(&plot.members) {
-            if let Some(age) = member.age_at(tick).filter(|_| self.draws(plant.id)) {
-                shard.look_at_disk()?;
-                self.draw((tick, age), plant, shard)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Draws a plant as it stands at a tick of its plot and its age.
-    fn draw(&mut self, (tick, age): (Tick, Tick), plant: &Plant, shard: &mut Shard) -> Result<(), RunError> {
+    /// Where its mesh cannot be written.
+    pub fn draw(&mut self, age: Tick, plant: &Plant, shard: &mut Shard) -> Result<(), RunError> {
         let id = plant.id;
         match self.meshes.per {
             MeshFile::PlantAge => {
-                let path = shard.stage(&format!("meshes/plant-{id:05}_age-{tick:04}.ply"))?;
+                let path = shard.stage(&format!("meshes/plant-{id:05}_age-{age:04}.ply"))?;
                 let seed = self.scenario.seed;
                 let written =
                     File::create(&path).and_then(|mut file| write_mesh(plant, age, seed, &self.options, &mut file));
                 written.map_err(failed(&path.display().to_string()))
             }
             MeshFile::Plant => self.collect(format!("meshes/plant-{id:05}.ply"), age, plant, shard),
-            MeshFile::Age if self.parts == 1 => self.collect(format!("meshes/age-{tick:04}.ply"), age, plant, shard),
+            MeshFile::Age if self.parts == 1 => self.collect(format!("meshes/age-{age:04}.ply"), age, plant, shard),
             MeshFile::Age => {
-                let path = format!("meshes/age-{tick:04}_part-{:05}.ply", shard.number());
+                let path = format!("meshes/age-{age:04}_part-{:05}.ply", shard.number());
                 self.collect(path, age, plant, shard)
             }
         }
@@ -127,11 +108,11 @@ impl<'a> RunMeshes<'a> {
         collection.add(&scene, &scene.about(self.scenario.seed)).map_err(failed(&path))
     }
 
-    /// The last tick of a plot is past.
+    /// The last age of a plant is past.
     ///
     /// # Errors
     /// Where its file cannot be written.
-    pub fn end_plot(&mut self) -> Result<(), RunError> {
+    pub fn end_plant(&mut self) -> Result<(), RunError> {
         if self.meshes.per == MeshFile::Plant { self.finish() } else { Ok(()) }
     }
 
@@ -158,8 +139,6 @@ fn failed(path: &str) -> impl FnOnce(io::Error) -> RunError {
 pub struct PicturedPlants {
     /// Each plant at each age, with what is written below it.
     pub subjects: Vec<(Plant, Tick, String)>,
-    /// Where each of them belongs, in the same order.
-    pub members: Vec<Membership>,
     /// The name of the species.
     pub title: String,
     /// What the file says of itself.
@@ -185,7 +164,7 @@ pub fn pictured_plants(
     ages: &[Tick],
 ) -> Result<PicturedPlants, RunError> {
     let about = &species.about;
-    let (mut subjects, mut members) = (Vec::new(), Vec::new());
+    let mut subjects = Vec::new();
     for &number in plants {
         let mut seen = BTreeMap::new();
         regrowth.show(number, ages, &mut |age, plant| {
@@ -197,12 +176,11 @@ pub fn pictured_plants(
             let years = species.ticks_per_year().map(|ticks| in_years(*age, ticks)).unwrap_or_default();
             let Some(plant) = seen.get(age) else { continue };
             subjects.push((plant.clone(), *age, format!("{whose}age {age}{years}")));
-            members.push(Membership { plot: number, ..Membership::default() });
         }
     }
     let title = title_of(about);
     let note = format!("{}: plants {plants:?} at the ages {ages:?} of seed {}", about.name, regrowth.scenario.seed);
-    Ok(PicturedPlants { subjects, members, title, note })
+    Ok(PicturedPlants { subjects, title, note })
 }
 
 /// What a species is called below its picture: by its scientific name, if it is one and no list of examples.

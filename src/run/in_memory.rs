@@ -82,7 +82,7 @@ impl<'a> MemoryKeeper<'a> {
 }
 
 impl Keeper for MemoryKeeper<'_> {
-    fn begin_plot(&mut self, _plot: &Plot) {}
+    fn begin_plot(&mut self, _plot: u32) {}
 
     fn end_plot(&mut self, plot: &Plot, ending: Ending) -> Result<(), RunError> {
         self.tables.end_plot(plot, &ending).map_err(phytomer_outputs::Error::from)?;
@@ -94,18 +94,18 @@ impl Keeper for MemoryKeeper<'_> {
 }
 
 impl Recorder for MemoryKeeper<'_> {
-    fn wants(&self, tick: Tick) -> bool {
-        self.grower.must_make(tick) || self.tables.wants(tick)
+    fn wants(&self, age: Tick) -> bool {
+        self.grower.must_make(age) || self.tables.wants(age)
     }
 
     fn grown(&mut self, until: Tick, plot: &Plot) -> Result<(), RecordError> {
         self.tables.grown(until, plot)
     }
 
-    fn record(&mut self, tick: Tick, plot: &Plot) -> Result<(), RecordError> {
+    fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
         self.grower.progress.check()?;
-        if self.tables.wants(tick) {
-            self.tables.record(tick, plot)?;
+        if self.tables.wants(age) {
+            self.tables.record(age, plot)?;
         }
         self.grower.progress.end_age();
         Ok(())

@@ -6,6 +6,7 @@ use super::*;
 use crate::Table;
 use crate::read::Run;
 use crate::specimen::{grow_shard, plan, plot, run};
+use crate::specimen_plots::{grow_missing, mixed_plan, run_mixed};
 use phytomer_sim::grow;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -59,6 +60,31 @@ fn the_bytes_do_not_depend_on_the_number_of_threads() {
     });
     assert_eq!(written[0], written[1]);
     assert_eq!(written[0], written[2]);
+}
+
+/// Three plants a plot, of two species and sown at three ticks: the same bytes on any number of threads, in whichever
+/// way the run came to its end.
+#[test]
+fn plots_of_several_plants_are_checked_and_resumed_as_those_of_one() {
+    let written = [1, 2, 7].map(|threads| {
+        let home = tempdir().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| run_mixed(home.path(), mixed_plan(7, 2)));
+        assert_eq!(check(home.path(), Depth::Bytes, &Checking::default()).unwrap().state, State::Complete);
+        contents(home.path())
+    });
+    assert!(written[0] == written[1] && written[0] == written[2]);
+    let home = tempdir().unwrap();
+    run_mixed(home.path(), mixed_plan(7, 2));
+    fs::remove_file(home.path().join("events/part-00001.parquet")).unwrap();
+    fs::write(home.path().join("summary/part-00003.parquet"), b"cut").unwrap();
+    let found = check(home.path(), Depth::Bytes, &Checking::default()).unwrap();
+    assert_eq!((found.state, found.to_grow), (State::Damaged, vec![1, 3]));
+    let folder = RunFolder::create(home.path(), mixed_plan(7, 2), Mode::Resume).unwrap();
+    grow_missing(&folder);
+    folder.finish(&[]).unwrap();
+    drop(folder);
+    assert!(contents(home.path()) == written[0]);
 }
 
 /// A mesh that was renamed but not entered, one that was half written, and a file that is not the run's.
