@@ -1,9 +1,10 @@
 //! What plants take in memory, as the allocator counts it; nothing here knows a column.
 //!
 //! A component takes at most 96 bytes for topology, fates and pose together, and the peak of a population does not
-//! depend on its size. A pass over a tick of a plot takes what its largest plant takes. The clone of a plant has no room to spare, so what it allocates is what its columns hold; the
-//! plant itself also has what its vectors keep spare. Absent: the optional log of events, the memory of a mesh, and
-//! what the system's allocator keeps of what was given back.
+//! depend on its size. A pass over a tick of a plot takes what its largest plant takes. The clone of a plant has no
+//! room to spare, so what it allocates is what its columns hold; the plant itself also has what its vectors keep spare.
+//! Absent: the optional log of events, the memory of a mesh, and what the system's allocator keeps of what was given
+//! back.
 
 use peak_alloc::PeakAlloc;
 use phytomer::config::scenario::{BYTES_A_COMPONENT, Every, Record};

@@ -82,8 +82,8 @@ pub fn components_of(plot: &Plot, at: usize, last: Tick) -> Result<Vec<Component
     Ok((0..columns.component.len()).map(row).collect())
 }
 
-/// How the internodes of the plant at place `at` of a plot in memory lie at the tick `tick` of the plot, at which it was
-/// posed; none where it is not sown by then.
+/// How the internodes of the plant at place `at` of a plot in memory lie at a tick of the plot, at which it was posed;
+/// none where it is not sown by then.
 ///
 /// # Errors
 /// [`TableError::PlantTooLarge`].
@@ -145,7 +145,8 @@ impl Run {
         Ok(found)
     }
 
-    /// Shows the batches of a table with their first rows, until a plot begins after which no plant below `plants` comes.
+    /// Shows each batch of a table with the number of its first rows that may be of the plants below `plants`: those up
+    /// to the end of the last plot that has such a plant.
     fn each_batch(
         &self,
         table: Table,
@@ -167,8 +168,8 @@ impl Run {
         Ok(())
     }
 
-    /// The last plot that has a plant whose number is below `plants`, as `plants` tells; `None` where a run, of an older
-    /// program or with plots that are not grown yet, does not tell of each.
+    /// The last plot that has a plant whose number is below `plants`, as the table `plants` tells; `None` where it does
+    /// not tell of each: in a run of an older program, or one of which plots are not grown yet.
     fn last_plot_of(&self, plants: u32) -> Result<Option<u32>, Error> {
         let (mut last, mut found) = (None, 0);
         for batch in self.batches(Table::Plants)? {

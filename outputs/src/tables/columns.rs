@@ -2,9 +2,9 @@
 //!
 //! The arrow schema, the Parquet metadata, `datapackage.json` and the documentation are all made from these lists. Ids
 //! and ticks are signed, because many readers know no unsigned numbers; null means "does not apply" or "not by the end
-//! of the run", and no number stands for it. A `tick` is the plot's, an `age` the plant's; all columns that end in `_age`
-//! are the plant's too. Where a component stands is told from the seed of its plant, in single precision; where the seed
-//! lies, once, in `plants`, in double.
+//! of the run", and no number stands for it. A `tick` is the plot's, an `age` the plant's; all columns that end in
+//! `_age` are the plant's too. Where a component stands is told from the seed of its plant, in single precision; where
+//! the seed lies, once, in `plants`, in double.
 
 use super::schema::{Column, Encoding, Named, Rounding, Type};
 use phytomer_sim::plant::{Cause, EventKind, Kind, Origin};
