@@ -261,6 +261,15 @@ mod tests {
         assert_eq!(journal.whole, fs::metadata(&path).unwrap().len());
     }
 
+    /// The tick that a plot could not finish was called an age while every plant was sown at tick 0.
+    #[test]
+    fn the_limits_of_older_runs_are_read() {
+        let read = serde_json::from_str::<OvergrownPlot>;
+        let now = OvergrownPlot { plot: 3, plant: 4, tick: 5, limit: 6 };
+        assert_eq!(read(r#"{"plot":3,"plant":4,"age":5,"limit":6}"#).unwrap(), now);
+        assert_eq!(read(&serde_json::to_string(&now).unwrap()).unwrap(), now);
+    }
+
     #[test]
     fn a_resumed_journal_takes_back_a_torn_line_too() {
         let home = tempfile::tempdir().unwrap();
