@@ -21,8 +21,8 @@ impl Curve {
     /// The angle about x between segment `nth` of a stem, from 1, and the one before (§4.1).
     ///
     /// The first segment has none before it: it stands as the stem is set on its parent, or upright, so that DownAngle
-    /// and Rotate are what they say. A stem of n segments turns therefore by (n − 1)/n of nCurve. Where nCurveBack is not
-    /// 0, a segment is of the half of the stem in which it begins.
+    /// and Rotate are what they say. A stem of n segments turns therefore by (n − 1)/n of nCurve. Where nCurveBack is
+    /// not 0, a segment is of the half of the stem in which it begins.
     pub fn turn_deg(&self, nth: u32, draw: f64) -> f64 {
         if nth <= 1 {
             return 0.0;
@@ -45,8 +45,8 @@ pub(super) fn split_deg(angle: f64, declination: f64) -> f64 {
 }
 
 /// By how much a split is given back at each segment after the one that it has turned, to the last (§4.2: "distributed
-/// over the remaining segments in the reverse direction"). In equal parts, which the paper does not say; a split of which
-/// no segment remains is not given back.
+/// over the remaining segments in the reverse direction"). In equal parts, which the paper does not say; a split of
+/// which no segment remains is not given back.
 pub(super) fn give_back_deg(split: f64, turned: u32, segments: u32) -> f64 {
     if segments > turned { split / f64::from(segments - turned) } else { 0.0 }
 }
@@ -54,10 +54,10 @@ pub(super) fn give_back_deg(split: f64, turned: u32, segments: u32) -> f64 {
 /// How far a stem, number 0, or a clone of it, from 1, is turned about the vertical at a split into the stem and
 /// `clones` clones (§4.2). `share` is uniform in (0, 1), the sign of `side` one of two at random.
 ///
-/// The paper has a formula for a single clone, which turns the stem and not the clone. Its words and its formula disagree:
-/// "20 to 50 degrees" for level branches and "up to 140" for upright ones would need a factor of 1 in the place of 0.75,
-/// by which they are 42.5 and 110. The formula is taken. Of several clones the paper says nothing: the stem and its clones
-/// then stand at equal angles.
+/// The paper has a formula for a single clone, which turns the stem and not the clone. Its words and its formula
+/// disagree: "20 to 50 degrees" for level branches and "up to 140" for upright ones would need a factor of 1 in the
+/// place of 0.75, by which they are 42.5 and 110. The formula is taken. Of several clones the paper says nothing: the
+/// stem and its clones then stand at equal angles.
 pub(super) fn spread_deg(stem: u32, clones: u32, declination: f64, share: f64, side: f64) -> f64 {
     let apart = 20.0 + 0.75 * (30.0 + (declination - 90.0).abs()) * share * share;
     match (clones, stem) {
@@ -74,6 +74,8 @@ pub(super) struct Place {
     pub share: f64,
     /// The segment of the parent, from 0.
     pub segment: u32,
+    /// Which of the branches on that segment, from 0.
+    pub position: u16,
     /// (length_parent − offset_child) / (length_parent − length_base): 1 at the base of the crown, 0 at the top.
     pub ratio: f64,
 }
@@ -84,11 +86,15 @@ pub(super) struct Place {
 /// The paper does not say where along its parent a branch stands. Here the part of the parent above its base is divided
 /// into equal parts, one a branch, and each stands in the middle of its part.
 pub(super) fn places(number: u32, base: f64, segments: u32) -> impl Iterator<Item = Place> {
+    let mut last = None;
     (0..number).map(move |nth| {
         let above = (f64::from(nth) + 0.5) / f64::from(number);
         let share = base + above * (1.0 - base);
         let segment = ((share * f64::from(segments)) as u32).min(segments - 1);
-        Place { share, segment, ratio: 1.0 - above }
+        let before = last.filter(|last: &Place| last.segment == segment);
+        let place = Place { share, segment, position: before.map_or(0, |last| last.position + 1), ratio: 1.0 - above };
+        last = Some(place);
+        place
     })
 }
 
@@ -110,8 +116,8 @@ pub(super) fn shape_ratio(shape: Crown, ratio: f64) -> f64 {
 
 /// The angle between a branch and its parent (§4.3).
 ///
-/// Below 0 nDownAngleV is no variation; "±" then stands for the sum, so that branches point downwards at the base of the
-/// crown and upwards at its top, as the paper says of the Black Tupelo.
+/// Below 0 nDownAngleV is no variation; "±" then stands for the sum, so that branches point downwards at the base of
+/// the crown and upwards at its top, as the paper says of the Black Tupelo.
 pub(super) fn down_angle_deg(angle: f64, v: f64, ratio: f64, draw: f64) -> f64 {
     if v < 0.0 { angle + v * (1.0 - 2.0 * shape_ratio(Crown::Conical, ratio)) } else { angle + v * draw }
 }
@@ -127,7 +133,8 @@ pub(super) fn rotate_deg(stated: f64, rotate: f64, nth: u32, last: f64) -> f64 {
     math::fmod(last + rotate, 360.0)
 }
 
-/// The radius at the base of a branch (§4.4). It is not above `there`, the radius of the parent where the branch leaves.
+/// The radius at the base of a branch (§4.4). It is not above `there`, the radius of the parent where the branch
+/// leaves.
 pub(super) fn branch_radius(parent_radius: f64, length_ratio: f64, ratio_power: f64, there: f64) -> f64 {
     (parent_radius * math::pow(length_ratio, ratio_power)).min(there)
 }

@@ -1,11 +1,11 @@
 //! A parametric tree as the loop sees it: written anew at each age, whole from age 1 on.
 //!
 //! A segment of a stem is an internode that states how it is turned in the frame of the one before; a branch states how
-//! far behind the tip of its bearing internode it begins. Clones of the trunk are forks of its order, borne by the tip of
-//! its first segment. Absent: the equations (`equations`) and what a plant draws (`stems`).
+//! far behind the tip of its bearing internode it begins. Clones of the trunk are forks of its order, borne by the tip
+//! of its first segment. Absent: the equations (`equations`) and what a plant draws (`stems`).
 
 use super::equations::tapered;
-use super::stems::{Sized, Stem, counts};
+use super::stems::{Drawn, Stem, clones, counts};
 use super::tree::Tree;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::expectation::{Certainty, Expectation, OrderExpectation};
@@ -35,14 +35,14 @@ impl TreeModel {
 
     fn write(&self, plant: &mut Plant) -> Result<(), Overgrown> {
         let random = plant.random.clone();
-        let sized = Sized::new(&self.tree, &random);
-        let trunks = sized.trunks();
+        let drawn = Drawn::new(&self.tree, &random);
+        let trunks = drawn.trunks();
         let mut first: Vec<NodeId> = Vec::with_capacity(trunks.len());
         for trunk in &trunks {
             first.push(add(trunk, first.first().copied(), plant)?);
         }
         for (trunk, &first) in trunks.iter().zip(&first) {
-            for branch in sized.branches(trunk) {
+            for branch in drawn.branches(trunk) {
                 add(&branch, Some(first), plant)?;
             }
         }
@@ -159,8 +159,9 @@ impl Grow for TreeModel {
         }
     }
 
-    /// The numbers themselves. But where the length of the trunk is drawn, it is drawn how many branches stand below the
-    /// split, of which clones have no copy: the fewest do on the shortest trunk, whose bare part is its greatest share.
+    /// The numbers themselves. But where the length of the trunk is drawn, it is drawn how many branches stand below
+    /// the split, of which clones have no copy: the fewest do on the shortest trunk, whose bare part is its greatest
+    /// share.
     fn expectation(&self, until: Tick) -> Option<Expectation> {
         let Tree { trunk, base_size, .. } = &self.tree;
         let shortest = trunk.length.value() - trunk.length_v.value();
@@ -177,7 +178,7 @@ impl Grow for TreeModel {
             order
         };
         let orders = counts(&self.tree, base_size.value() / shortest).into_iter().enumerate().map(level).collect();
-        let axes = if trunk.length_v.value() > 0.0 { Certainty::AtMost } else { Certainty::Exact };
+        let axes = if trunk.length_v.value() > 0.0 && clones(trunk) > 0 { Certainty::AtMost } else { Certainty::Exact };
         Some(Expectation { orders, axes, organs: Certainty::Exact })
     }
 }

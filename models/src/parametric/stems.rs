@@ -1,11 +1,11 @@
 //! The stems of one tree (Weber & Penn 1995 §4.1 to §4.4): what it draws, how long each stem is, where on its parent it
 //! begins, how it is turned segment by segment, and how thick it is.
 //!
-//! A stem's frame in the paper has z along it, y on its upper side and x = y × z; in the plant's frames these are heading,
-//! upper side and left, so that a turn by a positive angle about the paper's x bends a stem away from its upper side. A
-//! clone has all that its twin has, from the split on (§3): its segments, its thickness, and branches of its own at the
-//! places of those of its twin. Draws are keyed by stem, and each quantity has a place of its own in the stem's stream.
-//! Absent: the equations (`equations`), the plant's columns (`model`).
+//! A stem's frame in the paper has z along it, y on its upper side and x = y × z; in the plant's frames these are
+//! heading, upper side and left, so that a turn by a positive angle about the paper's x bends a stem away from its
+//! upper side. A clone has all that its twin has, from the split on (§3): its segments, its thickness, and branches of
+//! its own at the places of those of its twin. Draws are keyed by stem, and each quantity has a place of its own in the
+//! stem's stream. Absent: the equations (`equations`), the plant's columns (`model`).
 
 use super::equations::{
     Curve, Place, branch_radius, down_angle_deg, give_back_deg, places, rotate_deg, shape_ratio, split_deg, spread_deg,
@@ -16,6 +16,7 @@ use phytomer_sim::math;
 use phytomer_sim::plant::{LineageKey, key};
 use phytomer_sim::random::{PlantRandom, Purpose, Stream};
 use phytomer_sim::rotation::Rotation;
+use std::cmp::Ordering;
 use std::f64::consts::PI;
 
 /// The paper's z and x in the coordinates of a frame.
@@ -33,8 +34,8 @@ pub(super) struct Stem {
     pub level: u8,
     /// Which of the clones, or of the branches on its segment, from 0.
     pub position: u16,
-    /// Of what bears it: the rank of the segment, from 1, and how far behind the tip of that it begins, metres. The trunk
-    /// has neither.
+    /// Of what bears it: the rank of the segment, from 1, and how far behind the tip of that it begins, metres. The
+    /// trunk has neither.
     pub rank: u32,
     pub behind: f64,
     /// How each segment is turned in the frame of the one before, the first in that of the bearing segment.
@@ -50,7 +51,7 @@ pub(super) struct Stem {
 
 /// A tree of which the size is drawn.
 #[derive(Debug)]
-pub(super) struct Sized<'a> {
+pub(super) struct Drawn<'a> {
     tree: &'a Tree,
     random: &'a PlantRandom,
     /// length_trunk, metres.
@@ -75,7 +76,7 @@ mod word {
     pub const A_SEGMENT: u64 = 4;
 }
 
-impl<'a> Sized<'a> {
+impl<'a> Drawn<'a> {
     /// Draws scale_tree and length_trunk (§4.3).
     pub fn new(tree: &'a Tree, random: &'a PlantRandom) -> Self {
         let mut words = random.stream(LineageKey::SEED, Purpose::Plant);
@@ -89,66 +90,80 @@ impl<'a> Sized<'a> {
         (0..=clones(&self.tree.trunk)).map(|stem| self.trunk(stem)).collect()
     }
 
-    /// The trunk, number 0, or a clone of it. The first segment stands upright: its declination is 0, and to turn about
-    /// the vertical is to turn about its own axis.
+    /// The trunk, number 0, or a clone of it.
     fn trunk(&self, stem: u32) -> Stem {
         let trunk = &self.tree.trunk;
-        let (curve, clones) = (curve_of_trunk(trunk), clones(trunk));
         let key = match stem.checked_sub(1) {
             None => LineageKey::SEED,
             Some(position) => LineageKey::SEED.child(key::Place::Fork(position as u16).on(SPLITS_AFTER)),
         };
         let mut words = self.random.stream(key, Purpose::Node);
-        let angle = trunk.split_angle_deg.value() + trunk.split_angle_v_deg.value() * signed(&mut words, word::SPLIT);
-        let split = if clones > 0 { split_deg(angle, 0.0) } else { 0.0 };
-        let (share, side) = (unit(&mut words, word::SPREAD), signed(&mut words, word::SIDE));
-        let spread = spread_deg(stem, clones, 0.0, share, side);
-        let back = give_back_deg(split, SPLITS_AFTER + 1, curve.segments);
-        let turns = bends(&curve, &mut words).map(|(nth, bend)| match nth {
-            1 => Rotation::NONE,
-            2 => rolled(spread).then(bent(split + bend)),
-            _ => bent(bend - back),
-        });
-        let own = if stem == 0 { 0 } else { SPLITS_AFTER as usize };
-        let turns: Vec<Rotation> = turns.skip(own).collect();
+        let (turns, spread, split) = self.split(stem, &mut words);
+        let segments = trunk.curve_res.value();
         let radius = self.length * self.tree.ratio.value();
+        let cloned = if stem == 0 { 0 } else { SPLITS_AFTER };
         Stem {
             key,
             level: 0,
             position: stem.saturating_sub(1) as u16,
-            rank: if stem == 0 { 0 } else { SPLITS_AFTER },
+            rank: cloned,
             behind: 0.0,
-            turns,
-            segment: self.length / f64::from(curve.segments),
-            radii: radii(radius, trunk.taper.value(), curve.segments).skip(own).collect(),
+            turns: turns[cloned as usize..].to_vec(),
+            segment: self.length / f64::from(segments),
+            radii: radii(radius, trunk.taper.value(), segments).skip(cloned as usize).collect(),
             azimuth: if stem == 0 { 0.0 } else { azimuth(spread) },
             insertion: if stem == 0 { 0.0 } else { radians(split) },
         }
     }
 
-    /// The branches of the trunk or of one of its clones, from the base to the top (§4.3): all `places` of the whole stem
-    /// that lie on its own segments.
+    /// How each segment of the trunk, or of a clone of it from its twin's base, is turned (§4.2); and the angles in
+    /// degrees by which it is turned about the vertical and away from it at the split. The first segment stands
+    /// upright: its declination is 0, and to turn about the vertical is to turn about its own axis.
+    fn split(&self, stem: u32, words: &mut Stream) -> (Vec<Rotation>, f64, f64) {
+        let trunk = &self.tree.trunk;
+        let (curve, clones) = (curve_of_trunk(trunk), clones(trunk));
+        let angle = trunk.split_angle_deg.value() + trunk.split_angle_v_deg.value() * signed(words, word::SPLIT);
+        let split = if clones > 0 { split_deg(angle, 0.0) } else { 0.0 };
+        let spread = spread_deg(stem, clones, 0.0, unit(words, word::SPREAD), signed(words, word::SIDE));
+        let turned = SPLITS_AFTER + 1;
+        let back = give_back_deg(split, turned, curve.segments);
+        let turns = bends(&curve, words).map(|(nth, bend)| match nth.cmp(&turned) {
+            Ordering::Less => bent(bend),
+            Ordering::Equal => rolled(spread).then(bent(split + bend)),
+            Ordering::Greater => bent(bend - back),
+        });
+        (turns.collect(), spread, split)
+    }
+
+    /// The branches of the trunk or of one of its clones, from the base to the top (§4.3): all `places` of the whole
+    /// stem that lie on its own segments.
     pub fn branches(&self, parent: &Stem) -> impl Iterator<Item = Stem> {
         let segments = self.tree.trunk.curve_res.value();
         let before = segments - parent.turns.len() as u32;
         let of_level = move |level: &'a Branches| {
             places(level.number.value(), self.base, segments).map(move |place| (level, place))
         };
-        let all = self.tree.branches.iter().flat_map(of_level).filter(move |(_, place)| place.segment >= before);
-        let (mut last, mut on) = (0.0, (u32::MAX, 0_u16));
-        all.zip(0..).map(move |((level, place), nth)| {
-            on = if place.segment == on.0 { (on.0, on.1 + 1) } else { (place.segment, 0) };
+        let all = self.tree.branches.first().into_iter().flat_map(of_level);
+        let mut last = 0.0;
+        all.filter(move |(_, place)| place.segment >= before).zip(0..).map(move |((level, place), nth)| {
             let rank = place.segment - before + 1;
-            let key = parent.key.child(key::Place::Axillary(on.1).on(rank));
+            let key = parent.key.child(key::Place::Axillary(place.position).on(rank));
             let mut words = self.random.stream(key, Purpose::Node);
-            let drawn = level.rotate_v_deg.value() * signed(&mut words, word::ROTATE);
-            last = rotate_deg(level.rotate_deg.value(), level.rotate_deg.value() + drawn, nth, last);
-            Stem { key, position: on.1, rank, ..self.branch(level, place, last, &mut words) }
+            let rotate = level.rotate_deg.value() + level.rotate_v_deg.value() * signed(&mut words, word::ROTATE);
+            last = rotate_deg(level.rotate_deg.value(), rotate, nth, last);
+            self.branch(level, place, (rank, key), last, &mut words)
         })
     }
 
-    /// A branch at a place of its parent, turned by `rotate` degrees about it.
-    fn branch(&self, level: &Branches, place: Place, rotate: f64, words: &mut Stream) -> Stem {
+    /// A branch at a place of its parent, on the segment of this rank, turned by `rotate` degrees about it.
+    fn branch(
+        &self,
+        level: &Branches,
+        place: Place,
+        (rank, key): (u32, LineageKey),
+        rotate: f64,
+        words: &mut Stream,
+    ) -> Stem {
         let Tree { ratio, ratio_power, trunk, shape, .. } = self.tree;
         let (angle, angle_v) = (level.down_angle_deg.value(), level.down_angle_v_deg.value());
         let down = down_angle_deg(angle, angle_v, place.ratio, signed(words, word::DOWN_ANGLE));
@@ -164,10 +179,10 @@ impl<'a> Sized<'a> {
         });
         let segments = f64::from(trunk.curve_res.value());
         Stem {
-            key: LineageKey::SEED,
+            key,
             level: 1,
-            position: 0,
-            rank: 0,
+            position: place.position,
+            rank,
             behind: (f64::from(place.segment + 1) - place.share * segments) * (self.length / segments),
             turns: turns.collect(),
             segment: share * self.length / f64::from(curve.segments),
@@ -188,7 +203,7 @@ pub(super) fn clones(trunk: &Trunk) -> u32 {
 pub(super) fn counts(tree: &Tree, base: f64) -> Vec<[u64; 2]> {
     let (clones, segments) = (u64::from(clones(&tree.trunk)), tree.trunk.curve_res.value());
     let mut counts = vec![[1 + clones, u64::from(segments) + clones * u64::from(segments - SPLITS_AFTER)]];
-    for level in &tree.branches {
+    if let Some(level) = tree.branches.first() {
         let number = level.number.value();
         let cloned = places(number, base, segments).filter(|place| place.segment >= SPLITS_AFTER).count() as u64;
         let axes = u64::from(number) + clones * cloned;

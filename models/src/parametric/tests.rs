@@ -89,6 +89,8 @@ fn branches_are_spaced_evenly_above_the_base() {
         assert_eq!(place.segment, segment);
         near(place.ratio, (1.0 - share) / 0.8);
     }
+    let positions: Vec<u16> = places(7, 0.0, 3).map(|place| place.position).collect();
+    assert_eq!(positions, [0, 1, 0, 1, 2, 0, 1], "two, three and two on three segments");
     assert_eq!(places(0, 0.2, 5).count(), 0);
     assert!(places(10_000, 0.0, 1).all(|place| place.segment == 0 && place.share < 1.0));
 }

@@ -151,8 +151,8 @@ fn a_stem_that_curves_back_is_an_s() {
     leans.iter().zip(expected).for_each(|(found, expected)| near(*found, expected));
 }
 
-/// Two splits make three stems, which are one stem turned by thirds; each has turned by the angle of the split and comes
-/// back to the vertical, so that its end is where the sum of its segments says. Their branches are turned alike.
+/// Two splits make three stems, which are one stem turned by thirds; each has turned by the angle of the split and
+/// comes back to the vertical, so that its end is where the sum of its segments says. Their branches are turned alike.
 #[test]
 fn a_clump_has_the_symmetry_of_its_stems() {
     let tree = with(level(10), clump(2));
@@ -207,7 +207,8 @@ fn a_stem_and_its_single_clone_lean_to_one_side() {
     assert!((left - 0.5).abs() < 4.0 * 0.5 / n.sqrt(), "{left}");
 }
 
-/// Number, spacing, place, length and thickness of branches by the equations of §4.3 and §4.4, on a trunk and on clones.
+/// Number, spacing, place, length and thickness of branches by the equations of §4.3 and §4.4, on a trunk and on
+/// clones.
 #[test]
 fn branches_stand_at_their_offsets_on_the_line_of_their_parent() {
     let mut tree = with(level(31), clump(2));

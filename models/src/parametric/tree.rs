@@ -1,9 +1,9 @@
 //! The parameters of a parametric tree, by the names of Weber & Penn 1995 (appendix), with their variations.
 //!
-//! A key is the paper's name in small letters, with its unit: `nCurveBack` is `curve_back_deg`. The number before a name
-//! says which table it is in: 0 is `trunk`, 1 the first table of `branches`. A parameter with its variation, NAME ± NAMEV
-//! in the paper, is drawn uniformly between NAME − NAMEV and NAME + NAMEV; the paper does not say by which distribution.
-//! Absent: what the parameters do (`equations`), and those of the paper that nothing reads yet.
+//! A key is the paper's name in small letters, with its unit: `nCurveBack` is `curve_back_deg`. The number before a
+//! name says which table it is in: 0 is `trunk`, 1 the first table of `branches`. A parameter with its variation, NAME
+//! ± NAMEV in the paper, is drawn uniformly between NAME − NAMEV and NAME + NAMEV; the paper does not say by which
+//! distribution. Absent: what the parameters do (`equations`), and those of the paper that nothing reads yet.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -94,8 +94,8 @@ pub struct Trunk {
     /// 0CurveRes: how many segments the trunk has.
     #[schemars(extend("minimum" = 1, "maximum" = 100))]
     pub curve_res: Quantity,
-    /// 0Curve: the angle by which the trunk curves over its length, or over its first half where `curve_back_deg` is not
-    /// 0, degrees. Above 0 it curves away from its upper side.
+    /// 0Curve: the angle by which the trunk curves over its length, or over its first half where `curve_back_deg` is
+    /// not 0, degrees. Above 0 it curves away from its upper side.
     #[serde(default)]
     #[schemars(extend("minimum" = -3600, "maximum" = 3600))]
     pub curve_deg: Constant,
@@ -124,8 +124,8 @@ pub struct Branches {
     #[serde(default)]
     #[schemars(extend("minimum" = -180, "maximum" = 180))]
     pub down_angle_v_deg: Constant,
-    /// nRotate: from one branch to the next around their parent, degrees. Below 0 they stand on two sides of the parent by
-    /// turns, each at 180 + nRotate from its y-axis.
+    /// nRotate: from one branch to the next around their parent, degrees. Below 0 they stand on two sides of the parent
+    /// by turns, each at 180 + nRotate from its y-axis.
     #[schemars(extend("minimum" = -360, "maximum" = 360))]
     pub rotate_deg: Constant,
     /// nRotateV: its variation, degrees.
