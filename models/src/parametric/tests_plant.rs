@@ -354,6 +354,7 @@ fn branches_in_mid_segment_stay_on_a_parent_that_bends() {
     for axis in axes_of(&rest, 2) {
         let (bearer, first) = (rest.axes.bearer[axis].index(), nodes_of(&rest, axis)[0]);
         let from = rest.nodes.length[bearer] + rest.start_of(NodeId(first as u32))[0];
+        assert!(from < rest.nodes.length[bearer], "branch {axis} leaves its parent below a tip");
         let (base, heading) = (bent.frames.base[bearer], bent.frames.heading[bearer]);
         let on_line = [0, 1, 2].map(|k| base[k] + from * heading[k]);
         assert!(apart(bent.frames.base[first], on_line) < ALIKE, "branch {axis}");
