@@ -38,6 +38,18 @@ fn plants_that_bend_are_the_same_on_any_number_of_threads() {
     assert_eq!(grown[0], grown[2]);
 }
 
+#[test]
+fn parametric_trees_are_the_same_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let grown = ["1", "2", "7"].map(|threads| {
+        phytomer(folder.path(), &["grow", &data("clump.toml"), "--threads", threads, "--name", threads]).ending(0);
+        hashes(&folder.path().join("runs").join(threads))
+    });
+    assert_eq!(grown[0].len(), 5 * 3 + 2, "five tables of three parts, one plant at two ages");
+    assert_eq!(grown[0], grown[1]);
+    assert_eq!(grown[0], grown[2]);
+}
+
 /// One plant, of which so many axes wait that threads without a part of their own help to grow it.
 #[test]
 fn a_single_plant_is_the_same_on_any_number_of_threads() {
