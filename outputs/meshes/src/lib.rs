@@ -26,7 +26,7 @@ mod tube;
 
 pub use chunk::{Chunk, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
-pub use file::{MeshError, MeshFile, MeshRecorder, write_mesh};
+pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
 pub use ply::Ply;
 pub use scene::{Counts, Scene};

@@ -246,21 +246,15 @@ fn a_failed_write_is_reported_as_it_was() {
 #[test]
 fn files_are_named_by_plant_and_age_and_nothing_is_left_beside_them() {
     let folder = tempfile::tempdir().unwrap();
-    let mut plot = phytomer_sim::Plot::new(0, vec![], &[]);
-    plot.plants = vec![specimen()];
-    let meshes = folder.path().join("meshes");
-    let mut recorder = MeshRecorder::new(Ply, &meshes, &[3, 6], 42, MeshOptions::default()).unwrap();
-    for age in 1..=6 {
-        phytomer_sim::Recorder::record(&mut recorder, age, &plot).unwrap();
-    }
-    let files = recorder.take_written();
+    let plant = specimen();
+    let write = |age| write_mesh(&Ply, &plant, age, 42, &MeshOptions::default(), folder.path()).unwrap();
+    let files = [3, 6].map(write);
     let names: Vec<String> = files.iter().map(|file| file.path.file_name().unwrap().display().to_string()).collect();
     assert_eq!(names, ["plant-00007_age-0003.ply", "plant-00007_age-0006.ply"]);
-    assert_eq!(std::fs::read_dir(&meshes).unwrap().count(), 2);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
     let bytes = std::fs::read(&files[1].path).unwrap();
-    assert_eq!(bytes, written(&plot.plants[0], 6, &MeshOptions::default()));
+    assert_eq!(bytes, written(&plant, 6, &MeshOptions::default()));
     assert_eq!(files[1].bytes, bytes.len() as u64);
-    assert!(recorder.take_written().is_empty());
-    let missing = write_mesh(&Ply, &plot.plants[0], 6, 42, &MeshOptions::default(), &folder.path().join("none"));
+    let missing = write_mesh(&Ply, &plant, 6, 42, &MeshOptions::default(), &folder.path().join("none"));
     assert!(missing.unwrap_err().to_string().starts_with("cannot write "));
 }
