@@ -82,7 +82,7 @@ fn facts(plant: &Plant) -> BTreeMap<LineageKey, Facts> {
         let mut of = vec![organs.kind[o] as u32, u32::from(organs.position[o]), organs.birth[o], organs.death[o]];
         of.extend([
             organs.cause[o] as u32,
-            organs.form[o].number() as u32,
+            u32::from(organs.form[o].0),
             organs.length[o].to_bits(),
             organs.width[o].to_bits(),
         ]);

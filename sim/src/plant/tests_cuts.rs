@@ -11,20 +11,7 @@ use crate::site::Site;
 const LAST: Tick = 30;
 
 fn leaf(node: NodeId) -> NewOrgan {
-    NewOrgan {
-        node,
-        kind: Kind::Leaf,
-        position: 0,
-        birth: 1,
-        death: NEVER,
-        cause: Cause::None,
-        form: Form::Elliptic,
-        length: 0.1,
-        width: 0.1,
-        area: 0.01,
-        azimuth: 0.0,
-        insertion: 1.0,
-    }
+    NewOrgan { node, length: 0.1, width: 0.1, area: 0.01, insertion: 1.0, ..NewOrgan::LEAF }
 }
 
 /// Axes with their bearing axis and rank, of five nodes each, with a leaf on each node.

@@ -168,28 +168,21 @@ fn organs_and_buds_stand_at_the_tip_of_their_node() {
         key: LineageKey(1),
         order: 2,
         origin: Origin::Axillary,
-        position: 0,
-        follows: false,
-        state: 0,
         appearance: 1,
         birth: 3,
-        azimuth: 0.0,
         insertion: FRAC_PI_2,
-        shed_after: crate::clock::NEVER,
+        ..NewAxis::OF_THE_SEED
     });
     let leaf = plant.add_organ(NewOrgan {
         node: NodeId(1),
-        kind: Kind::Leaf,
-        position: 0,
-        birth: 1,
         death: 9,
         cause: Cause::LifeLength,
-        form: Form::Elliptic,
         length: 0.1,
         width: 0.05,
         area: 0.004,
         azimuth: PI,
         insertion: FRAC_PI_2,
+        ..NewOrgan::LEAF
     });
     pose(plant, LAST);
     assert_near(bud_frame(plant, AxisId::TRUNK).base, [0.0, 0.0, 1.0]);
@@ -212,16 +205,15 @@ fn a_leaf_sinks_with_its_age_and_a_fruit_hangs() {
     let organ = |kind| NewOrgan {
         node: NodeId(1),
         kind,
-        position: 0,
         birth: 3,
         death: 9,
         cause: Cause::LifeLength,
-        form: Form::Elliptic,
         length: 0.1,
         width: 0.05,
         area: 0.004,
         azimuth: PI,
         insertion: FRAC_PI_2,
+        ..NewOrgan::LEAF
     };
     let (leaf, flower) = (plant.add_organ(organ(Kind::Leaf)), plant.add_organ(organ(Kind::Flower)));
     pose(plant, LAST);
@@ -243,17 +235,14 @@ fn leaves_that_face_the_sky_turn_their_upper_side_up() {
     plant.axes.insertion[0] = FRAC_PI_2;
     let leaf = |azimuth, insertion| NewOrgan {
         node: NodeId(1),
-        kind: Kind::Leaf,
-        position: 0,
-        birth: 1,
         death: 9,
         cause: Cause::LifeLength,
-        form: Form::Elliptic,
         length: 0.1,
         width: 0.05,
         area: 0.004,
         azimuth,
         insertion,
+        ..NewOrgan::LEAF
     };
     let leaves = [plant.add_organ(leaf(FRAC_PI_2, FRAC_PI_2)), plant.add_organ(leaf(0.4, 1.1))];
     pose(plant, LAST);

@@ -54,17 +54,13 @@ fn specimen(growth: Growth, bends: bool) -> Specimen {
         (plant.nodes.diameter[node], plant.nodes.diameter_tip[node]) = (0.05, 0.049);
         plant.add_organ(NewOrgan {
             node: at,
-            kind: Kind::Leaf,
-            position: 0,
             birth: plant.nodes.birth[node],
-            death: crate::clock::NEVER,
-            cause: Cause::None,
-            form: Form::Elliptic,
             length: 0.1,
             width: 0.05,
             area: 0.004,
             azimuth: 1.0,
             insertion: 1.0,
+            ..NewOrgan::LEAF
         });
     }
     specimen
