@@ -29,7 +29,7 @@ pub(super) const BIRTH: Tick = 1;
 impl TreeModel {
     pub(super) fn new(tree: &Tree) -> Self {
         let looks = Looks::of_shape(Shape::Cone);
-        let habit = Habit { trends: vec![Trend::STRAIGHT], looks, organ_trends: vec![], wood: None };
+        let habit = Habit { trends: vec![Trend::STRAIGHT], looks, ..Habit::default() };
         Self { tree: tree.clone(), habit: Arc::new(habit) }
     }
 

@@ -8,7 +8,7 @@ use crate::contract;
 use crate::fault::Path;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::math::{atan2, pow, sincos};
-use phytomer_sim::mechanics::{Bench, OrganMass, Tissue, Uprighting, Wood, bend};
+use phytomer_sim::mechanics::{OrganMass, Scratch, Tissue, Uprighting, Wood, bend};
 use phytomer_sim::model::Grow as _;
 use phytomer_sim::plant::{AxisId, Habit, NodeId, Origin, Plant, Rest};
 use phytomer_sim::pose::{node_frame, pose};
@@ -347,7 +347,7 @@ fn branches_in_mid_segment_stay_on_a_parent_that_bends() {
     let wood = Wood { tissues: vec![tissue], bends: true, organs: OrganMass::default(), ..Wood::default() };
     let mut bent = rest.clone();
     bent.habit = Arc::new(Habit { wood: Some(wood), ..(*rest.habit).clone() });
-    bend(&mut bent, 1, &Site::default(), &mut Bench::default());
+    bend(&mut bent, 1, &Site::default(), &mut Scratch::default());
     let apart = |a: [f32; 3], b: [f32; 3]| (0..3).map(|k| f64::from(a[k] - b[k]).abs()).fold(0.0, f64::max);
     let moved = rest.frames.base.iter().zip(&bent.frames.base).map(|(a, b)| apart(*a, *b)).fold(0.0, f64::max);
     assert!(moved > 0.05, "it does bend: by {moved} m");

@@ -4,7 +4,7 @@
 use super::specimen::{Branch, Growth, LAST, Specimen};
 use super::*;
 use crate::math::{acos, cosf, sinf};
-use crate::plant::{Cause, Form, Habit, Kind, LineageKey, NewAxis, NewOrgan, OrganTrend, OrganTrends, Origin, Trend};
+use crate::plant::{Cause, Habit, Kind, LineageKey, NewAxis, NewOrgan, OrganTrend, OrganTrends, Origin, Trend};
 use crate::random::{PlantRandom, Purpose};
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
