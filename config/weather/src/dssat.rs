@@ -11,7 +11,7 @@ mod token;
 use crate::asked::Format;
 use crate::dates::{Order, date, of_numbers, whole_number};
 use crate::fault::{Kind, Place};
-use crate::names::{Column, column, extremes, meant};
+use crate::names::{Column, MOST_COLUMNS, column, extremes, meant};
 use crate::number::{Cell, cell};
 use crate::quantity::Values;
 use crate::rows::{Rows, Written};
@@ -117,6 +117,12 @@ impl Reader<'_, '_> {
         // The sign is no part of the first name, and is kept as a blank so that places stay.
         text.replace_range(..1, " ");
         let tabs = tokens(text.as_bytes(), &mut self.tokens);
+        if self.tokens.len() > MOST_COLUMNS {
+            self.table = Table::Other;
+            let problem = format!("{} columns", self.tokens.len());
+            let expected = format!("at most {MOST_COLUMNS}");
+            return self.rows.faults.tell(Kind::Layout, Place::whole(line), problem, expected);
+        }
         let names: Vec<&str> =
             self.tokens.iter().map(|token| text.get(token.start as usize..token.end as usize).unwrap_or("")).collect();
         let head = |(token, name): (&Token, &&str)| Head {

@@ -6,7 +6,7 @@
 use crate::asked::Format;
 use crate::dates::{Order, date, of_numbers, whole_number};
 use crate::fault::{Kind, Place};
-use crate::names::{Column, column, extremes, meant};
+use crate::names::{Column, MOST_COLUMNS, column, extremes, meant};
 use crate::number::{Cell, cell};
 use crate::quantity::{QUANTITIES, Quantity, Values};
 use crate::rows::{Rows, Written};
@@ -58,6 +58,11 @@ impl Named {
         rows: &mut Rows<'_>,
         line: &Line<'_>,
     ) -> Self {
+        let names = &names[..names.len().min(MOST_COLUMNS + 1)];
+        if names.len() > MOST_COLUMNS {
+            let expected = format!("at most {MOST_COLUMNS}");
+            rows.faults.tell(Kind::Layout, Place::whole(line), format!("more than {MOST_COLUMNS} columns"), expected);
+        }
         let columns: Vec<Column> = names.iter().map(|name| column(format, &name.text)).collect();
         let mut named = Self {
             format,

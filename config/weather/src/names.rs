@@ -10,6 +10,9 @@ use crate::asked::Format;
 use crate::quantity::{Measure, Quantity};
 use phytomer_law::spelling::nearest;
 
+/// More columns than this no table of weather has.
+pub(crate) const MOST_COLUMNS: usize = 200;
+
 /// What a column is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Column {

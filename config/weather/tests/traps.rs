@@ -139,7 +139,7 @@ fn what_cannot_be_known_is_told_with_its_place() {
              `@DATE` before it\n",
         ),
         (
-            "***** 3.4\n",
+            "*****   3.4  24.8  14.3   0.0\n",
             "a.WTH:3:1: `*****` is no date; expected a date: two or four digits of the year and three of the day\n",
         ),
         (

@@ -124,7 +124,7 @@ impl Layout {
             heads.iter_mut().enumerate().for_each(|(at, head)| *head = at);
             return Ok(());
         }
-        if tabs || is_wide || misfit == Some(Misfit::NoDate) {
+        if tabs || is_wide || misfit == Some(Misfit::NoDate) || tokens.len() > self.heads.len() {
             return first;
         }
         let mut least = 0;
