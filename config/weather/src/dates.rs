@@ -32,14 +32,14 @@ pub(crate) fn date(token: &[u8], order: Order) -> Option<(Date, bool)> {
         Some(number) => of_digits(number, digits.len())?,
         None => of_parts(digits, order)?,
     };
-    YEARS.contains(&date.year()).then_some((date, flagged))
+    Some((date, flagged))
 }
 
 fn of_digits(number: i32, digits: usize) -> Option<Date> {
     match digits {
-        5 => Date::of_year(full_year(number / 1000), (number % 1000) as u32),
-        7 => Date::of_year(number / 1000, (number % 1000) as u32),
-        8 => Date::new(number / 10_000, (number / 100 % 100) as u32, (number % 100) as u32),
+        5 => of_numbers(full_year(number / 1000), None, number % 1000),
+        7 => of_numbers(number / 1000, None, number % 1000),
+        8 => of_numbers(number / 10_000, Some(number / 100 % 100), number % 100),
         _ => None,
     }
 }
@@ -56,8 +56,7 @@ fn of_parts(digits: &[u8], order: Order) -> Option<Date> {
     let (first, month, last) = (part()?, part()?, part()?);
     let (year, day) = if order == Order::YearFirst { (first, last) } else { (last, first) };
     let sound = part().is_none() && year.len() == 4 && month.len() <= 2 && day.len() <= 2;
-    let number = |digits| whole_number(digits).map(|number| number as u32);
-    sound.then(|| Date::new(whole_number(year)?, number(month)?, number(day)?)).flatten()
+    sound.then(|| of_numbers(whole_number(year)?, Some(whole_number(month)?), whole_number(day)?)).flatten()
 }
 
 /// A number of at most nine digits and nothing else.
@@ -77,13 +76,13 @@ pub(crate) fn whole_number(digits: &[u8]) -> Option<i32> {
 }
 
 /// A day by a year and a day of it, or by a year, a month and a day.
+#[inline]
 pub(crate) fn of_numbers(year: i32, month: Option<i32>, day: i32) -> Option<Date> {
-    let day = u32::try_from(day).ok()?;
-    let date = match month {
+    let day = u32::try_from(day).ok().filter(|_| YEARS.contains(&year))?;
+    match month {
         Some(month) => Date::new(year, u32::try_from(month).ok()?, day),
         None => Date::of_year(year, day),
-    };
-    date.filter(|date| YEARS.contains(&date.year()))
+    }
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use crate::dates::{Order, date, of_numbers, whole_number};
 use crate::fault::{Kind, Place};
 use crate::names::{Column, MOST_COLUMNS, column, extremes, meant};
 use crate::number::{Cell, cell};
-use crate::quantity::{QUANTITIES, Quantity, Values};
+use crate::quantity::{Quantity, Values};
 use crate::rows::{Rows, Written};
 use crate::station::locate;
 use crate::text::Line;
@@ -67,7 +67,7 @@ impl Named {
         let mut named = Self {
             format,
             columns,
-            constants: [None; QUANTITIES],
+            constants: Values::default(),
             parts: [None; 4],
             order: Order::YearFirst,
             point: b'.',
@@ -114,7 +114,7 @@ impl Named {
     fn check(&mut self, names: &[Name], rows: &mut Rows<'_>, line: &Line<'_>) {
         for (code, quantity) in extremes(self.format) {
             let is_there = self.columns.iter().any(|c| matches!(c, Column::Of(m) if m.quantity == quantity));
-            if !is_there && self.constants[quantity as usize].is_none() {
+            if !is_there && self.constants.get(quantity).is_none() {
                 let unknown = names.iter().zip(&self.columns).filter(|(_, column)| **column == Column::Unused);
                 let near = meant(code, unknown.map(|(name, _)| name.text.as_str()));
                 let problem = format!("there is no column for the {}", quantity.words());

@@ -28,8 +28,36 @@ pub enum Quantity {
 /// The number of quantities.
 pub(crate) const QUANTITIES: usize = 8;
 
-/// A value of each, where it was measured.
-pub(crate) type Values = [Option<f64>; QUANTITIES];
+/// A value of each quantity, where it was measured: in memory that is not a number where it was not, and nothing but
+/// these functions sees that.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Values([f64; QUANTITIES]);
+
+impl Default for Values {
+    fn default() -> Self {
+        Self([f64::NAN; QUANTITIES])
+    }
+}
+
+impl Values {
+    /// The value of a quantity.
+    #[inline]
+    pub fn get(&self, quantity: Quantity) -> Option<f64> {
+        Some(self.0[quantity as usize]).filter(|value| !value.is_nan())
+    }
+
+    /// Sets the value of a quantity.
+    #[inline]
+    pub fn set(&mut self, quantity: Quantity, value: Option<f64>) {
+        self.0[quantity as usize] = value.unwrap_or(f64::NAN);
+    }
+
+    /// Whether both temperatures were measured.
+    #[inline]
+    pub fn are_whole(&self) -> bool {
+        self.get(Quantity::Maximum).is_some() && self.get(Quantity::Minimum).is_some()
+    }
+}
 
 impl Quantity {
     /// All of them, in the order in which they are kept.

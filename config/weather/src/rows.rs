@@ -6,7 +6,7 @@
 
 use crate::fault::{Faults, Kind, Place};
 use crate::number::{Cell, cell};
-use crate::quantity::{Measure, QUANTITIES, Quantity, Values};
+use crate::quantity::{Measure, Quantity, Values};
 use crate::weather::LeftOut;
 use phytomer_sim::site::date::Date;
 
@@ -16,8 +16,6 @@ pub(crate) struct Row {
     pub day: Date,
     /// Where its date stands.
     pub place: Place,
-    /// What was measured.
-    pub values: Values,
     /// Whether the row before it was left out, so that nothing is known of what lies between.
     pub after_broken: bool,
 }
@@ -39,6 +37,8 @@ pub(crate) struct Rows<'t> {
     pub faults: Faults<'t>,
     /// The rows with a date, in the order of the file.
     pub found: Vec<Row>,
+    /// What was measured in each of them.
+    pub measured: Vec<Values>,
     /// Rows with a flag.
     pub flagged: u32,
     /// Values whose column cannot be known, and that are no temperature, radiation or rain.
@@ -50,18 +50,20 @@ pub(crate) struct Rows<'t> {
     minimum: Place,
 }
 
-const MAXIMUM: usize = Quantity::Maximum as usize;
-const MINIMUM: usize = Quantity::Minimum as usize;
+/// A row takes at least so many bytes in most files.
+const BYTES_OF_ROW: usize = 24;
 
 impl<'t> Rows<'t> {
     /// None yet.
     pub fn of(text: &'t str) -> Self {
+        let rows = text.len() / BYTES_OF_ROW;
         Self {
             faults: Faults::of(text),
-            found: Vec::new(),
+            found: Vec::with_capacity(rows),
+            measured: Vec::with_capacity(rows),
             flagged: 0,
             left_out: None,
-            values: [None; QUANTITIES],
+            values: Values::default(),
             is_flagged: false,
             is_broken: false,
             minimum: Place::default(),
@@ -96,16 +98,15 @@ impl<'t> Rows<'t> {
     pub fn take(&mut self, measure: &Measure, written: Written<'_>) {
         let (cell, is_flagged) = cell(written.token, written.point);
         self.is_flagged |= is_flagged;
-        let at = measure.quantity as usize;
-        if at == MINIMUM {
+        if measure.quantity == Quantity::Minimum {
             self.minimum = written.place;
         }
         match cell {
             Cell::Value(value) => match measure.kept(value) {
-                Some(kept) => self.values[at] = Some(kept),
+                Some(kept) => self.values.set(measure.quantity, Some(kept)),
                 None => self.impossible(measure, written.place),
             },
-            Cell::Missing => self.values[at] = None,
+            Cell::Missing => self.values.set(measure.quantity, None),
             Cell::Stars | Cell::Text => self.unreadable(measure, cell, written),
         }
     }
@@ -134,26 +135,34 @@ impl<'t> Rows<'t> {
 
     /// What was told of a temperature is not told again as a temperature that is missing.
     fn stand_in(&mut self, quantity: Quantity) {
-        self.values[quantity as usize] = match quantity {
+        let value = match quantity {
             Quantity::Maximum => Some(f64::INFINITY),
             Quantity::Minimum => Some(f64::NEG_INFINITY),
             _ => None,
         };
+        self.values.set(quantity, value);
     }
 
     /// Closes the row with its date.
     #[inline]
     pub fn close(&mut self, day: Date, place: Place) {
-        if let (Some(maximum), Some(minimum)) = (self.values[MAXIMUM], self.values[MINIMUM])
+        let (maximum, minimum) = (self.values.get(Quantity::Maximum), self.values.get(Quantity::Minimum));
+        if let (Some(maximum), Some(minimum)) = (maximum, minimum)
             && minimum > maximum
         {
-            let problem = format!("the minimum of {minimum} °C is above the maximum of {maximum} °C");
-            let place = if self.minimum.line == place.line { self.minimum } else { place };
-            self.faults.tell(Kind::Crossed, place, problem, "a minimum that is at most the maximum of its day");
+            self.crossed(maximum, minimum, place);
         }
         self.flagged += u32::from(self.is_flagged);
         let after_broken = std::mem::take(&mut self.is_broken);
-        self.found.push(Row { day, place, values: self.values, after_broken });
+        self.found.push(Row { day, place, after_broken });
+        self.measured.push(self.values);
+    }
+
+    #[cold]
+    fn crossed(&mut self, maximum: f64, minimum: f64, date: Place) {
+        let problem = format!("the minimum of {minimum} °C is above the maximum of {maximum} °C");
+        let place = if self.minimum.line == date.line { self.minimum } else { date };
+        self.faults.tell(Kind::Crossed, place, problem, "a minimum that is at most the maximum of its day");
     }
 
     /// Leaves the row out, of which something was told.

@@ -7,13 +7,9 @@
 
 use crate::asked::{Asked, Beyond};
 use crate::fault::{Faults, Kind, Place, Refused};
-use crate::quantity::{Quantity, Values};
+use crate::quantity::{QUANTITIES, Quantity, Values};
 use crate::rows::{Row, Rows};
-use crate::weather::{Absent, Day, Filled, Notes, Station, Weather};
-
-const MAXIMUM: usize = Quantity::Maximum as usize;
-const MINIMUM: usize = Quantity::Minimum as usize;
-const RAIN: usize = Quantity::Rain as usize;
+use crate::weather::{Absent, Filled, Notes, Station, Weather};
 
 /// Days in a row without a temperature.
 #[derive(Default)]
@@ -34,9 +30,9 @@ pub(crate) fn weather(
     name: &str,
     asked: &Asked,
 ) -> Result<Weather, Refused> {
-    let Rows { mut faults, found, flagged, left_out, .. } = rows;
-    let found = in_order(found, &mut faults);
-    let filled = check_runs(&found, &mut faults, asked.interpolate_days);
+    let Rows { mut faults, mut found, mut measured, flagged, left_out, .. } = rows;
+    keep_in_order(&mut found, &mut measured, &mut faults);
+    let filled = check_runs(&found, &measured, &mut faults, asked.interpolate_days);
     if found.is_empty() && faults.is_empty() {
         faults.tell(Kind::Layout, Place::default(), "this file has no day", "a row for each day");
     }
@@ -45,9 +41,9 @@ pub(crate) fn weather(
     };
     let (first, end) = (first.day, end.place);
     let mut notes = Notes { filled, flagged_rows: flagged, left_out, unused, absent: Vec::new() };
-    let values = spread(&found);
+    let values = if notes.filled.is_empty() { measured } else { spread(&found, &measured) };
     notes.absent = absent(&values);
-    let weather = Weather::new(station, notes, first, values.iter().map(day).collect());
+    let weather = Weather::new(station, notes, first, values);
     if asked.beyond == Beyond::Refuse {
         return Ok(weather);
     }
@@ -59,36 +55,43 @@ pub(crate) fn weather(
     })
 }
 
-/// The rows that go forward; the others are told.
-fn in_order(rows: Vec<Row>, faults: &mut Faults<'_>) -> Vec<Row> {
-    let mut kept: Vec<Row> = Vec::with_capacity(rows.len());
-    for row in rows {
-        let before = kept.last().map(|last| last.day);
-        match before.filter(|before| row.day <= *before) {
-            None => kept.push(row),
-            Some(before) => {
-                let problem = if row.day == before {
-                    format!("{before} was there before")
-                } else {
-                    format!("{} comes after {before}", row.day)
-                };
-                faults.tell(Kind::Order, row.place, problem, format!("the day after {before}, {}", before.plus(1)));
-            }
-        }
+/// Keeps the rows that go forward; the others are told.
+fn keep_in_order(rows: &mut Vec<Row>, measured: &mut Vec<Values>, faults: &mut Faults<'_>) {
+    if rows.is_sorted_by(|a, b| a.day < b.day) {
+        return;
     }
-    kept
+    let mut last = None;
+    let kept: Vec<bool> = rows
+        .iter()
+        .map(|row| {
+            let Some(before) = last.filter(|before| row.day <= *before) else {
+                last = Some(row.day);
+                return true;
+            };
+            let problem = match row.day == before {
+                true => format!("{before} was there before"),
+                false => format!("{} comes after {before}", row.day),
+            };
+            faults.tell(Kind::Order, row.place, problem, format!("the day after {before}, {}", before.plus(1)));
+            false
+        })
+        .collect();
+    let mut kept_rows = kept.iter();
+    rows.retain(|_| kept_rows.next() == Some(&true));
+    let mut kept_values = kept.iter();
+    measured.retain(|_| kept_values.next() == Some(&true));
 }
 
 /// Goes through the runs of days without a temperature: those that may be filled are given back, the others told.
-fn check_runs(rows: &[Row], faults: &mut Faults<'_>, most: u32) -> Vec<Filled> {
-    let (mut filled, mut run) = (Vec::new(), Run::default());
-    for (at, row) in rows.iter().enumerate() {
-        let gap = at.checked_sub(1).map_or(0, |before| (row.day.since(rows[before].day) - 1) as u32);
+fn check_runs(rows: &[Row], measured: &[Values], faults: &mut Faults<'_>, most: u32) -> Vec<Filled> {
+    let (mut filled, mut run, mut before) = (Vec::new(), Run::default(), None);
+    for (at, (row, values)) in rows.iter().zip(measured).enumerate() {
+        let gap = before.replace(row.day).map_or(0, |before| (row.day.since(before) - 1) as u32);
         if gap > 0 && !row.after_broken {
             run.gaps.push((at, gap));
             run.days += gap;
         }
-        if row.values[MAXIMUM].is_none() || row.values[MINIMUM].is_none() {
+        if !values.are_whole() {
             run.bare.push(at);
             run.days += 1;
         } else if run.days > 0 {
@@ -97,16 +100,16 @@ fn check_runs(rows: &[Row], faults: &mut Faults<'_>, most: u32) -> Vec<Filled> {
             if is_inside && run.days <= most {
                 filled.push(Filled { from: row.day.plus(-(run.days as i32)).to_string(), days: run.days });
             } else {
-                tell(&run, rows, faults, is_inside);
+                tell(&run, rows, measured, faults, is_inside);
             }
         }
     }
-    tell(&run, rows, faults, false);
+    tell(&run, rows, measured, faults, false);
     filled
 }
 
 /// Tells a run that is not filled: its gaps, and its rows without a temperature.
-fn tell(run: &Run, rows: &[Row], faults: &mut Faults<'_>, is_inside: bool) {
+fn tell(run: &Run, rows: &[Row], measured: &[Values], faults: &mut Faults<'_>, is_inside: bool) {
     let or = match run.days {
         days @ 1..=31 if is_inside => format!(", or `gaps = {{ interpolate_days = {days} }}`"),
         _ => String::new(),
@@ -121,12 +124,13 @@ fn tell(run: &Run, rows: &[Row], faults: &mut Faults<'_>, is_inside: bool) {
     }
     for bare in run.bare.chunk_by(|a, b| *b == a + 1) {
         let (Some(first), Some(last)) = (bare.first(), bare.last()) else { continue };
-        let (first, last, days) = (&rows[*first], &rows[*last], bare.len() as u32);
-        let which = match (first.values[MAXIMUM].is_none(), first.values[MINIMUM].is_none()) {
-            (true, true) => "temperature",
-            (true, false) => "maximum temperature",
+        let values = &measured[*first];
+        let which = match (values.get(Quantity::Maximum), values.get(Quantity::Minimum)) {
+            (None, None) => "temperature",
+            (None, Some(_)) => "maximum temperature",
             _ => "minimum temperature",
         };
+        let (first, last, days) = (&rows[*first], &rows[*last], bare.len() as u32);
         let problem = match days {
             1 => format!("{} has no {which}", first.day),
             _ => format!("{days} days have no temperature, {} to {}", first.day, last.day),
@@ -137,16 +141,15 @@ fn tell(run: &Run, rows: &[Row], faults: &mut Faults<'_>, is_inside: bool) {
 }
 
 /// The values of each day, what lies between two rows filled.
-fn spread(rows: &[Row]) -> Vec<Values> {
-    let days = rows.first().zip(rows.last()).map_or(0, |(first, last)| last.day.since(first.day) + 1);
-    let mut spread: Vec<Values> = Vec::with_capacity(usize::try_from(days).unwrap_or(0));
+fn spread(rows: &[Row], measured: &[Values]) -> Vec<Values> {
+    let mut spread: Vec<Values> = Vec::with_capacity(rows.len());
     let (mut whole, mut pending) = (None, false);
-    for row in rows {
+    for (row, values) in rows.iter().zip(measured) {
         let at = row.day.since(rows[0].day) as usize;
         pending |= spread.len() < at;
         spread.resize(at, Values::default());
-        spread.push(row.values);
-        if row.values[MAXIMUM].is_none() || row.values[MINIMUM].is_none() {
+        spread.push(*values);
+        if !values.are_whole() {
             pending = true;
             continue;
         }
@@ -164,40 +167,34 @@ fn fill(run: &mut [Values]) {
     let steps = between.len() as f64 + 1.0;
     for (step, values) in (1..).zip(between.iter_mut()) {
         let share = f64::from(step) / steps;
+        let had = *values;
         // A row that lacks one temperature keeps all that it has.
-        let had_row = values.iter().any(Option::is_some);
-        let had_minimum = values[MINIMUM].is_some();
-        for (at, value) in values.iter_mut().enumerate() {
-            let is_asked = at != RAIN && (!had_row || at == MAXIMUM || at == MINIMUM);
-            if let (None, true, Some(from), Some(to)) = (*value, is_asked, first[at], last[at]) {
-                *value = Some(from + share * (to - from));
+        let had_row = Quantity::ALL.into_iter().any(|quantity| had.get(quantity).is_some());
+        for quantity in Quantity::ALL {
+            let is_temperature = matches!(quantity, Quantity::Maximum | Quantity::Minimum);
+            let is_asked = quantity != Quantity::Rain && (!had_row || is_temperature);
+            let ends = first.get(quantity).zip(last.get(quantity));
+            if let (None, true, Some((from, to))) = (had.get(quantity), is_asked, ends) {
+                values.set(quantity, Some(from + share * (to - from)));
             }
         }
-        if let (Some(maximum), Some(minimum)) = (values[MAXIMUM], values[MINIMUM]) {
-            let filled = if had_minimum { MAXIMUM } else { MINIMUM };
-            values[filled] = Some(if had_minimum { maximum.max(minimum) } else { minimum.min(maximum) });
+        if let Some((maximum, minimum)) = values.get(Quantity::Maximum).zip(values.get(Quantity::Minimum)) {
+            match had.get(Quantity::Minimum) {
+                Some(_) => values.set(Quantity::Maximum, Some(maximum.max(minimum))),
+                None => values.set(Quantity::Minimum, Some(minimum.min(maximum))),
+            }
         }
     }
 }
 
 /// The quantities that were measured on some days and not on all.
 fn absent(values: &[Values]) -> Vec<Absent> {
-    let count = |quantity: Quantity| values.iter().filter(|values| values[quantity as usize].is_none()).count();
-    let counted = Quantity::ALL.into_iter().map(|quantity| (quantity, count(quantity)));
-    let some = counted.filter(|(_, days)| *days > 0 && *days < values.len());
-    some.map(|(quantity, days)| Absent { quantity: quantity.words(), days: days as u32 }).collect()
-}
-
-fn day(values: &Values) -> Day {
-    let [maximum, minimum, rain, radiation, wind, dew_point, vapour_pressure, humidity] = *values;
-    Day {
-        maximum: maximum.unwrap_or_default(),
-        minimum: minimum.unwrap_or_default(),
-        rain,
-        radiation,
-        wind,
-        dew_point,
-        vapour_pressure,
-        humidity: humidity.map(|share| share.min(1.0)),
+    let mut counts = [0_u32; QUANTITIES];
+    for values in values {
+        for (count, quantity) in counts.iter_mut().zip(Quantity::ALL) {
+            *count += u32::from(values.get(quantity).is_none());
+        }
     }
+    let some = Quantity::ALL.into_iter().zip(counts).filter(|(_, days)| *days > 0 && (*days as usize) < values.len());
+    some.map(|(quantity, days)| Absent { quantity: quantity.words(), days }).collect()
 }

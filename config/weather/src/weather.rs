@@ -4,19 +4,20 @@
 //! later: the fewest times as many years as the file holds whole ones, so that years come again in their order. 29 February
 //! takes the weather of the 28th where its year in the file has none. Absent: what is between the days.
 
+use crate::quantity::{Quantity, Values};
 use phytomer_sim::site::date::Date;
 use phytomer_sim::site::degree_days::DegreeDays;
 use serde::Serialize;
 
 /// The weather of a station, day by day.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Weather {
     /// Where it was measured.
     pub station: Station,
     /// What had to be noted.
     pub notes: Notes,
     first: Date,
-    days: Vec<Day>,
+    days: Vec<Values>,
     /// The whole years after which the weather comes again; `None` where it ends.
     period: Option<i32>,
 }
@@ -99,9 +100,25 @@ pub struct Absent {
     pub days: u32,
 }
 
+impl Day {
+    /// What was measured on a day, which has both temperatures.
+    fn of(values: &Values) -> Self {
+        Self {
+            maximum: values.get(Quantity::Maximum).unwrap_or_default(),
+            minimum: values.get(Quantity::Minimum).unwrap_or_default(),
+            rain: values.get(Quantity::Rain),
+            radiation: values.get(Quantity::Radiation),
+            wind: values.get(Quantity::Wind),
+            dew_point: values.get(Quantity::DewPoint),
+            vapour_pressure: values.get(Quantity::VapourPressure),
+            humidity: values.get(Quantity::Humidity).map(|share| share.min(1.0)),
+        }
+    }
+}
+
 impl Weather {
     /// Days that follow one another from the first on; at least one.
-    pub(crate) fn new(station: Station, notes: Notes, first: Date, days: Vec<Day>) -> Self {
+    pub(crate) fn new(station: Station, notes: Notes, first: Date, days: Vec<Values>) -> Self {
         Self { station, notes, first, days, period: None }
     }
 
@@ -122,13 +139,16 @@ impl Weather {
     }
 
     /// All days of the file.
-    pub fn days(&self) -> &[Day] {
-        &self.days
+    pub fn days(&self) -> impl ExactSizeIterator<Item = Day> + '_ {
+        self.days.iter().map(Day::of)
     }
 
     /// The weather of a day; `None` beyond the file, unless it repeats itself.
-    pub fn day(&self, date: Date) -> Option<&Day> {
-        let place = |date: Date| usize::try_from(date.since(self.first)).ok().and_then(|place| self.days.get(place));
+    pub fn day(&self, date: Date) -> Option<Day> {
+        let place = |date: Date| {
+            let days = usize::try_from(date.since(self.first)).ok().and_then(|place| self.days.get(place));
+            days.map(Day::of)
+        };
         if let Some(day) = place(date) {
             return Some(day);
         }
@@ -145,7 +165,7 @@ impl Weather {
 
     /// The degree-days of each day of the file.
     pub fn degree_days(&self, how: DegreeDays) -> impl Iterator<Item = f64> + '_ {
-        self.days.iter().map(move |day| how.of_day(day.maximum, day.minimum))
+        self.days().map(move |day| how.of_day(day.maximum, day.minimum))
     }
 
     /// Whole years that the file holds.
@@ -162,24 +182,17 @@ impl Weather {
 mod tests {
     use super::*;
 
-    const CALM: Day = Day {
-        maximum: 0.0,
-        minimum: 0.0,
-        rain: None,
-        radiation: None,
-        wind: None,
-        dew_point: None,
-        vapour_pressure: None,
-        humidity: None,
-    };
-
     fn date(year: i32, month: u32, day: u32) -> Date {
         Date::new(year, month, day).expect("a day")
     }
 
     /// Days whose maximum is their number from the first.
     fn weather(first: Date, last: Date) -> Weather {
-        let day = |number| Day { maximum: f64::from(number), ..CALM };
+        let day = |number| {
+            let mut values = Values::default();
+            values.set(Quantity::Maximum, Some(f64::from(number)));
+            values
+        };
         Weather::new(Station::default(), Notes::default(), first, (0..=last.since(first)).map(day).collect())
     }
 

@@ -23,7 +23,11 @@ fn told(name: &str, text: impl AsRef<[u8]>) -> String {
 
 /// Maximum, minimum and rain of each day.
 fn days(weather: &Weather) -> Vec<(f64, f64, Option<f64>)> {
-    weather.days().iter().map(|day| (day.maximum, day.minimum, day.rain)).collect()
+    weather.days().map(|day| (day.maximum, day.minimum, day.rain)).collect()
+}
+
+fn day(weather: &Weather, number: usize) -> Day {
+    weather.days().nth(number).expect("a day")
 }
 
 const PLAIN: [(f64, f64, Option<f64>); 2] = [(24.8, 14.3, Some(0.0)), (22.1, 15.0, Some(1.5))];
@@ -41,9 +45,9 @@ fn a_wth_with_all_that_is_harmless_is_read() {
             (weather.first().to_string(), weather.last().to_string()),
             ("1995-01-01".into(), "1995-01-02".into())
         );
-        let (first, station) = (weather.days()[0], &weather.station);
+        let (first, station) = (day(&weather, 0), &weather.station);
         assert_eq!((first.radiation, first.wind), (Some(3.4), Some(1.0)), "86.4 km/d are 1 m/s");
-        assert_eq!((weather.days()[1].wind, weather.notes.flagged_rows), (None, 1));
+        assert_eq!((day(&weather, 1).wind, weather.notes.flagged_rows), (None, 1));
         assert_eq!(station.name.as_deref(), Some("ABCD"));
         assert_eq!((station.latitude, station.elevation_m), (Some(-22.5_f64.to_radians()), Some(524.0)));
         assert_eq!(weather.notes.unused, ["PAR"]);
@@ -211,7 +215,7 @@ fn agmip_files_have_the_wind_in_metres_a_second() {
                 1980002  1980   1   2   7.9  22.1  15.0   1.5   2.5  -5.0   4.2    81\n";
     let read = weather("a.AgMIP", text);
     assert_eq!(days(&read), PLAIN);
-    let Day { wind, dew_point, vapour_pressure, humidity, .. } = read.days()[0];
+    let Day { wind, dew_point, vapour_pressure, humidity, .. } = day(&read, 0);
     assert_eq!((wind, dew_point, vapour_pressure, humidity), (Some(2.5), Some(-5.0), Some(420.0), Some(0.81)));
     let other_day = text.replace("1980   1   2", "1980   2   1");
     assert!(
@@ -226,7 +230,7 @@ fn met_files_have_constants_units_and_comments() {
                 1995 1 24.8 14.3 0 2.5 10 222222 ! first\n1995 2 22.1 15 1.5 2.5 10 222222\n";
     let read = weather("a.met", text);
     assert_eq!(days(&read), PLAIN);
-    let (day, station) = (read.days()[1], &read.station);
+    let (day, station) = (day(&read, 1), &read.station);
     assert_eq!((day.radiation, day.wind, day.vapour_pressure), (Some(12.5), Some(2.5), Some(1000.0)));
     assert_eq!((station.name.as_deref(), station.latitude), (Some("Dalby"), Some(-27.5_f64.to_radians())));
     let year = text.replace("[weather", "year = 1995\n[weather").replace("year day", "day").replace("\n1995 ", "\n");
@@ -262,9 +266,9 @@ fn csv_has_codes_of_icasa_and_any_separator() {
     for text in [text.to_owned(), text.replace(',', "\t"), text.replace(',', ";")] {
         let read = weather("a.csv", &text);
         assert_eq!(days(&read), PLAIN, "{text}");
-        let first = read.days()[0];
+        let first = day(&read, 0);
         assert_eq!((first.radiation, first.wind, first.vapour_pressure), (Some(3.4), Some(1.0), Some(1200.0)));
-        assert_eq!((read.days()[1].radiation, read.station.latitude), (None, Some(-22.5_f64.to_radians())));
+        assert_eq!((day(&read, 1).radiation, read.station.latitude), (None, Some(-22.5_f64.to_radians())));
     }
     let commas = "W_DATE;TMAX;TMIN;RAIN\n1995-01-01;24,8;14,3;0\n1995-01-02;22,1;15;1,5\n";
     assert_eq!(days(&weather("a.csv", commas)), PLAIN);
@@ -301,7 +305,7 @@ fn gaps_are_filled_on_request_alone_and_noted() {
             (28.0, 14.0, Some(0.0))
         ]
     );
-    let radiation: Vec<_> = read.days().iter().map(|day| day.radiation).collect();
+    let radiation: Vec<_> = read.days().map(|day| day.radiation).collect();
     assert_eq!(radiation, [Some(2.0), Some(3.0), None, Some(5.0), Some(6.0)], "what a row lacks is not filled");
     let notes = serde_json::to_value(&read.notes).expect("JSON");
     assert_eq!(notes["filled"], serde_json::json!([{ "from": "1995-01-02", "days": 3 }]));

@@ -55,7 +55,7 @@ fn value(tenths: i32) -> f64 {
 /// Compares what was read with what was written; `may_lack` tells which cells may have been left out.
 fn compare(weather: &Weather, days: &[Tenths], may_lack: impl Fn(usize, usize) -> bool, text: &str) {
     assert_eq!(weather.days().len(), days.len());
-    for (number, (day, tenths)) in weather.days().iter().zip(days).enumerate() {
+    for (number, (day, tenths)) in weather.days().zip(days).enumerate() {
         let humidity = day.humidity.map(|share| (share * 1000.0).round() / 10.0);
         let read = [day.radiation, Some(day.maximum), Some(day.minimum), day.rain, humidity];
         for (column, (read, tenths)) in read.into_iter().zip(tenths).enumerate() {
