@@ -102,3 +102,37 @@ fn faulty_files_are_told_at_the_lines_of_another_reader() {
         assert!(!refused.faults.iter().any(|fault| fault.kind == Kind::Layout), "{refused}");
     }
 }
+
+#[test]
+fn the_file_of_apsim_has_all_its_days() {
+    let name = "Ames_2000_2001.met";
+    let Some(text) = absent::measured(&format!("weather/{name}")) else { return };
+    let weather = read(name, text.as_bytes(), &Asked::default()).unwrap_or_else(|refused| panic!("{refused}"));
+    assert_eq!([weather.first(), weather.last()].map(|day| day.to_string()), ["2000-01-01", "2001-08-14"]);
+    assert_eq!(weather.station.latitude, Some(42.03_f64.to_radians()));
+    let rows = text.lines().filter(|line| line.starts_with("200"));
+    let cells = rows.map(|row| row.split(' ').map(|cell| cell.parse().expect("a number")).collect::<Vec<f64>>());
+    let read = weather.days().map(|day| [day.radiation, Some(day.maximum), Some(day.minimum), day.rain]);
+    assert!(
+        read.eq(cells.map(|cells| [cells[2], cells[3], cells[4], cells[5]].map(Some))),
+        "another value than is written"
+    );
+}
+
+/// Values of the one file are parted by blanks and minuses, those of the other stand in columns of six characters.
+#[test]
+fn values_that_touch_are_those_of_their_columns() {
+    let of_minuses =
+        |row: &str| row.replace('-', " -").split_whitespace().skip(1).map(str::to_owned).collect::<Vec<_>>();
+    let of_columns = |row: &str| [5, 11, 17, 23].map(|at| row[at..at + 6].trim().to_owned()).to_vec();
+    let cuts: [(_, _, &dyn Fn(&str) -> Vec<String>); 2] =
+        [("MSKB9501.WTH", "95", &of_minuses), ("CNCH8401.WTH", "84", &of_columns)];
+    for (name, year, cut) in cuts {
+        let Some(text) = absent::measured(&format!("weather/{name}")) else { return };
+        let weather = read(name, text.as_bytes(), &Asked::default()).unwrap_or_else(|refused| panic!("{refused}"));
+        let rows = text.lines().filter(|line| line.starts_with(year)).map(cut);
+        let known = rows.map(|cells| cells.iter().map(|cell| cell.parse().ok()).collect::<Vec<Option<f64>>>());
+        let read = weather.days().map(|day| vec![day.radiation, Some(day.maximum), Some(day.minimum), day.rain]);
+        assert!(read.eq(known), "{name}: another value than stands in its column");
+    }
+}
