@@ -97,9 +97,7 @@ fn opaque(colour: Rgb) -> [u8; 4] {
 mod tests {
     use super::*;
     use phytomer_looks::{FormName, OrganPaint, own_form};
-    use phytomer_sim::plant::{
-        Habit, Looks, NewAxis, NewNode, NewOrgan, NodeId, OrganLook, OrganLooks, Seed, Shape, Trend,
-    };
+    use phytomer_sim::plant::{Habit, Looks, NewAxis, NewNode, NewOrgan, OrganLook, OrganLooks, Seed, Shape, Trend};
     use std::sync::Arc;
 
     const A: Colour = [200, 100, 0];

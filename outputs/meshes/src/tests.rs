@@ -3,7 +3,6 @@
 use super::measure::{assert_unit_normals, volume};
 use super::*;
 use phytomer_looks::FormName;
-use phytomer_sim::clock::NEVER;
 use phytomer_sim::plant::*;
 use phytomer_sim::pose::pose;
 use ply_rs_bw::parser::Parser;

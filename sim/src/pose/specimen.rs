@@ -1,7 +1,7 @@
 //! Plants for the tests of the pose, stated axis by axis and built in either order of growth: one axis after another,
 //! as growth runs ahead, or a node of each axis in turn, as growth follows the clock.
 
-use crate::clock::{NEVER, Tick};
+use crate::clock::Tick;
 use crate::plant::*;
 use std::sync::Arc;
 

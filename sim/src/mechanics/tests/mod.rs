@@ -11,7 +11,6 @@ mod secondary;
 mod small;
 
 use super::*;
-use crate::clock::NEVER;
 use crate::math::pow;
 use crate::plant::*;
 use crate::site::Site;
