@@ -7,7 +7,8 @@
 use phytomer_sim::plant::Form;
 
 /// The table of forms, a row each, handed to a macro of the caller's. A row has what the form looks like, its name in
-/// the program and in species files, its share of area ([`FormName::area_share`]), and the function that makes its mesh.
+/// the program and in species files, its share of area ([`FormName::area_share`]), and the function that makes its
+/// mesh.
 #[macro_export]
 macro_rules! forms {
     ($then:ident) => {

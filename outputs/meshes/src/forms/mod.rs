@@ -1,14 +1,13 @@
 //! The library of forms (de Reffye 1988 §6): a small mesh for each form of organ, in a unit box, put in place by
 //! scaling.
 //!
-//! In the box x runs from the base (0) to the tip (1) along the organ, y across it to its left (−½ to ½), z to its
-//! upper side. Length scales x, width y, and one of the two z; a form is parametrised by age through the two. An organ
-//! of which an area is stated is drawn as much slimmer or fuller as that area asks (`side`): a simple blade in its
-//! width, a compound one in each of its parts, so that leaflets and needles keep their reach. Triangles are
-//! single-sided, counterclockwise as seen from the upper or outer side, with one normal a vertex: the ten readers of
-//! the profile draw both sides or let the user choose, and doubled faces would flicker and count twice in areas. Leaves
-//! are assemblies of at most four plane convex polygons, folded along the midrib. Internodes are tubes
-//! ([`super::tube`]); buds are not drawn.
+//! In the box x runs along the organ from its base (0) to its tip (1), y across it to its left (−½ to ½), z to its
+//! upper side. The length scales x, the width y, and one of the two z; so a form is parametrised by age. An organ of
+//! which an area is stated is drawn slimmer or fuller until it has that area (`side`): a simple blade in its width, a
+//! compound one in each of its parts. Triangles are single-sided, counterclockwise as seen from the upper or outer
+//! side, with one normal a vertex: doubled faces would flicker and count twice in areas. Leaves are assemblies of at
+//! most four plane convex polygons, folded along the midrib. Which functions make which forms is in the table of
+//! `phytomer_looks`. Absent: internodes ([`super::tube`]), and buds, which are not drawn.
 
 mod arch;
 mod blade;
