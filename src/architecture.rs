@@ -43,7 +43,7 @@ fn characters_of(plant: u32, model: &dyn GrowthModel, until: Tick) -> Result<Opt
     let bends = model.habit().wood.as_ref().is_some_and(|wood| wood.bends);
     let mut poses = Poses { ages: if bends { recorded_alone(until) } else { Vec::new() }, rows: Vec::new() };
     let Ending::Complete = grow(&mut plot, until, &mut poses)? else { return Ok(None) };
-    let components = components_of(&plot, &plot.plants[0], until)?;
+    let components = components_of(&plot, 0, until)?;
     Ok(Some((Characters::of(&components, &poses.rows), plot.plants[0].components())))
 }
 
@@ -54,12 +54,12 @@ struct Poses {
 }
 
 impl Recorder for Poses {
-    fn wants(&self, age: Tick) -> bool {
-        self.ages.binary_search(&age).is_ok()
+    fn wants(&self, tick: Tick) -> bool {
+        self.ages.binary_search(&tick).is_ok()
     }
 
-    fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
-        self.rows.extend(poses_of(plot, &plot.plants[0], age)?);
+    fn record(&mut self, tick: Tick, plot: &Plot) -> Result<(), RecordError> {
+        self.rows.extend(poses_of(plot, 0, tick)?);
         Ok(())
     }
 }

@@ -7,6 +7,7 @@
 
 #[path = "program/absent.rs"]
 mod absent;
+mod mixed;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -139,6 +140,18 @@ fn independent_readers_agree_on_herbs_on_a_rhizome() {
     let run = grow(folder.path(), "meadow_grass");
     read(&python, "tables.py", &[&run]);
     read(&python, "meshes.py", &[&run]);
+}
+
+/// Three plants a plot, of two species and sown at three ticks.
+#[test]
+fn independent_readers_agree_on_plots_of_several_plants() {
+    let Some(python) = python() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let run = folder.path().join("run");
+    mixed::write(&run);
+    read(&python, "tables.py", &[run.to_str().expect("a path in UTF-8")]);
 }
 
 #[test]

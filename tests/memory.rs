@@ -1,18 +1,21 @@
 //! What plants take in memory, as the allocator counts it; nothing here knows a column.
 //!
 //! A component takes at most 96 bytes for topology, fates and pose together, and the peak of a population does not
-//! depend on its size. The clone of a plant has no room to spare, so what it allocates is what its columns hold; the
-//! plant itself also has what its vectors keep spare. Absent: the optional log of events, the memory of a mesh, and
-//! what the system's allocator keeps of what was given back.
+//! depend on its size. A pass over a tick of a plot takes what its largest plant takes. The clone of a plant has no
+//! room to spare, so what it allocates is what its columns hold; the plant itself also has what its vectors keep spare.
+//! Absent: the optional log of events, the memory of a mesh, and what the system's allocator keeps of what was given
+//! back.
 
 use peak_alloc::PeakAlloc;
 use phytomer::config::scenario::{BYTES_A_COMPONENT, Every, Record};
 use phytomer::config::validate;
 use phytomer::models::buds::LivingBuds;
-use phytomer::run::{self, Progress, Settings, seed_of};
+use phytomer::outputs::{Mode, RunFolder, Table};
+use phytomer::run::{self, Program, Progress, Settings, plan_of, seed_of};
 use phytomer::sim::mechanics::{Bench, bend};
 use phytomer::sim::plant::{Plant, Seed};
-use phytomer::sim::{Plot, Tick, grow};
+use phytomer::sim::{Plot, Recorder, Sowing, Tick, grow};
+use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 #[global_allocator]
@@ -98,6 +101,44 @@ fn the_peak_of_a_population_does_not_depend_on_its_size() {
     let [few, many] = [200, 2_000].map(peak_of);
     assert!(few > 1_000_000, "{few} bytes: nothing is measured");
     assert!(many as f64 <= few as f64 * 1.25, "{few} bytes for 200 plants, {many} for 2,000");
+}
+
+/// The most bytes that a table allocates for its pass over the last tick of a plot of such coffee plants, and the
+/// components of the largest of them. The summary is the table: of its rows nothing but a few numbers is kept.
+fn pass_over(plants: Range<u32>) -> (usize, u32) {
+    const UNTIL: Tick = 48;
+    let resolved = validate("coffee").unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let mut plan = plan_of(&resolved, &Program::default()).expect("a plan");
+    (plan.tables, plan.recorded, plan.until, plan.plots) = (vec![Table::Summary], vec![UNTIL], UNTIL, 1);
+    let home = tempfile::tempdir().expect("a temporary folder");
+    let folder = RunFolder::create(&home.path().join("run"), plan, Mode::New).expect("a run folder");
+    let mut shard = folder.shard(0).expect("a shard");
+    let seed = |plant| Seed { keep_events: false, ..seed_of(&resolved.scenario, plant) };
+    let sowings: Vec<Sowing> =
+        plants.map(|plant| Sowing { species: 0, seed: seed(plant), place: [0.0; 3], sown: 0 }).collect();
+    let mut plot = Plot::new(0, vec![resolved.model.as_ref()], &sowings);
+    plot.grow_to(UNTIL).expect("room to grow");
+    plot.stand(UNTIL);
+    let before = ALLOCATED.current_usage();
+    ALLOCATED.reset_peak_usage();
+    shard.record(UNTIL, &plot).expect("a tick that is written");
+    let peak = ALLOCATED.peak_usage() - before;
+    (peak, plot.plants.iter().map(Plant::components).max().unwrap_or_default())
+}
+
+/// A plot of fifty plants against each of them as a plot of its own. The rows of the summary count too.
+#[test]
+fn a_pass_over_a_plot_takes_the_memory_of_its_largest_plant() {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    const PLANTS: u32 = 50;
+    const A_ROW: usize = 256;
+    let alone = (0..PLANTS).map(|plant| pass_over(plant..plant + 1).0).max().expect("plants");
+    let (together, largest) = pass_over(0..PLANTS);
+    println!("{PLANTS} plants, the largest of {largest} components: {together} bytes, at most {alone} for one alone");
+    // An index has three numbers a component.
+    assert!(alone > 12 * largest as usize, "{alone} bytes: nothing is measured");
+    let most = 2 * alone + PLANTS as usize * A_ROW;
+    assert!(together <= most, "{together} bytes for {PLANTS} plants, {alone} for one");
 }
 
 /// What a plant keeps of bending from tick to tick; the scratch of a tick is its worker's and does not grow with the

@@ -5,7 +5,7 @@
 
 use crate::tables::columns::RECORDS;
 use crate::tables::schema::{Column, Type};
-use crate::tables::{TableError, record_values};
+use crate::tables::{Membership, TableError, record_values};
 use phytomer_pictures::{Colouring, Scale, Subject};
 
 /// Why plants cannot be coloured by a column.
@@ -35,29 +35,42 @@ pub fn colour_columns() -> impl Iterator<Item = &'static str> {
     RECORDS.iter().map(|column| column.name)
 }
 
-/// The values of a column of `records` for every component of some plants: one number a component.
+/// What a table knows of the plants of a picture beside the plants themselves.
+#[derive(Debug, Clone, Copy)]
+pub struct Belonging<'a> {
+    /// Where each plant belongs, in the order of the plants.
+    pub members: &'a [Membership],
+    /// The run's list of treatments.
+    pub treatments: &'a [String],
+}
+
+/// The values of a column of `records` for every component of some plants: one number a component. A plant of which
+/// `of` does not tell where it belongs is the first of a plot of its own.
 ///
 /// # Errors
 /// [`ColouringError`].
-pub fn colouring(column: &str, subjects: &[Subject]) -> Result<Colouring, ColouringError> {
+pub fn colouring(column: &str, subjects: &[Subject], of: Belonging<'_>) -> Result<Colouring, ColouringError> {
     let known = RECORDS.iter().find(|known| known.name == column);
     let column = known.ok_or_else(|| ColouringError::NoSuchColumn { column: column.to_owned() })?;
-    let values = subjects.iter().map(|subject| record_values(subject.plant, subject.age, column));
+    let members = of.members.iter().copied().chain(std::iter::repeat(Membership::default()));
+    let shown = subjects.iter().zip(members);
+    let values = shown.map(|(subject, of)| record_values(of, subject.plant, subject.age, column));
     let values: Vec<Vec<f64>> = values.collect::<Result<_, _>>()?;
     let most = values.iter().flatten().copied().filter(|value| !value.is_nan()).fold(f64::NEG_INFINITY, f64::max);
     if most == f64::NEG_INFINITY {
         return Err(ColouringError::NothingToColour { column: column.name, reason: reason(column.name, subjects) });
     }
-    Ok(Colouring { name: column.name.to_owned(), values, scale: scale(column, most as usize) })
+    Ok(Colouring { name: column.name.to_owned(), values, scale: scale(column, most as usize, of.treatments) })
 }
 
 /// What the values of a column are, the largest of which is `most`.
-fn scale(column: &Column, most: usize) -> Scale {
+fn scale(column: &Column, most: usize, treatments: &[String]) -> Scale {
     let classes = |names: Vec<String>| Scale::Classes { first: 0, names };
     match column.holds {
         Type::Word(words) => classes(words.iter().map(|word| word.replace('_', " ")).collect()),
         Type::Bool => classes(vec!["dead".to_owned(), "alive".to_owned()]),
-        Type::Name(_) => classes(vec!["control".to_owned()]),
+        // `records` names the treatment alone.
+        Type::Name(_) => classes(treatments.to_vec()),
         Type::Int if column.name == "order" => {
             Scale::Classes { first: 1, names: (1..=most).map(|order| format!("order {order}")).collect() }
         }
@@ -88,7 +101,9 @@ fn reason(column: &str, subjects: &[Subject]) -> &'static str {
 /// Whether a component of some plants has a value in a column.
 fn any_value(column: &str, subjects: &[Subject]) -> bool {
     let column = RECORDS.iter().find(|known| known.name == column);
-    let values = |subject: &Subject| column.and_then(|column| record_values(subject.plant, subject.age, column).ok());
+    let values = |subject: &Subject| {
+        column.and_then(|column| record_values(Membership::default(), subject.plant, subject.age, column).ok())
+    };
     subjects.iter().filter_map(values).flatten().any(|value| !value.is_nan())
 }
 
@@ -100,6 +115,9 @@ mod tests {
     use phytomer_sim::plant::{Habit, Looks, NewAxis, NewNode, NodeId, Plant, Seed, Shape, Trend};
     use phytomer_sim::pose::pose;
     use std::sync::Arc;
+
+    /// A plant of which nothing is known beside itself.
+    const ALONE: Belonging<'_> = Belonging { members: &[], treatments: &[] };
 
     /// One upright internode.
     fn pole(length: f32, diameter: f32) -> Plant {
@@ -132,7 +150,7 @@ mod tests {
     fn words_and_orders_are_classes_and_lengths_are_amounts() {
         let plant = pole(1.0, 0.1);
         let of = |column: &str| {
-            colouring(column, &[Subject { plant: &plant, age: 1, label: String::new() }]).expect("values")
+            colouring(column, &[Subject { plant: &plant, age: 1, label: String::new() }], ALONE).expect("values")
         };
         // The bud and the internode below it.
         assert_eq!(of("order").scale, Scale::Classes { first: 1, names: vec!["order 1".to_owned()] });
@@ -140,8 +158,33 @@ mod tests {
         let length = of("length_m");
         assert_eq!(length.scale, Scale::Amounts);
         assert!(length.values[0].contains(&1.0) && length.values[0].iter().any(|value| value.is_nan()));
-        let none = colouring("beauty", &[]);
+        let none = colouring("beauty", &[], ALONE);
         assert!(matches!(none, Err(ColouringError::NoSuchColumn { .. })));
+    }
+
+    /// Two plants of one plot and one of another; each is coloured by its own plot, tick and treatment.
+    #[test]
+    fn plants_are_coloured_by_the_plot_to_which_they_belong() {
+        let plants = [3, 4, 5].map(|id| {
+            let mut plant = pole(1.0, 0.1);
+            plant.id = id;
+            plant
+        });
+        let subjects = plants.each_ref().map(|plant| Subject { plant, age: 1, label: String::new() });
+        let member = |plot, treatment, sown| Membership { plot, treatment, sown, ..Membership::default() };
+        let members = [member(1, 0, 0), member(1, 0, 7), member(2, 1, 0)];
+        let treatments = ["control", "shade"].map(str::to_owned);
+        let of = Belonging { members: &members, treatments: &treatments };
+        let values = |column: &str| {
+            let found = colouring(column, &subjects, of).expect("values");
+            assert!(found.values.iter().all(|plant| plant.iter().all(|value| *value == plant[0])));
+            (found.values.iter().map(|plant| plant[0] as u32).collect::<Vec<_>>(), found.scale)
+        };
+        assert_eq!(values("plot_id"), (vec![1, 1, 2], Scale::Amounts));
+        assert_eq!(values("plant_id").0, [3, 4, 5]);
+        assert_eq!(values("tick").0, [1, 8, 1]);
+        assert_eq!(values("age").0, [1, 1, 1]);
+        assert_eq!(values("treatment"), (vec![0, 0, 1], Scale::Classes { first: 0, names: treatments.to_vec() }));
     }
 
     /// A plant that cannot be coloured tells what it lacks, not what some other column needs.
@@ -149,7 +192,7 @@ mod tests {
     fn nothing_to_colour_by_has_the_reason_of_its_column() {
         let reason = |plant: &Plant, age: Tick, column: &str| {
             let subject = Subject { plant, age, label: String::new() };
-            colouring(column, &[subject]).expect_err("nothing to colour by").to_string()
+            colouring(column, &[subject], ALONE).expect_err("nothing to colour by").to_string()
         };
         let told = |plant: &Plant, age: Tick, column: &str, meant: &str| {
             let reason = reason(plant, age, column);

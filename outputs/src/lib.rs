@@ -13,6 +13,8 @@ pub mod rows;
 pub mod run_folder;
 #[cfg(test)]
 mod specimen;
+#[cfg(test)]
+mod specimen_plots;
 mod storage;
 pub mod tables;
 

@@ -37,6 +37,7 @@ pub struct Run {
 pub struct SummaryRow {
     pub plot_id: u32,
     pub plant_id: u32,
+    pub tick: Tick,
     pub age: Tick,
     pub internodes: u32,
     pub leaves: u32,
@@ -241,6 +242,8 @@ impl SummaryBatch<'_> {
         Ok(SummaryRow {
             plot_id: self.count("plot_id", row)?,
             plant_id: self.count("plant_id", row)?,
+            // Runs of older programs have no column `tick`; their plants were all sown at tick 0.
+            tick: self.count(if self.has("tick") { "tick" } else { "age" }, row)?,
             age: self.count("age", row)?,
             internodes: self.count("internodes", row)?,
             leaves: self.count("leaves", row)?,
@@ -257,6 +260,10 @@ impl SummaryBatch<'_> {
             alive: self.column::<BooleanArray>("alive")?.value(row),
             death_age: self.number("death_age", row)?,
         })
+    }
+
+    fn has(&self, column: &str) -> bool {
+        self.batch.column_by_name(column).is_some()
     }
 
     fn column<A: 'static>(&self, column: &'static str) -> Result<&A, TableError> {

@@ -1,16 +1,17 @@
 //! Rows of `components` and `records` as analysis takes them: read back from a run, or made of a plant in memory
 //! through the same column buffers, so that both say the same of one plant.
 //!
-//! Of `records` only what tells how internodes lie: their direction and curvature. Absent: every other column, which
-//! readers of Parquet have.
+//! Of `records` only what tells how internodes lie: their direction and curvature. Rows are sorted by plot, and in
+//! `records` by tick before plant: the rows of the first plants of a run are found by looking at each row up to the end
+//! of the last plot that has such a plant. Absent: every other column, which readers of Parquet have.
 
 use crate::read::Run;
 use crate::run_folder::Error;
 use crate::tables::columns::{CAUSES, KINDS, ORIGINS};
-use crate::tables::{ComponentColumns, ComponentIndex, PlantAtAge, RecordColumns, Table, TableError};
+use crate::tables::{ComponentColumns, ComponentIndex, Membership, PlantAtAge, RecordColumns, Table, TableError};
 use arrow_array::types::{Float32Type, Int8Type, Int32Type};
 use arrow_array::{Array, DictionaryArray, PrimitiveArray, RecordBatch, StringArray};
-use phytomer_sim::plant::{Cause, Class, Kind, Origin, Plant};
+use phytomer_sim::plant::{Cause, Class, Kind, Origin};
 use phytomer_sim::{Plot, Tick};
 use std::path::Path;
 
@@ -48,15 +49,18 @@ pub struct PoseRow {
     pub curvature_per_m: Option<f32>,
 }
 
-/// The rows of `components` of a plant in memory, up to the age `last`.
+/// The rows of `components` of the plant at place `at` of a plot in memory, up to the tick `last` of the plot; none
+/// where it is not sown by then.
 ///
 /// # Errors
 /// [`TableError::PlantTooLarge`].
-pub fn components_of(plot: &Plot, plant: &Plant, last: Tick) -> Result<Vec<ComponentRow>, TableError> {
+pub fn components_of(plot: &Plot, at: usize, last: Tick) -> Result<Vec<ComponentRow>, TableError> {
+    let (of, plant) = (Membership::of(plot, at), &plot.plants[at]);
+    let Some(last) = of.age_at(last) else { return Ok(Vec::new()) };
     let mut index = ComponentIndex::default();
     index.read(plant)?;
     let mut columns = ComponentColumns::default();
-    columns.fill(plot, (plant, &index), 0..index.len(), last, &mut Vec::new());
+    columns.fill(of, (plant, &index), 0..index.len(), last, &mut Vec::new());
     let c = &columns;
     let row = |i: usize| ComponentRow {
         plant_id: c.plant[i].unsigned_abs(),
@@ -78,16 +82,19 @@ pub fn components_of(plot: &Plot, plant: &Plant, last: Tick) -> Result<Vec<Compo
     Ok((0..columns.component.len()).map(row).collect())
 }
 
-/// How the internodes of a plant in memory lie at `age`, at which it was posed.
+/// How the internodes of the plant at place `at` of a plot in memory lie at a tick of the plot, at which it was posed;
+/// none where it is not sown by then.
 ///
 /// # Errors
 /// [`TableError::PlantTooLarge`].
-pub fn poses_of(plot: &Plot, plant: &Plant, age: Tick) -> Result<Vec<PoseRow>, TableError> {
+pub fn poses_of(plot: &Plot, at: usize, tick: Tick) -> Result<Vec<PoseRow>, TableError> {
+    let (of, plant) = (Membership::of(plot, at), &plot.plants[at]);
+    let Some(age) = of.age_at(tick) else { return Ok(Vec::new()) };
     let mut index = ComponentIndex::default();
     index.read(plant)?;
     index.find_tips(plant, age);
     let (mut columns, mut numbers, mut rows) = (RecordColumns::default(), Vec::new(), Vec::new());
-    let shown = PlantAtAge { plot: plot.id, plant, index: &index, age, mechanics: true };
+    let shown = PlantAtAge { of, plant, index: &index, age, mechanics: true };
     let mut next = 0;
     while next < index.len() {
         index.select(age, usize::MAX, &mut next, &mut numbers);
@@ -124,13 +131,7 @@ impl Run {
     /// Where they cannot be read.
     pub fn components(&self, plants: u32) -> Result<Vec<ComponentRow>, Error> {
         let mut found = Vec::new();
-        for batch in self.batches(Table::Components)? {
-            let batch = batch?;
-            let columns = Batch { batch: &batch, path: self.path(), table: Table::Components };
-            if !components_in(&columns, plants, &mut found)? {
-                break;
-            }
-        }
+        self.each_batch(Table::Components, plants, |columns, rows| components_in(columns, plants, rows, &mut found))?;
         Ok(found)
     }
 
@@ -140,19 +141,55 @@ impl Run {
     /// Where they cannot be read.
     pub fn poses(&self, plants: u32) -> Result<Vec<PoseRow>, Error> {
         let mut found = Vec::new();
-        for batch in self.batches(Table::Records)? {
+        self.each_batch(Table::Records, plants, |columns, rows| poses_in(columns, plants, rows, &mut found))?;
+        Ok(found)
+    }
+
+    /// Shows each batch of a table with the number of its first rows that may be of the plants below `plants`: those up
+    /// to the end of the last plot that has such a plant.
+    fn each_batch(
+        &self,
+        table: Table,
+        plants: u32,
+        mut show: impl FnMut(&Batch<'_>, usize) -> Result<(), TableError>,
+    ) -> Result<(), Error> {
+        let last = self.last_plot_of(plants)?;
+        for batch in self.batches(table)? {
             let batch = batch?;
-            let columns = Batch { batch: &batch, path: self.path(), table: Table::Records };
-            if !poses_in(&columns, plants, &mut found)? {
+            let columns = Batch { batch: &batch, path: self.path(), table };
+            // Rows are sorted by plot, so those of later plots are the last.
+            let plots = columns.ints("plot_id")?.values();
+            let wanted = plots.partition_point(|plot| last.is_none_or(|last| plot.unsigned_abs() <= last));
+            show(&columns, wanted)?;
+            if wanted < plots.len() {
                 break;
             }
         }
-        Ok(found)
+        Ok(())
+    }
+
+    /// The last plot that has a plant whose number is below `plants`, as the table `plants` tells; `None` where it does
+    /// not tell of each: in a run of an older program, or one of which plots are not grown yet.
+    fn last_plot_of(&self, plants: u32) -> Result<Option<u32>, Error> {
+        let (mut last, mut found) = (None, 0);
+        for batch in self.batches(Table::Plants)? {
+            let batch = batch?;
+            let columns = Batch { batch: &batch, path: self.path(), table: Table::Plants };
+            let (plot, plant) = (columns.ints("plot_id")?, columns.ints("plant_id")?);
+            for row in (0..batch.num_rows()).filter(|row| value(plant, *row) < Some(plants)) {
+                found += 1;
+                last = last.max(value(plot, row));
+            }
+            if found == plants {
+                return Ok(last);
+            }
+        }
+        Ok(None)
     }
 }
 
-/// Adds the rows of a batch; `false` where the plants that follow are not wanted.
-fn components_in(batch: &Batch<'_>, plants: u32, found: &mut Vec<ComponentRow>) -> Result<bool, TableError> {
+/// Adds the first `rows` rows of a batch that are of the plants below `plants`.
+fn components_in(batch: &Batch<'_>, plants: u32, rows: usize, found: &mut Vec<ComponentRow>) -> Result<(), TableError> {
     let int = |name| batch.ints(name);
     let (plant, component, axis) = (int("plant_id")?, int("component_id")?, int("axis_id")?);
     let (bearing, order, position) = (int("bearing_axis_id")?, int("order")?, int("position")?);
@@ -160,10 +197,7 @@ fn components_in(batch: &Batch<'_>, plants: u32, found: &mut Vec<ComponentRow>) 
     let (death, shed, trend) = (int("death_age")?, int("shed_age")?, batch.floats("trend_deg")?);
     let (kind, origin) = (batch.words("kind", &KINDS)?, batch.words("origin", &ORIGINS)?);
     let cause = batch.words("cause_of_death", &CAUSES)?;
-    for i in 0..batch.batch.num_rows() {
-        if value(plant, i) >= Some(plants) {
-            return Ok(false);
-        }
+    for i in (0..rows).filter(|i| value(plant, *i) < Some(plants)) {
         found.push(ComponentRow {
             plant_id: value(plant, i).unwrap_or_default(),
             component_id: value(component, i).unwrap_or_default(),
@@ -182,20 +216,17 @@ fn components_in(batch: &Batch<'_>, plants: u32, found: &mut Vec<ComponentRow>) 
             trend_deg: trend.is_valid(i).then(|| trend.value(i)),
         });
     }
-    Ok(true)
+    Ok(())
 }
 
-/// The same of `records`, which are sorted by plot: a plant whose number is too great ends it.
-fn poses_in(batch: &Batch<'_>, plants: u32, found: &mut Vec<PoseRow>) -> Result<bool, TableError> {
+/// The same of `records`.
+fn poses_in(batch: &Batch<'_>, plants: u32, rows: usize, found: &mut Vec<PoseRow>) -> Result<(), TableError> {
     let (plant, age) = (batch.ints("plant_id")?, batch.ints("age")?);
     let (axis, rank) = (batch.ints("axis_id")?, batch.ints("rank")?);
     let (kind, dir_z) = (batch.words("kind", &KINDS)?, batch.floats("dir_z")?);
     let curvature = batch.batch.column_by_name("curvature_per_m").and_then(|column| column.as_any().downcast_ref());
     let curvature: Option<&PrimitiveArray<Float32Type>> = curvature;
-    for (i, kind) in kind.iter().enumerate() {
-        if value(plant, i) >= Some(plants) {
-            return Ok(false);
-        }
+    for (i, kind) in kind.iter().enumerate().take(rows).filter(|(i, _)| value(plant, *i) < Some(plants)) {
         if kind.is_some_and(|place| is_internode(Kind::ALL[place])) {
             found.push(PoseRow {
                 plant_id: value(plant, i).unwrap_or_default(),
@@ -207,7 +238,7 @@ fn poses_in(batch: &Batch<'_>, plants: u32, found: &mut Vec<PoseRow>) -> Result<
             });
         }
     }
-    Ok(true)
+    Ok(())
 }
 
 fn value(column: &PrimitiveArray<Int32Type>, row: usize) -> Option<u32> {
@@ -264,10 +295,10 @@ mod tests {
         assert!(rows.len() > 20 && rows.iter().all(|row| row.plant_id == 0));
         let mut plot = specimen::plot(0, 100_000);
         grow(&mut plot, last, &mut ()).unwrap();
-        assert_eq!(rows, components_of(&plot, &plot.plants[0], last).unwrap());
+        assert_eq!(rows, components_of(&plot, 0, last).unwrap());
         pose(&mut plot.plants[0], last);
         let poses: Vec<_> = run.poses(1).unwrap().into_iter().filter(|row| row.age == last).collect();
-        let here = poses_of(&plot, &plot.plants[0], last).unwrap();
+        let here = poses_of(&plot, 0, last).unwrap();
         assert_eq!(poses.len(), here.len());
         for (recorded, here) in poses.iter().zip(&here) {
             assert_eq!((recorded.axis_id, recorded.rank, recorded.dir_z), (here.axis_id, here.rank, here.dir_z));

@@ -179,8 +179,8 @@ pub fn plan(plots: u32, plots_per_part: u32) -> RunPlan {
         mechanics: false,
         provenance: Provenance {
             scenario: "Sapling".to_owned(),
-            treatment: "control".to_owned(),
-            species: "sapling".to_owned(),
+            treatments: vec!["control".to_owned()],
+            species: vec!["sapling".to_owned()],
             seed: 42,
             version: "0.0.0".to_owned(),
             git_hash: "abc".to_owned(),
@@ -205,14 +205,23 @@ pub fn grow_shard(folder: &RunFolder, shard: u32, component_limit: u32) -> Shard
 }
 
 fn grow_shard_of(model: &dyn GrowthModel, folder: &RunFolder, shard: u32, component_limit: u32) -> ShardReport {
+    let alone = |id| Plot::of_one(model, &seed(id, component_limit));
+    let (report, endings) = grow_plots(folder, shard, alone);
+    assert!(endings.iter().all(|ending| matches!(ending, Ending::Complete) == (component_limit > 1000)));
+    report
+}
+
+/// The plots of a shard of a folder, sown by their numbers, grown and ended; how each ended.
+pub fn grow_plots<'m>(folder: &RunFolder, shard: u32, sow: impl Fn(u32) -> Plot<'m>) -> (ShardReport, Vec<Ending>) {
     let mut open = folder.shard(shard).unwrap();
+    let mut endings = Vec::new();
     for id in folder.plan().plots_of(shard) {
-        let mut plot = Plot::of_one(model, &seed(id, component_limit));
+        let mut plot = sow(id);
         let ending = grow(&mut plot, folder.plan().until, &mut open).unwrap();
-        assert_eq!(matches!(ending, Ending::Complete), component_limit > 1000);
         open.end_plot(&plot, ending).unwrap();
+        endings.push(ending);
     }
-    open.commit().unwrap()
+    (open.commit().unwrap(), endings)
 }
 
 /// A whole run.

@@ -28,6 +28,10 @@ pub struct Sowing {
 pub struct Plot<'m> {
     /// The plot's number in the run, from 0.
     pub id: u32,
+    /// The treatment that it is given, as a place in the run's list of treatments.
+    pub treatment: u32,
+    /// Which of the plots of its treatment it is, from 0.
+    pub replicate: u32,
     /// Its species.
     pub species: Vec<&'m dyn GrowthModel>,
     /// Its plants, in the order of their sowings in the list.
@@ -57,14 +61,14 @@ impl Member {
 }
 
 impl<'m> Plot<'m> {
-    /// A plot on open ground.
+    /// A plot on open ground, of the first treatment and its first replicate.
     ///
     /// # Panics
     /// Where a sowing names a species that is not in the list.
     pub fn new(id: u32, species: Vec<&'m dyn GrowthModel>, sowings: &[Sowing]) -> Self {
         let (plants, lives) = sowings.iter().map(|sowing| sown(species[sowing.species], sowing)).unzip();
         let members = sowings.iter().map(|sowing| Member { species: sowing.species, sown: sowing.sown }).collect();
-        Self { id, species, plants, lives, members, site: Site::default() }
+        Self { id, treatment: 0, replicate: 0, species, plants, lives, members, site: Site::default() }
     }
 
     /// A plot of one plant at the origin, sown at tick 0 by `model`.

@@ -1,7 +1,7 @@
-//! What the loop tells of a plot at each age, and to whom.
+//! What the loop tells of a plot at each tick, and to whom.
 //!
-//! A recorder is asked once an age whether it wants it, and shown the plot once; and once before, where growth runs
-//! ahead. Absent: formats and files.
+//! A recorder is asked once a tick whether it wants it, and shown the plot once; and once before, where growth runs
+//! ahead. The ticks are those of the plot; the age of a member is `Member::age_at` the tick. Absent: formats and files.
 
 use crate::clock::Tick;
 use crate::plot::Plot;
@@ -11,11 +11,11 @@ pub type RecordError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Something that keeps what the loop shows it: tables, meshes, measures in a test.
 pub trait Recorder {
-    /// Whether this age is to be recorded.
-    fn wants(&self, age: Tick) -> bool;
+    /// Whether this tick of the plot is to be recorded.
+    fn wants(&self, tick: Tick) -> bool;
 
-    /// Growth has run ahead: the lives of all components are known to the age `until`, before the first age is
-    /// recorded. Who has work that needs no more than that can begin with it, while the ages are made ready.
+    /// Growth has run ahead: the lives of all components are known to the tick `until`, before the first tick is
+    /// recorded. Work that needs no more than that can begin now, while the plants are made ready.
     ///
     /// # Errors
     /// Whatever keeps it from recording; the run then ends.
@@ -23,14 +23,14 @@ pub trait Recorder {
         Ok(())
     }
 
-    /// The plot as it stands at `age`, shed, thickened and posed.
+    /// The plot as it stands at `tick`: the members that are sown by then are shed, thickened and posed.
     ///
     /// # Errors
     /// Whatever keeps it from recording; the run then ends.
-    fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError>;
+    fn record(&mut self, tick: Tick, plot: &Plot) -> Result<(), RecordError>;
 }
 
-/// Wants no age: for those who look at the plants that are left.
+/// Wants no tick: for callers that look at the plants that are left.
 impl Recorder for () {
     fn wants(&self, _: Tick) -> bool {
         false

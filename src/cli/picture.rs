@@ -10,9 +10,10 @@ use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
+use phytomer::run::CONTROL;
 use phytomer::run::picturing::{Pictured, pictured_plants, pictured_plot};
 use phytomer_outputs::Destination;
-use phytomer_outputs::colouring::{ColouringError, colour_columns, colouring};
+use phytomer_outputs::colouring::{Belonging, ColouringError, colour_columns, colouring};
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::pictures::{
     Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, draw_stands, sheet_of_stands, write_png,
@@ -191,7 +192,10 @@ impl Picture {
             From::Sheet => None,
         };
         let subjects = pictured.subjects();
-        let colour_by = self.colour_by.as_ref().map(|column| colouring(column, &subjects)).transpose()?;
+        let treatments = [CONTROL.to_owned()];
+        let members = pictured.memberships();
+        let of = Belonging { members: &members, treatments: &treatments };
+        let colour_by = self.colour_by.as_ref().map(|column| colouring(column, &subjects, of)).transpose()?;
         let style = Style {
             size: self.size,
             view: view.unwrap_or(View::Front),

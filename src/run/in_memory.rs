@@ -92,7 +92,7 @@ impl Keeper for MemoryKeeper<'_> {
     fn end_plot(&mut self, plot: &Plot, ending: Ending) -> Result<(), RunError> {
         self.tables.end_plot(plot, &ending).map_err(phytomer_outputs::Error::from)?;
         if let Ending::Overgrown { age, limit } = ending {
-            self.overgrown.push(OvergrownPlot { plot: plot.id, plant: limit.plant, age, limit: limit.limit });
+            self.overgrown.push(OvergrownPlot { plot: plot.id, plant: limit.plant, tick: age, limit: limit.limit });
         }
         Ok(())
     }

@@ -11,6 +11,7 @@ use super::regrowth::{Regrowth, Standing};
 use phytomer_config::{About, Species};
 use phytomer_outputs::meshes::{Chunk, MeshOptions, OwnForms, PlotBody, PlotMember, PlotMesh, Scene};
 use phytomer_outputs::pictures::{Placed, Stand, Subject};
+use phytomer_outputs::tables::Membership;
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use sha2::{Digest, Sha256};
@@ -44,6 +45,10 @@ pub struct PicturedStand {
 pub struct PicturedMember {
     /// The plant's number in the run.
     pub number: u32,
+    /// Its plot.
+    pub plot: u32,
+    /// The tick of its plot at which it is sown.
+    pub sown: Tick,
     /// What stands there, as a place in the stand's `plants`.
     pub plant: usize,
     /// Its species, as a place in the scenario's list.
@@ -68,6 +73,18 @@ impl Pictured {
             label: stand.label.clone(),
         };
         self.stands.iter().map(stand).collect()
+    }
+
+    /// Where each plant of each stand belongs, in the order of [`Pictured::subjects`].
+    pub fn memberships(&self) -> Vec<Membership> {
+        let each = self.stands.iter().flat_map(|stand| &stand.members);
+        let of = |PicturedMember { plot, species, sown, .. }: &PicturedMember| Membership {
+            plot: *plot,
+            species: *species,
+            sown: *sown,
+            ..Membership::default()
+        };
+        each.map(of).collect()
     }
 
     /// Each plant of each stand by itself, for what colours them.
@@ -108,7 +125,8 @@ pub fn pictured_plants(
             let whose = if plants.len() > 1 { format!("plant {number}, ") } else { String::new() };
             let years = species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default();
             let Some(plant) = seen.get(&age).cloned() else { continue };
-            let member = PicturedMember { number, plant: 0, species: place, age, place: [0.0; 3] };
+            let (plot, sown) = (scenario.plot_of(number).0, scenario.sown_at(number));
+            let member = PicturedMember { number, plot, sown, plant: 0, species: place, age, place: [0.0; 3] };
             let label = format!("{whose}age {age}{years}");
             stands.push(PicturedStand { plants: vec![plant], members: vec![member], label });
         }
@@ -138,8 +156,9 @@ pub fn pictured_plot(
     let members = scenario.plot_members();
     let of_members = |mut stand: PicturedStand, tick: Tick| {
         for member in &mut stand.members {
-            let of_plot = members.get(scenario.plot_of(member.number).1 as usize);
-            member.place = of_plot.map_or([0.0; 3], |member| member.place());
+            let (plot, of_plot) = scenario.plot_of(member.number);
+            let Some(of_plot) = members.get(of_plot as usize) else { continue };
+            (member.plot, member.sown, member.place) = (plot, of_plot.sown, of_plot.place());
         }
         stand.label = format!("tick {tick}{}", years_of(species, tick));
         stand
@@ -181,7 +200,7 @@ pub fn plot_mesh<'a>(
 /// What tells plants apart at a glance: species, age, and how many internodes and organs there are.
 type Glance = (usize, Tick, usize, usize);
 
-/// The plants of a plot, equal ones once unless they are to be kept apart; their places are still to be filled in.
+/// The plants of a plot, equal ones once unless they are to be kept apart; where they belong is still to be filled in.
 fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
     let mut stand = PicturedStand { plants: Vec::new(), members: Vec::new(), label: String::new() };
     let mut alike: BTreeMap<Glance, Vec<(usize, Option<[u8; 32]>)>> = BTreeMap::new();
@@ -193,13 +212,14 @@ fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
             let look = *look.get_or_insert_with(|| look_of(&stand.plants[*kept], *age));
             (!apart && own == Some(look)).then_some(*kept)
         });
-        let place = equal.unwrap_or(stand.plants.len());
-        if place == stand.plants.len() {
-            known.push((place, own));
+        let body = equal.unwrap_or(stand.plants.len());
+        if body == stand.plants.len() {
+            known.push((body, own));
             stand.plants.push(plant.clone().into_owned());
         }
-        let member = PicturedMember { number: plant.id, plant: place, species: *species, age: *age, place: [0.0; 3] };
-        stand.members.push(member);
+        let (number, species, age) = (plant.id, *species, *age);
+        let place = [0.0; 3];
+        stand.members.push(PicturedMember { number, plot: 0, sown: 0, plant: body, species, age, place });
     }
     stand
 }

@@ -20,6 +20,9 @@ const LEAST_WORK_A_PART: f64 = 2.5e5;
 /// Parts that even a small run is dealt into, so that it uses several threads and can be resumed.
 const PARTS_OF_A_SMALL_RUN: f64 = 16.0;
 
+/// The treatment of a scenario that compares none.
+pub const CONTROL: &str = "control";
+
 /// Components of a plant of which nothing can be expected.
 const UNFORESEEN: f64 = 1e4;
 
@@ -58,8 +61,8 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunErr
         mechanics: scenario.output.mechanics,
         provenance: Provenance {
             scenario: scenario.name.clone(),
-            treatment: "control".to_owned(),
-            species: resolved.species.about.name.clone(),
+            treatments: vec![CONTROL.to_owned()],
+            species: resolved.all_species().iter().map(|species| species.about.name.clone()).collect(),
             seed: scenario.seed,
             version: program.version.clone(),
             git_hash: program.git_hash.clone(),

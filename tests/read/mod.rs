@@ -43,6 +43,10 @@ impl Columns {
             let typed = words.downcast_dict::<StringArray>().expect("words");
             let words = typed.into_iter().map(|word| word.unwrap_or_default().to_owned());
             self.words.entry(name.to_owned()).or_default().extend(words);
+        } else if let Some(names) = array.as_any().downcast_ref::<DictionaryArray<Int32Type>>() {
+            let typed = names.downcast_dict::<StringArray>().expect("names");
+            let names = typed.into_iter().map(|name| name.unwrap_or_default().to_owned());
+            self.words.entry(name.to_owned()).or_default().extend(names);
         } else if let Some(numbers) = numbers(array) {
             self.numbers.entry(name.to_owned()).or_default().extend(numbers);
         }

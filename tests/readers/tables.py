@@ -62,6 +62,22 @@ for table, resource in resources.items():
     assert len(counts) == 1, f"{table}: the readers disagree: {counts}"
     print(f"{table}: {counts.pop()} rows, {len(fields)} columns, three readers agree")
 
+# Rows are sorted by the columns that each part states, by plot, tick, plant and component as far as a table has them.
+for table, resource in resources.items():
+    names = [field["name"] for field in resource["schema"]["fields"]]
+    order = [name for name in ("plot_id", "tick", "plant_id", "component_id") if name in names]
+    assert resource["schema"].get("primaryKey", order) == order, (table, resource["schema"]["primaryKey"])
+    for part in parts(table):
+        groups = pyarrow.parquet.ParquetFile(part).metadata
+        for group in range(groups.num_row_groups):
+            stated = groups.row_group(group).sorting_columns
+            assert [names[by.column_index] for by in stated] == order, (part, stated)
+            assert not any(by.descending for by in stated), (part, stated)
+    rows = polars.scan_parquet([str(part) for part in parts(table)]).select(order).collect()
+    assert rows.equals(rows.sort(order)), f"{table}: rows are not sorted by {order}"
+    assert table == "events" or rows.n_unique() == rows.height, f"{table}: {order} repeat"
+print("rows: sorted by plot, tick, plant and component, as their files state")
+
 # Every kind that occurs has its Plant Ontology term, in the metadata of the files and in datapackage.json.
 metadata = pyarrow.parquet.ParquetFile(parts("records")[0]).metadata.metadata
 terms = json.loads(metadata[b"phytomer.plant_ontology"])
@@ -121,6 +137,18 @@ con = duckdb.connect()
 con.execute(f"set file_search_path = '{run}'")
 con.execute((run / "views.sql").read_text(encoding="utf-8"))
 last = con.sql("select max(age) from summary").fetchall()[0][0]
+
+# A tick is the plot's and an age the plant's; a plant has no row before it is sown.
+for table in ("records", "events", "summary"):
+    wrong = con.sql(f"""
+        select count(*) from {table} join plants using (plot_id, plant_id)
+        where tick <> age + sown_tick or age < 0 or {table}.treatment <> plants.treatment
+    """).fetchall()[0][0]
+    assert wrong == 0, f"{table}: {wrong} rows disagree with the sowing of their plants"
+species, ticks = (con.sql(f"select count(distinct {name}) from plants").fetchall()[0][0] for name in ("species", "sown_tick"))
+means = con.sql("select count(distinct species), sum(plants) from growth()").fetchall()[0]
+assert means == (species, con.sql("select count(*) from summary").fetchall()[0][0]), means
+print(f"sowing: {species} species, sown at {ticks} ticks")
 
 # Places in the plot are sums in double precision of what `records` says and where the seed lies.
 types = dict(zip(con.sql("from records_world").columns, con.sql("from records_world").types))

@@ -31,7 +31,7 @@ const SHOWN: usize = 12;
 const LONGEST: usize = 60;
 
 /// Keys of the identity that do not follow from the resolved scenario.
-const OWN: [&str; 6] = ["format_version", "schema_version", "version", "git_hash", "treatment", "inputs"];
+const OWN: [&str; 6] = ["format_version", "schema_version", "version", "git_hash", "treatments", "inputs"];
 
 impl Differences {
     /// Between a `run.json` and a plan.

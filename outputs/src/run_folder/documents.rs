@@ -27,7 +27,7 @@ pub const VIEWS: &str = "views.sql";
 /// What a finished run has written.
 #[derive(Debug, Clone, Serialize)]
 pub struct RunReport {
-    /// Its plants that live at the last age.
+    /// Its plants that live at the last tick of their plot.
     pub living: u64,
     /// Its plants that have died.
     pub dead: u64,
@@ -138,7 +138,7 @@ fn data_package(plan: &RunPlan, report: &RunReport) -> Value {
         "profile": "data-package",
         "name": slug(&plan.provenance.scenario),
         "title": format!("phytomer run of {}", plan.provenance.scenario),
-        "description": "Plants grown from seed; SI units, ages in ticks since the seed, Z up. The places of components are told \
+        "description": "Plants grown from seed; SI units, ticks of the plot, ages in ticks since the plant was sown, Z up. The places of components are told \
                         from the seed of their plant, whose place in the plot is in the table plants. Null: does not apply.",
         "version": plan.provenance.version,
         "resources": resources,
@@ -203,27 +203,32 @@ const WORLD: (&str, &str) = (
      FROM records r JOIN plants p USING (plot_id, plant_id)",
 );
 
-/// The macros of `views.sql`, with the table that each needs.
-const MACROS: [(Table, &str, &str); 6] = [
+/// The macros of `views.sql`, with the tables that each needs.
+const MACROS: [(&[Table], &str, &str); 7] = [
     (
-        Table::Records,
-        "Everything that stands at an age: SELECT kind, count(*) FROM at_age(10) GROUP BY kind;",
+        &[Table::Records],
+        "Everything that stands on plants of an age: SELECT kind, count(*) FROM at_age(10) GROUP BY kind;",
         "at_age(a) AS TABLE SELECT * FROM {records} WHERE age = a",
     ),
     (
-        Table::Records,
+        &[Table::Records],
+        "Everything that stands at a tick of the plot, which is the age of plants that were sown at tick 0.",
+        "at_tick(t) AS TABLE SELECT * FROM {records} WHERE tick = t",
+    ),
+    (
+        &[Table::Records],
         "The internodes of each order at an age, with their length and wood volume, by plant.",
         "orders_at(a) AS TABLE SELECT plant_id, \"order\", count(*) AS internodes, sum(length_m) AS length_m, \
          sum(pi() / 12 * length_m * (diameter_m ** 2 + diameter_m * diameter_tip_m + diameter_tip_m ** 2)) AS \
          wood_volume_m3 FROM records WHERE age = a AND ends_with(kind, 'internode') GROUP BY ALL ORDER BY ALL",
     ),
     (
-        Table::Components,
-        "What was alive at any age, recorded or not.",
+        &[Table::Components],
+        "What was alive at any age of its plant, recorded or not.",
         "alive_at(a) AS TABLE SELECT * FROM components WHERE birth_age <= a AND (death_age IS NULL OR death_age > a)",
     ),
     (
-        Table::Components,
+        &[Table::Components],
         "One row an axis.",
         "axes() AS TABLE SELECT b.plant_id, b.axis_id, b.bearing_axis_id, b.\"order\", b.origin, b.birth_age, b.death_age, \
          count(i.component_id) AS internodes, sum(i.length_m) AS length_m FROM components b LEFT JOIN components i ON \
@@ -231,16 +236,16 @@ const MACROS: [(Table, &str, &str); 6] = [
          'apical_bud' GROUP BY ALL ORDER BY ALL",
     ),
     (
-        Table::Events,
+        &[Table::Events],
         "How often each fate befell a bud, by age.",
         "fates() AS TABLE SELECT age, event, count(*) AS buds FROM events GROUP BY ALL ORDER BY ALL",
     ),
     (
-        Table::Summary,
-        "Means over the plants, by age.",
-        "growth() AS TABLE SELECT age, count(*) AS plants, count(*) FILTER (alive) AS alive, avg(internodes) AS internodes, \
-         avg(leaves) AS leaves, avg(height_m) AS height_m, avg(leaf_area_m2) AS leaf_area_m2 FROM summary GROUP BY age \
-         ORDER BY age",
+        &[Table::Summary, Table::Plants],
+        "Means over the plants of each treatment and species, by age.",
+        "growth() AS TABLE SELECT s.treatment, p.species, s.age, count(*) AS plants, count(*) FILTER (alive) AS alive, \
+         avg(internodes) AS internodes, avg(leaves) AS leaves, avg(height_m) AS height_m, avg(leaf_area_m2) AS \
+         leaf_area_m2 FROM summary s JOIN plants p USING (plot_id, plant_id) GROUP BY ALL ORDER BY ALL",
     ),
 ];
 
@@ -260,14 +265,14 @@ fn views(plan: &RunPlan) -> String {
         sql += &format!("\n-- {}\n", table.description());
         sql += &format!("CREATE OR REPLACE VIEW {name} AS SELECT * FROM read_parquet('{name}/part-*.parquet');\n");
     }
-    let located = [Table::Records, Table::Plants].iter().all(|table| plan.tables.contains(table));
+    let has = |tables: &[Table]| tables.iter().all(|table| plan.tables.contains(table));
+    let located = has(&[Table::Records, Table::Plants]);
     if located {
         let (comment, body) = WORLD;
         sql += &format!("\n-- {comment}\nCREATE OR REPLACE VIEW {body};\n");
     }
-    let wanted =
-        MACROS.iter().filter(|(table, ..)| plan.tables.contains(table)).map(|(_, comment, body)| (*comment, *body));
-    let mechanics = plan.mechanics && plan.tables.contains(&Table::Records);
+    let wanted = MACROS.iter().filter(|(tables, ..)| has(tables)).map(|(_, comment, body)| (*comment, *body));
+    let mechanics = plan.mechanics && has(&[Table::Records]);
     for (comment, body) in wanted.chain(mechanics.then_some(MECHANICS)) {
         let body = body.replace("{records}", if located { "records_world" } else { "records" });
         sql += &format!("\n-- {comment}\nCREATE OR REPLACE MACRO {body};\n");

@@ -26,7 +26,7 @@ pub struct ShardReport {
     pub shard: u32,
     /// Its files.
     pub files: Vec<FileReport>,
-    /// Its plants that live at the last age.
+    /// Its plants that live at the last tick of their plot; a plant that is not sown by then neither lives nor is dead.
     pub living: u64,
     /// Its plants that have died.
     pub dead: u64,
@@ -60,8 +60,9 @@ pub struct OvergrownPlot {
     pub plot: u32,
     /// The plant that came to its limit.
     pub plant: u32,
-    /// The age that it could not finish; the ages before it are recorded.
-    pub age: Tick,
+    /// The tick of the plot that it could not finish; the ticks before it are recorded. Older runs call it `age`.
+    #[serde(alias = "age")]
+    pub tick: Tick,
     /// The limit, in components.
     pub limit: u32,
 }
@@ -258,6 +259,15 @@ mod tests {
         journal.enter(report(2)).unwrap();
         assert_eq!(shards_in(&path), [0, 2]);
         assert_eq!(journal.whole, fs::metadata(&path).unwrap().len());
+    }
+
+    /// The tick that a plot could not finish was called an age while every plant was sown at tick 0.
+    #[test]
+    fn the_limits_of_older_runs_are_read() {
+        let read = serde_json::from_str::<OvergrownPlot>;
+        let now = OvergrownPlot { plot: 3, plant: 4, tick: 5, limit: 6 };
+        assert_eq!(read(r#"{"plot":3,"plant":4,"age":5,"limit":6}"#).unwrap(), now);
+        assert_eq!(read(&serde_json::to_string(&now).unwrap()).unwrap(), now);
     }
 
     #[test]

@@ -65,7 +65,7 @@ impl<'a> Shard<'a> {
         self.report.shard
     }
 
-    /// Writes what is known of a plot at its end: its components, its events and its plants. Comes after its last age,
+    /// Writes what is known of a plot at its end: its components, its events and its plants. Comes after its last tick,
     /// for each plot of the shard in turn.
     ///
     /// # Errors
@@ -73,17 +73,18 @@ impl<'a> Shard<'a> {
     pub fn end_plot(&mut self, plot: &Plot, ending: Ending) -> Result<(), Error> {
         self.check_turn(plot)?;
         let Some(tables) = &mut self.tables else { return Ok(()) };
-        let last = tables.last_age(&ending);
+        let last = tables.last_tick(&ending);
         tables.end_plot(plot, last)?;
         if let Ending::Overgrown { age, limit } = ending {
-            let overgrown = OvergrownPlot { plot: plot.id, plant: limit.plant, age, limit: limit.limit };
+            let overgrown = OvergrownPlot { plot: plot.id, plant: limit.plant, tick: age, limit: limit.limit };
             self.report.overgrown.push(overgrown);
         }
-        for plant in &plot.plants {
-            let lives = plant.lives(last);
+        for (plant, member) in plot.plants.iter().zip(&plot.members) {
+            let Some(age) = member.age_at(last) else { continue };
+            let lives = plant.lives(age);
             self.report.dead += u64::from(!lives);
             self.report.living += u64::from(lives);
-            self.report.components += plant.lived_by(last);
+            self.report.components += plant.lived_by(age);
         }
         self.ended += 1;
         Ok(())
@@ -132,8 +133,8 @@ impl<'a> Shard<'a> {
 }
 
 impl Recorder for Shard<'_> {
-    fn wants(&self, age: Tick) -> bool {
-        self.tables.as_ref().is_some_and(|tables| tables.wants(age))
+    fn wants(&self, tick: Tick) -> bool {
+        self.tables.as_ref().is_some_and(|tables| tables.wants(tick))
     }
 
     fn grown(&mut self, until: Tick, plot: &Plot) -> Result<(), RecordError> {
@@ -141,9 +142,9 @@ impl Recorder for Shard<'_> {
         self.tables.iter_mut().try_for_each(|tables| Ok(tables.grown(until, plot)?))
     }
 
-    fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
+    fn record(&mut self, tick: Tick, plot: &Plot) -> Result<(), RecordError> {
         self.check_turn(plot)?;
-        self.tables.iter_mut().try_for_each(|tables| Ok(tables.record(age, plot)?))
+        self.tables.iter_mut().try_for_each(|tables| Ok(tables.record(tick, plot)?))
     }
 }
 

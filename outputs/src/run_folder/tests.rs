@@ -6,6 +6,7 @@ use super::*;
 use crate::Table;
 use crate::read::Run;
 use crate::specimen::{grow_shard, plan, plot, run};
+use crate::specimen_plots::{grow_missing, mixed_plan, run_mixed};
 use phytomer_sim::grow;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -42,7 +43,7 @@ fn a_run_folder_holds_what_it_says() {
     let package: Value = serde_json::from_slice(&fs::read(path.join("datapackage.json")).unwrap()).unwrap();
     assert_eq!(package["name"], "sapling");
     assert_eq!(package["resources"][1]["path"][2], "records/part-00002.parquet");
-    assert_eq!(package["resources"][1]["schema"]["fields"][11]["unit"], "m");
+    assert_eq!(package["resources"][1]["schema"]["fields"][12]["unit"], "m");
     let views = fs::read_to_string(path.join("views.sql")).unwrap();
     assert!(views.contains("MACRO at_age(a) AS TABLE SELECT * FROM records_world"));
 }
@@ -59,6 +60,31 @@ fn the_bytes_do_not_depend_on_the_number_of_threads() {
     });
     assert_eq!(written[0], written[1]);
     assert_eq!(written[0], written[2]);
+}
+
+/// Three plants a plot, of two species and sown at three ticks: the same bytes on any number of threads, in whichever
+/// way the run came to its end.
+#[test]
+fn plots_of_several_plants_are_checked_and_resumed_as_those_of_one() {
+    let written = [1, 2, 7].map(|threads| {
+        let home = tempdir().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| run_mixed(home.path(), mixed_plan(7, 2)));
+        assert_eq!(check(home.path(), Depth::Bytes, &Checking::default()).unwrap().state, State::Complete);
+        contents(home.path())
+    });
+    assert!(written[0] == written[1] && written[0] == written[2]);
+    let home = tempdir().unwrap();
+    run_mixed(home.path(), mixed_plan(7, 2));
+    fs::remove_file(home.path().join("events/part-00001.parquet")).unwrap();
+    fs::write(home.path().join("summary/part-00003.parquet"), b"cut").unwrap();
+    let found = check(home.path(), Depth::Bytes, &Checking::default()).unwrap();
+    assert_eq!((found.state, found.to_grow), (State::Damaged, vec![1, 3]));
+    let folder = RunFolder::create(home.path(), mixed_plan(7, 2), Mode::Resume).unwrap();
+    grow_missing(&folder);
+    folder.finish(&[]).unwrap();
+    drop(folder);
+    assert!(contents(home.path()) == written[0]);
 }
 
 /// A mesh that was renamed but not entered, one that was half written, and a file that is not the run's.
@@ -256,16 +282,16 @@ fn an_overgrown_plot_keeps_the_ages_before_its_limit() {
     let home = tempdir().unwrap();
     let folder = RunFolder::create(home.path(), plan(2, 1), Mode::New).unwrap();
     let report = grow_shard(&folder, 0, 40);
-    let age = report.overgrown[0].age;
-    assert_eq!(report.overgrown, [OvergrownPlot { plot: 0, plant: 0, age, limit: 40 }]);
+    let tick = report.overgrown[0].tick;
+    assert_eq!(report.overgrown, [OvergrownPlot { plot: 0, plant: 0, tick, limit: 40 }]);
     assert_eq!((report.living, report.dead), (1, 0));
     grow_shard(&folder, 1, 100_000);
     folder.finish(&[]).unwrap();
     let run = Run::open(home.path()).unwrap();
-    assert_eq!(run.json()["overgrown"][0]["age"], age);
+    assert_eq!(run.json()["overgrown"][0]["tick"], tick);
     let rows = run.summary().unwrap();
     let ages: Vec<u32> = rows.iter().filter(|row| row.plant_id == 0).map(|row| row.age).collect();
-    let expected: Vec<u32> = plan(2, 1).recorded.into_iter().filter(|&recorded| recorded < age).collect();
+    let expected: Vec<u32> = plan(2, 1).recorded.into_iter().filter(|&recorded| recorded < tick).collect();
     assert_eq!(ages, expected);
 }
 

@@ -38,7 +38,8 @@ fn data_type(holds: Type) -> DataType {
         Type::Key => DataType::Int64,
         Type::Float => DataType::Float32,
         Type::Double => DataType::Float64,
-        Type::Word(_) | Type::Name(_) => DataType::Dictionary(Box::new(DataType::Int8), Box::new(DataType::Utf8)),
+        Type::Word(_) => DataType::Dictionary(Box::new(DataType::Int8), Box::new(DataType::Utf8)),
+        Type::Name(_) => DataType::Dictionary(Box::new(DataType::Int32), Box::new(DataType::Utf8)),
     }
 }
 
@@ -88,7 +89,8 @@ pub fn key_values(table: Table, plan: &RunPlan) -> Vec<KeyValue> {
         entry("version", provenance.version.clone()),
         entry("git_hash", provenance.git_hash.clone()),
         entry("scenario", provenance.scenario.clone()),
-        entry("treatment", provenance.treatment.clone()),
+        entry("treatments", serde_json::json!(provenance.treatments).to_string()),
+        entry("species", serde_json::json!(provenance.species).to_string()),
         entry("seed", provenance.seed.to_string()),
         entry("units", units(plan.mechanics && table == Table::Records)),
         entry("rounding", rounding(plan)),
@@ -98,7 +100,9 @@ pub fn key_values(table: Table, plan: &RunPlan) -> Vec<KeyValue> {
 
 fn units(mechanics: bool) -> String {
     let of_mechanics = if mechanics { ", kilograms, newton metres" } else { "" };
-    format!("metres, square metres, cubic metres, radians{of_mechanics}; ages in ticks since the seed; Z is up")
+    format!(
+        "metres, square metres, cubic metres, radians{of_mechanics}; ticks of the plot, ages in ticks since the plant was sown; Z is up"
+    )
 }
 
 fn rounding(plan: &RunPlan) -> String {

@@ -30,6 +30,8 @@ pub enum Values {
     Double(Vec<f64>),
     /// Places in the column's list of words.
     Word(Vec<i8>),
+    /// Places in the run's list of names, never null.
+    Name(Vec<i32>),
 }
 
 impl Values {
@@ -37,7 +39,7 @@ impl Values {
     pub fn clear(&mut self) {
         match self {
             Self::Bool(values) | Self::Word(values) => values.clear(),
-            Self::Int(values) => values.clear(),
+            Self::Int(values) | Self::Name(values) => values.clear(),
             Self::Key(values) => values.clear(),
             Self::Float(values) => values.clear(),
             Self::Double(values) => values.clear(),
@@ -60,6 +62,8 @@ pub enum Lent {
     Double(Buffer),
     /// Places in a list of words.
     Word(Buffer),
+    /// Places in a list of names.
+    Name(Buffer),
 }
 
 impl Lent {
@@ -76,6 +80,7 @@ impl Lent {
             Self::Float(buffer) => Values::Float(emptied(buffer)),
             Self::Double(buffer) => Values::Double(emptied(buffer)),
             Self::Word(buffer) => Values::Word(emptied(buffer)),
+            Self::Name(buffer) => Values::Name(emptied(buffer)),
         }
     }
 }
@@ -86,7 +91,7 @@ fn emptied<N: ArrowNativeType>(buffer: Buffer) -> Vec<N> {
     values
 }
 
-/// The arrow array of `values`, and the buffer to take back. `words` are those of a column of words.
+/// The arrow array of `values`, and the buffer to take back. `words` are those of a column of words or names.
 ///
 /// # Errors
 /// Where a word's place is not in the list.
@@ -113,6 +118,10 @@ pub fn lend(values: Values, column: &Column, words: &Arc<StringArray>) -> Result
         Values::Word(values) => {
             let (keys, buffer) = numbers::<Int8Type>(values, nullable, |value| value >= 0);
             (Arc::new(DictionaryArray::try_new(keys, words.clone())?), Lent::Word(buffer))
+        }
+        Values::Name(values) => {
+            let (keys, buffer) = numbers::<Int32Type>(values, false, |_| true);
+            (Arc::new(DictionaryArray::try_new(keys, words.clone())?), Lent::Name(buffer))
         }
     })
 }

@@ -2,14 +2,15 @@
 //!
 //! The arrow schema, the Parquet metadata, `datapackage.json` and the documentation are all made from these lists. Ids
 //! and ticks are signed, because many readers know no unsigned numbers; null means "does not apply" or "not by the end
-//! of the run", and no number stands for it. Where a component stands is told from the seed of its plant, in single
-//! precision; where the seed lies, once, in `plants`, in double.
+//! of the run", and no number stands for it. A `tick` is the plot's, an `age` the plant's; all columns that end in
+//! `_age` are the plant's too. Where a component stands is told from the seed of its plant, in single precision; where
+//! the seed lies, once, in `plants`, in double.
 
 use super::schema::{Column, Encoding, Named, Rounding, Type};
 use phytomer_sim::plant::{Cause, EventKind, Kind, Origin};
 
 /// The version of these lists: it changes with a column's name, type or meaning.
-pub const SCHEMA_VERSION: &str = "3";
+pub const SCHEMA_VERSION: &str = "4";
 
 /// The tags of [`Kind`], in the order of their numbers.
 pub static KINDS: [&str; Kind::ALL.len()] = {
@@ -102,7 +103,13 @@ const TREATMENT: Column = Column::new(
 );
 const PLOT: Column = Column::id("plot_id", "The plot: the plants that share a site.");
 const PLANT: Column = Column::id("plant_id", "The plant's number in the run, from 0.");
-const AGE: Column = Column::id("age", "Ticks since the seed.").unit("tick");
+/// Constant over long runs of rows; DELTA_BINARY_PACKED gives such a run no bit a row.
+const TICK: Column = Column::id("tick", "The tick of the plot, from 0.").unit("tick");
+const AGE: Column = Column::id(
+    "age",
+    "The age of the plant: ticks since it was sown, which is `tick` less its `sown_tick` in `plants`.",
+)
+.unit("tick");
 const COMPONENT: Column = Column::id(
     "component_id",
     "The component's number in its plant: dense from 0, a parent's before its children's, the same at every age.",
@@ -118,13 +125,14 @@ const ORDER: Column = Column::small("order", "The order of the axis; the trunk i
 const KIND: Column = Column::word("kind", &KINDS, "What the component is.");
 
 /// The columns of [`RECORDS`] that every run has; those of mechanics follow, where a run asks for them.
-pub const RECORDS_OF_POSE: usize = 25;
+pub const RECORDS_OF_POSE: usize = 26;
 
-/// A row per component that stands at a recorded age, living or dead.
+/// A row per component that stands at a recorded tick, living or dead.
 pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
     TREATMENT,
     PLOT,
     PLANT,
+    TICK,
     AGE,
     COMPONENT,
     PARENT,
@@ -186,7 +194,7 @@ pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
     .or_null(),
 ];
 
-/// A row per component that ever lived, by the last age of the run.
+/// A row per component that ever lived, by the last tick of the run.
 pub static COMPONENTS: [Column; 26] = [
     TREATMENT,
     PLOT,
@@ -263,11 +271,12 @@ pub static COMPONENTS: [Column; 26] = [
     .or_null(),
 ];
 
-/// A row per fate of a bud or a branch, up to the last age of the run.
-pub static EVENTS: [Column; 8] = [
+/// A row per fate of a bud or a branch, up to the last tick of the run.
+pub static EVENTS: [Column; 9] = [
     TREATMENT,
     PLOT,
     PLANT,
+    TICK,
     AGE,
     Column::id("component_id", "The apical bud: of the new axis where one began, of the branch that fell for `shed`."),
     Column::id("axis_id", "The axis of that bud: the same number, so that events join by axis too."),
@@ -275,11 +284,12 @@ pub static EVENTS: [Column; 8] = [
     Column::small("count", "Of how many: the nodes of `grew`, the growth units of `completed`; else 1."),
 ];
 
-/// A row per plant and recorded age.
-pub static SUMMARY: [Column; 18] = [
+/// A row per plant and recorded tick; none before the plant is sown.
+pub static SUMMARY: [Column; 19] = [
     TREATMENT,
     PLOT,
     PLANT,
+    TICK,
     AGE,
     Column::id("internodes", "Living internodes of every kind: those whose kind ends in `internode`."),
     Column::id("leaves", "Leaves on the plant, of kind `leaf`; leaflets, bracts and the parts of flowers are none."),
@@ -314,11 +324,13 @@ pub static SUMMARY: [Column; 18] = [
 ];
 
 /// A row per plant.
-pub static PLANTS: [Column; 7] = [
+pub static PLANTS: [Column; 9] = [
     TREATMENT,
     PLOT,
     PLANT,
+    Column::small("replicate", "Which of the plots of its treatment the plot is, from 0."),
     Column::new("species", Type::Name(Named::Species), Encoding::Dictionary, "The species of the plant."),
+    Column::tick("sown_tick", "The tick of the plot at which the plant was sown: its age 0."),
     Column::double(
         "x_m",
         "m",

@@ -4,17 +4,18 @@
 
 use super::buffers::{NULL, columns, known};
 use super::component_index::{Component, ComponentIndex};
+use super::membership::Membership;
 use super::records::{area_of, number_of};
+use phytomer_sim::Tick;
 use phytomer_sim::plant::{AxisId, Cause, Kind, LineageKey, NodeId, OrganId, Plant};
 use phytomer_sim::shed::cause_of;
-use phytomer_sim::{Plot, Tick};
 use std::ops::Range;
 
 columns! {
     /// The buffers of `components`.
     ComponentColumns of row: ComponentRow, of: &OfPlant<'_> {
-        treatment: Word(i8) = 0,
-        plot: Int(i32) = of.plot.id as i32,
+        treatment: Name(i32) = of.of.treatment as i32,
+        plot: Int(i32) = of.of.plot as i32,
         plant: Int(i32) = of.plant.id as i32,
         component: Int(i32) = row.component as i32,
         key: Key(i64) = row.key.0 as i64,
@@ -45,9 +46,9 @@ columns! {
 
 /// What all rows of one plant share.
 struct OfPlant<'a> {
-    plot: &'a Plot<'a>,
+    of: Membership,
     plant: &'a Plant,
-    /// The last age of which anything is known.
+    /// The last age of the plant of which anything is known.
     last: Tick,
 }
 
@@ -75,11 +76,11 @@ pub struct ComponentRow {
 }
 
 impl ComponentColumns {
-    /// Adds a row for each of the components `numbers` of `plant` that lived by the age `last`; `rows` is memory to
+    /// Adds a row for each of the components `numbers` of `plant` that lived by its age `last`; `rows` is memory to
     /// work in.
     pub fn fill(
         &mut self,
-        plot: &Plot,
+        of: Membership,
         (plant, index): (&Plant, &ComponentIndex),
         numbers: Range<u32>,
         last: Tick,
@@ -93,7 +94,7 @@ impl ComponentColumns {
         };
         let lived = |row: &ComponentRow| row.birth <= last && (row.kind == Kind::ApicalBud || row.birth < row.death);
         rows.extend(numbers.map(row_of).filter(lived));
-        self.extend(rows, &OfPlant { plot, plant, last });
+        self.extend(rows, &OfPlant { of, plant, last });
     }
 }
 

@@ -1,18 +1,21 @@
-//! The rows of `events`: what became of buds and branches, sorted by age and component.
+//! The rows of `events`: what became of buds and branches, sorted by tick, plant and component.
 //!
 //! A plant that grew ahead notes its events axis by axis and one that followed the clock age by age; sorted, both are
-//! the same rows.
+//! the same rows. The events of all plants of a plot are dealt to the ticks of the plot, plant by plant, and sorted
+//! within each tick and plant: the memory is that of the plot's events once more.
 
 use super::buffers::columns;
+use super::membership::{Membership, by_number};
 use phytomer_sim::plant::{AxisId, Event, EventKind, Plant};
 use phytomer_sim::{Plot, Tick};
 
 columns! {
     /// The buffers of `events`.
-    EventColumns of event: Event, of: (&Plot, &Plant) {
-        treatment: Word(i8) = 0,
-        plot: Int(i32) = of.0.id as i32,
+    EventColumns of event: Event, of: (Membership, &Plant) {
+        treatment: Name(i32) = of.0.treatment as i32,
+        plot: Int(i32) = of.0.plot as i32,
         plant: Int(i32) = of.1.id as i32,
+        tick: Int(i32) = of.0.tick_at(event.tick) as i32,
         age: Int(i32) = event.tick as i32,
         component: Int(i32) = of.1.axes.component[event.axis.index()] as i32,
         axis: Int(i32),
@@ -23,28 +26,82 @@ columns! {
 
 impl EventColumns {
     /// Adds a row for each of the events of a plant, column by column.
-    pub fn fill(&mut self, plot: &Plot, plant: &Plant, events: &[Event]) {
+    pub fn fill(&mut self, of: Membership, plant: &Plant, events: &[Event]) {
         let before = self.component.len();
-        self.extend(events, (plot, plant));
+        self.extend(events, (of, plant));
         self.axis.extend_from_slice(&self.component[before..]);
     }
 }
 
-/// Puts the events of `plant` up to the age `last` into `sorted`. Axes climb with the numbers of their buds, and events
-/// of one kind on one axis and tick keep the order in which they were noted.
-pub fn sort(plant: &Plant, last: Tick, sorted: &mut Vec<Event>) {
-    let events = || plant.events.iter().flatten().filter(|event| event.tick <= last);
-    let mut ends = vec![0; last as usize + 1];
-    events().for_each(|event| ends[event.tick as usize] += 1);
-    let mut before = 0;
-    ends.iter_mut().for_each(|end| before += std::mem::replace(end, before));
-    // Dealt to their ticks first: what is noted axis by axis is then nearly in order, and sorted in one pass.
-    sorted.clear();
-    sorted.resize(before, Event { tick: 0, axis: AxisId::TRUNK, kind: EventKind::Grew, count: 0 });
-    for event in events() {
-        let end = &mut ends[event.tick as usize];
-        sorted[*end] = *event;
-        *end += 1;
+/// The events of a plot in the order of their rows.
+#[derive(Debug, Default)]
+pub struct SortedEvents {
+    events: Vec<Event>,
+    stretches: Vec<Stretch>,
+}
+
+/// Events of one plant that follow one another.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    start: usize,
+    end: usize,
+    /// The place of the plant in the plot.
+    at: usize,
+}
+
+impl SortedEvents {
+    /// Sorts the events of a plot up to its tick `last`, in place of what was here.
+    pub fn sort(&mut self, plot: &Plot, last: Tick) {
+        let order = by_number(plot);
+        // Of each tick first how many events it has, then where its next event goes.
+        let mut next = vec![0; last as usize + 1];
+        for &at in &order {
+            events_of(plot, at, last).for_each(|(tick, _)| next[tick] += 1);
+        }
+        let mut before = 0;
+        next.iter_mut().for_each(|next| before += std::mem::replace(next, before));
+        self.events.clear();
+        self.events.resize(before, Event { tick: 0, axis: AxisId::TRUNK, kind: EventKind::Grew, count: 0 });
+        self.stretches.clear();
+        for at in order {
+            self.deal(plot, at, last, &mut next);
+        }
+        self.stretches.sort_unstable_by_key(|stretch| stretch.start);
+        self.stretches.dedup_by(|next, stretch| {
+            let goes_on = next.at == stretch.at;
+            stretch.end = if goes_on { next.end } else { stretch.end };
+            goes_on
+        });
     }
-    sorted.chunk_by_mut(|a, b| a.tick == b.tick).for_each(|tick| tick.sort_by_key(|event| (event.axis, event.kind)));
+
+    /// Puts the events of one plant into their ticks. What is noted axis by axis is then nearly in order, and sorted in
+    /// one pass; events of one kind on one axis and tick keep the order in which they were noted.
+    fn deal(&mut self, plot: &Plot, at: usize, last: Tick, next: &mut [usize]) {
+        let starts = next.to_vec();
+        for (tick, event) in events_of(plot, at, last) {
+            self.events[next[tick]] = *event;
+            next[tick] += 1;
+        }
+        let numbers = &plot.plants[at].axes.component;
+        // Where axes climb with the numbers of their buds, the columns need not be looked at.
+        let climb = numbers.is_sorted();
+        for (start, end) in starts.into_iter().zip(&*next).filter(|(start, end)| start < *end) {
+            let number = |axis: AxisId| if climb { axis.0 } else { numbers[axis.index()] };
+            self.events[start..*end].sort_by_key(|event| (number(event.axis), event.kind));
+            self.stretches.push(Stretch { start, end: *end, at });
+        }
+    }
+
+    /// The events as stretches of one plant, with the plant's place in the plot.
+    pub fn stretches(&self) -> impl Iterator<Item = (usize, &[Event])> {
+        self.stretches.iter().map(|stretch| (stretch.at, &self.events[stretch.start..stretch.end]))
+    }
+}
+
+/// The events of a plant up to a tick of its plot, each with its tick.
+fn events_of<'a>(plot: &'a Plot<'_>, at: usize, last: Tick) -> impl Iterator<Item = (usize, &'a Event)> {
+    let of = Membership::of(plot, at);
+    let noted = plot.plants[at].events.iter().flatten();
+    let dated = noted.map(move |event| (of.tick_at(event.tick), event));
+    dated.filter(move |(tick, _)| *tick <= last).map(|(tick, event)| (tick as usize, event))
 }

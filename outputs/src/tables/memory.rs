@@ -33,12 +33,12 @@ impl MemoryTables {
         Self { recording }
     }
 
-    /// Keeps what is known of a plot at its end: its components, its events and its plants. Comes after its last age.
+    /// Keeps what is known of a plot at its end: its components, its events and its plants. Comes after its last tick.
     ///
     /// # Errors
     /// [`TableError::PlantTooLarge`].
     pub fn end_plot(&mut self, plot: &Plot, ending: &Ending) -> Result<(), TableError> {
-        let last = self.recording.last_age(ending);
+        let last = self.recording.last_tick(ending);
         self.recording.end_plot(plot, last)
     }
 
@@ -52,16 +52,16 @@ impl MemoryTables {
 }
 
 impl Recorder for MemoryTables {
-    fn wants(&self, age: Tick) -> bool {
-        self.recording.wants(age)
+    fn wants(&self, tick: Tick) -> bool {
+        self.recording.wants(tick)
     }
 
     fn grown(&mut self, until: Tick, plot: &Plot) -> Result<(), RecordError> {
         Ok(self.recording.grown(until, plot)?)
     }
 
-    fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
-        Ok(self.recording.record(age, plot)?)
+    fn record(&mut self, tick: Tick, plot: &Plot) -> Result<(), RecordError> {
+        Ok(self.recording.record(tick, plot)?)
     }
 }
 

@@ -14,6 +14,7 @@ mod components;
 mod encode;
 mod error;
 mod events;
+mod membership;
 mod memory;
 mod part;
 mod plan;
@@ -28,12 +29,16 @@ mod summary;
 mod tests;
 #[cfg(test)]
 mod tests_mechanics;
+#[cfg(test)]
+mod tests_plots;
 
 pub(crate) use component_index::ComponentIndex;
 pub(crate) use components::{ComponentColumns, ComponentRow};
 pub(crate) use encode::Queue;
 pub use error::{Cause, TableError};
-pub(crate) use events::{EventColumns, sort as sort_events};
+pub(crate) use events::{EventColumns, SortedEvents};
+pub use membership::Membership;
+pub(crate) use membership::by_number;
 pub use memory::{MemoryTables, TableBatches};
 pub(crate) use part::{Part, PartReport};
 pub use plan::{Input, Provenance, RunPlan};
@@ -56,11 +61,11 @@ pub const ROW_GROUP: usize = 122_880;
 pub enum Table {
     /// A row per component that ever lived.
     Components,
-    /// A row per component that stands at a recorded age.
+    /// A row per component that stands at a recorded tick.
     Records,
     /// A row per fate of a bud or a branch.
     Events,
-    /// A row per plant and recorded age.
+    /// A row per plant and recorded tick.
     Summary,
     /// A row per plant.
     Plants,
@@ -84,11 +89,11 @@ impl Table {
     /// One sentence about its rows.
     pub const fn description(self) -> &'static str {
         match self {
-            Self::Components => "A row per component that ever lived, by the last age of the run.",
-            Self::Records => "A row per component that stands at a recorded age, with its pose.",
+            Self::Components => "A row per component that ever lived, by the last tick of the run.",
+            Self::Records => "A row per component that stands at a recorded tick, with its pose.",
             Self::Events => "A row per fate of a bud or a branch.",
-            Self::Summary => "A row per plant and recorded age.",
-            Self::Plants => "A row per plant, with its place in the plot.",
+            Self::Summary => "A row per plant and recorded tick.",
+            Self::Plants => "A row per plant, with its species, its sowing and its place in the plot.",
         }
     }
 
@@ -104,13 +109,14 @@ impl Table {
         }
     }
 
-    /// The columns by which its rows are sorted; they also tell one row from another, but for events.
+    /// The columns by which its rows are sorted, the first of them first: plot, tick where the table has one, plant,
+    /// component. They also tell one row from another, but for events.
     pub const fn sorted_by(self) -> &'static [&'static str] {
         match self {
             Self::Components => &["plot_id", "plant_id", "component_id"],
-            Self::Records => &["plot_id", "age", "plant_id", "component_id"],
-            Self::Events => &["plot_id", "plant_id", "age", "component_id"],
-            Self::Summary => &["plot_id", "age", "plant_id"],
+            Self::Records => &["plot_id", "tick", "plant_id", "component_id"],
+            Self::Events => &["plot_id", "tick", "plant_id", "component_id"],
+            Self::Summary => &["plot_id", "tick", "plant_id"],
             Self::Plants => &["plot_id", "plant_id"],
         }
     }

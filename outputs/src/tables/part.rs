@@ -147,8 +147,8 @@ pub fn words_of_run(declared: &[Column], plan: &RunPlan) -> Vec<Arc<StringArray>
 fn words_of(column: &Column, provenance: &Provenance) -> Arc<StringArray> {
     Arc::new(match column.holds {
         Type::Word(words) => StringArray::from_iter_values(words),
-        Type::Name(Named::Treatment) => StringArray::from_iter_values([&provenance.treatment]),
-        Type::Name(Named::Species) => StringArray::from_iter_values([&provenance.species]),
+        Type::Name(Named::Treatment) => StringArray::from_iter_values(&provenance.treatments),
+        Type::Name(Named::Species) => StringArray::from_iter_values(&provenance.species),
         _ => StringArray::from_iter_values([""; 0]),
     })
 }

@@ -15,9 +15,9 @@ use std::ops::Range;
 pub struct RunPlan {
     /// The tables that are wanted.
     pub tables: Vec<Table>,
-    /// The ages of `records` and `summary`, ascending.
+    /// The ticks of the plots at which `records` and `summary` have rows, ascending.
     pub recorded: Vec<Tick>,
-    /// The last age.
+    /// The last tick of a plot.
     pub until: Tick,
     /// The plots of the run, numbered from 0.
     pub plots: u32,
@@ -38,10 +38,10 @@ pub struct RunPlan {
 pub struct Provenance {
     /// The scenario's name.
     pub scenario: String,
-    /// The treatment of the run's plots; `control` where it has one.
-    pub treatment: String,
-    /// The name of the species of the run's plants.
-    pub species: String,
+    /// The treatments of the run's plots, by the places that the plots name; `control` where there is one.
+    pub treatments: Vec<String>,
+    /// The names of the species of the run's plants, by their places in the plots' lists.
+    pub species: Vec<String>,
     /// The seed of every draw.
     pub seed: u64,
     /// The program's version.

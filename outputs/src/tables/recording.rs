@@ -1,15 +1,16 @@
 //! The tables of a range of plots, filled from what the loop of growth shows: which rows are written, and when.
 //!
 //! Files and memory are filled by the same code, so a table in memory has the rows of the Parquet file. The components
-//! of a plant are written once, as soon as their lives are known; `records` and `summary` at each recorded age; events
-//! and plants when the plot has ended. Absent: where row groups go, which is the [`Sink`]'s.
+//! of a plant are written once, as soon as their lives are known; `records` and `summary` at each recorded tick; events
+//! and plants when the plot has ended. The plants of a plot are gone through in the order of their numbers, one at a
+//! time, each at its own age: what a pass needs in memory is what its largest plant needs. A plant that is not sown yet
+//! has no rows but that in `plants`. Absent: where row groups go, which is the [`Sink`]'s.
 
 use super::sink::{Rows, Sink};
 use super::{
-    ComponentColumns, ComponentIndex, ComponentRow, EventColumns, PlantAtAge, PlantColumns, RecordColumns, RecordRow,
-    RunPlan, SummaryColumns, Table, TableError, sort_events, summarise,
+    ComponentColumns, ComponentIndex, ComponentRow, EventColumns, Membership, PlantAtAge, PlantColumns, RecordColumns,
+    RecordRow, RunPlan, SortedEvents, SummaryColumns, Table, TableError, by_number, summarise,
 };
-use phytomer_sim::plant::{Event, Plant};
 use phytomer_sim::{Ending, Plot, Tick};
 
 /// The tables that a run asks for.
@@ -33,7 +34,7 @@ pub struct Recording<S> {
     numbers: Vec<u32>,
     rows: Vec<RecordRow>,
     lives: Vec<ComponentRow>,
-    sorted: Vec<Event>,
+    sorted: SortedEvents,
 }
 
 impl<S: Sink> Recording<S> {
@@ -60,90 +61,100 @@ impl<S: Sink> Recording<S> {
             numbers: Vec::new(),
             rows: Vec::new(),
             lives: Vec::new(),
-            sorted: Vec::new(),
+            sorted: SortedEvents::default(),
         })
     }
 
-    /// Whether a table has rows at this age.
-    pub fn wants(&self, age: Tick) -> bool {
+    /// Whether a table has rows at this tick of a plot.
+    pub fn wants(&self, tick: Tick) -> bool {
         let wanted = self.tables.records.is_some() || self.tables.summary.is_some();
-        wanted && self.recorded.binary_search(&age).is_ok()
+        wanted && self.recorded.binary_search(&tick).is_ok()
     }
 
-    /// Growth has run ahead to `until`: the components of the plot, the largest table of a plant, are written before
-    /// its first age, so that other threads can encode them while this thread makes the ages ready.
+    /// Growth has run ahead to the tick `until`: the components of the plot, the largest table of a plant, are written
+    /// before its first tick, so that other threads can encode them while this thread makes the ticks ready.
     pub fn grown(&mut self, until: Tick, plot: &Plot) -> Result<(), TableError> {
-        for plant in &plot.plants {
-            self.write_components(plot, plant, until)?;
-        }
+        self.write_components(plot, until)?;
         self.components_written = true;
         Ok(())
     }
 
-    /// Writes the rows of a plot as it stands at `age`.
-    pub fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), TableError> {
-        plot.plants.iter().try_for_each(|plant| self.write_age(age, plot, plant))
+    /// Writes the rows of a plot as it stands at `tick`.
+    pub fn record(&mut self, tick: Tick, plot: &Plot) -> Result<(), TableError> {
+        by_number(plot).into_iter().try_for_each(|at| self.write_age(tick, plot, at))
     }
 
-    /// The last age of which a plot that ended so has rows.
-    pub fn last_age(&self, ending: &Ending) -> Tick {
+    /// The last tick of which a plot that ended so has rows.
+    pub fn last_tick(&self, ending: &Ending) -> Tick {
         match ending {
             Ending::Complete => self.until,
             Ending::Overgrown { age, .. } => age.saturating_sub(1),
         }
     }
 
-    /// Writes what is known of a plot at its end, after its age `last`: its components, its events and its plants.
+    /// Writes what is known of a plot at its end, after its tick `last`: its components, its events and its plants.
     pub fn end_plot(&mut self, plot: &Plot, last: Tick) -> Result<(), TableError> {
-        for plant in &plot.plants {
-            if !self.components_written {
-                self.write_components(plot, plant, last)?;
-            }
-            self.write_events(plot, plant, last)?;
-            if let Some(table) = &mut self.tables.plants {
-                table.columns.add(plot, plant);
-                table.flush_if_full()?;
-            }
+        if !self.components_written {
+            self.write_components(plot, last)?;
         }
+        self.write_events(plot, last)?;
+        self.write_plants(plot)?;
         self.index.forget();
         self.components_written = false;
         Ok(())
     }
 
-    fn write_components(&mut self, plot: &Plot, plant: &Plant, last: Tick) -> Result<(), TableError> {
+    fn write_components(&mut self, plot: &Plot, last: Tick) -> Result<(), TableError> {
         let Some(table) = &mut self.tables.components else { return Ok(()) };
-        self.index.read(plant)?;
-        let mut next = 0;
-        while next < self.index.len() {
-            let numbers = self.index.following(table.room(), &mut next);
-            table.columns.fill(plot, (plant, &self.index), numbers, last, &mut self.lives);
-            table.flush_if_full()?;
+        for at in by_number(plot) {
+            let (of, plant) = (Membership::of(plot, at), &plot.plants[at]);
+            let Some(last) = of.age_at(last) else { continue };
+            self.index.read(plant)?;
+            let mut next = 0;
+            while next < self.index.len() {
+                let numbers = self.index.following(table.room(), &mut next);
+                table.columns.fill(of, (plant, &self.index), numbers, last, &mut self.lives);
+                table.flush_if_full()?;
+            }
         }
         Ok(())
     }
 
-    fn write_events(&mut self, plot: &Plot, plant: &Plant, last: Tick) -> Result<(), TableError> {
+    fn write_events(&mut self, plot: &Plot, last: Tick) -> Result<(), TableError> {
         let Some(table) = &mut self.tables.events else { return Ok(()) };
-        sort_events(plant, last, &mut self.sorted);
-        let mut left = &self.sorted[..];
-        while !left.is_empty() {
-            let (events, others) = left.split_at(left.len().min(table.room()));
-            table.columns.fill(plot, plant, events);
-            table.flush_if_full()?;
-            left = others;
+        self.sorted.sort(plot, last);
+        for (at, mut left) in self.sorted.stretches() {
+            while !left.is_empty() {
+                let (events, others) = left.split_at(left.len().min(table.room()));
+                table.columns.fill(Membership::of(plot, at), &plot.plants[at], events);
+                table.flush_if_full()?;
+                left = others;
+            }
         }
         Ok(())
     }
 
-    fn write_age(&mut self, age: Tick, plot: &Plot, plant: &Plant) -> Result<(), TableError> {
+    fn write_plants(&mut self, plot: &Plot) -> Result<(), TableError> {
+        let Some(table) = &mut self.tables.plants else { return Ok(()) };
+        for at in by_number(plot) {
+            table.columns.add(Membership::of(plot, at), &plot.plants[at]);
+            table.flush_if_full()?;
+        }
+        Ok(())
+    }
+
+    /// Writes the rows of the plant at place `at` of a plot at a tick, if it is sown by then.
+    fn write_age(&mut self, tick: Tick, plot: &Plot, at: usize) -> Result<(), TableError> {
+        let (of, plant) = (Membership::of(plot, at), &plot.plants[at]);
+        let Some(age) = of.age_at(tick) else { return Ok(()) };
         self.index.read(plant)?;
         self.index.find_tips(plant, age);
         if let Some(table) = &mut self.tables.summary {
-            table.columns.add(plot, plant, age, &summarise(plant, &self.index, age));
+            table.columns.add(of, plant, age, &summarise(plant, &self.index, age));
             table.flush_if_full()?;
         }
         let Some(table) = &mut self.tables.records else { return Ok(()) };
-        let shown = PlantAtAge { plot: plot.id, plant, index: &self.index, age, mechanics: self.mechanics };
+        let shown = PlantAtAge { of, plant, index: &self.index, age, mechanics: self.mechanics };
         let mut next = 0;
         while next < self.index.len() {
             self.index.select(age, table.room(), &mut next, &mut self.numbers);

@@ -6,6 +6,7 @@
 use super::buffers::{NULL, columns};
 use super::columns::KINDS;
 use super::component_index::{Component, ComponentIndex};
+use super::membership::Membership;
 use phytomer_sim::Tick;
 use phytomer_sim::mechanics::wood_volume;
 use phytomer_sim::plant::{AxisId, InternodeLook, Kind, NodeId, OrganId, Plant};
@@ -14,9 +15,10 @@ use phytomer_sim::pose::{Frame, node_frame, organ_frame, start_frame};
 columns! {
     /// The buffers of `records`.
     RecordColumns of row: RecordRow, shown: &PlantAtAge<'_> {
-        treatment: Word(i8) = 0,
-        plot: Int(i32) = shown.plot as i32,
+        treatment: Name(i32) = shown.of.treatment as i32,
+        plot: Int(i32) = shown.of.plot as i32,
         plant: Int(i32) = shown.plant.id as i32,
+        tick: Int(i32) = shown.of.tick_at(shown.age) as i32,
         age: Int(i32) = shown.age as i32,
         component: Int(i32) = row.component as i32,
         parent: Int(i32) = row.parent,
@@ -65,13 +67,13 @@ pub struct RecordRow {
 
 /// What the rows of one plant at one age share.
 pub struct PlantAtAge<'a> {
-    /// The number of its plot.
-    pub plot: u32,
+    /// Where it belongs.
+    pub of: Membership,
     /// The plant.
     pub plant: &'a Plant,
     /// Its components by number, with the tips of its axes at the age.
     pub index: &'a ComponentIndex,
-    /// The age.
+    /// Its age.
     pub age: Tick,
     /// Whether the columns of mechanics are wanted.
     pub mechanics: bool,
@@ -100,7 +102,7 @@ impl RecordColumns {
             Component::Organ(organ) => shown.of_organ(organ, &mut bearing),
             Component::Bud(axis) => shown.of_bud(axis),
         }));
-        // Column by column out of the cache, which is several times as fast as pushing row by row to 25 columns.
+        // Column by column out of the cache, which is several times as fast as pushing row by row to 26 columns.
         self.extend(rows, shown);
         if shown.mechanics {
             self.push_mechanics(shown, numbers);

@@ -17,7 +17,7 @@ pub enum Type {
     Double,
     /// One word of a closed list, as a dictionary string.
     Word(&'static [&'static str]),
-    /// A word that the run chooses, as a dictionary string.
+    /// A word that the run chooses, as a dictionary string; there may be any number of them.
     Name(Named),
 }
 

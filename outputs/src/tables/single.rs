@@ -5,7 +5,7 @@
 
 use super::buffers::{Columns, Values};
 use super::schema::Column;
-use super::{ComponentIndex, PlantAtAge, RecordColumns, TableError, columns};
+use super::{ComponentIndex, Membership, PlantAtAge, RecordColumns, TableError, columns};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 
@@ -13,16 +13,16 @@ use phytomer_sim::plant::Plant;
 const ROWS: usize = 512;
 
 /// The value of a column for each component of a plant at an age, by its number; NaN where it is null and for
-/// components that do not stand. Words are given by their places in the column's list.
+/// components that do not stand. Words are given by their places in the column's list, names by those in the run's.
 ///
 /// # Errors
 /// [`TableError::PlantTooLarge`].
-pub fn record_values(plant: &Plant, age: Tick, column: &Column) -> Result<Vec<f64>, TableError> {
+pub fn record_values(of: Membership, plant: &Plant, age: Tick, column: &Column) -> Result<Vec<f64>, TableError> {
     let mut index = ComponentIndex::default();
     index.read(plant)?;
     index.find_tips(plant, age);
     let place = columns::RECORDS.iter().position(|known| known.name == column.name).unwrap_or(0);
-    let shown = PlantAtAge { plot: plant.id, plant, index: &index, age, mechanics: true };
+    let shown = PlantAtAge { of, plant, index: &index, age, mechanics: true };
     let mut values = vec![f64::NAN; index.len() as usize];
     let (mut next, mut numbers, mut rows, mut filled) = (0, Vec::new(), Vec::new(), RecordColumns::default());
     while next < index.len() {
@@ -44,7 +44,7 @@ fn numbers_of(values: &Values) -> Vec<f64> {
     let whole = |value: i64| if value < 0 { f64::NAN } else { value as f64 };
     match values {
         Values::Bool(values) | Values::Word(values) => values.iter().map(|value| whole(i64::from(*value))).collect(),
-        Values::Int(values) => values.iter().map(|value| whole(i64::from(*value))).collect(),
+        Values::Int(values) | Values::Name(values) => values.iter().map(|value| whole(i64::from(*value))).collect(),
         Values::Key(values) => values.iter().map(|value| *value as f64).collect(),
         Values::Float(values) => values.iter().map(|value| f64::from(*value)).collect(),
         Values::Double(values) => values.clone(),
@@ -73,7 +73,7 @@ mod tests {
         fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
             let column = |name: &str| columns::RECORDS.iter().find(|column| column.name == name).unwrap();
             for (kept, name) in self.1.iter_mut().zip(["diameter_m", "birth_age"]) {
-                *kept = record_values(&plot.plants[0], age, column(name))?;
+                *kept = record_values(Membership::of(plot, 0), &plot.plants[0], age, column(name))?;
             }
             Ok(())
         }

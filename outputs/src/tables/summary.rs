@@ -5,17 +5,19 @@
 use super::TableError;
 use super::buffers::{NULL, columns};
 use super::component_index::ComponentIndex;
+use super::membership::Membership;
+use phytomer_sim::Tick;
 use phytomer_sim::mechanics::wood_volume;
 use phytomer_sim::plant::{AxisId, Class, Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::node_frame;
-use phytomer_sim::{Plot, Tick};
 
 columns! {
     /// The buffers of `summary`.
     SummaryColumns of summary: Summary, of: &OfPlant<'_> {
-        treatment: Word(i8) = 0,
-        plot: Int(i32) = of.plot.id as i32,
+        treatment: Name(i32) = of.of.treatment as i32,
+        plot: Int(i32) = of.of.plot as i32,
         plant: Int(i32) = of.plant.id as i32,
+        tick: Int(i32) = of.of.tick_at(of.age) as i32,
         age: Int(i32) = of.age as i32,
         internodes: Int(i32) = summary.internodes as i32,
         leaves: Int(i32) = summary.leaves as i32,
@@ -36,7 +38,7 @@ columns! {
 
 /// The plant and the age that a summary is of.
 struct OfPlant<'a> {
-    plot: &'a Plot<'a>,
+    of: Membership,
     plant: &'a Plant,
     age: Tick,
 }
@@ -153,7 +155,7 @@ fn count_axes(plant: &Plant, index: &ComponentIndex, age: Tick, summary: &mut Su
 
 impl SummaryColumns {
     /// Adds the row of one plant at one age.
-    pub fn add(&mut self, plot: &Plot, plant: &Plant, age: Tick, summary: &Summary) {
-        self.extend(std::slice::from_ref(summary), &OfPlant { plot, plant, age });
+    pub fn add(&mut self, of: Membership, plant: &Plant, age: Tick, summary: &Summary) {
+        self.extend(std::slice::from_ref(summary), &OfPlant { of, plant, age });
     }
 }

@@ -110,9 +110,9 @@ fn columns_are_declared_soundly() {
 fn rows_are_sorted_and_never_repeated() {
     let (_home, run) = specimen();
     for (table, keys) in [
-        (Table::Records, &["plant_id", "age", "component_id"][..]),
-        (Table::Components, &["plant_id", "component_id"]),
-        (Table::Summary, &["plant_id", "age"]),
+        (Table::Records, &["plot_id", "tick", "plant_id", "component_id"][..]),
+        (Table::Components, &["plot_id", "plant_id", "component_id"]),
+        (Table::Summary, &["plot_id", "tick", "plant_id"]),
         (Table::Plants, &["plot_id", "plant_id"]),
     ] {
         let columns: Vec<_> = keys.iter().map(|key| ints(&run, table, key)).collect();
@@ -120,8 +120,12 @@ fn rows_are_sorted_and_never_repeated() {
         assert!(rows.is_sorted_by(|a, b| a < b), "{table:?}");
         assert!(rows.len() >= 5);
     }
-    let keys = ["plant_id", "age", "component_id"].map(|key| ints(&run, Table::Events, key));
+    let keys = ["plot_id", "tick", "plant_id", "component_id"].map(|key| ints(&run, Table::Events, key));
     assert!((1..keys[0].len()).all(|row| keys.each_ref().map(|k| k[row - 1]) <= keys.each_ref().map(|k| k[row])));
+    // Plants that are sown at tick 0 have the ages of their plots.
+    for table in [Table::Records, Table::Events, Table::Summary] {
+        assert_eq!(ints(&run, table, "tick"), ints(&run, table, "age"), "{table:?}");
+    }
 }
 
 #[test]

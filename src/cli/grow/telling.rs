@@ -149,7 +149,7 @@ impl Told<'_> {
         let mut text = format!("error: {plots} came to the limit; the ages before it are recorded, the others grew on");
         for plot in overgrown.iter().take(SHOWN) {
             let limit = amounts::count(plot.limit.into());
-            let _ = write!(text, "\n  plant {} at age {}: more than {limit} components", plot.plant, plot.age);
+            let _ = write!(text, "\n  plant {} at tick {}: more than {limit} components", plot.plant, plot.tick);
         }
         if overgrown.len() > SHOWN {
             let _ = write!(text, "\n  … and {} more (run.json has them all)", overgrown.len() - SHOWN);

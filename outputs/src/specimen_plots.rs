@@ -1,0 +1,129 @@
+//! Plots of several plants for the tests of this crate: two species, sown at different ticks, the numbers of the plants
+//! in another order than their places in the plot.
+//!
+//! The first species is the sapling; the second is a trunk that its model rewrites in mid-axis, so that its columns
+//! stand in another order than its component numbers.
+
+use crate::specimen::{Sapling, grow_plots, plan};
+use crate::{Mode, RunFolder, RunPlan, RunReport};
+use phytomer_sim::model::Overgrown;
+use phytomer_sim::plant::{AxisId, EventKind, Habit, LineageKey, NewAxis, NewNode, NodeId, Plant, Seed};
+use phytomer_sim::site::View;
+use phytomer_sim::{Grow, Growth, GrowthModel, Plot, Sowing, Tick};
+use std::path::Path;
+use std::sync::Arc;
+
+/// The species of the plots, by their places.
+pub const SPECIES: [&str; 2] = ["sapling", "doubling"];
+
+/// The members of each plot: species, the plant's number in the plot, sown tick.
+pub const MEMBERS: [(usize, u32, Tick); 3] = [(0, 2, 0), (1, 0, 3), (0, 1, 5)];
+
+/// A trunk of which each internode has a new one put after it at each of its first four ticks, and keeps its number
+/// itself: F → F F. Each internode may be new, and the rank of an old one changes.
+pub struct Doubling;
+
+/// The last tick of doubling.
+const DOUBLES_UNTIL: Tick = 4;
+
+impl Grow for Doubling {
+    /// The component number and the birth of each internode, from the base to the tip.
+    type Life = Vec<(u32, Tick)>;
+
+    fn growth(&self) -> Growth {
+        Growth::Rewrites
+    }
+
+    fn habit(&self) -> Arc<Habit> {
+        Grow::habit(&Sapling)
+    }
+
+    fn sow(&self, plant: &mut Plant) -> Self::Life {
+        plant.name_by_number();
+        plant.next_number();
+        let life = vec![(plant.next_number(), 0)];
+        draw(&life, plant);
+        life
+    }
+
+    fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Self::Life, _: &View<'_>) -> Result<(), Overgrown> {
+        for tick in plant.age + 1..=age.min(DOUBLES_UNTIL) {
+            if !plant.has_room_for(life.len() as u32) {
+                return Err(Overgrown { plant: plant.id, limit: plant.component_limit() });
+            }
+            plant.note(tick, AxisId::TRUNK, EventKind::Grew, life.len() as u32);
+            *life = life.iter().flat_map(|&old| [old, (plant.next_number(), tick)]).collect();
+        }
+        plant.begin_rewriting();
+        draw(life, plant);
+        plant.age = age;
+        Ok(())
+    }
+
+    fn thicken(&self, age: Tick, plant: &mut Plant) {
+        Grow::thicken(&Sapling, age, plant);
+    }
+}
+
+fn draw(life: &[(u32, Tick)], plant: &mut Plant) {
+    let axis = plant.place_axis(NewAxis { key: LineageKey::SEED, ..NewAxis::OF_THE_SEED }, 0);
+    let mut parent = NodeId::NONE;
+    for (rank, &(number, birth)) in (1..).zip(life) {
+        let (unit_rank, trend, length, diameter, azimuth) = (1, 0, 0.1, 0.01, 0.0);
+        let (short, neoformed) = (false, false);
+        let new = NewNode { parent, axis, birth, rank, unit_rank, short, neoformed, trend, length, diameter, azimuth };
+        parent = plant.place_node(new, number);
+    }
+}
+
+/// The model of a species by its place.
+pub fn model(species: usize) -> &'static dyn GrowthModel {
+    if species == 0 { &Sapling } else { &Doubling }
+}
+
+/// What plant number `plant` grows from.
+pub fn seed(plant: u32, component_limit: u32) -> Seed {
+    Seed { plant, run_seed: 42, component_limit, keep_events: true }
+}
+
+/// The number of a plant of a plot. Numbers do not rise plot by plot: each has some of the first plants.
+pub fn number_of(plot: u32, in_plot: u32, plots: u32) -> u32 {
+    plot + plots * in_plot
+}
+
+/// A plot of three plants, of a run of so many plots; plots are of two treatments by turns.
+pub fn mixed(id: u32, plots: u32, component_limit: u32) -> Plot<'static> {
+    let sowings = MEMBERS.map(|(species, in_plot, sown)| Sowing {
+        species,
+        seed: seed(number_of(id, in_plot, plots), component_limit),
+        place: [f64::from(in_plot), 0.0, 0.0],
+        sown,
+    });
+    let mut plot = Plot::new(id, vec![model(0), model(1)], &sowings);
+    (plot.treatment, plot.replicate) = (id % 2, id / 2);
+    plot
+}
+
+/// A plan of so many plots.
+pub fn mixed_plan(plots: u32, plots_per_part: u32) -> RunPlan {
+    let mut plan = plan(plots, plots_per_part);
+    plan.recorded.insert(0, 0);
+    plan.provenance.treatments = ["control", "shade"].map(str::to_owned).to_vec();
+    plan.provenance.species = SPECIES.map(str::to_owned).to_vec();
+    plan
+}
+
+/// A whole run of such plots.
+pub fn run_mixed(path: &Path, plan: RunPlan) -> RunReport {
+    let folder = RunFolder::create(path, plan, Mode::New).unwrap();
+    grow_missing(&folder);
+    folder.finish(&[("growth", 0.5)]).unwrap()
+}
+
+/// Grows the shards of such a run that are missing.
+pub fn grow_missing(folder: &RunFolder) {
+    let plots = folder.plan().plots;
+    for shard in folder.missing_shards() {
+        grow_plots(folder, shard, |id| mixed(id, plots, 100_000));
+    }
+}
