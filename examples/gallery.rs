@@ -1,14 +1,14 @@
-//! The gallery: every species that ships, drawn in its prime, and the life of one tree as a strip.
+//! The gallery: every species that ships, drawn in its prime, every plot that ships, and the life of one tree as a strip.
 //!
 //! `cargo run --release --example gallery [FOLDER]` writes `gallery.md`, its pictures below `gallery/` and `life.png`
 //! into a folder, `docs` if none is given. A species is grown by the shipped scenario of its name if there is one, else
-//! by itself, and drawn at the age that `phytomer picture` chooses. Nothing is listed here: what ships is what is
-//! drawn.
+//! by itself, and drawn at the age that `phytomer picture` chooses; a scenario with members is drawn as
+//! `phytomer picture --plot` draws it. Nothing is listed here: what ships is what is drawn.
 
 use anyhow::{Context, Result, anyhow};
 use phytomer::config::{Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, presets, validate, validate_species};
-use phytomer::outputs::pictures::{Canvas, Compression, Picture, Subject, draw, write_png};
-use phytomer::run::drawing::{PicturedPlants, pictured_plants};
+use phytomer::outputs::pictures::{Canvas, Compression, Picture, draw_stands, write_png};
+use phytomer::run::picturing::{Pictured, pictured_plants, pictured_plot};
 use phytomer::run::regrowth::Regrowth;
 use phytomer::sim::{GrowthModel, Tick};
 use std::fmt::Write as _;
@@ -20,6 +20,8 @@ use std::sync::Arc;
 /// The size of a picture of the gallery, and of the strip.
 const SIZE: [u32; 2] = [360, 480];
 const STRIP: [u32; 2] = [1600, 460];
+/// The size of a picture of a plot.
+const PLOT_SIZE: [u32; 2] = [960, 640];
 /// Whose life is told, and when it is looked at: robusta coffee, in months.
 const LIFE_OF: &str = "coffee";
 const LIFE: [Tick; 9] = [4, 9, 16, 26, 40, 56, 76, 96, 106];
@@ -49,6 +51,10 @@ fn main() -> Result<()> {
         }
         page += &sit(name, folder).with_context(|| format!("the species {name}"))?;
     }
+    page += "\n## Plots\n\nEvery scenario that ships with several members, drawn by `phytomer picture --plot` at its last tick.\n\n";
+    for (name, _) in presets(Kind::Scenario) {
+        page += &plot(name, folder).with_context(|| format!("the scenario {name}"))?;
+    }
     fs::write(folder.join("gallery.md"), page)?;
     strip(&folder.join("life.png"))
 }
@@ -58,7 +64,7 @@ fn sit(name: &str, folder: &Path) -> Result<String> {
     let sitter = Sitter::of(name)?;
     let regrowth = sitter.regrowth();
     let age = regrowth.shown_at(&sitter.species, 0)?;
-    let pictured = pictured_plants(&regrowth, &sitter.species, &[0], &[age])?;
+    let pictured = pictured_plants(&regrowth, &[&sitter.species], &[0], &[age])?;
     let file = format!("gallery/{name}.png");
     let canvas = drawn(&pictured, SIZE);
     save(&canvas, &pictured.note, &folder.join(&file))?;
@@ -68,6 +74,22 @@ fn sit(name: &str, folder: &Path) -> Result<String> {
     let latin = about.scientific_name.as_ref().map(|latin| format!(", *{latin}*")).unwrap_or_default();
     let model = about.architectural_model.map(|model| format!(", {model:?}'s model")).unwrap_or_default();
     Ok(format!("![{called}]({file} \"{name}: {called}{latin}{model}, age {age}\")\n"))
+}
+
+/// Draws the first plot of a scenario, if it has several members, and says what is seen.
+fn plot(name: &str, folder: &Path) -> Result<String> {
+    let found = validate(name).map_err(|report| anyhow!(report.render(false)))?;
+    if found.scenario.member.is_empty() {
+        return Ok(String::new());
+    }
+    let (tick, species) = (found.scenario.ages.until, found.all_species());
+    let pictured = pictured_plot(&Regrowth::of(&found), &species, (0, &[tick]), false)?;
+    let file = format!("gallery/plots/{name}.png");
+    save(&drawn(&pictured, PLOT_SIZE), &pictured.note, &folder.join(&file))?;
+    println!("{name}: tick {tick}");
+    let about = found.scenario.description.as_deref().unwrap_or_default();
+    let about = about.split_whitespace().collect::<Vec<_>>().join(" ").replace('"', "'");
+    Ok(format!("![{name}]({file} \"{name}: {about}\")\n"))
 }
 
 impl Sitter {
@@ -84,23 +106,22 @@ impl Sitter {
     }
 
     fn regrowth(&self) -> Regrowth<'_> {
-        Regrowth { scenario: &self.scenario, model: self.model.as_ref(), air: None }
+        Regrowth::new(&self.scenario, vec![self.model.as_ref()], None)
     }
 }
 
 /// One tree from a seedling to its death.
 fn strip(path: &Path) -> Result<()> {
     let sitter = Sitter::of(LIFE_OF)?;
-    let mut pictured = pictured_plants(&sitter.regrowth(), &sitter.species, &[0], &LIFE)?;
-    pictured.subjects.iter_mut().for_each(|(_, age, label)| *label = format!("{age}"));
+    let mut pictured = pictured_plants(&sitter.regrowth(), &[&sitter.species], &[0], &LIFE)?;
+    pictured.stands.iter_mut().zip(LIFE).for_each(|(stand, age)| stand.label = format!("{age}"));
     pictured.title = format!("{}, ages in months", pictured.title);
     save(&drawn(&pictured, STRIP), &pictured.note, path)
 }
 
-fn drawn(pictured: &PicturedPlants, size: [u32; 2]) -> Canvas {
+fn drawn(pictured: &Pictured, size: [u32; 2]) -> Canvas {
     let style = Picture { size, ..Picture::default() };
-    let subjects: Vec<Subject> = pictured.subjects();
-    draw(&subjects, &pictured.title, &style)
+    draw_stands(&pictured.stands(&[]), &pictured.title, &style)
 }
 
 fn save(canvas: &Canvas, note: &str, path: &Path) -> Result<()> {

@@ -1,8 +1,8 @@
 //! A run: from a scenario to its run folder, or to its tables in memory.
 //!
-//! The plants are dealt into shards of neighbours. Each shard sows its plants one after another into the same columns,
-//! grows each from seed to the last age, shows it to the tables and the meshes at the ages asked for, and commits its
-//! files; shards grow in parallel. A draw depends on the run's seed and the plant alone, so neither the number of
+//! The plots are dealt into shards of neighbours. Each shard sows its plots one after another into the same columns,
+//! grows each to the last tick, shows it to the tables and the meshes at the ticks asked for, and commits its files;
+//! shards grow in parallel, and so do the plants of a plot. A draw depends on the run's seed and the plant alone, so neither the number of
 //! threads nor an interruption shows in a single byte.
 //!
 //! Absent: growth (`sim`, `models`), files (`outputs`), and everything that a person sees (`cli`).
@@ -13,7 +13,9 @@ mod error;
 pub mod forecast;
 pub mod forms;
 mod in_memory;
+pub mod picturing;
 mod plan;
+pub mod plots;
 mod progress;
 pub mod regrowth;
 
@@ -30,6 +32,7 @@ use phytomer_outputs::{
 };
 use phytomer_sim::plant::ThreadBudget;
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick, grow};
+use plots::Plots;
 use rayon::ThreadPool;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use std::borrow::Cow;
@@ -104,7 +107,7 @@ pub fn run(resolved: &Resolved, settings: &Settings, progress: &Progress) -> Res
 /// A run whose folder is ready, before its first tick.
 pub struct Begun<'a> {
     resolved: Cow<'a, Resolved>,
-    forms: Arc<OwnForms>,
+    forms: Vec<Arc<OwnForms>>,
     folder: RunFolder,
     pool: ThreadPool,
     start: Instant,
@@ -149,7 +152,8 @@ impl Begun<'_> {
         let Self { resolved, forms, folder, pool, start } = self;
         let shards = folder.plan().shards();
         let missing = folder.missing_shards();
-        progress.begin(&resolved, missing.iter().map(|shard| folder.plan().plots_of(*shard).len() as u64).sum());
+        let plots: u64 = missing.iter().map(|shard| folder.plan().plots_of(*shard).len() as u64).sum();
+        progress.begin(&resolved.scenario, plots);
         let grown = pool.install(|| grow_shards(&resolved, &forms, &folder, &missing, progress))?;
         let seconds = start.elapsed().as_secs_f64();
         let components_now = grown.iter().map(|shard| shard.components).sum();
@@ -173,25 +177,29 @@ fn pool(threads: usize) -> Result<ThreadPool, RunError> {
 /// The shards that were committed; fewer than `missing` after a stop.
 fn grow_shards(
     resolved: &Resolved,
-    forms: &Arc<OwnForms>,
+    forms: &[Arc<OwnForms>],
     folder: &RunFolder,
     missing: &[u32],
     progress: &Progress,
 ) -> Result<Vec<ShardReport>, RunError> {
-    let grower = Grower { resolved, plan: folder.plan(), progress };
-    let grown = missing.into_par_iter().map(|shard| {
+    let grower = Grower::of(resolved, folder.plan(), progress);
+    let grow = |shard: &u32| {
         let meshes = RunMeshes::of(resolved, forms, folder.plan().shards());
         let mut keeper = FolderKeeper { grower: &grower, shard: folder.shard(*shard)?, meshes, plot: 0 };
         Ok(if grower.grow_shard(*shard, &mut keeper)? { Some(keeper.commit()?) } else { None })
-    });
+    };
     // A failed write ends the run: the other shards need not go on.
-    let grown = grown.map(|grown: Result<_, RunError>| grown.inspect_err(|_| progress.stop()));
-    Ok(grown.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
+    let grow = |shard: &u32| grow(shard).inspect_err(|_: &RunError| progress.stop());
+    let mut grown = Vec::new();
+    for some in missing.chunks(grower.at_once()) {
+        grown.extend(some.into_par_iter().map(grow).collect::<Result<Vec<_>, _>>()?);
+    }
+    Ok(grown.into_iter().flatten().collect())
 }
 
-/// What the plants of all shards share.
+/// What the plots of all shards share.
 struct Grower<'a> {
-    resolved: &'a Resolved,
+    plots: Plots<'a>,
     plan: &'a RunPlan,
     progress: &'a Progress,
 }
@@ -205,21 +213,22 @@ trait Keeper: Recorder {
     fn end_plot(&mut self, plot: &Plot, ending: Ending) -> Result<(), RunError>;
 }
 
-impl Grower<'_> {
-    /// Grows the plants of one shard, one after another in the same columns; `false` where it was told to stop.
+impl<'a> Grower<'a> {
+    fn of(resolved: &'a Resolved, plan: &'a RunPlan, progress: &'a Progress) -> Self {
+        Self { plots: Plots::of(&resolved.scenario, resolved.models()), plan, progress }
+    }
+
+    /// Grows the plots of one shard, one after another in the same columns; `false` where it was told to stop.
     fn grow_shard(&self, shard: u32, keeper: &mut impl Keeper) -> Result<bool, RunError> {
-        let plants = self.plan.plots_of(shard);
-        let model = self.resolved.model.as_ref();
-        let scenario = &self.resolved.scenario;
-        let mut plot = Plot::of_one(model, &seed_of(scenario, plants.start));
-        plot.site = scenario.site.felt();
-        plot.plants[0].budget = self.budget();
-        for plant in plants {
+        let plots = self.plan.plots_of(shard);
+        let mut plot = self.plots.sow(plots.start, self.budget());
+        for number in plots {
             if self.progress.is_stopped() {
                 return Ok(false);
             }
-            plot.resow(&seed_of(scenario, plant));
-            plot.plants[0].place = place_of(scenario, plant);
+            if number != plot.id {
+                self.plots.sow_again(&mut plot, number);
+            }
             if !self.grow_plot(&mut plot, keeper)? {
                 return Ok(false);
             }
@@ -233,28 +242,34 @@ impl Grower<'_> {
     /// Grows one plot to its end; `false` where it was told to stop.
     fn grow_plot(&self, plot: &mut Plot<'_>, keeper: &mut impl Keeper) -> Result<bool, RunError> {
         keeper.begin_plot(plot.id);
-        let ending = match grow(plot, self.resolved.scenario.ages.until, keeper).map_err(RunError::of_recorder) {
+        let ending = match grow(plot, self.plan.until, keeper).map_err(RunError::of_recorder) {
             Ok(ending) => ending,
             Err(RunError::Stopped) => return Ok(false),
             Err(error) => return Err(error),
         };
         keeper.end_plot(plot, ending)?;
-        self.progress.end_plant(&plot.plants[0]);
+        self.progress.end_plants(&plot.plants);
         Ok(true)
     }
 
-    /// Whether a model must make the plant at this age whatever is recorded: one that makes it anew must at the last
-    /// age, of which the components are written.
-    fn must_make(&self, age: Tick) -> bool {
-        age == self.resolved.scenario.ages.until && !self.resolved.model.growth().keeps_its_past()
+    /// Whether a model must make its plants at this tick whatever is recorded: one that makes them anew must at the
+    /// last, of which the components are written.
+    fn must_make(&self, tick: Tick) -> bool {
+        tick == self.plan.until && self.plots.models().iter().any(|model| !model.growth().keeps_its_past())
+    }
+
+    /// How many shards grow at once: all of them. Where a plot has several plants, as many as there are threads: one
+    /// that waits for the other plants of its plot begins with a further shard meanwhile, and so would keep many.
+    fn at_once(&self) -> usize {
+        if self.plots.scenario().members() > 1 { rayon::current_num_threads().max(1) } else { usize::MAX }
     }
 
     /// The threads that may grow one plant: those for which there is no shard help with the plants of other shards.
     /// Where every thread has a shard of its own there is no help: a thread that waits for its helper would begin a
-    /// further shard meanwhile, and keep two plants in memory.
+    /// further shard meanwhile, and keep two plants in memory. The plants of a plot share the helpers of their shard.
     fn budget(&self) -> ThreadBudget {
-        let shards = self.plan.shards() as usize;
-        ThreadBudget { threads: (rayon::current_num_threads() / shards).max(1), ..ThreadBudget::default() }
+        let plants = self.plan.shards() as usize * self.plots.scenario().members() as usize;
+        ThreadBudget { threads: (rayon::current_num_threads() / plants.max(1)).max(1), ..ThreadBudget::default() }
     }
 }
 
@@ -272,8 +287,8 @@ impl FolderKeeper<'_> {
         Ok(self.shard.commit()?)
     }
 
-    fn draws(&self, age: Tick) -> bool {
-        self.meshes.as_ref().is_some_and(|meshes| meshes.wants(self.plot, age))
+    fn draws(&self, tick: Tick) -> bool {
+        self.meshes.as_ref().is_some_and(|meshes| meshes.wants(self.plot, tick))
     }
 }
 
@@ -284,7 +299,7 @@ impl Keeper for FolderKeeper<'_> {
 
     fn end_plot(&mut self, plot: &Plot, ending: Ending) -> Result<(), RunError> {
         self.shard.end_plot(plot, ending)?;
-        self.meshes.iter_mut().try_for_each(RunMeshes::end_plant)
+        self.meshes.iter_mut().try_for_each(RunMeshes::end_plot)
     }
 }
 
@@ -306,9 +321,9 @@ impl Recorder for FolderKeeper<'_> {
             && let Some(meshes) = &mut self.meshes
         {
             self.shard.look_at_disk()?;
-            meshes.draw(age, &plot.plants[0], &mut self.shard)?;
+            meshes.draw(age, plot, &mut self.shard)?;
         }
-        self.grower.progress.end_age();
+        self.grower.progress.end_age(plot);
         Ok(())
     }
 }

@@ -155,6 +155,19 @@ fn independent_readers_agree_on_plots_of_several_plants() {
 }
 
 #[test]
+fn independent_readers_agree_on_the_mesh_of_a_plot() {
+    let Some(python) = python() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let meshes = folder.path().join("meshes");
+    std::fs::create_dir(&meshes).expect("a folder");
+    let file = meshes.join("plot.ply").to_str().expect("a path in UTF-8").to_owned();
+    phytomer(&["mesh", "under_a_roof", "--plot", "--age", "15", "--sides", "3", "--out", &file]);
+    read(&python, "meshes.py", &[folder.path().to_str().expect("a path in UTF-8")]);
+}
+
+#[test]
 fn an_independent_reader_reads_pictures() {
     let Some(python) = python() else {
         return;

@@ -18,7 +18,7 @@ const TRIANGLES: u64 = 1_000_000;
 /// The first of a specimen's plants, at the first age at which it is large enough.
 fn large(specimen: &Specimen) -> (Plant, Tick) {
     let resolved = &specimen.resolved;
-    let regrowth = Regrowth { scenario: &resolved.scenario, model: resolved.model.as_ref(), air: None };
+    let regrowth = Regrowth::of(resolved);
     let ages: Vec<Tick> = (1..=resolved.scenario.ages.until).collect();
     let mut large = None;
     let shown = regrowth.show(0, &ages, &mut |age, plant| {

@@ -7,9 +7,10 @@ use std::collections::BTreeSet;
 
 use phytomer_sim::model::GrowthModel;
 
+use crate::resolved::Resolved;
 use crate::scenario::{Ages, DEFAULT_SEED, Every, Limits, Output, Record, Scenario, Site, Table};
 use crate::species::Species;
-use crate::validate::{Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL};
+use crate::validate::{ResolvedSpecies, SPECIES_ALONE_UNTIL};
 
 /// A plant of a species that states no age is grown no further than is expected to make it so large.
 const SMALL: f64 = 200_000.0;
@@ -35,6 +36,7 @@ impl ResolvedSpecies {
             seed: DEFAULT_SEED,
             spacing_m: None,
             site: Site::default(),
+            member: Vec::new(),
             ages: Ages { until, record: Record::Every(recorded(until)) },
             tables: BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary, Table::Plants]),
             meshes: None,
@@ -42,7 +44,7 @@ impl ResolvedSpecies {
             output: Output { mechanics, ..Output::default() },
         };
         let Self { species, model, sources, tree } = self;
-        Resolved { scenario, species, model, sources, tree }
+        Resolved { scenario, species, model, others: Vec::new(), sources, tree }
     }
 }
 

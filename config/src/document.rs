@@ -73,6 +73,14 @@ impl Node {
         self.entry(key).map(|e| &e.node)
     }
 
+    /// The items of an array; none of anything else.
+    pub fn items(&self) -> &[Node] {
+        match &self.value {
+            Value::Array(items) => items,
+            _ => &[],
+        }
+    }
+
     /// The text, if it is one.
     pub fn text(&self) -> Option<&str> {
         match &self.value {

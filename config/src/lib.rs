@@ -9,6 +9,7 @@ mod about;
 mod alone;
 mod architectural_model;
 mod document;
+mod explosion;
 mod forms;
 mod inherit;
 mod library;
@@ -17,6 +18,7 @@ mod meaning;
 mod models;
 pub mod published;
 mod report;
+mod resolved;
 pub mod scenario;
 mod schema;
 mod source;
@@ -31,10 +33,11 @@ pub use library::{Kind, presets};
 pub use models::{MODELS, Model, ModelName};
 pub use published::Published;
 pub use report::{Fault, FaultRecord, Report};
+pub use resolved::{OtherSpecies, Resolved};
 pub use scenario::Scenario;
 pub use source::{Origin, Source, SourceId, Sources, Span};
 pub use species::Species;
 pub use validate::{
-    Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, kind_of, schema_of, validate, validate_species, validate_texts,
+    ResolvedSpecies, SPECIES_ALONE_UNTIL, kind_of, schema_of, validate, validate_species, validate_texts,
 };
 pub use woods::{ShippedWood, woods};

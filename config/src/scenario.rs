@@ -5,11 +5,13 @@
 //! Absent: the species, which is a file of its own, and where the run folder goes, which the command line says.
 
 mod meshes;
+mod plots;
 mod site;
 mod tables;
 
 pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
-pub use site::{Site, Wind};
+pub use plots::Member;
+pub use site::{Plane, Site, Wind};
 pub use tables::Table;
 
 use std::collections::BTreeSet;
@@ -41,22 +43,26 @@ pub struct Scenario {
     /// A shipped species by its name, or the path of a species file, as seen from this file.
     #[schemars(length(min = 1))]
     pub species: String,
-    /// How many plants grow.
+    /// How many plants grow; where a plot has several members, a multiple of their number.
     #[schemars(range(min = 1, max = 1_000_000_000))]
     pub plants: u32,
     /// The seed of every draw: the same seed gives the same bytes. From 0 to 2⁶³ − 1; 1988 if not given.
     #[serde(default = "default_seed")]
     #[schemars(range(min = 0, max = MOST_SEED))]
     pub seed: u64,
-    /// The plants stand on a square grid this far apart, metres: plant 0 at the origin, and shell after shell around
-    /// it, along x = s and back along y = s of the s-th. A plant keeps its place however many grow, and the first n²
-    /// fill a square. If not given, each grows at the origin of its own.
+    /// The plots, of one plant each unless `member` says otherwise, stand on a square grid this far apart, metres:
+    /// plot 0 at the origin, and shell after shell around it, along x = s and back along y = s of the s-th. A plot
+    /// keeps its place however many there are, and the first n² fill a square. If not given, each has an origin of its
+    /// own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 1000.0), extend("exclusiveMinimum" = 0))]
     pub spacing_m: Option<f64>,
-    /// What acts on the plants from outside: gravity and wind.
+    /// What acts on the plants from outside: gravity, wind, and planes that kill buds.
     #[serde(default, skip_serializing_if = "Site::is_default")]
     pub site: Site,
+    /// The plants of each plot, as `[[member]]`. One plant of the scenario's species, sown at tick 0, if not given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub member: Vec<Member>,
     /// How long the plants grow, and at which ages they are recorded.
     pub ages: Ages,
     /// The tables that are written. All if not given; `plants`, which tells where each plant stands, goes with any
@@ -66,7 +72,7 @@ pub struct Scenario {
     /// The meshes that are written. None if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub meshes: Option<Meshes>,
-    /// Where a plot that grows too large is stopped.
+    /// Where a plant that grows too large is stopped, and its plot with it.
     #[serde(default)]
     pub limits: Limits,
     /// How the tables are written.
@@ -78,10 +84,11 @@ pub struct Scenario {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ages {
-    /// The last age, in ticks since the seed.
+    /// The last tick of the plots: the last age of a plant that is sown at tick 0.
     #[schemars(range(min = 1, max = 65_535))]
     pub until: u32,
-    /// The ages at which the living components are recorded: `"all"`, a list, or `{ every = 5 }`. All if not given.
+    /// The ticks of the plots at which the living components are recorded: `"all"`, a list, or `{ every = 5 }`. All if
+    /// not given. Of a plant that is sown at tick 0 they are its ages.
     #[serde(default)]
     pub record: Record,
 }
@@ -125,11 +132,11 @@ impl Default for Record {
     }
 }
 
-/// Where a plot that grows too large is stopped.
+/// Where a plant that grows too large is stopped, and its plot with it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Limits {
-    /// The most components of a plot.
+    /// The most components of a plant.
     #[schemars(range(min = 1, max = 1_073_741_823))]
     pub max_components: u32,
     /// The most memory of one plant while it grows, in MB of 10⁶ bytes, at about 96 bytes a component. No limit if not
@@ -171,7 +178,8 @@ impl Limits {
 pub struct Output {
     /// `zstd1` is fast, `zstd3` smaller.
     pub compression: Compression,
-    /// How many plants one part file holds. Chosen from the expected size if not given.
+    /// How many plants one part file holds: whole plots of them, and one plot at least. Chosen from the expected size
+    /// if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1))]
     pub plants_per_part: Option<u32>,
@@ -229,6 +237,8 @@ impl Scenario {
             self.check_ages(list, &meshes.key("ages"), &mut faults);
         }
         self.check_mesh_plants(&meshes.key("plants"), &mut faults);
+        self.check_members(&mut faults);
+        self.site.check_planes(&Path::root().key("site"), &mut faults);
         if self.tables.is_empty() && self.meshes.is_none() {
             let problem = "this run would write nothing: no table and no mesh is asked for";
             faults.push(Fault::new(&Path::root().key("tables"), problem, "at least one table, or `[meshes]`"));

@@ -48,8 +48,11 @@ pub struct Span {
 pub struct Sources(Vec<(Source, Arc<[usize]>)>);
 
 impl Sources {
-    /// Keeps a text; its id stays valid for ever.
+    /// Keeps a text; its id stays valid for ever. A text that two species inherit from is kept once.
     pub fn add(&mut self, source: Source) -> SourceId {
+        if let Some(known) = self.iter().position(|known| *known == source) {
+            return SourceId(known as u32);
+        }
         let line_starts = [0].into_iter().chain(source.text.match_indices('\n').map(|(at, _)| at + 1)).collect();
         self.0.push((source, line_starts));
         SourceId(self.0.len() as u32 - 1)

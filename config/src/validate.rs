@@ -12,17 +12,18 @@ use phytomer_law::Constant;
 use phytomer_law::fault;
 use phytomer_models::parameters::Keys;
 use phytomer_sim::clock::LAST_TICK;
-use phytomer_sim::expectation::Certainty;
 use phytomer_sim::model::GrowthModel;
-use serde_json::{Value as Json, json};
+use serde_json::Value as Json;
 
 use crate::about::About;
 use crate::document::Node;
+use crate::explosion;
 use crate::library::{Kind, Library};
 use crate::load::{Found, Loader, Mention, integer_at, path_of};
 use crate::meaning;
 use crate::models::{MODELS, Model, any_file};
 use crate::report::{Fault, Report};
+use crate::resolved::{OtherSpecies, Resolved, placed};
 use crate::scenario::Scenario;
 use crate::schema;
 use crate::source::{Source, Sources};
@@ -30,20 +31,6 @@ use crate::species::Species;
 
 /// The last age over which a species is checked that is not part of a scenario.
 pub const SPECIES_ALONE_UNTIL: u32 = 100;
-
-/// A run that can begin.
-#[derive(Clone)]
-pub struct Resolved {
-    /// What the run grows and keeps.
-    pub scenario: Scenario,
-    /// The species, with its inheritance resolved.
-    pub species: Species,
-    /// The species' model, compiled for all ages of the run.
-    pub model: Arc<dyn GrowthModel>,
-    /// Every text that was read, for hashes and provenance: the scenario first, then the species and its ancestors.
-    pub sources: Sources,
-    pub(crate) tree: Node,
-}
 
 /// A species that can grow.
 #[derive(Clone)]
@@ -90,12 +77,10 @@ fn validate_in(library: Library, scenario: &str) -> Result<Resolved, Report> {
     let mut loader = Loader { library, ..Loader::default() };
     let mention = Mention { name: scenario.to_owned(), place: None };
     let found = loader.find(Kind::Scenario, &mention).and_then(|source| check_scenario(&mut loader, source));
-    conclude(loader, found, |(scenario, Compiled { species, model, tree }), sources| Resolved {
-        scenario,
-        species,
-        model,
-        sources,
-        tree,
+    conclude(loader, found, |(scenario, Compiled { species, model, tree }, others), sources| {
+        let other = |Compiled { species, model, tree }| OtherSpecies { species, model, tree };
+        let others = others.into_iter().map(other).collect();
+        Resolved { scenario, species, model, others, sources, tree }
     })
 }
 
@@ -171,7 +156,8 @@ struct Compiled {
     tree: Node,
 }
 
-type Checked = (Scenario, Compiled);
+/// A scenario, its own species, and the others.
+type Checked = (Scenario, Compiled, Vec<Compiled>);
 
 fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let (_, node) = loader.parse(source);
@@ -184,17 +170,44 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
         tell(loader, &node, scenario.faults());
     }
     let until = integer_at(&node, &["ages", "until"]).and_then(|n| u32::try_from(n).ok());
-    let mention = species_mention(&node)?;
-    let species = check_species(loader, &mention, |_| until.filter(|n| (1..=LAST_TICK).contains(n)))?;
-    let checked = (scenario?, species);
-    check_explosion(loader, &node, &checked);
+    let until = until.filter(|n| (1..=LAST_TICK).contains(n));
+    let last_age = |species: usize| until.map(|until| last_age_of(scenario.as_ref(), species).unwrap_or(until));
+    let mentions = species_mentions(&node).into_iter().enumerate();
+    let species: Vec<Option<Compiled>> =
+        mentions.map(|(place, mention)| check_species(loader, &mention, |_| last_age(place))).collect();
+    let mut species = species.into_iter().collect::<Option<Vec<Compiled>>>()?.into_iter();
+    let checked = (scenario?, species.next()?, species.collect());
+    check_explosions(loader, &node, &checked);
     Some(checked)
 }
 
-fn species_mention(scenario: &Node) -> Option<Mention> {
-    let value = scenario.get("species")?;
-    let name = value.text().filter(|name| !name.is_empty())?;
-    Some(Mention { name: name.to_owned(), place: Some((value.span, path_of(&["species"]))) })
+fn check_explosions(loader: &mut Loader, node: &Node, (scenario, own, others): &Checked) {
+    for (place, of) in [own].into_iter().chain(others).enumerate() {
+        let until = scenario.last_age_of_species(place);
+        loader.faults.extend(explosion::fault_of(node, scenario, (&of.species, of.model.as_ref()), until));
+    }
+}
+
+/// The last age of a species, where the scenario is so far sound that it can be told.
+fn last_age_of(scenario: Option<&Scenario>, species: usize) -> Option<u32> {
+    scenario.map(|scenario| scenario.last_age_of_species(species).clamp(1, LAST_TICK))
+}
+
+/// The species that a scenario names, each at the first place where it is named: its own first, as in
+/// [`Scenario::species_names`].
+fn species_mentions(scenario: &Node) -> Vec<Mention> {
+    let own = (scenario.get("species"), path_of(&["species"]));
+    let members = scenario.get("member").map(Node::items).unwrap_or_default().iter().enumerate();
+    let members = members.map(|(k, member)| (member.get("species"), path_of(&["member"]).index(k).key("species")));
+    let mut mentions: Vec<Mention> = Vec::new();
+    for (value, path) in [own].into_iter().chain(members) {
+        let Some(value) = value else { continue };
+        let Some(name) = value.text().filter(|name| !name.is_empty()) else { continue };
+        if mentions.iter().all(|known| known.name != name) {
+            mentions.push(Mention { name: name.to_owned(), place: Some((value.span, path)) });
+        }
+    }
+    mentions
 }
 
 fn check_species(
@@ -240,53 +253,6 @@ fn tell(loader: &mut Loader, node: &Node, faults: Vec<fault::Fault>) {
     loader.faults.extend(placed.collect::<Vec<_>>());
 }
 
-/// A plant that is expected to have more components than it may would be cut off: better told before the first tick.
-/// The figure is the expectation, or of a species without one in closed form those components of which it is known; an
-/// estimate or an upper bound refuses nothing, and the limit then holds while the plant grows.
-fn check_explosion(loader: &mut Loader, node: &Node, (scenario, Compiled { species, model, .. }): &Checked) {
-    let until = scenario.ages.until;
-    let (most, key) = (scenario.limits.components(), scenario.limits.binding());
-    let Some(means) = model.expectation(until) else { return };
-    let expected = means.least_components(until);
-    if expected <= f64::from(most) {
-        return;
-    }
-    let set = integer_at(node, &["limits", key]).is_some();
-    let path = path_of(&if set { ["limits", key] } else { ["ages", "until"] });
-    let (name, expected, most) = (&species.about.name, in_words(expected), in_words(most.into()));
-    let least = if means.certainty() == Certainty::Exact { "" } else { "at least " };
-    let problem = format!(
-        "the growth explodes: by age {until} a plant of `{name}` is expected to have {least}{expected} components"
-    );
-    let expected = format!("at most {most} (limits.{key}): an earlier last age, or fewer branches");
-    loader.faults.push(Fault::new(node.locate(&path), &path, problem, expected));
-}
-
-/// A large number as people say it: "12 000", "3.4e12".
-fn in_words(x: f64) -> String {
-    match x {
-        x if x.is_nan() || x.is_infinite() => "more than can be counted".to_owned(),
-        x if x >= 1e9 => format!("{x:.1e}"),
-        x => {
-            let digits = format!("{x:.0}");
-            let mut out = String::new();
-            for (i, digit) in digits.chars().enumerate() {
-                if i > 0 && (digits.len() - i) % 3 == 0 {
-                    out.push(' ');
-                }
-                out.push(digit);
-            }
-            out
-        }
-    }
-}
-
-impl fmt::Debug for Resolved {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Resolved").field("scenario", &self.scenario).field("species", &self.species).finish()
-    }
-}
-
 impl fmt::Debug for ResolvedSpecies {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("ResolvedSpecies").field("species", &self.species).finish()
@@ -298,48 +264,6 @@ impl ResolvedSpecies {
     /// path from the top of the species file.
     pub fn report(&self, faults: Vec<fault::Fault>) -> Report {
         placed(&self.sources, &self.tree, faults)
-    }
-}
-
-fn placed(sources: &Sources, tree: &Node, faults: Vec<fault::Fault>) -> Report {
-    let placed = faults.into_iter().map(|fault| meaning::place(sources, tree, fault)).collect();
-    Report::new(sources.clone(), placed)
-}
-
-impl Resolved {
-    /// A report of what was found wrong with the species after it was read, as [`ResolvedSpecies::report`].
-    pub fn report(&self, faults: Vec<fault::Fault>) -> Report {
-        placed(&self.sources, &self.tree, faults)
-    }
-
-    /// The components that a plant is expected to have made by `age`: the mean, a bound from above or an estimate;
-    /// `None` where the sum would take too long.
-    pub fn expected_components(&self, age: u32) -> Option<f64> {
-        self.model.expectation(age).map(|means| means.components(age))
-    }
-
-    /// The whole run as data, for `run.json`: the scenario with its defaults and the species without ancestors.
-    ///
-    /// # Errors
-    /// A number that JSON cannot hold, which no checked run has.
-    pub fn to_json(&self) -> serde_json::Result<Json> {
-        Ok(json!({"scenario": serde_json::to_value(&self.scenario)?, "species": self.species.to_json()?}))
-    }
-
-    /// The scenario with its defaults, as a file that could be run again.
-    ///
-    /// # Errors
-    /// A value that TOML cannot hold, which no checked scenario has.
-    pub fn scenario_toml(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string(&self.scenario)
-    }
-
-    /// The species without ancestors, as a file.
-    ///
-    /// # Errors
-    /// A value that TOML cannot hold, which no checked species has.
-    pub fn species_toml(&self) -> Result<String, toml::ser::Error> {
-        self.species.to_toml()
     }
 }
 
@@ -372,13 +296,5 @@ mod tests {
             schema::check(&schema_of(Kind::Species), &node, &mut faults);
             assert_eq!(faults, []);
         }
-    }
-
-    #[test]
-    fn large_numbers_are_readable() {
-        assert_eq!(in_words(12_345_678.4), "12 345 678");
-        assert_eq!(in_words(100.0), "100");
-        assert_eq!(in_words(2.96e12), "3.0e12");
-        assert_eq!(in_words(f64::INFINITY), "more than can be counted");
     }
 }

@@ -83,6 +83,17 @@ impl<'m> Plot<'m> {
         self.sow();
     }
 
+    /// Sows the plot anew as another one whose members are of the same species and sown at the same ticks, keeping the
+    /// memory of its columns: a sowing for each member, in their order.
+    pub fn sow_again(&mut self, id: u32, sowings: &[Sowing]) {
+        self.id = id;
+        for (plant, sowing) in self.plants.iter_mut().zip(sowings) {
+            plant.resow(&sowing.seed);
+            plant.place = sowing.place;
+        }
+        self.sow();
+    }
+
     /// Takes every plant back to its seed.
     pub fn restart(&mut self) {
         self.plants.iter_mut().for_each(Plant::clear);

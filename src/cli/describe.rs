@@ -46,7 +46,10 @@ impl Describe {
         let (text, json) = match found {
             Named::Run(folder) => return self.tell_run(folder),
             Named::Scenario(resolved) => {
-                let text = scenario::as_text(&resolved) + "\n" + &species::as_text(&resolved.species)?;
+                let mut text = scenario::as_text(&resolved);
+                for species in resolved.all_species() {
+                    text = text + "\n" + &species::as_text(species)?;
+                }
                 (text, scenario::as_json(&resolved)?)
             }
             Named::Species(resolved) => {

@@ -5,6 +5,8 @@
 
 mod telling;
 
+pub use telling::{clock, species_in_words};
+
 use super::named::RUNS;
 use super::{Misuse, Verdict, bar, causes, findings, refuse, terminal};
 use anyhow::{Context, Result};
@@ -42,7 +44,7 @@ pub struct Grow {
     /// The seed of every draw, from 0 to 2^63 - 1, in the place of the scenario's.
     #[arg(long, allow_negative_numbers = true, value_parser = seed)]
     seed: Option<u64>,
-    /// How many plants grow, in the place of the scenario's number. Meshes of plants that then do not grow are left
+    /// How many plants grow, in the place of the scenario's number: of plots with several members whole plots. Meshes of plants that then do not grow are left
     /// out.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
     plants: Option<u32>,
@@ -78,8 +80,8 @@ impl Grow {
             Ok(resolved) => resolved,
             Err(report) => return refuse(&report, self.json),
         };
-        if let Err(faults) = forms::settle(&mut resolved) {
-            return refuse(&resolved.report(faults), self.json);
+        if let Err(report) = forms::settle(&mut resolved) {
+            return refuse(&report, self.json);
         }
         self.override_scenario(&mut resolved)?;
         let settings = self.settings(&resolved)?;

@@ -1,4 +1,4 @@
-//! `mesh`: one plant at one age as a PLY file, grown again from its seed.
+//! `mesh`: one plant at one age, or all plants of a plot at one tick, as a PLY file, grown again from their seeds.
 //!
 //! It is the same plant, with the same component numbers, that the run has recorded. In a wind it is a frame of that
 //! plant, which the wind moves for the mesh alone.
@@ -9,6 +9,7 @@ use super::{Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::Args;
 use phytomer::run::drawing::{options_of, write_mesh};
+use phytomer::run::picturing::{pictured_plot, plot_mesh};
 use phytomer_outputs::Destination;
 use phytomer_sim::Tick;
 use std::path::PathBuf;
@@ -16,13 +17,14 @@ use std::path::PathBuf;
 /// The formats of meshes.
 const FORMATS: [Format; 1] = [Format { name: "PLY", extension: "ply" }];
 
-/// Grow one plant of a run or a scenario again, and write it as a PLY mesh.
+/// Grow one plant or one plot of a run or a scenario again, and write it as a PLY mesh.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   phytomer mesh coffee --plant 0 --age 12 --out coffee.ply
   phytomer mesh runs/coffee --plant 3 --out third.ply --sides 12
   phytomer mesh my_plant/scenario.toml --age 24 --wind 8 --time 0.40 --out frame-010.ply
+  phytomer mesh under_a_roof --plot --age 12 --out plot.ply
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
 pub struct Mesh {
@@ -32,7 +34,10 @@ pub struct Mesh {
     /// The plant's number, from 0.
     #[arg(long, default_value_t = 0)]
     plant: u32,
-    /// Its age in ticks; the last of the run if not given.
+    /// All plants of a plot, each in its place, told from the place of the plot; the plot's number, from 0.
+    #[arg(long, value_name = "PLOT", num_args = 0..=1, default_missing_value = "0", conflicts_with = "plant")]
+    plot: Option<u32>,
+    /// Its age in ticks, of a plot its tick; the last of the run if not given.
     #[arg(long)]
     age: Option<Tick>,
     /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written
@@ -56,19 +61,49 @@ impl Mesh {
     }
 
     fn write(&self, regrown: &Regrown) -> Result<Verdict> {
-        let age = self.age.unwrap_or(regrown.scenario.ages.until);
+        match self.plot {
+            Some(plot) => self.write_plot(regrown, plot),
+            None => self.write_plant(regrown),
+        }
+    }
+
+    fn write_plant(&self, regrown: &Regrown) -> Result<Verdict> {
+        let age = self.age.unwrap_or_else(|| regrown.scenario.last_age_of(self.plant));
         regrown.check(("--age", &[age]), ("--plant", &[self.plant]))?;
         let regrowth = regrown.regrowth(&self.breeze)?;
         let mut file = Destination::create(&self.out)?;
-        let options = options_of(self.sides, &regrown.forms);
+        let own = regrown.forms.get(regrown.scenario.species_of_plant(self.plant)).cloned().unwrap_or_default();
+        let options = options_of(self.sides, &own);
         let seed = regrown.scenario.seed;
         regrowth.show(self.plant, &[age], &mut |age, plant| {
             let written = write_mesh(plant, age, seed, &options, &mut file);
-            Ok(written.with_context(|| format!("cannot write {}", self.out.display()))?)
+            Ok(written.with_context(|| self.failing())?)
         })?;
+        self.tell(file, &format!("plant {} at age {age}", self.plant))
+    }
+
+    fn write_plot(&self, regrown: &Regrown, plot: u32) -> Result<Verdict> {
+        let tick = self.age.unwrap_or(regrown.scenario.ages.until);
+        regrown.check_plot(("--age", &[tick]), plot)?;
+        let (regrowth, species) = (regrown.regrowth(&self.breeze)?, regrown.species());
+        let mut file = Destination::create(&self.out)?;
+        let pictured = pictured_plot(&regrowth, &species, (plot, &[tick]), false)?;
+        for stand in &pictured.stands {
+            let mesh = plot_mesh(stand, &regrowth, (plot, tick), (&species, &regrown.forms), self.sides);
+            mesh.write(&mut file).with_context(|| self.failing())?;
+        }
+        let plants = amounts::of(pictured.stands.iter().map(|stand| stand.members.len() as u64).sum(), "plant");
+        self.tell(file, &format!("plot {plot} at tick {tick}, {plants}"))
+    }
+
+    fn failing(&self) -> String {
+        format!("cannot write {}", self.out.display())
+    }
+
+    fn tell(&self, file: Destination, what: &str) -> Result<Verdict> {
         let bytes = amounts::bytes(file.finish()? as f64);
         let wind = self.breeze.in_words();
-        out::tell(&self.out, &format!("plant {} at age {age}{wind}, {bytes}", self.plant))?;
+        out::tell(&self.out, &format!("{what}{wind}, {bytes}"))?;
         Ok(Verdict::Done)
     }
 }

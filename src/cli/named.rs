@@ -49,10 +49,8 @@ pub fn find(name: &str) -> std::result::Result<Named, Report> {
     }
     if kind_of(name) == Kind::Scenario {
         let mut scenario = validate(name)?;
-        return match forms::settle(&mut scenario) {
-            Ok(_) => Ok(Named::Scenario(Box::new(scenario))),
-            Err(faults) => Err(scenario.report(faults)),
-        };
+        forms::settle(&mut scenario)?;
+        return Ok(Named::Scenario(Box::new(scenario)));
     }
     let species = validate_species(name, SPECIES_ALONE_UNTIL);
     let mut species = species.map_err(|report| if is_unknown(&report) { unknown(name, report) } else { report })?;
@@ -87,8 +85,10 @@ fn unknown(name: &str, mut report: Report) -> Report {
 pub struct Recorded {
     /// The scenario, with what the command line changed.
     pub scenario: Scenario,
-    /// The species without ancestors.
+    /// The scenario's own species without ancestors.
     pub species: Species,
+    /// The species that members name beside it, in the scenario's order.
+    pub others: Vec<Species>,
     /// The run folder.
     pub run: Run,
 }
@@ -104,17 +104,34 @@ impl Recorded {
         let resolved = &run.json()["resolved_scenario"];
         let scenario = Scenario::deserialize(&resolved["scenario"]).with_context(doing)?;
         let species = Species::from_json(&resolved["species"]).with_context(doing)?;
-        Ok(Self { scenario, species, run })
+        let others = resolved["other_species"].as_array().map(Vec::as_slice).unwrap_or_default();
+        let others = others.iter().map(Species::from_json).collect::<serde_json::Result<_>>().with_context(doing)?;
+        Ok(Self { scenario, species, others, run })
     }
 
-    /// The species' model, for the ages of the run.
+    /// All species, in the scenario's order.
+    pub fn all_species(&self) -> impl Iterator<Item = &Species> {
+        [&self.species].into_iter().chain(&self.others)
+    }
+
+    /// The names of all species: "a, b".
+    pub fn species_in_words(&self) -> String {
+        self.all_species().map(|species| species.about.name.as_str()).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The models of all species, for the ages that their plants reach in the run.
     ///
     /// # Errors
-    /// Where its laws do not hold, which those of a run that began do.
-    pub fn compile(&self) -> Result<Arc<dyn GrowthModel>> {
-        self.species.model.compile(self.scenario.ages.until).map_err(|faults| match faults.into_iter().next() {
-            Some(fault) => anyhow::Error::new(fault),
-            None => anyhow::anyhow!("the species of the run cannot be compiled"),
-        })
+    /// Where their laws do not hold, which those of a run that began do.
+    pub fn compile(&self) -> Result<Vec<Arc<dyn GrowthModel>>> {
+        let compiled = |(place, species): (usize, &Species)| {
+            species.model.compile(self.scenario.last_age_of_species(place)).map_err(|faults| {
+                match faults.into_iter().next() {
+                    Some(fault) => anyhow::Error::new(fault),
+                    None => anyhow::anyhow!("the species of the run cannot be compiled"),
+                }
+            })
+        };
+        self.all_species().enumerate().map(compiled).collect()
     }
 }

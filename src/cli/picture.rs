@@ -1,6 +1,7 @@
 //! `picture`: plants at ages as one PNG file, grown again from their seeds and drawn without a graphics processor.
 //!
 //! Plants stand side by side in one scale: each plant at each age. Where no age is given a plant is drawn in its prime.
+//! With `--plot` all plants of a plot stand in their places, at each tick.
 //! Absent: drawing, which is `phytomer_outputs::pictures`'.
 
 use super::out::{self, Format};
@@ -10,14 +11,13 @@ use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use phytomer::run::CONTROL;
-use phytomer::run::drawing::{PicturedPlants, pictured_plants};
+use phytomer::run::picturing::{Pictured, pictured_plants, pictured_plot};
 use phytomer_outputs::Destination;
 use phytomer_outputs::colouring::{Belonging, ColouringError, colour_columns, colouring};
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::pictures::{
-    Canvas, Compression, MOST_SUBJECTS, Picture as Style, Subject, View, draw, sheet, write_png,
+    Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, draw_stands, sheet_of_stands, write_png,
 };
-use phytomer_outputs::tables::Membership;
 use phytomer_sim::Tick;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -38,6 +38,7 @@ Examples:
   phytomer picture my_plant/species.toml --view sheet --out sheet.png
   phytomer picture coffee --age 60 --colour-by birth_age --out ages.png
   phytomer picture coffee --age 24 --transparent --no-caption --sun 200,30 --out cut-out.png
+  phytomer picture under_a_roof --plot --ages 3,6,12 --out plot.png
 
 A plant whose age is not given is drawn at the age that its species states (shown_at), else in its prime: in its
 last year with nine tenths of the largest leaf area that it ever bears, as soon as it bears it.")]
@@ -51,10 +52,13 @@ pub struct Picture {
     /// Several plants side by side, by their numbers.
     #[arg(long, value_delimiter = ',', value_name = "N,N,…")]
     plants: Vec<u32>,
-    /// Its age in ticks; that of its prime if not given.
+    /// All plants of a plot in their places, any number of them; the plot's number, from 0.
+    #[arg(long, value_name = "PLOT", num_args = 0..=1, default_missing_value = "0", conflicts_with_all = ["plant", "plants"])]
+    plot: Option<u32>,
+    /// Its age in ticks; that of its prime if not given. Of a plot its tick; the last if not given.
     #[arg(long, conflicts_with = "ages")]
     age: Option<Tick>,
-    /// Several ages side by side, in one scale.
+    /// Several ages, of a plot several ticks, side by side, in one scale.
     #[arg(long, value_delimiter = ',', value_name = "AGE,AGE,…")]
     ages: Vec<Tick>,
     /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written
@@ -115,37 +119,70 @@ impl Picture {
     pub fn obey(self) -> Result<Verdict> {
         out::check(&self.out, "picture", &FORMATS)?;
         let ages = if self.ages.is_empty() { self.age.into_iter().collect() } else { self.ages.clone() };
-        let plants = if self.plants.is_empty() { vec![self.plant.unwrap_or(0)] } else { self.plants.clone() };
         match Regrown::find(&self.name, &ages)? {
-            Ok(regrown) => self.write(&regrown, ages, &plants),
+            Ok(regrown) => self.write(&regrown, ages),
             Err(verdict) => Ok(verdict),
         }
     }
 
-    fn write(&self, regrown: &Regrown, mut ages: Vec<Tick>, plants: &[u32]) -> Result<Verdict> {
-        let options = [(self.ages.is_empty(), "--age", "--ages"), (self.plants.is_empty(), "--plant", "--plants")];
-        let [age_option, plant_option] = options.map(|(one, single, several)| if one { single } else { several });
-        regrown.check((age_option, &ages), (plant_option, plants))?;
-        let regrowth = regrown.regrowth(&self.breeze)?;
-        if ages.is_empty() {
-            ages.push(regrowth.shown_at(&regrown.species, plants[0])?);
-        }
-        if ages.len() * plants.len() > MOST_SUBJECTS {
-            return Err(Misuse(format!("one picture has at most {MOST_SUBJECTS} plants, counted at each age")).into());
-        }
-        let file = Destination::create(&self.out)?;
-        let pictured = pictured_plants(&regrowth, &regrown.species, plants, &ages)?;
+    fn write(&self, regrown: &Regrown, ages: Vec<Tick>) -> Result<Verdict> {
+        let (file, pictured, what) = match self.plot {
+            Some(plot) => self.plot(regrown, plot, ages)?,
+            None => self.plants(regrown, ages)?,
+        };
         let canvas = self.draw(&pictured, &regrown.forms)?;
         let bytes = amounts::bytes(self.save(&canvas, &pictured.note, file)? as f64);
-        let drawn = pictured.subjects.len();
-        let whom = if drawn == 1 { format!("plant {}", plants[0]) } else { format!("{drawn} plants") };
-        let when = if ages.len() == 1 { format!(" at age {}", ages[0]) } else { String::new() };
-        let wind = self.breeze.in_words();
-        out::tell(&self.out, &format!("{whom}{when}{wind}, {bytes}"))?;
+        out::tell(&self.out, &format!("{what}{}, {bytes}", self.breeze.in_words()))?;
         Ok(Verdict::Done)
     }
 
-    fn draw(&self, pictured: &PicturedPlants, forms: &Arc<OwnForms>) -> std::result::Result<Canvas, ColouringError> {
+    /// The plants that are asked for, each at each age, and what they are in words; the file is there before anything grows.
+    fn plants(&self, regrown: &Regrown, mut ages: Vec<Tick>) -> Result<(Destination, Pictured, String)> {
+        let plants = if self.plants.is_empty() { vec![self.plant.unwrap_or(0)] } else { self.plants.clone() };
+        let plant_option = if self.plants.is_empty() { "--plant" } else { "--plants" };
+        regrown.check((self.age_option(), &ages), (plant_option, &plants))?;
+        let regrowth = regrown.regrowth(&self.breeze)?;
+        if ages.is_empty() {
+            ages.push(regrowth.shown_at(regrown.species_of(plants[0]), plants[0])?);
+        }
+        self.few(ages.len() * plants.len(), "plants, counted at each age")?;
+        let file = Destination::create(&self.out)?;
+        let pictured = pictured_plants(&regrowth, &regrown.species(), &plants, &ages)?;
+        let drawn = pictured.stands.len();
+        let whom = if drawn == 1 { format!("plant {}", plants[0]) } else { format!("{drawn} plants") };
+        let when = if ages.len() == 1 { format!(" at age {}", ages[0]) } else { String::new() };
+        Ok((file, pictured, whom + &when))
+    }
+
+    /// The plot that is asked for at each tick, and what it is in words; the file is there before anything grows.
+    fn plot(&self, regrown: &Regrown, plot: u32, mut ticks: Vec<Tick>) -> Result<(Destination, Pictured, String)> {
+        regrown.check_plot((self.age_option(), &ticks), plot)?;
+        if ticks.is_empty() {
+            ticks.push(regrown.scenario.ages.until);
+        }
+        self.few(ticks.len(), "plots, counted at each tick")?;
+        let regrowth = regrown.regrowth(&self.breeze)?;
+        // A colour may tell plants apart that look alike.
+        let apart = self.colour_by.is_some();
+        let file = Destination::create(&self.out)?;
+        let pictured = pictured_plot(&regrowth, &regrown.species(), (plot, &ticks), apart)?;
+        let most = pictured.stands.iter().map(|stand| stand.members.len() as u64).max().unwrap_or_default();
+        let when = if ticks.len() == 1 { format!(" at tick {}", ticks[0]) } else { String::new() };
+        Ok((file, pictured, format!("plot {plot}{when}, {}", amounts::of(most, "plant"))))
+    }
+
+    fn age_option(&self) -> &'static str {
+        if self.ages.is_empty() { "--age" } else { "--ages" }
+    }
+
+    fn few(&self, count: usize, what: &str) -> Result<()> {
+        if count > MOST_SUBJECTS {
+            return Err(Misuse(format!("one picture has at most {MOST_SUBJECTS} {what}")).into());
+        }
+        Ok(())
+    }
+
+    fn draw(&self, pictured: &Pictured, forms: &[Arc<OwnForms>]) -> std::result::Result<Canvas, ColouringError> {
         let view = match self.view {
             From::Perspective => Some(View::Perspective),
             From::Top => Some(View::Top),
@@ -156,8 +193,7 @@ impl Picture {
         };
         let subjects = pictured.subjects();
         let treatments = [CONTROL.to_owned()];
-        let of_plant = |subject: &Subject| Membership { plot: subject.plant.id, ..Membership::default() };
-        let members: Vec<Membership> = subjects.iter().map(of_plant).collect();
+        let members = pictured.memberships();
         let of = Belonging { members: &members, treatments: &treatments };
         let colour_by = self.colour_by.as_ref().map(|column| colouring(column, &subjects, of)).transpose()?;
         let style = Style {
@@ -169,14 +205,12 @@ impl Picture {
             caption: !self.no_caption,
             sun: self.sun.map(|sun| sun.map(f32::to_radians)),
             sides: self.sides,
-            own: Arc::clone(forms),
             colour_by,
+            ..Style::default()
         };
-        Ok(if view.is_some() {
-            draw(&subjects, &pictured.title, &style)
-        } else {
-            sheet(&subjects, &pictured.title, &style)
-        })
+        let stands = pictured.stands(forms);
+        let draw = if view.is_some() { draw_stands } else { sheet_of_stands };
+        Ok(draw(&stands, &pictured.title, &style))
     }
 
     fn save(&self, canvas: &Canvas, note: &str, mut file: Destination) -> Result<u64> {

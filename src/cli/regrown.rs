@@ -30,12 +30,12 @@ const MOST_COMPONENTS_ALONE: u32 = 4_000_000;
 pub struct Regrown {
     /// How they grow.
     pub scenario: Scenario,
-    /// What they are.
-    pub species: Species,
-    /// The species' model, compiled for all ages of the scenario.
-    pub model: Arc<dyn GrowthModel>,
-    /// The forms of its own that the species names.
-    pub forms: Arc<OwnForms>,
+    /// What they are: the species in the scenario's order.
+    species: Vec<Species>,
+    /// Their models, compiled for all ages that their plants reach.
+    models: Vec<Arc<dyn GrowthModel>>,
+    /// The forms of its own that each species names.
+    pub forms: Vec<Arc<OwnForms>>,
 }
 
 /// The wind of one frame.
@@ -65,13 +65,18 @@ impl Regrown {
         Ok(Ok(match found {
             Named::Run(folder) => {
                 let recorded = Recorded::of(&folder)?;
-                let model = recorded.compile()?;
-                let forms = forms::of_run(&recorded.species, &recorded.run)?;
-                Self { scenario: recorded.scenario, species: recorded.species, model, forms }
+                let models = recorded.compile()?;
+                let forms = recorded.all_species().map(|species| forms::of_run(species, &recorded.run));
+                let forms = forms.collect::<std::result::Result<_, _>>()?;
+                let species = recorded.all_species().cloned().collect();
+                Self { scenario: recorded.scenario, species, models, forms }
             }
             Named::Scenario(resolved) => {
-                let forms = forms::of(&resolved.species)?;
-                Self { scenario: resolved.scenario, species: resolved.species, model: resolved.model, forms }
+                let species: Vec<Species> = resolved.all_species().into_iter().cloned().collect();
+                let forms = species.iter().map(forms::of).collect::<std::result::Result<_, _>>()?;
+                let others = resolved.others.into_iter().map(|other| other.model);
+                let models = [resolved.model].into_iter().chain(others).collect();
+                Self { scenario: resolved.scenario, species, models, forms }
             }
             Named::Species(found) => Self::alone(name, *found, ages)?,
         }))
@@ -88,20 +93,30 @@ impl Regrown {
             Some(fault) => Misuse(format!("{name} to the age {until}: {fault}")),
             None => Misuse(format!("{name} cannot be grown to the age {until}")),
         })?;
-        let forms = forms::of(&species)?;
-        Ok(Self { scenario, species, model, forms })
+        let forms = vec![forms::of(&species)?];
+        Ok(Self { scenario, species: vec![species], models: vec![model], forms })
+    }
+
+    /// The species in the scenario's order.
+    pub fn species(&self) -> Vec<&Species> {
+        self.species.iter().collect()
+    }
+
+    /// The species of a plant.
+    pub fn species_of(&self, plant: u32) -> &Species {
+        &self.species[self.scenario.species_of_plant(plant)]
     }
 
     /// Its plants, grown again in the wind that is asked for.
     ///
     /// # Errors
-    /// Where wind cannot move the species.
+    /// Where wind cannot move a species.
     pub fn regrowth(&self, breeze: &Breeze) -> Result<Regrowth<'_>> {
         let air = breeze.air();
-        if air.is_some() {
-            yielding(&self.model.habit()).map_err(|unmoved| self.unmoved(unmoved, breeze))?;
+        for (species, model) in self.species.iter().zip(&self.models).filter(|_| air.is_some()) {
+            yielding(&model.habit()).map_err(|unmoved| self.unmoved(species, unmoved, breeze))?;
         }
-        Ok(Regrowth { scenario: &self.scenario, model: self.model.as_ref(), air })
+        Ok(Regrowth::new(&self.scenario, self.models.iter().map(AsRef::as_ref).collect(), air))
     }
 
     /// Refuses what the run does not have.
@@ -109,26 +124,51 @@ impl Regrown {
     /// # Errors
     /// An age or a plant outside of the run, by the option that names it.
     pub fn check(&self, (age_option, ages): (&str, &[Tick]), (plant_option, plants): (&str, &[u32])) -> Result<()> {
-        let (until, count) = (self.scenario.ages.until, self.scenario.plants);
-        if let Some(age) = ages.iter().find(|age| **age > until) {
-            return Err(Misuse(format!("{age_option} {age}: the run has the ages 0 to {until}")).into());
-        }
+        let count = self.scenario.plants;
         if let Some(plant) = plants.iter().find(|plant| **plant >= count) {
             return Err(Misuse(format!("{plant_option} {plant}: the run has the plants 0 to {}", count - 1)).into());
+        }
+        for &plant in plants {
+            let until = self.scenario.last_age_of(plant);
+            let Some(age) = ages.iter().find(|age| **age > until) else { continue };
+            let sown = self.scenario.sown_at(plant);
+            let whose = if sown == 0 {
+                format!("the run has the ages 0 to {until}")
+            } else {
+                format!("plant {plant}, which is sown at tick {sown}, has the ages 0 to {until}")
+            };
+            return Err(Misuse(format!("{age_option} {age}: {whose}")).into());
         }
         Ok(())
     }
 
-    /// What to do where wind cannot move the species.
-    fn unmoved(&self, unmoved: Unmoved, breeze: &Breeze) -> Misuse {
-        let name = &self.species.about.name;
+    /// Refuses a plot or a tick that the run does not have.
+    ///
+    /// # Errors
+    /// By the option that names it.
+    pub fn check_plot(&self, (tick_option, ticks): (&str, &[Tick]), plot: u32) -> Result<()> {
+        let (until, plots) = (self.scenario.ages.until, self.scenario.plots());
+        if plot >= plots {
+            return Err(Misuse(format!("--plot {plot}: the run has the plots 0 to {}", plots - 1)).into());
+        }
+        match ticks.iter().find(|tick| **tick > until) {
+            Some(tick) => Err(Misuse(format!("{tick_option} {tick}: the plot has the ticks 0 to {until}")).into()),
+            None => Ok(()),
+        }
+    }
+
+    /// What to do where wind cannot move a species.
+    fn unmoved(&self, species: &Species, unmoved: Unmoved, breeze: &Breeze) -> Misuse {
+        let name = &species.about.name;
         let (lacks, needs) = match unmoved {
             Unmoved::Stiff => ("no wood that bends", "a `[wood]` table, such as `like = \"birch\"`"),
             Unmoved::NoDrag => ("wood without drag", "`drag` in its `[wood]`, such as `drag = { c = 2, n = 0.5 }`"),
         };
-        let file = &self.scenario.species;
+        let place = self.species.iter().position(|known| std::ptr::eq(known, species)).unwrap_or(0);
+        let names = self.scenario.species_names();
+        let file = names.get(place).copied().unwrap_or(name);
         let wind = breeze.wind.unwrap_or_default();
-        let model = self.species.model.name();
+        let model = species.model.name();
         let with_wood = MODELS.into_iter().filter(|model| model.card().keys.wood.is_some());
         Misuse(match model.card().keys.wood {
             Some(_) => format!(

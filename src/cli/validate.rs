@@ -4,6 +4,7 @@
 //! Absent: the checks, which are `phytomer-config`'s, `phytomer::sample`'s and
 //! `phytomer::architecture`'s.
 
+use super::grow::{clock, species_in_words};
 use super::named::{self, Named};
 use super::{Verdict, amounts, terminal};
 use anyhow::Result;
@@ -57,7 +58,10 @@ fn find(name: &str) -> Found {
     let found = named::find(name)?;
     let report = match &found {
         Named::Run(_) => None,
-        Named::Scenario(scenario) => wrong(&scenario.species).map(|faults| scenario.report(faults)),
+        Named::Scenario(scenario) => {
+            let all = scenario.all_species().into_iter().enumerate();
+            all.filter_map(|(place, species)| Some(scenario.report_of(place, wrong(species)?))).next()
+        }
         Named::Species(species) => wrong(&species.species).map(|faults| species.report(faults)),
     };
     report.map_or(Ok(found), Err)
@@ -73,10 +77,10 @@ fn tell(name: &str, found: &Found) -> Result<()> {
     match found {
         Ok(Named::Run(_)) => terminal::put(&format!("{name}: a run folder, whose scenario was valid when it began")),
         Ok(Named::Scenario(scenario)) => {
-            let about = &scenario.species.about;
+            let (species, clock) = (species_in_words(scenario), clock(scenario));
             let plants = amounts::of(scenario.scenario.plants.into(), "plant");
             let until = scenario.scenario.ages.until;
-            terminal::put(&format!("{name}: a valid scenario: {plants} of `{}` to age {until}", about.name))
+            terminal::put(&format!("{name}: a valid scenario: {plants} of `{species}` to {clock} {until}"))
         }
         Ok(Named::Species(species)) => {
             let model = species.species.model.name().word();

@@ -54,7 +54,7 @@ impl From<Certainty> for Figure {
 pub struct Forecast {
     /// Plants of the run.
     pub plants: u32,
-    /// Components of one plant by the last age, by order from the trunk.
+    /// Components of one plot, of one plant where it has no members, by the last tick, by order from the trunk.
     pub components_by_order: Vec<f64>,
     /// Components of all plants by the last age.
     pub components: f64,
@@ -68,51 +68,100 @@ pub struct Forecast {
     pub summary_rows: f64,
     /// Bytes of the tables, about; events are not foreseen.
     pub table_bytes: f64,
-    /// Bytes of memory that one plant takes at its end.
+    /// Bytes of memory that one plant takes at its end; the largest of those of a plot.
     pub bytes_a_plant: f64,
+    /// Bytes of memory that the plants of one plot take at its end, all of which are in memory at once.
+    pub bytes_a_plot: f64,
     /// The most components that a plant may have.
     pub component_limit: u32,
     #[serde(skip)]
-    shown_a_plant: f64,
+    work_a_plot: f64,
 }
 
 impl Forecast {
-    /// The forecast of a run; `None` where the sum for its species would take too long.
+    /// The forecast of a run; `None` where the sum for one of its species would take too long.
     pub fn of(resolved: &Resolved) -> Option<Self> {
         let scenario = &resolved.scenario;
-        let until = scenario.ages.until;
-        let expected: Expectation = resolved.model.expectation(until)?;
-        let plants = f64::from(scenario.plants);
-        let components_by_order: Vec<f64> = expected.orders.iter().map(|order| order.components(until)).collect();
-        let a_plant = expected.components(until);
-        let recorded = scenario.ages.recorded();
-        let shown_a_plant: f64 = recorded.iter().map(|age| expected.components(*age)).sum();
-        let rows = |table: Table, rows: f64| if scenario.tables.contains(&table) { rows * plants } else { 0.0 };
-        let records_rows = rows(Table::Records, shown_a_plant);
-        let summary_rows = rows(Table::Summary, recorded.len() as f64);
-        let component_rows = rows(Table::Components, a_plant);
-        let certainty = expected.certainty();
+        let plot = PlotForecast::of(resolved)?;
+        let plots = f64::from(scenario.plots());
+        let rows = |table: Table, rows: f64| if scenario.tables.contains(&table) { rows * plots } else { 0.0 };
+        let records_rows = rows(Table::Records, plot.shown);
+        let summary_rows = rows(Table::Summary, plot.summary_rows);
+        let component_rows = rows(Table::Components, plot.components);
         Some(Self {
             plants: scenario.plants,
-            components_are: certainty.into(),
+            components_are: plot.certainty.into(),
             // As if nothing that the plants have made had ended.
-            records_rows_are: certainty.max(Certainty::AtMost).into(),
-            components: a_plant * plants,
-            components_by_order,
+            records_rows_are: plot.certainty.max(Certainty::AtMost).into(),
+            components: plot.components * plots,
+            components_by_order: plot.by_order,
             records_rows,
             summary_rows,
             table_bytes: records_rows * BYTES_A_RECORD
                 + component_rows * BYTES_A_COMPONENT_ROW
                 + summary_rows * BYTES_A_SUMMARY_ROW,
-            bytes_a_plant: a_plant * BYTES_A_COMPONENT as f64,
+            bytes_a_plant: plot.largest * BYTES_A_COMPONENT as f64,
+            bytes_a_plot: plot.components * BYTES_A_COMPONENT as f64,
             component_limit: scenario.limits.components(),
-            shown_a_plant,
+            work_a_plot: plot.components + if records_rows > 0.0 { plot.shown } else { 0.0 },
         })
     }
 
-    /// The work of one plant, in components that are grown or shown to a table.
-    pub fn work_a_plant(&self) -> f64 {
-        let grown = self.components / f64::from(self.plants.max(1));
-        grown + if self.records_rows > 0.0 { self.shown_a_plant } else { 0.0 }
+    /// The work of one plot, in components that are grown or shown to a table.
+    pub fn work_a_plot(&self) -> f64 {
+        self.work_a_plot
+    }
+}
+
+/// What is expected of one plot: the sums over its members, each at its own age.
+struct PlotForecast {
+    /// Components by the last tick.
+    components: f64,
+    /// The same by order from the trunk.
+    by_order: Vec<f64>,
+    /// Components of the largest member.
+    largest: f64,
+    /// Components by each recorded tick, summed over the ticks.
+    shown: f64,
+    /// Recorded ticks at which a member is sown, summed over the members.
+    summary_rows: f64,
+    certainty: Certainty,
+}
+
+impl PlotForecast {
+    fn of(resolved: &Resolved) -> Option<Self> {
+        let scenario = &resolved.scenario;
+        let models = resolved.models().into_iter().enumerate();
+        let expected = models.map(|(place, model)| model.expectation(scenario.last_age_of_species(place)));
+        let expected: Vec<Expectation> = expected.collect::<Option<_>>()?;
+        let recorded = scenario.ages.recorded();
+        let mut plot = Self {
+            components: 0.0,
+            by_order: Vec::new(),
+            largest: 0.0,
+            shown: 0.0,
+            summary_rows: 0.0,
+            certainty: Certainty::Exact,
+        };
+        for member in scenario.plot_members() {
+            let Some(expected) = expected.get(scenario.species_of(&member)) else { continue };
+            plot.add(expected, scenario.ages.until.saturating_sub(member.sown), || {
+                recorded.iter().filter_map(|tick| tick.checked_sub(member.sown))
+            });
+        }
+        Some(plot)
+    }
+
+    /// Adds a member that reaches the age `until` and is recorded at `ages`.
+    fn add<A: Iterator<Item = u32>>(&mut self, expected: &Expectation, until: u32, ages: impl Fn() -> A) {
+        let components = expected.components(until);
+        self.components += components;
+        self.largest = self.largest.max(components);
+        self.by_order.resize(self.by_order.len().max(expected.orders.len()), 0.0);
+        let of_orders = expected.orders.iter().map(|order| order.components(until));
+        self.by_order.iter_mut().zip(of_orders).for_each(|(sum, more)| *sum += more);
+        self.shown += ages().map(|age| expected.components(age)).sum::<f64>();
+        self.summary_rows += ages().count() as f64;
+        self.certainty = self.certainty.max(expected.certainty());
     }
 }

@@ -6,7 +6,7 @@
 //! `phytomer_outputs::meshes`'.
 
 use super::RunError;
-use phytomer_config::{Resolved, Species};
+use phytomer_config::{Report, Resolved, Species};
 use phytomer_models::fault::{Fault, Path};
 use phytomer_outputs::meshes::{OwnForms, check_form};
 use phytomer_outputs::{Input, read::Run};
@@ -55,17 +55,29 @@ fn bytes_of(name: &str) -> io::Result<Vec<u8>> {
     if bytes.len() as u64 > MOST_BYTES { Err(io::Error::other("it is longer than 16 MiB")) } else { Ok(bytes) }
 }
 
-/// Reads the forms of a scenario's species, and states the area share that their meshes have where leaves state none: a
-/// run's `run.json` tells it from then on.
+/// Reads the forms of all species of a scenario, in the order of its species, and states the area share that their
+/// meshes have where leaves state none: a run's `run.json` tells it from then on.
 ///
 /// # Errors
-/// As [`read`].
-pub fn settle(resolved: &mut Resolved) -> Result<Arc<OwnForms>, Vec<Fault>> {
-    let forms = read(&resolved.species)?;
-    if state_shares(&mut resolved.species, &forms) {
-        resolved.model = resolved.species.model.compile(resolved.scenario.ages.until)?;
-    }
-    Ok(forms)
+/// As [`read`], of the first species that is wrong, as a report.
+pub fn settle(resolved: &mut Resolved) -> Result<Vec<Arc<OwnForms>>, Report> {
+    settle_all(resolved).map_err(|(species, faults)| resolved.report_of(species, faults))
+}
+
+/// The same; the faults with the place of the species that has them.
+fn settle_all(resolved: &mut Resolved) -> Result<Vec<Arc<OwnForms>>, (usize, Vec<Fault>)> {
+    let Resolved { scenario, species, model, others, .. } = resolved;
+    let others = others.iter_mut().map(|other| (&mut other.species, &mut other.model));
+    let all = [(species, model)].into_iter().chain(others).enumerate();
+    let settled = all.map(|(place, (species, model))| {
+        let forms = read(species).map_err(|faults| (place, faults))?;
+        if state_shares(species, &forms) {
+            let compiled = species.model.compile(scenario.last_age_of_species(place));
+            *model = compiled.map_err(|faults| (place, faults))?;
+        }
+        Ok(forms)
+    });
+    settled.collect()
 }
 
 /// States the area share that its own meshes have where leaves state none; whether there is any, so that the species is
@@ -74,18 +86,19 @@ pub fn state_shares(species: &mut Species, forms: &OwnForms) -> bool {
     species.model.state_area_shares(|place| forms.area_share(place))
 }
 
-/// The same for a scenario that was checked before: the scenario as it is grown, and its forms.
+/// The same for a scenario that was checked before: the scenario as it is grown, and the forms of its species.
 ///
 /// # Errors
 /// The first of its faults.
-pub fn settled(resolved: &Resolved) -> Result<(Cow<'_, Resolved>, Arc<OwnForms>), RunError> {
-    let forms = of(&resolved.species)?;
-    let mut species = resolved.species.clone();
-    if !state_shares(&mut species, &forms) {
+pub fn settled(resolved: &Resolved) -> Result<(Cow<'_, Resolved>, Vec<Arc<OwnForms>>), RunError> {
+    let species = resolved.all_species();
+    let forms = species.iter().map(|species| of(species)).collect::<Result<Vec<_>, _>>()?;
+    let states = |(species, forms): (&&Species, &Arc<OwnForms>)| state_shares(&mut (*species).clone(), forms);
+    if !species.iter().zip(&forms).map(states).fold(false, |any, states| any | states) {
         return Ok((Cow::Borrowed(resolved), forms));
     }
     let mut settled = resolved.clone();
-    let forms = settle(&mut settled).map_err(RunError::of_species)?;
+    let forms = settle_all(&mut settled).map_err(|(_, faults)| RunError::of_species(faults))?;
     Ok((Cow::Owned(settled), forms))
 }
 

@@ -46,11 +46,16 @@ pub struct InMemory {
 pub fn in_memory(resolved: &Resolved, threads: usize, progress: &Progress) -> Result<InMemory, RunError> {
     let (resolved, _) = forms::settled(resolved)?;
     let plan = plan_of(&resolved, &Program::default())?;
-    progress.begin(&resolved, plan.plots.into());
-    let grower = Grower { resolved: &resolved, plan: &plan, progress };
+    progress.begin(&resolved.scenario, plan.plots.into());
+    let grower = Grower::of(&resolved, &plan, progress);
+    let all: Vec<u32> = (0..plan.shards()).collect();
     let shards = pool(threads)?.install(|| {
-        let shards = (0..plan.shards()).into_par_iter();
-        shards.map(|shard| MemoryKeeper::grown(&grower, shard)).collect::<Result<Vec<_>, RunError>>()
+        let mut shards = Vec::new();
+        for some in all.chunks(grower.at_once()) {
+            let grown = some.into_par_iter().map(|shard| MemoryKeeper::grown(&grower, *shard));
+            shards.extend(grown.collect::<Result<Vec<_>, RunError>>()?);
+        }
+        Ok::<_, RunError>(shards)
     })?;
     let mut run = InMemory::default();
     for shard in shards {
@@ -107,7 +112,7 @@ impl Recorder for MemoryKeeper<'_> {
         if self.tables.wants(age) {
             self.tables.record(age, plot)?;
         }
-        self.grower.progress.end_age();
+        self.grower.progress.end_age(plot);
         Ok(())
     }
 }

@@ -5,6 +5,7 @@
 
 use super::RunError;
 use super::forecast::Forecast;
+use super::plots::plot_place;
 use phytomer_config::{Resolved, Scenario, scenario};
 use phytomer_outputs::{Input, Provenance, RunPlan, Table};
 use phytomer_sim::plant::Seed;
@@ -50,7 +51,7 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunErr
         tables: scenario.written_tables().into_iter().map(table).collect(),
         recorded: scenario.ages.recorded(),
         until: scenario.ages.until,
-        plots: scenario.plants,
+        plots: scenario.plots(),
         plots_per_part: plots_per_part(resolved),
         compression_level: match scenario.output.compression {
             scenario::Compression::Zstd1 => 1,
@@ -61,7 +62,7 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunErr
         provenance: Provenance {
             scenario: scenario.name.clone(),
             treatments: vec![CONTROL.to_owned()],
-            species: vec![resolved.species.about.name.clone()],
+            species: resolved.all_species().iter().map(|species| species.about.name.clone()).collect(),
             seed: scenario.seed,
             version: program.version.clone(),
             git_hash: program.git_hash.clone(),
@@ -84,19 +85,27 @@ fn table(table: scenario::Table) -> Table {
 fn inputs(resolved: &Resolved) -> Result<Vec<Input>, RunError> {
     let hash = |text: &str| Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
     let texts = resolved.sources.iter().map(|source| Input { path: source.name.clone(), sha256: hash(&source.text) });
-    Ok(texts.chain(super::forms::inputs(&resolved.species)?).collect())
+    let mut inputs: Vec<Input> = texts.collect();
+    for species in resolved.all_species() {
+        let own = super::forms::inputs(species)?;
+        inputs.extend(own.into_iter().filter(|own| !inputs.contains(own)).collect::<Vec<_>>());
+    }
+    Ok(inputs)
 }
 
-/// How many plants share a part file: as the scenario says, else by the expected work of a plant.
+/// How many plots share a part file: as many as hold the plants that the scenario says, else by the expected work of a
+/// plot.
 fn plots_per_part(resolved: &Resolved) -> u32 {
     let scenario = &resolved.scenario;
+    let (plots, members) = (scenario.plots(), scenario.members());
     if let Some(plants) = scenario.output.plants_per_part {
-        return plants.min(scenario.plants);
+        return (plants / members).clamp(1, plots.max(1));
     }
-    let work = Forecast::of(resolved).map_or(UNFORESEEN, |forecast| forecast.work_a_plant()).max(1.0);
-    let in_all = work * f64::from(scenario.plants);
+    let unforeseen = UNFORESEEN * f64::from(members);
+    let work = Forecast::of(resolved).map_or(unforeseen, |forecast| forecast.work_a_plot()).max(1.0);
+    let in_all = work * f64::from(plots);
     let parts = (in_all / LEAST_WORK_A_PART).clamp(1.0, PARTS_OF_A_SMALL_RUN).max(in_all / WORK_A_PART);
-    (f64::from(scenario.plants) / parts).ceil().max(1.0) as u32
+    (f64::from(plots) / parts).ceil().max(1.0) as u32
 }
 
 /// The most components of a plant.
@@ -114,31 +123,20 @@ pub fn seed_of(scenario: &Scenario, plant: u32) -> Seed {
     }
 }
 
-/// Where its seed lies, metres: on a square grid; each at an origin of its own where the scenario gives no spacing.
+/// Where its seed lies, metres: the place of its plot, and from there to that of the member.
 pub fn place_of(scenario: &Scenario, plant: u32) -> [f64; 3] {
-    let Some(spacing) = scenario.spacing_m else { return [0.0; 3] };
-    let [column, row] = lattice_of(plant);
-    let along = |steps: u32| f64::from(steps) * spacing;
-    [along(column), along(row), 0.0]
-}
-
-/// The column and the row of a plant on a square grid that grows by shells, whatever the number of plants.
-///
-/// Shell s holds the 2s + 1 places whose larger coordinate is s, so the shells before it fill the square of s² places,
-/// and plant i stands in shell s = ⌊√i⌋ at its place k = i − s². The shell goes up the column s from row 0 to the
-/// corner and back along the row s to column 0: (s, k) where k ≤ s, else (2s − k, s). Plant 0 is at the origin.
-fn lattice_of(plant: u32) -> [u32; 2] {
-    let shell = plant.isqrt();
-    let along = plant - shell * shell;
-    if along <= shell { [shell, along] } else { [2 * shell - along, shell] }
+    let (plot, member) = scenario.plot_of(plant);
+    let place = plot_place(scenario, plot);
+    let Some(member) = scenario.member.get(member as usize) else { return place };
+    let beside = member.place();
+    [0, 1, 2].map(|axis| place[axis] + beside[axis])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use phytomer_config::scenario::Limits;
+    use phytomer_config::scenario::{Limits, Member};
     use phytomer_config::validate;
-    use std::collections::BTreeSet;
 
     fn changed(change: impl FnOnce(&mut Scenario)) -> Resolved {
         let mut resolved = validate("example1").unwrap_or_else(|report| panic!("{}", report.render(false)));
@@ -164,23 +162,14 @@ mod tests {
     }
 
     #[test]
-    fn shells_fill_squares_place_by_place() {
-        let places: Vec<[u32; 2]> = (0..10_000).map(lattice_of).collect();
-        for side in 1..=100_u32 {
-            let square: BTreeSet<[u32; 2]> = places[..(side * side) as usize].iter().copied().collect();
-            assert_eq!(square.len(), (side * side) as usize, "each place once");
-            assert!(square.iter().flatten().all(|step| *step < side), "within the square of side {side}");
-        }
-        for pair in places.windows(2) {
-            let [a, b] = [pair[0], pair[1]];
-            let steps = a[0].abs_diff(b[0]) + a[1].abs_diff(b[1]);
-            let to_next_shell = b[1] == 0;
-            assert!(steps == 1 || to_next_shell, "neighbours in a shell are a spacing apart: {a:?} {b:?}");
-        }
-        // The first and the last of the largest shell that 32 bits number.
-        let shell = u32::MAX.isqrt();
-        assert_eq!(lattice_of(shell * shell), [shell, 0]);
-        assert_eq!(lattice_of(u32::MAX), [0, shell]);
+    fn members_stand_beside_the_place_of_their_plot() {
+        let resolved = changed(|scenario| {
+            let aside = Member { at_m: vec![0.5, -1.0], ..Member::default() };
+            (scenario.plants, scenario.spacing_m) = (8, Some(10.0));
+            scenario.member = vec![Member::default(), aside];
+        });
+        let places = [0, 1, 2, 5].map(|plant| place_of(&resolved.scenario, plant));
+        assert_eq!(places, [[0.0; 3], [0.5, -1.0, 0.0], [10.0, 0.0, 0.0], [10.5, 9.0, 0.0]]);
     }
 
     #[test]

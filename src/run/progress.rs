@@ -4,8 +4,9 @@
 //! Absent: how they are shown, which is the command line's.
 
 use super::RunError;
-use phytomer_config::Resolved;
+use phytomer_config::Scenario;
 use phytomer_outputs::Checking;
+use phytomer_sim::Plot;
 use phytomer_sim::plant::Plant;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 
@@ -60,27 +61,27 @@ impl Progress {
         (ages / in_all).min(1.0)
     }
 
-    pub(super) fn begin(&self, resolved: &Resolved, plants: u64) {
-        let scenario = &resolved.scenario;
+    pub(super) fn begin(&self, scenario: &Scenario, plots: u64) {
         let mut ages = scenario.ages.recorded();
         ages.extend(scenario.mesh_ages());
         ages.sort_unstable();
         ages.dedup();
         self.ages_a_plant.store(ages.len() as u64, Relaxed);
-        self.plants_in_all.store(plants, Relaxed);
+        self.plants_in_all.store(plots * u64::from(scenario.members()), Relaxed);
     }
 
     pub(super) fn check(&self) -> Result<(), RunError> {
         if self.is_stopped() { Err(RunError::Stopped) } else { Ok(()) }
     }
 
-    pub(super) fn end_age(&self) {
-        self.ages.fetch_add(1, Relaxed);
+    pub(super) fn end_age(&self, plot: &Plot) {
+        self.ages.fetch_add(plot.plants.len() as u64, Relaxed);
     }
 
-    pub(super) fn end_plant(&self, plant: &Plant) {
-        self.components.fetch_add(u64::from(plant.components()), Relaxed);
-        let plants = self.plants.fetch_add(1, Relaxed) + 1;
+    pub(super) fn end_plants(&self, grown: &[Plant]) {
+        self.components.fetch_add(grown.iter().map(|plant| u64::from(plant.components())).sum(), Relaxed);
+        let grown = grown.len() as u64;
+        let plants = self.plants.fetch_add(grown, Relaxed) + grown;
         // A plant that met its limit has shown fewer ages than others.
         self.ages.fetch_max(plants * self.ages_a_plant.load(Relaxed), Relaxed);
     }

@@ -1,14 +1,17 @@
-//! One plant of a run grown again from its seed, and shown at some ages: what meshes and pictures are made of.
+//! Plants of a run grown again from their seeds, and shown at some ages: what meshes and pictures are made of.
 //!
 //! Draws are keyed by the run's seed and the plant, so it is the same plant, with the same component numbers, that the
-//! run has recorded. In a wind each age is shown as a frame that the wind has moved, for that age alone. Where no
-//! age is given, a plant is shown at that of its species or in its prime. Absent: what is made of it.
+//! run has recorded. A plant is asked for by its number and its own ages, a plot by its number and its ticks. A plant of
+//! a plot in which something feeds back is grown with its whole plot, any other one by itself. In a wind each age is
+//! shown as a frame that the wind has moved, for that age alone. Where no age is given, a plant is shown at that of its
+//! species or in its prime. Absent: what is made of it.
 
-use super::{RunError, place_of, seed_of};
-use phytomer_config::{Scenario, Species};
+use super::RunError;
+use super::plots::Plots;
+use phytomer_config::{Resolved, Scenario, Species};
 use phytomer_sim::mechanics::Scratch;
 use phytomer_sim::mechanics::sway::sway;
-use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
+use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant, ThreadBudget};
 use phytomer_sim::site::Wind;
 use phytomer_sim::{Ending, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
 use std::borrow::Cow;
@@ -23,31 +26,80 @@ pub struct Air {
 }
 
 /// The plants of a scenario, to be grown again.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct Regrowth<'a> {
-    /// The scenario.
-    pub scenario: &'a Scenario,
-    /// The species' model, compiled for all its ages.
-    pub model: &'a dyn GrowthModel,
+    plots: Plots<'a>,
     /// What moves the plants, if anything does.
-    pub air: Option<Air>,
+    air: Option<Air>,
 }
 
 /// What is done with a plant at an age.
 pub type Show<'a> = dyn FnMut(Tick, &Plant) -> Result<(), RecordError> + 'a;
 
-impl Regrowth<'_> {
-    /// Grows a plant and shows it at `ages`, in their order of time.
+/// What is done with the plants of a plot at a tick: those that are sown, in the order of
+/// the plot.
+pub type ShowPlot<'a> = dyn FnMut(Tick, &[Standing]) -> Result<(), RecordError> + 'a;
+
+/// A plant of a plot at a tick.
+#[derive(Debug)]
+pub struct Standing<'p> {
+    /// The plant as it stands.
+    pub plant: Cow<'p, Plant>,
+    /// Its age.
+    pub age: Tick,
+    /// Its species, as a place in [`Scenario::species_names`].
+    pub species: usize,
+}
+
+impl<'a> Regrowth<'a> {
+    /// The plants of a scenario whose species, in the order of [`Scenario::species_names`], have these models, compiled
+    /// for all their ages.
+    pub fn new(scenario: &'a Scenario, models: Vec<&'a dyn GrowthModel>, air: Option<Air>) -> Self {
+        Self { plots: Plots::of(scenario, models), air }
+    }
+
+    /// The plants of a checked scenario, in still air.
+    pub fn of(resolved: &'a Resolved) -> Self {
+        Self::new(&resolved.scenario, resolved.models(), None)
+    }
+
+    /// The scenario.
+    pub fn scenario(&self) -> &'a Scenario {
+        self.plots.scenario()
+    }
+
+    /// Grows a plant and shows it at `ages`, its own, in their order of time.
     ///
     /// # Errors
     /// What `show` says; a plant that comes to its limit before the last of the ages.
     pub fn show(&self, plant: u32, ages: &[Tick], show: &mut Show<'_>) -> Result<(), RunError> {
-        let mut plot = self.sown(plant);
-        let mut shown = ShownAges { ages, air: self.air, show };
-        // To the last age of the run, not to the last that is shown: that is what numbers the components.
-        let until = self.scenario.ages.until;
+        let sown = self.sown(plant);
+        let ticks: Vec<Tick> = ages.iter().map(|age| age.saturating_add(sown.at)).collect();
+        self.show_ticks(sown.plot, sown.until, &ticks, &mut |_, standing| {
+            let shown = standing.iter().find(|standing| standing.plant.id == plant);
+            shown.map_or(Ok(()), |shown| show(shown.age, &shown.plant))
+        })
+    }
+
+    /// Grows a plot and shows its plants that are sown at `ticks`, in their order of time.
+    ///
+    /// # Errors
+    /// What `show` says; a plant that comes to its limit before the last of the ticks.
+    pub fn show_plot(&self, plot: u32, ticks: &[Tick], show: &mut ShowPlot<'_>) -> Result<(), RunError> {
+        self.show_ticks(self.plots.sow(plot, ThreadBudget::default()), self.scenario().ages.until, ticks, show)
+    }
+
+    fn show_ticks(
+        &self,
+        mut plot: Plot<'_>,
+        until: Tick,
+        ticks: &[Tick],
+        show: &mut ShowPlot<'_>,
+    ) -> Result<(), RunError> {
+        let mut shown = ShownTicks { ticks, air: self.air, show };
+        // To the last tick of the run, not to the last that is shown: that is what numbers the components.
         let ending = grow(&mut plot, until, &mut shown).map_err(RunError::of_recorder)?;
-        match (ending, ages.iter().max()) {
+        match (ending, ticks.iter().max()) {
             (Ending::Overgrown { age, limit }, Some(last)) if age <= *last => {
                 Err(RunError::Overgrown { limit, age, last: *last })
             }
@@ -56,12 +108,12 @@ impl Regrowth<'_> {
     }
 
     /// The age at which a plant is shown where none is given: the age that its species states (`shown_at`), if
-    /// the scenario has it, else its prime.
+    /// the plant reaches it, else its prime.
     ///
     /// # Errors
     /// As [`Regrowth::prime`].
     pub fn shown_at(&self, species: &Species, plant: u32) -> Result<Tick, RunError> {
-        let until = self.scenario.ages.until;
+        let until = self.scenario().last_age_of(plant);
         species
             .about
             .shown_at
@@ -77,30 +129,43 @@ impl Regrowth<'_> {
     /// # Errors
     /// Where it comes to its limit at its first age.
     pub fn prime(&self, plant: u32, year: Tick) -> Result<Tick, RunError> {
-        let until = self.scenario.ages.until;
-        if !self.model.growth().keeps_its_past() {
-            return Ok(until);
+        let mut sown = self.sown(plant);
+        let model = self.plots.models()[self.scenario().species_of_plant(plant)];
+        let mut last = sown.until;
+        if !model.growth().keeps_its_past() {
+            return Ok(last - sown.at);
         }
-        let mut plot = self.sown(plant);
-        let mut last = until;
-        if !plot.ahead(until) {
-            let ending = grow(&mut plot, until, &mut ()).map_err(RunError::of_recorder)?;
+        if !sown.plot.ahead(last) {
+            let ending = grow(&mut sown.plot, last, &mut ()).map_err(RunError::of_recorder)?;
             if let Ending::Overgrown { age, limit } = ending {
-                if age <= 1 {
+                if age <= sown.at + 1 {
                     return Err(RunError::OvergrownAtOnce { limit, age });
                 }
                 last = age - 1;
             }
         }
-        Ok(prime_of(&plot.plants[0], last, year))
+        let grown = sown.plot.plants.iter().find(|grown| grown.id == plant);
+        Ok(grown.map_or(1, |grown| prime_of(grown, last - sown.at, year)))
     }
 
-    fn sown(&self, plant: u32) -> Plot<'_> {
-        let mut plot = Plot::of_one(self.model, &seed_of(self.scenario, plant));
-        plot.site = self.scenario.site.felt();
-        plot.plants[0].place = place_of(self.scenario, plant);
-        plot
+    /// A plant before its first tick, by itself where that gives the same plant.
+    fn sown(&self, plant: u32) -> SownPlant<'a> {
+        let scenario = self.scenario();
+        if self.plots.feed_back() {
+            let plot = self.plots.sow(scenario.plot_of(plant).0, ThreadBudget::default());
+            return SownPlant { plot, at: scenario.sown_at(plant), until: scenario.ages.until };
+        }
+        SownPlant { plot: self.plots.sow_alone(plant), at: 0, until: scenario.last_age_of(plant) }
     }
+}
+
+/// A plant in the plot in which it is grown again.
+struct SownPlant<'a> {
+    plot: Plot<'a>,
+    /// The tick of that plot at which it is sown.
+    at: Tick,
+    /// The last tick of that plot.
+    until: Tick,
 }
 
 /// The ticks of a year, 1 where none are stated.
@@ -152,24 +217,29 @@ fn last_of_most(lives: impl Iterator<Item = (Tick, Tick, f64)>, last: Tick, year
     Some(start as Tick)
 }
 
-/// Shows the first plant of a plot at some ages.
-struct ShownAges<'a, 's> {
-    ages: &'a [Tick],
+/// Shows the plants of a plot at some ticks.
+struct ShownTicks<'a, 's> {
+    ticks: &'a [Tick],
     air: Option<Air>,
-    show: &'a mut Show<'s>,
+    show: &'a mut ShowPlot<'s>,
 }
 
-impl Recorder for ShownAges<'_, '_> {
-    fn wants(&self, age: Tick) -> bool {
-        self.ages.contains(&age)
+impl Recorder for ShownTicks<'_, '_> {
+    fn wants(&self, tick: Tick) -> bool {
+        self.ticks.contains(&tick)
     }
 
-    fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
-        let mut plant = Cow::Borrowed(&plot.plants[0]);
-        if let Some(Air { wind, time }) = self.air {
-            sway(plant.to_mut(), age, &plot.site, wind, time, &mut Scratch::default())?;
+    fn record(&mut self, tick: Tick, plot: &Plot) -> Result<(), RecordError> {
+        let mut standing = Vec::new();
+        for (plant, member) in plot.plants.iter().zip(&plot.members) {
+            let Some(age) = member.age_at(tick) else { continue };
+            let mut plant = Cow::Borrowed(plant);
+            if let Some(Air { wind, time }) = self.air {
+                sway(plant.to_mut(), age, &plot.site, wind, time, &mut Scratch::default())?;
+            }
+            standing.push(Standing { plant, age, species: member.species });
         }
-        (self.show)(age, &plant)
+        (self.show)(tick, &standing)
     }
 }
 

@@ -1,8 +1,9 @@
-//! What acts on the plants of a run from outside: gravity and a steady wind.
+//! What acts on the plants of a run from outside: gravity, a steady wind, and planes that kill the buds that reach them.
 //!
-//! Both act only on species whose wood bends. Absent: light, soil and obstacles.
+//! Gravity and wind act only on species whose wood bends. Absent: light and soil.
 
-use phytomer_sim::site::{STANDARD_GRAVITY, Wind as SimWind};
+use phytomer_law::fault::{Fault, Path};
+use phytomer_sim::site::{Plane as SimPlane, STANDARD_GRAVITY, Wind as SimWind};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +17,22 @@ pub struct Site {
     /// A steady wind; calm if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wind: Option<Wind>,
+    /// Planes that kill every bud that reaches them, as `[[site.plane]]`: a roof, a wall, a mown height. None if not
+    /// given. They are told from the place of their plot, and stand in each plot.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub plane: Vec<Plane>,
+}
+
+/// A plane that kills the buds on it and beyond it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Plane {
+    /// A point on it, metres from the place of the plot.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub point_m: [f64; 3],
+    /// The direction of the side on which no bud lives; of any length but 0.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub normal: [f64; 3],
 }
 
 /// A steady, level wind, the same at every height.
@@ -33,7 +50,7 @@ pub struct Wind {
 
 impl Default for Site {
     fn default() -> Self {
-        Self { gravity_m_s2: STANDARD_GRAVITY, wind: None }
+        Self { gravity_m_s2: STANDARD_GRAVITY, wind: None, plane: Vec::new() }
     }
 }
 
@@ -43,10 +60,27 @@ impl Site {
         *self == Self::default()
     }
 
-    /// The site as plants feel it.
-    pub fn felt(&self) -> phytomer_sim::site::Site {
+    /// The site as the plants of a plot feel it that has this place, metres: its planes stand with the plot.
+    pub fn felt_at(&self, place: [f64; 3]) -> phytomer_sim::site::Site {
         let wind = self.wind.as_ref().map_or_else(SimWind::default, Wind::felt);
-        phytomer_sim::site::Site { gravity: self.gravity_m_s2, wind, ..phytomer_sim::site::Site::default() }
+        let planes = self.plane.iter().map(|plane| plane.moved(place)).collect();
+        phytomer_sim::site::Site { gravity: self.gravity_m_s2, wind, planes, ..phytomer_sim::site::Site::default() }
+    }
+
+    /// What no schema can say of planes.
+    pub(super) fn check_planes(&self, path: &Path, faults: &mut Vec<Fault>) {
+        for (number, plane) in self.plane.iter().enumerate().filter(|(_, plane)| plane.normal == [0.0; 3]) {
+            let path = path.key("plane").index(number).key("normal");
+            let problem = format!("the normal of the plane through {:?} has the length 0", plane.point_m);
+            faults.push(Fault::new(&path, problem, "a direction, such as [0, 0, 1] for a roof"));
+        }
+    }
+}
+
+impl Plane {
+    /// The plane in a plot that has this place.
+    fn moved(&self, place: [f64; 3]) -> SimPlane {
+        SimPlane { point: [0, 1, 2].map(|k| self.point_m[k] + place[k]), normal: self.normal }
     }
 }
 

@@ -16,6 +16,7 @@ mod forms;
 mod measure;
 mod outline;
 mod palette;
+mod plot;
 mod ply;
 mod scene;
 #[cfg(test)]
@@ -28,6 +29,7 @@ pub use chunk::{Chunk, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
 pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
+pub use plot::{PlotBody, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use scene::{Counts, Scene};
 

@@ -120,6 +120,11 @@ impl<'a> Scene<'a> {
         Self { plant, age, options: options.clone(), paints, stems, outlines: Outlines::of(plant) }
     }
 
+    /// The age of the plant.
+    pub fn age(&self) -> Tick {
+        self.age
+    }
+
     /// What a file says of it.
     pub fn about(&self, run_seed: u64) -> About {
         About { plant: self.plant.id, age: self.age, run_seed, place: self.plant.place }

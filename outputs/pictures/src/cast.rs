@@ -1,7 +1,7 @@
-//! The plants of one picture: put side by side, looked for by a camera, drawn, and written below.
+//! The plants of one picture, or the plots: put side by side, looked for by a camera, drawn, and written below.
 //!
 //! The first plant stands at the left, its foot at the origin of the picture; the others follow along the gaze's right,
-//! as far apart as their crowns need. Absent: what they look like, of which `draw` makes pixels.
+//! as far apart as their crowns need. The plants of a plot are put as one, each in its place. Absent: what they look like, of which `draw` makes pixels.
 
 use super::camera::{Camera, Frame, tangents};
 use super::canvas::Canvas;
@@ -9,18 +9,21 @@ use super::caption::{Align, fitting, letter_size, scale_bar, write, write_row};
 use super::colouring::{self, Legend, colours};
 use super::draw::{self, Set};
 use super::extent::Extent;
-use super::placed::PlacedPlant;
-use super::{MOST_SUBJECTS, Picture, Subject, View, letters};
+use super::placed::{Body, PlacedStand};
+use super::{MOST_SUBJECTS, Picture, Placed, Stand, View, letters};
+use glam::Vec3;
 use phytomer_meshes::MeshOptions;
+use phytomer_sim::Tick;
+use std::collections::BTreeMap;
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 /// A plant is flat if it is so many times as wide from elsewhere.
 const FLAT: f32 = 1.4;
 
-/// The plants of a picture with what is written of them.
+/// What stands in a picture, with what is written of it.
 pub struct Cast<'a> {
-    plants: Vec<PlacedPlant<'a>>,
+    stands: Vec<PlacedStand<'a>>,
     labels: Vec<&'a str>,
     legend: Option<Legend>,
     /// The angle by which whoever looks has gone on around them.
@@ -28,18 +31,18 @@ pub struct Cast<'a> {
 }
 
 impl<'a> Cast<'a> {
-    /// The plants of a picture, not yet in their places.
-    pub fn of(subjects: &'a [Subject], picture: &Picture) -> Self {
-        let options = MeshOptions { sides: picture.sides, own: Arc::clone(&picture.own), ..MeshOptions::default() };
-        let subjects = &subjects[..subjects.len().min(MOST_SUBJECTS)];
+    /// What stands in a picture, not yet in its place.
+    pub fn of(stands: &'a [Stand], picture: &Picture) -> Self {
+        let stands = &stands[..stands.len().min(MOST_SUBJECTS)];
         let (colours, legend) = picture.colour_by.as_ref().map(colours).unzip();
         let mut colours = colours.map(Vec::into_iter);
-        let plants = subjects.iter().zip(0_u8..).map(|(subject, number)| {
-            let colours = colours.as_mut().and_then(Iterator::next);
-            PlacedPlant::new(subject.plant, subject.age, &options, colours, number)
+        let mut coloured =
+            |count: usize| -> Vec<_> { (0..count).map(|_| colours.as_mut().and_then(Iterator::next)).collect() };
+        let placed = stands.iter().zip(0_u8..).map(|(stand, number)| {
+            PlacedStand::new(bodies(stand, picture.sides, coloured(stand.plants.len())), number)
         });
-        let labels = subjects.iter().map(|subject| subject.label.as_str()).collect();
-        Self { plants: plants.collect(), labels, legend: legend.flatten(), turn: 0.0 }
+        let labels = stands.iter().map(|stand| stand.label.as_str()).collect();
+        Self { stands: placed.collect(), labels, legend: legend.flatten(), turn: 0.0 }
     }
 
     /// Puts the plants side by side, the first at the left, and finds the camera that sees them all, at no more than
@@ -52,15 +55,15 @@ impl<'a> Cast<'a> {
         let tangents = tangents(&frame, height, picture.view == View::Perspective);
         // Ground that is a surface hides what is below it.
         let buried = !picture.ground || gaze.forward.z == 0.0;
-        let extents: Vec<Extent> = self.plants.iter().map(|plant| plant.extent(gaze, tangents, buried)).collect();
+        let extents: Vec<Extent> = self.stands.iter().map(|stand| stand.extent(gaze, tangents, buried)).collect();
         let widest = extents.iter().map(|extent| extent.across[1] - extent.across[0]).fold(0.0, f32::max);
         let mut all = Extent::new(gaze, tangents);
         let mut edge = 0.0;
-        for (number, (plant, extent)) in self.plants.iter_mut().zip(&extents).enumerate() {
+        for (number, (stand, extent)) in self.stands.iter_mut().zip(&extents).enumerate() {
             let along = if number == 0 { 0.0 } else { edge + 0.08 * widest - extent.across[0] };
             edge = along + extent.across[1];
-            plant.offset = gaze.right * along;
-            all = all.join(&extent.moved(plant.offset));
+            stand.offset = gaze.right * along;
+            all = all.join(&extent.moved(stand.offset));
         }
         Camera::fitting(&all, &frame, height, most)
     }
@@ -68,9 +71,9 @@ impl<'a> Cast<'a> {
     /// Draws them as a camera sees them.
     pub fn draw(&self, picture: &Picture, camera: &Camera, title: &str) -> Canvas {
         let sun = picture.sun.unwrap_or_else(|| picture.view.sun(self.turn));
-        let lights: Vec<_> = self.plants.iter().map(|plant| plant.light(sun)).collect();
+        let lights: Vec<_> = self.stands.iter().map(|stand| stand.light(sun)).collect();
         let Picture { ground, transparent, .. } = *picture;
-        let set = Set { plants: &self.plants, lights: &lights, camera: *camera, ground, transparent };
+        let set = Set { stands: &self.stands, lights: &lights, camera: *camera, ground, transparent };
         let mut canvas = draw::draw(&set, picture.size);
         if picture.caption {
             self.write_below(&mut canvas, title, camera);
@@ -80,9 +83,9 @@ impl<'a> Cast<'a> {
 
     /// By how much to go around the first plant to see it where it is wide: not at all unless it is flat.
     fn wide(&self, view: View) -> f32 {
-        let Some(plant) = self.plants.first().filter(|_| view == View::Perspective) else { return 0.0 };
+        let Some(stand) = self.stands.first().filter(|_| view == View::Perspective) else { return 0.0 };
         let quarter = FRAC_PI_2 / 2.0;
-        let width = |step: u8| plant.width(view.gaze(f32::from(step) * quarter).right);
+        let width = |step: u8| stand.width(view.gaze(f32::from(step) * quarter).right);
         let straight = width(0);
         let widest = (1..4).fold((0, straight), |best, step| {
             let width = width(step);
@@ -96,7 +99,7 @@ impl<'a> Cast<'a> {
         let [width, height] = picture.size.map(|side| side as f32);
         let margin = 0.045 * width.min(height);
         let size = letter_size(picture.size[1]);
-        let lines = if self.plants.len() > 1 { 7.6 } else { 4.6 };
+        let lines = if self.stands.len() > 1 { 7.6 } else { 4.6 };
         let (below, aside) = if picture.caption { (lines * size, self.legend_width(size)) } else { (0.0, 0.0) };
         Frame { left: margin, top: margin, right: width - margin.max(aside), bottom: height - margin.max(below) }
     }
@@ -109,11 +112,12 @@ impl<'a> Cast<'a> {
         let size = letter_size(canvas.height);
         let (width, height) = (canvas.width as f32, canvas.height as f32);
         let line = height - 1.4 * size;
-        let scale = self.plants.first().map_or(1.0, |plant| camera.scale_at(plant.offset));
+        let scale = self.stands.first().map_or(1.0, |stand| camera.scale_at(stand.offset + stand.middle()));
         scale_bar(canvas, scale, 0.16 * width, size, [1.6 * size, line]);
         let (title, edge) = (fitting(title, size, 0.78 * width), width - 1.6 * size);
         write(canvas, &title, size, [edge, line], Align::Right);
-        let feet = self.plants.iter().map(|plant| camera.project(plant.offset).map_or(0.0, |foot| foot.x));
+        let foot = |stand: &PlacedStand| camera.project(stand.offset + stand.middle()).map_or(0.0, |foot| foot.x);
+        let feet = self.stands.iter().map(foot);
         let labels: Vec<(f32, &str)> = feet.zip(self.labels.iter().copied()).collect();
         if let [(x, label)] = labels[..] {
             let half = 0.5 * letters::width(label, size);
@@ -126,4 +130,21 @@ impl<'a> Cast<'a> {
         }
         self.legend.iter().for_each(|legend| legend.draw(canvas, size));
     }
+}
+
+/// The plants of a stand, each once with all places where it stands: a plant is the same where it is the same in memory
+/// at the same age.
+fn bodies<'a>(stand: &'a Stand, sides: u8, colours: Vec<Option<Vec<[u8; 3]>>>) -> Vec<Body<'a>> {
+    let key = |placed: &Placed| (std::ptr::from_ref(placed.plant).addr(), placed.age);
+    let mut places: BTreeMap<(usize, Tick), Vec<Vec3>> = BTreeMap::new();
+    for placed in &stand.plants {
+        places.entry(key(placed)).or_default().push(Vec3::from_array(placed.place));
+    }
+    let mut bodies = Vec::new();
+    for (placed, colours) in stand.plants.iter().zip(colours) {
+        let Some(places) = places.remove(&key(placed)) else { continue };
+        let options = MeshOptions { sides, own: Arc::clone(&placed.own), ..MeshOptions::default() };
+        bodies.push(Body::new((placed.plant, placed.age), &options, colours, places));
+    }
+    bodies
 }

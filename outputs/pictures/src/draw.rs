@@ -1,13 +1,13 @@
 //! One picture: light, then film by film the samples of some rows, then their pixels.
 //!
 //! A pixel is the mean of [`FINE`]² samples, each shaded where it lies. Rows are taken in pages, so that memory does
-//! not grow with the picture; a plant's blocks outside of a page are not drawn for it.
+//! not grow with the picture; blocks of plants outside of a page are not drawn for it.
 
 use super::camera::Camera;
 use super::canvas::Canvas;
 use super::film::Film;
 use super::ground::{Behind, Footing, Ground};
-use super::placed::PlacedPlant;
+use super::placed::PlacedStand;
 use super::raster::Window;
 use super::shade::{Light, shade};
 use super::tone;
@@ -24,8 +24,8 @@ const SHIFTS: &[f32] = &[-0.375, 0.125, -0.125, 0.375];
 /// What a picture is made of.
 #[derive(Debug)]
 pub struct Set<'a> {
-    /// The plants, in their places.
-    pub plants: &'a [PlacedPlant<'a>],
+    /// What stands in the picture, in its place.
+    pub stands: &'a [PlacedStand<'a>],
     /// Their light, one each.
     pub lights: &'a [Light],
     /// The camera.
@@ -40,7 +40,7 @@ pub struct Set<'a> {
 pub fn draw(set: &Set, [width, height]: [u32; 2]) -> Canvas {
     let mut canvas = Canvas::new(width, height);
     let footings: Vec<Footing> =
-        set.plants.iter().zip(set.lights).map(|(plant, light)| footing(plant, light)).collect();
+        set.stands.iter().zip(set.lights).map(|(stand, light)| footing(stand, light)).collect();
     let ground = Ground {
         camera: &set.camera,
         footings: &footings,
@@ -56,7 +56,7 @@ pub fn draw(set: &Set, [width, height]: [u32; 2]) -> Canvas {
         let window = Window { width: width * FINE, rows: first * FINE..last * FINE, shifts: SHIFTS };
         film.clear(&window);
         for painting in [false, true] {
-            set.plants.iter().for_each(|plant| plant.expose(&set.camera, &film, &window, FINE as f32, painting));
+            set.stands.iter().for_each(|stand| stand.expose(&set.camera, &film, &window, FINE as f32, painting));
         }
         let developer = Developer { set, ground: &ground, film: &film, window: &window };
         pixels.par_chunks_mut(width as usize).enumerate().for_each(|(row, pixels)| {
@@ -68,9 +68,9 @@ pub fn draw(set: &Set, [width, height]: [u32; 2]) -> Canvas {
     canvas
 }
 
-fn footing<'a>(plant: &PlacedPlant, light: &'a Light) -> Footing<'a> {
-    let [low, high] = plant.bounds();
-    Footing { light, offset: plant.offset, foot: plant.offset, size: (high - low).length() }
+fn footing<'a>(stand: &PlacedStand, light: &'a Light) -> Footing<'a> {
+    let [low, high] = stand.bounds();
+    Footing { light, offset: stand.offset, foot: stand.offset + stand.middle(), size: (high - low).length() }
 }
 
 /// Turns samples into pixels.
@@ -109,7 +109,7 @@ impl Developer<'_> {
         let y = (row as f32 + 0.5) / FINE as f32;
         let point = camera.unproject(x, y, seen.depth);
         let back = camera.back(point);
-        let own = point - self.set.plants[subject].offset;
+        let own = point - self.set.stands[subject].offset;
         let light = shade(&seen, own, back, &self.set.lights[subject], part);
         (tone::shown(light).map(f32::sqrt), 1.0)
     }

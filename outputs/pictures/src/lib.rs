@@ -43,7 +43,7 @@ use phytomer_sim::plant::Plant;
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// The most plants of one picture.
+/// The most plants of one picture that stand side by side, or plots: of the plants in each plot there may be any number.
 pub const MOST_SUBJECTS: usize = 64;
 
 /// From where plants are seen.
@@ -107,7 +107,7 @@ pub struct Picture {
     pub sun: Option<[f32; 2]>,
     /// Sides of the tube that an internode is drawn as.
     pub sides: u8,
-    /// The meshes of its own that the species names.
+    /// The meshes of its own that the species names, where the picture is of single plants.
     pub own: Arc<OwnForms>,
     /// What colours the components, its plants those of the picture; their own colours if not given.
     pub colour_by: Option<Colouring>,
@@ -142,18 +142,61 @@ pub struct Subject<'a> {
     pub label: String,
 }
 
+/// Plants that stand together, as those of a plot do, to be drawn in their places.
+#[derive(Debug, Clone)]
+pub struct Stand<'a> {
+    /// The plants; any number. One that stands at several places is told several times, as the same plant in memory,
+    /// and its mesh is made once.
+    pub plants: Vec<Placed<'a>>,
+    /// What is written below them.
+    pub label: String,
+}
+
+/// A plant of a stand.
+#[derive(Debug, Clone)]
+pub struct Placed<'a> {
+    /// The plant, its frames and diameters those of the age.
+    pub plant: &'a Plant,
+    /// The age.
+    pub age: Tick,
+    /// Where its seed lies, metres from the origin of the stand.
+    pub place: [f32; 3],
+    /// The meshes of its own that its species names.
+    pub own: Arc<OwnForms>,
+}
+
 /// Draws plants side by side, in one scale on one ground, `title` written in the corner.
 /// All plants are in memory, but of their triangles only some blocks at a time.
 pub fn draw(subjects: &[Subject], title: &str, picture: &Picture) -> Canvas {
-    let mut cast = Cast::of(subjects, picture);
+    draw_stands(&alone(subjects, picture), title, picture)
+}
+
+/// Draws plots side by side, in one scale on one ground, each plant in its place and in the shade of the others of its
+/// plot.
+pub fn draw_stands(stands: &[Stand], title: &str, picture: &Picture) -> Canvas {
+    let mut cast = Cast::of(stands, picture);
     let camera = cast.aim(picture, f32::INFINITY);
     cast.draw(picture, &camera, title)
 }
 
+/// Each plant as a stand of its own.
+fn alone<'a>(subjects: &[Subject<'a>], picture: &Picture) -> Vec<Stand<'a>> {
+    let placed = |subject: &Subject<'a>| {
+        let own = Arc::clone(&picture.own);
+        Placed { plant: subject.plant, age: subject.age, place: [0.0; 3], own }
+    };
+    subjects.iter().map(|subject| Stand { plants: vec![placed(subject)], label: subject.label.clone() }).collect()
+}
+
 /// Draws the four parallel views of plants on one sheet, in one scale: front and side above, top and oblique below.
 pub fn sheet(subjects: &[Subject], title: &str, picture: &Picture) -> Canvas {
+    sheet_of_stands(&alone(subjects, picture), title, picture)
+}
+
+/// The same of plots.
+pub fn sheet_of_stands(stands: &[Stand], title: &str, picture: &Picture) -> Canvas {
     let [width, height] = picture.size;
-    let mut cast = Cast::of(subjects, picture);
+    let mut cast = Cast::of(stands, picture);
     let mut canvas = Canvas::new(width, height);
     let halves = [[width / 2, height / 2], [width - width / 2, height - height / 2]];
     let views = [View::Front, View::Side, View::Top, View::Oblique];

@@ -1,9 +1,9 @@
-//! The plants of a picture, each told from its seed and put where it is to be seen, and the ways through their
-//! triangles.
+//! What stands together in a picture, told from its own origin and put where it is to be seen, and the ways through its
+//! triangles: a single plant, or all plants of a plot in their places.
 //!
 //! Meshes are those of [`phytomer_meshes`], made block by block on whatever thread is free, looked at and thrown away:
-//! a picture of ten million triangles needs no more memory than one of ten. What is left by them is sums of whole
-//! numbers and maxima, so their order shows nowhere.
+//! a picture of ten million triangles needs no more memory than one of ten. A plant that stands at several places is
+//! made once and kept. What is left by the triangles is sums of whole numbers and maxima, so their order shows nowhere.
 
 use super::camera::Camera;
 use super::extent::Extent;
@@ -19,60 +19,176 @@ use phytomer_meshes::{Mesh, MeshOptions, Scene, Tag, Vertex};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Where nothing is left of a plant, a picture shows the place where it stood, a metre high from its seed.
 const EMPTY: Vec3 = Vec3::Z;
 
-/// A plant at an age in a picture.
+/// So many places of one plant are gone through at once with one of its blocks.
+const PLACES_AT_ONCE: usize = 16;
+
+/// A plant at an age, with the places where it stands.
 #[derive(Debug)]
-pub struct PlacedPlant<'a> {
+pub struct Body<'a> {
     scene: Scene<'a>,
     /// The colours of its components by their numbers, where they do not have their own.
     colours: Option<Vec<[u8; 3]>>,
     /// The boxes of its blocks; those of empty ones are inside out.
     boxes: Vec<[Vec3; 2]>,
     stuff: [Stuff; Kind::ALL.len()],
-    /// From its seed to where it stands in the picture.
+    places: Vec<Vec3>,
+    /// Its blocks, where it stands at several places; else they are made when they are looked at.
+    kept: Vec<Mesh>,
+}
+
+/// What stands together in a picture.
+#[derive(Debug)]
+pub struct PlacedStand<'a> {
+    bodies: Vec<Body<'a>>,
+    looks: Vec<Look>,
+    /// From its origin to where it stands in the picture.
     pub offset: Vec3,
     /// Its place in the picture.
     pub number: u8,
 }
 
-/// A block of triangles before a camera.
-struct Seen {
+/// A block of a body at some of its places: what one thread looks at.
+#[derive(Debug, Clone)]
+struct Look {
+    body: usize,
+    block: usize,
+    places: Range<usize>,
+}
+
+/// Memory of a thread that looks.
+#[derive(Default)]
+struct Scratch {
     mesh: Mesh,
     corners: Vec<Vec3>,
 }
 
-impl<'a> PlacedPlant<'a> {
-    /// A plant as it stands at `age`.
-    pub fn new(plant: &'a Plant, age: Tick, options: &MeshOptions, colours: Option<Vec<[u8; 3]>>, number: u8) -> Self {
+impl<'a> Body<'a> {
+    /// A plant as it stands at `age`, at each of some places.
+    pub fn new(
+        (plant, age): (&'a Plant, Tick),
+        options: &MeshOptions,
+        colours: Option<Vec<[u8; 3]>>,
+        places: Vec<Vec3>,
+    ) -> Self {
         let scene = Scene::new(plant, age, options);
-        let boxes = (0..scene.blocks()).into_par_iter().map_init(Mesh::default, |mesh, block| {
-            scene.block(block, mesh);
-            mesh.vertices
-                .iter()
-                .map(at)
-                .fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)])
+        let blocks = 0..if places.len() > 1 { scene.blocks() } else { 0 };
+        let kept = blocks.into_par_iter().map(|block| {
+            let mut mesh = Mesh::default();
+            scene.block(block, &mut mesh);
+            mesh
         });
-        let boxes = boxes.collect();
-        Self { scene, colours, boxes, stuff: stuff(plant), offset: Vec3::ZERO, number }
+        let kept = kept.collect();
+        let mut body = Self { scene, colours, boxes: Vec::new(), stuff: stuff(plant), places, kept };
+        let boxes = (0..body.scene.blocks()).into_par_iter().map_init(Mesh::default, |mesh, block| {
+            let vertices = body.block(block, mesh).vertices.iter().map(at);
+            vertices.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)])
+        });
+        body.boxes = boxes.collect();
+        body
     }
 
-    /// The box around it as it grew, its foot within.
+    fn block<'m>(&'m self, block: usize, mesh: &'m mut Mesh) -> &'m Mesh {
+        self.kept.get(block).unwrap_or_else(|| {
+            self.scene.block(block, mesh);
+            mesh
+        })
+    }
+
+    fn is_empty(&self) -> bool {
+        self.boxes.iter().all(|[low, high]| low.x > high.x)
+    }
+
+    /// The boxes of its blocks that hold anything, at all its places.
+    fn placed_boxes(&self) -> impl Iterator<Item = [Vec3; 2]> {
+        let full = self.boxes.iter().filter(|[low, high]| low.x <= high.x);
+        full.flat_map(|[low, high]| self.places.iter().map(|place| [*low + *place, *high + *place]))
+    }
+
+    #[inline]
+    fn stuff_of(&self, tag: &Tag) -> Stuff {
+        self.stuff[usize::from(tag.kind) % Kind::ALL.len()]
+    }
+
+    fn expose(&self, mesh: &Mesh, corners: &[Vec3], film: &Film, window: &Window, (subject, painting): (u8, bool)) {
+        for face in &mesh.faces {
+            let indices = face.indices().map(|index| index as usize);
+            let corners = indices.map(|index| corners[index]);
+            let vertices = indices.map(|index| &mesh.vertices[index]);
+            let tag = vertices[0].tag();
+            let Stuff { thin, closed } = self.stuff_of(&tag);
+            // The far side of what is closed is never seen. Corners behind the eye are no numbers and compare as false.
+            if closed && turn(&corners) > 0.0 {
+                continue;
+            }
+            if painting {
+                let normals = vertices.map(|vertex| Vec3::from_array(vertex.normal()));
+                film.paint(&corners, &normals, &self.paint(&tag, thin, subject), window);
+            } else {
+                film.deepen(&corners, window);
+            }
+        }
+    }
+
+    fn paint(&self, tag: &Tag, thin: bool, subject: u8) -> Paint {
+        let [r, g, b, _] = tag.colour;
+        let component = tag.component.unsigned_abs();
+        let colour = match &self.colours {
+            Some(colours) => colours.get(component as usize).copied().unwrap_or([128; 3]),
+            None if thin => varied([r, g, b], component),
+            None => [r, g, b],
+        };
+        Paint { colour, thin, stained: self.colours.is_some(), subject }
+    }
+}
+
+impl<'a> PlacedStand<'a> {
+    /// Plants that stand together.
+    pub fn new(bodies: Vec<Body<'a>>, number: u8) -> Self {
+        let mut looks = Vec::new();
+        for (body, of) in bodies.iter().enumerate() {
+            for block in 0..of.boxes.len() {
+                let starts = (0..of.places.len()).step_by(PLACES_AT_ONCE);
+                looks.extend(starts.map(|start| {
+                    let places = start..(start + PLACES_AT_ONCE).min(of.places.len());
+                    Look { body, block, places }
+                }));
+            }
+        }
+        Self { bodies, looks, offset: Vec3::ZERO, number }
+    }
+
+    fn places(&self) -> impl Iterator<Item = Vec3> {
+        self.bodies.iter().flat_map(|body| body.places.iter().copied())
+    }
+
+    /// The middle of the places of its plants, as it grew.
+    pub fn middle(&self) -> Vec3 {
+        let ends = self.places().map(|place| [place, place]).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
+        ends.map_or(Vec3::ZERO, |[low, high]| 0.5 * (low + high))
+    }
+
+    /// The box around it as it grew, the feet of its plants within.
     pub fn bounds(&self) -> [Vec3; 2] {
-        self.boxes.iter().fold([Vec3::ZERO; 2], |[low, high], [a, b]| [low.min(*a), high.max(*b)])
+        let feet = self.places().map(|place| [place; 2]);
+        let boxes = feet.chain(self.bodies.iter().flat_map(Body::placed_boxes));
+        boxes.reduce(|[low, high], [a, b]| [low.min(a), high.max(b)]).unwrap_or_default()
     }
 
     /// How wide it is along a direction, about: the boxes of its blocks are.
     pub fn width(&self, right: Vec3) -> f32 {
-        let full = self.boxes.iter().filter(|[low, high]| low.x <= high.x);
-        let ends = full.fold([0.0_f32; 2], |[least, most], [low, high]| {
-            let (middle, half) = (0.5 * (*low + *high), 0.5 * (*high - *low));
+        let feet = self.places().map(|place| [place; 2]);
+        let boxes = feet.chain(self.bodies.iter().flat_map(Body::placed_boxes));
+        let ends = boxes.map(|[low, high]| {
+            let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
             let (at, reach) = (middle.dot(right), half.dot(right.abs()));
-            [least.min(at - reach), most.max(at + reach)]
+            [at - reach, at + reach]
         });
-        ends[1] - ends[0]
+        ends.reduce(|[least, most], [a, b]| [least.min(a), most.max(b)]).map_or(0.0, |[least, most]| most - least)
     }
 
     /// How far it reaches as it grew, to be seen along a gaze within tangents; what lies below its foot counts where it
@@ -80,19 +196,24 @@ impl<'a> PlacedPlant<'a> {
     pub fn extent(&self, gaze: Gaze, tangents: [f32; 4], buried: bool) -> Extent {
         let lowest = if buried { f32::NEG_INFINITY } else { 0.0 };
         let empty = || Extent::new(gaze, tangents);
-        let mut extent = self.each_block(
+        let mut extent = self.each_look(
             |_| true,
-            |mesh| {
+            |look, scratch| {
                 let mut extent = empty();
-                mesh.vertices.iter().map(at).filter(|point| point.z >= lowest).for_each(|point| extent.add(point));
+                let body = &self.bodies[look.body];
+                let mesh = body.block(look.block, &mut scratch.mesh);
+                for place in &body.places[look.places.clone()] {
+                    let points = mesh.vertices.iter().map(|vertex| at(vertex) + *place);
+                    points.filter(|point| point.z >= lowest).for_each(|point| extent.add(point));
+                }
                 extent
             },
             empty,
             |a, b| a.join(&b),
         );
-        extent.add(Vec3::ZERO);
-        if self.boxes.iter().all(|[low, high]| low.x > high.x) {
-            extent.add(EMPTY);
+        self.places().for_each(|place| extent.add(place));
+        if self.bodies.iter().all(Body::is_empty) {
+            extent.add(self.middle() + EMPTY);
         }
         extent
     }
@@ -101,14 +222,18 @@ impl<'a> PlacedPlant<'a> {
     pub fn light(&self, sun: [f32; 2]) -> Light {
         let [low, high] = self.bounds();
         let (shadow, crown) = (Shadow::over(low, high, sun), Crown::over(low, high));
-        self.each_block(
+        self.each_look(
             |_| true,
-            |mesh| {
-                for face in &mesh.faces {
+            |look, scratch| {
+                let body = &self.bodies[look.body];
+                let mesh = body.block(look.block, &mut scratch.mesh);
+                for (place, face) in
+                    body.places[look.places.clone()].iter().flat_map(|p| mesh.faces.iter().map(move |f| (p, f)))
+                {
                     let vertices = face.indices().map(|index| &mesh.vertices[index as usize]);
-                    let corners = vertices.map(at);
+                    let corners = vertices.map(|vertex| at(vertex) + *place);
                     shadow.cast(&corners);
-                    crown.add(&corners, self.stuff_of(&vertices[0].tag()).thin);
+                    crown.add(&corners, body.stuff_of(&vertices[0].tag()).thin);
                 }
             },
             || (),
@@ -120,98 +245,62 @@ impl<'a> PlacedPlant<'a> {
     /// Leaves on the film what a camera sees of it in a window of samples, `fine` to a pixel each way.
     pub fn expose(&self, camera: &Camera, film: &Film, window: &Window, fine: f32, painting: bool) {
         let rows = [window.rows.start as f32, window.rows.end as f32];
-        let in_rows =
-            |block: usize| self.rows_of(block, camera, fine).is_some_and(|[a, b]| a <= rows[1] && b >= rows[0]);
-        self.each_block(
-            in_rows,
-            |mesh| {
-                let mut seen = Seen { mesh: std::mem::take(mesh), corners: Vec::new() };
-                seen.project(camera, self.offset, fine);
-                self.expose_block(&seen, film, window, painting);
-                *mesh = seen.mesh;
+        let in_rows = |look: &Look, place: Vec3| {
+            let reached = self.rows_of(look, camera, place + self.offset, fine);
+            reached.is_some_and(|[a, b]| a <= rows[1] && b >= rows[0])
+        };
+        let places = |look: &Look| &self.bodies[look.body].places[look.places.clone()];
+        self.each_look(
+            |look| places(look).iter().any(|place| in_rows(look, *place)),
+            |look, scratch| {
+                let body = &self.bodies[look.body];
+                let mesh = body.block(look.block, &mut scratch.mesh);
+                for place in places(look).iter().filter(|place| in_rows(look, **place)) {
+                    project(mesh, camera, *place + self.offset, fine, &mut scratch.corners);
+                    body.expose(mesh, &scratch.corners, film, window, (self.number, painting));
+                }
             },
             || (),
             |(), ()| (),
         );
     }
 
-    fn expose_block(&self, seen: &Seen, film: &Film, window: &Window, painting: bool) {
-        for face in &seen.mesh.faces {
-            let indices = face.indices().map(|index| index as usize);
-            let corners = indices.map(|index| seen.corners[index]);
-            let vertices = indices.map(|index| &seen.mesh.vertices[index]);
-            let tag = vertices[0].tag();
-            let Stuff { thin, closed } = self.stuff_of(&tag);
-            // The far side of what is closed is never seen. Corners behind the eye are no numbers and compare as false.
-            if closed && turn(&corners) > 0.0 {
-                continue;
-            }
-            if painting {
-                let normals = vertices.map(|vertex| Vec3::from_array(vertex.normal()));
-                film.paint(&corners, &normals, &self.paint(&tag, thin), window);
-            } else {
-                film.deepen(&corners, window);
-            }
-        }
-    }
-
-    #[inline]
-    fn stuff_of(&self, tag: &Tag) -> Stuff {
-        self.stuff[usize::from(tag.kind) % Kind::ALL.len()]
-    }
-
-    fn paint(&self, tag: &Tag, thin: bool) -> Paint {
-        let [r, g, b, _] = tag.colour;
-        let component = tag.component.unsigned_abs();
-        let colour = match &self.colours {
-            Some(colours) => colours.get(component as usize).copied().unwrap_or([128; 3]),
-            None if thin => varied([r, g, b], component),
-            None => [r, g, b],
-        };
-        Paint { colour, thin, stained: self.colours.is_some(), subject: self.number }
-    }
-
-    /// The rows of samples that a block may reach; `None` for one that is empty.
-    fn rows_of(&self, block: usize, camera: &Camera, fine: f32) -> Option<[f32; 2]> {
-        let [low, high] = self.boxes[block];
+    /// The rows of samples that a block may reach at a place; `None` for one that is empty.
+    fn rows_of(&self, look: &Look, camera: &Camera, place: Vec3, fine: f32) -> Option<[f32; 2]> {
+        let [low, high] = self.bodies[look.body].boxes[look.block];
         let mut rows = [f32::INFINITY, f32::NEG_INFINITY];
         if low.x > high.x {
             return None;
         }
         for corner in 0..8 {
             let side = |bit: usize| if corner >> bit & 1 == 0 { low } else { high };
-            let seen = camera.project(Vec3::new(side(0).x, side(1).y, side(2).z) + self.offset)?;
+            let seen = camera.project(Vec3::new(side(0).x, side(1).y, side(2).z) + place)?;
             rows = [rows[0].min(seen.y * fine - 1.0), rows[1].max(seen.y * fine + 1.0)];
         }
         Some(rows)
     }
 
     /// Looks at every block that is wanted, on all threads, and joins what comes of it in any order.
-    fn each_block<T: Send>(
+    fn each_look<T: Send>(
         &self,
-        wanted: impl Fn(usize) -> bool + Sync,
-        look: impl Fn(&mut Mesh) -> T + Sync,
+        wanted: impl Fn(&Look) -> bool + Sync,
+        look: impl Fn(&Look, &mut Scratch) -> T + Sync,
         none: impl Fn() -> T + Sync + Send,
         join: impl Fn(T, T) -> T + Sync + Send,
     ) -> T {
-        let blocks = (0..self.boxes.len()).into_par_iter().filter(|block| wanted(*block));
-        let looked = blocks.map_init(Mesh::default, |mesh, block| {
-            self.scene.block(block, mesh);
-            look(mesh)
-        });
-        looked.reduce(none, join)
+        let looks = self.looks.par_iter().filter(|look| wanted(look));
+        looks.map_init(Scratch::default, |scratch, found| look(found, scratch)).reduce(none, join)
     }
 }
 
-impl Seen {
-    fn project(&mut self, camera: &Camera, offset: Vec3, fine: f32) {
-        let place = |vertex: &Vertex| {
-            let seen = camera.project(at(vertex) + offset).unwrap_or(Vec3::NAN);
-            Vec3::new(seen.x * fine, seen.y * fine, seen.z)
-        };
-        self.corners.clear();
-        self.corners.extend(self.mesh.vertices.iter().map(place));
-    }
+/// Where a camera sees the vertices of a block that is moved by `offset`, in samples.
+fn project(mesh: &Mesh, camera: &Camera, offset: Vec3, fine: f32, corners: &mut Vec<Vec3>) {
+    let place = |vertex: &Vertex| {
+        let seen = camera.project(at(vertex) + offset).unwrap_or(Vec3::NAN);
+        Vec3::new(seen.x * fine, seen.y * fine, seen.z)
+    };
+    corners.clear();
+    corners.extend(mesh.vertices.iter().map(place));
 }
 
 #[inline]

@@ -51,7 +51,7 @@ impl Damaged {
     pub fn as_text(&self) -> String {
         const SHOWN: usize = 12;
         let of = self.recorded.as_ref().map(|recorded| {
-            format!(" of the scenario `{}`, species `{}`", recorded.scenario.name, recorded.species.about.name)
+            format!(" of the scenario `{}`, species `{}`", recorded.scenario.name, recorded.species_in_words())
         });
         let mut text = format!("{}: a damaged run{}", self.folder.display(), of.unwrap_or_default());
         text += &findings::lines(&self.found, SHOWN);
@@ -145,7 +145,7 @@ impl Held {
             "status": findings::word(self.state()),
             "check": self.found.as_ref().map(findings::as_json),
             "scenario": run["scenario"],
-            "species": self.recorded.species.about.name,
+            "species": self.recorded.species_in_words(),
             "seed": run["seed"],
             "version": run["version"],
             "git_hash": run["git_hash"],
@@ -167,7 +167,7 @@ impl Held {
     pub fn as_text(&self) -> String {
         let scenario = &self.recorded.scenario;
         let status = findings::kind_of(self.state());
-        let (name, species) = (self.words("scenario"), &self.recorded.species.about.name);
+        let (name, species) = (self.words("scenario"), self.recorded.species_in_words());
         let mut text = format!("{}: {status} of the scenario `{name}`, species `{species}`\n", self.folder.display());
         let mut line = |name: &str, value: String| {
             let _ = writeln!(text, "  {name:<12} {value}");

@@ -6,9 +6,10 @@ use super::super::amounts;
 use super::run::ages_in_words;
 use anyhow::Result;
 use phytomer::run::forecast::{Figure, Forecast};
-use phytomer_config::Resolved;
 use phytomer_config::scenario::Table;
+use phytomer_config::{Resolved, Scenario};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 /// The scenario, its species and its forecast.
@@ -23,7 +24,7 @@ pub fn as_json(resolved: &Resolved) -> Result<Value> {
 }
 
 pub fn as_text(resolved: &Resolved) -> String {
-    let (scenario, species) = (&resolved.scenario, &resolved.species.about);
+    let scenario = &resolved.scenario;
     let mut text = format!("{}: a scenario\n", scenario.name);
     if let Some(description) = &scenario.description {
         let _ = writeln!(text, "  {}", description.split_whitespace().collect::<Vec<_>>().join(" "));
@@ -31,9 +32,15 @@ pub fn as_text(resolved: &Resolved) -> String {
     let mut line = |name: &str, value: String| {
         let _ = writeln!(text, "  {name:<11} {value}");
     };
-    line("species", format!("{} ({})", species.name, resolved.species.model.name().word()));
-    line("plants", amounts::count(scenario.plants.into()));
-    line("tick", species.tick.clone());
+    for species in resolved.all_species() {
+        line("species", format!("{} ({})", species.about.name, species.model.name().word()));
+    }
+    line("plants", plants_in_words(scenario));
+    for plane in &scenario.site.plane {
+        line("plane", format!("through {:?} m, kills the buds towards {:?}", plane.point_m, plane.normal));
+    }
+    let ticks: BTreeSet<&str> = resolved.all_species().iter().map(|species| species.about.tick.as_str()).collect();
+    line("tick", ticks.into_iter().collect::<Vec<_>>().join(", "));
     line("ages", ages_in_words(&scenario.ages.recorded(), scenario.ages.until));
     line("seed", scenario.seed.to_string());
     line("tables", tables_in_words(&scenario.written_tables()));
@@ -51,13 +58,25 @@ pub fn as_text(resolved: &Resolved) -> String {
     text
 }
 
+/// How many plants there are, in how many plots of which members.
+fn plants_in_words(scenario: &Scenario) -> String {
+    let plants = amounts::count(scenario.plants.into());
+    if scenario.member.is_empty() {
+        return plants;
+    }
+    let plots = amounts::of(scenario.plots().into(), "plot");
+    let later = scenario.member.iter().filter(|member| member.sown > 0).count();
+    let sown = if later > 0 { format!(", {later} of them sown later") } else { String::new() };
+    format!("{plants}, in {plots} of {}{sown}", amounts::of(scenario.members().into(), "plant"))
+}
+
 /// A number of the forecast with what it is.
 fn foretold(figure: Figure, value: f64, unit: &str) -> String {
     let words = [figure.word(), &amounts::about(value), unit];
     words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
-fn tables_in_words(tables: &std::collections::BTreeSet<Table>) -> String {
+fn tables_in_words(tables: &BTreeSet<Table>) -> String {
     let word = |table: &Table| match table {
         Table::Components => "components",
         Table::Records => "records",

@@ -43,7 +43,7 @@ impl Told<'_> {
             },
             "run": settings.folder.display().to_string(),
             "scenario": resolved.scenario.name,
-            "species": resolved.species.about.name,
+            "species": species_in_words(resolved),
             "seed": resolved.scenario.seed,
             "until": resolved.scenario.ages.until,
             "version": settings.program.version,
@@ -76,9 +76,10 @@ impl Told<'_> {
         let Self { resolved, settings, outcome, .. } = self;
         let (scenario, report) = (&resolved.scenario, &outcome.report);
         let plants = amounts::of(report.living + report.dead, "plant");
-        let species = &resolved.species.about.name;
+        let species = species_in_words(resolved);
         let time = amounts::time(outcome.seconds);
-        let mut text = format!("{plants} of `{species}` grown to age {} in {time}\n", scenario.ages.until);
+        let mut text =
+            format!("{plants} of `{species}` grown to {} {} in {time}\n", clock(resolved), scenario.ages.until);
         let mut line = |name: &str, value: String| {
             let _ = writeln!(text, "  {name:<11} {value}");
         };
@@ -174,10 +175,11 @@ pub fn forecast(resolved: &Resolved, forecast: Option<&Forecast>, room: Option<S
         return terminal::put_json(&what);
     }
     let plants = amounts::of(scenario.plants.into(), "plant");
-    let species = &resolved.species.about.name;
-    let mut text = format!("{plants} of `{species}` to age {}, seed {}\n", scenario.ages.until, scenario.seed);
+    let species = species_in_words(resolved);
+    let (clock, until) = (clock(resolved), scenario.ages.until);
+    let mut text = format!("{plants} of `{species}` to {clock} {until}, seed {}\n", scenario.seed);
     match forecast {
-        Some(forecast) => text += &in_words(forecast),
+        Some(forecast) => text += &in_words(forecast, scenario.members()),
         None => text += "  no forecast: the expectation of this species takes too long to sum up\n",
     }
     let free = room.map_or("unknown".to_owned(), |space| amounts::bytes(space.free as f64));
@@ -185,20 +187,31 @@ pub fn forecast(resolved: &Resolved, forecast: Option<&Forecast>, room: Option<S
     terminal::put(&(text + "nothing was written"))
 }
 
-fn in_words(forecast: &Forecast) -> String {
+/// The names of all species: "a, b".
+pub fn species_in_words(resolved: &Resolved) -> String {
+    resolved.all_species().iter().map(|species| species.about.name.as_str()).collect::<Vec<_>>().join(", ")
+}
+
+/// What the last tick of a run is to its plants: their age, unless some are sown later.
+pub fn clock(resolved: &Resolved) -> &'static str {
+    if resolved.scenario.member.iter().any(|member| member.sown > 0) { "tick" } else { "age" }
+}
+
+fn in_words(forecast: &Forecast, members: u32) -> String {
+    let whole = if members > 1 { "a plot" } else { "a plant" };
     let mut text = String::new();
     let components = forecast.components_are;
     let mut line = |name: &str, figure: Figure, value: String, unit: &str| {
         let _ = writeln!(text, "  {name:<11} {:>7} {value:>10} {unit}", figure.word());
     };
     for (order, value) in (1..).zip(&forecast.components_by_order) {
-        line(&format!("order {order}"), components, amounts::about(*value), "components a plant");
+        line(&format!("order {order}"), components, amounts::about(*value), &format!("components {whole}"));
     }
     line("in all", components, amounts::about(forecast.components), "components");
     line("records", forecast.records_rows_are, amounts::about(forecast.records_rows), "rows");
     line("summary", Figure::Exact, amounts::about(forecast.summary_rows), "rows");
     let tables = "of tables, if nothing is shed";
     line("disk", Figure::About, amounts::bytes(forecast.table_bytes), tables);
-    line("memory", Figure::About, amounts::bytes(forecast.bytes_a_plant), "a plant while it grows");
+    line("memory", Figure::About, amounts::bytes(forecast.bytes_a_plot), &format!("{whole} while it grows"));
     text
 }

@@ -1,0 +1,70 @@
+//! The growth explosion: a species that is expected to outgrow the limit of its scenario, told before the first tick.
+//!
+//! Absent: the expectation itself, which is the model's.
+
+use phytomer_sim::expectation::Certainty;
+use phytomer_sim::model::GrowthModel;
+
+use crate::document::Node;
+use crate::load::{integer_at, path_of};
+use crate::report::Fault;
+use crate::scenario::Scenario;
+use crate::species::Species;
+
+/// A plant that is expected to have more components than it may would be cut off: better told before the first tick.
+/// The figure is the expectation, or of a species without one in closed form those components of which it is known; an
+/// estimate or an upper bound refuses nothing, and the limit then holds while the plant grows.
+pub(crate) fn fault_of(
+    node: &Node,
+    scenario: &Scenario,
+    (species, model): (&Species, &dyn GrowthModel),
+    until: u32,
+) -> Option<Fault> {
+    let (most, key) = (scenario.limits.components(), scenario.limits.binding());
+    let means = model.expectation(until)?;
+    let expected = means.least_components(until);
+    if expected <= f64::from(most) {
+        return None;
+    }
+    let set = integer_at(node, &["limits", key]).is_some();
+    let path = path_of(&if set { ["limits", key] } else { ["ages", "until"] });
+    let (name, expected, most) = (&species.about.name, in_words(expected), in_words(most.into()));
+    let least = if means.certainty() == Certainty::Exact { "" } else { "at least " };
+    let problem = format!(
+        "the growth explodes: by age {until} a plant of `{name}` is expected to have {least}{expected} components"
+    );
+    let expected = format!("at most {most} (limits.{key}): an earlier last age, or fewer branches");
+    Some(Fault::new(node.locate(&path), &path, problem, expected))
+}
+
+/// A large number as people say it: "12 000", "3.4e12".
+fn in_words(x: f64) -> String {
+    match x {
+        x if x.is_nan() || x.is_infinite() => "more than can be counted".to_owned(),
+        x if x >= 1e9 => format!("{x:.1e}"),
+        x => {
+            let digits = format!("{x:.0}");
+            let mut out = String::new();
+            for (i, digit) in digits.chars().enumerate() {
+                if i > 0 && (digits.len() - i) % 3 == 0 {
+                    out.push(' ');
+                }
+                out.push(digit);
+            }
+            out
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_numbers_are_readable() {
+        assert_eq!(in_words(12_345_678.4), "12 345 678");
+        assert_eq!(in_words(100.0), "100");
+        assert_eq!(in_words(2.96e12), "3.0e12");
+        assert_eq!(in_words(f64::INFINITY), "more than can be counted");
+    }
+}

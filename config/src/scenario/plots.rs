@@ -1,0 +1,170 @@
+//! The plots of a run: which plants share one, of which species, where they stand in it and when they are sown.
+//!
+//! Plots are equal to each other but for their place and the draws of their plants: plant number = plot × members +
+//! member, and draws are keyed by run seed and plant number. A plot has a tick, and each plant an age: the ticks since
+//! it was sown. The list of species has the scenario's own first, then the others as members name them.
+//! Absent: growing them.
+
+use super::Scenario;
+use phytomer_law::fault::{Fault, Path};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A plant of each plot.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Member {
+    /// Its species, as the scenario's: a shipped one by its name, or the path of a species file. The scenario's species
+    /// if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 1))]
+    pub species: Option<String>,
+    /// Where it stands, metres from the place of its plot: two numbers on level ground, or three. The place of the plot
+    /// if not given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(min = 2, max = 3), inner(range(min = -1e5, max = 1e5)))]
+    pub at_m: Vec<f64>,
+    /// The tick of the plot at which it is sown: it has age 0 then. 0 if not given.
+    #[serde(default, skip_serializing_if = "is_first")]
+    #[schemars(range(min = 0, max = 65_534))]
+    pub sown: u32,
+}
+
+fn is_first(sown: &u32) -> bool {
+    *sown == 0
+}
+
+impl Member {
+    /// From the place of its plot to its own, metres.
+    pub fn place(&self) -> [f64; 3] {
+        [0, 1, 2].map(|axis| self.at_m.get(axis).copied().unwrap_or(0.0))
+    }
+}
+
+impl Scenario {
+    /// The number of plants in each plot.
+    pub fn members(&self) -> u32 {
+        u32::try_from(self.member.len()).unwrap_or(u32::MAX).max(1)
+    }
+
+    /// The number of plots.
+    pub fn plots(&self) -> u32 {
+        self.plants / self.members()
+    }
+
+    /// The plants of one plot, in their order; of a plot without members one plant of the scenario's species.
+    pub fn plot_members(&self) -> Vec<Member> {
+        if self.member.is_empty() { vec![Member::default()] } else { self.member.clone() }
+    }
+
+    /// The plot of a plant, and its place among the members.
+    pub fn plot_of(&self, plant: u32) -> (u32, u32) {
+        (plant / self.members(), plant % self.members())
+    }
+
+    /// The tick of its plot at which a plant is sown.
+    pub fn sown_at(&self, plant: u32) -> u32 {
+        self.member.get(self.plot_of(plant).1 as usize).map_or(0, |member| member.sown)
+    }
+
+    /// The last age of a plant.
+    pub fn last_age_of(&self, plant: u32) -> u32 {
+        self.ages.until.saturating_sub(self.sown_at(plant))
+    }
+
+    /// The names of the species that grow, each once: the scenario's own, then the others in the order of the members.
+    pub fn species_names(&self) -> Vec<&str> {
+        let mut names = vec![self.species.as_str()];
+        for name in self.member.iter().filter_map(|member| member.species.as_deref()) {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// The species of a member, as a place in [`Scenario::species_names`].
+    pub fn species_of(&self, member: &Member) -> usize {
+        let name = member.species.as_deref().unwrap_or(&self.species);
+        self.species_names().iter().position(|known| *known == name).unwrap_or(0)
+    }
+
+    /// The species of a plant, as a place in [`Scenario::species_names`].
+    pub fn species_of_plant(&self, plant: u32) -> usize {
+        self.member.get(self.plot_of(plant).1 as usize).map_or(0, |member| self.species_of(member))
+    }
+
+    /// The last age that a plant of a species reaches: that of its member that is sown first. A species is checked and
+    /// compiled for the ages up to it.
+    pub fn last_age_of_species(&self, species: usize) -> u32 {
+        let of_species = self.member.iter().filter(|member| self.species_of(member) == species);
+        let first = of_species.map(|member| member.sown).min().unwrap_or(0);
+        self.ages.until.saturating_sub(first).max(1)
+    }
+
+    /// What no schema can say of members.
+    pub(super) fn check_members(&self, faults: &mut Vec<Fault>) {
+        let members = self.members();
+        if self.plants % members != 0 {
+            let problem = format!("{} plants cannot be dealt into plots of {members}", self.plants);
+            let below = u64::from(self.plots()) * u64::from(members);
+            let above = below + u64::from(members);
+            let fitting = if below == 0 { above.to_string() } else { format!("{below} or {above}") };
+            let expected = format!("a multiple of the number of members, such as {fitting}");
+            faults.push(Fault::new(&Path::root().key("plants"), problem, expected));
+        }
+        let until = self.ages.until;
+        for (number, member) in self.member.iter().enumerate().filter(|(_, member)| member.sown >= until) {
+            let path = Path::root().key("member").index(number).key("sown");
+            let problem = format!("the member is sown at tick {}, and the run ends at tick {until}", member.sown);
+            faults.push(Fault::new(&path, problem, format!("a tick in [0, {}]", until.saturating_sub(1))));
+        }
+        let own = |member: &Member| member.species.as_ref().is_none_or(|name| *name == self.species);
+        if !self.member.is_empty() && !self.member.iter().any(own) {
+            let problem = format!("no plant of `{}` grows: each member names another species", self.species);
+            let expected = "the species of a member, which then need not name it";
+            faults.push(Fault::new(&Path::root().key("species"), problem, expected));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scenario(members: &str, plants: u32) -> Scenario {
+        let text = format!("name = \"a\"\nspecies = \"coffee\"\nplants = {plants}\nages = {{ until = 12 }}\n{members}");
+        toml::from_str(&text).unwrap()
+    }
+
+    const THREE: &str =
+        "member = [{}, { species = \"phlox\", at_m = [1, 2], sown = 3 }, { species = \"coffee\", sown = 2 }]";
+
+    #[test]
+    fn plants_are_dealt_into_plots_member_by_member() {
+        let three = scenario(THREE, 6);
+        assert_eq!((three.members(), three.plots()), (3, 2));
+        assert_eq!([0, 2, 3, 5].map(|plant| three.plot_of(plant)), [(0, 0), (0, 2), (1, 0), (1, 2)]);
+        assert_eq!([0, 1, 2, 4].map(|plant| three.sown_at(plant)), [0, 3, 2, 3]);
+        assert_eq!([0, 1, 2, 4].map(|plant| three.species_of_plant(plant)), [0, 1, 0, 1]);
+        assert_eq!(three.species_names(), ["coffee", "phlox"]);
+        assert_eq!([0, 1].map(|species| three.last_age_of_species(species)), [12, 9]);
+        assert_eq!(three.member[1].place(), [1.0, 2.0, 0.0]);
+        assert!(three.faults().is_empty(), "{:?}", three.faults());
+    }
+
+    #[test]
+    fn without_members_a_plot_is_a_plant() {
+        let alone = scenario("", 5);
+        assert_eq!((alone.members(), alone.plots(), alone.plot_of(4)), (1, 5, (4, 0)));
+        assert_eq!((alone.plot_members().len(), alone.last_age_of(3)), (1, 12));
+    }
+
+    #[test]
+    fn the_numbers_of_plants_that_fit_are_told() {
+        let told = |plants| scenario(THREE, plants).faults().into_iter().map(|f| f.expected).collect::<Vec<_>>();
+        assert_eq!(told(2), ["a multiple of the number of members, such as 3"]);
+        assert_eq!(told(7), ["a multiple of the number of members, such as 6 or 9"]);
+        assert!(told(9).is_empty());
+    }
+}

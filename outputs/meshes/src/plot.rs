@@ -1,0 +1,195 @@
+//! All plants of a plot in one PLY file, each in its place, one after another in the order of the plot.
+//!
+//! Vertices are told from the place of the plot, which is in the comments, so that single precision holds a plot of a
+//! hundred metres to 0.004 mm wherever it stands. A comment for each plant says which one it is, and how many vertices
+//! of the file are its own. A plant that stands at several places is made once and kept. The profile of vertices and
+//! triangles is that of a single plant's file.
+
+use super::chunk::{Chunk, Face, Vertex};
+use super::ply::{header_of, place_comment};
+use super::{Counts, Mesh, MeshOptions, Scene, mesh_plant};
+use phytomer_sim::Tick;
+use phytomer_sim::plant::Plant;
+use std::io::{self, Write};
+
+/// The most vertices that 32-bit signed indices reach.
+const MOST_VERTICES: u64 = i32::MAX as u64;
+
+/// A plant as it stands in one or several places of a plot.
+#[derive(Debug)]
+pub struct PlotBody<'a> {
+    /// The plant, its frames and diameters those of the age.
+    pub plant: &'a Plant,
+    /// Its age.
+    pub age: Tick,
+    /// How it is drawn.
+    pub options: MeshOptions,
+}
+
+/// A plant of a plot.
+#[derive(Debug, Clone)]
+pub struct PlotMember {
+    /// What stands there, as a place in the list of bodies.
+    pub body: usize,
+    /// Where its seed lies, metres from the place of the plot.
+    pub place: [f64; 3],
+    /// Which plant it is, for the comments: its number and its species.
+    pub name: String,
+}
+
+/// The plants of a plot at a tick.
+#[derive(Debug)]
+pub struct PlotMesh<'a> {
+    /// What stands in it, each once.
+    pub bodies: Vec<PlotBody<'a>>,
+    /// Its plants.
+    pub members: Vec<PlotMember>,
+    /// Which plot it is, at which tick, of which run.
+    pub name: String,
+    /// The place of the plot, metres: what is to be added to the vertices.
+    pub place: [f64; 3],
+}
+
+/// A body that is ready to be written.
+struct Ready<'a> {
+    scene: Scene<'a>,
+    counts: Counts,
+    /// Its mesh, where it stands at several places.
+    kept: Option<Mesh>,
+}
+
+impl PlotMesh<'_> {
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// Those of `out`, and where the file would have more vertices than its format can count.
+    pub fn write(&self, out: &mut (dyn Write + Send)) -> io::Result<()> {
+        let bodies: Vec<Ready> = self.bodies.iter().enumerate().map(|(place, body)| self.ready(place, body)).collect();
+        let members = || self.members.iter().filter_map(|member| Some((member, bodies.get(member.body)?)));
+        let mut all = Counts::default();
+        let mut comments = vec![self.name.clone(), place_comment(self.place)];
+        for (member, Ready { scene, counts, .. }) in members() {
+            all.components += counts.components;
+            all.vertices += counts.vertices;
+            all.faces += counts.faces;
+            comments.push(format!("{} age {} vertices {}", member.name, scene.age(), counts.vertices));
+        }
+        if all.vertices > MOST_VERTICES {
+            return Err(io::Error::other(format!(
+                "the mesh of {} would have {} vertices, and a mesh file holds at most {MOST_VERTICES}: choose fewer sides",
+                self.name, all.vertices
+            )));
+        }
+        out.write_all(&header_of(comments, all)?)?;
+        members().try_for_each(|(member, body)| body.write_vertices(member.place, out))?;
+        let mut first = 0;
+        members().try_for_each(|(_, body)| {
+            body.write_faces(first, out)?;
+            first += body.counts.vertices as u32;
+            Ok(())
+        })
+    }
+
+    fn ready<'s>(&self, place: usize, body: &'s PlotBody) -> Ready<'s> {
+        let scene = Scene::new(body.plant, body.age, &body.options);
+        let several = self.members.iter().filter(|member| member.body == place).nth(1).is_some();
+        let kept = several.then(|| mesh_plant(body.plant, body.age, &body.options));
+        Ready { counts: scene.counts(), scene, kept }
+    }
+}
+
+impl Ready<'_> {
+    fn write_vertices(&self, place: [f64; 3], out: &mut (dyn Write + Send)) -> io::Result<()> {
+        let mut put = |vertices: &mut [Vertex]| {
+            if place != [0.0; 3] {
+                vertices.iter_mut().for_each(|vertex| vertex.move_by(place));
+            }
+            out.write_all(bytemuck::cast_slice(vertices))
+        };
+        if let Some(mesh) = &self.kept {
+            return put(&mut mesh.vertices.clone());
+        }
+        self.scene.vertices(&mut Chunk::new(), &mut |chunk| {
+            put(chunk.filled_mut::<Vertex>())?;
+            chunk.clear();
+            Ok(())
+        })
+    }
+
+    /// Writes its triangles, whose first vertex has the number `first` in the file.
+    fn write_faces(&self, first: u32, out: &mut (dyn Write + Send)) -> io::Result<()> {
+        let mut put = |faces: &[Face]| {
+            let shifted = faces.iter().map(|face| Face::new(face.indices().map(|corner| corner + first)));
+            out.write_all(bytemuck::cast_slice(&shifted.collect::<Vec<_>>()))
+        };
+        if let Some(mesh) = &self.kept {
+            return put(&mesh.faces);
+        }
+        self.scene.faces(&mut Chunk::new(), &mut |chunk| {
+            put(bytemuck::cast_slice(chunk.filled()))?;
+            chunk.clear();
+            Ok(())
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tests::specimen;
+    use crate::{MeshWriter, Ply};
+
+    fn payload(bytes: &[u8]) -> (&str, &[u8]) {
+        let end = b"end_header\n";
+        let at = bytes.windows(end.len()).position(|window| window == end).expect("a header") + end.len();
+        (std::str::from_utf8(&bytes[..at]).expect("a text"), &bytes[at..])
+    }
+
+    fn plot(places: &[[f64; 3]], bodies: [usize; 3]) -> Vec<u8> {
+        let plant = specimen();
+        let body = || PlotBody { plant: &plant, age: 6, options: MeshOptions::default() };
+        let member = |(place, body): (&[f64; 3], usize)| PlotMember { body, place: *place, name: "plant".to_owned() };
+        let members = places.iter().zip(bodies).map(member).collect();
+        let count = bodies.into_iter().max().map_or(0, |most| most + 1);
+        let bodies = (0..count).map(|_| body()).collect();
+        let mesh = PlotMesh { bodies, members, name: "plot 0 tick 6 seed 1".to_owned(), place: [100.0, 0.0, 0.0] };
+        let mut bytes = Vec::new();
+        mesh.write(&mut bytes).expect("written");
+        bytes
+    }
+
+    /// The first plant is that of its own file, the others are the same moved, whether they are told as one plant or
+    /// as several.
+    #[test]
+    fn plants_stand_in_their_places_one_after_another() {
+        let plant = specimen();
+        let scene = Scene::new(&plant, 6, &MeshOptions::default());
+        let mut alone = Vec::new();
+        Ply.write(&scene, &scene.about(1), &mut alone).expect("written");
+        let places = [[0.0; 3], [3.0, -2.0, 0.25], [-1.0, 0.5, 0.0]];
+        let shared = plot(&places, [0, 0, 0]);
+        assert_eq!(shared, plot(&places, [0, 1, 2]), "equal plants share a mesh");
+        let (header, bytes) = payload(&shared);
+        assert!(header.contains("comment place_m 100.0 0.0 0.0\n"), "{header}");
+        let counts = scene.counts();
+        let size = counts.vertices as usize * Vertex::BYTES;
+        let (_, home) = payload(&alone);
+        assert_eq!(bytes[..size], home[..size]);
+        let vertices = |bytes: &[u8]| -> Vec<Vertex> { read(bytes) };
+        let (moved, first) = (vertices(&bytes[size..2 * size]), vertices(&home[..size]));
+        for (moved, home) in moved.iter().zip(&first) {
+            let [x, y, z] = home.position().map(f64::from);
+            assert_eq!(moved.position(), [(x + 3.0) as f32, (y - 2.0) as f32, (z + 0.25) as f32]);
+            assert_eq!((moved.normal(), moved.tag()), (home.normal(), home.tag()));
+        }
+        let faces: Vec<Face> = read(&bytes[3 * size..]);
+        assert_eq!(faces.len() as u64, 3 * counts.faces);
+        let last = faces.iter().flat_map(Face::indices).max();
+        assert_eq!(last, Some(3 * counts.vertices as u32 - 1));
+    }
+
+    /// Packed entries of a file, wherever they lie in memory.
+    fn read<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
+        bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
+    }
+}

@@ -1,0 +1,269 @@
+//! What one picture or one mesh of a plot shows: plants grown again and kept at some ages, side by side or as a plot in
+//! which each stands in its place.
+//!
+//! Of the plants of a plot that are equal one is kept: those of one species and one age whose meshes are the same to
+//! the bit, as those of a species without draws are. Absent: drawing, which is `phytomer_outputs`'.
+
+use super::RunError;
+use super::drawing::options_of;
+use super::plots::plot_place;
+use super::regrowth::{Regrowth, Standing};
+use phytomer_config::{About, Species};
+use phytomer_outputs::meshes::{Chunk, MeshOptions, OwnForms, PlotBody, PlotMember, PlotMesh, Scene};
+use phytomer_outputs::pictures::{Placed, Stand, Subject};
+use phytomer_outputs::tables::Membership;
+use phytomer_sim::Tick;
+use phytomer_sim::plant::Plant;
+use sha2::{Digest, Sha256};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// What one picture shows, and what is written on it.
+#[derive(Debug)]
+pub struct Pictured {
+    /// What stands side by side: plants at ages, or a plot at ticks.
+    pub stands: Vec<PicturedStand>,
+    /// The names of the species.
+    pub title: String,
+    /// What the file says of itself.
+    pub note: String,
+}
+
+/// A plant at an age, or a plot at a tick.
+#[derive(Debug)]
+pub struct PicturedStand {
+    /// The plants, equal ones once.
+    pub plants: Vec<Plant>,
+    /// Where they stand.
+    pub members: Vec<PicturedMember>,
+    /// What is written below them.
+    pub label: String,
+}
+
+/// A plant of a stand.
+#[derive(Debug, Clone, Copy)]
+pub struct PicturedMember {
+    /// The plant's number in the run.
+    pub number: u32,
+    /// Its plot.
+    pub plot: u32,
+    /// The tick of its plot at which it is sown.
+    pub sown: Tick,
+    /// What stands there, as a place in the stand's `plants`.
+    pub plant: usize,
+    /// Its species, as a place in the scenario's list.
+    pub species: usize,
+    /// Its age.
+    pub age: Tick,
+    /// Its place, metres from that of the plot.
+    pub place: [f64; 3],
+}
+
+impl Pictured {
+    /// What a picture takes; `forms` are those of each species.
+    pub fn stands<'a>(&'a self, forms: &[Arc<OwnForms>]) -> Vec<Stand<'a>> {
+        let placed = |stand: &'a PicturedStand, member: &PicturedMember| Placed {
+            plant: &stand.plants[member.plant],
+            age: member.age,
+            place: member.place.map(|x| x as f32),
+            own: forms.get(member.species).cloned().unwrap_or_default(),
+        };
+        let stand = |stand: &'a PicturedStand| Stand {
+            plants: stand.members.iter().map(|member| placed(stand, member)).collect(),
+            label: stand.label.clone(),
+        };
+        self.stands.iter().map(stand).collect()
+    }
+
+    /// Where each plant of each stand belongs, in the order of [`Pictured::subjects`].
+    pub fn memberships(&self) -> Vec<Membership> {
+        let each = self.stands.iter().flat_map(|stand| &stand.members);
+        let of = |PicturedMember { plot, species, sown, .. }: &PicturedMember| Membership {
+            plot: *plot,
+            species: *species,
+            sown: *sown,
+            ..Membership::default()
+        };
+        each.map(of).collect()
+    }
+
+    /// Each plant of each stand by itself, for what colours them.
+    pub fn subjects(&self) -> Vec<Subject<'_>> {
+        let each = self.stands.iter().flat_map(|stand| stand.members.iter().map(move |member| (stand, member)));
+        each.map(|(stand, member)| Subject {
+            plant: &stand.plants[member.plant],
+            age: member.age,
+            label: stand.label.clone(),
+        })
+        .collect()
+    }
+}
+
+/// Grows some plants again and keeps each at some of its ages: plant after plant, each age by age in the order asked
+/// for. The species are those of the scenario.
+///
+/// # Errors
+/// Those of growing.
+pub fn pictured_plants(
+    regrowth: &Regrowth,
+    species: &[&Species],
+    plants: &[u32],
+    ages: &[Tick],
+) -> Result<Pictured, RunError> {
+    let scenario = regrowth.scenario();
+    let mut stands = Vec::new();
+    let mut shown = BTreeSet::new();
+    for &number in plants {
+        let place = scenario.species_of_plant(number);
+        shown.insert(place);
+        let mut seen = BTreeMap::new();
+        regrowth.show(number, ages, &mut |age, plant| {
+            seen.insert(age, plant.clone());
+            Ok(())
+        })?;
+        for &age in ages {
+            let whose = if plants.len() > 1 { format!("plant {number}, ") } else { String::new() };
+            let years = species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default();
+            let Some(plant) = seen.get(&age).cloned() else { continue };
+            let (plot, sown) = (scenario.plot_of(number).0, scenario.sown_at(number));
+            let member = PicturedMember { number, plot, sown, plant: 0, species: place, age, place: [0.0; 3] };
+            let label = format!("{whose}age {age}{years}");
+            stands.push(PicturedStand { plants: vec![plant], members: vec![member], label });
+        }
+    }
+    let names: Vec<&str> = shown.iter().map(|place| species[*place].about.name.as_str()).collect();
+    let note = format!("{}: plants {plants:?} at the ages {ages:?} of seed {}", names.join(", "), scenario.seed);
+    Ok(Pictured { stands, title: titles_of(species, &shown), note })
+}
+
+/// Grows a plot again and keeps it at some ticks, in the order asked for: all its plants that are sown. Where `apart`,
+/// equal plants are kept each.
+///
+/// # Errors
+/// Those of growing.
+pub fn pictured_plot(
+    regrowth: &Regrowth,
+    species: &[&Species],
+    (plot, ticks): (u32, &[Tick]),
+    apart: bool,
+) -> Result<Pictured, RunError> {
+    let scenario = regrowth.scenario();
+    let mut seen = BTreeMap::new();
+    regrowth.show_plot(plot, ticks, &mut |tick, standing| {
+        seen.entry(tick).or_insert_with(|| kept(standing, apart));
+        Ok(())
+    })?;
+    let members = scenario.plot_members();
+    let of_members = |mut stand: PicturedStand, tick: Tick| {
+        for member in &mut stand.members {
+            let (plot, of_plot) = scenario.plot_of(member.number);
+            let Some(of_plot) = members.get(of_plot as usize) else { continue };
+            (member.plot, member.sown, member.place) = (plot, of_plot.sown, of_plot.place());
+        }
+        stand.label = format!("tick {tick}{}", years_of(species, tick));
+        stand
+    };
+    let stands = ticks.iter().filter_map(|tick| seen.remove(tick).map(|stand| of_members(stand, *tick)));
+    let stands: Vec<PicturedStand> = stands.collect();
+    let shown = stands.iter().flat_map(|stand| stand.members.iter().map(|member| member.species)).collect();
+    let note = format!("{}: plot {plot} at the ticks {ticks:?} of seed {}", scenario.name, scenario.seed);
+    Ok(Pictured { stands, title: titles_of(species, &shown), note })
+}
+
+/// The mesh of a stand of a plot.
+pub fn plot_mesh<'a>(
+    stand: &'a PicturedStand,
+    regrowth: &Regrowth,
+    (plot, tick): (u32, Tick),
+    (species, forms): (&[&Species], &[Arc<OwnForms>]),
+    sides: u32,
+) -> PlotMesh<'a> {
+    let scenario = regrowth.scenario();
+    let member = |member: &PicturedMember| PlotMember {
+        body: member.plant,
+        place: member.place,
+        name: format!("plant {} species {}", member.number, species[member.species].about.name),
+    };
+    let body = |(place, plant): (usize, &'a Plant)| {
+        let of = stand.members.iter().find(|member| member.plant == place);
+        let own = of.and_then(|of| forms.get(of.species)).cloned().unwrap_or_default();
+        PlotBody { plant, age: of.map_or(0, |of| of.age), options: options_of(sides, &own) }
+    };
+    PlotMesh {
+        bodies: stand.plants.iter().enumerate().map(body).collect(),
+        members: stand.members.iter().map(member).collect(),
+        name: format!("plot {plot} tick {tick} seed {}", scenario.seed),
+        place: plot_place(scenario, plot),
+    }
+}
+
+/// What tells plants apart at a glance: species, age, and how many internodes and organs there are.
+type Glance = (usize, Tick, usize, usize);
+
+/// The plants of a plot, equal ones once unless they are to be kept apart; where they belong is still to be filled in.
+fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
+    let mut stand = PicturedStand { plants: Vec::new(), members: Vec::new(), label: String::new() };
+    let mut alike: BTreeMap<Glance, Vec<(usize, Option<[u8; 32]>)>> = BTreeMap::new();
+    for Standing { plant, age, species } in standing {
+        let known = alike.entry((*species, *age, plant.nodes.len(), plant.organs.len())).or_default();
+        // A plant that is like no other at a glance needs no closer look.
+        let own = (!known.is_empty()).then(|| look_of(plant, *age));
+        let equal = known.iter_mut().find_map(|(kept, look)| {
+            let look = *look.get_or_insert_with(|| look_of(&stand.plants[*kept], *age));
+            (!apart && own == Some(look)).then_some(*kept)
+        });
+        let body = equal.unwrap_or(stand.plants.len());
+        if body == stand.plants.len() {
+            known.push((body, own));
+            stand.plants.push(plant.clone().into_owned());
+        }
+        let (number, species, age) = (plant.id, *species, *age);
+        let place = [0.0; 3];
+        stand.members.push(PicturedMember { number, plot: 0, sown: 0, plant: body, species, age, place });
+    }
+    stand
+}
+
+/// The digest of a plant's mesh.
+fn look_of(plant: &Plant, age: Tick) -> [u8; 32] {
+    let mut digest = Sha256::new();
+    let scene = Scene::new(plant, age, &MeshOptions::default());
+    let told = scene.vertices(&mut Chunk::new(), &mut |chunk| {
+        digest.update(chunk.filled());
+        chunk.clear();
+        Ok(())
+    });
+    debug_assert!(told.is_ok(), "a digest takes every chunk");
+    digest.finalize().into()
+}
+
+/// What the species that are shown are called below their picture.
+fn titles_of(species: &[&Species], shown: &BTreeSet<usize>) -> String {
+    let titles: Vec<String> = shown.iter().map(|place| title_of(&species[*place].about)).collect();
+    titles.join(", ")
+}
+
+/// What a species is called below its picture: by its scientific name, if it is one and no list of examples.
+fn title_of(about: &About) -> String {
+    let one = about.scientific_name.as_ref().filter(|name| !name.contains(", "));
+    let model = || about.architectural_model.map(|model| format!("{model:?}'s model"));
+    one.or(about.common_name.as_ref()).cloned().or_else(model).unwrap_or_else(|| about.name.clone())
+}
+
+/// A tick in years, where all species have the same year.
+fn years_of(species: &[&Species], tick: Tick) -> String {
+    let mut years = species.iter().map(|species| species.ticks_per_year());
+    let first = years.next().flatten();
+    first.filter(|first| years.all(|year| year == Some(*first))).map(|ticks| in_years(tick, ticks)).unwrap_or_default()
+}
+
+/// An age in years, where a tick is not one itself.
+fn in_years(age: Tick, ticks_per_year: f64) -> String {
+    let years = f64::from(age) / ticks_per_year;
+    match years {
+        _ if (ticks_per_year - 1.0).abs() < 1e-9 => String::new(),
+        years if (years - years.round()).abs() < 0.05 && (years - 1.0).abs() < 0.05 => " · 1 year".to_owned(),
+        years if (years - years.round()).abs() < 0.05 => format!(" · {years:.0} years"),
+        years => format!(" · {years:.1} years"),
+    }
+}
