@@ -247,8 +247,12 @@ fn events_follow_the_numbers_of_buds_whatever_the_order_of_axes() {
     let mut plot = Plot::of_one(model(0), &seed(0, 100));
     let plant = &mut plot.plants[0];
     plant.begin_rewriting();
-    [0, 7, 4].map(|number| plant.place_axis(NewAxis::OF_THE_SEED, number));
-    [(2, 1), (1, 2), (1, 1), (1, 0)].map(|(tick, axis)| plant.note(tick, AxisId(axis), EventKind::Grew, 1));
+    for number in [0, 7, 4] {
+        plant.place_axis(NewAxis::OF_THE_SEED, number);
+    }
+    for (tick, axis) in [(2, 1), (1, 2), (1, 1), (1, 0)] {
+        plant.note(tick, AxisId(axis), EventKind::Grew, 1);
+    }
     let mut sorted = SortedEvents::default();
     sorted.sort(&plot, 2);
     let events: Vec<_> = sorted.stretches().flat_map(|(_, events)| events).map(|of| (of.tick, of.axis.0)).collect();
