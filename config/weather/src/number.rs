@@ -108,13 +108,9 @@ mod tests {
         {
             assert_eq!(read(text), (Cell::Value(text.parse().expect("a number")), false), "{text}");
         }
-        for tenths in -9_000..=6_000 {
-            let text = format!(
-                "{}{}.{}",
-                if tenths < 0 { "-" } else { "" },
-                (tenths as i32).abs() / 10,
-                (tenths as i32).abs() % 10
-            );
+        for tenths in -9_000..=6_000_i32 {
+            let (sign, size) = (if tenths < 0 { "-" } else { "" }, tenths.abs());
+            let text = format!("{sign}{}.{}", size / 10, size % 10);
             let value: f64 = text.parse().expect("a number");
             if !is_mark(value) {
                 assert_eq!(read(&text), (Cell::Value(value), false), "{text}");
