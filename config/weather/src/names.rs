@@ -93,15 +93,21 @@ pub(crate) fn unit_is_known(column: Column, unit: &str) -> bool {
     unit.is_empty() || known.contains(&unit.as_str())
 }
 
-/// What the extremes are called in a format.
-pub(crate) fn extremes(format: Format) -> [(&'static str, Quantity); 2] {
-    match format {
+/// What is told where a table has no column for a temperature: the problem, and what was expected, with the name that was
+/// most likely meant. `has` tells which there are, `unused` are the names that say nothing.
+pub(crate) fn lacking<'n>(
+    format: Format,
+    has: impl Fn(Quantity) -> bool,
+    unused: impl Iterator<Item = &'n str> + Clone,
+) -> Vec<(String, String)> {
+    let codes = match format {
         Format::Apsim => [("maxt", Quantity::Maximum), ("mint", Quantity::Minimum)],
         _ => [("TMAX", Quantity::Maximum), ("TMIN", Quantity::Minimum)],
-    }
-}
-
-/// The name that was most likely meant for another.
-pub(crate) fn meant<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
-    names.into_iter().find(|candidate| nearest(candidate, [name.to_lowercase().as_str(), name]).is_some())
+    };
+    let told = |(code, quantity): (&str, Quantity)| {
+        let meant = unused.clone().find(|name| nearest(code, [name.to_lowercase().as_str()]).is_some());
+        let expected = meant.map_or_else(|| format!("a column `{code}`"), |near| format!("`{code}` for `{near}`"));
+        (format!("there is no column for the {}", quantity.words()), expected)
+    };
+    codes.into_iter().filter(|(_, quantity)| !has(*quantity)).map(told).collect()
 }

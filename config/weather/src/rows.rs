@@ -52,11 +52,13 @@ pub(crate) struct Rows<'t> {
 
 /// A row takes at least so many bytes in most files.
 const BYTES_OF_ROW: usize = 24;
+/// Room for more rows than this, two centuries, is made as they come.
+const MOST_ROOM: usize = 73_049;
 
 impl<'t> Rows<'t> {
     /// None yet.
     pub fn of(text: &'t str) -> Self {
-        let rows = text.len() / BYTES_OF_ROW;
+        let rows = (text.len() / BYTES_OF_ROW).min(MOST_ROOM);
         Self {
             faults: Faults::of(text),
             found: Vec::with_capacity(rows),

@@ -207,6 +207,19 @@ fn headers_are_told() {
 }
 
 #[test]
+fn years_joined_to_one_file_are_of_one_station() {
+    let year = |date: &str, latitude: &str| {
+        format!(
+            "*WEATHER\n@ INSI      LAT     LONG\n  ABCD {latitude:>8}     10.0\n@DATE  TMAX  TMIN\n{date}  24.8  14.3\n"
+        )
+    };
+    let joined = weather("a.WTH", year("95365", "45.0") + &year("96001", "45.0"));
+    assert_eq!((joined.days().len(), joined.station.latitude), (2, Some(45_f64.to_radians())));
+    let told = told("a.WTH", year("95365", "45.0") + &year("96001", "46.0"));
+    assert_eq!(told, "a.WTH:8:3: a second station; expected the weather of one station a file\n");
+}
+
+#[test]
 fn agmip_files_have_the_wind_in_metres_a_second() {
     let text = "*WEATHER DATA : Ames\n\n@ INSI      LAT     LONG  ELEV   TAV   AMP REFHT WNDHT\n  \
                 ABCD   42.017  -93.750   329   9.4  15.0   2.0   2.0\n\
