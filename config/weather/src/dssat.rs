@@ -2,8 +2,8 @@
 //!
 //! Jones et al. 2003 (*European Journal of Agronomy* 18: 235–265), and DSSAT's reader `IPWTH`. `*` or `$` opens a
 //! section, `!` a comment; the table with a date holds the days, that with a latitude the station, and the rows of
-//! others are passed over. `.AgMIP` files differ in two units and repeat the date as year, month and day. Absent: where a
-//! value stands, which `layout` knows, and what a table of days must have beside temperatures.
+//! others are passed over. `.AgMIP` files differ in two units and repeat the date as year, month and day. Absent: where
+//! a value stands, which `layout` knows, and what a table of days must have beside temperatures.
 
 mod layout;
 mod token;

@@ -2,8 +2,8 @@
 //!
 //! −99, −999 and −9999, with or without a further nine behind the point, and the words of other programs (`NA`, `nan`,
 //! `?`) mean that nothing was measured: no quantity can have such a value. One letter behind a number (`-99m`, `12.5e`)
-//! is a flag of the station and says that the value was estimated or is missing. Stars are a number that did not fit its
-//! column, as Fortran writes it. Absent: dates and units.
+//! is a flag of the station and says that the value was estimated or is missing. Stars are a number that did not fit
+//! its column, as Fortran writes it. Absent: dates and units.
 
 /// What stands in a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,8 +1,8 @@
 //! The rows of a weather file as they are read: each value checked by itself and against its day.
 //!
-//! A reader opens a row, hands over its cells and closes it with its date. What is wrong within the row is told at once;
-//! a row whose date or columns cannot be known is left out, and then the next is not told to follow a gap. Absent: how
-//! rows follow one another, which `series` checks when all are there.
+//! A reader opens a row, hands over its cells and closes it with its date. What is wrong within the row is told at
+//! once; a row whose date or columns cannot be known is left out, and then the next is not told to follow a gap.
+//! Absent: how rows follow one another, which `series` checks when all are there.
 
 use crate::fault::{Faults, Kind, Place};
 use crate::number::{Cell, cell};

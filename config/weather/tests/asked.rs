@@ -1,4 +1,5 @@
-//! The keys of `[weather]` and of degree-days, as a scenario will state them: read, refused, and told in the JSON Schema.
+//! The keys of `[weather]` and of degree-days, as a scenario will state them: read, refused, and told in the JSON
+//! Schema.
 //!
 //! Absent: their place in a scenario, and the reports of faults.
 

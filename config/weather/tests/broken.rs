@@ -1,7 +1,7 @@
 //! Twenty thousand broken weather files: each is weather that holds together, or is told; none panics or hangs.
 //!
-//! The short form of the fuzz target `weather` (`fuzz/`), over the files of `data`, with draws that are always the same.
-//! Absent: coverage, which libFuzzer has.
+//! The short form of the fuzz target `weather` (`fuzz/`), over the files of `data`, with draws that are always the
+//! same. Absent: coverage, which libFuzzer has.
 
 mod answered;
 

@@ -1,7 +1,7 @@
 //! Each trap of weather files in a small file of its own: what is read right, and what is told, word for word.
 //!
-//! The files are texts in the tests, written for them. `read` is what a day has; `told` what people see. Absent: files of
-//! stations, which `measured` has, and broken bytes, which `broken` has.
+//! The files are texts in the tests, written for them. `read` is what a day has; `told` what people see. Absent: files
+//! of stations, which `measured` has, and broken bytes, which `broken` has.
 
 use phytomer_weather::{Asked, Beyond, Day, Format, Kind, Refused, Weather, read};
 
