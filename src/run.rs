@@ -21,7 +21,8 @@ pub mod regrowth;
 
 pub use error::RunError;
 pub use in_memory::{InMemory, in_memory};
-pub use plan::{CONTROL, Program, component_limit, place_of, plan_of, seed_of};
+pub use plan::{CONTROL, Program, plan_of};
+pub use plots::{component_limit, place_of, seed_of};
 pub use progress::Progress;
 
 use drawing::RunMeshes;
