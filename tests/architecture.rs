@@ -132,7 +132,7 @@ fn exactly_one_sibling_at_a_fork_of_koriba_becomes_the_trunk() {
     let resolved = shipped("halle/koriba");
     let plot = grown(&resolved);
     let until = resolved.scenario.ages.until;
-    let rows = phytomer::outputs::rows::components_of(&plot, &plot.plants[0], until).unwrap();
+    let rows = phytomer::outputs::rows::components_of(&plot, 0, until).unwrap();
     let trends = |axis: u32| -> Vec<f32> {
         rows.iter().filter(|row| row.axis_id == axis).filter_map(|row| row.trend_deg).collect()
     };

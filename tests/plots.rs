@@ -16,11 +16,12 @@ const TABLES: [&str; 5] = ["components", "records", "events", "summary", "plants
 
 /// The columns by which the rows of a table are sorted.
 fn order_of(table: &str) -> Vec<&'static str> {
-    let has = |column: &&str| match (table, *column) {
-        ("components" | "plants", "tick") | ("summary" | "plants", "component_id") => false,
-        _ => true,
+    let lacks = |column: &str| match column {
+        "tick" => ["components", "plants"].contains(&table),
+        "component_id" => ["summary", "plants"].contains(&table),
+        _ => false,
     };
-    ["plot_id", "tick", "plant_id", "component_id"].into_iter().filter(has).collect()
+    ["plot_id", "tick", "plant_id", "component_id"].into_iter().filter(|column| !lacks(column)).collect()
 }
 
 #[test]

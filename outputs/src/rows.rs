@@ -171,7 +171,7 @@ impl Run {
     /// The last plot that has a plant whose number is below `plants`, as the table `plants` tells; `None` where it does
     /// not tell of each: in a run of an older program, or one of which plots are not grown yet.
     fn last_plot_of(&self, plants: u32) -> Result<Option<u32>, Error> {
-        let (mut last, mut found) = (None, 0);
+        let (mut last, mut found) = (Some(0), 0);
         for batch in self.batches(Table::Plants)? {
             let batch = batch?;
             let columns = Batch { batch: &batch, path: self.path(), table: Table::Plants };

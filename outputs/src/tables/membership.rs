@@ -1,7 +1,7 @@
 //! Where a plant belongs: its plot, what the plot is in the run, and the tick at which the plant was sown.
 //!
 //! All rows of a plant share this, in every table. Ticks count from the beginning of the plot, ages from the sowing of
-//! a plant; this file is the only one of the tables that turns one into the other. Absent: the plant itself.
+//! a plant; in the tables this file alone converts ticks into ages. Absent: the plant itself.
 
 use phytomer_sim::{Member, Plot, Tick};
 
