@@ -2,8 +2,8 @@
 //!
 //! The plots are dealt into shards of neighbours. Each shard sows its plots one after another into the same columns,
 //! grows each to the last tick, shows it to the tables and the meshes at the ticks asked for, and commits its files;
-//! shards grow in parallel, and so do the plants of a plot. A draw depends on the run's seed and the plant alone, so neither the number of
-//! threads nor an interruption shows in a single byte.
+//! shards grow in parallel, and so do the plants of a plot. A draw depends on the run's seed and the plant alone, so
+//! neither the number of threads nor an interruption shows in a single byte.
 //!
 //! Absent: growth (`sim`, `models`), files (`outputs`), and everything that a person sees (`cli`).
 
