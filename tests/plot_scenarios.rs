@@ -91,7 +91,8 @@ fn buds_die_where_they_reach_the_roof() {
     assert!(killed[0] > 20 && killed[1] > 20, "{killed:?}");
 }
 
-/// The mesh of a plant that is asked for by its number is its part of the plot's mesh, moved to its place there: where the site feeds back and where it does not.
+/// The mesh of a plant that is asked for by its number is its part of the plot's mesh, moved to its place there: where
+/// the site feeds back and where it does not.
 #[test]
 fn a_plant_by_itself_is_its_part_of_the_mesh_of_its_plot() {
     let folder = tempfile::tempdir().unwrap();
