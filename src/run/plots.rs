@@ -41,7 +41,7 @@ impl<'a> Plots<'a> {
     pub fn sow(&self, plot: u32, hands: Hands) -> Plot<'a> {
         let mut sown = Plot::new(plot, self.models.clone(), &self.sowings(plot));
         sown.site = self.site(plot);
-        sown.plants.iter_mut().for_each(|plant| plant.hands = hands.clone());
+        sown.plants.iter_mut().for_each(|plant| plant.hands = hands);
         sown
     }
 
