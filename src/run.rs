@@ -31,7 +31,7 @@ use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::{
     Checkup, FreeSpace, Mode, Opening, RunFolder, RunPlan, RunReport, Shard, ShardReport, SystemSpace,
 };
-use phytomer_sim::plant::Hands;
+use phytomer_sim::plant::ThreadBudget;
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick, grow};
 use plots::Plots;
 use rayon::ThreadPool;
@@ -222,7 +222,7 @@ impl<'a> Grower<'a> {
     /// Grows the plots of one shard, one after another in the same columns; `false` where it was told to stop.
     fn grow_shard(&self, shard: u32, keeper: &mut impl Keeper) -> Result<bool, RunError> {
         let plots = self.plan.plots_of(shard);
-        let mut plot = self.plots.sow(plots.start, self.hands());
+        let mut plot = self.plots.sow(plots.start, self.budget());
         for number in plots {
             if self.progress.is_stopped() {
                 return Ok(false);
@@ -265,12 +265,12 @@ impl<'a> Grower<'a> {
         if self.plots.scenario().members() > 1 { rayon::current_num_threads().max(1) } else { usize::MAX }
     }
 
-    /// The threads for which there is no shard help with the plants of the others. Where every thread has a shard of
-    /// its own none helps: one that waits for its helper would begin with a further shard meanwhile, and keep two
-    /// plants. The plants of a plot share the helpers of their shard.
-    fn hands(&self) -> Hands {
-        let plants = (self.plan.shards() * self.plots.scenario().members()) as usize;
-        Hands { threads: (rayon::current_num_threads() / plants.max(1)).max(1), ..Hands::default() }
+    /// The threads that may grow one plant: those for which there is no shard help with the plants of other shards.
+    /// Where every thread has a shard of its own there is no help: a thread that waits for its helper would begin a
+    /// further shard meanwhile, and keep two plants in memory. The plants of a plot share the helpers of their shard.
+    fn budget(&self) -> ThreadBudget {
+        let plants = self.plan.shards() as usize * self.plots.scenario().members() as usize;
+        ThreadBudget { threads: (rayon::current_num_threads() / plants.max(1)).max(1), ..ThreadBudget::default() }
     }
 }
 

@@ -2,23 +2,12 @@
 
 mod program;
 
-use program::{data, program as phytomer, run, said};
+use program::{data, grown, program as phytomer, run, said, write};
 use std::fs;
 use std::path::Path;
-use tempfile::{TempDir, tempdir};
+use tempfile::tempdir;
 
 const VERBS: [&str; 9] = ["init", "grow", "validate", "verify", "describe", "list", "schema", "mesh", "picture"];
-
-/// A folder with a small finished run in `runs/small`.
-fn grown() -> TempDir {
-    let folder = tempdir().unwrap();
-    run(folder.path(), &["grow", &data("small.toml"), "--quiet"]).ending(0);
-    folder
-}
-
-fn write(folder: &Path, name: &str, text: &str) {
-    fs::write(folder.join(name), text).unwrap();
-}
 
 /// A scenario of one fast plant with further lines.
 fn scenario(folder: &Path, lines: &str) {

@@ -9,7 +9,7 @@ mod program;
 use phytomer::config::{Kind, Resolved, presets, validate};
 use phytomer::run::{self, Program, Progress, Settings, seed_of};
 use phytomer::sim::Plot;
-use phytomer::sim::plant::Hands;
+use phytomer::sim::plant::ThreadBudget;
 use program::{data, hashes, run as phytomer};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -38,6 +38,18 @@ fn plants_that_bend_are_the_same_on_any_number_of_threads() {
     assert_eq!(grown[0], grown[2]);
 }
 
+#[test]
+fn parametric_trees_are_the_same_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let grown = ["1", "2", "7"].map(|threads| {
+        phytomer(folder.path(), &["grow", &data("clump.toml"), "--threads", threads, "--name", threads]).ending(0);
+        hashes(&folder.path().join("runs").join(threads))
+    });
+    assert_eq!(grown[0].len(), 5 * 3 + 2, "five tables of three parts, one plant at two ages");
+    assert_eq!(grown[0], grown[1]);
+    assert_eq!(grown[0], grown[2]);
+}
+
 /// One plant, of which so many axes wait that threads without a part of their own help to grow it.
 #[test]
 fn a_single_plant_is_the_same_on_any_number_of_threads() {
@@ -47,7 +59,7 @@ fn a_single_plant_is_the_same_on_any_number_of_threads() {
         hashes(&folder.path().join("runs").join(threads))
     });
     assert_eq!(grown[0].len(), 4, "four tables of one part");
-    assert!(most_waiting("large.toml") >= Hands::default().worth, "axes enough to be shared out");
+    assert!(most_waiting("large.toml") >= ThreadBudget::default().least_axes, "axes enough to be shared out");
     assert_eq!(grown[0], grown[1]);
     assert_eq!(grown[0], grown[2]);
 }

@@ -60,7 +60,8 @@ const PARTS: [(&str, &[Part]); 5] = [
 ];
 
 /// What a file declares by a name.
-const DECLARATIONS: [&str; 8] = ["fn ", "struct ", "enum ", "trait ", "type ", "const ", "static ", "mod "];
+const DECLARATIONS: [&str; 9] =
+    ["fn ", "struct ", "enum ", "trait ", "type ", "const ", "static ", "mod ", "macro_rules! "];
 
 fn read(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))

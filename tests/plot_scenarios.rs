@@ -11,7 +11,7 @@ use phytomer::outputs::pictures::{Picture, draw_stands};
 use phytomer::run::picturing::{Pictured, pictured_plot};
 use phytomer::run::plots::Plots;
 use phytomer::run::regrowth::Regrowth;
-use phytomer::sim::plant::{ApexFate, AxisId, Hands};
+use phytomer::sim::plant::{ApexFate, AxisId, ThreadBudget};
 use phytomer::sim::pose::bud_frame;
 use phytomer::sim::{Tick, grow};
 use program::{data, hashes, program, run};
@@ -69,7 +69,7 @@ fn shipped_text(name: &str) -> String {
 fn buds_die_where_they_reach_the_roof() {
     let roofed = shipped(ROOF);
     let plots = Plots::of(&roofed.scenario, roofed.models());
-    let mut plot = plots.sow(1, Hands::default());
+    let mut plot = plots.sow(1, ThreadBudget::default());
     assert!(plot.plants[0].place[1] != 0.0 || plot.plants[0].place[0] > 5.0, "the roof moves with its plot");
     grow(&mut plot, roofed.scenario.ages.until, &mut ()).unwrap();
     let mut killed = [0, 0];

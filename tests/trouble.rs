@@ -2,21 +2,8 @@
 
 mod program;
 
-use program::{data, run};
+use program::{data, grown, run, write};
 use std::fs;
-use std::path::Path;
-use tempfile::{TempDir, tempdir};
-
-/// A folder with a small finished run in `runs/small`.
-fn grown() -> TempDir {
-    let folder = tempdir().unwrap();
-    run(folder.path(), &["grow", &data("small.toml"), "--quiet"]).ending(0);
-    folder
-}
-
-fn write(folder: &Path, name: &str, text: &str) {
-    fs::write(folder.join(name), text).unwrap();
-}
 
 #[test]
 fn verify_tells_of_each_file_and_resume_mends() {

@@ -9,7 +9,7 @@ use phytomer::models::buds::BudModel;
 use phytomer::models::buds::params::Wood;
 use phytomer::models::fault::Path;
 use phytomer::run::seed_of;
-use phytomer::sim::mechanics::{Bench, Strain, bend};
+use phytomer::sim::mechanics::{Scratch, Strain, bend};
 use phytomer::sim::plant::NodeId;
 use phytomer::sim::pose::pose;
 use phytomer::sim::{Plot, RecordError, Recorder, Tick, grow};
@@ -55,7 +55,7 @@ impl Specimen {
         grow(&mut plot, until, &mut before).expect("nothing is written");
         let plant = &plot.plants[0];
         let stood = (0..plant.nodes.len() as u32).filter(|&node| plant.stands(NodeId(node), until)).count() as u64;
-        let (mut rest, mut bench) = (plot.plants[0].clone(), Bench::default());
+        let (mut rest, mut scratch) = (plot.plants[0].clone(), Scratch::default());
         let mut group = self.group(criterion, "bending (internodes)", Throughput::Elements(stood));
         group.bench_function("the pose at rest (baseline)", |bencher| {
             bencher.iter(|| {
@@ -64,10 +64,10 @@ impl Specimen {
             });
         });
         group.bench_function("one step, in equilibrium", |bencher| {
-            bencher.iter(|| black_box(bend(&mut plot.plants[0], self.until(), &plot.site, &mut bench)));
+            bencher.iter(|| black_box(bend(&mut plot.plants[0], self.until(), &plot.site, &mut scratch)));
         });
         plot.plants[0].strain.clone_from(&before.strain);
-        let tick = bend(&mut plot.plants[0], until, &plot.site, &mut bench);
+        let tick = bend(&mut plot.plants[0], until, &plot.site, &mut scratch);
         assert!(tick.settled, "{tick:?}");
         let plot = RefCell::new(plot);
         let unbend = || plot.borrow_mut().plants[0].strain.clone_from(&before.strain);
@@ -76,7 +76,7 @@ impl Specimen {
                 unbend,
                 |()| {
                     let Plot { plants, site, .. } = &mut *plot.borrow_mut();
-                    black_box(bend(&mut plants[0], self.until(), site, &mut bench))
+                    black_box(bend(&mut plants[0], self.until(), site, &mut scratch))
                 },
                 BatchSize::PerIteration,
             );

@@ -133,7 +133,7 @@ impl<'s> Merge<'s> {
         Entry { key: new.key, key_span: new.key_span, node: self.node(schema, old.node, new.node) }
     }
 
-    /// The schema of a table's key; `None` for a key that nobody knows, whose value is replaced.
+    /// The schema of a table's key; `None` for an unknown key, whose value is replaced.
     fn below(&self, schema: Option<&'s Json>, key: &str) -> Option<&'s Json> {
         let schema = schema?;
         let property = schema.get("properties").and_then(|p| p.get(key));

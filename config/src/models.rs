@@ -89,6 +89,7 @@ registry! {
     Buds: phytomer_models::buds::Buds,
     Gmt1: phytomer_models::geometric::Gmt1,
     Lsystem: phytomer_models::lsystem::D0l,
+    Parametric: phytomer_models::parametric::Tree,
 }
 
 impl ModelName {

@@ -1,4 +1,4 @@
-//! A species: who it is, and its growth model with the model's parameters.
+//! A species: what it is called and where it is known from, and its growth model with the model's parameters.
 //!
 //! In a file the model's keys stand at the top level beside `name` (`[[order]]`, not `[[buds.order]]`): the key `model`
 //! is read first and chooses the schema, so that unknown keys are found as exactly as in a nested table.
@@ -17,7 +17,7 @@ use crate::schema::of_type;
 /// A species, complete: inheritance is resolved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Species {
-    /// Who it is.
+    /// What it is called, and where it is known from.
     pub about: About,
     /// How it grows.
     pub model: Model,

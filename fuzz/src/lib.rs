@@ -1,10 +1,10 @@
 //! What is fuzzed: one function a target, which takes any bytes and must not panic, overflow, hang or ask for much
 //! memory.
 //!
-//! A species and a scenario go the whole way of `phytomer grow`; a mesh is read as a form; a run folder, one of whose
-//! files is replaced, is checked, read and resumed. `fuzz_targets` hands these functions to libFuzzer, and `bin/minute`
-//! runs them on stable over broken copies of what ships (`seeds`, `broken`). Absent: files that are right, which the
-//! tests have.
+//! A species and a scenario go the whole way of `phytomer grow`; a mesh is read as a form, a weather file as its days; a
+//! run folder, one of whose files is replaced, is checked, read and resumed. `fuzz_targets` hands these functions to
+//! libFuzzer, and `bin/minute` runs them on stable over broken copies of what ships (`seeds`, `broken`). Absent: files
+//! that are right, which the tests have.
 
 #![forbid(unsafe_code)]
 
@@ -12,6 +12,8 @@ pub mod broken;
 mod documents;
 pub mod seeds;
 
+#[path = "../../config/weather/tests/answered/mod.rs"]
+mod answered;
 #[path = "../../tests/program/tried.rs"]
 mod tried;
 
@@ -34,13 +36,14 @@ const UNTIL: u32 = 40;
 pub type Target = fn(&[u8]);
 
 /// Every target by its name.
-pub const TARGETS: [(&str, Target); 6] = [
+pub const TARGETS: [(&str, Target); 7] = [
     ("run_folder", run_folder),
     ("species", species),
     ("scenario", scenario),
     ("ply", ply),
     ("obj", obj),
     ("glb", glb),
+    ("weather", weather),
 ];
 
 /// A temporary folder, in memory where there is some: a disk would be waited for at each input.
@@ -115,6 +118,11 @@ pub fn obj(data: &[u8]) {
 /// A GLB as a form.
 pub fn glb(data: &[u8]) {
     form("form.glb", data);
+}
+
+/// A weather file. The first byte tells its format, whether gaps are filled and whether it comes again.
+pub fn weather(data: &[u8]) {
+    answered::answer(data);
 }
 
 fn form(name: &str, data: &[u8]) {

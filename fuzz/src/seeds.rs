@@ -1,9 +1,11 @@
-//! What is broken: the species and scenarios that ship, the good and the bad fixtures of `config`, small meshes, and
-//! the files of a small run.
+//! What is broken: the species and scenarios that ship, the good and the bad fixtures of `config`, small meshes, small
+//! weather files, and the files of a small run.
 //!
 //! Absent: a corpus that grows by coverage, which libFuzzer keeps by itself.
 
+use crate::answered::choice;
 use crate::{RESUMED, SEALED, files_of_a_run};
+use phytomer_weather::Format;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -36,6 +38,7 @@ pub fn of(target: &str) -> Vec<Vec<u8>> {
     match target {
         "run_folder" => of_run_folder(),
         "species" | "scenario" => of_config(target == "scenario"),
+        "weather" => of_weather(),
         ending => of_folder(&project().join("fuzz/seeds"), ending),
     }
 }
@@ -47,6 +50,15 @@ fn of_folder(folder: &Path, ending: &str) -> Vec<Vec<u8>> {
     paths.retain(|path| path.extension().is_some_and(|is| is == ending));
     paths.sort();
     paths.iter().map(|path| fs::read(path).expect("a seed")).collect()
+}
+
+/// The files that the tests of weather have, each by its format.
+fn of_weather() -> Vec<Vec<u8>> {
+    let endings = [("WTH", Format::Dssat), ("AgMIP", Format::Agmip), ("met", Format::Apsim), ("csv", Format::Csv)];
+    let folder = project().join("config/weather/tests/data");
+    let of =
+        |(ending, format)| of_folder(&folder, ending).into_iter().map(move |file| [&[choice(format)], &*file].concat());
+    endings.into_iter().flat_map(of).collect()
 }
 
 /// Scenarios name a species or state ages; all else is a species.

@@ -9,6 +9,7 @@ pub mod contract;
 pub mod geometric;
 pub mod lsystem;
 pub mod parameters;
+pub mod parametric;
 
 pub use phytomer_law as law;
 pub use phytomer_law::fault;

@@ -112,7 +112,7 @@ mod tests {
     use super::*;
     use phytomer_sim::Tick;
     use phytomer_sim::mechanics::{Tissue, Wood};
-    use phytomer_sim::plant::{Habit, Looks, NewAxis, NewNode, NodeId, Plant, Seed, Shape, Trend};
+    use phytomer_sim::plant::{Habit, NewAxis, NewNode, Plant, Seed, Trend};
     use phytomer_sim::pose::pose;
     use std::sync::Arc;
 
@@ -121,27 +121,11 @@ mod tests {
 
     /// One upright internode.
     fn pole(length: f32, diameter: f32) -> Plant {
-        let looks = Looks::of_shape(Shape::Cylinder);
-        let habit = Habit { trends: vec![Trend::STRAIGHT], looks, ..Default::default() };
-        let mut plant =
-            Plant::new(&Seed { plant: 0, run_seed: 1, component_limit: 9, keep_events: false }, Arc::new(habit));
-        let axis = plant.add_axis(NewAxis::OF_THE_SEED);
-        let parent = NodeId::NONE;
-        let (birth, rank, unit_rank, trend, azimuth) = (1, 1, 1, 0, 0.0);
-        let (short, neoformed) = (false, false);
-        plant.add_node(NewNode {
-            parent,
-            axis,
-            birth,
-            rank,
-            unit_rank,
-            short,
-            neoformed,
-            trend,
-            length,
-            diameter,
-            azimuth,
-        });
+        let habit = Habit { trends: vec![Trend::STRAIGHT], ..Habit::default() };
+        let seed = Seed { plant: 0, run_seed: 1, component_limit: 9, keep_events: false };
+        let mut plant = Plant::new(&seed, Arc::new(habit));
+        plant.add_axis(NewAxis::OF_THE_SEED);
+        plant.add_node(NewNode { length, diameter, ..NewNode::OF_THE_TRUNK });
         pose(&mut plant, 1);
         plant
     }

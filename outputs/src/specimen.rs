@@ -7,8 +7,8 @@ use crate::{Mode, Provenance, RunFolder, RunPlan, RunReport, ShardReport, Table}
 use phytomer_sim::mechanics::Wood;
 use phytomer_sim::model::Overgrown;
 use phytomer_sim::plant::{
-    ApexFate, AxisId, Cause, EventKind, Form, Habit, Kind, LineageKey, Looks, NewAxis, NewNode, NewOrgan, NodeId,
-    Origin, Plant, Seed, Shape, Trend, key::Place,
+    ApexFate, AxisId, Cause, EventKind, Habit, Kind, LineageKey, Looks, NewAxis, NewNode, NewOrgan, NodeId, Origin,
+    Plant, Seed, Shape, Trend, key::Place,
 };
 use phytomer_sim::site::View;
 use phytomer_sim::{Ending, Grow, Growth, GrowthModel, NEVER, Plot, Tick, grow};
@@ -32,7 +32,7 @@ impl Grow for Sapling {
 
     fn habit(&self) -> Arc<Habit> {
         let trends = vec![Trend::STRAIGHT];
-        Arc::new(Habit { trends, looks: Looks::of_shape(Shape::Cone), organ_trends: vec![], wood: None })
+        Arc::new(Habit { trends, looks: Looks::of_shape(Shape::Cone), ..Habit::default() })
     }
 
     fn sow(&self, plant: &mut Plant) {
@@ -118,14 +118,12 @@ fn axis(plant: &mut Plant, bearer: Option<NodeId>, tick: Tick) -> AxisId {
         key,
         order: if bearer.is_some() { 2 } else { 1 },
         origin: if bearer.is_some() { Origin::Axillary } else { Origin::Seed },
-        position: 0,
-        follows: false,
-        state: 0,
         appearance: tick,
         birth: tick,
         azimuth: tick as f32,
         insertion: if bearer.is_some() { 1.0 } else { 0.0 },
         shed_after: if bearer.is_some() { 2 } else { NEVER },
+        ..NewAxis::OF_THE_SEED
     })
 }
 
@@ -138,13 +136,11 @@ fn internode(plant: &mut Plant, axis: AxisId, tick: Tick) -> NodeId {
         axis,
         birth: tick,
         rank,
-        unit_rank: 1,
         short: axis != AxisId::TRUNK,
-        neoformed: false,
-        trend: 0,
         length: 0.1 + 0.001 * plant.id as f32,
         diameter: 0.01,
         azimuth: 2.4,
+        ..NewNode::OF_THE_TRUNK
     })
 }
 
@@ -153,16 +149,15 @@ fn organ(plant: &mut Plant, node: NodeId, kind: Kind, birth: Tick, life: Tick) {
     plant.add_organ(NewOrgan {
         node,
         kind,
-        position: 0,
         birth,
         death: birth + life,
         cause: Cause::LifeLength,
-        form: if leaf { Form::Elliptic } else { Form::Corolla },
         length: 0.08,
         width: 0.03,
         area: if leaf { 0.0016 } else { 0.0 },
         azimuth: 2.4,
         insertion: 0.8,
+        ..NewOrgan::LEAF
     });
 }
 

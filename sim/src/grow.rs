@@ -9,7 +9,7 @@
 
 use crate::cells::Claims;
 use crate::clock::Tick;
-use crate::mechanics::{Bench, Thickening, bend, thicken};
+use crate::mechanics::{Scratch, Thickening, bend, thicken};
 use crate::model::{GrowthModel, Life, Overgrown};
 use crate::plant::Plant;
 use crate::plot::{Member, Plot};
@@ -157,19 +157,19 @@ impl Plot<'_> {
 
 thread_local! {
     /// The scratch of mechanics: of the thread, not of the plot, so that a plot of many plants needs no more of it.
-    static SCRATCH: Cell<Bench> = Cell::default();
+    static SCRATCH: Cell<Scratch> = Cell::default();
 }
 
 /// Gives each internode of one plant its diameter and its place at its age `age`: thickens it by its species' rule, and
 /// bends and poses it. Wood that remembers must have stood at each age before.
 pub fn stand(model: &dyn GrowthModel, plant: &mut Plant, age: Tick, site: &Site) {
     // Taken out meanwhile: nothing that may run on this thread in between finds it in use.
-    let mut bench = SCRATCH.take();
-    bench.remember(plant);
+    let mut scratch = SCRATCH.take();
+    scratch.remember(plant);
     match plant.habit.thickening() {
         Thickening::Law => model.thicken(age, plant),
-        rule => thicken(plant, age, rule, &mut bench),
+        rule => thicken(plant, age, rule, &mut scratch),
     }
-    bend(plant, age, site, &mut bench);
-    SCRATCH.set(bench);
+    bend(plant, age, site, &mut scratch);
+    SCRATCH.set(scratch);
 }

@@ -27,7 +27,7 @@ pub enum Purpose {
 /// The words of one ChaCha block.
 const BLOCK: u64 = 16;
 
-/// No block: no stream is that long.
+/// Stands for no block: no stream is that long.
 const NO_BLOCK: u64 = u64::MAX;
 
 /// The source of every draw of one plant.

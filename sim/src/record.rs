@@ -30,7 +30,7 @@ pub trait Recorder {
     fn record(&mut self, tick: Tick, plot: &Plot) -> Result<(), RecordError>;
 }
 
-/// Wants no tick: for callers that look at the plants that are left.
+/// Records nothing: for a caller that reads the plants after their growth.
 impl Recorder for () {
     fn wants(&self, _: Tick) -> bool {
         false

@@ -20,7 +20,7 @@ pub struct Rotation {
 }
 
 impl Rotation {
-    /// What turns nothing.
+    /// The rotation by 0.
     pub const NONE: Self = Self { scalar: 1.0, vector: Vector { x: 0.0, y: 0.0, z: 0.0 } };
 
     /// By `angle`, radians, about an axis by the rule of the right hand; nothing about an axis without direction.
@@ -71,13 +71,13 @@ impl Rotation {
         }
     }
 
-    /// This, and then `next` in the frame that this has made.
+    /// This rotation, then `next` in the frame that this one has made.
     #[inline]
     pub fn then(self, next: Self) -> Self {
         self.within(next.scalar, next.vector)
     }
 
-    /// A vector, turned.
+    /// The vector after this rotation.
     pub fn turned(self, vector: [f64; 3]) -> [f64; 3] {
         let Vector { x, y, z } = self.of(Vector::of(vector));
         [x, y, z]
@@ -132,7 +132,7 @@ impl Rotation {
         direction + across * self.scalar + self.vector.cross(across)
     }
 
-    /// With its length, from which rounding has moved it, back at 1.
+    /// The same rotation, its quaternion of length 1 again after rounding.
     pub(crate) fn normalized(self) -> Self {
         let scale = 1.0 / (self.scalar * self.scalar + self.vector.dot(self.vector)).sqrt();
         Self { scalar: self.scalar * scale, vector: self.vector * scale }

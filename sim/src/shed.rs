@@ -55,7 +55,7 @@ fn drop_branches(plant: &mut Plant) {
 }
 
 /// Notes the falls up to `age` among the plant's events, once it is grown: a branch that falls with the one that bears
-/// it is part of that one's fall, what is cut off does not fall, and a bud that never made a node neither.
+/// it is part of the fall of the latter, what is cut off does not fall, and a bud that never made a node neither.
 pub fn note_falls(plant: &mut Plant, age: Tick) {
     let Some(mut events) = plant.events.take() else {
         return;

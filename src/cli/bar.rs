@@ -1,4 +1,4 @@
-//! The progress bars: drawn on stderr beside the work, with the rate and the time left; none where nobody looks.
+//! The progress bars: drawn on stderr beside the work, with the rate and the time left; none where stderr is no terminal.
 //!
 //! The working threads only raise numbers ([`Progress`], [`Checking`]); a thread of the bar's reads them ten times a
 //! second.

@@ -7,8 +7,8 @@ use super::{Verdict, terminal};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
 use phytomer_config::{ArchitecturalModel, Kind, MODELS, presets, validate, validate_species, woods};
-use phytomer_outputs::tables::columns::PLANT_ONTOLOGY;
-use phytomer_sim::plant::Form;
+use phytomer_looks::FormName;
+use phytomer_sim::plant::Kind as ComponentKind;
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -90,17 +90,20 @@ impl Listed {
             Self::Models => ArchitecturalModel::ALL.map(|model| described(&format!("halle/{}", model.word()))).into(),
             Self::GrowthModels => MODELS.map(|model| entry(model.word(), model.card().about)).into(),
             Self::Woods => woods().iter().map(|wood| entry(&wood.name, &wood.scientific_name)).collect(),
-            Self::Forms => {
-                let named = |form: &Form| Some(entry(form.name()?, form.words()));
-                Form::LIBRARY.iter().filter_map(named).collect()
-            }
-            Self::Kinds => PLANT_ONTOLOGY.iter().map(|(kind, term)| entry(kind.tag(), term)).collect(),
+            Self::Forms => FormName::ALL.map(|form| entry(form.word(), &phrase(form.about()))).into(),
+            Self::Kinds => ComponentKind::ALL.map(|kind| entry(kind.tag(), kind.ontology_term())).into(),
         }
     }
 }
 
 fn entry(name: &str, description: &str) -> Entry {
     Entry { name: name.to_owned(), description: description.to_owned() }
+}
+
+/// A sentence as a phrase: without its capital and its full stop.
+fn phrase(sentence: &str) -> String {
+    let (first, rest) = sentence.split_at(sentence.chars().next().map_or(0, char::len_utf8));
+    first.to_lowercase() + rest.strip_suffix('.').unwrap_or(rest)
 }
 
 fn scenario(name: &str) -> Entry {

@@ -25,7 +25,7 @@ pub fn put_json(value: &impl Serialize) -> Result<()> {
     put(&serde_json::to_string_pretty(value)?)
 }
 
-/// A message for stderr. One that nobody can read is no reason to end.
+/// A message for stderr. A failure to write it does not end the program.
 pub fn say(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }

@@ -6,7 +6,7 @@
 
 use phytomer_config::Scenario;
 use phytomer_config::scenario::{Member, Table};
-use phytomer_sim::plant::{Hands, Seed};
+use phytomer_sim::plant::{Seed, ThreadBudget};
 use phytomer_sim::site::Site;
 use phytomer_sim::{GrowthModel, Plot, Sowing};
 
@@ -38,10 +38,10 @@ impl<'a> Plots<'a> {
     }
 
     /// A plot before its first tick.
-    pub fn sow(&self, plot: u32, hands: Hands) -> Plot<'a> {
+    pub fn sow(&self, plot: u32, budget: ThreadBudget) -> Plot<'a> {
         let mut sown = Plot::new(plot, self.models.clone(), &self.sowings(plot));
         sown.site = self.site(plot);
-        sown.plants.iter_mut().for_each(|plant| plant.hands = hands);
+        sown.plants.iter_mut().for_each(|plant| plant.budget = budget);
         sown
     }
 

@@ -9,9 +9,9 @@
 use super::RunError;
 use super::plots::Plots;
 use phytomer_config::{Resolved, Scenario, Species};
-use phytomer_sim::mechanics::Bench;
+use phytomer_sim::mechanics::Scratch;
 use phytomer_sim::mechanics::sway::sway;
-use phytomer_sim::plant::{Hands, Kind, NodeId, OrganId, Plant};
+use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant, ThreadBudget};
 use phytomer_sim::site::Wind;
 use phytomer_sim::{Ending, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
 use std::borrow::Cow;
@@ -86,7 +86,7 @@ impl<'a> Regrowth<'a> {
     /// # Errors
     /// What `show` says; a plant that comes to its limit before the last of the ticks.
     pub fn show_plot(&self, plot: u32, ticks: &[Tick], show: &mut ShowPlot<'_>) -> Result<(), RunError> {
-        self.show_ticks(self.plots.sow(plot, Hands::default()), self.scenario().ages.until, ticks, show)
+        self.show_ticks(self.plots.sow(plot, ThreadBudget::default()), self.scenario().ages.until, ticks, show)
     }
 
     fn show_ticks(
@@ -152,7 +152,7 @@ impl<'a> Regrowth<'a> {
     fn sown(&self, plant: u32) -> SownPlant<'a> {
         let scenario = self.scenario();
         if self.plots.feed_back() {
-            let plot = self.plots.sow(scenario.plot_of(plant).0, Hands::default());
+            let plot = self.plots.sow(scenario.plot_of(plant).0, ThreadBudget::default());
             return SownPlant { plot, at: scenario.sown_at(plant), until: scenario.ages.until };
         }
         SownPlant { plot: self.plots.sow_alone(plant), at: 0, until: scenario.last_age_of(plant) }
@@ -235,7 +235,7 @@ impl Recorder for ShownTicks<'_, '_> {
             let Some(age) = member.age_at(tick) else { continue };
             let mut plant = Cow::Borrowed(plant);
             if let Some(Air { wind, time }) = self.air {
-                sway(plant.to_mut(), age, &plot.site, wind, time, &mut Bench::default())?;
+                sway(plant.to_mut(), age, &plot.site, wind, time, &mut Scratch::default())?;
             }
             standing.push(Standing { plant, age, species: member.species });
         }

@@ -5,7 +5,7 @@
 use crate::grown::compiled;
 use phytomer_config::{Kind, Model, presets};
 use phytomer_models::buds::{ApicalBud, BudModel, LivingBuds};
-use phytomer_sim::plant::{AxisId, EventKind, Hands, LineageKey, NodeId, OrganId, Seed};
+use phytomer_sim::plant::{AxisId, EventKind, LineageKey, NodeId, OrganId, Seed, ThreadBudget};
 use phytomer_sim::{GrowthModel, Plant, Plot, Tick};
 use std::collections::BTreeMap;
 
@@ -53,7 +53,7 @@ fn by_the_clock(model: &BudModel, until: Tick) -> Plant {
 /// Ahead, its axes shared out among three threads wherever two of them wait.
 fn ahead(model: &BudModel, until: Tick) -> Plant {
     let mut plot = Plot::of_one(model, &seed());
-    plot.plants[0].hands = Hands { threads: 3, worth: 2 };
+    plot.plants[0].budget = ThreadBudget { threads: 3, least_axes: 2 };
     plot.grow_to(until).expect("within the limit");
     plot.plants.remove(0)
 }
@@ -82,7 +82,7 @@ fn facts(plant: &Plant) -> BTreeMap<LineageKey, Facts> {
         let mut of = vec![organs.kind[o] as u32, u32::from(organs.position[o]), organs.birth[o], organs.death[o]];
         of.extend([
             organs.cause[o] as u32,
-            organs.form[o].number() as u32,
+            u32::from(organs.form[o].0),
             organs.length[o].to_bits(),
             organs.width[o].to_bits(),
         ]);

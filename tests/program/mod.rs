@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use tempfile::{TempDir, tempdir};
 
 /// The program, in `folder`, with these words.
 pub fn program(folder: &Path, words: &[&str]) -> Command {
@@ -48,6 +49,18 @@ impl Said {
     pub fn json(&self) -> serde_json::Value {
         serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}\n{}", self.stdout))
     }
+}
+
+/// A folder with a small finished run in `runs/small`.
+pub fn grown() -> TempDir {
+    let folder = tempdir().expect("a temporary folder");
+    run(folder.path(), &["grow", &data("small.toml"), "--quiet"]).ending(0);
+    folder
+}
+
+/// Writes a text file into a folder.
+pub fn write(folder: &Path, name: &str, text: &str) {
+    fs::write(folder.join(name), text).expect("the file is written");
 }
 
 /// A file of the tests' own data.

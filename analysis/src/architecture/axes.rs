@@ -9,7 +9,7 @@
 use super::tolerance::PLAGIOTROPIC_DEG;
 use phytomer_outputs::rows::ComponentRow;
 use phytomer_sim::Tick;
-use phytomer_sim::plant::{Cause, Class, Kind, Origin};
+use phytomer_sim::plant::{Cause, Class, Kind, Origin, PartOfPlant};
 use std::collections::BTreeMap;
 
 /// The share of the nodes of an axis that are its base, and the least number of them.
@@ -145,17 +145,14 @@ fn attach(axes: &mut [Axis], place: usize, bearing: usize) {
     }
 }
 
+/// Whether an axis of such internodes is a flower, an inflorescence or a part of one.
 fn is_of_flower(kind: Kind) -> bool {
-    use Kind::{
-        InflorescenceInternode, PedicelInternode, PetalInternode, ReceptacleInternode, SepalInternode, StamenInternode,
-        StigmaInternode,
-    };
-    matches!(kind, InflorescenceInternode | PedicelInternode | ReceptacleInternode | SepalInternode)
-        || matches!(kind, PetalInternode | StamenInternode | StigmaInternode)
+    kind.class() == Class::Internode && kind.part() == PartOfPlant::Flower
 }
 
+/// Whether an axis of such internodes is a leaf or a part of one.
 fn is_of_leaf(kind: Kind) -> bool {
-    matches!(kind, Kind::PalmInternode | Kind::LeafletInternode)
+    kind.class() == Class::Internode && kind.part() == PartOfPlant::Leaf
 }
 
 fn begun(bud: &ComponentRow) -> Axis {

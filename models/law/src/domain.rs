@@ -2,7 +2,7 @@
 //!
 //! A variable that a law does not use has stride 0, so a constant is one cell. Points outside the range are clamped.
 //! An axis is never older than its plant, so a point with dimension > age cannot occur; it is read as dimension = age.
-//! Absent: what the variables mean and who can know them (`variable`).
+//! Absent: what the variables mean and which laws may ask for them (`variable`).
 
 use super::MAX_CELLS;
 use super::variable::{Asked, Variable};

@@ -1,4 +1,4 @@
-//! The nearest spelling: what somebody most likely meant by a name that nobody knows.
+//! The nearest spelling: the known name that an unknown name most likely means.
 //!
 //! Damerau–Levenshtein distance (a swap of neighbours counts once), with a cut-off of a third of the letters: beyond
 //! that a guess is noise. A missing or wrong unit (`insertion` for `insertion_deg`), or a word half written, is always

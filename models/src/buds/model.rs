@@ -11,7 +11,7 @@ use phytomer_sim::Tick;
 use phytomer_sim::expectation::Expectation;
 use phytomer_sim::mechanics::taper;
 use phytomer_sim::model::{Grow, Growth, Overgrown};
-use phytomer_sim::plant::{ApexFate, AxisId, Habit, Hands, LineageKey, NewAxis, Plant};
+use phytomer_sim::plant::{ApexFate, AxisId, Habit, LineageKey, NewAxis, Plant, ThreadBudget};
 use phytomer_sim::pose::bud_frame;
 use phytomer_sim::site::{Site, View};
 use std::ops::Range;
@@ -98,7 +98,7 @@ impl BudModel {
         while next < plant.axes.len() {
             let waiting = next..plant.axes.len();
             next = waiting.end;
-            living.append(&mut self.grow_waiting(plant, waiting, age, plant.hands)?);
+            living.append(&mut self.grow_waiting(plant, waiting, age, plant.budget)?);
         }
         plant.age = age;
         Ok(())
@@ -137,12 +137,12 @@ impl BudModel {
         plant: &mut Plant,
         waiting: Range<usize>,
         age: Tick,
-        hands: Hands,
+        budget: ThreadBudget,
     ) -> Result<Vec<ApicalBud>, Overgrown> {
-        if !hands.share(waiting.len()) {
+        if !budget.share(waiting.len()) {
             return self.grow_in_turn(plant, waiting, age);
         }
-        let (first, second) = hands.parted();
+        let (first, second) = budget.parted();
         let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
         let middle = middle_of(&plant.axes.birth, waiting.clone(), age);
         let mut fragment = plant.fragment(middle..waiting.end);

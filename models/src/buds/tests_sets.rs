@@ -1,7 +1,7 @@
 //! Lineage keys and leaders of species made to break them: axes that pass from state to state without a node between,
 //! several sets of relays at one node and tick, relays below, reiterations of every kind, forks, many organs on a node.
 //!
-//! Absent: the numbers of places (`sim::plant::key`), and species that nobody made for this (`tests`).
+//! Absent: the numbers of places (`sim::plant::key`), and species that were not made for this test (`tests`).
 
 use super::params::{
     Apex, ApexEnd, Axillary, Flower, Fork, GrowthUnit, Leaf, Reiteration, Relay, Sibling, SpeedText, Speeds,

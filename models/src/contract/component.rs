@@ -136,7 +136,7 @@ fn organ(plant: &Plant, i: usize) -> Component {
             organs.kind[i] as u32,
             organs.position[i].into(),
             organs.cause[i] as u32,
-            organs.form[i].number() as u32,
+            u32::from(organs.form[i].0),
         ],
         measures: bits(&[organs.length[i], organs.width[i], organs.area[i], organs.azimuth[i], organs.insertion[i]]),
     }

@@ -9,7 +9,7 @@ use super::structure::standing;
 use super::{grown, grown_by_the_clock, seed_of, sown};
 use phytomer_sim::clock::{NEVER, Tick};
 use phytomer_sim::model::{Growth, GrowthModel, Overgrown};
-use phytomer_sim::plant::{Hands, NodeId, Plant, Seed};
+use phytomer_sim::plant::{NodeId, Plant, Seed, ThreadBudget};
 use phytomer_sim::plot::{Plot, Sowing};
 
 /// Growing ahead to `until` equals growing tick by tick, component for component and event for event; a model that
@@ -163,7 +163,7 @@ pub fn memory_is_forgotten(model: &dyn GrowthModel, until: Tick, seed: u64) {
 pub fn hands_leave_no_trace(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
     let legs = |threads: usize, ages: &[Tick], component_limit: u32| {
         let mut plot = sown(model, &Seed { component_limit, ..seed.clone() });
-        plot.plants[0].hands = Hands { threads, worth: 2 };
+        plot.plants[0].budget = ThreadBudget { threads, least_axes: 2 };
         let done = ages.iter().try_for_each(|&age| plot.grow_to(age));
         (plot, done)
     };

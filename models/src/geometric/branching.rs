@@ -17,7 +17,7 @@ const VERTICAL: f64 = 1e-12;
 /// x_i − x_B = R_i (u cos h_i − S T v sin h_i), y_i − y_B = R_i (v cos h_i + S T u sin h_i) and
 /// z_i − z_B = R_i w cos h_i where the `deviation` is 0: the child lies in the maximal gradient plane, which holds the
 /// mother and the horizontal across her. A deviation of δ turns that plane by δ about the mother, counter-clockwise
-/// for who looks back from her tip. `angle` is h_i and, as the deviation, in radians; `ratio` is R_i.
+/// seen from her tip backwards. `angle` is h_i and, as the deviation, in radians; `ratio` is R_i.
 pub fn child(mother: [f64; 3], ratio: f64, angle: f64, deviation: f64) -> [f64; 3] {
     let t = length(mother);
     let across = turned(left_of(mother), mother.map(|x| x / t), deviation);

@@ -31,8 +31,7 @@ impl Gmt1Model {
             habit: Arc::new(Habit {
                 trends: vec![Trend::STRAIGHT],
                 looks: Looks::of_shape(Shape::Cylinder),
-                organ_trends: vec![],
-                wood: None,
+                ..Habit::default()
             }),
         }
     }

@@ -130,7 +130,7 @@ pub(super) fn birth(level: u32) -> Tick {
 }
 
 /// The axis that a child begins. Its azimuth counts from the horizontal on the right of its mother, counter-clockwise
-/// for who looks back from her tip: on an upright trunk from +x, where the pose's azimuths begin too.
+/// seen from her tip backwards: on an upright trunk from +x, where the pose's azimuths begin too.
 fn new_axis(mother: &Branch, way: &Child, turn_deg: f64, level: u32, plant: &mut Plant) -> AxisId {
     let bearing = mother.axis.index();
     let opposite = if way.angle_deg < 0.0 { 0.0 } else { 180.0 };

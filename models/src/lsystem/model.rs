@@ -29,7 +29,7 @@ impl D0lModel {
     pub(super) fn new(rules: Rules, sizes: &[[f64; 2]], angle: f64) -> Self {
         let size = |[length, diameter]: &[f64; 2]| Size { length: *length as f32, diameter: (diameter * 0.001) as f32 };
         let looks = Looks::of_shape(Shape::Cylinder);
-        let habit = Habit { trends: vec![Trend::STRAIGHT], looks, organ_trends: vec![], wood: None };
+        let habit = Habit { trends: vec![Trend::STRAIGHT], looks, ..Habit::default() };
         Self { rules, sizes: sizes.iter().map(size).collect(), angle: angle as f32, habit: Arc::new(habit) }
     }
 }

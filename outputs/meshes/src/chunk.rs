@@ -9,6 +9,9 @@ use std::io;
 
 type Word = [u8; 4];
 
+/// The most vertices that 32-bit signed indices reach.
+pub const MOST_VERTICES: u64 = i32::MAX as u64;
+
 /// A vertex as it stands in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]

@@ -7,7 +7,7 @@
 //! Several plants stand as they do in the plot, told from the seed of the first, whose place is in the comments. Single
 //! precision holds them as far as they stand apart: to 0.06 mm at a kilometre. A file for each plant has no such bound.
 
-use super::chunk::{Chunk, Face, Vertex};
+use super::chunk::{Chunk, Face, MOST_VERTICES, Vertex};
 use super::ply::{header_of, in_words, place_comment};
 use super::{About, Counts, Scene};
 use std::fs::{self, File};
@@ -16,9 +16,6 @@ use std::path::{Path, PathBuf};
 
 /// The bytes that are kept for the header; what it leaves is filled with a comment.
 const HEADER: usize = 1024;
-
-/// The most vertices that 32-bit signed indices reach.
-const MOST_VERTICES: u64 = i32::MAX as u64;
 
 /// A PLY file that scenes are added to.
 #[derive(Debug)]

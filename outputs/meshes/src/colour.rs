@@ -1,12 +1,14 @@
-//! The colour of each component: by kind, by form, by order, by age and by season (de Reffye 1988 §6: one to a form).
+//! The colour of each component: by kind, form, order, age and season (de Reffye 1988 §6 gives each form a colour).
 //!
 //! Wood goes from the green of the shoot to brown and darkens; dead wood turns grey. Leaves darken as they grow old and
-//! turn before they fall with the season, fruits ripen by way of a third colour. What a species states holds; the rest
-//! is a palette by kind and form, by eye: nothing is measured from it. Every picture takes its colours from here.
+//! turn before they fall with the season, fruits ripen by way of a third colour. A colour
+//! that the species states holds; where it states none, the palette has one by kind and form. Every picture takes its
+//! colours from here.
 
 use super::palette::{self, Rgb};
+use phytomer_looks::{Bark, Colour, Paints};
 use phytomer_sim::clock::{NEVER, Tick};
-use phytomer_sim::plant::{Cause, Class, Colour, InternodeLook, OrganId, OrganLook, Plant};
+use phytomer_sim::plant::{Cause, Class, Kind, OrganId, PaintNumber, Plant};
 
 const DEAD_WOOD: Rgb = [150.0, 145.0, 138.0];
 /// The share of that colour in dead wood.
@@ -19,11 +21,10 @@ const BARK_DARKENS: Tick = 20;
 /// The ticks in which an organ without a life length is half old.
 const AGES: Tick = 4;
 
-/// The colour of an internode that is `old` ticks old.
+/// The colour of an internode of a kind that is `old` ticks old.
 #[inline]
-pub fn wood(look: &InternodeLook, old: Tick, dead: bool) -> [u8; 4] {
-    let [shoot, young, grown] = palette::wood(look.kind);
-    let bark = &look.bark;
+pub fn wood(kind: Kind, bark: &Bark, old: Tick, dead: bool) -> [u8; 4] {
+    let [shoot, young, grown] = palette::wood(kind);
     let darkens = half_way(old, bark.darkens_in.unwrap_or(BARK_DARKENS));
     let forms = half_way(old, bark.forms_in.unwrap_or(BARK_FORMS));
     let wood =
@@ -37,13 +38,12 @@ pub fn wood(look: &InternodeLook, old: Tick, dead: bool) -> [u8; 4] {
 
 /// The colours of an organ and of its stalk, `age` ticks after the seed.
 #[inline]
-pub fn organ(plant: &Plant, organ: OrganId, age: Tick) -> [[u8; 4]; 2] {
+pub fn organ(plant: &Plant, paints: &Paints, organ: OrganId, age: Tick) -> [[u8; 4]; 2] {
     let organs = &plant.organs;
     let place = organ.index();
     let (kind, form) = (organs.kind[place], organs.form[place]);
     let tints = palette::organ(kind, form);
-    let silent = OrganLook::default();
-    let look = plant.look_of_organ(organ).unwrap_or(&silent);
+    let look = paints.organ(plant.look_of_organ(organ).map_or(PaintNumber::NONE, |look| look.paint));
     let [young, old] = [stated(look.young, tints.young), stated(look.old, tints.old)];
     // Between two stated colours there is no third of the palette's.
     let turning = look.turning.map(rgb).or(tints.turning.filter(|_| look.young.is_none() || look.old.is_none()));
@@ -96,10 +96,8 @@ fn opaque(colour: Rgb) -> [u8; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use phytomer_sim::plant::{
-        Bark, Form, Habit, InternodeLook, Kind, Looks, NewAxis, NewNode, NewOrgan, NodeId, OrganLooks, Seed, Shape,
-        Trend,
-    };
+    use phytomer_looks::{FormName, OrganPaint, own_form};
+    use phytomer_sim::plant::{Habit, Looks, NewAxis, NewNode, NewOrgan, OrganLook, OrganLooks, Seed, Shape, Trend};
     use std::sync::Arc;
 
     const A: Colour = [200, 100, 0];
@@ -125,99 +123,89 @@ mod tests {
             forms_in: Some(3),
             darkens_in: Some(7),
         };
-        let look = InternodeLook { bark, ..InternodeLook::of_shape(Shape::Cone) };
+        let wood = |bark: &Bark, old, dead| wood(Kind::Internode, bark, old, dead);
         for old in [0, 1, 3, 12, 400] {
             let share = f64::from(old) / (f64::from(old) + 3.0);
-            assert!(near(wood(&look, old, false), between(A, B, share)), "{old}");
+            assert!(near(wood(&bark, old, false), between(A, B, share)), "{old}");
         }
-        assert_eq!(wood(&look, 5, true), [0, 0, 250, 255]);
-        let darkening = InternodeLook { bark: Bark { old: Some(C), forms_in: Some(0), ..bark }, ..look };
+        assert_eq!(wood(&bark, 5, true), [0, 0, 250, 255]);
+        let darkening = Bark { old: Some(C), forms_in: Some(0), ..bark };
         assert!(near(wood(&darkening, 0, false), A) && near(wood(&darkening, 7, false), between(B, C, 0.5)));
     }
 
     /// A plant of one node with an organ that lives from 10 to `death`.
-    fn bearing(kind: Kind, form: Form, death: Tick, cause: Cause, looks: OrganLooks) -> Plant {
+    fn bearing(kind: Kind, form: FormName, death: Tick, cause: Cause, paint: OrganPaint) -> Plant {
+        let mut paints = Paints::default();
+        let look = OrganLook { paint: paints.add_organ(paint), ..OrganLook::default() };
+        let looks = OrganLooks { leaf: look.clone(), flower: look.clone(), fruit: look };
         let looks = Looks { organs: vec![looks], ..Looks::of_shape(Shape::Cone) };
-        let habit = Habit { trends: vec![Trend::STRAIGHT], looks, organ_trends: vec![], wood: None };
+        let for_drawing = paints.into_habit();
+        let habit = Habit { trends: vec![Trend::STRAIGHT], looks, for_drawing, ..Habit::default() };
         let seed = Seed { plant: 0, run_seed: 1, component_limit: 9, keep_events: false };
         let mut plant = Plant::new(&seed, Arc::new(habit));
         let axis = plant.add_axis(NewAxis::OF_THE_SEED);
-        let node = plant.add_node(NewNode {
-            parent: NodeId::NONE,
-            axis,
-            birth: 1,
-            rank: 1,
-            unit_rank: 1,
-            short: false,
-            neoformed: false,
-            trend: 0,
-            length: 0.1,
-            diameter: 0.01,
-            azimuth: 0.0,
-        });
+        let node = plant.add_node(NewNode { axis, length: 0.1, diameter: 0.01, ..NewNode::OF_THE_TRUNK });
         plant.add_organ(NewOrgan {
             node,
             kind,
-            position: 0,
             birth: 10,
             death,
             cause,
-            form,
+            form: form.form(),
             length: 0.1,
             width: 0.1,
-            area: 0.0,
-            azimuth: 0.0,
             insertion: 1.0,
+            ..NewOrgan::LEAF
         });
         plant
     }
 
+    /// The colours of its organ and of the organ's stalk.
+    fn coloured(plant: &Plant, age: Tick) -> [[u8; 4]; 2] {
+        organ(plant, Paints::of(&plant.habit), OrganId(0), age)
+    }
+
     #[test]
     fn leaves_turn_before_the_season_takes_them() {
-        let look = OrganLook {
+        let paint = OrganPaint {
             young: Some(A),
             old: Some(A),
             autumn: Some(B),
             stalk: Some(C),
             turns_in: 4,
-            ..OrganLook::default()
+            ..OrganPaint::default()
         };
-        let looks = OrganLooks { leaf: look, ..OrganLooks::default() };
-        let plant = bearing(Kind::Leaf, Form::Elliptic, 20, Cause::Season, looks.clone());
+        let plant = bearing(Kind::Leaf, FormName::Elliptic, 20, Cause::Season, paint);
         for (age, share) in [(10, 0.0), (15, 0.0), (16, 0.25), (17, 0.5), (18, 0.75), (19, 1.0)] {
-            let [blade, stalk] = organ(&plant, OrganId(0), age);
+            let [blade, stalk] = coloured(&plant, age);
             assert!(near(blade, between(A, B, share)) && stalk == [0, 0, 250, 255], "{age}");
         }
-        let aged = bearing(Kind::Leaf, Form::Elliptic, 20, Cause::LifeLength, looks);
-        assert!(near(organ(&aged, OrganId(0), 19)[0], A), "only the season turns them");
+        let aged = bearing(Kind::Leaf, FormName::Elliptic, 20, Cause::LifeLength, paint);
+        assert!(near(coloured(&aged, 19)[0], A), "only the season turns them");
         assert_eq!(turned(1, 0), 0.0);
     }
 
     #[test]
     fn fruits_ripen_by_way_of_a_third_colour() {
-        let look = OrganLook { young: Some(A), turning: Some(B), old: Some(C), ..OrganLook::default() };
-        let looks = |look: &OrganLook| OrganLooks { fruit: look.clone(), ..OrganLooks::default() };
-        let plant = bearing(Kind::Fruit, Form::Berry, 30, Cause::LifeLength, looks(&look));
+        let paint = OrganPaint { young: Some(A), turning: Some(B), old: Some(C), ..OrganPaint::default() };
+        let plant = bearing(Kind::Fruit, FormName::Berry, 30, Cause::LifeLength, paint);
         for (age, expected) in
             [(10, A), (15, between(A, B, 0.5)), (20, B), (25, between(B, C, 0.5)), (29, between(B, C, 0.9))]
         {
-            assert!(near(organ(&plant, OrganId(0), age)[0], expected), "{age}");
+            assert!(near(coloured(&plant, age)[0], expected), "{age}");
         }
-        let direct = OrganLook { turning: None, ..look };
-        let plant = bearing(Kind::Fruit, Form::Berry, 30, Cause::LifeLength, looks(&direct));
-        assert!(
-            near(organ(&plant, OrganId(0), 20)[0], between(A, C, 0.5)),
-            "no third colour between two that are stated"
-        );
-        let silent = bearing(Kind::Fruit, Form::Berry, NEVER, Cause::None, OrganLooks::default());
-        assert!(near(organ(&silent, OrganId(0), 14)[0], [214, 158, 52]), "half old after 4 ticks");
+        let direct = OrganPaint { turning: None, ..paint };
+        let plant = bearing(Kind::Fruit, FormName::Berry, 30, Cause::LifeLength, direct);
+        assert!(near(coloured(&plant, 20)[0], between(A, C, 0.5)), "no third colour between two that are stated");
+        let silent = bearing(Kind::Fruit, FormName::Berry, NEVER, Cause::None, OrganPaint::default());
+        assert!(near(coloured(&silent, 14)[0], [214, 158, 52]), "half old after 4 ticks");
     }
 
     #[test]
     fn every_kind_and_form_has_a_colour() {
         for kind in Kind::ALL {
             assert!(palette::wood(kind).iter().flatten().all(|x| (0.0..=255.0).contains(x)));
-            for form in Form::LIBRARY {
+            for form in FormName::ALL.map(FormName::form).into_iter().chain([own_form(0)]) {
                 let tints = palette::organ(kind, form);
                 let all = [tints.young, tints.old, tints.autumn, tints.stalk, tints.turning.unwrap_or(tints.old)];
                 assert!(all.iter().flatten().all(|x| (0.0..=255.0).contains(x)), "{kind:?} {form:?}");

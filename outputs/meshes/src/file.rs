@@ -1,19 +1,15 @@
 //! Mesh files of a run: `meshes/plant-00000_age-0010.ply`, one a plant and age.
 //!
 //! A file is written beside its final name as `….tmp`, synced and renamed, so that a name never stands for half a mesh.
-//! The recorder keeps a list of what it has written; the run folder enters it in its journal.
+//! Absent: which plants at which ages, which a run decides, and the journal of a run folder that names the files.
 
+use super::chunk::MOST_VERTICES;
 use super::{Counts, MeshOptions, MeshWriter, Scene};
-use phytomer_sim::Plot;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::Plant;
-use phytomer_sim::record::{RecordError, Recorder};
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
-
-/// The most vertices that 32-bit signed indices reach.
-const MOST_VERTICES: u64 = i32::MAX as u64;
 
 /// Why a mesh was not written.
 #[derive(Debug, thiserror::Error)]
@@ -93,54 +89,4 @@ pub fn write_mesh(
 fn failed(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> MeshError {
     let path = path.to_path_buf();
     move |source| MeshError::Io { doing, path, source }
-}
-
-/// Writes the meshes of the plants of each plot at chosen ages.
-#[derive(Debug)]
-pub struct MeshRecorder<W> {
-    writer: W,
-    folder: PathBuf,
-    ages: Vec<Tick>,
-    run_seed: u64,
-    options: MeshOptions,
-    written: Vec<MeshFile>,
-}
-
-impl<W: MeshWriter> MeshRecorder<W> {
-    /// Meshes at `ages` into `folder`, which is made where it is missing.
-    ///
-    /// # Errors
-    /// [`MeshError::Io`] where the folder cannot be made.
-    pub fn new(
-        writer: W,
-        folder: &Path,
-        ages: &[Tick],
-        run_seed: u64,
-        options: MeshOptions,
-    ) -> Result<Self, MeshError> {
-        fs::create_dir_all(folder).map_err(failed("create", folder))?;
-        Ok(Self { writer, folder: folder.into(), ages: ages.into(), run_seed, options, written: Vec::new() })
-    }
-
-    /// The files written since the last call, in the order of writing.
-    pub fn take_written(&mut self) -> Vec<MeshFile> {
-        std::mem::take(&mut self.written)
-    }
-}
-
-impl<W: MeshWriter> Recorder for MeshRecorder<W> {
-    fn wants(&self, age: Tick) -> bool {
-        self.ages.contains(&age)
-    }
-
-    fn record(&mut self, age: Tick, plot: &Plot) -> Result<(), RecordError> {
-        if !self.wants(age) {
-            return Ok(());
-        }
-        for plant in &plot.plants {
-            let file = write_mesh(&self.writer, plant, age, self.run_seed, &self.options, &self.folder)?;
-            self.written.push(file);
-        }
-        Ok(())
-    }
 }

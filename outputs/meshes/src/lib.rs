@@ -27,12 +27,13 @@ mod tube;
 
 pub use chunk::{Chunk, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
-pub use file::{MeshError, MeshFile, MeshRecorder, write_mesh};
+pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
 pub use plot::{PlotBody, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use scene::{Counts, Scene};
 
+use phytomer_looks::place_of_own;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{Form, Kind, Plant};
 use std::io::{self, Write};
@@ -53,10 +54,7 @@ impl MeshOptions {
     /// The shape of a form.
     #[inline]
     pub(crate) fn shape(&self, form: Form) -> &forms::FormMesh {
-        match form {
-            Form::Own(place) => self.own.shape(place).unwrap_or_else(|| forms::shape(form)),
-            form => forms::shape(form),
-        }
+        place_of_own(form).and_then(|place| self.own.shape(place)).unwrap_or_else(|| forms::shape(form))
     }
 }
 

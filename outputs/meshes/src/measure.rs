@@ -1,4 +1,7 @@
 //! Measures of a mesh, for tests: closedness, area, signed volume, normals.
+//!
+//! They read vertices and triangles as a file has them, and know nothing of the plant. Absent: bounds, which are the
+//! tests'.
 
 use super::chunk::{Face, Vertex};
 use std::collections::BTreeMap;

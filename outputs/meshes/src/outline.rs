@@ -1,7 +1,7 @@
 //! Organs that state their outline: the polygon in its plane, in triangles, concave ones too.
 //!
-//! The corners are the vertices, in their order, and the side from which they go counterclockwise is the one that is
-//! seen. They grow from the organ's base as the organ expands. The triangles are found once a scene.
+//! The corners are the vertices, in their order. The upper side is that from which they run counterclockwise. The
+//! polygon grows from the organ's base as the organ expands. Its triangles are found once a scene.
 
 use super::chunk::{Tag, Vertex};
 use super::forms::own::polygon::triangles;

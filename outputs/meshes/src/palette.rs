@@ -1,7 +1,9 @@
-//! The colours of what states none: by kind, and by form where a kind is drawn in several.
+//! The colours of components for which their species states none: by kind, and by form where a kind has several.
 //!
-//! By eye, after fresh plants in daylight; sRGB. Absent: how colours change with age and season (`colour`).
+//! They are chosen by eye, after fresh plants in daylight, in sRGB; nothing is measured from them. Absent: how colours
+//! change with age and season (`colour`).
 
+use phytomer_looks::FormName as Name;
 use phytomer_sim::plant::{Class, Form, Kind};
 
 /// Red, green and blue, 0 to 255.
@@ -12,7 +14,7 @@ pub type Rgb = [f32; 3];
 pub struct Tints {
     /// At birth.
     pub young: Rgb,
-    /// Half-way, where it turns twice.
+    /// In the middle of its life, where it turns twice.
     pub turning: Option<Rgb>,
     /// At the end.
     pub old: Rgb,
@@ -47,8 +49,9 @@ pub fn wood(kind: Kind) -> [Rgb; 3] {
     }
 }
 
-/// The colours of an organ.
+/// The colours of an organ; of one with a mesh of the user's, those of a form without colours of its own.
 pub fn organ(kind: Kind, form: Form) -> Tints {
+    let form = Name::of(form);
     match kind.class() {
         Class::Leaf => leaf(kind, form),
         Class::Fruit => fruit(kind, form),
@@ -60,7 +63,7 @@ fn even(young: Rgb, old: Rgb) -> Tints {
     Tints { young, turning: None, old, autumn: GOLD, stalk: STALK }
 }
 
-fn leaf(kind: Kind, form: Form) -> Tints {
+fn leaf(kind: Kind, form: Option<Name>) -> Tints {
     match kind {
         Kind::Bract => even([134.0, 160.0, 84.0], [150.0, 140.0, 84.0]),
         Kind::ScaleLeaf => even([196.0, 180.0, 132.0], [150.0, 122.0, 84.0]),
@@ -73,46 +76,46 @@ fn leaf(kind: Kind, form: Form) -> Tints {
     }
 }
 
-fn blade(form: Form) -> Tints {
+fn blade(form: Option<Name>) -> Tints {
     match form {
-        Form::Needle | Form::Scale | Form::Spray | Form::Tuft => {
+        Some(Name::Needle | Name::Scale | Name::Spray | Name::Tuft) => {
             Tints { autumn: [206.0, 170.0, 78.0], ..even([74.0, 112.0, 66.0], [44.0, 78.0, 52.0]) }
         }
-        Form::Fascicle => Tints { autumn: [206.0, 170.0, 78.0], ..even([96.0, 128.0, 82.0], [62.0, 94.0, 68.0]) },
-        Form::Palm | Form::Leaflet => even([104.0, 144.0, 62.0], [86.0, 116.0, 54.0]),
-        Form::Deltoid => even([122.0, 164.0, 66.0], [84.0, 130.0, 50.0]),
-        Form::Arching | Form::Linear => even([126.0, 170.0, 74.0], [92.0, 136.0, 58.0]),
-        Form::Paddle => even([136.0, 182.0, 72.0], [86.0, 138.0, 54.0]),
-        Form::Palmate => Tints { autumn: [206.0, 92.0, 44.0], ..even([108.0, 160.0, 62.0], [62.0, 112.0, 46.0]) },
+        Some(Name::Fascicle) => Tints { autumn: [206.0, 170.0, 78.0], ..even([96.0, 128.0, 82.0], [62.0, 94.0, 68.0]) },
+        Some(Name::Palm | Name::Leaflet) => even([104.0, 144.0, 62.0], [86.0, 116.0, 54.0]),
+        Some(Name::Deltoid) => even([122.0, 164.0, 66.0], [84.0, 130.0, 50.0]),
+        Some(Name::Arching | Name::Linear) => even([126.0, 170.0, 74.0], [92.0, 136.0, 58.0]),
+        Some(Name::Paddle) => even([136.0, 182.0, 72.0], [86.0, 138.0, 54.0]),
+        Some(Name::Palmate) => Tints { autumn: [206.0, 92.0, 44.0], ..even([108.0, 160.0, 62.0], [62.0, 112.0, 46.0]) },
         _ => even([92.0, 148.0, 56.0], [46.0, 98.0, 42.0]),
     }
 }
 
-fn flower(kind: Kind, form: Form) -> Tints {
+fn flower(kind: Kind, form: Option<Name>) -> Tints {
     match (kind, form) {
-        (_, Form::Cone) => even([104.0, 118.0, 62.0], [104.0, 118.0, 62.0]),
-        (_, Form::Panicle) => {
+        (_, Some(Name::Cone)) => even([104.0, 118.0, 62.0], [104.0, 118.0, 62.0]),
+        (_, Some(Name::Panicle)) => {
             Tints { stalk: [170.0, 140.0, 92.0], ..even([222.0, 206.0, 150.0], [196.0, 150.0, 104.0]) }
         }
-        (_, Form::Catkin) => even([190.0, 188.0, 96.0], [176.0, 150.0, 88.0]),
-        (Kind::Spikelet, _) | (_, Form::Spikelet) => even([154.0, 172.0, 104.0], [198.0, 180.0, 124.0]),
-        (_, Form::Rosette) => Tints { stalk: [176.0, 178.0, 84.0], ..even(PETAL, PETAL) },
-        (_, Form::Stamen | Form::Pistil) => even(POLLEN, POLLEN),
+        (_, Some(Name::Catkin)) => even([190.0, 188.0, 96.0], [176.0, 150.0, 88.0]),
+        (Kind::Spikelet, _) | (_, Some(Name::Spikelet)) => even([154.0, 172.0, 104.0], [198.0, 180.0, 124.0]),
+        (_, Some(Name::Rosette)) => Tints { stalk: [176.0, 178.0, 84.0], ..even(PETAL, PETAL) },
+        (_, Some(Name::Stamen | Name::Pistil)) => even(POLLEN, POLLEN),
         _ => even(PETAL, PETAL),
     }
 }
 
-fn fruit(kind: Kind, form: Form) -> Tints {
+fn fruit(kind: Kind, form: Option<Name>) -> Tints {
     let three = |young, turning, old| Tints { turning: Some(turning), ..even(young, old) };
     match form {
-        _ if kind == Kind::Strobilus || form == Form::Cone => even([104.0, 118.0, 62.0], [122.0, 84.0, 50.0]),
-        Form::Cherry => three([128.0, 162.0, 66.0], [228.0, 150.0, 76.0], [150.0, 18.0, 34.0]),
-        Form::Apple => three([128.0, 164.0, 70.0], [188.0, 176.0, 72.0], [194.0, 48.0, 42.0]),
-        Form::Capsule => three([104.0, 142.0, 70.0], [130.0, 136.0, 78.0], [138.0, 106.0, 70.0]),
-        Form::Nut => three([124.0, 150.0, 72.0], [152.0, 132.0, 70.0], [142.0, 96.0, 54.0]),
-        Form::Drupe => three([132.0, 154.0, 62.0], [210.0, 160.0, 60.0], [142.0, 78.0, 40.0]),
-        Form::Finger => three([98.0, 146.0, 58.0], [132.0, 164.0, 60.0], [230.0, 198.0, 60.0]),
-        Form::Pod => three([112.0, 152.0, 70.0], [152.0, 150.0, 80.0], [122.0, 94.0, 60.0]),
+        _ if kind == Kind::Strobilus || form == Some(Name::Cone) => even([104.0, 118.0, 62.0], [122.0, 84.0, 50.0]),
+        Some(Name::Cherry) => three([128.0, 162.0, 66.0], [228.0, 150.0, 76.0], [150.0, 18.0, 34.0]),
+        Some(Name::Apple) => three([128.0, 164.0, 70.0], [188.0, 176.0, 72.0], [194.0, 48.0, 42.0]),
+        Some(Name::Capsule) => three([104.0, 142.0, 70.0], [130.0, 136.0, 78.0], [138.0, 106.0, 70.0]),
+        Some(Name::Nut) => three([124.0, 150.0, 72.0], [152.0, 132.0, 70.0], [142.0, 96.0, 54.0]),
+        Some(Name::Drupe) => three([132.0, 154.0, 62.0], [210.0, 160.0, 60.0], [142.0, 78.0, 40.0]),
+        Some(Name::Finger) => three([98.0, 146.0, 58.0], [132.0, 164.0, 60.0], [230.0, 198.0, 60.0]),
+        Some(Name::Pod) => three([112.0, 152.0, 70.0], [152.0, 150.0, 80.0], [122.0, 94.0, 60.0]),
         _ => three([116.0, 150.0, 58.0], [214.0, 158.0, 52.0], [186.0, 34.0, 38.0]),
     }
 }

@@ -176,16 +176,21 @@ mod tests {
         let size = counts.vertices as usize * Vertex::BYTES;
         let (_, home) = payload(&alone);
         assert_eq!(bytes[..size], home[..size]);
-        let vertices = |bytes: &[u8]| bytemuck::cast_slice::<u8, Vertex>(bytes).to_vec();
+        let vertices = |bytes: &[u8]| -> Vec<Vertex> { read(bytes) };
         let (moved, first) = (vertices(&bytes[size..2 * size]), vertices(&home[..size]));
         for (moved, home) in moved.iter().zip(&first) {
             let [x, y, z] = home.position().map(f64::from);
             assert_eq!(moved.position(), [(x + 3.0) as f32, (y - 2.0) as f32, (z + 0.25) as f32]);
             assert_eq!((moved.normal(), moved.tag()), (home.normal(), home.tag()));
         }
-        let faces: &[Face] = bytemuck::cast_slice(&bytes[3 * size..]);
+        let faces: Vec<Face> = read(&bytes[3 * size..]);
         assert_eq!(faces.len() as u64, 3 * counts.faces);
         let last = faces.iter().flat_map(Face::indices).max();
         assert_eq!(last, Some(3 * counts.vertices as u32 - 1));
+    }
+
+    /// Packed entries of a file, wherever they lie in memory.
+    fn read<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
+        bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
     }
 }

@@ -12,6 +12,7 @@ use super::outline::{self, Outlines};
 use super::tube::{Frustum, Strip, Tube};
 use super::{About, Mesh, colour};
 use bytemuck::Zeroable;
+use phytomer_looks::Paints;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{AxisId, InternodeLook, NodeId, OrganId, Plant, Shape as Stem};
 use phytomer_sim::pose::{Frame, organ_frame, stated_organ_frame};
@@ -41,7 +42,8 @@ pub struct Scene<'a> {
     plant: &'a Plant,
     age: Tick,
     options: MeshOptions,
-    /// How internodes are drawn, by the place of their look in the habit's; at the end those of none.
+    paints: &'a Paints,
+    /// How internodes are drawn, by the place of their look in the habit's; the last entry is for those without a look.
     stems: Vec<Drawn>,
     /// The triangles of organs that fill polygons.
     outlines: Outlines,
@@ -82,11 +84,12 @@ enum Drawn {
 }
 
 impl Drawn {
-    fn of(look: &InternodeLook, options: &MeshOptions) -> Self {
-        match (look.form, look.shape) {
+    fn of(look: &InternodeLook, paints: &Paints, options: &MeshOptions) -> Self {
+        let paint = paints.internode(look.paint);
+        match (paint.form, look.shape) {
             (Some(form), _) => Self::Form(options.shape(form).clone()),
             (None, Stem::Blade) => Self::Strip,
-            (None, Stem::Cylinder | Stem::Cone) => Self::Tube(Tube::new(look.sides.unwrap_or(options.sides))),
+            (None, Stem::Cylinder | Stem::Cone) => Self::Tube(Tube::new(paint.sides.unwrap_or(options.sides))),
         }
     }
 
@@ -111,9 +114,10 @@ impl<'a> Scene<'a> {
     /// What stands of `plant` at `age`; its frames and diameters must be those of that age.
     pub fn new(plant: &'a Plant, age: Tick, options: &MeshOptions) -> Self {
         let looks = plant.habit.looks.internodes.iter().chain(&plant.habit.looks.apart);
-        let mut stems: Vec<Drawn> = looks.map(|look| Drawn::of(look, options)).collect();
+        let paints = Paints::of(&plant.habit);
+        let mut stems: Vec<Drawn> = looks.map(|look| Drawn::of(look, paints, options)).collect();
         stems.push(Drawn::Tube(Tube::new(options.sides)));
-        Self { plant, age, options: options.clone(), stems, outlines: Outlines::of(plant) }
+        Self { plant, age, options: options.clone(), paints, stems, outlines: Outlines::of(plant) }
     }
 
     /// The age of the plant.
@@ -320,7 +324,12 @@ impl<'a> Scene<'a> {
         let node = node.index();
         let dead = death <= self.age;
         Tag {
-            colour: colour::wood(look, self.age - nodes.birth[node], dead),
+            colour: colour::wood(
+                look.kind,
+                &self.paints.internode(look.paint).bark,
+                self.age - nodes.birth[node],
+                dead,
+            ),
             birth: nodes.birth[node] as f32,
             death: if dead { death as f32 } else { f32::INFINITY },
             component: nodes.component[node] as i32,
@@ -332,7 +341,7 @@ impl<'a> Scene<'a> {
     fn organ_tags(&self, organ: OrganId) -> [Tag; 2] {
         let organs = &self.plant.organs;
         let place = organ.index();
-        colour::organ(self.plant, organ, self.age).map(|colour| Tag {
+        colour::organ(self.plant, self.paints, organ, self.age).map(|colour| Tag {
             colour,
             birth: organs.birth[place] as f32,
             death: f32::INFINITY,

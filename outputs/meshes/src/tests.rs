@@ -2,7 +2,7 @@
 
 use super::measure::{assert_unit_normals, volume};
 use super::*;
-use phytomer_sim::clock::NEVER;
+use phytomer_looks::FormName;
 use phytomer_sim::plant::*;
 use phytomer_sim::pose::pose;
 use ply_rs_bw::parser::Parser;
@@ -10,32 +10,26 @@ use ply_rs_bw::ply::{DefaultElement, Property};
 use sha2::{Digest, Sha256};
 use std::sync::Arc;
 
-const FORMS: [(Form, Kind); 8] = [
-    (Form::Elliptic, Kind::Leaf),
-    (Form::Lanceolate, Kind::Leaf),
-    (Form::Deltoid, Kind::Leaf),
-    (Form::Needle, Kind::Leaf),
-    (Form::Palm, Kind::Leaf),
-    (Form::Corolla, Kind::Flower),
-    (Form::Berry, Kind::Fruit),
-    (Form::Cone, Kind::Fruit),
+const FORMS: [(FormName, Kind); 8] = [
+    (FormName::Elliptic, Kind::Leaf),
+    (FormName::Lanceolate, Kind::Leaf),
+    (FormName::Deltoid, Kind::Leaf),
+    (FormName::Needle, Kind::Leaf),
+    (FormName::Palm, Kind::Leaf),
+    (FormName::Corolla, Kind::Flower),
+    (FormName::Berry, Kind::Fruit),
+    (FormName::Cone, Kind::Fruit),
 ];
 
 fn add_axis(plant: &mut Plant, bearer: Option<NodeId>, nodes: u32) -> Vec<NodeId> {
     let (azimuth, insertion) = if bearer.is_some() { (1.0, 1.1) } else { (0.0, 0.0) };
     let axis = plant.add_axis(NewAxis {
         bearer,
-        key: LineageKey::SEED,
         order: 1 + u8::from(bearer.is_some()),
         origin: Origin::Axillary,
-        position: 0,
-        follows: false,
-        state: 0,
-        appearance: 0,
-        birth: 0,
         azimuth,
         insertion,
-        shed_after: NEVER,
+        ..NewAxis::OF_THE_SEED
     });
     let mut parent = bearer.unwrap_or(NodeId::NONE);
     let mut add = |rank: u32| {
@@ -44,13 +38,10 @@ fn add_axis(plant: &mut Plant, bearer: Option<NodeId>, nodes: u32) -> Vec<NodeId
             axis,
             birth: rank,
             rank,
-            unit_rank: 1,
             short: rank.is_multiple_of(3),
-            neoformed: false,
-            trend: 0,
             length: 0.1,
             diameter: 0.03,
-            azimuth: 0.0,
+            ..NewNode::OF_THE_TRUNK
         });
         plant.nodes.diameter_tip[parent.index()] = 0.02;
         parent
@@ -68,9 +59,9 @@ fn add_organ(plant: &mut Plant, node: NodeId, position: u16) {
         kind,
         position,
         birth: 2,
-        death: if form == Form::Deltoid { 4 } else { 30 },
+        death: if form == FormName::Deltoid { 4 } else { 30 },
         cause: Cause::LifeLength,
-        form,
+        form: form.form(),
         length: 0.12,
         width: 0.05,
         area: 0.004,
@@ -82,7 +73,7 @@ fn add_organ(plant: &mut Plant, node: NodeId, position: u16) {
 /// A trunk of 5 nodes with a branch that dies at 4 and falls at 8, and an organ of each form at its top.
 pub fn specimen() -> Plant {
     let trend = Trend { inclination: 0.0, share: 0.1 };
-    let habit = Habit { trends: vec![trend], looks: Looks::of_shape(Shape::Cone), organ_trends: vec![], wood: None };
+    let habit = Habit { trends: vec![trend], looks: Looks::of_shape(Shape::Cone), ..Habit::default() };
     let seed = Seed { plant: 7, run_seed: 42, component_limit: 1000, keep_events: false };
     let mut plant = Plant::new(&seed, Arc::new(habit));
     let trunk = add_axis(&mut plant, None, 5);
@@ -254,21 +245,15 @@ fn a_failed_write_is_reported_as_it_was() {
 #[test]
 fn files_are_named_by_plant_and_age_and_nothing_is_left_beside_them() {
     let folder = tempfile::tempdir().unwrap();
-    let mut plot = phytomer_sim::Plot::new(0, vec![], &[]);
-    plot.plants = vec![specimen()];
-    let meshes = folder.path().join("meshes");
-    let mut recorder = MeshRecorder::new(Ply, &meshes, &[3, 6], 42, MeshOptions::default()).unwrap();
-    for age in 1..=6 {
-        phytomer_sim::Recorder::record(&mut recorder, age, &plot).unwrap();
-    }
-    let files = recorder.take_written();
+    let plant = specimen();
+    let write = |age| write_mesh(&Ply, &plant, age, 42, &MeshOptions::default(), folder.path()).unwrap();
+    let files = [3, 6].map(write);
     let names: Vec<String> = files.iter().map(|file| file.path.file_name().unwrap().display().to_string()).collect();
     assert_eq!(names, ["plant-00007_age-0003.ply", "plant-00007_age-0006.ply"]);
-    assert_eq!(std::fs::read_dir(&meshes).unwrap().count(), 2);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
     let bytes = std::fs::read(&files[1].path).unwrap();
-    assert_eq!(bytes, written(&plot.plants[0], 6, &MeshOptions::default()));
+    assert_eq!(bytes, written(&plant, 6, &MeshOptions::default()));
     assert_eq!(files[1].bytes, bytes.len() as u64);
-    assert!(recorder.take_written().is_empty());
-    let missing = write_mesh(&Ply, &plot.plants[0], 6, 42, &MeshOptions::default(), &folder.path().join("none"));
+    let missing = write_mesh(&Ply, &plant, 6, 42, &MeshOptions::default(), &folder.path().join("none"));
     assert!(missing.unwrap_err().to_string().starts_with("cannot write "));
 }

@@ -14,6 +14,7 @@ use super::shade::Light;
 use super::shadow::Shadow;
 use super::sky::Crown;
 use glam::Vec3;
+use phytomer_looks::Paints;
 use phytomer_meshes::{Mesh, MeshOptions, Scene, Tag, Vertex};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
@@ -318,6 +319,7 @@ struct Stuff {
 
 /// The stuff of each kind of a plant.
 fn stuff(plant: &Plant) -> [Stuff; Kind::ALL.len()] {
+    let paints = Paints::of(&plant.habit);
     let looks = plant.habit.looks.internodes.iter().chain(&plant.habit.looks.apart);
     Kind::ALL.map(|kind| {
         let stem = kind.class() == Class::Internode;
@@ -325,13 +327,17 @@ fn stuff(plant: &Plant) -> [Stuff; Kind::ALL.len()] {
             |look: &&InternodeLook| look.kind == kind || (kind == Kind::ShortInternode && look.kind == Kind::Internode);
         let thin =
             if stem { looks.clone().filter(look).any(|look| look.shape == Shape::Blade) } else { is_leafy(kind) };
-        let closed = stem && looks.clone().filter(look).all(|look| look.form.is_none() && look.shape != Shape::Blade);
+        let closed = stem
+            && looks
+                .clone()
+                .filter(look)
+                .all(|look| paints.internode(look.paint).form.is_none() && look.shape != Shape::Blade);
         Stuff { thin, closed }
     })
 }
 
 fn is_leafy(kind: Kind) -> bool {
-    matches!(kind.class(), Class::Leaf | Class::Flower) && kind != Kind::Strobilus
+    matches!(kind.class(), Class::Leaf | Class::Flower)
 }
 
 /// A colour made a little lighter or darker, warmer or cooler, as leaves differ; the same for a component at every age.

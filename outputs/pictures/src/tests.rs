@@ -10,7 +10,7 @@ use super::shadow::Shadow;
 use super::sky::{Crown, falling_on};
 use super::*;
 use phytomer_sim::math::{sincosf, tan};
-use phytomer_sim::plant::{Habit, Looks, NewAxis, NewNode, NodeId, Seed, Shape, Trend};
+use phytomer_sim::plant::{Habit, NewAxis, NewNode, Seed, Trend};
 use phytomer_sim::pose::pose;
 use std::sync::Arc;
 
@@ -26,27 +26,11 @@ fn picture(size: [u32; 2], view: View) -> Picture {
 
 /// One upright internode.
 fn pole(length: f32, diameter: f32) -> Plant {
-    let looks = Looks::of_shape(Shape::Cylinder);
-    let habit = Habit { trends: vec![Trend::STRAIGHT], looks, ..Default::default() };
-    let mut plant =
-        Plant::new(&Seed { plant: 0, run_seed: 1, component_limit: 9, keep_events: false }, Arc::new(habit));
-    let axis = plant.add_axis(NewAxis::OF_THE_SEED);
-    let parent = NodeId::NONE;
-    let (birth, rank, unit_rank, trend, azimuth) = (1, 1, 1, 0, 0.0);
-    let (short, neoformed) = (false, false);
-    plant.add_node(NewNode {
-        parent,
-        axis,
-        birth,
-        rank,
-        unit_rank,
-        short,
-        neoformed,
-        trend,
-        length,
-        diameter,
-        azimuth,
-    });
+    let habit = Habit { trends: vec![Trend::STRAIGHT], ..Habit::default() };
+    let seed = Seed { plant: 0, run_seed: 1, component_limit: 9, keep_events: false };
+    let mut plant = Plant::new(&seed, Arc::new(habit));
+    plant.add_axis(NewAxis::OF_THE_SEED);
+    plant.add_node(NewNode { length, diameter, ..NewNode::OF_THE_TRUNK });
     pose(&mut plant, 1);
     plant
 }

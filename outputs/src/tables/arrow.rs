@@ -2,7 +2,7 @@
 //!
 //! Nothing in a file depends on the clock, the machine or the number of threads; `created_by` names this program.
 
-use super::columns::{PLANT_ONTOLOGY, SCHEMA_VERSION};
+use super::columns::SCHEMA_VERSION;
 use super::schema::{Column, Encoding, Type};
 use super::{RunPlan, Table};
 use arrow_schema::{DataType, Field, Schema, SchemaRef};
@@ -11,6 +11,7 @@ use parquet::errors::ParquetError;
 use parquet::file::metadata::{KeyValue, SortingColumn};
 use parquet::file::properties::{EnabledStatistics, WriterProperties, WriterPropertiesBuilder};
 use parquet::schema::types::ColumnPath;
+use phytomer_sim::plant::Kind;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -116,5 +117,5 @@ fn rounding(plan: &RunPlan) -> String {
 
 /// The Plant Ontology term of each kind, as JSON.
 pub fn plant_ontology() -> serde_json::Value {
-    PLANT_ONTOLOGY.iter().map(|(kind, term)| (kind.tag().to_owned(), serde_json::Value::from(*term))).collect()
+    Kind::ALL.map(|kind| (kind.tag().to_owned(), serde_json::Value::from(kind.ontology_term()))).into_iter().collect()
 }

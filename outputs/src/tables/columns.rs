@@ -59,42 +59,6 @@ pub static CAUSES: [&str; Cause::ALL.len()] = {
     tags
 };
 
-/// The Plant Ontology term of each kind (Planteome, release 20 and later). The ontology tells neither short from long
-/// internodes, nor apical buds from buds, nor a part from the internodes that it is grown of.
-pub static PLANT_ONTOLOGY: [(Kind, &str); Kind::ALL.len()] = [
-    (Kind::Internode, "PO:0005005"),
-    (Kind::ShortInternode, "PO:0005005"),
-    (Kind::Leaf, "PO:0025034"),
-    (Kind::Flower, "PO:0009046"),
-    (Kind::Fruit, "PO:0009001"),
-    (Kind::ApicalBud, "PO:0000055"),
-    (Kind::RhizomeInternode, "PO:0025204"),
-    (Kind::CulmInternode, "PO:0020142"),
-    (Kind::TillerInternode, "PO:0005005"),
-    (Kind::PalmInternode, "PO:0020055"),
-    (Kind::LeafletInternode, "PO:0020049"),
-    (Kind::InflorescenceInternode, "PO:0020122"),
-    (Kind::PedicelInternode, "PO:0030112"),
-    (Kind::ReceptacleInternode, "PO:0009064"),
-    (Kind::SepalInternode, "PO:0009031"),
-    (Kind::PetalInternode, "PO:0009032"),
-    (Kind::StamenInternode, "PO:0009029"),
-    (Kind::StigmaInternode, "PO:0009073"),
-    (Kind::Leaflet, "PO:0020049"),
-    (Kind::Bract, "PO:0009055"),
-    (Kind::ScaleLeaf, "PO:0006003"),
-    (Kind::Spine, "PO:0025173"),
-    (Kind::Sepal, "PO:0009031"),
-    (Kind::Petal, "PO:0009032"),
-    (Kind::Tepal, "PO:0009033"),
-    (Kind::Stamen, "PO:0009029"),
-    (Kind::Stigma, "PO:0009073"),
-    (Kind::Inflorescence, "PO:0009049"),
-    (Kind::Spikelet, "PO:0009051"),
-    (Kind::Infructescence, "PO:0006342"),
-    (Kind::Strobilus, "PO:0025083"),
-];
-
 const TREATMENT: Column = Column::new(
     "treatment",
     Type::Name(Named::Treatment),

@@ -4,7 +4,6 @@
 //! filled where a run asks for them. Absent: any formula of growth or of bending.
 
 use super::buffers::{NULL, columns};
-use super::columns::KINDS;
 use super::component_index::{Component, ComponentIndex};
 use super::membership::Membership;
 use phytomer_sim::Tick;
@@ -268,6 +267,3 @@ pub fn number_of(plant: &Plant, node: NodeId) -> i32 {
 pub fn area_of(area: f32) -> f32 {
     if area > 0.0 { area } else { f32::NAN }
 }
-
-// A kind's number is its place in the list of words.
-const _: () = assert!(KINDS.len() == Kind::ALL.len() && Kind::Strobilus as usize == KINDS.len() - 1);

@@ -6,8 +6,8 @@
 //! − κ₀). It is found by Newton steps: moments and answers from the tips down (`loads`), curvatures and pose from the
 //! base up (`turn`).
 
-use super::bench::Bench;
 use super::loads::{Response, Scan};
+use super::scratch::Scratch;
 use super::section::Section;
 use super::turn::{Kept, Turned};
 use super::uprighting::straighten;
@@ -40,22 +40,22 @@ pub struct Outcome {
 
 /// Bends `plant` under its weight and the wind of `site`, as it stands at `age`, and poses it. What buckles or does not
 /// settle is noted among its events.
-pub fn bend(plant: &mut Plant, age: Tick, site: &Site, bench: &mut Bench) -> Outcome {
+pub fn bend(plant: &mut Plant, age: Tick, site: &Site, scratch: &mut Scratch) -> Outcome {
     let habit = std::sync::Arc::clone(&plant.habit);
     let Some(wood) = habit.wood.as_ref().filter(|wood| wood.feels(&site.fields(&wood.drag))) else {
         pose(plant, age);
         return Outcome { steps: 0, settled: true, yields: None };
     };
-    bench.prepare(plant, age);
-    bench.pose(plant, age);
-    bench.freeze(plant, wood, age);
-    straighten(plant, wood, age, &bench.standing, &bench.before, &mut bench.natural);
-    let outcome = bench.settle(plant, wood, age, &site.fields(&wood.drag));
+    scratch.prepare(plant, age);
+    scratch.pose(plant, age);
+    scratch.freeze(plant, wood, age);
+    straighten(plant, wood, age, &scratch.standing, &scratch.before, &mut scratch.natural);
+    let outcome = scratch.settle(plant, wood, age, &site.fields(&wood.drag));
     report(plant, age, outcome);
     outcome
 }
 
-impl Bench {
+impl Scratch {
     /// Keeps the diameters of the last tick, before the plant thickens, where the righting of axes asks for them.
     pub fn remember(&mut self, plant: &Plant) {
         self.before.clear();

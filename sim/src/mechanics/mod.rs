@@ -6,9 +6,9 @@
 //! frozen in the wood ([`crate::plant::Strain`]). Axes right themselves by reaction wood and as young shoots
 //! (`uprighting`); `sway` moves a plant of one age in the wind. Absent: twisting, creep and breaking.
 
-mod bench;
 mod bend;
 mod loads;
+mod scratch;
 mod secondary;
 mod section;
 pub mod sway;
@@ -17,8 +17,8 @@ mod uprighting;
 mod wood;
 
 pub use crate::plant::{Drag, OrganMass, Strain, Thickening, Tissue, Uprighting, Wood};
-pub use bench::Bench;
 pub use bend::{MOST_STEPS, Outcome, SETTLED, bend};
+pub use scratch::Scratch;
 pub use secondary::{taper, thicken};
 pub use wood::wood_volume;
 

@@ -11,7 +11,7 @@
 //! Fallen branches count on in what lay below them: wood does not vanish. Absent: heartwood, and growth that differs
 //! around the stem.
 
-use super::bench::{Above, Bench};
+use super::scratch::{Above, Scratch};
 use crate::clock::Tick;
 use crate::math::pow;
 use crate::plant::{NodeId, OrganId, Plant, Shape, Thickening};
@@ -19,8 +19,8 @@ use std::f64::consts::PI;
 
 /// Gives each internode of `plant` its diameters at `age` by a rule other than the model's law. Called at each tick, in
 /// order: rings stand on the last tick's diameters.
-pub fn thicken(plant: &mut Plant, age: Tick, rule: Thickening, bench: &mut Bench) {
-    let above = &mut bench.above;
+pub fn thicken(plant: &mut Plant, age: Tick, rule: Thickening, scratch: &mut Scratch) {
+    let above = &mut scratch.above;
     above.clear();
     above.resize(plant.nodes.len(), Above::default());
     match rule {

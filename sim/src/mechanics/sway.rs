@@ -7,7 +7,7 @@
 //! all gusts that ever were add up to a geometric series. So the motion repeats with the gusts, and an animation of
 //! that length loops. Absent: leaves that flutter, vortices, and any trace in the growth of the plant.
 
-use super::bench::Bench;
+use super::scratch::Scratch;
 use super::section::Section;
 use super::wood::wood_volume;
 use crate::clock::Tick;
@@ -50,14 +50,14 @@ pub fn sway(
     site: &Site,
     wind: Wind,
     time: f64,
-    bench: &mut Bench,
+    scratch: &mut Scratch,
 ) -> Result<(), Unmoved> {
     let habit = std::sync::Arc::clone(&plant.habit);
     let wood = yielding(&habit)?;
     if wind.speed <= 0.0 {
         return Ok(());
     }
-    let calm = bench.lean(plant, wood, age, &Site { wind, ..site.clone() });
+    let calm = scratch.lean(plant, wood, age, &Site { wind, ..site.clone() });
     let swings: Vec<f64> = frequencies(plant, wood, age)
         .into_iter()
         .zip(&plant.axes.key)
@@ -71,7 +71,7 @@ pub fn sway(
             (still + (steady - still) * swing) as f32
         });
     }
-    bench.pose(plant, age);
+    scratch.pose(plant, age);
     Ok(())
 }
 

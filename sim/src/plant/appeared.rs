@@ -1,8 +1,7 @@
-//! The internodes that have appeared by an age, as stretches of one axis: found once an age for all who walk along
-//! them.
+//! The internodes that have appeared by an age, as stretches of one axis: found once an age for every pass along them.
 //!
-//! A large plant has many axes, and when it is young most of them are not there yet: whoever asked each of them again
-//! would do little else.
+//! A large plant has many axes, and when it is young most of them have not appeared: a pass that looked at each axis
+//! again would spend most of its time on those.
 
 use super::{AxisId, Nodes};
 use crate::clock::Tick;
@@ -52,7 +51,7 @@ impl Appeared {
         &self.stretches
     }
 
-    /// The same for who may not keep them.
+    /// The same where the plant cannot be changed: found anew unless they are those of the last call of [`Appeared::by`].
     pub(super) fn read(&self, age: Tick, nodes: &Nodes) -> Cow<'_, [Stretch]> {
         if self.knows(age, nodes) {
             Cow::Borrowed(&self.stretches)

@@ -3,11 +3,11 @@
 //! Orders count from the trunk, 1. Monopodial and sympodial growth are told apart by the origin of an axis. Absent: the
 //! laws by which apices end, what a model remembers of a living bud, and the pose of axes.
 
+use super::columns::columns;
 use super::handle::{AxisId, NodeId};
 use super::joint::Joint;
 use crate::clock::{NEVER, Tick};
 use crate::key::LineageKey;
-use std::ops::Range;
 
 /// How an axis came to be; monopodial and sympodial growth are told apart by this, never by looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -109,63 +109,53 @@ impl NewAxis {
     };
 }
 
-/// The columns of the axes.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Axes {
-    /// The bearing node; [`NodeId::NONE`] for the axis of the seed.
-    pub bearer: Vec<NodeId>,
-    /// The component number of the apical bud.
-    pub component: Vec<u32>,
-    /// The lineage key.
-    pub key: Vec<LineageKey>,
-    /// The order, from 1.
-    pub order: Vec<u8>,
-    /// How the axis came to be.
-    pub origin: Vec<Origin>,
-    /// The position among the buds of the bearing node.
-    pub position: Vec<u16>,
-    /// Whether the axis came as one of a set of relays or forks of which another was the first: it does not lead its
-    /// set.
-    pub follows: Vec<bool>,
-    /// The state in which the axis started.
-    pub state: Vec<u8>,
-    /// The tick at which the bud appeared.
-    pub appearance: Vec<Tick>,
-    /// The tick from which dimension counts.
-    pub birth: Vec<Tick>,
-    /// Azimuth around the bearing axis, radians.
-    pub azimuth: Vec<f32>,
-    /// Insertion angle, radians.
-    pub insertion: Vec<f32>,
-    /// The ticks from the death of the branch to its fall; [`NEVER`] where dead wood stays.
-    pub shed_after: Vec<Tick>,
-    /// The last node so far; [`NodeId::NONE`] before the first.
-    pub last_node: Vec<NodeId>,
-    /// The tick at which the apex ended; [`NEVER`] while it lives.
-    pub apex_end: Vec<Tick>,
-    /// How the apex ended.
-    pub apex_fate: Vec<ApexFate>,
-    /// The tick at which what the apex became is past: the end of the apex, or the fall of its terminal flower and
-    /// fruit.
-    pub spent: Vec<Tick>,
-    /// The tick at which every bud of the branch is dead; written by [`crate::shed`].
-    pub death: Vec<Tick>,
-    /// The tick at which the branch leaves the plant; written by [`crate::shed`].
-    pub shed: Vec<Tick>,
+columns! {
+    /// The columns of the axes.
+    Axes of axis: NewAxis, numbered component, joined by joint from more at place {
+        /// The bearing node; [`NodeId::NONE`] for the axis of the seed.
+        bearer: NodeId = axis.bearer.unwrap_or(NodeId::NONE) => joint.node(more.bearer[place]),
+        /// The component number of the apical bud.
+        component: u32 = component => joint.component(more.component[place]),
+        /// The lineage key.
+        key: LineageKey = axis.key,
+        /// The order, from 1.
+        order: u8 = axis.order,
+        /// How the axis came to be.
+        origin: Origin = axis.origin,
+        /// The position among the buds of the bearing node.
+        position: u16 = axis.position,
+        /// Whether the axis came as one of a set of relays or forks of which another was the first: it does not lead
+        /// its set.
+        follows: bool = axis.follows,
+        /// The state in which the axis started.
+        state: u8 = axis.state,
+        /// The tick at which the bud appeared.
+        appearance: Tick = axis.appearance,
+        /// The tick from which dimension counts.
+        birth: Tick = axis.birth,
+        /// Azimuth around the bearing axis, radians.
+        azimuth: f32 = axis.azimuth,
+        /// Insertion angle, radians.
+        insertion: f32 = axis.insertion,
+        /// The ticks from the death of the branch to its fall; [`NEVER`] where dead wood stays.
+        shed_after: Tick = axis.shed_after,
+        /// The last node so far; [`NodeId::NONE`] before the first.
+        last_node: NodeId = NodeId::NONE => joint.node(more.last_node[place]),
+        /// The tick at which the apex ended; [`NEVER`] while it lives.
+        apex_end: Tick = NEVER,
+        /// How the apex ended.
+        apex_fate: ApexFate = ApexFate::Alive,
+        /// The tick at which what the apex became is past: the end of the apex, or the fall of its terminal flower and
+        /// fruit.
+        spent: Tick = NEVER,
+        /// The tick at which every bud of the branch is dead; written by [`crate::shed`].
+        death: Tick = NEVER,
+        /// The tick at which the branch leaves the plant; written by [`crate::shed`].
+        shed: Tick = NEVER,
+    }
 }
 
 impl Axes {
-    /// How many axes there are.
-    #[inline]
-    pub fn len(&self) -> usize {
-        self.bearer.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.bearer.is_empty()
-    }
-
     /// The last tick of an apex, with what became of it.
     pub fn end_apex(&mut self, axis: AxisId, tick: Tick, fate: ApexFate) {
         self.apex_end[axis.index()] = tick;
@@ -175,25 +165,7 @@ impl Axes {
 
     pub(super) fn push(&mut self, axis: NewAxis, component: u32) -> AxisId {
         let id = AxisId(self.len() as u32);
-        self.bearer.push(axis.bearer.unwrap_or(NodeId::NONE));
-        self.component.push(component);
-        self.key.push(axis.key);
-        self.order.push(axis.order);
-        self.origin.push(axis.origin);
-        self.position.push(axis.position);
-        self.follows.push(axis.follows);
-        self.state.push(axis.state);
-        self.appearance.push(axis.appearance);
-        self.birth.push(axis.birth);
-        self.azimuth.push(axis.azimuth);
-        self.insertion.push(axis.insertion);
-        self.shed_after.push(axis.shed_after);
-        self.last_node.push(NodeId::NONE);
-        self.apex_end.push(NEVER);
-        self.apex_fate.push(ApexFate::Alive);
-        self.spent.push(NEVER);
-        self.death.push(NEVER);
-        self.shed.push(NEVER);
+        self.push_columns(axis, component);
         id
     }
 
@@ -202,81 +174,13 @@ impl Axes {
         self.last_node[axis.index()] = node;
     }
 
-    /// Copies of some of the axes.
-    pub(super) fn copied(&self, taken: Range<usize>) -> Self {
-        Self {
-            bearer: self.bearer[taken.clone()].to_vec(),
-            component: self.component[taken.clone()].to_vec(),
-            key: self.key[taken.clone()].to_vec(),
-            order: self.order[taken.clone()].to_vec(),
-            origin: self.origin[taken.clone()].to_vec(),
-            position: self.position[taken.clone()].to_vec(),
-            follows: self.follows[taken.clone()].to_vec(),
-            state: self.state[taken.clone()].to_vec(),
-            appearance: self.appearance[taken.clone()].to_vec(),
-            birth: self.birth[taken.clone()].to_vec(),
-            azimuth: self.azimuth[taken.clone()].to_vec(),
-            insertion: self.insertion[taken.clone()].to_vec(),
-            shed_after: self.shed_after[taken.clone()].to_vec(),
-            last_node: self.last_node[taken.clone()].to_vec(),
-            apex_end: self.apex_end[taken.clone()].to_vec(),
-            apex_fate: self.apex_fate[taken.clone()].to_vec(),
-            spent: self.spent[taken.clone()].to_vec(),
-            death: self.death[taken.clone()].to_vec(),
-            shed: self.shed[taken].to_vec(),
+    /// Takes from a fragment what has become of the axes that it was given.
+    pub(super) fn take_back(&mut self, grown: &Self, joint: &Joint) {
+        for (axis, own) in joint.taken.clone().zip(0..) {
+            self.last_node[axis] = joint.node(grown.last_node[own]);
+            self.apex_end[axis] = grown.apex_end[own];
+            self.apex_fate[axis] = grown.apex_fate[own];
+            self.spent[axis] = grown.spent[own];
         }
-    }
-
-    /// Takes from a fragment what has become of the axes that it was given, and adds those that arose in it.
-    pub(super) fn join(&mut self, more: &Self, taken: Range<usize>, joint: &Joint) {
-        let new = taken.len()..more.len();
-        for (axis, grown) in taken.zip(0..) {
-            self.last_node[axis] = joint.node(more.last_node[grown]);
-            self.apex_end[axis] = more.apex_end[grown];
-            self.apex_fate[axis] = more.apex_fate[grown];
-            self.spent[axis] = more.spent[grown];
-        }
-        self.bearer.extend(more.bearer[new.clone()].iter().map(|&node| joint.node(node)));
-        self.component.extend(more.component[new.clone()].iter().map(|&component| joint.component(component)));
-        self.key.extend_from_slice(&more.key[new.clone()]);
-        self.order.extend_from_slice(&more.order[new.clone()]);
-        self.origin.extend_from_slice(&more.origin[new.clone()]);
-        self.position.extend_from_slice(&more.position[new.clone()]);
-        self.follows.extend_from_slice(&more.follows[new.clone()]);
-        self.state.extend_from_slice(&more.state[new.clone()]);
-        self.appearance.extend_from_slice(&more.appearance[new.clone()]);
-        self.birth.extend_from_slice(&more.birth[new.clone()]);
-        self.azimuth.extend_from_slice(&more.azimuth[new.clone()]);
-        self.insertion.extend_from_slice(&more.insertion[new.clone()]);
-        self.shed_after.extend_from_slice(&more.shed_after[new.clone()]);
-        self.last_node.extend(more.last_node[new.clone()].iter().map(|&node| joint.node(node)));
-        self.apex_end.extend_from_slice(&more.apex_end[new.clone()]);
-        self.apex_fate.extend_from_slice(&more.apex_fate[new.clone()]);
-        self.spent.extend_from_slice(&more.spent[new.clone()]);
-        self.death.extend_from_slice(&more.death[new.clone()]);
-        self.shed.extend_from_slice(&more.shed[new]);
-    }
-
-    pub(super) fn clear(&mut self) {
-        let Self { bearer, component, key, order, origin, position, state, appearance, birth, .. } = self;
-        bearer.clear();
-        component.clear();
-        key.clear();
-        order.clear();
-        origin.clear();
-        position.clear();
-        state.clear();
-        appearance.clear();
-        birth.clear();
-        self.follows.clear();
-        self.azimuth.clear();
-        self.insertion.clear();
-        self.shed_after.clear();
-        self.last_node.clear();
-        self.apex_end.clear();
-        self.apex_fate.clear();
-        self.spent.clear();
-        self.death.clear();
-        self.shed.clear();
     }
 }

@@ -3,35 +3,36 @@
 //! Axes that wait have no nodes, and none needs to know what the others do. A fragment is a plant that starts with
 //! copies of some of them; joined again, the whole is what it would be had they grown after the axes before them: the
 //! numbers of axes, nodes, organs and components follow on. Until then its handles and component numbers are its own,
-//! but for the nodes that bear the axes that it took: those are the whole plant's, and nobody may look them up.
+//! but for the nodes that bear the axes that it took: those are numbered as in the whole plant, and must not be read in the fragment.
 
+use super::columns::Columns;
 use super::{Appeared, Event, Frames, Joint, OwnTrends, Plant, Strain};
 use crate::clock::NEVER;
 use std::ops::Range;
 
-/// Who may grow one plant at once.
+/// How many threads may grow one plant at once; it never changes the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Hands {
-    /// How many threads: more than one where the others would have nothing to do.
+pub struct ThreadBudget {
+    /// The number of threads: more than 1 where other threads would have nothing to do.
     pub threads: usize,
     /// The fewest axes of which it is worth while to give another thread half. The default's take some 5 ms in a
     /// poplar, far more than to wake a thread and to join what it has grown.
-    pub worth: usize,
+    pub least_axes: usize,
 }
 
-impl Default for Hands {
+impl Default for ThreadBudget {
     fn default() -> Self {
-        Self { threads: 1, worth: 4096 }
+        Self { threads: 1, least_axes: 4096 }
     }
 }
 
-impl Hands {
+impl ThreadBudget {
     /// Whether so many axes are to be shared out.
     pub fn share(self, axes: usize) -> bool {
-        self.threads > 1 && axes >= self.worth.max(2)
+        self.threads > 1 && axes >= self.least_axes.max(2)
     }
 
-    /// The hands of either half.
+    /// The budgets of the two halves.
     pub fn parted(self) -> (Self, Self) {
         let first = self.threads / 2;
         (Self { threads: first, ..self }, Self { threads: self.threads - first, ..self })
@@ -77,7 +78,7 @@ impl Plant {
             rewritten: Default::default(),
             own_looks: Default::default(),
             cuts: Default::default(),
-            hands: self.hands,
+            budget: self.budget,
             components: 0,
             component_limit: self.component_limit.saturating_sub(self.components),
             named_by_number: self.named_by_number,
@@ -87,21 +88,32 @@ impl Plant {
 
     /// Joins a fragment that has grown, after everything that the plant has; how its handles have become the plant's.
     pub fn join(&mut self, fragment: Fragment) -> Joint {
-        let Fragment { plant, joint } = fragment;
+        let Fragment { mut plant, joint } = fragment;
         let (axes, nodes, components) = (self.axes.len(), self.nodes.len(), self.components);
         let joint = Joint { axes, nodes, components, ..joint };
-        self.own_trends.join(plant.own_trends, |axis| joint.axis(axis));
+        self.own_trends.join(std::mem::take(&mut plant.own_trends), |axis| joint.axis(axis));
         self.stated.join(&plant.stated, &joint);
         self.stated_organs.join(&plant.stated_organs, self.organs.len());
         self.rewritten.join(&plant.rewritten, &joint);
         self.own_looks.join(&plant.own_looks, [nodes, self.organs.len()]);
-        self.nodes.join(&plant.nodes, &joint);
-        self.organs.join(&plant.organs, &joint);
-        if let (Some(events), Some(more)) = (&mut self.events, plant.events) {
+        self.nodes.join_runs(&plant.nodes, &joint);
+        self.axes.take_back(&plant.axes, &joint);
+        self.join_columns(&plant, &joint);
+        if let (Some(events), Some(more)) = (&mut self.events, plant.events.take()) {
             events.extend(more.into_iter().map(|event| Event { axis: joint.axis(event.axis), ..event }));
         }
-        self.axes.join(&plant.axes, joint.taken.clone(), &joint);
         self.components += plant.components;
         joint
+    }
+
+    /// Adds the axes that arose in a fragment, its nodes and its organs, each column on whatever thread is free.
+    fn join_columns(&mut self, grown: &Self, joint: &Joint) {
+        let arose = joint.taken.len()..grown.axes.len();
+        let Self { axes, nodes, organs, .. } = self;
+        rayon::in_place_scope(|scope| {
+            nodes.join_columns(&grown.nodes, &(0..grown.nodes.len()), joint, scope);
+            organs.join_columns(&grown.organs, &(0..grown.organs.len()), joint, scope);
+            axes.join_columns(&grown.axes, &arose, joint, scope);
+        });
     }
 }

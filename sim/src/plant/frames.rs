@@ -104,8 +104,13 @@ impl Frame {
     /// What leaves this frame's base at `azimuth` and `insertion`, radians.
     #[inline]
     pub fn inserted(self, azimuth: f32, insertion: f32) -> Self {
-        let (sin_azimuth, cos_azimuth) = sincosf(azimuth);
-        let (sin, cos) = sincosf(insertion);
+        self.left_at(Leaving { azimuth: sincosf(azimuth), insertion: sincosf(insertion) })
+    }
+
+    /// What leaves this frame's base in a direction.
+    #[inline]
+    pub(crate) fn left_at(self, leaving: Leaving) -> Self {
+        let Leaving { azimuth: (sin_azimuth, cos_azimuth), insertion: (sin, cos) } = leaving;
         let (h, up) = (self.heading, self.up);
         let side = [h[1] * up[2] - h[2] * up[1], h[2] * up[0] - h[0] * up[2], h[0] * up[1] - h[1] * up[0]];
         let outward = [0, 1, 2].map(|k| cos_azimuth * up[k] + sin_azimuth * side[k]);
@@ -114,6 +119,38 @@ impl Frame {
             heading: [0, 1, 2].map(|k| cos * h[k] + sin * outward[k]),
             up: [0, 1, 2].map(|k| sin * h[k] - cos * outward[k]),
         }
+    }
+}
+
+/// The direction in which an axis leaves its bearer: sine and cosine of its azimuth and of its insertion.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Leaving {
+    pub azimuth: (f32, f32),
+    pub insertion: (f32, f32),
+}
+
+/// The insertion angle that was asked for last, with its sine and cosine: neighbouring axes of one order mostly share
+/// it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LastInsertion {
+    angle: f32,
+    sincos: (f32, f32),
+}
+
+impl LastInsertion {
+    /// The direction of an axis of this azimuth and insertion, radians.
+    #[inline]
+    pub fn leaving(&mut self, azimuth: f32, insertion: f32) -> Leaving {
+        if self.angle.to_bits() != insertion.to_bits() {
+            *self = Self { angle: insertion, sincos: sincosf(insertion) };
+        }
+        Leaving { azimuth: sincosf(azimuth), insertion: self.sincos }
+    }
+}
+
+impl Default for LastInsertion {
+    fn default() -> Self {
+        Self { angle: 0.0, sincos: (0.0, 1.0) }
     }
 }
 

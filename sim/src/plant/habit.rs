@@ -3,6 +3,7 @@
 //! The development trend is de Reffye's (1988 §4, Fig. 15): an axis leaves its bearing axis at the insertion angle and
 //! turns smoothly towards its trend. Where a trend is a random variable each axis has one of its own ([`OwnTrends`]).
 
+use super::for_drawing::ForDrawing;
 use super::handle::AxisId;
 use super::kind::{Class, Kind};
 use super::look::{Looks, Shape};
@@ -74,6 +75,8 @@ pub struct Habit {
     pub looks: Looks,
     /// How organs turn, by order from 1; empty where none does.
     pub organ_trends: Vec<OrganTrends>,
+    /// What it states for drawing, by the numbers that its looks name.
+    pub for_drawing: ForDrawing,
     /// The mechanics of its wood; `None` where diameters follow the model's law and nothing bends.
     pub wood: Option<Wood>,
 }

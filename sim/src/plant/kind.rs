@@ -1,78 +1,91 @@
 //! What a component is (the tag of de Reffye's record, 1988 §6), and why it ended.
 //!
 //! The paper's tags are internodes, leaves, flowers and fruits, and, where the simulation is enlarged (§5), rhizome,
-//! palm, petal and sepal internodes. The numbers of these lists are part of the tables and of the meshes: they may grow
-//! at their ends, never change. Absent: forms (`form`), and how a kind looks.
+//! palm, petal and sepal internodes. Everything that is said of a kind stands in its row of [`crate::kinds!`], which is
+//! the one list of kinds. Numbers are part of tables, meshes and lineage keys: they never change, and a new kind has
+//! the next one. Absent: the colours of a kind (`phytomer_meshes::palette`).
 
-/// The tag of a component.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[repr(u8)]
-pub enum Kind {
-    /// An internode of a long growth unit.
-    Internode = 0,
-    /// An internode of a short growth unit.
-    ShortInternode = 1,
-    /// A leaf.
-    Leaf = 2,
-    /// A flower or an inflorescence.
-    Flower = 3,
-    /// A fruit.
-    Fruit = 4,
-    /// The bud at the tip of an axis, growing or waiting.
-    ApicalBud = 5,
-    /// Of a shoot that creeps below ground.
-    RhizomeInternode = 6,
-    /// Of the jointed stem of a grass or a bamboo.
-    CulmInternode = 7,
-    /// Of a shoot of a grass that rises from the axil of a leaf at the ground.
-    TillerInternode = 8,
-    /// Of the rachis of a palm or of another leaf that is drawn as an axis with its leaflets.
-    PalmInternode = 9,
-    /// Of a leaflet that is drawn as an axis.
-    LeafletInternode = 10,
-    /// Of the axis or a branch of an inflorescence or a bunch of fruits.
-    InflorescenceInternode = 11,
-    /// Of the stalk of one flower.
-    PedicelInternode = 12,
-    /// Of the end of the stalk that bears the parts of a flower.
-    ReceptacleInternode = 13,
-    /// Of a sepal that is drawn as a growth unit.
-    SepalInternode = 14,
-    /// Of a petal that is drawn as a growth unit.
-    PetalInternode = 15,
-    /// Of a stamen that is drawn as a growth unit.
-    StamenInternode = 16,
-    /// Of a style with its stigma that is drawn as a growth unit.
-    StigmaInternode = 17,
-    /// A leaflet of a leaf that is drawn as an axis.
-    Leaflet = 18,
-    /// A leaf that bears a flower or an inflorescence in its axil.
-    Bract = 19,
-    /// A reduced leaf: of a rhizome, of a bud, the sheath of a young culm.
-    ScaleLeaf = 20,
-    /// A leaf or a leaflet that is a spine.
-    Spine = 21,
-    /// A sepal drawn whole.
-    Sepal = 22,
-    /// A petal drawn whole.
-    Petal = 23,
-    /// A petal or sepal of a flower that does not tell them apart.
-    Tepal = 24,
-    /// A stamen drawn whole.
-    Stamen = 25,
-    /// A style with its stigma drawn whole.
-    Stigma = 26,
-    /// An inflorescence drawn as one: a catkin, a spike, a glomerule.
-    Inflorescence = 27,
-    /// A spikelet of a grass.
-    Spikelet = 28,
-    /// A bunch of fruits drawn as one.
-    Infructescence = 29,
-    /// A cone of a conifer.
-    Strobilus = 30,
+/// The table of kinds, a row each, handed to a macro of the caller's. A row has what the component is, its name,
+/// number, tag, class, the part of the plant that it belongs to, and its Plant Ontology term (Planteome, release 20 and
+/// later). A species file can state the kinds of the first block; those of the second follow from growth.
+///
+/// The ontology tells neither short from long internodes, nor apical buds from buds, nor a part from the internodes
+/// that it is grown of.
+#[macro_export]
+macro_rules! kinds {
+    ($then:ident) => {
+        $then! {
+            stated {
+                /// An internode of a long growth unit.
+                Internode = 0, "internode", Internode, Shoot, "PO:0005005";
+                /// A leaf.
+                Leaf = 2, "leaf", Leaf, Leaf, "PO:0025034";
+                /// A flower or an inflorescence.
+                Flower = 3, "flower", Flower, Flower, "PO:0009046";
+                /// A fruit.
+                Fruit = 4, "fruit", Fruit, Flower, "PO:0009001";
+                /// Of a shoot that creeps below ground.
+                RhizomeInternode = 6, "rhizome_internode", Internode, Shoot, "PO:0025204";
+                /// Of the jointed stem of a grass or a bamboo.
+                CulmInternode = 7, "culm_internode", Internode, Shoot, "PO:0020142";
+                /// Of a shoot of a grass that rises from the axil of a leaf at the ground.
+                TillerInternode = 8, "tiller_internode", Internode, Shoot, "PO:0005005";
+                /// Of the rachis of a palm or of another leaf that is drawn as an axis with its leaflets.
+                PalmInternode = 9, "palm_internode", Internode, Leaf, "PO:0020055";
+                /// Of a leaflet that is drawn as an axis.
+                LeafletInternode = 10, "leaflet_internode", Internode, Leaf, "PO:0020049";
+                /// Of the axis or a branch of an inflorescence or a bunch of fruits.
+                InflorescenceInternode = 11, "inflorescence_internode", Internode, Flower, "PO:0020122";
+                /// Of the stalk of one flower.
+                PedicelInternode = 12, "pedicel_internode", Internode, Flower, "PO:0030112";
+                /// Of the end of the stalk that bears the parts of a flower.
+                ReceptacleInternode = 13, "receptacle_internode", Internode, Flower, "PO:0009064";
+                /// Of a sepal that is drawn as a growth unit.
+                SepalInternode = 14, "sepal_internode", Internode, Flower, "PO:0009031";
+                /// Of a petal that is drawn as a growth unit.
+                PetalInternode = 15, "petal_internode", Internode, Flower, "PO:0009032";
+                /// Of a stamen that is drawn as a growth unit.
+                StamenInternode = 16, "stamen_internode", Internode, Flower, "PO:0009029";
+                /// Of a style with its stigma that is drawn as a growth unit.
+                StigmaInternode = 17, "stigma_internode", Internode, Flower, "PO:0009073";
+                /// A leaflet of a leaf that is drawn as an axis.
+                Leaflet = 18, "leaflet", Leaf, Leaf, "PO:0020049";
+                /// A leaf that bears a flower or an inflorescence in its axil.
+                Bract = 19, "bract", Leaf, Leaf, "PO:0009055";
+                /// A reduced leaf: of a rhizome, of a bud, the sheath of a young culm.
+                ScaleLeaf = 20, "scale_leaf", Leaf, Leaf, "PO:0006003";
+                /// A leaf or a leaflet that is a spine.
+                Spine = 21, "spine", Leaf, Leaf, "PO:0025173";
+                /// A sepal drawn whole.
+                Sepal = 22, "sepal", Leaf, Flower, "PO:0009031";
+                /// A petal drawn whole.
+                Petal = 23, "petal", Leaf, Flower, "PO:0009032";
+                /// A petal or sepal of a flower that does not tell them apart.
+                Tepal = 24, "tepal", Leaf, Flower, "PO:0009033";
+                /// A stamen drawn whole.
+                Stamen = 25, "stamen", Leaf, Flower, "PO:0009029";
+                /// A style with its stigma drawn whole.
+                Stigma = 26, "stigma", Leaf, Flower, "PO:0009073";
+                /// An inflorescence drawn as one: a catkin, a spike, a glomerule.
+                Inflorescence = 27, "inflorescence", Flower, Flower, "PO:0009049";
+                /// A spikelet of a grass.
+                Spikelet = 28, "spikelet", Flower, Flower, "PO:0009051";
+                /// A bunch of fruits drawn as one.
+                Infructescence = 29, "infructescence", Fruit, Flower, "PO:0006342";
+                /// A cone of a conifer.
+                Strobilus = 30, "strobilus", Fruit, Flower, "PO:0025083";
+            }
+            grown {
+                /// An internode of a short growth unit.
+                ShortInternode = 1, "short_internode", Internode, Shoot, "PO:0005005";
+                /// The bud at the tip of an axis, growing or waiting.
+                ApicalBud = 5, "apical_bud", Bud, Shoot, "PO:0000055";
+            }
+        }
+    };
 }
 
-/// What a kind stands among: where a component of it may stand, and with which it is counted.
+/// The class of a kind: where a component of the kind may stand, and with which others it is counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Class {
     /// Internodes, whatever they are a part of; their tags end in `internode`.
@@ -81,123 +94,76 @@ pub enum Class {
     Leaf,
     /// What opens as a flower: flowers and inflorescences drawn as one.
     Flower,
-    /// What ripens from it.
+    /// What ripens from a flower.
     Fruit,
     /// Buds.
     Bud,
 }
 
+/// The part of a plant to which the components of a kind belong.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum PartOfPlant {
+    /// Stems with their buds.
+    Shoot,
+    /// Leaves, whole or grown of a rachis with leaflets.
+    Leaf,
+    /// Inflorescences and flowers with their parts, and what ripens from them.
+    Flower,
+}
+
+/// Makes [`Kind`] of the table.
+macro_rules! kind {
+    (stated { $($stated:tt)* } grown { $($grown:tt)* }) => { kind! { $($stated)* $($grown)* } };
+    ($(#[doc = $prose:tt] $name:ident = $number:literal, $tag:literal, $class:ident, $part:ident, $term:literal;)*) => {
+        /// The tag of a component.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[repr(u8)]
+        pub enum Kind {
+            $(#[doc = $prose] $name = $number,)*
+        }
+
+        impl Kind {
+            /// Every kind, in the order of their numbers, which leave no gap.
+            pub const ALL: [Self; [$($tag),*].len()] = {
+                let mut all = [Self::Internode; [$($tag),*].len()];
+                $(all[Self::$name as usize] = Self::$name;)*
+                all
+            };
+
+            /// The tag as it stands in tables.
+            pub const fn tag(self) -> &'static str {
+                match self {
+                    $(Self::$name => $tag,)*
+                }
+            }
+
+            /// Its class.
+            pub const fn class(self) -> Class {
+                match self {
+                    $(Self::$name => Class::$class,)*
+                }
+            }
+
+            /// The part of the plant that it belongs to.
+            pub const fn part(self) -> PartOfPlant {
+                match self {
+                    $(Self::$name => PartOfPlant::$part,)*
+                }
+            }
+
+            /// Its Plant Ontology term.
+            pub const fn ontology_term(self) -> &'static str {
+                match self {
+                    $(Self::$name => $term,)*
+                }
+            }
+        }
+    };
+}
+
+kinds!(kind);
+
 impl Kind {
-    /// Every kind, in the order of their numbers.
-    pub const ALL: [Self; 31] = [
-        Self::Internode,
-        Self::ShortInternode,
-        Self::Leaf,
-        Self::Flower,
-        Self::Fruit,
-        Self::ApicalBud,
-        Self::RhizomeInternode,
-        Self::CulmInternode,
-        Self::TillerInternode,
-        Self::PalmInternode,
-        Self::LeafletInternode,
-        Self::InflorescenceInternode,
-        Self::PedicelInternode,
-        Self::ReceptacleInternode,
-        Self::SepalInternode,
-        Self::PetalInternode,
-        Self::StamenInternode,
-        Self::StigmaInternode,
-        Self::Leaflet,
-        Self::Bract,
-        Self::ScaleLeaf,
-        Self::Spine,
-        Self::Sepal,
-        Self::Petal,
-        Self::Tepal,
-        Self::Stamen,
-        Self::Stigma,
-        Self::Inflorescence,
-        Self::Spikelet,
-        Self::Infructescence,
-        Self::Strobilus,
-    ];
-
-    /// The tag as it stands in tables.
-    pub const fn tag(self) -> &'static str {
-        match self {
-            Self::Internode => "internode",
-            Self::ShortInternode => "short_internode",
-            Self::Leaf => "leaf",
-            Self::Flower => "flower",
-            Self::Fruit => "fruit",
-            Self::ApicalBud => "apical_bud",
-            Self::RhizomeInternode => "rhizome_internode",
-            Self::CulmInternode => "culm_internode",
-            Self::TillerInternode => "tiller_internode",
-            Self::PalmInternode => "palm_internode",
-            Self::LeafletInternode => "leaflet_internode",
-            Self::InflorescenceInternode => "inflorescence_internode",
-            Self::PedicelInternode => "pedicel_internode",
-            Self::ReceptacleInternode => "receptacle_internode",
-            Self::SepalInternode => "sepal_internode",
-            Self::PetalInternode => "petal_internode",
-            Self::StamenInternode => "stamen_internode",
-            Self::StigmaInternode => "stigma_internode",
-            Self::Leaflet => "leaflet",
-            Self::Bract => "bract",
-            Self::ScaleLeaf => "scale_leaf",
-            Self::Spine => "spine",
-            Self::Sepal => "sepal",
-            Self::Petal => "petal",
-            Self::Tepal => "tepal",
-            Self::Stamen => "stamen",
-            Self::Stigma => "stigma",
-            Self::Inflorescence => "inflorescence",
-            Self::Spikelet => "spikelet",
-            Self::Infructescence => "infructescence",
-            Self::Strobilus => "strobilus",
-        }
-    }
-
-    /// The kind of a tag.
-    pub fn of_tag(tag: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.tag() == tag)
-    }
-
-    /// What it stands among.
-    pub const fn class(self) -> Class {
-        match self {
-            Self::Internode
-            | Self::ShortInternode
-            | Self::RhizomeInternode
-            | Self::CulmInternode
-            | Self::TillerInternode
-            | Self::PalmInternode
-            | Self::LeafletInternode
-            | Self::InflorescenceInternode
-            | Self::PedicelInternode
-            | Self::ReceptacleInternode
-            | Self::SepalInternode
-            | Self::PetalInternode
-            | Self::StamenInternode
-            | Self::StigmaInternode => Class::Internode,
-            Self::Leaf
-            | Self::Leaflet
-            | Self::Bract
-            | Self::ScaleLeaf
-            | Self::Spine
-            | Self::Sepal
-            | Self::Petal
-            | Self::Tepal
-            | Self::Stamen
-            | Self::Stigma => Class::Leaf,
-            Self::Flower | Self::Inflorescence | Self::Spikelet => Class::Flower,
-            Self::Fruit | Self::Infructescence | Self::Strobilus => Class::Fruit,
-            Self::ApicalBud => Class::Bud,
-        }
-    }
-
     /// Whether it is a green blade: its area is leaf area, and a pipe of wood leads to it.
     pub const fn is_foliage(self) -> bool {
         matches!(self, Self::Leaf | Self::Leaflet)
@@ -258,5 +224,36 @@ impl Cause {
             Self::Killed => "killed",
             Self::Pruned => "pruned",
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_kind_has_a_tag_of_its_own_that_agrees_with_its_class() {
+        let tags: BTreeSet<_> = Kind::ALL.map(Kind::tag).into();
+        assert_eq!(tags.len(), Kind::ALL.len());
+        for kind in Kind::ALL {
+            assert_eq!(kind.tag().ends_with("internode"), kind.class() == Class::Internode, "{kind:?}");
+            let digits = kind.ontology_term().strip_prefix("PO:").map(str::as_bytes);
+            assert!(digits.is_some_and(|of| of.len() == 7 && of.iter().all(u8::is_ascii_digit)), "{kind:?}");
+        }
+    }
+
+    /// Numbers stand in files of earlier runs.
+    #[test]
+    fn numbers_never_change() {
+        let told = [
+            (Kind::ShortInternode, 1),
+            (Kind::ApicalBud, 5),
+            (Kind::RhizomeInternode, 6),
+            (Kind::StigmaInternode, 17),
+            (Kind::Leaflet, 18),
+            (Kind::Strobilus, 30),
+        ];
+        assert!(told.into_iter().all(|(kind, number)| kind as u8 == number));
     }
 }

@@ -1,15 +1,31 @@
-//! How the components of a species look, as far as it says so (de Reffye 1988 §6): kinds, forms and stated colours by
-//! order and state, and how organs grow to their size.
+//! What the components of a species are, as growth, pose and mechanics ask it (de Reffye 1988 §6): kinds and shapes by
+//! order and state, and how internodes and organs grow to their size.
 //!
-//! A form and a colour are associated with each tag, and forms may depend on age. Absent: triangles, and the colours of
-//! what states none (`phytomer_outputs::meshes`).
+//! How a look is drawn is a number here, a place among what drawing keeps in the habit. Absent: colours, forms and
+//! triangles (`phytomer_looks`, `phytomer_meshes`).
 
-use super::form::Form;
 use super::kind::{Class, Kind};
 use crate::clock::Tick;
 
-/// A stated colour: red, green and blue, sRGB.
-pub type Colour = [u8; 3];
+/// The number by which a look names how it is drawn; growth does not ask it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PaintNumber(u32);
+
+impl PaintNumber {
+    /// The number of a look of which nothing is stated for drawing.
+    pub const NONE: Self = Self(0);
+
+    /// The number of what is the nth of its list, counted from 1.
+    pub fn nth(nth: usize) -> Self {
+        Self(u32::try_from(nth).unwrap_or(0))
+    }
+
+    /// The place in that list, from 0.
+    #[inline]
+    pub fn place(self) -> Option<usize> {
+        (self.0 as usize).checked_sub(1)
+    }
+}
 
 /// The shape of an internode at rest (de Reffye 1988 §4).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,31 +63,10 @@ pub struct InternodeLook {
     pub shape: Shape,
     /// The thickness of those that are blades, m.
     pub thickness: f32,
-    /// The sides of their tubes; left out: as many as the mesh has.
-    pub sides: Option<u8>,
-    /// The form that they are drawn with, of their length and their diameter, where they are no tubes.
-    pub form: Option<Form>,
-    /// Their stated colours.
-    pub bark: Bark,
+    /// How they are drawn.
+    pub paint: PaintNumber,
     /// The share of their full length, by their own age in ticks, the last one for ever; empty: full at birth.
     pub expansion: Vec<f32>,
-}
-
-/// The stated colours of internodes.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Bark {
-    /// At birth.
-    pub shoot: Option<Colour>,
-    /// When bark has formed.
-    pub young: Option<Colour>,
-    /// When it is old.
-    pub old: Option<Colour>,
-    /// Of dead wood that stands.
-    pub dead: Option<Colour>,
-    /// The ticks in which a shoot turns halfway to bark.
-    pub forms_in: Option<Tick>,
-    /// The ticks in which young bark turns halfway to old.
-    pub darkens_in: Option<Tick>,
 }
 
 /// What the organs of an order look like.
@@ -85,21 +80,11 @@ pub struct OrganLooks {
     pub fruit: OrganLook,
 }
 
-/// The stated colours of an organ, and how it grows.
+/// How an organ grows and is drawn.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OrganLook {
-    /// At its birth.
-    pub young: Option<Colour>,
-    /// In the middle of its life, where it turns twice.
-    pub turning: Option<Colour>,
-    /// At its end.
-    pub old: Option<Colour>,
-    /// Of a leaf at its last tick before a seasonal fall.
-    pub autumn: Option<Colour>,
-    /// Of its stalk.
-    pub stalk: Option<Colour>,
-    /// The ticks over which a leaf turns before a seasonal fall; 0: it does not.
-    pub turns_in: Tick,
+    /// How it is drawn.
+    pub paint: PaintNumber,
     /// The share of its full length and width, by its own age in ticks, the last one for ever; empty: full at birth.
     pub expansion: Vec<f32>,
 }
@@ -110,14 +95,11 @@ impl InternodeLook {
 
     /// A tube of a shape, and nothing else stated.
     pub const fn of_shape(shape: Shape) -> Self {
-        let bark = Bark { shoot: None, young: None, old: None, dead: None, forms_in: None, darkens_in: None };
         Self {
             kind: Kind::Internode,
             shape,
             thickness: Self::BLADE_THICKNESS,
-            sides: None,
-            form: None,
-            bark,
+            paint: PaintNumber::NONE,
             expansion: Vec::new(),
         }
     }

@@ -9,8 +9,11 @@
 mod appeared;
 mod axis;
 pub(crate) mod borne;
+mod columns;
 mod cut;
 mod event;
+mod first;
+mod for_drawing;
 mod form;
 mod fragment;
 pub(crate) mod frames;
@@ -34,15 +37,16 @@ pub use appeared::{Appeared, Stretch};
 pub use axis::{ApexFate, Axes, NewAxis, Origin};
 pub use cut::{Cut, Cuts};
 pub use event::{Event, EventKind};
+pub use for_drawing::{Carried, ForDrawing};
 pub use form::Form;
-pub use fragment::{Fragment, Hands};
+pub use fragment::{Fragment, ThreadBudget};
 pub use frames::{Frame, Frames};
 pub use habit::{Habit, OrganTrend, OrganTrends, OwnTrends, Trend};
 pub use handle::{AxisId, NodeId, OrganId};
 pub use joint::Joint;
-pub use kind::{Cause, Class, Kind};
+pub use kind::{Cause, Class, Kind, PartOfPlant};
 pub use length::Rewritten;
-pub use look::{Bark, Colour, InternodeLook, Looks, OrganLook, OrganLooks, Shape};
+pub use look::{InternodeLook, Looks, OrganLook, OrganLooks, PaintNumber, Shape};
 pub use node::{NewNode, Nodes};
 pub use organ::{NewOrgan, Organs};
 pub use outline::StatedOrgans;
@@ -105,7 +109,7 @@ pub struct Plant {
     /// What was cut off.
     pub cuts: Cuts,
     /// The threads that may grow it at once; they never change the result.
-    pub hands: Hands,
+    pub budget: ThreadBudget,
     components: u32,
     component_limit: u32,
     /// Whether lineage keys follow from the numbers of components instead of their places on the axes.
@@ -148,7 +152,7 @@ impl Plant {
             rewritten: Rewritten::default(),
             own_looks: OwnLooks::default(),
             cuts: Cuts::default(),
-            hands: Hands::default(),
+            budget: ThreadBudget::default(),
             components: 0,
             component_limit: seed.component_limit.min(MOST_COMPONENTS),
             named_by_number: false,
@@ -197,7 +201,7 @@ impl Plant {
         self.components.saturating_add(more) <= self.component_limit
     }
 
-    /// Whether the plant has more components than it may have: whoever grows it stops and says so.
+    /// Whether the plant has more components than it may have: its model stops growing it and returns the limit.
     #[inline]
     pub fn is_overgrown(&self) -> bool {
         self.components > self.component_limit

@@ -3,6 +3,7 @@
 //! A node stands at the tip of its internode and bears leaves and buds; its rank counts along the axis from 1. Absent:
 //! the curvature that mechanics will write.
 
+use super::columns::columns;
 use super::handle::{AxisId, NodeId};
 use super::joint::Joint;
 use crate::clock::Tick;
@@ -35,38 +36,40 @@ pub struct NewNode {
     pub azimuth: f32,
 }
 
-/// The columns of the nodes.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Nodes {
-    /// The node at the base of the internode.
-    pub parent: Vec<NodeId>,
-    /// The axis.
-    pub axis: Vec<AxisId>,
-    /// The component number.
-    pub component: Vec<u32>,
-    /// The tick of appearance.
-    pub birth: Vec<Tick>,
-    /// The rank along the axis, from 1.
-    pub rank: Vec<u32>,
-    /// The rank in the growth unit, from 1.
-    pub unit_rank: Vec<u16>,
-    /// Short type and neoformation, one bit each.
-    pub formation: Vec<Formation>,
-    /// The trend, as a place in the habit's.
-    pub trend: Vec<u8>,
-    /// Length, metres.
-    pub length: Vec<f32>,
-    /// Diameter at birth, metres.
-    pub primary_diameter: Vec<f32>,
-    /// Diameter at the base at the recorded age, metres; written by the model's `thicken`.
-    pub diameter: Vec<f32>,
-    /// Diameter at the tip at the recorded age, metres; written by the model's `thicken`.
-    pub diameter_tip: Vec<f32>,
-    /// Azimuth of the first leaf, radians.
-    pub azimuth: Vec<f32>,
+columns! {
+    /// The columns of the nodes.
+    Nodes of node: NewNode, numbered component, joined by joint from more at place {
+        /// The node at the base of the internode.
+        parent: NodeId = node.parent => joint.below(more.parent[place], more.axis[place], more.rank[place] - 1),
+        /// The axis.
+        axis: AxisId = node.axis => joint.axis(more.axis[place]),
+        /// The component number.
+        component: u32 = component => joint.component(more.component[place]),
+        /// The tick of appearance.
+        birth: Tick = node.birth,
+        /// The rank along the axis, from 1.
+        rank: u32 = node.rank,
+        /// The rank in the growth unit, from 1.
+        unit_rank: u16 = node.unit_rank,
+        /// Short type and neoformation, one bit each.
+        formation: Formation = Formation::of(&node),
+        /// The trend, as a place in the habit's.
+        trend: u8 = node.trend,
+        /// Length, metres.
+        length: f32 = node.length,
+        /// Diameter at birth, metres.
+        primary_diameter: f32 = node.diameter,
+        /// Diameter at the base at the recorded age, metres; written by the model's `thicken`.
+        diameter: f32 = node.diameter,
+        /// Diameter at the tip at the recorded age, metres; written by the model's `thicken`.
+        diameter_tip: f32 = node.diameter,
+        /// Azimuth of the first leaf, radians.
+        azimuth: f32 = node.azimuth,
+    }
+    beside
     /// The first node of each run: of nodes that follow one another on one axis. An axis grown at once is one run, one
     /// that grew by the clock, between others, is several. Within a run the node before is the parent.
-    pub runs: Vec<NodeId>,
+    runs: NodeId
 }
 
 /// How an internode was formed.
@@ -74,6 +77,10 @@ pub struct Nodes {
 pub struct Formation(u8);
 
 impl Formation {
+    fn of(node: &NewNode) -> Self {
+        Self(u8::from(node.short) | u8::from(node.neoformed) << 1)
+    }
+
     /// Of a growth unit of the short type?
     pub fn is_short(self) -> bool {
         self.0 & 1 != 0
@@ -86,17 +93,6 @@ impl Formation {
 }
 
 impl Nodes {
-    /// How many nodes there are.
-    #[inline]
-    pub fn len(&self) -> usize {
-        self.parent.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.parent.is_empty()
-    }
-
     /// The nodes of a run.
     #[inline]
     pub fn run(&self, run: usize) -> Range<usize> {
@@ -109,63 +105,12 @@ impl Nodes {
         if self.axis.last() != Some(&node.axis) {
             self.runs.push(id);
         }
-        self.parent.push(node.parent);
-        self.axis.push(node.axis);
-        self.component.push(component);
-        self.birth.push(node.birth);
-        self.rank.push(node.rank);
-        self.unit_rank.push(node.unit_rank);
-        self.formation.push(Formation(u8::from(node.short) | u8::from(node.neoformed) << 1));
-        self.trend.push(node.trend);
-        self.length.push(node.length);
-        self.primary_diameter.push(node.diameter);
-        self.diameter.push(node.diameter);
-        self.diameter_tip.push(node.diameter);
-        self.azimuth.push(node.azimuth);
+        self.push_columns(node, component);
         id
     }
 
-    /// Adds the nodes of a fragment, half of the columns on another thread where one is free.
-    pub(super) fn join(&mut self, more: &Self, joint: &Joint) {
-        let Self { parent, axis, component, birth, rank, runs, .. } = self;
-        let Self { unit_rank, formation, trend, length, primary_diameter, diameter, diameter_tip, azimuth, .. } = self;
-        let topology = || {
-            let below =
-                |(place, &parent): (usize, &NodeId)| joint.below(parent, more.axis[place], more.rank[place] - 1);
-            runs.extend(more.runs.iter().map(|&first| joint.node(first)));
-            parent.extend(more.parent.iter().enumerate().map(below));
-            axis.extend(more.axis.iter().map(|&axis| joint.axis(axis)));
-            component.extend(more.component.iter().map(|&component| joint.component(component)));
-            birth.extend_from_slice(&more.birth);
-            rank.extend_from_slice(&more.rank);
-        };
-        let measures = || {
-            unit_rank.extend_from_slice(&more.unit_rank);
-            formation.extend_from_slice(&more.formation);
-            trend.extend_from_slice(&more.trend);
-            length.extend_from_slice(&more.length);
-            primary_diameter.extend_from_slice(&more.primary_diameter);
-            diameter.extend_from_slice(&more.diameter);
-            diameter_tip.extend_from_slice(&more.diameter_tip);
-            azimuth.extend_from_slice(&more.azimuth);
-        };
-        rayon::join(topology, measures);
-    }
-
-    pub(super) fn clear(&mut self) {
-        self.parent.clear();
-        self.axis.clear();
-        self.component.clear();
-        self.birth.clear();
-        self.rank.clear();
-        self.unit_rank.clear();
-        self.formation.clear();
-        self.trend.clear();
-        self.length.clear();
-        self.primary_diameter.clear();
-        self.diameter.clear();
-        self.diameter_tip.clear();
-        self.azimuth.clear();
-        self.runs.clear();
+    /// Notes where the runs of a fragment stand among the nodes of the whole.
+    pub(super) fn join_runs(&mut self, more: &Self, joint: &Joint) {
+        self.runs.extend(more.runs.iter().map(|&first| joint.node(first)));
     }
 }

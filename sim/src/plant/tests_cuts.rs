@@ -2,7 +2,7 @@
 //! every component stands or is gone; and the order in which cuts are told does not matter.
 
 use super::*;
-use crate::mechanics::{Bench, Tissue, Uprighting, Wood, bend};
+use crate::mechanics::{Scratch, Tissue, Uprighting, Wood, bend};
 use crate::pose::specimen::{Branch, Growth, Specimen};
 use crate::random::Purpose;
 use crate::shed::{note_falls, shed};
@@ -11,20 +11,7 @@ use crate::site::Site;
 const LAST: Tick = 30;
 
 fn leaf(node: NodeId) -> NewOrgan {
-    NewOrgan {
-        node,
-        kind: Kind::Leaf,
-        position: 0,
-        birth: 1,
-        death: NEVER,
-        cause: Cause::None,
-        form: Form::Elliptic,
-        length: 0.1,
-        width: 0.1,
-        area: 0.01,
-        azimuth: 0.0,
-        insertion: 1.0,
-    }
+    NewOrgan { node, length: 0.1, width: 0.1, area: 0.01, insertion: 1.0, ..NewOrgan::LEAF }
 }
 
 /// Axes with their bearing axis and rank, of five nodes each, with a leaf on each node.
@@ -184,7 +171,7 @@ fn a_topped_rod_bends_as_one_that_was_never_longer() {
     topped.cut(AxisId::TRUNK, 3, 8);
     for plant in [&mut topped, &mut short] {
         shed(plant);
-        bend(plant, 8, &Site::default(), &mut Bench::default());
+        bend(plant, 8, &Site::default(), &mut Scratch::default());
     }
     assert_eq!(topped.strain.curvature[..3], short.strain.curvature[..]);
     assert_eq!(topped.frames.base[..3], short.frames.base[..]);

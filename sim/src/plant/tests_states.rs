@@ -19,17 +19,12 @@ fn with_looks(branches: &[Branch], change: impl Fn(&mut Looks)) -> Plant {
 fn organ(plant: &mut Plant, node: u32) -> OrganId {
     plant.add_organ(NewOrgan {
         node: NodeId(node),
-        kind: Kind::Leaf,
-        position: 0,
-        birth: 1,
-        death: NEVER,
-        cause: Cause::None,
-        form: Form::Elliptic,
         length: 0.1,
         width: 0.1,
         area: 0.01,
         azimuth: 0.5,
         insertion: 1.0,
+        ..NewOrgan::LEAF
     })
 }
 
@@ -82,7 +77,7 @@ fn lengths_that_do_not_change_are_read_from_their_column() {
 #[test]
 fn single_nodes_and_organs_have_looks_of_their_own() {
     let petal = InternodeLook { kind: Kind::PetalInternode, ..InternodeLook::of_shape(Shape::Blade) };
-    let red = OrganLook { young: Some([200, 0, 0]), expansion: vec![0.5], ..OrganLook::default() };
+    let red = OrganLook { paint: PaintNumber::nth(1), expansion: vec![0.5] };
     let mut plant = with_looks(&[Branch::trunk(3, 0.5)], |looks| {
         looks.apart = vec![InternodeLook::of_shape(Shape::Cylinder), petal.clone()];
         looks.organs_apart = vec![red.clone()];
@@ -148,19 +143,7 @@ fn a_fragment_brings_what_it_states() {
         let last = plant.axes.last_node[axis.index()];
         let parent = last.some().unwrap_or(plant.axes.bearer[axis.index()]);
         let rank = if last == NodeId::NONE { 1 } else { 2 };
-        plant.add_node(NewNode {
-            parent,
-            axis,
-            birth: 1,
-            rank,
-            unit_rank: 1,
-            short: false,
-            neoformed: false,
-            trend: 0,
-            length: 0.1,
-            diameter: 0.01,
-            azimuth: 0.0,
-        })
+        plant.add_node(NewNode { parent, axis, rank, length: 0.1, diameter: 0.01, ..NewNode::OF_THE_TRUNK })
     };
     let work = |plant: &mut Plant, axis: AxisId| {
         let [first, second] = [add(plant, axis), add(plant, axis)];

@@ -10,14 +10,14 @@
 use super::rest::{Course, Way};
 use crate::clock::Tick;
 use crate::plant::borne::{Borne, Up};
-use crate::plant::frames::{Directions, Frame, Plane, Stated, Trended};
+use crate::plant::frames::{Directions, Frame, LastInsertion, Plane, Stated, Trended};
 use crate::plant::standing::{Run, Standing};
 use crate::plant::{Axes, Plant};
 use crate::rotation::Rotation;
 use crate::vector::Vector;
 
-/// Who states the curvature, while the scan goes from the base to the tips. What it carries along an axis goes from
-/// hand to hand by value, so that it stays in registers.
+/// The source of the curvature, asked while the scan goes from the base to the tips. Its state along an axis is passed
+/// and returned by value, so that it stays in registers.
 pub(crate) trait Curvature {
     /// What is carried along a run.
     type Carried: Copy;
@@ -100,7 +100,7 @@ fn follow<C: Course>(
         // Each is written by its bearer, or below, before it is read.
         stances.resize(axes.len(), ground_left(axes, 0));
     }
-    let mut borne = Up::new(laterals, &axes.bearer);
+    let (mut borne, mut insertion) = (Up::new(laterals, &axes.bearer), LastInsertion::default());
     let lengths = std::mem::take(&mut frames.lengths);
     let mut columns =
         Columns { trend: &nodes.trend, base: &mut frames.base, heading: &mut frames.heading, up: &mut frames.up };
@@ -117,7 +117,7 @@ fn follow<C: Course>(
             lengths: if lengths.is_empty() { &nodes.length } else { &lengths },
             age,
         };
-        follow_run(&mut columns, &way, run, &mut borne, stances, curvature);
+        follow_run(&mut columns, &way, run, (&mut borne, &mut insertion), stances, curvature);
     }
     frames.lengths = lengths;
 }
@@ -127,7 +127,7 @@ fn follow_run<C: Course>(
     columns: &mut Columns<'_>,
     way: &Way<'_>,
     run: &Run,
-    borne: &mut Up<'_>,
+    (borne, insertion): (&mut Up<'_>, &mut LastInsertion),
     stances: &mut [Stance<C>],
     curvature: &mut impl Curvature,
 ) {
@@ -147,7 +147,7 @@ fn follow_run<C: Course>(
         (tip, frame) = tip.extended(course.directions(), length, curved);
         (columns.base[node], columns.heading[node], columns.up[node]) = (frame.base, frame.heading, frame.up);
         while let Some(lateral) = borne.on(node) {
-            stances[lateral] = Stance { course, tip }.leaving(length, way.axes, lateral);
+            stances[lateral] = Stance { course, tip }.leaving(length, way.axes, lateral, insertion);
             curvature.leave(carried, lateral);
         }
     }
@@ -159,14 +159,16 @@ fn follow_run<C: Course>(
 fn ground_left<C: Course>(axes: &Axes, axis: usize) -> Stance<C> {
     let tip = Tip { base: Vector::default(), turned: Rotation::NONE, half: Vector::default() };
     let (plane, slope) = Plane::of(&Frame::GROUND);
-    Stance { course: C::leaving([plane.heading(slope), plane.up(slope)], 0.0, axes, axis), tip }
+    let leaving = || LastInsertion::default().leaving(axes.azimuth[axis], axes.insertion[axis]);
+    Stance { course: C::leaving([plane.heading(slope), plane.up(slope)], 0.0, leaving), tip }
 }
 
 impl<C: Course> Stance<C> {
     /// Where `axis` starts, which leaves the internode that this stance has come to.
     #[inline]
-    fn leaving(self, length: f64, axes: &Axes, axis: usize) -> Self {
-        let course = C::leaving(self.course.directions(), length, axes, axis);
+    fn leaving(self, length: f64, axes: &Axes, axis: usize, insertion: &mut LastInsertion) -> Self {
+        let leaving = || insertion.leaving(axes.azimuth[axis], axes.insertion[axis]);
+        let course = C::leaving(self.course.directions(), length, leaving);
         let tip = if C::STATED { self.tip } else { self.tip.ended() };
         Self { course, tip }
     }

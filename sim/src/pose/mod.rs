@@ -52,7 +52,7 @@ fn is_stale(plant: &Plant, age: Tick) -> bool {
 
 /// The pose at `age` of an organ on its node, whose frame must be there: its insertion, turned as far as the habit's
 /// trend for its kind has turned it in the ticks since its birth, and twisted to face the sky where leaves do. The base
-/// lies on the line of the axis, at the node; whoever draws the organ moves it out to the surface of the stem.
+/// lies on the line of the axis, at the node; a mesh moves it out to the surface of the stem.
 #[inline]
 pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
     let Plant { organs, nodes, axes, habit, .. } = plant;

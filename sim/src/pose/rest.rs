@@ -6,7 +6,7 @@
 //! trend. Heading and upper side are carried in double precision, so that a stated axis of many nodes does not drift.
 
 use crate::clock::Tick;
-use crate::plant::frames::{Along, Directions, Frame, Frames, Plane, Stated, Trended};
+use crate::plant::frames::{Along, Directions, Frame, Frames, LastInsertion, Leaving, Plane, Stated, Trended};
 use crate::plant::stated::{Part, Rest, StatedFrames};
 use crate::plant::{Axes, AxisId, NodeId, Trend};
 use crate::rotation::Rotation;
@@ -32,8 +32,9 @@ pub(crate) trait Course: Copy {
     /// Whether what an axis leaves is found with its first node, and nodes may begin beside their bearer.
     const STATED: bool;
 
-    /// The course of `axis`, which leaves an internode of these directions and this length.
-    fn leaving(bearing: Directions, length: f64, axes: &Axes, axis: usize) -> Self;
+    /// The course of an axis, which leaves an internode of these directions and this length; `leaving` is asked where
+    /// it leaves by insertion.
+    fn leaving(bearing: Directions, length: f64, leaving: impl FnOnce() -> Leaving) -> Self;
 
     /// Where the next node begins: an offset in the frame that the course has come to, where one is stated.
     /// `begins`: it is the first of its axis.
@@ -57,9 +58,10 @@ pub(crate) trait Course: Copy {
 }
 
 impl Trended {
-    fn inserted([heading, up]: Directions, axes: &Axes, axis: usize) -> Self {
+    #[inline(always)]
+    fn inserted([heading, up]: Directions, leaving: Leaving) -> Self {
         let rest = Frame { base: [0.0; 3], heading: heading.single(), up: up.single() };
-        let (plane, slope) = Plane::of(&rest.inserted(axes.azimuth[axis], axes.insertion[axis]));
+        let (plane, slope) = Plane::of(&rest.left_at(leaving));
         Self { plane, slope }
     }
 }
@@ -68,8 +70,8 @@ impl Course for Trended {
     const STATED: bool = false;
 
     #[inline]
-    fn leaving(bearing: Directions, _: f64, axes: &Axes, axis: usize) -> Self {
-        Self::inserted(bearing, axes, axis)
+    fn leaving(bearing: Directions, _: f64, leaving: impl FnOnce() -> Leaving) -> Self {
+        Self::inserted(bearing, leaving())
     }
 
     #[inline(always)]
@@ -111,7 +113,11 @@ impl Stated {
     /// The first internode of an axis that leaves these directions.
     fn begun(bearing: Directions, way: &Way<'_>) -> Along {
         match way.stated.rest(Part::Axis(way.axis), way.age) {
-            Rest::Follows => Along::Trended(Trended::inserted(bearing, way.axes, way.axis.index())),
+            Rest::Follows => {
+                let axis = way.axis.index();
+                let leaving = LastInsertion::default().leaving(way.axes.azimuth[axis], way.axes.insertion[axis]);
+                Along::Trended(Trended::inserted(bearing, leaving))
+            }
             rest => Along::Turned(turned(bearing, rest)),
         }
     }
@@ -131,7 +137,7 @@ impl Stated {
 impl Course for Stated {
     const STATED: bool = true;
 
-    fn leaving(bearing: Directions, length: f64, _: &Axes, _: usize) -> Self {
+    fn leaving(bearing: Directions, length: f64, _: impl FnOnce() -> Leaving) -> Self {
         Self { along: Along::Turned(bearing), length }
     }
 

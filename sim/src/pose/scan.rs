@@ -8,7 +8,7 @@
 use super::bearing_frame;
 use super::rest::{Course, Way, placed};
 use crate::clock::Tick;
-use crate::plant::frames::Frames;
+use crate::plant::frames::{Frames, LastInsertion};
 use crate::plant::standing::begins_axis;
 use crate::plant::{AxisId, Nodes, Plant};
 use crate::vector::Vector;
@@ -18,24 +18,32 @@ use std::ops::Range;
 pub(super) fn follow<C: Course>(plant: &mut Plant, age: Tick) {
     let posed = plant.frames.begin(plant.nodes.len(), plant.axes.len(), age);
     let mut appeared = std::mem::take(&mut plant.appeared);
+    let mut insertion = LastInsertion::default();
     for stretch in appeared.by(age, &plant.nodes) {
         let born = stretch.nodes();
         let birth = &plant.nodes.birth[born.clone()];
         let old = if birth[0] < posed { birth.partition_point(|&birth| birth < posed) } else { 0 };
         if old < born.len() {
-            follow_axis::<C>(plant, stretch.axis, born.start + old..born.end, age);
+            follow_axis::<C>(plant, stretch.axis, born.start + old..born.end, age, &mut insertion);
         }
     }
     plant.appeared = appeared;
 }
 
 #[inline]
-fn follow_axis<C: Course>(plant: &mut Plant, axis: AxisId, run: Range<usize>, age: Tick) {
+fn follow_axis<C: Course>(
+    plant: &mut Plant,
+    axis: AxisId,
+    run: Range<usize>,
+    age: Tick,
+    insertion: &mut LastInsertion,
+) {
     let bearing = bearing_frame(plant, axis);
     let bearer = plant.axes.bearer[axis.index()].some();
     let length = bearer.map_or(0.0, |bearer| f64::from(plant.posed_length(bearer)));
     let Plant { axes, nodes, frames, habit, own_trends, stated, .. } = plant;
-    let left = C::leaving([bearing.heading, bearing.up].map(Vector::from), length, axes, axis.index());
+    let leaving = || insertion.leaving(axes.azimuth[axis.index()], axes.insertion[axis.index()]);
+    let left = C::leaving([bearing.heading, bearing.up].map(Vector::from), length, leaving);
     let begins = begins_axis(nodes, run.start);
     let (base, course) = if begins {
         (Vector::from(bearing.base), left)

@@ -1,7 +1,7 @@
 //! Plants for the tests of the pose, stated axis by axis and built in either order of growth: one axis after another,
 //! as growth runs ahead, or a node of each axis in turn, as growth follows the clock.
 
-use crate::clock::{NEVER, Tick};
+use crate::clock::Tick;
 use crate::plant::*;
 use std::sync::Arc;
 
@@ -50,12 +50,7 @@ pub struct Specimen {
 
 impl Specimen {
     pub fn new(branches: &[Branch], trends: &[Trend]) -> Self {
-        let habit = Habit {
-            trends: trends.to_vec(),
-            looks: Looks::of_shape(Shape::Cylinder),
-            organ_trends: vec![],
-            wood: None,
-        };
+        let habit = Habit { trends: trends.to_vec(), looks: Looks::of_shape(Shape::Cylinder), ..Habit::default() };
         let seed = Seed { plant: 0, run_seed: 1, component_limit: u32::MAX, keep_events: false };
         let plant = Plant::new(&seed, Arc::new(habit));
         let (node_at, axis_at) = (vec![Vec::new(); branches.len()], vec![None; branches.len()]);
@@ -92,13 +87,10 @@ impl Specimen {
             axis,
             birth: rank.max(self.plant.age),
             rank,
-            unit_rank: 1,
-            short: false,
-            neoformed: false,
             trend: trends[usize::from(rank > nodes / 2)],
             length,
             diameter: 0.01,
-            azimuth: 0.0,
+            ..NewNode::OF_THE_TRUNK
         });
         self.node_at[place].push(node);
         true
@@ -114,16 +106,10 @@ impl Specimen {
             self.axis_at[place] = Some(self.plant.add_axis(NewAxis {
                 bearer,
                 key: LineageKey(place as u64),
-                order: 1,
                 origin: Origin::Axillary,
-                position: 0,
-                follows: false,
-                state: 0,
-                appearance: 0,
-                birth: 0,
                 azimuth,
                 insertion,
-                shed_after: NEVER,
+                ..NewAxis::OF_THE_SEED
             }));
         }
         self.axis_at[place]

@@ -4,10 +4,23 @@
 use super::specimen::{Branch, Growth, LAST, Specimen};
 use super::*;
 use crate::math::{acos, cosf, sinf};
-use crate::plant::{Cause, Form, Habit, Kind, LineageKey, NewAxis, NewOrgan, OrganTrend, OrganTrends, Origin, Trend};
+use crate::plant::{Cause, Habit, Kind, LineageKey, NewAxis, NewOrgan, OrganTrend, OrganTrends, Origin, Trend};
 use crate::random::{PlantRandom, Purpose};
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
+
+/// A leaf that stands straight out from its axis, on the second node of the plant.
+const LEAF: NewOrgan = NewOrgan {
+    node: NodeId(1),
+    death: 9,
+    cause: Cause::LifeLength,
+    length: 0.1,
+    width: 0.05,
+    area: 0.004,
+    azimuth: PI,
+    insertion: FRAC_PI_2,
+    ..NewOrgan::LEAF
+};
 
 fn trend(inclination: f32, share: f64) -> Trend {
     Trend { inclination: f64::from(inclination), share }
@@ -168,29 +181,12 @@ fn organs_and_buds_stand_at_the_tip_of_their_node() {
         key: LineageKey(1),
         order: 2,
         origin: Origin::Axillary,
-        position: 0,
-        follows: false,
-        state: 0,
         appearance: 1,
         birth: 3,
-        azimuth: 0.0,
         insertion: FRAC_PI_2,
-        shed_after: crate::clock::NEVER,
+        ..NewAxis::OF_THE_SEED
     });
-    let leaf = plant.add_organ(NewOrgan {
-        node: NodeId(1),
-        kind: Kind::Leaf,
-        position: 0,
-        birth: 1,
-        death: 9,
-        cause: Cause::LifeLength,
-        form: Form::Elliptic,
-        length: 0.1,
-        width: 0.05,
-        area: 0.004,
-        azimuth: PI,
-        insertion: FRAC_PI_2,
-    });
+    let leaf = plant.add_organ(LEAF);
     pose(plant, LAST);
     assert_near(bud_frame(plant, AxisId::TRUNK).base, [0.0, 0.0, 1.0]);
     let bud = bud_frame(plant, waiting);
@@ -209,20 +205,7 @@ fn a_leaf_sinks_with_its_age_and_a_fruit_hangs() {
     let sinking = OrganTrend { inclination: std::f64::consts::PI, shares: vec![0.0, 0.5, 1.0] };
     let of_trunk = OrganTrends { leaf: Some(sinking), ..OrganTrends::default() };
     plant.habit = Arc::new(Habit { organ_trends: vec![of_trunk], ..(*plant.habit).clone() });
-    let organ = |kind| NewOrgan {
-        node: NodeId(1),
-        kind,
-        position: 0,
-        birth: 3,
-        death: 9,
-        cause: Cause::LifeLength,
-        form: Form::Elliptic,
-        length: 0.1,
-        width: 0.05,
-        area: 0.004,
-        azimuth: PI,
-        insertion: FRAC_PI_2,
-    };
+    let organ = |kind| NewOrgan { kind, birth: 3, ..LEAF };
     let (leaf, flower) = (plant.add_organ(organ(Kind::Leaf)), plant.add_organ(organ(Kind::Flower)));
     pose(plant, LAST);
     let heading = |age| organ_frame(plant, leaf, age).heading;
@@ -241,20 +224,7 @@ fn leaves_that_face_the_sky_turn_their_upper_side_up() {
     let mut specimen = Specimen::grown(&[Branch::trunk(2, 0.5)], &[], Growth::AxisByAxis);
     let plant = &mut specimen.plant;
     plant.axes.insertion[0] = FRAC_PI_2;
-    let leaf = |azimuth, insertion| NewOrgan {
-        node: NodeId(1),
-        kind: Kind::Leaf,
-        position: 0,
-        birth: 1,
-        death: 9,
-        cause: Cause::LifeLength,
-        form: Form::Elliptic,
-        length: 0.1,
-        width: 0.05,
-        area: 0.004,
-        azimuth,
-        insertion,
-    };
+    let leaf = |azimuth, insertion| NewOrgan { azimuth, insertion, ..LEAF };
     let leaves = [plant.add_organ(leaf(FRAC_PI_2, FRAC_PI_2)), plant.add_organ(leaf(0.4, 1.1))];
     pose(plant, LAST);
     let before = leaves.map(|leaf| organ_frame(plant, leaf, 5));

@@ -3,8 +3,8 @@
 
 use super::specimen::{Branch, Growth, LAST, Specimen};
 use super::*;
-use crate::mechanics::{Bench, OrganMass, Tissue, Uprighting, Wood, bend};
-use crate::plant::{Cause, Form, Habit, Kind, NewOrgan, Origin, Rest, Trend};
+use crate::mechanics::{OrganMass, Scratch, Tissue, Uprighting, Wood, bend};
+use crate::plant::{Habit, NewOrgan, Origin, Rest, Trend};
 use crate::rotation::Rotation;
 use crate::site::{Site, Wind};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -54,17 +54,13 @@ fn specimen(growth: Growth, bends: bool) -> Specimen {
         (plant.nodes.diameter[node], plant.nodes.diameter_tip[node]) = (0.05, 0.049);
         plant.add_organ(NewOrgan {
             node: at,
-            kind: Kind::Leaf,
-            position: 0,
             birth: plant.nodes.birth[node],
-            death: crate::clock::NEVER,
-            cause: Cause::None,
-            form: Form::Elliptic,
             length: 0.1,
             width: 0.05,
             area: 0.004,
             azimuth: 1.0,
             insertion: 1.0,
+            ..NewOrgan::LEAF
         });
     }
     specimen
@@ -155,11 +151,11 @@ fn stated_frames_bend_as_insertion_and_trend_do() {
     pose(&mut rest, LAST);
     let mut stated = stating(&plant, &rest, |_| true);
     let mut trended = plant;
-    let (mut bench, mut other) = (Bench::default(), Bench::default());
+    let (mut scratch, mut other) = (Scratch::default(), Scratch::default());
     let site = Site { wind: Wind { speed: 6.0, towards: 0.5 }, ..Site::default() };
     let mut moved = 0.0_f64;
     for age in [200, 350, 351, LAST] {
-        let one = bend(&mut trended, age, &site, &mut bench);
+        let one = bend(&mut trended, age, &site, &mut scratch);
         assert_eq!(one, bend(&mut stated, age, &site, &mut other));
     }
     assert_alike(&trended, &stated);
@@ -231,7 +227,7 @@ fn what_begins_low_on_its_bearer_does_not_weigh_on_its_middle() {
         plant.nodes.diameter.fill(0.2);
         plant.nodes.diameter_tip.fill(0.2);
         plant.state_start(AxisId(1), [along, 0.0, 0.0]);
-        bend(&mut plant, LAST, &Site::default(), &mut Bench::default());
+        bend(&mut plant, LAST, &Site::default(), &mut Scratch::default());
         let [a, b] = plant.strain.moment[0].map(f64::from);
         (a * a + b * b).sqrt()
     };
@@ -241,7 +237,7 @@ fn what_begins_low_on_its_bearer_does_not_weigh_on_its_middle() {
         plant.habit = Arc::new(Habit { wood: Some(wood()), ..(*plant.habit).clone() });
         plant.nodes.diameter.fill(0.2);
         plant.nodes.diameter_tip.fill(0.2);
-        bend(&mut plant, LAST, &Site::default(), &mut Bench::default());
+        bend(&mut plant, LAST, &Site::default(), &mut Scratch::default());
         let [a, b] = plant.strain.moment[0].map(f64::from);
         (a * a + b * b).sqrt()
     };
@@ -259,7 +255,7 @@ fn a_branch_from_the_middle_of_a_bent_internode_stands_between_its_ends() {
         plant.nodes.diameter.fill(0.03);
         plant.nodes.diameter_tip.fill(0.03);
         plant.state_start(AxisId(1), [start, 0.0, 0.0]);
-        bend(&mut plant, LAST, &Site::default(), &mut Bench::default());
+        bend(&mut plant, LAST, &Site::default(), &mut Scratch::default());
         plant
     };
     let rod = |nodes: u32, length: f32| Branch { insertion: 1.4, ..Branch::trunk(nodes, length) };

@@ -1,4 +1,5 @@
-//! Kinds, forms and stated colours, compiled: what each order's components are and look like (de Reffye 1988 §6).
+//! Kinds, forms and stated colours, compiled: what each order's components are and look like (de Reffye 1988 §6). What
+//! growth asks goes into looks, what drawing alone asks into paints.
 //!
 //! What may differ by state is spread over the states; names become numbers, colours bytes, and the law of an organ's
 //! expansion a table by its own age. Absent: what is drawn where nothing is stated.
@@ -9,7 +10,8 @@ use crate::buds::params::{
 };
 use crate::fault::{Fault, Path};
 use crate::law::{Law, Quantity, ValueRange, Variate};
-use phytomer_sim::plant::{Bark, Class, Colour, Form, InternodeLook, Kind, Looks, OrganLook, OrganLooks, Shape};
+use phytomer_looks::{Bark, Colour, InternodePaint, OrganPaint, Paints, own_form};
+use phytomer_sim::plant::{Class, Form, InternodeLook, Kind, Looks, OrganLook, OrganLooks, PaintNumber, Shape};
 
 const SIDES: std::ops::RangeInclusive<u32> = 3..=64;
 /// The most meshes of its own that a species may name.
@@ -19,8 +21,9 @@ const THICKNESS: ValueRange = ValueRange { min: 0.001, max: 1000.0, what: "a thi
 /// A share of an organ's full size.
 const SHARE: ValueRange = ValueRange { min: 0.0, max: 1.0, what: "a share of the full size" };
 
-/// The looks of a species.
-pub fn compile(buds: &Buds, until: u32, path: &Path, faults: &mut Vec<Fault>) -> Looks {
+/// The looks of a species, and how they are drawn.
+pub fn compile(buds: &Buds, until: u32, path: &Path, faults: &mut Vec<Fault>) -> (Looks, Paints) {
+    let mut paints = Paints::default();
     let mut looks = Looks { states: buds.states.len().max(1), ..Looks::default() };
     if buds.meshes_of_its_own().len() > MOST_OWN {
         let found = format!("the species names {} meshes of its own", buds.meshes_of_its_own().len());
@@ -28,21 +31,21 @@ pub fn compile(buds: &Buds, until: u32, path: &Path, faults: &mut Vec<Fault>) ->
     }
     for index in 0..buds.order.len() {
         let path = path.key("order").index(index);
-        let mut place = Place { buds, until, index, path, faults };
+        let mut place = Place { buds, until, index, path, paints: &mut paints, faults };
         let organs = place.organs();
         looks.internodes.extend(place.internodes());
         looks.organs.push(organs);
     }
-    looks
+    (looks, paints)
 }
 
 /// The number of a form: its place in the library, or among the species' own meshes.
 pub fn form_of(buds: &Buds, choice: &FormChoice) -> Form {
     match choice {
-        FormChoice::Named(name) => Form::from(*name),
+        FormChoice::Named(name) => name.form(),
         FormChoice::Own(own) => {
             let place = buds.meshes_of_its_own().iter().position(|(_, mesh)| *mesh == own.mesh);
-            Form::Own(place.and_then(|place| u8::try_from(place).ok()).unwrap_or(0))
+            own_form(place.and_then(|place| u8::try_from(place).ok()).unwrap_or(0))
         }
     }
 }
@@ -93,6 +96,7 @@ struct Place<'a> {
     until: u32,
     index: usize,
     path: Path,
+    paints: &'a mut Paints,
     faults: &'a mut Vec<Fault>,
 }
 
@@ -109,16 +113,7 @@ impl Place<'_> {
         for (look, (kind, path)) in looks.iter_mut().zip(self.spread(&internode.kind, &path.key("kind"))) {
             look.kind = self.kind(*kind, Class::Internode, &path);
         }
-        if let Some(stated) = &internode.form {
-            for (look, (form, _)) in looks.iter_mut().zip(self.spread(stated, &path.key("form"))) {
-                look.form = Some(form_of(buds, form));
-            }
-        }
-        if let Some(stated) = &internode.colour {
-            for (look, (bark, path)) in looks.iter_mut().zip(self.spread(stated, &path.key("colour"))) {
-                look.bark = self.bark(bark, &path);
-            }
-        }
+        let mut paints = self.internode_forms_and_barks(&path);
         if let Some(thickness) = &internode.thickness_mm {
             match thickness.within(&path.key("thickness_mm"), THICKNESS) {
                 Ok(thickness) => looks.iter_mut().for_each(|look| look.thickness = (thickness * 0.001) as f32),
@@ -127,9 +122,28 @@ impl Place<'_> {
         }
         if let Some(sides) = &internode.sides {
             let sides = self.sides(sides, &path.key("sides"));
-            looks.iter_mut().for_each(|look| look.sides = Some(sides));
+            paints.iter_mut().for_each(|paint| paint.sides = Some(sides));
         }
+        looks.iter_mut().zip(paints).for_each(|(look, paint)| look.paint = self.paints.add_internode(paint));
         looks
+    }
+
+    /// One paint a state, with the forms and the colours that are stated.
+    fn internode_forms_and_barks(&mut self, path: &Path) -> Vec<InternodePaint> {
+        let buds = self.buds;
+        let internode = &buds.order[self.index].internode;
+        let mut paints = vec![InternodePaint::default(); buds.states.len().max(1)];
+        if let Some(stated) = &internode.form {
+            for (paint, (form, _)) in paints.iter_mut().zip(self.spread(stated, &path.key("form"))) {
+                paint.form = Some(form_of(buds, form));
+            }
+        }
+        if let Some(stated) = &internode.colour {
+            for (paint, (bark, path)) in paints.iter_mut().zip(self.spread(stated, &path.key("colour"))) {
+                paint.bark = self.bark(bark, &path);
+            }
+        }
+        paints
     }
 
     /// One thing a state, each with the place where it is stated; fewer, with faults, where some is missing.
@@ -168,11 +182,8 @@ impl Place<'_> {
     fn kind(&mut self, name: KindName, class: Class, path: &Path) -> Kind {
         let kind = Kind::from(name);
         if kind.class() != class {
-            let fitting: Vec<&str> = Kind::ALL
-                .iter()
-                .filter(|kind| kind.class() == class && **kind != Kind::ShortInternode)
-                .map(|kind| kind.tag())
-                .collect();
+            let stated = KindName::ALL.iter().map(|name| Kind::from(*name));
+            let fitting: Vec<&str> = stated.filter(|kind| kind.class() == class).map(Kind::tag).collect();
             let found = format!("the kind `{}` cannot stand here", kind.tag());
             self.faults.push(Fault::new(path, found, format!("one of {}", fitting.join(", "))));
         }
@@ -191,15 +202,15 @@ impl Place<'_> {
         OrganLooks {
             leaf: OrganLook {
                 expansion: self.expansion(&order.leaf.expansion, "leaf"),
-                ..self.leaf(&order.leaf.colour)
+                paint: self.leaf(&order.leaf.colour),
             },
             flower: OrganLook {
                 expansion: self.expansion(&order.flower.expansion, "flower"),
-                ..self.flower(&order.flower.colour)
+                paint: self.flower(&order.flower.colour),
             },
             fruit: OrganLook {
                 expansion: self.expansion(&order.fruit.expansion, "fruit"),
-                ..self.fruit(&order.fruit.colour)
+                paint: self.fruit(&order.fruit.colour),
             },
         }
     }
@@ -214,59 +225,62 @@ impl Place<'_> {
         })
     }
 
-    fn leaf(&mut self, stated: &Option<LeafChoice>) -> OrganLook {
+    fn leaf(&mut self, stated: &Option<LeafChoice>) -> PaintNumber {
         let turns_in = self.buds.season.as_ref().map_or(0, |season| turning_of(season.ticks_per_year.value()));
         let path = self.path.key("leaf").key("colour");
-        match stated {
-            None => OrganLook { turns_in, ..OrganLook::default() },
+        let paint = match stated {
+            None => OrganPaint { turns_in, ..OrganPaint::default() },
             Some(LeafChoice::One(colour)) => {
                 let colour = self.colour(colour, &path);
-                OrganLook { young: colour, old: colour, turns_in, ..OrganLook::default() }
+                OrganPaint { young: colour, old: colour, turns_in, ..OrganPaint::default() }
             }
-            Some(LeafChoice::Stages(stages)) => OrganLook {
+            Some(LeafChoice::Stages(stages)) => OrganPaint {
                 young: self.stage(&stages.young, &path, "young"),
                 old: self.stage(&stages.old, &path, "old"),
                 autumn: self.stage(&stages.autumn, &path, "autumn"),
                 stalk: self.stage(&stages.stalk, &path, "stalk"),
                 turns_in: stages.turns_in.as_ref().map_or(turns_in, Quantity::value),
-                ..OrganLook::default()
+                ..OrganPaint::default()
             },
-        }
+        };
+        self.paints.add_organ(paint)
     }
 
-    fn flower(&mut self, stated: &Option<FlowerChoice>) -> OrganLook {
+    fn flower(&mut self, stated: &Option<FlowerChoice>) -> PaintNumber {
         let path = self.path.key("flower").key("colour");
-        match stated {
-            None => OrganLook::default(),
+        let paint = match stated {
+            None => OrganPaint::default(),
             Some(FlowerChoice::One(colour)) => {
                 let colour = self.colour(colour, &path);
-                OrganLook { young: colour, old: colour, ..OrganLook::default() }
+                OrganPaint { young: colour, old: colour, ..OrganPaint::default() }
             }
-            Some(FlowerChoice::Stages(stages)) => OrganLook {
+            Some(FlowerChoice::Stages(stages)) => OrganPaint {
                 young: self.stage(&stages.young, &path, "young"),
                 old: self.stage(&stages.old, &path, "old"),
                 stalk: self.stage(&stages.stalk, &path, "stalk"),
-                ..OrganLook::default()
+                ..OrganPaint::default()
             },
-        }
+        };
+        self.paints.add_organ(paint)
     }
 
-    fn fruit(&mut self, stated: &Option<FruitChoice>) -> OrganLook {
+    fn fruit(&mut self, stated: &Option<FruitChoice>) -> PaintNumber {
         let path = self.path.key("fruit").key("colour");
-        match stated {
-            None => OrganLook::default(),
+        let paint = match stated {
+            None => OrganPaint::default(),
             Some(FruitChoice::One(colour)) => {
                 let colour = self.colour(colour, &path);
-                OrganLook { young: colour, turning: colour, old: colour, ..OrganLook::default() }
+                OrganPaint { young: colour, turning: colour, old: colour, ..OrganPaint::default() }
             }
-            Some(FruitChoice::Stages(stages)) => OrganLook {
+            Some(FruitChoice::Stages(stages)) => OrganPaint {
                 young: self.stage(&stages.young, &path, "young"),
                 turning: self.stage(&stages.turning, &path, "turning"),
                 old: self.stage(&stages.ripe, &path, "ripe"),
                 stalk: self.stage(&stages.stalk, &path, "stalk"),
-                ..OrganLook::default()
+                ..OrganPaint::default()
             },
-        }
+        };
+        self.paints.add_organ(paint)
     }
 
     fn bark(&mut self, stated: &BarkChoice, path: &Path) -> Bark {

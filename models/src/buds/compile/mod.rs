@@ -79,7 +79,7 @@ impl Buds {
             faults.append(&mut compiler.faults);
             fault::tell_once(&mut faults, compiler.asked_again);
         }
-        let looks = look::compile(self, until.min(LAST_TICK), path, &mut faults);
+        let (looks, paints) = look::compile(self, until.min(LAST_TICK), path, &mut faults);
         let wood = wood::compile(self, until.min(LAST_TICK), path, &mut faults);
         if !faults.is_empty() {
             faults.sort_by(|a, b| a.path.cmp(&b.path));
@@ -88,7 +88,7 @@ impl Buds {
         if organ_trends.iter().all(|of| *of == OrganTrends::default()) {
             organ_trends.clear();
         }
-        let habit = Habit { trends, looks, organ_trends, wood };
+        let habit = Habit { trends, looks, organ_trends, wood, for_drawing: paints.into_habit() };
         let states = self.states.len().max(1);
         Ok(BudModel { orders, states, until, habit: Arc::new(habit), expected: OnceLock::new() })
     }

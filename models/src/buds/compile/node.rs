@@ -151,7 +151,7 @@ fn leaf(order: &Order, compiler: &mut Compiler, words: &mut Layout, leaves: u32)
     let form = compiler.form(&leaf.form);
     let area_share = match &leaf.area_share {
         Some(stated) => compiler.variate(stated, "leaf.area_share", AREA_SHARE),
-        None => VariateTable::always(f64::from(form.area_share())),
+        None => VariateTable::always(f64::from(leaf.form.area_share())),
     };
     OrganLaws {
         length: words.measure(compiler.measure(&leaf.length_cm, "leaf.length_cm"), CM, leaves),

@@ -4,7 +4,7 @@
 //! Absent: the colours of what states none, which `phytomer_outputs::meshes` knows by kind and form.
 
 use crate::law::Quantity;
-use phytomer_sim::plant::Colour;
+use phytomer_looks::Colour;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -21,10 +21,12 @@ pub use colour::{
 pub use geometry::{
     Divergence, Internode, NamedPhyllotaxis, Orientation, Phase, Phyllotaxis, ShapeName, StateTrends, Tended, Trend,
 };
-pub use looks::{ByState, EachState, FormChoice, FormName, KindName, OwnForm};
+pub use looks::{ByState, EachState, FormChoice, KindName, OwnForm};
 pub use organs::{Facing, Flower, Fruit, Leaf, OrganTrend, Season};
 pub use sympodial::{Apex, ApexEnd, Fork, Reiteration, Relay, Sibling, Transition, Traumatic};
 pub use wood::{CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood};
+
+pub use phytomer_looks::FormName;
 
 pub use crate::law::{Constant, Quantity, SpeedForm, SpeedText, Speeds};
 

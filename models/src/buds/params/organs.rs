@@ -4,8 +4,9 @@
 //! drawn, which is known by their form's name alone.
 
 use super::colour::{FlowerChoice, FruitChoice, LeafChoice};
-use super::looks::{FormChoice, FormName, KindName};
+use super::looks::{FormChoice, KindName};
 use crate::law::{Constant, Count, Law, Quantity, Variate};
+use phytomer_looks::FormName;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,14 +1,13 @@
 //! The library of forms (de Reffye 1988 §6): a small mesh for each form of organ, in a unit box, put in place by
 //! scaling.
 //!
-//! In the box x runs from the base (0) to the tip (1) along the organ, y across it to its left (−½ to ½), z to its
-//! upper side. Length scales x, width y, and one of the two z; a form is parametrised by age through the two. An organ
-//! of which an area is stated is drawn as much slimmer or fuller as that area asks (`side`): a simple blade in its
-//! width, a compound one in each of its parts, so that leaflets and needles keep their reach. Triangles are
-//! single-sided, counterclockwise as seen from the upper or outer side, with one normal a vertex: the ten readers of
-//! the profile draw both sides or let the user choose, and doubled faces would flicker and count twice in areas. Leaves
-//! are assemblies of at most four plane convex polygons, folded along the midrib. Internodes are tubes
-//! ([`super::tube`]); buds are not drawn.
+//! In the box x runs along the organ from its base (0) to its tip (1), y across it to its left (−½ to ½), z to its
+//! upper side. The length scales x, the width y, and one of the two z; so a form is parametrised by age. An organ of
+//! which an area is stated is drawn slimmer or fuller until it has that area (`side`): a simple blade in its width, a
+//! compound one in each of its parts. Triangles are single-sided, counterclockwise as seen from the upper or outer
+//! side, with one normal a vertex: doubled faces would flicker and count twice in areas. Leaves are assemblies of at
+//! most four plane convex polygons, folded along the midrib. Which functions make which forms is in the table of
+//! `phytomer_looks`. Absent: internodes ([`super::tube`]), and buds, which are not drawn.
 
 mod arch;
 mod blade;
@@ -23,6 +22,7 @@ mod side;
 mod tests;
 
 use super::chunk::{Tag, Vertex};
+use phytomer_looks::FormName;
 use phytomer_sim::plant::Form;
 use side::Side;
 use std::sync::LazyLock;
@@ -83,53 +83,24 @@ pub struct Placement {
 
 /// The shape of a form of the library; of a mesh of the user's that is not at hand, a broad blade.
 pub fn shape(form: Form) -> &'static FormMesh {
-    static LIBRARY: LazyLock<Vec<FormMesh>> =
-        LazyLock::new(|| Form::LIBRARY.iter().map(|&form| made(form).measured()).collect());
-    LIBRARY.get(form.number()).unwrap_or(&LIBRARY[0])
+    static LIBRARY: LazyLock<[FormMesh; FormName::ALL.len()]> =
+        LazyLock::new(|| FormName::ALL.map(|form| made(form).measured()));
+    LIBRARY.get(usize::from(form.0)).unwrap_or(&LIBRARY[FormName::Elliptic as usize])
 }
 
-/// Makes the shape of a form.
-fn made(form: Form) -> FormMesh {
-    match form {
-        Form::Elliptic | Form::Own(_) => blade::elliptic(),
-        Form::Lanceolate => blade::lanceolate(),
-        Form::Deltoid => blade::deltoid(),
-        Form::Needle => blade::needle(),
-        Form::Palm => palm::palm(),
-        Form::Corolla => flower::corolla(),
-        Form::Berry => fruit::berry(),
-        Form::Cone => round::cone(),
-        Form::Obovate => blade::obovate(),
-        Form::Cordate => blade::cordate(),
-        Form::Palmate => blade::palmate(),
-        Form::Linear => blade::linear(),
-        Form::Arching => arch::arching(),
-        Form::Paddle => arch::paddle(),
-        Form::Fan => blade::fan(),
-        Form::Pinnate => palm::pinnate(),
-        Form::Leaflet => blade::leaflet(),
-        Form::Fascicle => blade::fascicle(),
-        Form::Scale => blade::scale(),
-        Form::Petal => arch::petal(),
-        Form::Sepal => arch::sepal(),
-        Form::Stamen => flower::stamen(),
-        Form::Pistil => flower::pistil(),
-        Form::Rosette => flower::rosette(),
-        Form::Catkin => round::catkin(),
-        Form::Spikelet => round::spikelet(),
-        Form::Cherry => fruit::cherry(),
-        Form::Apple => fruit::apple(),
-        Form::Capsule => fruit::capsule(),
-        Form::Nut => fruit::nut(),
-        Form::Drupe => fruit::drupe(),
-        Form::Finger => fruit::finger(),
-        Form::Pod => fruit::pod(),
-        Form::Tuft => cluster::tuft(),
-        Form::Spray => cluster::spray(),
-        Form::Panicle => cluster::panicle(),
-        Form::Cyme => cluster::cyme(),
-    }
+/// Makes the function `made` of the table of forms, whose rows name the functions of this folder.
+macro_rules! made {
+    ($(#[doc = $prose:tt] $form:ident, $name:tt, $share:literal, $module:ident :: $mesh:ident;)*) => {
+        /// Makes the shape of a form.
+        fn made(form: FormName) -> FormMesh {
+            match form {
+                $(FormName::$form => $module::$mesh(),)*
+            }
+        }
+    };
 }
+
+phytomer_looks::forms!(made);
 
 impl FormMesh {
     fn new(depth: Depth) -> Self {

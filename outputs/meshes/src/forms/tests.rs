@@ -4,51 +4,47 @@ use super::super::chunk::Face;
 use super::super::measure::{assert_closed, assert_unit_normals, outward_share, surface, volume};
 use super::*;
 use bytemuck::Zeroable;
+use phytomer_looks::FormName;
 use std::collections::BTreeSet;
 
-const FORMS: [Form; 37] = Form::LIBRARY;
+const FORMS: [FormName; FormName::ALL.len()] = FormName::ALL;
 
-/// Blades of one piece: leaves, petals and sepals that are not compound.
-const BLADES: [Form; 16] = [
-    Form::Elliptic,
-    Form::Lanceolate,
-    Form::Deltoid,
-    Form::Needle,
-    Form::Obovate,
-    Form::Cordate,
-    Form::Palmate,
-    Form::Linear,
-    Form::Arching,
-    Form::Paddle,
-    Form::Fan,
-    Form::Leaflet,
-    Form::Fascicle,
-    Form::Scale,
-    Form::Petal,
-    Form::Sepal,
-];
+/// What a form is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Build {
+    /// A blade of one piece: a leaf, petal or sepal that is not compound.
+    Blade,
+    /// One closed surface, or several.
+    Solid,
+    /// Several blades, with or without what bears them.
+    Compound,
+}
 
-const SOLIDS: [Form; 13] = [
-    Form::Berry,
-    Form::Cone,
-    Form::Catkin,
-    Form::Spikelet,
-    Form::Cherry,
-    Form::Apple,
-    Form::Capsule,
-    Form::Nut,
-    Form::Drupe,
-    Form::Finger,
-    Form::Pod,
-    Form::Stamen,
-    Form::Pistil,
-];
+/// The compiler asks it of every new form.
+fn build(form: FormName) -> Build {
+    use FormName::*;
+    match form {
+        Elliptic | Lanceolate | Deltoid | Needle | Obovate | Cordate | Palmate | Linear => Build::Blade,
+        Arching | Paddle | Fan | Leaflet | Fascicle | Scale | Petal | Sepal => Build::Blade,
+        Berry | Cone | Catkin | Spikelet | Cherry | Apple | Capsule | Nut => Build::Solid,
+        Drupe | Finger | Pod | Stamen | Pistil => Build::Solid,
+        Palm | Corolla | Pinnate | Rosette | Tuft | Spray | Panicle | Cyme => Build::Compound,
+    }
+}
 
-fn placed(form: Form, size: [f32; 2]) -> (Vec<Vertex>, Vec<Face>) {
+fn built(as_a: Build) -> impl Iterator<Item = FormName> {
+    FORMS.into_iter().filter(move |form| build(*form) == as_a)
+}
+
+fn shape(form: FormName) -> &'static FormMesh {
+    super::shape(form.form())
+}
+
+fn placed(form: FormName, size: [f32; 2]) -> (Vec<Vertex>, Vec<Face>) {
     fuller(form, size, 1.0)
 }
 
-fn fuller(form: Form, size: [f32; 2], fullness: f32) -> (Vec<Vertex>, Vec<Face>) {
+fn fuller(form: FormName, size: [f32; 2], fullness: f32) -> (Vec<Vertex>, Vec<Face>) {
     let tag = Tag { colour: [0; 4], birth: 0.0, death: 1.0, component: 3, kind: 2 };
     let place = Placement { base: [1.0, 2.0, 3.0], heading: [0.0, 0.6, 0.8], up: [0.0, -0.8, 0.6], size, fullness };
     let shape = shape(form);
@@ -74,14 +70,14 @@ fn every_form_fits_its_box_and_its_normals_agree_with_its_triangles() {
 
 /// The area of one side: of plane polygons, and of what is closed half of it. The rachis of a palm and the tube of a
 /// corolla are open at their ends.
-fn area(form: Form, size: [f32; 2], fullness: f32) -> f64 {
+fn area(form: FormName, size: [f32; 2], fullness: f32) -> f64 {
     let (vertices, faces) = fuller(form, size, fullness);
     let is_plane = |face: &Face| {
         let corner = face.indices()[0];
         shape(form).polygons.iter().any(|&[first, count]| (first..first + count).contains(&corner))
     };
     let (plane, round): (Vec<Face>, Vec<Face>) = faces.into_iter().partition(is_plane);
-    let sides = if matches!(form, Form::Palm | Form::Corolla) { 1.0 } else { 2.0 };
+    let sides = if matches!(form, FormName::Palm | FormName::Corolla) { 1.0 } else { 2.0 };
     surface(&vertices, &plane) + surface(&vertices, &round) / sides
 }
 
@@ -105,7 +101,7 @@ fn an_organ_has_the_area_that_is_stated_whatever_its_form_and_proportions() {
                 let (vertices, faces) = fuller(form, size, fullness);
                 assert_unit_normals(&vertices);
                 // Solids far wider than long keep the normals of their own proportions, which lean too far.
-                let outward = SOLIDS.contains(&form) || outward_share(&vertices, &faces) == 1.0;
+                let outward = build(form) == Build::Solid || outward_share(&vertices, &faces) == 1.0;
                 assert!(outward, "{form:?} {size:?} {share}");
             }
         }
@@ -123,7 +119,7 @@ fn normals_are_unit_at_any_size() {
 
 #[test]
 fn blades_are_assemblies_of_at_most_four_plane_convex_polygons() {
-    for form in BLADES {
+    for form in built(Build::Blade) {
         let shape = shape(form);
         assert!((1..=4).contains(&shape.polygons.len()), "{form:?}");
         let corners: u32 = shape.polygons.iter().map(|polygon| polygon[1]).sum();
@@ -150,7 +146,7 @@ fn polygons_are_plane_and_convex() {
 
 #[test]
 fn solids_are_closed_and_face_outward() {
-    for form in SOLIDS {
+    for form in built(Build::Solid) {
         let (vertices, faces) = placed(form, [0.05, 0.02]);
         assert_closed(&vertices, &faces);
         assert!(volume(&vertices, &faces) > 0.0, "{form:?}");
@@ -159,7 +155,7 @@ fn solids_are_closed_and_face_outward() {
 
 #[test]
 fn a_berry_is_closed_and_nearly_a_sphere() {
-    let (vertices, faces) = placed(Form::Berry, [0.02, 0.02]);
+    let (vertices, faces) = placed(FormName::Berry, [0.02, 0.02]);
     assert_closed(&vertices, &faces);
     let ball = std::f64::consts::PI / 6.0 * 8e-6;
     assert!((0.6..1.0).contains(&(volume(&vertices, &faces) / ball)));

@@ -50,7 +50,7 @@ impl Blade {
 
     fn bent(&self) -> (Plant, [f64; 3]) {
         let mut plant = self.plant();
-        let outcome = bend(&mut plant, 1, &unit_gravity(), &mut Bench::default());
+        let outcome = bend(&mut plant, 1, &unit_gravity(), &mut Scratch::default());
         assert!(outcome.settled && outcome.yields.is_none(), "{outcome:?}");
         let tip = crate::pose::bud_frame(&plant, AxisId(1)).base.map(f64::from);
         (plant, tip)

@@ -94,10 +94,10 @@ fn the_shape_does_not_depend_on_how_the_load_came() {
     let at_once = Rod { tip: 5.0, ..Rod::level(100) };
     let (whole, _) = at_once.bent();
     let mut plant = Rod { tip: 0.5, ..Rod::level(100) }.plant();
-    let mut bench = Bench::default();
+    let mut scratch = Scratch::default();
     for step in 1..=10 {
         plant.organs.area[0] = 0.5 * step as f32;
-        assert!(bend(&mut plant, 1, &unit_gravity(), &mut bench).settled);
+        assert!(bend(&mut plant, 1, &unit_gravity(), &mut scratch).settled);
     }
     let ((x, z), (slow_x, slow_z)) = (tip(&whole), tip(&plant));
     assert!((x - slow_x).abs() < 1e-5 && (z - slow_z).abs() < 1e-5, "{x} {z}, {slow_x} {slow_z}");

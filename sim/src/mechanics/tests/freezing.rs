@@ -11,13 +11,13 @@ fn set_diameter(plant: &mut Plant, diameter: f64) {
 #[test]
 fn a_load_taken_off_twice_as_thick_wood_leaves_15_16_of_its_curvature() {
     let rod = Rod { tip: 1e-3, ..Rod::level(50) };
-    let (mut plant, mut bench) = (rod.plant(), Bench::default());
-    bend(&mut plant, 1, &unit_gravity(), &mut bench);
+    let (mut plant, mut scratch) = (rod.plant(), Scratch::default());
+    bend(&mut plant, 1, &unit_gravity(), &mut scratch);
     let loaded = plant.strain.curvature.clone();
     set_diameter(&mut plant, 2.0 * rod.diameter);
-    bend(&mut plant, 2, &unit_gravity(), &mut bench);
+    bend(&mut plant, 2, &unit_gravity(), &mut scratch);
     plant.organs.death[0] = 3;
-    bend(&mut plant, 3, &unit_gravity(), &mut bench);
+    bend(&mut plant, 3, &unit_gravity(), &mut scratch);
     for (node, (before, after)) in loaded.iter().zip(&plant.strain.curvature).enumerate() {
         let share = f64::from(after[1]) / f64::from(before[1]);
         assert!((share - 15.0 / 16.0).abs() < 1e-5, "internode {node}: {share}");
@@ -27,11 +27,11 @@ fn a_load_taken_off_twice_as_thick_wood_leaves_15_16_of_its_curvature() {
 
 #[test]
 fn a_load_that_falls_from_wood_that_did_not_thicken_leaves_nothing() {
-    let (mut plant, mut bench) = (Rod { tip: 2.0, ..Rod::level(50) }.plant(), Bench::default());
-    bend(&mut plant, 1, &unit_gravity(), &mut bench);
+    let (mut plant, mut scratch) = (Rod { tip: 2.0, ..Rod::level(50) }.plant(), Scratch::default());
+    bend(&mut plant, 1, &unit_gravity(), &mut scratch);
     assert!(tip(&plant).1 < -0.4);
     plant.organs.death[0] = 2;
-    bend(&mut plant, 2, &unit_gravity(), &mut bench);
+    bend(&mut plant, 2, &unit_gravity(), &mut scratch);
     assert!(tip(&plant).1.abs() < 1e-5, "{:?}", tip(&plant));
 }
 
@@ -41,12 +41,12 @@ fn wood_that_thickens_under_its_own_weight() {
     let (weight, grown) = (1e-4, 3.0);
     let error = |ticks: u32| {
         let rod = Rod { weight, ..Rod::level(20) };
-        let (mut plant, mut bench) = (rod.plant(), Bench::default());
-        bend(&mut plant, 1, &unit_gravity(), &mut bench);
+        let (mut plant, mut scratch) = (rod.plant(), Scratch::default());
+        bend(&mut plant, 1, &unit_gravity(), &mut scratch);
         let first = f64::from(plant.strain.curvature_of(0));
         for tick in 1..=ticks {
             set_diameter(&mut plant, rod.diameter * (1.0 + (grown - 1.0) * f64::from(tick) / f64::from(ticks)));
-            bend(&mut plant, 1 + tick, &unit_gravity(), &mut bench);
+            bend(&mut plant, 1 + tick, &unit_gravity(), &mut scratch);
         }
         let modulus = rod.flexural / (PI / 64.0 * pow(rod.diameter, 4.0));
         let radius = rod.diameter / 2.0;

@@ -21,7 +21,7 @@ fn bush() -> Plant {
 fn without_gravity_every_frame_is_that_at_rest_bit_for_bit() {
     let (mut rest, mut still) = (bush(), bush());
     pose(&mut rest, 1);
-    bend(&mut still, 1, &Site { gravity: 0.0, ..Site::default() }, &mut Bench::default());
+    bend(&mut still, 1, &Site { gravity: 0.0, ..Site::default() }, &mut Scratch::default());
     assert_eq!(rest.frames.base, still.frames.base);
     assert_eq!(rest.frames.heading, still.frames.heading);
     assert_eq!(rest.frames.up, still.frames.up);
@@ -30,7 +30,7 @@ fn without_gravity_every_frame_is_that_at_rest_bit_for_bit() {
 #[test]
 fn in_equilibrium_the_moments_are_those_of_the_shape() {
     let mut plant = bush();
-    let outcome = bend(&mut plant, 1, &unit_gravity(), &mut Bench::default());
+    let outcome = bend(&mut plant, 1, &unit_gravity(), &mut Scratch::default());
     assert!(outcome.settled && outcome.yields.is_none(), "{outcome:?}");
     let frame = crate::pose::node_frame(&plant, NodeId(0));
     let clamp = [0, 2].map(|k| f64::from(plant.frames.base[0][k] + frame.base[k]) * 0.5);
@@ -74,7 +74,7 @@ fn growth_in_either_order_bends_alike() {
     }
     last.into_iter().for_each(|node| add_leaf(&mut other, node, 0.05));
     for plant in [&mut plant, &mut other] {
-        assert!(bend(plant, 1, &unit_gravity(), &mut Bench::default()).settled);
+        assert!(bend(plant, 1, &unit_gravity(), &mut Scratch::default()).settled);
     }
     for axis in 0..plant.axes.len() {
         let at = |plant: &Plant| crate::pose::bud_frame(plant, AxisId(axis as u32)).base;
@@ -87,8 +87,8 @@ fn growth_in_either_order_bends_alike() {
 fn a_calm_day_is_a_day_without_wind() {
     let (mut calm, mut none) = (bush(), bush());
     let towards_somewhere = Site { wind: Wind { speed: 0.0, towards: 1.0 }, ..unit_gravity() };
-    bend(&mut calm, 1, &towards_somewhere, &mut Bench::default());
-    bend(&mut none, 1, &unit_gravity(), &mut Bench::default());
+    bend(&mut calm, 1, &towards_somewhere, &mut Scratch::default());
+    bend(&mut none, 1, &unit_gravity(), &mut Scratch::default());
     assert_eq!(calm.frames.base, none.frames.base);
     assert_eq!(calm.strain.curvature, none.strain.curvature);
 }
@@ -107,7 +107,7 @@ fn wind_bends_as_weight_does() {
     let area = 2.0 / force;
     plant.organs.area[0] = area as f32;
     let site = Site { gravity: 0.0, wind: Wind { speed, towards: 0.0 }, ..Site::default() };
-    assert!(bend(&mut plant, 1, &site, &mut Bench::default()).settled);
+    assert!(bend(&mut plant, 1, &site, &mut Scratch::default()).settled);
     // The elastica under a tip load of 2: drop 0.4934574804, reach 0.8393582792.
     let (x, z) = tip(&plant);
     assert!((x - 0.4934574804).abs() < 1e-4 && (z - 0.8393582792).abs() < 1e-4, "{x} {z}");
@@ -120,8 +120,8 @@ fn a_young_shoot_turns_to_its_direction_at_the_stated_rate() {
     wood.tissues[0].uprighting = Uprighting { rate: 0.01, young: u32::MAX, ..Uprighting::default() };
     let mut plant = rod.plant();
     plant.habit = Arc::new(Habit { wood: Some(wood), ..(*plant.habit).clone() });
-    let mut bench = Bench::default();
-    bend(&mut plant, 1, &unit_gravity(), &mut bench);
+    let mut scratch = Scratch::default();
+    bend(&mut plant, 1, &unit_gravity(), &mut scratch);
     let expected = 0.01 * crate::math::sin(1.2);
     for node in 0..20 {
         assert!((f64::from(plant.strain.curvature_of(node)) - expected).abs() < 1e-6, "internode {node}");
@@ -136,11 +136,11 @@ fn reaction_wood_rights_a_stem_by_the_strain_of_its_rings() {
     wood.tissues[0].uprighting = Uprighting { strain: 1e-4, ..Uprighting::default() };
     let mut plant = rod.plant();
     plant.habit = Arc::new(Habit { wood: Some(wood), ..(*plant.habit).clone() });
-    let mut bench = Bench::default();
-    bench.remember(&plant);
+    let mut scratch = Scratch::default();
+    scratch.remember(&plant);
     plant.nodes.diameter.fill(0.03);
     plant.nodes.diameter_tip.fill(0.03);
-    bend(&mut plant, 2, &unit_gravity(), &mut bench);
+    bend(&mut plant, 2, &unit_gravity(), &mut scratch);
     let expected = 2.0 * 1e-4 * (1.0 / 0.01 - 1.0 / 0.015) * crate::math::sin(0.5);
     let curvature = f64::from(plant.strain.curvature_of(0));
     assert!((curvature / expected - 1.0).abs() < 1e-4, "{curvature}, not {expected}");
@@ -158,22 +158,22 @@ fn windy() -> Plant {
 
 #[test]
 fn a_frame_of_calm_moves_nothing_and_one_of_wind_moves_about_its_steady_shape() {
-    let (mut plant, mut bench) = (windy(), Bench::default());
-    bend(&mut plant, 1, &unit_gravity(), &mut bench);
+    let (mut plant, mut scratch) = (windy(), Scratch::default());
+    bend(&mut plant, 1, &unit_gravity(), &mut scratch);
     let stood = plant.clone();
-    sway::sway(&mut plant, 1, &unit_gravity(), Wind::default(), 0.4, &mut bench).expect("it can sway");
+    sway::sway(&mut plant, 1, &unit_gravity(), Wind::default(), 0.4, &mut scratch).expect("it can sway");
     assert_eq!(stood.frames.base, plant.frames.base);
     assert_eq!(stood.strain.curvature, plant.strain.curvature);
 
     let wind = Wind { speed: 4.0, towards: 0.0 };
     let mut leaning = stood.clone();
-    bend(&mut leaning, 1, &Site { wind, ..unit_gravity() }, &mut bench);
+    bend(&mut leaning, 1, &Site { wind, ..unit_gravity() }, &mut scratch);
     let frames = 4000;
     let (mut mean, mut least, mut most) = (0.0, f64::MAX, f64::MIN);
     for frame in 0..frames / 100 {
         let mut swaying = stood.clone();
         let time = f64::from(frame) * sway::GUSTS_S * 100.0 / f64::from(frames);
-        sway::sway(&mut swaying, 1, &unit_gravity(), wind, time, &mut bench).expect("it can sway");
+        sway::sway(&mut swaying, 1, &unit_gravity(), wind, time, &mut scratch).expect("it can sway");
         let x = tip(&swaying).0;
         mean += x * 100.0 / f64::from(frames);
         (least, most) = (least.min(x), most.max(x));
@@ -198,21 +198,21 @@ fn the_first_frequency_is_that_of_a_clamped_cylinder() {
 #[test]
 fn what_has_no_wood_or_no_drag_does_not_sway() {
     let (mut plant, wind) = (bush(), Wind { speed: 4.0, towards: 0.0 });
-    let moved = sway::sway(&mut plant, 1, &unit_gravity(), wind, 0.0, &mut Bench::default());
+    let moved = sway::sway(&mut plant, 1, &unit_gravity(), wind, 0.0, &mut Scratch::default());
     assert_eq!(moved, Err(sway::Unmoved::NoDrag));
     plant.habit = Arc::new(Habit { wood: None, ..(*plant.habit).clone() });
-    let moved = sway::sway(&mut plant, 1, &unit_gravity(), wind, 0.0, &mut Bench::default());
+    let moved = sway::sway(&mut plant, 1, &unit_gravity(), wind, 0.0, &mut Scratch::default());
     assert_eq!(moved, Err(sway::Unmoved::Stiff));
 }
 
 #[test]
 fn a_settled_plant_stays_where_it_is() {
-    let (mut plant, mut bench) = (bush(), Bench::default());
-    let outcome = bend(&mut plant, 1, &unit_gravity(), &mut bench);
+    let (mut plant, mut scratch) = (bush(), Scratch::default());
+    let outcome = bend(&mut plant, 1, &unit_gravity(), &mut scratch);
     assert!(outcome.settled && (2..MOST_STEPS).contains(&outcome.steps), "{outcome:?}");
     let stood: Vec<_> =
         (0..plant.axes.len()).map(|axis| crate::pose::bud_frame(&plant, AxisId(axis as u32)).base).collect();
-    let again = bend(&mut plant, 1, &unit_gravity(), &mut bench);
+    let again = bend(&mut plant, 1, &unit_gravity(), &mut scratch);
     assert_eq!((again.steps, again.settled), (1, true), "{again:?}");
     // What the tolerance left is far below it: the steps converge faster than linearly.
     for (axis, stood) in stood.iter().enumerate() {
@@ -235,13 +235,13 @@ fn a_branch_springs_back_when_its_fruit_falls() {
     (plant.organs.kind[0], plant.organs.length[0], plant.organs.width[0]) = (Kind::Fruit, 0.03, 0.02);
     (plant.organs.birth[0], plant.organs.death[0]) = (2, 3);
     let weight = 1000.0 * std::f64::consts::PI / 6.0 * 0.03 * 0.02 * 0.02;
-    let mut bench = Bench::default();
-    bend(&mut plant, 1, &unit_gravity(), &mut bench);
+    let mut scratch = Scratch::default();
+    bend(&mut plant, 1, &unit_gravity(), &mut scratch);
     assert!(tip(&plant).1.abs() < 1e-6, "not yet");
-    bend(&mut plant, 2, &unit_gravity(), &mut bench);
+    bend(&mut plant, 2, &unit_gravity(), &mut scratch);
     let base = f64::from(plant.strain.moment_of(0)) / (tip(&plant).0 - 0.5 / 40.0);
     assert!((base / weight - 1.0).abs() < 1e-3, "{base}, not {weight}");
     assert!(tip(&plant).1 < -0.05, "it hangs");
-    bend(&mut plant, 3, &unit_gravity(), &mut bench);
+    bend(&mut plant, 3, &unit_gravity(), &mut scratch);
     assert!(tip(&plant).1.abs() < 1e-5, "it springs back, for no wood was laid meanwhile");
 }

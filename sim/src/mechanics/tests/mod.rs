@@ -11,7 +11,6 @@ mod secondary;
 mod small;
 
 use super::*;
-use crate::clock::NEVER;
 use crate::math::pow;
 use crate::plant::*;
 use crate::site::Site;
@@ -61,12 +60,8 @@ impl Rod {
     }
 
     pub fn plant(&self) -> Plant {
-        let habit = Habit {
-            trends: vec![],
-            looks: Looks::of_shape(Shape::Cone),
-            organ_trends: vec![],
-            wood: Some(self.wood()),
-        };
+        let habit =
+            Habit { trends: vec![], looks: Looks::of_shape(Shape::Cone), wood: Some(self.wood()), ..Habit::default() };
         let seed = Seed { plant: 0, run_seed: 1, component_limit: u32::MAX, keep_events: true };
         let mut plant = Plant::new(&seed, Arc::new(habit));
         let axis = add_axis(&mut plant, None, self.insertion);
@@ -84,7 +79,7 @@ impl Rod {
     /// The rod bent at once from rest.
     pub fn bent(&self) -> (Plant, Outcome) {
         let mut plant = self.plant();
-        let outcome = bend(&mut plant, 1, &unit_gravity(), &mut Bench::default());
+        let outcome = bend(&mut plant, 1, &unit_gravity(), &mut Scratch::default());
         (plant, outcome)
     }
 }
@@ -97,53 +92,21 @@ pub fn add_axis(plant: &mut Plant, bearer: Option<NodeId>, insertion: f64) -> Ax
     plant.add_axis(NewAxis {
         bearer,
         key: LineageKey(plant.axes.len() as u64),
-        order: 1,
         origin: Origin::Axillary,
-        position: 0,
-        follows: false,
-        state: 0,
-        appearance: 0,
-        birth: 0,
-        azimuth: 0.0,
         insertion: insertion as f32,
-        shed_after: NEVER,
+        ..NewAxis::OF_THE_SEED
     })
 }
 
 pub fn add_node(plant: &mut Plant, axis: AxisId, length: f32, diameter: f32) -> NodeId {
     let last = plant.axes.last_node[axis.index()];
     let parent = if last == NodeId::NONE { plant.axes.bearer[axis.index()] } else { last };
-    plant.add_node(NewNode {
-        parent,
-        axis,
-        birth: 1,
-        rank: 1,
-        unit_rank: 1,
-        short: false,
-        neoformed: false,
-        trend: 0,
-        length,
-        diameter,
-        azimuth: 0.0,
-    })
+    plant.add_node(NewNode { parent, axis, length, diameter, ..NewNode::OF_THE_TRUNK })
 }
 
 /// A leaf of `area` m², which weighs as many kilograms.
 pub fn add_leaf(plant: &mut Plant, node: NodeId, area: f32) {
-    plant.add_organ(NewOrgan {
-        node,
-        kind: Kind::Leaf,
-        position: 0,
-        birth: 1,
-        death: NEVER,
-        cause: Cause::None,
-        form: Form::Elliptic,
-        length: 0.1,
-        width: 0.1,
-        area,
-        azimuth: 0.0,
-        insertion: 0.0,
-    });
+    plant.add_organ(NewOrgan { node, length: 0.1, width: 0.1, area, ..NewOrgan::LEAF });
 }
 
 /// The tip of the plant's first axis: distance along the ground and height, m.

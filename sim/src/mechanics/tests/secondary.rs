@@ -18,8 +18,8 @@ fn fork(thickening: Thickening) -> Plant {
     plant
 }
 
-fn grow_thick(plant: &mut Plant, age: u32, bench: &mut Bench) {
-    secondary::thicken(plant, age, plant.habit.thickening(), bench);
+fn grow_thick(plant: &mut Plant, age: u32, scratch: &mut Scratch) {
+    secondary::thicken(plant, age, plant.habit.thickening(), scratch);
 }
 
 fn power(plant: &Plant, node: usize, exponent: f64) -> f64 {
@@ -30,7 +30,7 @@ fn power(plant: &Plant, node: usize, exponent: f64) -> f64 {
 fn at_a_fork_the_powers_of_the_diameters_add_up() {
     for exponent in [2.0, 2.3, 3.0] {
         let mut plant = fork(Thickening::DaVinci { exponent });
-        grow_thick(&mut plant, 1, &mut Bench::default());
+        grow_thick(&mut plant, 1, &mut Scratch::default());
         let above: f64 = [3, 6, 9, 12].iter().map(|&node| power(&plant, node, exponent)).sum();
         let below = power(&plant, 2, exponent);
         assert!((below / above - 1.0).abs() < 1e-6, "Δ = {exponent}: {below}, not {above}");
@@ -41,7 +41,7 @@ fn at_a_fork_the_powers_of_the_diameters_add_up() {
 #[test]
 fn with_an_exponent_of_2_the_sections_add_up() {
     let mut plant = fork(Thickening::DaVinci { exponent: 2.0 });
-    grow_thick(&mut plant, 1, &mut Bench::default());
+    grow_thick(&mut plant, 1, &mut Scratch::default());
     let expected = 0.004 * 0.004 + 0.003 * 0.003 + 0.005 * 0.005 + 0.002 * 0.002;
     assert!((power(&plant, 0, 2.0) / expected - 1.0).abs() < 1e-6);
 }
@@ -50,26 +50,26 @@ fn with_an_exponent_of_2_the_sections_add_up() {
 fn a_pipe_for_each_leaf_above() {
     let mut plant = fork(Thickening::Pipe { per_leaf: 1e-6, living: false });
     plant.organs.death[0] = 1;
-    grow_thick(&mut plant, 1, &mut Bench::default());
+    grow_thick(&mut plant, 1, &mut Scratch::default());
     let section = PI / 4.0 * power(&plant, 0, 2.0);
     assert!((section / (PI / 4.0 * 0.004 * 0.004 + 6e-6) - 1.0).abs() < 1e-6);
 
     let mut plant = fork(Thickening::Pipe { per_leaf: 1e-6, living: true });
     plant.organs.death[0] = 1;
-    grow_thick(&mut plant, 1, &mut Bench::default());
+    grow_thick(&mut plant, 1, &mut Scratch::default());
     let first = PI / 4.0 * power(&plant, 0, 2.0);
     assert!((first / (PI / 4.0 * 0.004 * 0.004 + 5e-6) - 1.0).abs() < 1e-6);
     plant.organs.death.fill(2);
-    grow_thick(&mut plant, 2, &mut Bench::default());
+    grow_thick(&mut plant, 2, &mut Scratch::default());
     assert_eq!(first, PI / 4.0 * power(&plant, 0, 2.0), "the pipes of fallen leaves stay");
 }
 
 #[test]
 fn a_ring_a_tick_and_a_section_for_the_foliage() {
     let mut plant = fork(Thickening::Rings { width: 0.001, per_foliage: 1e-4 });
-    let mut bench = Bench::default();
+    let mut scratch = Scratch::default();
     for age in 1..=4 {
-        grow_thick(&mut plant, age, &mut bench);
+        grow_thick(&mut plant, age, &mut scratch);
     }
     // Born at 1: three ticks of rings on an axis that lives; leaves above the first internode: 6 of 0.01 m².
     let mut diameter = 0.004_f64;
@@ -88,9 +88,9 @@ fn rings_follow_the_area_that_leaves_have_at_their_age() {
     let organs = vec![OrganLooks { leaf, ..OrganLooks::default() }];
     let looks = Looks { organs, ..plant.habit.looks.clone() };
     plant.habit = Arc::new(Habit { looks, ..(*plant.habit).clone() });
-    let mut bench = Bench::default();
+    let mut scratch = Scratch::default();
     let mut squares = (2..=4).map(|age| {
-        grow_thick(&mut plant, age, &mut bench);
+        grow_thick(&mut plant, age, &mut scratch);
         power(&plant, 0, 2.0)
     });
     // Six leaves of 0.01 m², born at 1.

@@ -11,7 +11,7 @@ use crate::vector::Vector;
 
 /// Scratch of the bending of one plant after another, kept for its memory.
 #[derive(Debug, Clone, Default)]
-pub struct Bench {
+pub struct Scratch {
     pub(super) standing: Standing,
     pub(super) laterals: Borne,
     pub(super) organs: Borne,

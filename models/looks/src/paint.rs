@@ -1,0 +1,127 @@
+//! Stated colours, and what else is stated of a look that growth does not ask: by the age of wood, of organs, and of
+//! leaves by season.
+//!
+//! A form and a colour are associated with each tag, and forms may depend on age (de Reffye 1988 §6). What is not
+//! stated is left open here. Absent: the colours that stand in for it (`phytomer_meshes::palette`), and how one colour
+//! turns into the next (`phytomer_meshes::colour`).
+
+use phytomer_sim::clock::Tick;
+use phytomer_sim::plant::{ForDrawing, Form, Habit, PaintNumber};
+
+/// A stated colour: red, green and blue, sRGB.
+pub type Colour = [u8; 3];
+
+/// The stated colours of internodes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Bark {
+    /// At birth.
+    pub shoot: Option<Colour>,
+    /// When bark has formed.
+    pub young: Option<Colour>,
+    /// When it is old.
+    pub old: Option<Colour>,
+    /// Of dead wood that stands.
+    pub dead: Option<Colour>,
+    /// The ticks in which a shoot turns halfway to bark.
+    pub forms_in: Option<Tick>,
+    /// The ticks in which young bark turns halfway to old.
+    pub darkens_in: Option<Tick>,
+}
+
+/// How the internodes of a look are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct InternodePaint {
+    /// The sides of their tubes; left out: as many as the mesh has.
+    pub sides: Option<u8>,
+    /// The form that they are drawn with, of their length and their diameter, where they are no tubes.
+    pub form: Option<Form>,
+    /// Their stated colours.
+    pub bark: Bark,
+}
+
+/// The stated colours of the organs of a look.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct OrganPaint {
+    /// At its birth.
+    pub young: Option<Colour>,
+    /// In the middle of its life, where it turns twice.
+    pub turning: Option<Colour>,
+    /// At its end.
+    pub old: Option<Colour>,
+    /// Of a leaf at its last tick before a seasonal fall.
+    pub autumn: Option<Colour>,
+    /// Of its stalk.
+    pub stalk: Option<Colour>,
+    /// The ticks over which a leaf turns before a seasonal fall; 0: it does not.
+    pub turns_in: Tick,
+}
+
+/// What the looks of a species name by number.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Paints {
+    internodes: Vec<InternodePaint>,
+    organs: Vec<OrganPaint>,
+}
+
+impl Paints {
+    /// Adds how the internodes of a look are drawn. Looks that are drawn alike may name one number.
+    pub fn add_internode(&mut self, paint: InternodePaint) -> PaintNumber {
+        self.internodes.push(paint);
+        PaintNumber::nth(self.internodes.len())
+    }
+
+    /// Adds the colours of the organs of a look.
+    pub fn add_organ(&mut self, paint: OrganPaint) -> PaintNumber {
+        self.organs.push(paint);
+        PaintNumber::nth(self.organs.len())
+    }
+
+    /// How internodes are drawn whose look names a number; a look that names none states nothing.
+    #[inline]
+    pub fn internode(&self, number: PaintNumber) -> &InternodePaint {
+        static SILENT: InternodePaint = InternodePaint {
+            sides: None,
+            form: None,
+            bark: Bark { shoot: None, young: None, old: None, dead: None, forms_in: None, darkens_in: None },
+        };
+        number.place().and_then(|place| self.internodes.get(place)).unwrap_or(&SILENT)
+    }
+
+    /// The colours of organs whose look names a number; a look that names none states nothing.
+    #[inline]
+    pub fn organ(&self, number: PaintNumber) -> &OrganPaint {
+        static SILENT: OrganPaint =
+            OrganPaint { young: None, turning: None, old: None, autumn: None, stalk: None, turns_in: 0 };
+        number.place().and_then(|place| self.organs.get(place)).unwrap_or(&SILENT)
+    }
+
+    /// As a habit carries them.
+    pub fn into_habit(self) -> ForDrawing {
+        ForDrawing::new(self)
+    }
+
+    /// The paints that a habit carries; none where it states none.
+    pub fn of(habit: &Habit) -> &Self {
+        static NONE: Paints = Paints { internodes: Vec::new(), organs: Vec::new() };
+        habit.for_drawing.get().unwrap_or(&NONE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_habit_gives_back_the_paints_that_it_was_given() {
+        let mut paints = Paints::default();
+        let red = OrganPaint { young: Some([200, 0, 0]), ..OrganPaint::default() };
+        let hexagon = InternodePaint { sides: Some(6), ..InternodePaint::default() };
+        let (organ, internode) = (paints.add_organ(red), paints.add_internode(hexagon));
+        let habit = Habit { for_drawing: paints.into_habit(), ..Habit::default() };
+        let of = Paints::of(&habit);
+        assert_eq!((of.organ(organ), of.internode(internode)), (&red, &hexagon));
+        let silent = (of.organ(PaintNumber::NONE), of.internode(PaintNumber::nth(2)));
+        assert_eq!(silent, (&OrganPaint::default(), &InternodePaint::default()));
+        assert_eq!(Paints::of(&Habit::default()), &Paints::default());
+    }
+}

@@ -1,0 +1,35 @@
+//! What the parametric trees offer to everything above them.
+//!
+//! Absent: their parameters (`tree`).
+
+use super::Tree;
+use super::model::BIRTH;
+use crate::fault::{Fault, Path};
+use crate::parameters::{Card, Keys, Parameters};
+use phytomer_sim::Tick;
+use phytomer_sim::model::GrowthModel;
+use std::sync::Arc;
+
+impl Tree {
+    /// What the model is called, and how its keys stand.
+    pub const CARD: Card = Card {
+        word: "parametric",
+        about: "curved stems that split and bear branches, by lengths and angles a level (Weber & Penn 1995)",
+        keys: Keys::PLAIN,
+    };
+}
+
+impl Parameters for Tree {
+    fn card(&self) -> &'static Card {
+        &Self::CARD
+    }
+
+    fn model(&self, until: Tick, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
+        Ok(Arc::new(self.compile(until, top)?))
+    }
+
+    /// The whole tree stands from its first age on.
+    fn full_grown_at(&self) -> Option<Tick> {
+        Some(BIRTH)
+    }
+}
