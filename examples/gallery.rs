@@ -1,4 +1,4 @@
-//! The gallery: every species that ships, drawn in its prime, every plot that ships, and the life of one tree as a strip.
+//! The gallery: every species that ships, drawn in its prime, every plot that ships, and one life as a strip.
 //!
 //! `cargo run --release --example gallery [FOLDER]` writes `gallery.md`, its pictures below `gallery/` and `life.png`
 //! into a folder, `docs` if none is given. A species is grown by the shipped scenario of its name if there is one, else

@@ -91,8 +91,8 @@ fn buds_die_where_they_reach_the_roof() {
     assert!(killed[0] > 20 && killed[1] > 20, "{killed:?}");
 }
 
-/// A mesh of a plant that is asked for by its number is the part of the plot's mesh that is its own, moved to its place:
-/// where the site feeds back and where it does not.
+/// The mesh of a plant that is asked for by its number is its part of the plot's mesh, moved to its place there: where
+/// the site feeds back and where it does not.
 #[test]
 fn a_plant_by_itself_is_its_part_of_the_mesh_of_its_plot() {
     let folder = tempfile::tempdir().unwrap();
@@ -190,8 +190,8 @@ fn members_that_are_not_sown_are_not_drawn() {
     assert_eq!([drawn(4), drawn(5), drawn(9)], [(vec![4], false), (vec![5, 0], true), (vec![9, 4], true)]);
 }
 
-/// The scenes after Photos 14 and 15 of de Reffye 1988: more plants than ever stand side by side, trees over herbs, and in
-/// the second the poplars are yellow, which no other part of the picture is.
+/// The scenes after Photos 14 and 15 of de Reffye 1988: more plants than can stand side by side, trees over herbs. In
+/// the second the poplars are yellow, which nothing in the first is.
 #[test]
 fn herbs_and_trees_stand_in_one_picture() {
     for (name, herb, yellow) in
