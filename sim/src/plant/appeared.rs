@@ -51,7 +51,8 @@ impl Appeared {
         &self.stretches
     }
 
-    /// The same where the plant cannot be changed: found anew unless they are those of the last call of [`Appeared::by`].
+    /// The stretches of a plant that cannot be changed: those of the last call of [`Appeared::by`] where they are of
+    /// this age, else found anew.
     pub(super) fn read(&self, age: Tick, nodes: &Nodes) -> Cow<'_, [Stretch]> {
         if self.knows(age, nodes) {
             Cow::Borrowed(&self.stretches)

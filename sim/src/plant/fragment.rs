@@ -3,7 +3,8 @@
 //! Axes that wait have no nodes, and none needs to know what the others do. A fragment is a plant that starts with
 //! copies of some of them; joined again, the whole is what it would be had they grown after the axes before them: the
 //! numbers of axes, nodes, organs and components follow on. Until then its handles and component numbers are its own,
-//! but for the nodes that bear the axes that it took: those are numbered as in the whole plant, and must not be read in the fragment.
+//! but for the nodes that bear the axes that it took: they are numbered as in the whole plant, and must not be read in
+//! the fragment.
 
 use super::columns::Columns;
 use super::{Appeared, Event, Frames, Joint, OwnTrends, Plant, Strain};
