@@ -103,7 +103,7 @@ pub enum Error {
     /// The plan has no shard with this number.
     #[error("there is no shard {shard}: the run has {shards}")]
     NoSuchShard {
-        /// The number.
+        /// The number that was asked for.
         shard: u32,
         /// The number of shards of the run.
         shards: u32,

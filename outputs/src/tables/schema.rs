@@ -21,7 +21,7 @@ pub enum Type {
     Name(Named),
 }
 
-/// The objects that a column of names names.
+/// The kinds of names that a run states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Named {
     /// The treatment of a plot.
