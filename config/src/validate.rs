@@ -108,8 +108,8 @@ fn species_in(library: Library, species: &str, until: u32) -> Result<ResolvedSpe
     })
 }
 
-/// Whether a name is that of a species or of a scenario. A file is told by its keys. A bare name is a shipped scenario
-/// if there is one, else a species.
+/// Whether a name is that of a species or of a scenario. A file is recognised by its keys. A bare name is a shipped
+/// scenario if there is one, else a species.
 pub fn kind_of(name: &str) -> Kind {
     kind_in(&Library::Disk, name)
 }

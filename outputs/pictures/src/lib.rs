@@ -173,7 +173,7 @@ pub fn draw(subjects: &[Subject], title: &str, picture: &Picture) -> Canvas {
 }
 
 /// Draws stands side by side, in one scale on one ground, each plant in its place and in the shade of its stand. See
-/// [`draw`] for memory and the largest number of stands.
+/// [`draw()`] for memory and the largest number of stands.
 pub fn draw_stands(stands: &[Stand], title: &str, picture: &Picture) -> Canvas {
     let mut cast = Cast::of(stands, picture);
     let camera = cast.aim(picture, f32::INFINITY);

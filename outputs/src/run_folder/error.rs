@@ -89,8 +89,8 @@ pub enum Error {
     },
     /// The run was written by a program version that wrote no checks.
     #[error(
-        "{} was written by an older phytomer, without the checks that this one looks for: nothing can be said of it. Grow \
-         it again with --overwrite, or use the program that `run.json` names",
+        "{} was written by an older phytomer, which stored no checks, so its files cannot be checked. Grow it again with \
+         --overwrite, or use the program that `run.json` names",
         path.display()
     )]
     OlderFormat {
@@ -98,7 +98,7 @@ pub enum Error {
         path: PathBuf,
     },
     /// The caller stopped the check of the files.
-    #[error("the check of the files was told to stop")]
+    #[error("the check of the files was stopped")]
     Stopped,
     /// The plan has no shard with this number.
     #[error("there is no shard {shard}: the run has {shards}")]

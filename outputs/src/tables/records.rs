@@ -1,7 +1,7 @@
 //! The rows of `records`: de Reffye's record (1988 §6) of each component that stands at an age, with its pose.
 //!
 //! Positions and directions are those of the pose; diameters those of the recorded age. The columns of mechanics are
-//! filled where a run asks for them. Absent: any formula of growth or of bending.
+//! filled for runs that have them. Absent: any formula of growth or of bending.
 
 use super::buffers::{NULL, columns};
 use super::component_index::{Component, ComponentIndex};
