@@ -126,7 +126,7 @@ impl ModelName {
 }
 
 impl Model {
-    /// Compiles the model for all ages up to `until`, in ticks; every law is checked at each of these ages.
+    /// Compiles the model for all ages up to `until`, in ticks, and checks every law over its whole range.
     ///
     /// # Errors
     /// Every fault, each with its path from the top of the species file.

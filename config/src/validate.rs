@@ -45,8 +45,7 @@ pub struct ResolvedSpecies {
 }
 
 /// Reads and checks a scenario: a shipped scenario by its name, or a file by its path. Where `scenario` names a
-/// species, the run is one plant of the species ([`ResolvedSpecies::alone`]). The cost grows with the number of ages:
-/// every law is checked at each.
+/// species, the run is one plant of the species ([`ResolvedSpecies::alone`]). Every law is checked over all its ages.
 ///
 /// # Errors
 /// A [`Report`] with every fault of the scenario and of its species.

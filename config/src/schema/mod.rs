@@ -30,8 +30,8 @@ use phytomer_models::law::spelling::nearest;
 /// taken.
 const FUEL: usize = 200_000;
 
-/// Checks `node` against `schema`, whose `$ref`s lead into `schema` itself, and adds the faults to `faults`, at most a
-/// thousand.
+/// Checks `node` against `schema`, whose `$ref`s lead into `schema` itself, and adds the faults to `faults`. Stops
+/// after a thousand faults.
 pub fn check(schema: &Json, node: &Node, faults: &mut Vec<Fault>) {
     let mut walk = Walk { root: schema, faults: Vec::new(), fuel: FUEL };
     walk.visit(schema, &Place { node, at: node.span, path: Path::root() }, 0);
