@@ -1,8 +1,8 @@
 //! Writes the list of shipped presets: every `*.toml` under `presets/species`, `presets/halle` and `presets/scenarios`.
 //!
 //! A preset's name is its path below `species` or `scenarios` without `.toml` (`gmt1/5a`); the architectural models are
-//! species too and keep their folder's name (`halle/massart`). Names are sorted, so that the same files give the same
-//! program. Absent: any reading of them; a preset is checked like a user's file.
+//! species too and keep their folder's name (`halle/massart`). Names are sorted, so that equal files give an equal
+//! program. Absent: parsing. A preset is read and checked at run time, as a user's file is.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -34,7 +34,7 @@ fn main() -> io::Result<()> {
     fs::write(out, code)
 }
 
-/// Every TOML file below `folder`, sorted by path; each folder is watched for new ones.
+/// Collects every TOML file below `folder`, sorted by path. Cargo is told to rebuild when a file is added to a folder.
 fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
     println!("cargo::rerun-if-changed={}", folder.display());
     if !folder.is_dir() {

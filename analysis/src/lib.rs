@@ -1,6 +1,7 @@
-//! What recorded runs say: measures of populations of simulated plants, one a file, from the tables alone.
+//! Analysis of recorded runs: population statistics by age, and the architectural models that plants qualify for.
 //!
-//! Nothing here runs a model; the same measures hold for any tables of the same schema.
+//! Everything is computed from the tables of a run, or from rows of the same schema made in memory. Nothing here grows
+//! a plant.
 
 pub mod architecture;
 mod population;

@@ -1,7 +1,8 @@
 //! A population by age: how many plants live, how tall they are, how much they bear.
 //!
-//! Source: the table `summary`, one row a plant and recorded tick. Plants of one age are taken together, at whichever
-//! tick of their plots they have it. Standing dead plants are counted among the dead and not among the measured.
+//! The source is the table `summary`, one row per plant and recorded tick. Plants of the same age are taken together,
+//! at whichever tick of its plot each plant has that age. Standing dead plants are counted as dead and are not
+//! measured.
 
 use phytomer_outputs::Error;
 use phytomer_outputs::read::{Run, SummaryRow};
@@ -10,7 +11,7 @@ use std::collections::BTreeMap;
 /// Mean and standard deviation of a measure over the living plants.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Moments {
-    /// How many plants were measured.
+    /// The number of plants that were measured.
     pub n: u64,
     /// The mean; 0 where nothing was measured.
     pub mean: f64,
@@ -19,7 +20,7 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// One more measure (Welford 1962: stable in one pass).
+    /// Adds one measured value (Welford 1962: stable in one pass).
     pub fn add(&mut self, value: f64) {
         self.n += 1;
         let before = value - self.mean;
@@ -27,7 +28,7 @@ impl Moments {
         self.squares += before * (value - self.mean);
     }
 
-    /// The sample standard deviation; `None` below two measures.
+    /// The sample standard deviation, in the unit of the values; `None` with fewer than two values.
     pub fn standard_deviation(&self) -> Option<f64> {
         (self.n > 1).then(|| (self.squares / (self.n - 1) as f64).sqrt())
     }
@@ -36,15 +37,15 @@ impl Moments {
 /// A population at one recorded age.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct AgeOfPopulation {
-    /// Plants that live, as `alive` in `summary` says.
+    /// The number of living plants, by the column `alive` of `summary`.
     pub living: u64,
-    /// Plants without one.
+    /// The number of dead plants.
     pub dead: u64,
-    /// Height of the living, metres.
+    /// Height of the living plants, metres. A plant without a living internode has no height and is not measured.
     pub height_m: Moments,
-    /// Living internodes of the living.
+    /// Number of living internodes of the living plants.
     pub internodes: Moments,
-    /// Leaf area of the living, square metres.
+    /// Leaf area of the living plants, square metres.
     pub leaf_area_m2: Moments,
 }
 
@@ -63,10 +64,11 @@ impl AgeOfPopulation {
     }
 }
 
-/// The population of a run at each recorded age.
+/// The statistics of the plants of a run by recorded age, in ticks since sowing. Reads all rows of `summary` into
+/// memory once.
 ///
 /// # Errors
-/// Where the summary cannot be read.
+/// [`Error`] where a part file of `summary` cannot be read.
 pub fn population(run: &Run) -> Result<BTreeMap<u32, AgeOfPopulation>, Error> {
     let mut ages = BTreeMap::<u32, AgeOfPopulation>::new();
     for plant in run.summary()? {

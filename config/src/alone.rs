@@ -1,7 +1,7 @@
 //! A species grown without a scenario: one plant, from its seed to the age at which it shows its architecture.
 //!
-//! The key `shown_at` of a species file says that age. Where it is left out it is 100 ticks, or as much earlier as
-//! keeps the plant small. Ten ages are recorded, the last one among them, and mechanics where the wood bends.
+//! The key `shown_at` of a species file states this age. Without the key it is 100 ticks, or fewer, so that the plant
+//! stays small. About ten ages are recorded, up to and with the last, and mechanics are recorded where the wood bends.
 
 use std::collections::BTreeSet;
 
@@ -12,19 +12,20 @@ use crate::scenario::{Ages, DEFAULT_SEED, Every, Limits, Output, Record, Scenari
 use crate::species::Species;
 use crate::validate::{ResolvedSpecies, SPECIES_ALONE_UNTIL};
 
-/// A plant of a species that states no age is grown no further than is expected to make it so large.
+/// A plant of a species that states no age is grown only to an age at which at most this many components are expected.
 const SMALL: f64 = 200_000.0;
 
-/// Into how many steps of about the same length the recorded ages cut the life of the plant.
+/// The number of recorded ages, about.
 const RECORDED: u32 = 10;
 
 impl ResolvedSpecies {
-    /// The age at which a plant of the species shows its architecture.
+    /// The age, in ticks, at which a plant of the species shows its architecture.
     pub fn shown_at(&self) -> u32 {
         self.species.shown_at(self.model.as_ref())
     }
 
-    /// One plant of the species, as a run: `name` is what the species was found by.
+    /// A run of one plant of the species to [`ResolvedSpecies::shown_at`], with all tables and no meshes. `name` is the
+    /// name or the path by which the species was found.
     pub fn alone(self, name: &str) -> Resolved {
         let until = self.shown_at();
         let mechanics = self.model.habit().wood.as_ref().is_some_and(|wood| wood.bends);
@@ -49,27 +50,27 @@ impl ResolvedSpecies {
 }
 
 impl Species {
-    /// The age at which a plant shows its architecture, by its file or by its size; `model` is compiled at least up to
-    /// that of the file, else up to [`SPECIES_ALONE_UNTIL`].
+    /// The age, in ticks, at which a plant shows its architecture: as its file states, else by its expected size.
+    /// `model` must be compiled up to the age in the file, or up to [`SPECIES_ALONE_UNTIL`] where the file states none.
     pub fn shown_at(&self, model: &dyn GrowthModel) -> u32 {
         let by_size = || while_small(model).min(self.model.full_grown_at().unwrap_or(u32::MAX));
         self.about.shown_at.unwrap_or_else(by_size)
     }
 }
 
-/// The ages at which a plant by itself is recorded that is grown to `until`.
+/// The recorded ages, rising, of a single plant that is grown without a scenario up to the age `until`.
 pub fn recorded_alone(until: u32) -> Vec<u32> {
     Ages { until, record: Record::Every(recorded(until)) }.recorded()
 }
 
-/// About ten ages, the last one among them.
+/// About ten ages in equal steps, ending with `until`.
 fn recorded(until: u32) -> Every {
     let every = until.div_ceil(RECORDED).max(1);
-    // Counted back from the last age.
+    // The steps are counted back from the last age.
     Every { every, from: Some(until - every * (until.saturating_sub(1) / every)) }
 }
 
-/// The last age up to [`SPECIES_ALONE_UNTIL`] at which a plant is expected to be small.
+/// The last age, at most [`SPECIES_ALONE_UNTIL`], at which a plant is expected to be small.
 fn while_small(model: &dyn GrowthModel) -> u32 {
     let Some(expected) = model.expectation(SPECIES_ALONE_UNTIL) else { return SPECIES_ALONE_UNTIL };
     (1..=SPECIES_ALONE_UNTIL).rev().find(|age| expected.components(*age) <= SMALL).unwrap_or(1)

@@ -1,7 +1,7 @@
 //! The names of the 23 architectural models of tropical trees, as species files state them.
 //!
-//! Absent: what makes a plant one of them (`phytomer_analysis::architecture`), and the species that show each
-//! (`presets/halle`).
+//! Absent: how a plant is classified as one of them (`phytomer_analysis::architecture`), and species that show each of
+//! them (`presets/halle`).
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -65,7 +65,8 @@ impl ArchitecturalModel {
         Self::Troll,
     ];
 
-    /// The word of the key `architectural_model`, and of the shipped species in `halle/`.
+    /// The name of the model as the key `architectural_model` takes it, and as the shipped species in `halle/` are
+    /// named.
     pub fn word(self) -> &'static str {
         match self {
             Self::Holttum => "holttum",

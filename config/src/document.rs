@@ -1,9 +1,9 @@
-//! A TOML file as a tree in which every key and value remembers the file and the bytes where it was typed.
+//! A TOML file as a tree in which every key and value has its file and its range of bytes in the file.
 //!
-//! The tree is ours and not the toml crate's because a species is merged from several files (see `inherit`) and each
-//! value must still point at its own file. All that the parser can report is reported, one fault a line: recovery
-//! after a slip finds more on the same line that is only its echo.
-//! Absent: meaning. What keys there may be is the schema's business.
+//! The toml crate's own tree does not serve: a species is merged from several files (`inherit`), and each value must
+//! still point into its own file. Every fault that the parser finds is reported, but only the first fault of a line:
+//! recovery after a mistake finds more on the same line that only follow from it. Absent: the meaning of keys, which
+//! the schema states.
 
 use phytomer_law::fault::{Path, Segment};
 use toml::Spanned;
@@ -12,7 +12,7 @@ use toml::de::{DeTable, DeValue};
 use crate::report::{Fault, MOST_FAULTS};
 use crate::source::{SourceId, Sources, Span};
 
-/// Tables and arrays nest at most this deep; no species needs a quarter of it.
+/// The deepest nesting of tables and arrays; no species needs a quarter of it.
 pub const MAX_DEPTH: usize = 48;
 
 /// A value and where it stands.
@@ -35,7 +35,7 @@ pub enum Value {
     Float(f64),
     /// `true` or `false`.
     Boolean(bool),
-    /// A date or time, which no key of ours takes.
+    /// A date or time; no key of a species or a scenario takes such a value.
     Date(String),
     /// An array or an array of tables.
     Array(Vec<Node>),
@@ -55,7 +55,7 @@ pub struct Entry {
 }
 
 impl Node {
-    /// The entries of a table; none of anything else.
+    /// The entries of a table, in the order of the file; empty for any other value.
     pub fn entries(&self) -> &[Entry] {
         match &self.value {
             Value::Table(entries) => entries,
@@ -63,17 +63,18 @@ impl Node {
         }
     }
 
-    /// The entry of a table by its key.
+    /// The entry of a table with the key `key`; `None` where the table has no such key, or the value is no table. One
+    /// pass over the entries.
     pub fn entry(&self, key: &str) -> Option<&Entry> {
         self.entries().iter().find(|e| e.key == key)
     }
 
-    /// The value of a table's key.
+    /// The value of a table's key; `None` where there is no such key, or the value is no table.
     pub fn get(&self, key: &str) -> Option<&Node> {
         self.entry(key).map(|e| &e.node)
     }
 
-    /// The items of an array; none of anything else.
+    /// The items of an array, in their order; empty for any other value.
     pub fn items(&self) -> &[Node] {
         match &self.value {
             Value::Array(items) => items,
@@ -81,7 +82,7 @@ impl Node {
         }
     }
 
-    /// The text, if it is one.
+    /// The text of a string; `None` for any other value.
     pub fn text(&self) -> Option<&str> {
         match &self.value {
             Value::Text(text) => Some(text),
@@ -89,14 +90,14 @@ impl Node {
         }
     }
 
-    /// Takes a key out of a table.
+    /// Removes a key from a table and returns its entry; `None` where there is no such key.
     pub fn remove(&mut self, key: &str) -> Option<Entry> {
         let Value::Table(entries) = &mut self.value else { return None };
         let at = entries.iter().position(|e| e.key == key)?;
         Some(entries.remove(at))
     }
 
-    /// Where the last key of `path` stands, if it leads to a key.
+    /// The span of the last key of `path`; `None` where `path` does not lead to a key.
     pub fn locate_key(&self, path: &Path) -> Option<Span> {
         let (last, above) = path.0.split_last()?;
         let Segment::Key(key) = last else { return None };
@@ -104,18 +105,18 @@ impl Node {
         table.entry(key).map(|e| e.key_span)
     }
 
-    /// The value to which `path` leads.
+    /// The value at `path`; `None` where `path` leads to no value.
     pub fn at(&self, path: &Path) -> Option<&Node> {
         let (node, whole) = self.follow(&path.0);
         whole.then_some(node)
     }
 
-    /// Where `path` leads, or, where it leads nowhere, the last place on the way.
+    /// The span of the value at `path`, or of the last value on the way where `path` leads to no value.
     pub fn locate(&self, path: &Path) -> Span {
         self.follow(&path.0).0.span
     }
 
-    /// The last value on the way along `path`, and whether it is the way's end.
+    /// The last value on the way along `path`, and whether the whole path was followed.
     fn follow(&self, path: &[Segment]) -> (&Node, bool) {
         let mut node = self;
         for segment in path {
@@ -132,7 +133,7 @@ impl Node {
         (node, true)
     }
 
-    /// The same tree as JSON, for serde.
+    /// The tree as JSON, without spans, for serde.
     pub fn to_json(&self) -> serde_json::Value {
         match &self.value {
             Value::Text(text) | Value::Date(text) => text.clone().into(),
@@ -145,8 +146,8 @@ impl Node {
     }
 }
 
-/// The tree of a source. What is no TOML goes into `faults`; the tree is then what could be understood, or `None`
-/// where reading on would only find echoes of the slip.
+/// The tree of a source. Syntax faults go into `faults`; the tree then holds what could be understood, or is `None`
+/// where further reading would only report consequences of a mistake.
 pub fn parse(sources: &Sources, id: SourceId, faults: &mut Vec<Fault>) -> Option<Node> {
     let text = &sources.get(id).text;
     let (table, errors) = DeTable::parse_recoverable(text);
@@ -167,7 +168,7 @@ pub fn parse(sources: &Sources, id: SourceId, faults: &mut Vec<Fault>) -> Option
     (whole && !reader.too_deep).then_some(node)
 }
 
-/// A parser's error as a fault, and whether the tree can still be trusted.
+/// A parser's error as a fault, and whether the tree can be used after it.
 fn syntax_fault(id: SourceId, text: &str, error: &toml::de::Error) -> (Fault, bool) {
     let range = error.span().unwrap_or(0..0);
     let span = Span { source: id, start: range.start, end: range.end };

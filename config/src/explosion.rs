@@ -1,6 +1,7 @@
-//! The growth explosion: a species that is expected to outgrow the limit of its scenario, told before the first tick.
+//! The growth explosion: a species that is expected to outgrow the limit of its scenario is refused before the first
+//! tick.
 //!
-//! Absent: the expectation itself, which is the model's.
+//! Absent: the expectation itself, which a growth model gives.
 
 use phytomer_sim::expectation::Certainty;
 use phytomer_sim::model::GrowthModel;
@@ -11,9 +12,9 @@ use crate::report::Fault;
 use crate::scenario::Scenario;
 use crate::species::Species;
 
-/// A plant that is expected to have more components than it may would be cut off: better told before the first tick.
-/// The figure is the expectation, or of a species without one in closed form those components of which it is known; an
-/// estimate or an upper bound refuses nothing, and the limit then holds while the plant grows.
+/// A fault where a plant is expected to have more components than the scenario allows, since it would be cut off later.
+/// The number is the exact expectation, or a lower bound of it for a species whose expectation has no closed form. An
+/// estimate or an upper bound gives no fault; the limit then holds while the plant grows.
 pub(crate) fn fault_of(
     node: &Node,
     scenario: &Scenario,
@@ -37,7 +38,7 @@ pub(crate) fn fault_of(
     Some(Fault::new(node.locate(&path), &path, problem, expected))
 }
 
-/// A large number as people say it: "12 000", "3.4e12".
+/// A large number as text, such as "12 000" or "3.4e12".
 fn in_words(x: f64) -> String {
     match x {
         x if x.is_nan() || x.is_infinite() => "more than can be counted".to_owned(),

@@ -1,7 +1,7 @@
-//! Meshes of the user's that a species names as forms: `form = { mesh = "leaf.ply" }`, a file beside the species file.
+//! Mesh files that a species uses as forms: `form = { mesh = "leaf.ply" }`, a file beside the species file.
 //!
-//! A mention is seen from the file in which it was typed, which after inheritance may be another; so each is replaced
-//! by the path that leads there. Absent: the files' triangles, which are no matter of parameters (`phytomer_outputs`).
+//! A file name is relative to the species file that states it, which after inheritance may be an ancestor's file. So
+//! each name is replaced by the path of the mesh file. Absent: the triangles in these files (`phytomer_outputs`).
 
 use crate::document::{Node, Value};
 use crate::library::shown;
@@ -10,7 +10,7 @@ use crate::source::{Origin, Sources};
 use phytomer_models::fault::Path;
 use phytomer_models::parameters::Keys;
 
-/// Replaces the file of each mesh by its path.
+/// Replaces the file name of each mesh by the path of the file; a file that does not exist is a fault.
 pub(crate) fn resolve(species: &mut Node, keys: &Keys, sources: &Sources, faults: &mut Vec<Fault>) {
     let Some(tables) = &keys.by_place else { return };
     let Some(Value::Array(orders)) = entry(species, tables.list).map(|orders| &mut orders.value) else { return };

@@ -1,11 +1,10 @@
 //! Inheritance between species, and the defaults that all orders share.
 //!
-//! The nearer file wins; in a file an `[[order]]` wins over `[every_order]`, as the bud model calls its tables that
-//! merge by place. Tables merge key by key; a value that may
-//! have several forms (a law, a number or its distribution) and a list are replaced whole. `[[order]]` tables merge by
-//! their place: the second of the child over the second of the parent; one that the parent lacks starts from the
-//! `[every_order]` of both. So each value is written once, by the nearest file that writes it, and keeps its span.
-//! Absent: several parents.
+//! The file nearer to the species wins; within one file an `[[order]]` wins over `[every_order]`, as the bud model
+//! calls its tables that merge by place. Tables merge key by key. A list is replaced whole, and so is a value with
+//! several forms (a law, a number or its distribution). `[[order]]` tables merge by their place: the second of the
+//! child over the second of the parent; a further order of the child starts from the `[every_order]` of both files. So
+//! each value comes from the nearest file that states it, and keeps its span. Absent: several parents.
 
 use serde_json::Value as Json;
 
@@ -14,8 +13,8 @@ use phytomer_models::parameters::ByPlace;
 use crate::document::{Entry, Node, Value};
 use crate::schema::{forms, resolve};
 
-/// A species from its chain of files, the eldest ancestor first, under the schema of its model, whose tables by place
-/// are those of `by_place`.
+/// Merges the files of a species, `chain`, into one tree; the eldest ancestor comes first. `schema` is that of the
+/// species' growth model, and `by_place` names the model's tables that merge by place. `None` for an empty chain.
 pub fn merge_chain(schema: &Json, by_place: Option<&ByPlace>, chain: Vec<Node>) -> Option<Node> {
     let merge = Merge { root: schema, by_place };
     let mut generations = chain.into_iter();
@@ -38,7 +37,7 @@ struct Merge<'s> {
 }
 
 impl<'s> Merge<'s> {
-    /// One file over all that came before it.
+    /// Merges one file over all its ancestors.
     fn generation(&self, mut parent: Node, mut child: Node) -> Node {
         let Some(tables) = self.by_place else { return self.node(Some(self.root), parent, child) };
         let (old_every, new_every) = (parent.remove(tables.every), child.remove(tables.every));
@@ -56,7 +55,7 @@ impl<'s> Merge<'s> {
         merged
     }
 
-    /// The orders of both generations with the defaults of the nearer one in between.
+    /// Merges the orders of both generations, with the defaults of the nearer one in between.
     fn orders(
         &self,
         old: Option<Entry>,
@@ -73,7 +72,7 @@ impl<'s> Merge<'s> {
         let news = match new.map(|e| e.node.value) {
             None => Vec::new(),
             Some(Value::Array(items)) => items,
-            // Not a list: the schema has said so already.
+            // The value is not a list: the schema has already reported it.
             Some(value) => return Some(Entry { key, key_span, node: Node { span, value } }),
         };
         let known = olds.len();
@@ -133,7 +132,7 @@ impl<'s> Merge<'s> {
         Entry { key: new.key, key_span: new.key_span, node: self.node(schema, old.node, new.node) }
     }
 
-    /// The schema of a table's key; `None` for an unknown key, whose value is replaced.
+    /// The schema of a key of a table; `None` for an unknown key, whose value is replaced.
     fn below(&self, schema: Option<&'s Json>, key: &str) -> Option<&'s Json> {
         let schema = schema?;
         let property = schema.get("properties").and_then(|p| p.get(key));

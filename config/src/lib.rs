@@ -1,9 +1,9 @@
-//! Scenario and species files: reading them, inheritance, and every fault at once with its place in the file.
+//! Scenario and species files: reading, inheritance, and a check that reports every fault at once with its place in the
+//! file.
 //!
-//! A file becomes a tree with spans (`document`), the tree is held against the schema of its types (`schema`), species
-//! inherit (`inherit`), and what the models find wrong is shown where it was typed (`report`). [`validate`] does all of
-//! it and gives a run that can begin.
-//! Absent: growth formulas, and anything that runs.
+//! A file becomes a tree with spans (`document`), the tree is checked against the schema of its types (`schema`),
+//! species inherit (`inherit`), and faults that the growth models find are shown at the values in the file (`report`).
+//! [`validate`] does all of this and returns a run that is ready to start. Absent: growth formulas, and running.
 
 mod about;
 mod alone;

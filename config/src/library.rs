@@ -1,10 +1,10 @@
 //! Finding files by name: a user's file by its path, a shipped preset by its name.
 //!
-//! What ends in `.toml` is a file and nothing else. What contains a separator is a file where there is one, else a
-//! preset (`gmt1/5a`). A bare name is looked up beside the file that names it first, then among the presets; on the
-//! command line there is no such file, and a bare name is a preset.
-//! Presets are compiled into the program, so that an installed binary needs no data folder. A program that hands its
-//! texts over itself reads no file: names then lead to these texts and to presets ([`Library::Memory`]).
+//! A name that ends in `.toml` is a file. A name with a separator is a file where there is one, else a preset
+//! (`gmt1/5a`). A bare name is looked up first in the folder of the file that states it, then among the presets; on the
+//! command line a bare name is a preset. Presets are compiled into the program, so that an installed binary needs no
+//! data folder. A library of texts in memory reads no file: names then lead to these texts and to presets
+//! ([`Library::Memory`]).
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -15,20 +15,20 @@ use phytomer_models::law::spelling::nearest;
 
 include!(concat!(env!("OUT_DIR"), "/presets.rs"));
 
-/// A file longer than this is not a parameter file; reading on would only use memory.
+/// The largest size of a parameter file; a longer file is refused, so that it does not fill the memory.
 const MAX_BYTES: u64 = 4 << 20;
 
-/// The two kinds of file.
+/// The two kinds of parameter file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// One species and its laws.
+    /// A species with its parameters.
     Species,
-    /// One run.
+    /// A scenario: one run.
     Scenario,
 }
 
 impl Kind {
-    /// The word in messages and on the command line.
+    /// The kind as messages and the command line write it.
     pub fn word(self) -> &'static str {
         match self {
             Kind::Species => "species",
@@ -37,7 +37,7 @@ impl Kind {
     }
 }
 
-/// Names and texts of the shipped presets of a kind, sorted by path.
+/// The shipped presets of a kind as pairs of name and text, sorted by path.
 pub fn presets(kind: Kind) -> &'static [(&'static str, &'static str)] {
     match kind {
         Kind::Species => SPECIES,
@@ -45,24 +45,24 @@ pub fn presets(kind: Kind) -> &'static [(&'static str, &'static str)] {
     }
 }
 
-/// Why a name led to no text.
+/// Why no text was found under a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NotFound {
-    /// What is wrong.
+    /// What is wrong, in words.
     pub problem: String,
-    /// What would be right.
+    /// What was expected, in words.
     pub expected: String,
     /// The preset nearest in spelling.
     pub suggestion: Option<String>,
 }
 
-/// Where names lead.
+/// Where names are looked up.
 #[derive(Debug, Clone, Default)]
 pub enum Library {
-    /// To files and to presets.
+    /// Among files and presets.
     #[default]
     Disk,
-    /// To these texts by their names, and to presets.
+    /// Among these texts, by their names, and among presets.
     Memory(Vec<Source>),
 }
 
@@ -76,7 +76,8 @@ impl Library {
         Self::Memory(texts.iter().map(source).collect())
     }
 
-    /// Finds what `name` names; `beside` is the text that names it. What a preset names is a preset.
+    /// Finds the text with the name `name`. `beside` is the origin of the text that states the name, `None` on the
+    /// command line. A name in a preset is always that of a preset.
     pub fn find(&self, kind: Kind, name: &str, beside: Option<&Origin>) -> Result<Source, NotFound> {
         let Self::Memory(texts) = self else { return find(kind, name, beside) };
         let own = texts.iter().filter(|_| !matches!(beside, Some(Origin::Preset(_))));
@@ -94,14 +95,14 @@ impl Library {
     }
 }
 
-/// Reads what `name` names; `beside` is the file that names it, `None` on the command line.
+/// Finds a file or a preset by its name. `beside` is the file that states the name, `None` on the command line.
 pub fn find(kind: Kind, name: &str, beside: Option<&Origin>) -> Result<Source, NotFound> {
     let folder = match beside {
         Some(Origin::File(path)) => path.parent(),
         _ => None,
     };
     let as_path = name.ends_with(".toml") || name.contains(['/', '\\']);
-    // A preset names presets; only people name files.
+    // A preset names presets only; files are named by users only.
     if !matches!(beside, Some(Origin::Preset(_))) && !name.is_empty() {
         let path = folder.map_or_else(|| PathBuf::from(name), |folder| folder.join(name));
         let with_end = PathBuf::from(format!("{}.toml", path.display()));
@@ -134,7 +135,7 @@ fn read(path: &FilePath) -> io::Result<Source> {
     Ok(Source { name: shown(path), origin: Origin::File(path.to_owned()), text: text.into() })
 }
 
-/// The path as people would write it: without `.` and without going down and up again.
+/// The path in short: without `.`, and without pairs of a folder and `..`.
 pub(crate) fn shown(path: &FilePath) -> String {
     let mut parts = PathBuf::new();
     for part in path.components() {
@@ -167,7 +168,7 @@ fn unknown(kind: Kind, name: &str) -> NotFound {
     NotFound {
         problem: format!("there is no {} `{name}`", kind.word()),
         expected: format!("a shipped {} (`phytomer list` has them) or the path of a file", kind.word()),
-        // A species in the place of a scenario is grown by itself.
+        // A species may stand in the place of a scenario: it is then grown by itself.
         suggestion: near_preset(kind, name).or_else(|| near_preset(Kind::Species, name)),
     }
 }
@@ -184,7 +185,7 @@ fn near_file(name: &str, path: &FilePath) -> Option<String> {
     Some(format!("{}{near}.toml", name.strip_suffix(typed).unwrap_or_default()))
 }
 
-/// The preset nearest in spelling; of one in a folder the name without the folder is enough (`massart`).
+/// The preset nearest in spelling. A preset in a folder is also found without the folder's name (`massart`).
 fn near_preset(kind: Kind, name: &str) -> Option<String> {
     let names = || presets(kind).iter().map(|(preset, _)| *preset);
     let without_folder = |preset: &str| preset.rsplit('/').next().is_some_and(|own| own.eq_ignore_ascii_case(name));

@@ -1,8 +1,8 @@
-//! Reading a scenario and a species with all their ancestors, collecting faults and going on.
+//! Reads a scenario and species with all their ancestors, and collects faults instead of stopping at the first.
 //!
-//! Each file is held against the schema by itself, so that a fault is told even where a nearer file hides it; then the
-//! merged species is held against the complete schema, so that a missing key is told once for the whole chain.
-//! Absent: faults of meaning, which `validate` asks the models for.
+//! Each file is checked against the schema by itself, so that a fault is reported even where a nearer file hides the
+//! value; then the merged species is checked against the complete schema, so that a missing key is reported once for
+//! the whole chain. Absent: faults of meaning, which the models find (`validate`).
 
 use phytomer_law::fault::{Path, Segment};
 use phytomer_models::parameters::Keys;
@@ -21,10 +21,10 @@ use crate::source::{Origin, Source, SourceId, Sources, Span};
 use crate::species::split;
 use crate::woods;
 
-/// More ancestors than this are a mistake even where they are no circle.
+/// The most ancestors of a species; more are a mistake even without a circle.
 const MOST_ANCESTORS: usize = 16;
 
-/// What was read so far, and what was wrong with it.
+/// The texts that were read so far, and their faults.
 #[derive(Default)]
 pub(crate) struct Loader {
     pub library: Library,
@@ -32,10 +32,10 @@ pub(crate) struct Loader {
     pub faults: Vec<Fault>,
 }
 
-/// What serde makes of a tree.
+/// A value that serde reads from a tree, or serde's error with its path.
 type Read<T> = Result<T, serde_path_to_error::Error<serde_json::Error>>;
 
-/// A species as far as it could be read.
+/// A species, as far as its files could be read.
 pub(crate) struct Found {
     pub about: Option<About>,
     pub model: Model,
@@ -43,16 +43,16 @@ pub(crate) struct Found {
     pub node: Node,
 }
 
-/// A name in a file, and the file.
+/// A name of a species or a scenario, with the place where it is stated.
 #[derive(Clone)]
 pub(crate) struct Mention {
     pub name: String,
-    /// Where it is named; `None` on the command line.
+    /// The place in a file; `None` on the command line.
     pub place: Option<(Span, Path)>,
 }
 
 impl Loader {
-    /// A file by its name; `None`, with a fault, where there is none.
+    /// Finds a file by its name; where there is none, adds a fault and returns `None`.
     pub fn find(&mut self, kind: Kind, mention: &Mention) -> Option<Source> {
         let beside = mention.place.as_ref().map(|(span, _)| self.sources.get(span.source).origin.clone());
         match self.library.find(kind, &mention.name, beside.as_ref()) {
@@ -71,14 +71,15 @@ impl Loader {
         }
     }
 
-    /// The tree of a text, which is kept.
+    /// Parses a text, which is kept among the sources; the tree is `None` where parsing failed.
     pub fn parse(&mut self, source: Source) -> (SourceId, Option<Node>) {
         let id = self.sources.add(source);
         (id, document::parse(&self.sources, id, &mut self.faults))
     }
 
-    /// A value of a type from a tree that its schema has checked, with `refused` the faults that it found and `keys`
-    /// the roles of its keys. Some: the value, or what can be made of it without the values refused.
+    /// Reads a value of type `T` from a tree that was checked against its schema. `refused` are the faults of that
+    /// check, and `keys` the roles of the tree's keys. With faults, the refused values are left out first; `None` where
+    /// nothing useful is left.
     pub fn read<T>(
         &mut self,
         node: &Node,
@@ -105,8 +106,8 @@ impl Loader {
         self.faults.push(Fault::new(node.locate(&path), &path, problem, "a value that the schema allows"));
     }
 
-    /// A species, its ancestors merged; `None`, with faults, where nothing can be made of it. With faults and not
-    /// `None`: what is left without the values refused.
+    /// Reads a species and merges its ancestors. Where there are faults, the result holds what is left without the
+    /// refused values, or is `None` where nothing useful is left.
     pub fn species(&mut self, mention: &Mention) -> Option<Found> {
         let chain = self.chain(mention)?;
         let name = self.model(&chain, mention)?;
@@ -125,7 +126,7 @@ impl Loader {
         Some(Found { about, model, node })
     }
 
-    /// The files of a species, the eldest ancestor first.
+    /// The trees of the files of a species, the eldest ancestor first.
     fn chain(&mut self, mention: &Mention) -> Option<Vec<Node>> {
         let mut chain: Vec<Node> = Vec::new();
         let mut line: Vec<(Origin, String)> = Vec::new();
@@ -168,7 +169,7 @@ impl Loader {
         self.faults.push(Fault { span, path, problem, expected: expected.to_owned(), suggestion: None });
     }
 
-    /// The model that the chain names; all its files must agree. Where none is named the files are still checked.
+    /// The model that the chain names; all its files must agree. Where none is named, the files are still checked.
     fn model(&mut self, chain: &[Node], mention: &Mention) -> Option<ModelName> {
         let mut found: Option<ModelName> = None;
         for value in chain.iter().filter_map(|node| node.get("model")) {
@@ -188,7 +189,7 @@ impl Loader {
         found
     }
 
-    /// Tells of a species without a model that is known.
+    /// Adds a fault: the species names no known model.
     fn no_model(&mut self, chain: &[Node], mention: &Mention) {
         let named = chain.iter().any(|node| node.get("model").is_some());
         if !named && chain.iter().any(looks_like_scenario) {
@@ -209,7 +210,7 @@ pub(crate) fn looks_like_scenario(node: &Node) -> bool {
     ["species", "ages", "plants"].into_iter().filter(|key| node.get(key).is_some()).count() >= 2
 }
 
-/// The same file by whatever path it is reached.
+/// The origin without spelling differences, so that one file by two paths is found to be the same.
 fn identity(origin: &Origin) -> Origin {
     match origin {
         Origin::File(path) => Origin::File(path.canonicalize().unwrap_or_else(|_| path.clone())),

@@ -1,9 +1,8 @@
-//! Faults of meaning, found by the models in a tree of values, shown where the values were typed.
+//! Faults of meaning, which the growth models find, shown at the values in the file.
 //!
-//! A model knows a path and words; the file, the line and the column come from the tree. Where the schema has refused
-//! some keys, the models are asked about the rest: what was refused is taken out first ([`without`]), so that all
-//! faults are told at once and none is the echo of another.
-//! Absent: what is a fault.
+//! A model reports a path and words; the file, the line and the column come from the tree. Where the schema has refused
+//! some keys, the models still check the rest: refused values are taken out first ([`without`]), so that all faults are
+//! reported at once and no fault is a consequence of another. Absent: the checks themselves.
 
 use phytomer_models::fault::{self, Path, Segment};
 use phytomer_models::parameters::Keys;
@@ -13,8 +12,8 @@ use crate::report::Fault;
 use crate::source::{Sources, Span};
 use phytomer_models::law::spelling::nearest;
 
-/// The tree without the values at which something was refused, by the roles of its model's keys; `None` where nothing
-/// useful is left.
+/// The tree without the values that were refused; `keys` are the roles of the model's keys. `None` where nothing useful
+/// is left.
 pub fn without(node: &Node, keys: &Keys, faults: &[Fault]) -> Option<Node> {
     let mut rest = node.clone();
     let wood = keys.wood.as_ref();
@@ -41,7 +40,7 @@ pub fn without(node: &Node, keys: &Keys, faults: &[Fault]) -> Option<Node> {
     Some(rest)
 }
 
-/// Takes a table away, from the species and from each of its tables by place.
+/// Removes a table from the species and from each of its tables that merge by place.
 fn forget(node: &mut Node, keys: &Keys, table: &str) {
     node.remove(table);
     let Some(tables) = &keys.by_place else { return };
@@ -69,7 +68,7 @@ fn remove_from_item(node: &mut Node, list: &str, i: usize, key: &str) {
     }
 }
 
-/// A model's fault at its place.
+/// A model's fault with its file, line and column.
 pub fn place(sources: &Sources, node: &Node, fault: fault::Fault) -> Fault {
     let fault::Fault { path, problem, expected } = fault;
     let at_key = node.locate_key(&path).filter(|_| problem.starts_with("unknown"));
@@ -86,7 +85,7 @@ pub fn place(sources: &Sources, node: &Node, fault: fault::Fault) -> Fault {
     }
 }
 
-/// The names that a text offers: what it has in quotes or backticks, or behind "one of".
+/// The names that a text offers: the words in quotes or backticks, or those after "one of".
 fn quoted(text: &str) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
     for mark in ['"', '`'] {
@@ -100,8 +99,8 @@ fn quoted(text: &str) -> Vec<&str> {
     names
 }
 
-/// The place inside an expression to which "column 8 of the expression: …" points, and the words behind it. `None`
-/// where the text is written in a way in which columns and bytes differ (escapes, several lines).
+/// The place inside an expression to which "column 8 of the expression: …" points, and the rest of the message. `None`
+/// where the text in the file is written so that columns and bytes differ (escapes, several lines).
 fn in_expression<'p>(sources: &Sources, node: &Node, path: &Path, problem: &'p str) -> Option<(Span, &'p str)> {
     let (column, words) = problem.strip_prefix("column ")?.split_once(" of the expression: ")?;
     let column: usize = column.parse().ok()?;

@@ -1,7 +1,7 @@
 //! Every growth model that a species file can name, and the schema of its keys.
 //!
-//! A new model is one line in [`registry!`]; everything else about it is told by its parameters
-//! ([`phytomer_models::parameters`]). Absent: keys of one model, which nothing here knows.
+//! A new model is one line in [`registry!`]; its keys, schema and compiled form come from its type of parameters
+//! ([`phytomer_models::parameters`]). Absent: anything that depends on the keys of a single model.
 
 use std::sync::{Arc, OnceLock};
 
@@ -13,7 +13,7 @@ use serde_json::{Value as Json, json};
 use crate::about::About;
 use crate::schema::{join, of_type, partial, resolve};
 
-/// Makes the enums of the models from one line a model: the name of its variant, and the type of its parameters.
+/// Makes the enums of the models from one line per model: the name of its variant, and the type of its parameters.
 macro_rules! registry {
     ($($name:ident: $parameters:ty,)+) => {
         /// Every growth model, with its parameters.
@@ -32,7 +32,7 @@ macro_rules! registry {
         pub const MODELS: [ModelName; [$(ModelName::$name),+].len()] = [$(ModelName::$name),+];
 
         impl ModelName {
-            /// What the model is called, and how its keys stand.
+            /// The model's card: the word that names it, and the roles of its keys.
             pub fn card(self) -> &'static Card {
                 match self {
                     $(ModelName::$name => &<$parameters>::CARD,)+
@@ -45,10 +45,10 @@ macro_rules! registry {
                 }
             }
 
-            /// The parameters from their keys.
+            /// Reads the parameters from the model's keys of a species.
             ///
             /// # Errors
-            /// What serde says of keys that the schema would have refused.
+            /// Where serde refuses the keys; keys that the schema has passed are read.
             pub fn read(self, keys: Json) -> Result<Model, serde_path_to_error::Error<serde_json::Error>> {
                 match self {
                     $(ModelName::$name => serde_path_to_error::deserialize(keys).map(Model::$name),)+
@@ -93,32 +93,32 @@ registry! {
 }
 
 impl ModelName {
-    /// The word of the key `model`.
+    /// The model as the key `model` takes it.
     pub fn word(self) -> &'static str {
         self.card().word
     }
 
-    /// The model of that word.
+    /// The model with the word `word`; `None` where there is none.
     pub fn from_word(word: &str) -> Option<Self> {
         MODELS.into_iter().find(|model| model.word() == word)
     }
 
-    /// What a table of the list that merges by place states where a file leaves out every key that it can; `None` for a
-    /// model without such a list.
+    /// The defaults of a table that merges by place, such as `[[order]]`: its values where a file leaves out every
+    /// optional key. `None` for a model without such tables.
     pub fn default_table(self) -> Option<Json> {
         let list = self.card().keys.by_place.as_ref()?.list;
         let model = self.read(json!({list: [{}]})).ok()?;
         model.to_json().ok()?.get_mut(list)?.get_mut(0).map(Json::take)
     }
 
-    /// The schema of a complete species of this model.
+    /// The JSON Schema of a complete species of this model. Made at the first call and kept.
     pub fn schema(self) -> &'static Json {
         static SCHEMAS: [OnceLock<Json>; MODELS.len()] = [const { OnceLock::new() }; MODELS.len()];
         SCHEMAS[self as usize].get_or_init(|| complete(self))
     }
 
-    /// The schema of one file of this model, which may leave keys to its ancestors and share them between the tables
-    /// that merge by place.
+    /// The JSON Schema of one file of a species of this model: no key is required, since ancestors may state it, and
+    /// keys may stand in the table for all tables that merge by place. Made at the first call and kept.
     pub fn file_schema(self) -> &'static Json {
         static SCHEMAS: [OnceLock<Json>; MODELS.len()] = [const { OnceLock::new() }; MODELS.len()];
         SCHEMAS[self as usize].get_or_init(|| one_file(self))
@@ -126,10 +126,10 @@ impl ModelName {
 }
 
 impl Model {
-    /// The model compiled for all ages up to `until`, every law checked over its whole range.
+    /// Compiles the model for all ages up to `until`, in ticks, and checks every law over its whole range.
     ///
     /// # Errors
-    /// Every fault that there is, each with its path from the top of the species file.
+    /// Every fault, each with its path from the top of the species file.
     pub fn compile(&self, until: u32) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
         self.parameters().model(until, &Path::root())
     }

@@ -1,8 +1,8 @@
-//! What has been published about a species' size and life at one age, in ranges that grown plants must fall into.
+//! Published sizes and survival of a species at one age, as ranges that grown plants must fall into.
 //!
-//! Floras and yield tables say how tall and wide a plant of an age is, how many leaves it carries and how many of those
-//! sown still live. A species file states such ranges in `[[published]]`; `validate` grows a sample and holds it
-//! against them. Absent: the growing and the measuring, which the root package does (`phytomer::sample`).
+//! Floras and yield tables tell how tall and wide a plant of an age is, how many leaves it carries, and how many of the
+//! plants that were sown still live. A species file states such ranges in `[[published]]`; `validate` grows a sample
+//! and compares it with them. Absent: growing and measuring the sample (`phytomer::sample` in the root package).
 
 use phytomer_law::fault::{Fault, Path};
 use schemars::JsonSchema;
@@ -11,58 +11,59 @@ use serde::{Deserialize, Serialize};
 /// The key of the list in a species file.
 pub const PUBLISHED: &str = "published";
 
-/// The least and the largest of what was published.
+/// The smallest and the largest published value.
 pub type Range = [f64; 2];
 
-/// Published ranges of plants of one age. A range is of the mean over the living plants of a sample, but for `living`.
+/// Published ranges for plants of one age. Each is a range of the mean over the living plants of a sample; `living` is
+/// a share of all plants.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Published {
-    /// The age that the ranges are of, ticks since the seed.
+    /// The age of the plants, ticks since the seed.
     #[schemars(range(min = 1, max = 65_535))]
     pub at_age: u32,
-    /// Height, m: the least and the largest.
+    /// Height, m: the smallest and the largest value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub height_m: Option<Range>,
-    /// The mean of the crown's two widths, m.
+    /// Crown width, m, the mean of the crown's two widths: the smallest and the largest value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub crown_width_m: Option<Range>,
-    /// Leaves on the plant.
+    /// Number of leaves on the plant: the smallest and the largest value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub leaves: Option<Range>,
-    /// The area of one side of all its leaves, m².
+    /// Area of one side of all leaves of the plant, m²: the smallest and the largest value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub leaf_area_m2: Option<Range>,
-    /// The share of the plants sown that live, in [0, 1].
+    /// Share of the sown plants that live, in [0, 1]: the smallest and the largest value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0, max = 1)))]
     pub living: Option<Range>,
-    /// Where the ranges come from.
+    /// The publication that the ranges come from.
     #[schemars(length(min = 1))]
     pub source: String,
 }
 
-/// What a range is of.
+/// A measured quantity with a published range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Measure {
     /// Height, m.
     Height,
     /// Crown width, m.
     CrownWidth,
-    /// Leaves.
+    /// Number of leaves.
     Leaves,
     /// Leaf area, m².
     LeafArea,
-    /// The share that lives.
+    /// The share of the sown plants that live.
     Living,
 }
 
 impl Measure {
-    /// The key of its range in a species file.
+    /// The key of the quantity in a species file.
     pub fn key(self) -> &'static str {
         match self {
             Self::Height => "height_m",
@@ -73,7 +74,7 @@ impl Measure {
         }
     }
 
-    /// What people call it.
+    /// The name of the quantity in messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Height => "height",
@@ -84,7 +85,7 @@ impl Measure {
         }
     }
 
-    /// Its unit with a space before it; nothing where it has none.
+    /// The unit with a space before it; empty for a number or a share.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Height | Self::CrownWidth => " m",
@@ -95,7 +96,7 @@ impl Measure {
 }
 
 impl Published {
-    /// The ranges that are stated.
+    /// The stated ranges, each with its quantity.
     pub fn ranges(&self) -> impl Iterator<Item = (Measure, Range)> + use<> {
         let all = [
             (Measure::Height, self.height_m),
@@ -107,7 +108,7 @@ impl Published {
         all.into_iter().filter_map(|(measure, range)| Some((measure, range?)))
     }
 
-    /// What the schema cannot say: ranges are the right way round, and there is one.
+    /// The faults that the schema cannot state: a range that is the wrong way round, or no range at all.
     pub(crate) fn faults(&self, path: &Path) -> Vec<Fault> {
         let mut faults = Vec::new();
         for (measure, [least, most]) in self.ranges().filter(|(_, [least, most])| least > most) {

@@ -1,8 +1,9 @@
-//! All faults of a validation at once, for people (source lines with the offending text underlined) and for programs.
+//! All faults of a validation in one report, for people (source lines with the faulty text underlined) and for
+//! programs.
 //!
-//! The order is fixed: by file in the order of reading, then line, then column. One fault a place and problem: a
-//! default that eight orders inherit is shown once.
-//! Absent: what is a fault. That is the parser's, the schema's and the models' to say.
+//! The order is fixed: by file in the order of reading, then by line, then by column. A fault with equal place and
+//! problem is shown once, such as a fault in a default that eight orders inherit. Absent: finding faults, which the
+//! parser, the schema and the models do.
 
 use std::fmt::Write as _;
 
@@ -13,27 +14,27 @@ use serde::Serialize;
 
 use crate::source::{Sources, Span};
 
-/// People stop reading long before; `--json` has more.
+/// The most faults in a report for people; `--json` has all of them.
 const SHOWN: usize = 50;
 
-/// Beyond this a file is not a parameter file with slips in it, and looking on would only take time.
+/// The most faults that are collected. A file with more is not a parameter file, and its check stops.
 pub(crate) const MOST_FAULTS: usize = 1000;
 
-/// Of a longer line only the part around the fault is shown.
+/// The longest line that is shown whole; of a longer line only the part around the fault is shown.
 const LONGEST_LINE: usize = 2000;
 
-/// One thing that is wrong, and where.
+/// One fault of a file, and its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
-    /// Where; `None` when a file could not be read at all.
+    /// The place in the text; `None` where a file could not be read at all.
     pub span: Option<Span>,
-    /// The value's place in the file's tree.
+    /// The path of the value in the file's tree.
     pub path: Path,
     /// What is wrong.
     pub problem: String,
-    /// What would be right.
+    /// What was expected.
     pub expected: String,
-    /// The nearest spelling that would be right.
+    /// The allowed word nearest in spelling, where there is one.
     pub suggestion: Option<String>,
 }
 
@@ -49,7 +50,7 @@ impl Fault {
         }
     }
 
-    /// The same with a nearest spelling, where there is one.
+    /// The fault with a suggested spelling, where there is one.
     pub fn suggest(mut self, suggestion: Option<impl Into<String>>) -> Self {
         self.suggestion = suggestion.map(Into::into);
         self
@@ -65,13 +66,13 @@ pub struct FaultRecord {
     pub line: Option<usize>,
     /// Column from 1, in characters.
     pub column: Option<usize>,
-    /// Place in the tree, `order[1].death`.
+    /// Path of the value in the file's tree, such as `order[1].death`.
     pub path: String,
     /// What is wrong.
     pub problem: String,
-    /// What would be right.
+    /// What was expected.
     pub expected: String,
-    /// The nearest spelling, if one is near.
+    /// The allowed word nearest in spelling, where there is one.
     pub suggestion: Option<String>,
 }
 
@@ -86,7 +87,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// Sorts the faults and drops repetitions.
+    /// Makes a report: sorts the faults and drops repetitions, in O(n log n).
     pub fn new(sources: Sources, mut faults: Vec<Fault>) -> Self {
         faults.sort_by(|a, b| (a.span, &a.problem, &a.path).cmp(&(b.span, &b.problem, &b.path)));
         faults.dedup_by(|b, a| a.span.is_some() && a.span == b.span && a.problem == b.problem);
@@ -94,7 +95,7 @@ impl Report {
         Self { sources, faults }
     }
 
-    /// "3 faults in 2 files".
+    /// The number of faults and of files in words, such as "3 faults in 2 files".
     pub fn summary(&self) -> String {
         let mut files: Vec<_> = self.faults.iter().filter_map(|f| f.span.map(|s| s.source)).collect();
         files.sort();
@@ -105,7 +106,7 @@ impl Report {
         if files.is_empty() { faults } else { format!("{faults} in {}", count(files.len(), "file")) }
     }
 
-    /// The report for people; `color` where a terminal wants it.
+    /// The report for people, in lines of text; with `color` it has terminal colours. At most fifty faults are shown.
     pub fn render(&self, color: bool) -> String {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() };
         let renderer = renderer.decor_style(DecorStyle::Ascii).term_width(120);
@@ -157,7 +158,7 @@ impl Report {
         title.element(origin).element(snippet.annotation(AnnotationKind::Primary.span(from - left..to - left)))
     }
 
-    /// The report for programs.
+    /// The report for programs: one record per fault, all of them.
     pub fn records(&self) -> Vec<FaultRecord> {
         self.faults.iter().map(|fault| self.record(fault)).collect()
     }
@@ -176,7 +177,7 @@ impl Report {
     }
 }
 
-/// A file's text must not steer the terminal.
+/// Removes control characters, so that the text of a file cannot control the terminal.
 fn clean(text: &str) -> String {
     text.chars().filter(|c| !c.is_control()).collect()
 }

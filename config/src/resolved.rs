@@ -1,7 +1,7 @@
-//! A scenario that was checked, with all its species compiled: a run that can begin.
+//! A scenario that was checked, with all its species compiled: a run that is ready to start.
 //!
-//! The scenario's own species stands by itself, since most runs have no other; those that members name beside it stand
-//! in a list. Absent: the checks, which are `validate`'s.
+//! The scenario's own species has fields of its own, since most runs have no other species; the species that only
+//! members name are in a list. Absent: the checks (`validate`).
 
 use std::fmt;
 use std::sync::Arc;
@@ -17,14 +17,14 @@ use crate::scenario::Scenario;
 use crate::source::Sources;
 use crate::species::Species;
 
-/// A run that can begin.
+/// A run that is ready to start.
 #[derive(Clone)]
 pub struct Resolved {
-    /// What the run grows and keeps.
+    /// The scenario: plants, plots, ages, tables and meshes.
     pub scenario: Scenario,
     /// The scenario's own species, with its inheritance resolved.
     pub species: Species,
-    /// Its model, compiled for all ages that a plant of it reaches.
+    /// The growth model of the scenario's own species, compiled for all ages that its plants reach.
     pub model: Arc<dyn GrowthModel>,
     /// The other species that members name, in the order of [`Scenario::species_names`] without the first.
     pub others: Vec<OtherSpecies>,
@@ -33,12 +33,12 @@ pub struct Resolved {
     pub(crate) tree: Node,
 }
 
-/// A species of a scenario beside its own.
+/// A species of a run that is not the scenario's own: a member of the plots names it.
 #[derive(Clone)]
 pub struct OtherSpecies {
     /// The species, with its inheritance resolved.
     pub species: Species,
-    /// Its model, compiled for all ages that a plant of it reaches.
+    /// The growth model of the species, compiled for all ages that its plants reach.
     pub model: Arc<dyn GrowthModel>,
     pub(crate) tree: Node,
 }
@@ -50,13 +50,13 @@ impl fmt::Debug for Resolved {
 }
 
 impl Resolved {
-    /// A report of what was found wrong with the scenario's own species after it was read, as
+    /// A report of faults that were found in the scenario's own species after reading, such as by growing it. See
     /// [`ResolvedSpecies::report`].
     pub fn report(&self, faults: Vec<fault::Fault>) -> Report {
         self.report_of(0, faults)
     }
 
-    /// The same of any of its species, by its place in [`Scenario::species_names`].
+    /// A report of faults in the species with the index `species` in [`Scenario::species_names`].
     pub fn report_of(&self, species: usize, faults: Vec<fault::Fault>) -> Report {
         let other = species.checked_sub(1).and_then(|place| self.others.get(place));
         placed(&self.sources, other.map_or(&self.tree, |other| &other.tree), faults)
@@ -67,19 +67,19 @@ impl Resolved {
         [&self.species].into_iter().chain(self.others.iter().map(|other| &other.species)).collect()
     }
 
-    /// The models of all species, in the same order.
+    /// The growth models of all species, in the order of [`Scenario::species_names`].
     pub fn models(&self) -> Vec<&dyn GrowthModel> {
         [self.model.as_ref()].into_iter().chain(self.others.iter().map(|other| other.model.as_ref())).collect()
     }
 
-    /// The components that a plant of the scenario's own species is expected to have made by `age`: the mean, a bound
-    /// from above or an estimate; `None` where the sum would take too long.
+    /// The expected number of components that a plant of the scenario's own species has made by `age`, in ticks: the
+    /// exact mean, an upper bound or an estimate. `None` where the sum would take too long.
     pub fn expected_components(&self, age: u32) -> Option<f64> {
         self.model.expectation(age).map(|means| means.components(age))
     }
 
-    /// The whole run as data, for `run.json`: the scenario with its defaults, its species without ancestors, and in
-    /// `other_species` those that members name beside it.
+    /// The whole run as JSON, for `run.json`: the scenario with its defaults, its species with inheritance resolved,
+    /// and under `other_species` the species that only members name.
     ///
     /// # Errors
     /// A number that JSON cannot hold, which no checked run has.
@@ -92,7 +92,7 @@ impl Resolved {
         Ok(json)
     }
 
-    /// The scenario with its defaults, as a file that could be run again.
+    /// The scenario with its defaults, as the TOML text of a scenario file.
     ///
     /// # Errors
     /// A value that TOML cannot hold, which no checked scenario has.
@@ -100,7 +100,7 @@ impl Resolved {
         toml::to_string(&self.scenario)
     }
 
-    /// The species without ancestors, as a file.
+    /// The scenario's own species with inheritance resolved, as the TOML text of a species file.
     ///
     /// # Errors
     /// A value that TOML cannot hold, which no checked species has.
@@ -109,7 +109,7 @@ impl Resolved {
     }
 }
 
-/// Faults of meaning, each at its place in the tree of its species.
+/// A report of a model's faults, each at its place in the tree of the species.
 pub(crate) fn placed(sources: &Sources, tree: &Node, faults: Vec<fault::Fault>) -> Report {
     let placed = faults.into_iter().map(|fault| meaning::place(sources, tree, fault)).collect();
     Report::new(sources.clone(), placed)

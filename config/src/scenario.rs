@@ -1,8 +1,8 @@
-//! A scenario: what one run grows, for how long, and what it keeps.
+//! A scenario: what one run grows, for how long, and what it records.
 //!
-//! One TOML file a run. Treatments and events will be further tables of this file; until they exist their keys
-//! are refused like any unknown key, so that nobody believes they did something.
-//! Absent: the species, which is a file of its own, and where the run folder goes, which the command line says.
+//! A scenario is one TOML file. Treatments and events will be further tables of this file; until they exist their keys
+//! are refused like any unknown key, so that a file never states something that has no effect. Absent: the species,
+//! which is a file of its own, and the place of the run folder, which the command line states.
 
 mod meshes;
 mod plots;
@@ -21,99 +21,100 @@ use phytomer_sim::clock::LAST_TICK;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The seed of a run that names none: the year of the paper. Printed and recorded like any other.
+/// The seed of a run that states none: the year of de Reffye's paper. It is printed and recorded like any other seed.
 pub const DEFAULT_SEED: u64 = 1988;
 
 /// The largest seed, 2⁶³ − 1: TOML has no larger whole number, and every seed must be one that a scenario can state.
 pub const MOST_SEED: u64 = i64::MAX as u64;
 
-/// Bytes that a component takes in memory, about: topology, fates and pose together.
+/// The memory of one component, about, in bytes: topology, fates and pose together.
 pub const BYTES_A_COMPONENT: u64 = 96;
 
-/// A run: a species, a number of plants, the ages, and what is written.
+/// A run: species, number of plants, ages, and the tables and meshes that are written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
-    /// The name of the run, and of its folder unless the command line says otherwise.
+    /// The name of the run, and of its folder unless the command line states another.
     #[schemars(length(min = 1, max = 200))]
     pub name: String,
-    /// What the run is for.
+    /// The purpose of the run, in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub description: Option<String>,
-    /// A shipped species by its name, or the path of a species file, as seen from this file.
+    /// The species: a shipped species by its name, or a species file by its path from the folder of this file.
     #[schemars(length(min = 1))]
     pub species: String,
-    /// How many plants grow; where a plot has several members, a multiple of their number.
+    /// The number of plants; where plots have several members, a multiple of the number of members.
     #[schemars(range(min = 1, max = 1_000_000_000))]
     pub plants: u32,
-    /// The seed of every draw: the same seed gives the same bytes. From 0 to 2⁶³ − 1; 1988 if not given.
+    /// The seed of all random draws: an equal seed gives equal bytes. From 0 to 2⁶³ − 1; 1988 if not given.
     #[serde(default = "default_seed")]
     #[schemars(range(min = 0, max = MOST_SEED))]
     pub seed: u64,
-    /// The plots, of one plant each unless `member` says otherwise, stand on a square grid this far apart, metres:
-    /// plot 0 at the origin, and shell after shell around it, along x = s and back along y = s of the s-th. A plot
-    /// keeps its place however many there are, and the first n² fill a square. If not given, each has an origin of its
-    /// own.
+    /// The distance between plots, metres, on a square grid; a plot has one plant unless `member` states more. Plot 0
+    /// stands at the origin, and square shells of plots follow around it: shell s runs along x = s, then back along y =
+    /// s. A plot has the same place whatever the number of plots, and the first n² plots fill a square. If not given,
+    /// each plot has an origin of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 1000.0), extend("exclusiveMinimum" = 0))]
     pub spacing_m: Option<f64>,
-    /// What acts on the plants from outside: gravity, wind, and planes that kill buds.
+    /// External influences on the plants: gravity, wind, and planes that kill buds.
     #[serde(default, skip_serializing_if = "Site::is_default")]
     pub site: Site,
-    /// The plants of each plot, as `[[member]]`. One plant of the scenario's species, sown at tick 0, if not given.
+    /// The plants of each plot, as `[[member]]`. If not given, a plot is one plant of the scenario's species, sown at
+    /// tick 0.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub member: Vec<Member>,
-    /// How long the plants grow, and at which ages they are recorded.
+    /// The last tick of the plots, and the recorded ticks.
     pub ages: Ages,
-    /// The tables that are written. All if not given; `plants`, which tells where each plant stands, goes with any
-    /// other.
+    /// The tables that are written. All if not given. With any table, `plants` is written too, since it states the
+    /// place of each plant.
     #[serde(default = "tables::all")]
     pub tables: BTreeSet<Table>,
     /// The meshes that are written. None if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub meshes: Option<Meshes>,
-    /// Where a plant that grows too large is stopped, and its plot with it.
+    /// The largest size of a plant; a plot stops growing when one of its plants reaches it.
     #[serde(default)]
     pub limits: Limits,
-    /// How the tables are written.
+    /// The format of the tables.
     #[serde(default)]
     pub output: Output,
 }
 
-/// How long the plants grow, and at which ages they are recorded.
+/// The last tick of the plots, and the recorded ticks.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ages {
-    /// The last tick of the plots: the last age of a plant that is sown at tick 0.
+    /// The last tick of the plots; for a plant that is sown at tick 0 it is the last age.
     #[schemars(range(min = 1, max = 65_535))]
     pub until: u32,
     /// The ticks of the plots at which the living components are recorded: `"all"`, a list, or `{ every = 5 }`. All if
-    /// not given. Of a plant that is sown at tick 0 they are its ages.
+    /// not given. For a plant that is sown at tick 0 these are ages.
     #[serde(default)]
     pub record: Record,
 }
 
-/// Which ages are recorded.
+/// The recorded ages.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Record {
-    /// Every age from 1, or the word that says so. Age 0, the seed or the axiom, is recorded where a list or `from`
-    /// names it.
+    /// Every age from 1, by the word `all`. Age 0, the seed or the axiom, is recorded only where a list or `from` names
+    /// it.
     All(All),
-    /// These ages.
+    /// The ages of the list.
     List(#[schemars(length(min = 1))] BTreeSet<u32>),
-    /// Every so many ticks.
+    /// Ages at equal distances.
     Every(Every),
 }
 
-/// Every so many ticks.
+/// Recorded ages at equal distances.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Every {
-    /// The ticks between two recorded ages.
+    /// The number of ticks between two recorded ages.
     #[schemars(range(min = 1))]
     pub every: u32,
-    /// The first recorded age. The same as `every` if not given.
+    /// The first recorded age. Equal to `every` if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<u32>,
 }
@@ -122,7 +123,7 @@ pub struct Every {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum All {
-    /// All of them.
+    /// Everything: all recorded ages, or all plants.
     All,
 }
 
@@ -132,15 +133,15 @@ impl Default for Record {
     }
 }
 
-/// Where a plant that grows too large is stopped, and its plot with it.
+/// The largest size of a plant; a plot stops growing when one of its plants reaches it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Limits {
-    /// The most components of a plant.
+    /// The largest number of components of a plant.
     #[schemars(range(min = 1, max = 1_073_741_823))]
     pub max_components: u32,
-    /// The most memory of one plant while it grows, in MB of 10⁶ bytes, at about 96 bytes a component. No limit if not
-    /// given.
+    /// The largest memory of one plant while it grows, in MB of 10⁶ bytes, at about 96 bytes per component. No limit if
+    /// not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 16))]
     pub max_memory_mb: Option<u32>,
@@ -153,14 +154,16 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// The most components of a plant: as stated, or what its memory holds, whichever is smaller.
+    /// The largest number of components of a plant: the smaller of `max_components` and the number that the stated
+    /// memory holds.
     ///
-    /// The memory is that of one plant at a time: how many grow at once depends on the machine, and a limit must not.
+    /// The memory is that of one plant. The number of plants that grow at once depends on the machine, and a limit must
+    /// not.
     pub fn components(&self) -> u32 {
         self.components_in_memory().map_or(self.max_components, |fitting| fitting.min(self.max_components))
     }
 
-    /// The key of the limit that holds.
+    /// The key of the limit that is reached first.
     pub fn binding(&self) -> &'static str {
         let by_memory = self.components_in_memory().is_some_and(|fitting| fitting < self.max_components);
         if by_memory { "max_memory_mb" } else { "max_components" }
@@ -172,19 +175,19 @@ impl Limits {
     }
 }
 
-/// How the tables are written.
+/// The format of the tables.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
-    /// `zstd1` is fast, `zstd3` smaller.
+    /// The compression: `zstd1` is faster, `zstd3` gives smaller files.
     pub compression: Compression,
-    /// How many plants one part file holds: whole plots of them, and one plot at least. Chosen from the expected size
-    /// if not given.
+    /// The number of plants in one part file, rounded to whole plots, at least one plot. If not given, it is chosen
+    /// from the expected size of the plants.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1))]
     pub plants_per_part: Option<u32>,
-    /// The places of components, told from the seed of their plant, are rounded to this many metres: 0.0001 saves a
-    /// quarter of the bytes. Exact if not given. Places of plants are always exact.
+    /// The precision of the places of components, metres, from the seed of their plant: 0.0001 saves a quarter of the
+    /// bytes. Exact if not given. The places of plants are always exact.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 1.0), extend("exclusiveMinimum" = 0))]
     pub float_precision_m: Option<f64>,
@@ -197,10 +200,10 @@ pub struct Output {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Compression {
-    /// Fast.
+    /// Level 1 of zstd: faster.
     #[default]
     Zstd1,
-    /// Smaller.
+    /// Level 3 of zstd: smaller files.
     Zstd3,
 }
 
@@ -209,7 +212,7 @@ fn default_seed() -> u64 {
 }
 
 impl Ages {
-    /// The recorded ages, rising.
+    /// The recorded ticks of the plots, rising.
     pub fn recorded(&self) -> Vec<u32> {
         let until = self.until.min(LAST_TICK);
         match &self.record {
@@ -223,7 +226,8 @@ impl Ages {
 }
 
 impl Scenario {
-    /// What no schema can say: ages beyond the last, plants beyond the number, a run that writes nothing.
+    /// The faults that the schema cannot state: ages after the last, plants beyond their number, a run that writes
+    /// nothing.
     pub fn faults(&self) -> Vec<Fault> {
         let mut faults = Vec::new();
         let ages = Path::root().key("ages");
@@ -270,7 +274,7 @@ impl Scenario {
     }
 }
 
-/// "3, 4, 5" or "3, 4, 5, 6, … (12 in all)".
+/// The items with commas between them, shortened when there are many: "3, 4, 5, 6, … (12 in all)".
 fn list_some(items: &[String]) -> String {
     const SHOWN: usize = 4;
     match items.len() {

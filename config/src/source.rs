@@ -1,45 +1,45 @@
-//! The texts that a validation read: one [`Source`] a file, and the byte ranges ([`Span`]) that point into them.
+//! The texts that a validation reads, one [`Source`] per file, and byte ranges ([`Span`]) in them.
 //!
-//! A value keeps its span through inheritance and merging, so that a fault found late is still shown in the file and
-//! at the column where somebody typed it. Lines and columns are counted only when a fault is shown; columns count
-//! characters from 1, as editors do.
+//! A value keeps its span through inheritance and merging, so that a late fault is still shown in the file and at the
+//! column where the value was typed. Lines and columns are counted only when a fault is shown; columns count characters
+//! from 1, as editors do.
 
 use std::sync::Arc;
 
-/// Where a text came from.
+/// The origin of a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Origin {
-    /// A file of the user, by the path that reached it.
+    /// A file of the user, by the path under which it was found.
     File(std::path::PathBuf),
     /// A preset that ships with the program, by its name (`gmt1/5a`).
     Preset(String),
-    /// A text that a program has handed over, by the name that it gave.
+    /// A text that a calling program passed, by the name that the program gave it.
     Memory(String),
 }
 
 /// One text that was read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Source {
-    /// What messages call it: the path as it was typed, `preset:coffee`, or the name of a text in memory.
+    /// The name in messages: the path as it was typed, `preset:coffee`, or the name of a text in memory.
     pub name: String,
-    /// Where it came from.
+    /// Its origin.
     pub origin: Origin,
     /// The whole text, as read.
     pub text: Arc<str>,
 }
 
-/// Which of the [`Sources`] a span points into.
+/// The number of a text among the [`Sources`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SourceId(pub u32);
 
 /// A range of bytes in a source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
-    /// The text.
+    /// The text that the span lies in.
     pub source: SourceId,
-    /// First byte.
+    /// The first byte, from 0.
     pub start: usize,
-    /// One past the last byte.
+    /// The byte after the last.
     pub end: usize,
 }
 
@@ -48,7 +48,8 @@ pub struct Span {
 pub struct Sources(Vec<(Source, Arc<[usize]>)>);
 
 impl Sources {
-    /// Keeps a text; its id stays valid for ever. A text that two species inherit from is kept once.
+    /// Keeps a text and returns its id, which stays valid. A text that is added again, as an ancestor of two species,
+    /// is kept once.
     pub fn add(&mut self, source: Source) -> SourceId {
         if let Some(known) = self.iter().position(|known| *known == source) {
             return SourceId(known as u32);
@@ -58,7 +59,7 @@ impl Sources {
         SourceId(self.0.len() as u32 - 1)
     }
 
-    /// The text of an id given by [`Sources::add`].
+    /// The text with an id that [`Sources::add`] returned.
     pub fn get(&self, id: SourceId) -> &Source {
         &self.0[id.0 as usize].0
     }
@@ -88,8 +89,7 @@ impl Sources {
         (starts[line - 1], text[starts[line - 1]..end].trim_end_matches(['\n', '\r']))
     }
 
-    /// The part of `span` on its first line, at most 80 bytes of it and never splitting a character: what is worth
-    /// underlining.
+    /// The bytes that are underlined: the part of `span` on its first line, at most 80 bytes, up to a whole character.
     pub fn first_line(&self, span: Span) -> std::ops::Range<usize> {
         let text = &self.get(span.source).text;
         let start = floor_boundary(text, span.start);

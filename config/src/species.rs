@@ -1,9 +1,9 @@
-//! A species: what it is called and where it is known from, and its growth model with the model's parameters.
+//! A species: its names and sources, and its growth model with the model's parameters.
 //!
-//! In a file the model's keys stand at the top level beside `name` (`[[order]]`, not `[[buds.order]]`): the key `model`
-//! is read first and chooses the schema, so that unknown keys are found as exactly as in a nested table.
-//! Absent: the list of models (`models`), their parameters, which each model documents beside its formulas, and reading
-//! files (`load`).
+//! In a file the model's keys stand at the top level beside `name` (`[[order]]`, not `[[buds.order]]`). The key `model`
+//! is read first and chooses the schema, so that unknown keys are found as exactly as in a nested table. Absent: the
+//! list of models (`models`), their parameters, which each model documents beside its formulas, and reading files
+//! (`load`).
 
 use std::sync::OnceLock;
 
@@ -14,24 +14,24 @@ use crate::about::About;
 use crate::models::{Model, ModelName};
 use crate::schema::of_type;
 
-/// A species, complete: inheritance is resolved.
+/// A complete species, with its inheritance resolved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Species {
-    /// What it is called, and where it is known from.
+    /// Names, sources, tick and published sizes.
     pub about: About,
-    /// How it grows.
+    /// The growth model with its parameters.
     pub model: Model,
 }
 
 impl Species {
-    /// How many ticks make a year: as the species states, else as its season does, which a checked species states
-    /// alike.
+    /// The number of ticks in a year: the stated `ticks_per_year`, else the year of the season; a checked species has
+    /// no differing values. `None` where the species states neither.
     pub fn ticks_per_year(&self) -> Option<f64> {
         let stated = self.about.ticks_per_year.as_ref().map(Constant::value);
         stated.or_else(|| self.model.year().map(|(_, ticks)| ticks.into()))
     }
 
-    /// The species as one file without ancestors would state it.
+    /// The species as JSON, with the keys of a species file without ancestors.
     ///
     /// # Errors
     /// A number that JSON cannot hold, which no checked species has.
@@ -44,10 +44,10 @@ impl Species {
         Ok(json)
     }
 
-    /// The species that [`Species::to_json`] has written, as `run.json` keeps it.
+    /// Reads the species from the JSON of [`Species::to_json`], as `run.json` holds it.
     ///
     /// # Errors
-    /// Where it is no such species; that its laws make sense is told by [`Model::compile`].
+    /// Where the JSON is not that of a species. The laws of the species are not checked; [`Model::compile`] does.
     pub fn from_json(json: &Json) -> serde_json::Result<Self> {
         let word = json["model"].as_str().and_then(ModelName::from_word);
         let unknown = || <serde_json::Error as serde::de::Error>::custom("a species of an unknown model");
@@ -56,7 +56,7 @@ impl Species {
         Ok(Self { about: serde_json::from_value(about)?, model })
     }
 
-    /// The same as TOML.
+    /// The species as the TOML text of a species file without ancestors.
     ///
     /// # Errors
     /// A value that TOML cannot hold, which no checked species has.
@@ -66,7 +66,7 @@ impl Species {
     }
 }
 
-/// The keys of [`About`] in a species' table, apart from the model's.
+/// The keys of [`About`] in a species' table, and the keys of the model.
 pub(crate) fn split(species: Json) -> (Json, Json) {
     static ABOUT: OnceLock<Json> = OnceLock::new();
     let schema = ABOUT.get_or_init(of_type::<About>);

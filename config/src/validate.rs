@@ -1,8 +1,8 @@
-//! From a name to a run that can begin: everything read, everything checked, every fault told at once.
+//! From a name to a run that is ready to start: every file is read and checked, and all faults are reported at once.
 //!
-//! The order is that of the files: scenario, species with its ancestors, then what the types cannot say (ages beyond
-//! the last, laws that leave their range at some age), and last the growth explosion, which needs compiled laws.
-//! Absent: anything written. A scenario that fails here leaves no trace.
+//! The order of checks is: the scenario, its species with their ancestors, conditions that the types cannot state (ages
+//! after the last, laws that leave their range at some age), and last the growth explosion, which needs compiled laws.
+//! Absent: writing; nothing is written before the whole scenario has passed.
 
 use std::fmt;
 use std::path::Path as FilePath;
@@ -29,33 +29,33 @@ use crate::schema;
 use crate::source::{Source, Sources};
 use crate::species::Species;
 
-/// The last age over which a species is checked that is not part of a scenario.
+/// The last age, in ticks, up to which a species without a scenario is checked.
 pub const SPECIES_ALONE_UNTIL: u32 = 100;
 
-/// A species that can grow.
+/// A species that is ready to grow.
 #[derive(Clone)]
 pub struct ResolvedSpecies {
     /// The species, with its inheritance resolved.
     pub species: Species,
-    /// Its model, compiled for all ages asked for.
+    /// The growth model, compiled for the ages up to a last age.
     pub model: Arc<dyn GrowthModel>,
-    /// The species' text and those of its ancestors.
+    /// The texts of the species and of its ancestors.
     pub sources: Sources,
     pub(crate) tree: Node,
 }
 
-/// Reads and checks a scenario: a shipped one by its name, or a file by its path. A species in its place is one plant
-/// of it ([`ResolvedSpecies::alone`]).
+/// Reads and checks a scenario: a shipped scenario by its name, or a file by its path. Where `scenario` names a
+/// species, the run is one plant of the species ([`ResolvedSpecies::alone`]). Every law is checked over all its ages.
 ///
 /// # Errors
-/// Every fault of the scenario and of its species.
+/// A [`Report`] with every fault of the scenario and of its species.
 pub fn validate(scenario: &str) -> Result<Resolved, Report> {
     validate_in(Library::Disk, scenario)
 }
 
-/// The same of texts in memory: `name` is that of one of `texts`, which are pairs of a name and a TOML text, or of a
-/// preset. What a text names (`species`, `inherits`) is another of the texts, else a preset. No file is read, so no
-/// species among the texts can have a mesh of its own.
+/// Checks a scenario or species from texts in memory. `texts` are pairs of a name and a TOML text, and `name` is the
+/// name of one of them or of a preset. The names in a text (`species`, `inherits`) lead to other texts, else to
+/// presets. No file is read, so a species in memory cannot have mesh files of its own.
 ///
 /// ```
 /// let species = "inherits = \"coffee\"\nname = \"short_coffee\"";
@@ -65,7 +65,7 @@ pub fn validate(scenario: &str) -> Result<Resolved, Report> {
 /// ```
 ///
 /// # Errors
-/// As [`validate`]; messages call a text by its name.
+/// A [`Report`], as from [`validate`], in which a text is called by its name.
 pub fn validate_texts(name: &str, texts: &[(&str, &str)]) -> Result<Resolved, Report> {
     validate_in(Library::of_texts(texts), name)
 }
@@ -84,10 +84,10 @@ fn validate_in(library: Library, scenario: &str) -> Result<Resolved, Report> {
     })
 }
 
-/// Reads and checks a species by itself, over the ages up to `until` and up to that at which it says that it is shown.
+/// Reads and checks a species by itself, for the ages up to `until` (ticks) and up to its `shown_at`.
 ///
 /// # Errors
-/// Every fault of the species.
+/// A [`Report`] with every fault of the species.
 pub fn validate_species(species: &str, until: u32) -> Result<ResolvedSpecies, Report> {
     species_in(Library::Disk, species, until)
 }
@@ -107,8 +107,8 @@ fn species_in(library: Library, species: &str, until: u32) -> Result<ResolvedSpe
     })
 }
 
-/// Whether a file by its path is a species or a scenario, by the keys that it has; a bare name is a shipped scenario
-/// if there is one, else a species.
+/// Whether a name is that of a species or of a scenario. A file is recognised by its keys. A bare name is a shipped
+/// scenario if there is one, else a species.
 pub fn kind_of(name: &str) -> Kind {
     kind_in(&Library::Disk, name)
 }
@@ -129,7 +129,7 @@ fn looks_like_species(node: &Node) -> bool {
     ["model", "inherits", "tick"].into_iter().chain(of_models).any(has) && !["species", "ages"].into_iter().any(has)
 }
 
-/// The JSON Schema of a kind of file, as editors want it.
+/// The JSON Schema of a kind of file, for editors. A species file may name any model.
 pub fn schema_of(kind: Kind) -> Json {
     match kind {
         Kind::Species => any_file(),
@@ -156,7 +156,7 @@ struct Compiled {
     tree: Node,
 }
 
-/// A scenario, its own species, and the others.
+/// A checked scenario, its own species, and the other species of its members.
 type Checked = (Scenario, Compiled, Vec<Compiled>);
 
 fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
@@ -188,13 +188,13 @@ fn check_explosions(loader: &mut Loader, node: &Node, (scenario, own, others): &
     }
 }
 
-/// The last age of a species, where the scenario is so far sound that it can be told.
+/// The last age of a species; `None` where the scenario could not be read.
 fn last_age_of(scenario: Option<&Scenario>, species: usize) -> Option<u32> {
     scenario.map(|scenario| scenario.last_age_of_species(species).clamp(1, LAST_TICK))
 }
 
-/// The species that a scenario names, each at the first place where it is named: its own first, as in
-/// [`Scenario::species_names`].
+/// The species that a scenario names, each at the first place where it is named: the scenario's own first, in the order
+/// of [`Scenario::species_names`].
 fn species_mentions(scenario: &Node) -> Vec<Mention> {
     let own = (scenario.get("species"), path_of(&["species"]));
     let members = scenario.get("member").map(Node::items).unwrap_or_default().iter().enumerate();
@@ -229,7 +229,7 @@ fn check_species(
     }
 }
 
-/// A species has one year: where its season states the ticks of it too, the two must agree.
+/// A species has one year: where its season states the ticks of a year too, both numbers must agree.
 fn check_year(loader: &mut Loader, node: &Node, about: &About, model: &Model) {
     let (Some(stated), Some((path, in_season))) = (about.ticks_per_year.as_ref().map(Constant::value), model.year())
     else {
@@ -247,7 +247,7 @@ fn check_year(loader: &mut Loader, node: &Node, about: &About, model: &Model) {
     loader.faults.push(Fault::new(node.locate(&path), &path, problem, "the same number at both places"));
 }
 
-/// Faults of meaning, shown where the values were typed.
+/// Adds a model's faults, each at the place where its value was typed.
 fn tell(loader: &mut Loader, node: &Node, faults: Vec<fault::Fault>) {
     let placed = faults.into_iter().map(|fault| meaning::place(&loader.sources, node, fault));
     loader.faults.extend(placed.collect::<Vec<_>>());
@@ -260,8 +260,8 @@ impl fmt::Debug for ResolvedSpecies {
 }
 
 impl ResolvedSpecies {
-    /// A report of what was found wrong with the species after it was read, such as by growing it: each fault at its
-    /// path from the top of the species file.
+    /// A report of faults that were found in the species after reading, such as by growing it. The path of each fault
+    /// starts at the top of the species file.
     pub fn report(&self, faults: Vec<fault::Fault>) -> Report {
         placed(&self.sources, &self.tree, faults)
     }
@@ -273,7 +273,7 @@ mod tests {
     use crate::document;
     use crate::library::find;
 
-    /// Editors have one schema for species of all models; it must pass what the program passes.
+    /// Editors have one schema for species of all models: it must accept every file that the program accepts.
     #[test]
     fn the_schema_for_editors_passes_good_files() {
         for name in [

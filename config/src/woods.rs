@@ -1,7 +1,7 @@
-//! The shipped table of woods, and how a species takes from it: `[wood] like = "scots_pine"`.
+//! The shipped table of woods, and the key by which a species refers to it: `[wood] like = "scots_pine"`.
 //!
-//! A row's stiffness, green density and drag hold where the species' own `[wood]` states none; each keeps the place in
-//! the table where it stands, so that a fault in it would point there. Absent: what the numbers do
+//! Stiffness, green density and drag of a row hold where the species' own `[wood]` states none. Each value keeps its
+//! place in the table, so that a fault in it is shown there. Absent: the use of these numbers
 //! (`phytomer_sim::mechanics`).
 
 use crate::document::{Node, Value, parse};
@@ -13,16 +13,16 @@ use phytomer_models::parameters::Keys;
 
 const TABLE: &str = include_str!("../presets/wood.toml");
 
-/// What a row of the table is called in files, and the plant that it was measured on.
+/// The names of a row of the table of woods.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ShippedWood {
-    /// The word of the key `like`.
+    /// The name of the wood as the key `like` takes it.
     pub name: String,
-    /// The botanical name.
+    /// The botanical name of the measured plant.
     pub scientific_name: String,
 }
 
-/// Every wood of the shipped table.
+/// Every wood of the shipped table, in its order. Parses the table at each call.
 pub fn woods() -> Vec<ShippedWood> {
     let rows = read(&mut Sources::default());
     let row = |(name, row): &(String, Node)| ShippedWood {
@@ -32,7 +32,7 @@ pub fn woods() -> Vec<ShippedWood> {
     rows.iter().map(row).collect()
 }
 
-/// Fills what the species' `[wood]` leaves to the wood that it is like.
+/// Fills the keys that the species' `[wood]` leaves out from the wood that its key `like` names.
 pub(crate) fn fill(species: &mut Node, keys: &Keys, sources: &mut Sources, faults: &mut Vec<Fault>) {
     let Some(table) = keys.wood.as_ref().map(|wood| wood.table) else { return };
     let Some(like) = species.get(table).and_then(|wood| wood.get("like")) else { return };
@@ -57,7 +57,7 @@ pub(crate) fn fill(species: &mut Node, keys: &Keys, sources: &mut Sources, fault
     }
 }
 
-/// The rows of the table; its text joins the sources, so that spans point into it.
+/// The rows of the table by name; its text is added to the sources, so that spans point into it.
 fn read(sources: &mut Sources) -> Vec<(String, Node)> {
     let origin = Origin::Preset("wood".to_owned());
     let source = sources.add(Source { name: "preset:wood".to_owned(), origin, text: TABLE.into() });

@@ -1,7 +1,7 @@
 //! Good files pass; each bad file gives exactly the report beside it.
 //!
 //! `tests/good/*.toml` and `tests/bad/*.toml` hold species and scenarios. `UPDATE_EXPECTED=1` writes the reports anew;
-//! read every one of them before it is committed: is it right, and is it kind?
+//! read each of them before it is committed: it must be right, and kind to the reader.
 
 use std::fs;
 use std::path::{Path, PathBuf};

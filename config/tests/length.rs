@@ -1,7 +1,7 @@
-//! What is recorded of a plant up to an age is the same however long the run lasts: over every shipped species, every
-//! good fixture and the species of the whole-program tests.
+//! The records of a plant up to an age do not depend on how long the run lasts: for every shipped species, every good
+//! fixture and the species of the whole-program tests.
 //!
-//! The clause itself stands in the contract of growth models. Absent: what a single run shows.
+//! This clause is part of the contract of growth models. Absent: conditions on a single run.
 
 use std::fs;
 use std::path::Path;
@@ -13,12 +13,12 @@ use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::Seed;
 use std::sync::Arc;
 
-/// The last age looked at, where plants stay small enough: past the life of most herbs, in ticks.
+/// The last compared age, where plants stay small enough: past the life of most herbs, in ticks.
 const LAST: Tick = 72;
-/// The most components of a plant that is looked at.
+/// The largest number of components of a compared plant.
 const MOST: u32 = 6_000;
 
-/// Every species: shipped, and on file in the folders of fixtures.
+/// Every species: the shipped ones, and those in the folders of fixtures.
 fn species() -> Vec<(String, Model)> {
     let mut names: Vec<String> = presets(Kind::Species).iter().map(|(name, _)| (*name).to_owned()).collect();
     for folder in ["tests/good", "../tests/data/runs"] {
@@ -38,7 +38,7 @@ fn stays_small(model: &dyn GrowthModel, age: Tick) -> bool {
     (0..2).all(|number| sown(model, &Seed { component_limit: MOST, ..seed_of(5, number) }).grow_to(age).is_ok())
 }
 
-/// The largest age that can be looked at, with the model compiled for it.
+/// The largest age that is compared, with the model compiled for it.
 fn compiled(name: &str, species: &Model) -> (Tick, Arc<dyn GrowthModel>) {
     let mut age = LAST;
     loop {
@@ -64,7 +64,7 @@ fn every_species_grows_alike_in_runs_of_any_length() {
                 the_length_of_the_run_leaves_no_trace(short.as_ref(), long.as_ref(), age, &seed_of(5, number));
             }
         }
-        // A young plant of a run that goes on: as with `until` near, so with `until` far.
+        // A young plant must not depend on `until`: equal whether `until` is near or far.
         let young = age / 4;
         if let (Ok(short), 1..) = (species.compile(young), young) {
             let long = species.compile(age).expect("it compiles for its age");

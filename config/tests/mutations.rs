@@ -1,4 +1,4 @@
-//! Ten thousand mutations of files that are right: whatever somebody types, the answer is a checked file or a report.
+//! Ten thousand mutations of correct files: for each text the answer is a checked file or a report.
 //!
 //! No mutation may panic, and none may take long. A failure names its number and shows its text. Species are checked by
 //! themselves, over more ages than the root package's `tests/mutations.rs` has time to grow them; that test takes each
@@ -16,7 +16,7 @@ use phytomer_config::{Kind, kind_of, validate, validate_species};
 
 const MUTATIONS: u64 = 10_000;
 const UNTIL: u32 = 40;
-/// No answer may be waited for longer than this, in the slowest build on a busy machine.
+/// The longest time for one answer, in the slowest build on a busy machine.
 const LONGEST: Duration = Duration::from_secs(20);
 
 fn check(file: &str) -> bool {
@@ -46,7 +46,8 @@ fn no_mutation_panics_or_hangs() {
         let parts: Vec<_> = (0..threads as u64).map(work).collect();
         parts.into_iter().map(|part| part.join().expect("no mutation fails")).sum()
     });
-    // Some mutations change a comment or a number and stay right; if all did, or none, this would test nothing.
+    // Some mutations change a comment or a number and leave the file correct. If all did, or none, the test would be
+    // empty.
     assert!((MUTATIONS / 50..MUTATIONS * 9 / 10).contains(&right), "{right} of {MUTATIONS} stayed right");
 }
 

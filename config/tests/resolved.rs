@@ -1,4 +1,7 @@
-//! What a checked scenario gives: defaults, ages, provenance, and a resolved form that reads back as itself.
+//! A checked scenario: its defaults, ages and texts, and its resolved form, which reads back as an equal scenario.
+//!
+//! Also species and scenarios from texts in memory, and the reports for programs. Absent: faults of files
+//! (`fixtures.rs`).
 
 use std::fs;
 

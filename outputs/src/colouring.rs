@@ -1,7 +1,7 @@
-//! Plants of a picture coloured by a column of `records`: the values of the table, which pictures know nothing of.
+//! Colours the plants of a picture by a column of `records`, with the values that the table holds.
 //!
-//! Words, truths and orders are classes; all else is an amount. A column of which no component has a value is refused,
-//! with what its values would need. Absent: the colours themselves, which are the pictures'.
+//! Words, booleans and orders are classes; any other value is an amount. A column in which no component has a value is
+//! refused, with the reason. Absent: the colours themselves (`phytomer_pictures`).
 
 use crate::tables::columns::RECORDS;
 use crate::tables::schema::{Column, Type};
@@ -22,10 +22,10 @@ pub enum ColouringError {
     NothingToColour {
         /// The column.
         column: &'static str,
-        /// What its values would need.
+        /// The reason why the column is empty, in words.
         reason: &'static str,
     },
-    /// The values of the column cannot be told.
+    /// The values of the column could not be computed.
     #[error(transparent)]
     Table(#[from] TableError),
 }
@@ -35,20 +35,21 @@ pub fn colour_columns() -> impl Iterator<Item = &'static str> {
     RECORDS.iter().map(|column| column.name)
 }
 
-/// What a table knows of the plants of a picture beside the plants themselves.
+/// The membership of the plants of a picture: plot, treatment and species, which the plants themselves do not hold.
 #[derive(Debug, Clone, Copy)]
 pub struct Belonging<'a> {
-    /// Where each plant belongs, in the order of the plants.
+    /// The membership of each plant, in the order of the plants.
     pub members: &'a [Membership],
     /// The run's list of treatments.
     pub treatments: &'a [String],
 }
 
-/// The values of a column of `records` for every component of some plants: one number a component. A plant of which
-/// `of` does not tell where it belongs is the first of a plot of its own.
+/// The values of a column of `records` for every component of some plants: one list per plant, one number per
+/// component, NaN for null. A plant without an entry in `of` counts as the first plant of a plot of its own. Takes as
+/// long as making the rows of `records` of these plants.
 ///
 /// # Errors
-/// [`ColouringError`].
+/// [`ColouringError`], for an unknown column, a column without values, or a plant too large for a table.
 pub fn colouring(column: &str, subjects: &[Subject], of: Belonging<'_>) -> Result<Colouring, ColouringError> {
     let known = RECORDS.iter().find(|known| known.name == column);
     let column = known.ok_or_else(|| ColouringError::NoSuchColumn { column: column.to_owned() })?;
@@ -63,13 +64,13 @@ pub fn colouring(column: &str, subjects: &[Subject], of: Belonging<'_>) -> Resul
     Ok(Colouring { name: column.name.to_owned(), values, scale: scale(column, most as usize, of.treatments) })
 }
 
-/// What the values of a column are, the largest of which is `most`.
+/// The scale of a column: amounts, or classes with their names; `most` is the largest value.
 fn scale(column: &Column, most: usize, treatments: &[String]) -> Scale {
     let classes = |names: Vec<String>| Scale::Classes { first: 0, names };
     match column.holds {
         Type::Word(words) => classes(words.iter().map(|word| word.replace('_', " ")).collect()),
         Type::Bool => classes(vec!["dead".to_owned(), "alive".to_owned()]),
-        // `records` names the treatment alone.
+        // Only treatments are names in `records`.
         Type::Name(_) => classes(treatments.to_vec()),
         Type::Int if column.name == "order" => {
             Scale::Classes { first: 1, names: (1..=most).map(|order| format!("order {order}")).collect() }
@@ -78,8 +79,8 @@ fn scale(column: &Column, most: usize, treatments: &[String]) -> Scale {
     }
 }
 
-/// Why no component of some plants has a value in a column: what the column's description says of its nulls, held
-/// against what stands and against the wood of the species.
+/// Why no component of some plants has a value in a column, from what stands at that age and from the wood of the
+/// species.
 fn reason(column: &str, subjects: &[Subject]) -> &'static str {
     let wood = || subjects.iter().filter_map(|subject| subject.plant.habit.wood.as_ref());
     let of_wood = ["fresh_mass_kg", "curvature_per_m", "bending_moment_N_m"].contains(&column);
@@ -116,7 +117,7 @@ mod tests {
     use phytomer_sim::pose::pose;
     use std::sync::Arc;
 
-    /// A plant of which nothing is known beside itself.
+    /// A plant without a membership.
     const ALONE: Belonging<'_> = Belonging { members: &[], treatments: &[] };
 
     /// One upright internode.
@@ -146,7 +147,7 @@ mod tests {
         assert!(matches!(none, Err(ColouringError::NoSuchColumn { .. })));
     }
 
-    /// Two plants of one plot and one of another; each is coloured by its own plot, tick and treatment.
+    /// Two plants of one plot and one plant of another; each is coloured by its own plot, tick and treatment.
     #[test]
     fn plants_are_coloured_by_the_plot_to_which_they_belong() {
         let plants = [3, 4, 5].map(|id| {
@@ -171,7 +172,7 @@ mod tests {
         assert_eq!(values("treatment"), (vec![0, 0, 1], Scale::Classes { first: 0, names: treatments.to_vec() }));
     }
 
-    /// A plant that cannot be coloured tells what it lacks, not what some other column needs.
+    /// The message names what the plant lacks for this column, not for another column.
     #[test]
     fn nothing_to_colour_by_has_the_reason_of_its_column() {
         let reason = |plant: &Plant, age: Tick, column: &str| {

@@ -1,9 +1,9 @@
-//! One file that a person has named as the place of a result.
+//! A single output file whose path the user has named, outside a run folder.
 //!
-//! A new name and a regular file are written beside and renamed, so that what stands there is whole at any moment; a
-//! symbolic link stays, and its target is replaced in the same way. A pipe or a device is written through, and so are
-//! the streams of the process below `/dev` and `/proc`. A folder is refused. Absent: the files of a run folder
-//! (`run_folder`), and which format a file has.
+//! A new file, or one that replaces a regular file, is written beside its final name and renamed, so that the name
+//! always stands for a whole file. A symbolic link stays, and its target is replaced in the same way. A pipe or a
+//! device is written directly, and so are the streams of the process below `/dev` and `/proc`. A folder is refused.
+//! Absent: the files of a run folder (`run_folder`), and file formats.
 
 use crate::FileError;
 use std::fs::{self, File, OpenOptions};
@@ -12,13 +12,14 @@ use std::path::{Path, PathBuf};
 
 /// The name that stands for stdout.
 pub const STDOUT: &str = "-";
-/// The names that systems have for stdout.
+/// The paths of stdout on different systems.
 const STDOUT_OF_SYSTEMS: [&str; 3] = ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
-/// Where the streams of processes have names: a link there is the open stream, not a file to be replaced.
+/// The folders with names of open streams: a link in them is a stream, not a file to be replaced.
 const STREAMS: [&str; 2] = ["/dev/fd", "/proc"];
 /// The longest chain of links that is followed, as on Linux.
 const MOST_LINKS: usize = 40;
-/// The most files beside the final one, left by processes of the same number, that are passed over.
+/// The most files beside the final file that are skipped; earlier processes with this process number may have left
+/// them.
 const MOST_BESIDE: u32 = 100;
 
 /// A file that is being written.
@@ -27,7 +28,7 @@ pub struct Destination {
     named: PathBuf,
     out: BufWriter<Sink>,
     bytes: u64,
-    /// The file beside the final one, and the final one; `None` where the bytes are written through.
+    /// The file beside the final file, and the final file; `None` where the bytes are written directly.
     beside: Option<(PathBuf, PathBuf)>,
 }
 
@@ -38,10 +39,10 @@ enum Sink {
 }
 
 impl Destination {
-    /// Begins to write what `path` names.
+    /// Begins to write the file at `path`.
     ///
     /// # Errors
-    /// [`FileError::IsFolder`], and the system's.
+    /// [`FileError::IsFolder`], or the system's error.
     pub fn create(path: &Path) -> Result<Self, FileError> {
         let refused = FileError::io("write", path);
         let begun = |sink, beside| Self { named: path.to_owned(), out: BufWriter::new(sink), bytes: 0, beside };
@@ -59,10 +60,10 @@ impl Destination {
         Ok(begun(Sink::File(file), Some(beside)))
     }
 
-    /// Makes sure that the bytes are where they belong; how many they are.
+    /// Syncs the file and gives it its name; returns its size in bytes.
     ///
     /// # Errors
-    /// The system's. A file that was there before is then as it was.
+    /// The system's error. A file that was there before is then unchanged.
     pub fn finish(mut self) -> Result<u64, FileError> {
         self.complete().map_err(FileError::io("write", &self.named))?;
         Ok(self.bytes)
@@ -78,25 +79,25 @@ impl Destination {
     }
 }
 
-/// Whether a name stands for stdout, which then carries the file alone.
+/// Whether a path stands for stdout; the program then writes nothing else to stdout.
 pub fn is_stdout(path: &Path) -> bool {
     path == Path::new(STDOUT) || STDOUT_OF_SYSTEMS.iter().any(|name| path == Path::new(name))
 }
 
-/// Whether a name is that of a folder: of one that is there, or by the slash at its end.
+/// Whether a path is that of a folder: of an existing folder, or by the slash at its end.
 pub fn is_folder(path: &Path) -> bool {
     let ends_in_slash =
         path.as_os_str().as_encoded_bytes().last().is_some_and(|&byte| std::path::is_separator(byte.into()));
     path.is_dir() || ends_in_slash || path.file_name().is_none()
 }
 
-/// Whether what a name stands for is no regular file: a pipe, a device, a stream of a process.
+/// Whether a path stands for something other than a regular file: a pipe, a device, a stream of a process.
 fn is_written_through(path: &Path) -> bool {
     let is_stream = STREAMS.iter().any(|streams| path.starts_with(streams));
     fs::metadata(path).is_ok_and(|found| is_stream || !found.is_file())
 }
 
-/// The end of a chain of links; it need not be there.
+/// The path at the end of a chain of symbolic links; the file need not exist.
 fn target(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_path_buf();
     for _ in 0..MOST_LINKS {
@@ -109,14 +110,14 @@ fn target(path: &Path) -> io::Result<PathBuf> {
             _ => return Ok(path),
         }
     }
-    // The system says it in its own words.
+    // For a link to itself the system's own error is returned.
     fs::metadata(&path).and(Err(io::Error::other("too many symbolic links")))
 }
 
-/// A new file beside the one that `path` names, with the permissions of what is there already; the names of both.
+/// Creates a file beside the file at `path`, with the permissions of an existing file; returns it with both paths.
 fn staged(path: &Path) -> io::Result<(File, (PathBuf, PathBuf))> {
     let last = target(path)?;
-    // A file that may not be written is not replaced either.
+    // A file without write permission is not replaced.
     let there = match OpenOptions::new().write(true).open(&last) {
         Ok(file) => Some(file.metadata()?.permissions()),
         Err(error) if error.kind() == io::ErrorKind::NotFound => None,
@@ -129,7 +130,8 @@ fn staged(path: &Path) -> io::Result<(File, (PathBuf, PathBuf))> {
     Ok((file, (beside, last)))
 }
 
-/// A new file in the folder of another, of a short name, so that any name that a system takes can be written.
+/// Creates a file in the folder of `last`. Its name is short, so that the name of `last` may be as long as the system
+/// allows.
 fn new_beside(last: &Path) -> io::Result<(File, PathBuf)> {
     let process = std::process::id();
     let mut number = 0;
@@ -154,7 +156,7 @@ impl Write for Destination {
     }
 }
 
-/// What was not finished leaves nothing behind.
+/// A file that is not finished is removed.
 impl Drop for Destination {
     fn drop(&mut self) {
         if let Some((beside, _)) = &self.beside {

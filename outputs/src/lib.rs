@@ -1,10 +1,10 @@
-//! What leaves a run: the run folder with its tables (Parquet), and the reading back of what was written.
+//! The output of a run: the run folder with its tables (Parquet), and reading it back.
 //!
 //! Meshes and pictures are crates of their own, `phytomer-meshes` and `phytomer-pictures`, which need neither Arrow nor
-//! Parquet; they stand here under [`meshes`] and [`pictures`]. [`colouring`] paints a picture by a column of a table.
-//! A run folder is made by [`RunFolder::create`], filled shard by shard and closed by [`RunFolder::finish`]; what it
-//! holds is in `docs` and in its own `datapackage.json`. [`read`] opens it again, [`check()`] tells whether it is
-//! whole. Absent on purpose: growth rules.
+//! Parquet; they are re-exported here as [`meshes`] and [`pictures`]. [`colouring`] colours a picture by a column of a
+//! table. [`RunFolder::create`] makes a run folder, which is filled shard by shard and closed by [`RunFolder::finish`].
+//! Its format is described in `docs` and in its own `datapackage.json`. [`read`] opens it again, [`check()`] tells
+//! whether it is whole. Absent: growth rules.
 
 pub mod colouring;
 pub mod destination;

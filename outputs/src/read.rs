@@ -1,8 +1,8 @@
-//! Reading a run back: what it says of itself, its tables' schemas, metadata and rows.
+//! Reads a run folder back: `run.json`, and the schemas, metadata and rows of its tables.
 //!
-//! For `describe`, for analysis and for tests. A run that is not finished can be read as far as it has come: a part is
-//! read where `run.json` or the journal names it. A `run.json` whose check does not hold is refused, since plants grow
-//! from what it says.
+//! For `describe`, analysis and tests. A run that is not finished can be read as far as it is written: a part is read
+//! where `run.json` or the journal names it. A `run.json` whose check does not hold is refused, since plants are grown
+//! again from it.
 
 use crate::run_folder::{Error, Papers, RunJson};
 use crate::storage::FileError;
@@ -22,16 +22,16 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// A run on the disk.
+/// A run folder, opened for reading.
 #[derive(Debug, Clone)]
 pub struct Run {
     path: PathBuf,
     json: Value,
-    /// The files that are the run's; `None` of a run that an older program wrote.
+    /// The files that belong to the run; `None` for a run of an older program.
     named: Option<BTreeSet<PathBuf>>,
 }
 
-/// One row of `summary`, in the terms of its columns.
+/// One row of `summary`, in the units of its columns.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(missing_docs, reason = "the columns are described in tables::columns::SUMMARY")]
 pub struct SummaryRow {
@@ -56,10 +56,10 @@ pub struct SummaryRow {
 }
 
 impl Run {
-    /// Opens a run folder.
+    /// Opens a run folder. Reads `run.json` and the journal, but no table.
     ///
     /// # Errors
-    /// [`Error::NotARun`], [`Error::Damaged`], or where its papers cannot be read.
+    /// [`Error::NotARun`], [`Error::Damaged`], or a failed read.
     pub fn open(path: &Path) -> Result<Self, Error> {
         let papers = Papers::read(path)?;
         let named = papers.names().map(|names| names.into_iter().map(|name| path.join(name)).collect());
@@ -72,12 +72,12 @@ impl Run {
         }
     }
 
-    /// Where it is.
+    /// The path of the run folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What `run.json` says.
+    /// The content of `run.json`.
     pub fn json(&self) -> &Value {
         &self.json
     }
@@ -87,7 +87,7 @@ impl Run {
         self.json["status"] == "complete"
     }
 
-    /// The part files of a table that are there, in their order; none where the run has no such table.
+    /// The part files of a table that exist, sorted by name; empty where the run has no such table.
     ///
     /// # Errors
     /// Where the folder cannot be read.
@@ -101,7 +101,7 @@ impl Run {
         Ok(files)
     }
 
-    /// The tables that the run has, with their rows.
+    /// The tables of the run, each with its number of rows. Reads the footers of all parts, no rows.
     ///
     /// # Errors
     /// Where a part cannot be read.
@@ -115,10 +115,10 @@ impl Run {
         Ok(rows)
     }
 
-    /// The arrow schema of a table as its first part states it.
+    /// The Arrow schema of a table, from its first part; `None` where the table has no part.
     ///
     /// # Errors
-    /// Where it cannot be read.
+    /// Where the part cannot be read.
     pub fn schema(&self, table: Table) -> Result<Option<SchemaRef>, Error> {
         let parts = self.parts(table)?;
         parts.first().map(|part| Ok(open(part)?.schema().clone())).transpose()
@@ -132,25 +132,25 @@ impl Run {
         self.parts(table)?.iter().map(|part| Ok(open(part)?.metadata().clone())).collect()
     }
 
-    /// The key-value metadata of a table's first part.
+    /// The key-value metadata of a table's first part; empty where the table has no part.
     ///
     /// # Errors
-    /// Where it cannot be read.
+    /// Where the part cannot be read.
     pub fn metadata(&self, table: Table) -> Result<BTreeMap<String, String>, Error> {
         let parts = self.parquet(table)?;
         let pairs = parts.first().and_then(|part| part.file_metadata().key_value_metadata().cloned());
         Ok(pairs.into_iter().flatten().map(|pair| (pair.key, pair.value.unwrap_or_default())).collect())
     }
 
-    /// The rows of a table, part after part.
+    /// An iterator over the rows of a table in record batches, part after part. One batch is in memory at a time.
     ///
     /// # Errors
-    /// Where the folder cannot be read; where a part cannot, the iterator says so and ends.
+    /// Where the folder cannot be read. Where a part cannot be read, the iterator returns the error and ends.
     pub fn batches(&self, table: Table) -> Result<Batches, Error> {
         self.batches_of(table, 8192)
     }
 
-    /// The same, with at most `rows` rows in a batch.
+    /// As [`Run::batches`], with at most `rows` rows in a batch.
     ///
     /// # Errors
     /// As [`Run::batches`].
@@ -158,10 +158,10 @@ impl Run {
         Ok(Batches { parts: self.parts(table)?.into_iter(), rows, now: None })
     }
 
-    /// The rows of `summary`.
+    /// All rows of `summary`, in the order of the table: one per plant and recorded tick.
     ///
     /// # Errors
-    /// Where they cannot be read.
+    /// Where a part cannot be read.
     pub fn summary(&self) -> Result<Vec<SummaryRow>, Error> {
         let mut rows = Vec::new();
         for batch in self.batches(Table::Summary)? {
@@ -180,9 +180,8 @@ fn open(part: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, TableError
     caught(|| ParquetRecordBatchReaderBuilder::try_new(file)).map_err(TableError::read(part))
 }
 
-/// What the crates that read Parquet make of a file. Some of them panic where a damaged file states what they do not
-/// know, such as an integer of 33,554,464 bits in its schema: that too is an error of the file. What has panicked must
-/// not be used again.
+/// Calls a reader of Parquet and turns a panic into an error. The crates that read Parquet panic on some damaged files,
+/// such as on an integer of 33,554,464 bits in a schema. A reader that has panicked must not be used again.
 fn caught<T>(work: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, ParquetError> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|cause| {
         let text = cause.downcast_ref::<String>().cloned();
@@ -191,7 +190,7 @@ fn caught<T>(work: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, Parque
     })
 }
 
-/// The record batches of a table.
+/// An iterator over the record batches of a table.
 pub struct Batches {
     parts: std::vec::IntoIter<PathBuf>,
     rows: usize,
@@ -206,7 +205,7 @@ impl Batches {
         Some(reader.map(|reader| self.now = Some((part, reader))))
     }
 
-    /// Nothing comes after an error.
+    /// Ends the iterator: no batch comes after an error.
     fn ended_by(&mut self, error: TableError) -> TableError {
         (self.parts, self.now) = (Vec::new().into_iter(), None);
         error

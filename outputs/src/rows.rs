@@ -1,9 +1,9 @@
-//! Rows of `components` and `records` as analysis takes them: read back from a run, or made of a plant in memory
-//! through the same column buffers, so that both say the same of one plant.
+//! Rows of `components` and `records` for analysis: read back from a run, or made from a plant in memory by the code
+//! that fills the tables, so that both agree.
 //!
-//! Of `records` only what tells how internodes lie: their direction and curvature. Rows are sorted by plot, and in
-//! `records` by tick before plant: the rows of the first plants of a run are found by looking at each row up to the end
-//! of the last plot that has such a plant. Absent: every other column, which readers of Parquet have.
+//! From `records` only the columns for the direction and curvature of internodes are taken. Rows are sorted by plot,
+//! and in `records` by tick before plant. So the first plants of a run are found by reading the rows up to the end of
+//! the last plot that has such a plant. Absent: all other columns, which any reader of Parquet gives.
 
 use crate::read::Run;
 use crate::run_folder::Error;
@@ -15,7 +15,7 @@ use phytomer_sim::plant::{Cause, Class, Kind, Origin};
 use phytomer_sim::{Plot, Tick};
 use std::path::Path;
 
-/// One row of `components`, in the terms of its columns.
+/// One row of `components`, in the units of its columns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the columns are described in tables::columns::COMPONENTS")]
 pub struct ComponentRow {
@@ -36,7 +36,7 @@ pub struct ComponentRow {
     pub trend_deg: Option<f32>,
 }
 
-/// How an internode lies at a recorded age.
+/// The direction and curvature of an internode at a recorded age.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the columns are described in tables::columns::RECORDS")]
 pub struct PoseRow {
@@ -45,12 +45,12 @@ pub struct PoseRow {
     pub axis_id: u32,
     pub rank: u32,
     pub dir_z: f32,
-    /// `None` where the run has no columns of mechanics, or nothing bends.
+    /// `None` where the run has no columns of mechanics, or the wood does not bend.
     pub curvature_per_m: Option<f32>,
 }
 
-/// The rows of `components` of the plant at place `at` of a plot in memory, up to the tick `last` of the plot; none
-/// where it is not sown by then.
+/// The rows of `components` of one plant in memory, up to the tick `last` of its plot, in the order of component
+/// numbers. `at` is the index of the plant in the plot. Empty where the plant is not sown by then.
 ///
 /// # Errors
 /// [`TableError::PlantTooLarge`].
@@ -82,8 +82,8 @@ pub fn components_of(plot: &Plot, at: usize, last: Tick) -> Result<Vec<Component
     Ok((0..columns.component.len()).map(row).collect())
 }
 
-/// How the internodes of the plant at place `at` of a plot in memory lie at a tick of the plot, at which it was posed;
-/// none where it is not sown by then.
+/// The poses of the internodes of one plant in memory at a tick of its plot, for which the plant must have been posed.
+/// `at` is the index of the plant in the plot. Empty where the plant is not sown by then.
 ///
 /// # Errors
 /// [`TableError::PlantTooLarge`].
@@ -125,28 +125,30 @@ fn real(value: f32) -> Option<f32> {
 }
 
 impl Run {
-    /// The rows of `components` of the plants below `plants`; none where the run has no such table.
+    /// The rows of `components` of the plants with numbers below `plants`, all in memory; empty where the run has no
+    /// such table.
     ///
     /// # Errors
-    /// Where they cannot be read.
+    /// Where a part cannot be read.
     pub fn components(&self, plants: u32) -> Result<Vec<ComponentRow>, Error> {
         let mut found = Vec::new();
         self.each_batch(Table::Components, plants, |columns, rows| components_in(columns, plants, rows, &mut found))?;
         Ok(found)
     }
 
-    /// How the internodes of the plants below `plants` lie at each recorded age; none where the run has no `records`.
+    /// The poses of the internodes of the plants with numbers below `plants` at each recorded age, all in memory; empty
+    /// where the run has no `records`.
     ///
     /// # Errors
-    /// Where they cannot be read.
+    /// Where a part cannot be read.
     pub fn poses(&self, plants: u32) -> Result<Vec<PoseRow>, Error> {
         let mut found = Vec::new();
         self.each_batch(Table::Records, plants, |columns, rows| poses_in(columns, plants, rows, &mut found))?;
         Ok(found)
     }
 
-    /// Shows each batch of a table with the number of its first rows that may be of the plants below `plants`: those up
-    /// to the end of the last plot that has such a plant.
+    /// Calls a function with each batch of a table and the number of its first rows that may belong to plants with
+    /// numbers below `plants`: the rows up to the end of the last plot that has such a plant.
     fn each_batch(
         &self,
         table: Table,
@@ -157,7 +159,7 @@ impl Run {
         for batch in self.batches(table)? {
             let batch = batch?;
             let columns = Batch { batch: &batch, path: self.path(), table };
-            // Rows are sorted by plot, so those of later plots are the last.
+            // Rows are sorted by plot, so the rows of later plots come last.
             let plots = columns.ints("plot_id")?.values();
             let wanted = plots.partition_point(|plot| last.is_none_or(|last| plot.unsigned_abs() <= last));
             show(&columns, wanted)?;
@@ -168,8 +170,8 @@ impl Run {
         Ok(())
     }
 
-    /// The last plot that has a plant whose number is below `plants`, as the table `plants` tells; `None` where it does
-    /// not tell of each: in a run of an older program, or one of which plots are not grown yet.
+    /// The last plot that has a plant with a number below `plants`, from the table `plants`. `None` where the table
+    /// does not have all these plants: in a run of an older program, or where plots are not grown yet.
     fn last_plot_of(&self, plants: u32) -> Result<Option<u32>, Error> {
         let (mut last, mut found) = (Some(0), 0);
         for batch in self.batches(Table::Plants)? {
@@ -188,7 +190,7 @@ impl Run {
     }
 }
 
-/// Adds the first `rows` rows of a batch that are of the plants below `plants`.
+/// Adds those of the first `rows` rows of a batch that belong to plants with numbers below `plants`.
 fn components_in(batch: &Batch<'_>, plants: u32, rows: usize, found: &mut Vec<ComponentRow>) -> Result<(), TableError> {
     let int = |name| batch.ints(name);
     let (plant, component, axis) = (int("plant_id")?, int("component_id")?, int("axis_id")?);
@@ -219,7 +221,7 @@ fn components_in(batch: &Batch<'_>, plants: u32, rows: usize, found: &mut Vec<Co
     Ok(())
 }
 
-/// The same of `records`.
+/// Adds the poses in the first `rows` rows of a batch of `records`, for plants with numbers below `plants`.
 fn poses_in(batch: &Batch<'_>, plants: u32, rows: usize, found: &mut Vec<PoseRow>) -> Result<(), TableError> {
     let (plant, age) = (batch.ints("plant_id")?, batch.ints("age")?);
     let (axis, rank) = (batch.ints("axis_id")?, batch.ints("rank")?);
@@ -266,7 +268,7 @@ impl<'a> Batch<'a> {
         self.column(column)
     }
 
-    /// The place of each row's word in the list of words; `None` for null.
+    /// The index of each row's word in the list `words`; `None` for null.
     fn words(&self, column: &'static str, words: &[&str]) -> Result<Vec<Option<usize>>, TableError> {
         let array: &DictionaryArray<Int8Type> = self.column(column)?;
         let missing = || TableError::Column { path: self.path.join(self.table.name()), column };

@@ -1,7 +1,7 @@
-//! A small plant with everything that a table must tell apart, for the tests of this crate.
+//! A small plant for the tests of this crate, with every component and fate that the tables distinguish.
 //!
-//! Each tick the trunk makes an internode with a leaf of three ticks' life and a bud; the bud grows two internodes,
-//! dies, and its branch falls two ticks later. At tick 6 the trunk bears a flower, at tick 8 it dies.
+//! Each tick the trunk makes an internode with a leaf, which lives for three ticks, and a bud. The bud grows two
+//! internodes and dies, and its branch falls two ticks later. At tick 6 the trunk bears a flower, at tick 8 it dies.
 
 use crate::{Mode, Provenance, RunFolder, RunPlan, RunReport, ShardReport, Table};
 use phytomer_sim::mechanics::Wood;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// The model of the specimen.
 pub struct Sapling;
 
-/// The same with such wood.
+/// The specimen with the wood that is given.
 pub struct Wooden(pub Option<Wood>);
 
 const TRUNK_DIES: Tick = 8;
@@ -206,7 +206,7 @@ fn grow_shard_of(model: &dyn GrowthModel, folder: &RunFolder, shard: u32, compon
     report
 }
 
-/// The plots of a shard of a folder, sown by their numbers, grown and ended; how each ended.
+/// Sows, grows and ends the plots of a shard of a folder; returns the report of the shard, and how each plot ended.
 pub fn grow_plots<'m>(folder: &RunFolder, shard: u32, sow: impl Fn(u32) -> Plot<'m>) -> (ShardReport, Vec<Ending>) {
     let mut open = folder.shard(shard).unwrap();
     let mut endings = Vec::new();
@@ -219,7 +219,7 @@ pub fn grow_plots<'m>(folder: &RunFolder, shard: u32, sow: impl Fn(u32) -> Plot<
     (open.commit().unwrap(), endings)
 }
 
-/// A whole run.
+/// A whole run of specimens.
 pub fn run(path: &Path, plan: RunPlan) -> RunReport {
     run_of(&Sapling, path, plan)
 }

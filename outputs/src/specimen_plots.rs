@@ -1,8 +1,8 @@
-//! Plots of several plants for the tests of this crate: two species, sown at different ticks, the numbers of the plants
-//! in another order than their places in the plot.
+//! Plots of several plants for the tests of this crate: two species, sown at different ticks, with plant numbers in
+//! another order than the places in the plot.
 //!
-//! The first species is the sapling; the second is a trunk that its model rewrites in mid-axis, so that its columns
-//! stand in another order than its component numbers.
+//! The first species is the sapling (`specimen`). The second is a trunk that its model rewrites in the middle, so that
+//! its columns are in another order than its component numbers.
 
 use crate::specimen::{Sapling, grow_plots, plan};
 use crate::{Mode, RunFolder, RunPlan, RunReport};
@@ -13,14 +13,14 @@ use phytomer_sim::{Grow, Growth, GrowthModel, Plot, Sowing, Tick};
 use std::path::Path;
 use std::sync::Arc;
 
-/// The species of the plots, by their places.
+/// The names of the species of the plots.
 pub const SPECIES: [&str; 2] = ["sapling", "doubling"];
 
-/// The members of each plot: species, the plant's number in the plot, sown tick.
+/// The members of each plot: the index of the species, the plant's number in the plot, and the tick of sowing.
 pub const MEMBERS: [(usize, u32, Tick); 3] = [(0, 2, 0), (1, 0, 3), (0, 1, 5)];
 
-/// A trunk of which each internode has a new one put after it at each of its first four ticks, and keeps its number
-/// itself: F → F F. Each internode may be new, and the rank of an old one changes.
+/// A trunk in which each internode gets a new internode above it at each of its first four ticks, and keeps its number:
+/// F → F F. So any internode may be new, and the rank of an old internode changes.
 pub struct Doubling;
 
 /// The last tick of doubling.
@@ -76,22 +76,22 @@ fn draw(life: &[(u32, Tick)], plant: &mut Plant) {
     }
 }
 
-/// The model of a species by its place.
+/// The growth model of a species, by its index.
 pub fn model(species: usize) -> &'static dyn GrowthModel {
     if species == 0 { &Sapling } else { &Doubling }
 }
 
-/// What plant number `plant` grows from.
+/// The seed of the plant with the number `plant`.
 pub fn seed(plant: u32, component_limit: u32) -> Seed {
     Seed { plant, run_seed: 42, component_limit, keep_events: true }
 }
 
-/// The number of a plant of a plot. Numbers do not rise plot by plot: each has some of the first plants.
+/// The number of a plant of a plot. Numbers are dealt across plots: each plot has some of the first plants.
 pub fn number_of(plot: u32, in_plot: u32, plots: u32) -> u32 {
     plot + plots * in_plot
 }
 
-/// A plot of three plants, of a run of so many plots; plots are of two treatments by turns.
+/// A plot of three plants in a run of `plots` plots; the two treatments alternate from plot to plot.
 pub fn mixed(id: u32, plots: u32, component_limit: u32) -> Plot<'static> {
     let sowings = MEMBERS.map(|(species, in_plot, sown)| Sowing {
         species,
@@ -104,7 +104,7 @@ pub fn mixed(id: u32, plots: u32, component_limit: u32) -> Plot<'static> {
     plot
 }
 
-/// A plan of so many plots.
+/// A plan of `plots` such plots.
 pub fn mixed_plan(plots: u32, plots_per_part: u32) -> RunPlan {
     let mut plan = plan(plots, plots_per_part);
     plan.recorded.insert(0, 0);
@@ -120,7 +120,7 @@ pub fn run_mixed(path: &Path, plan: RunPlan) -> RunReport {
     folder.finish(&[("growth", 0.5)]).unwrap()
 }
 
-/// Grows the shards of such a run that are missing.
+/// Grows the missing shards of a run of such plots.
 pub fn grow_missing(folder: &RunFolder) {
     let plots = folder.plan().plots;
     for shard in folder.missing_shards() {

@@ -1,10 +1,10 @@
 //! The axes of one recorded plant, put together from the rows of `components`: which axis bears which, with its nodes
 //! and flowers.
 //!
-//! Axes that are leaves, inflorescences or parts of flowers by the kind of their internodes are organs and no branches.
-//! Reiterates are told apart here. A reiterate repeats the plant's model on the plant and says nothing of the model
-//! itself (Hallé, Oldeman & Tomlinson 1978), so all that it bears is left aside; but an axis of order 1 out of the base
-//! of another of order 1 is a basal shoot, of which Tomlinson's and McClure's models are made. Absent: any judgement.
+//! Axes whose internodes are of leaves, inflorescences or flowers are organs and not branches. A reiterate repeats the
+//! plant's own model on the plant and tells nothing new of it (Hallé, Oldeman & Tomlinson 1978), so reiterates and all
+//! that they bear are left out. An axis of order 1 from the base of another axis of order 1 is a basal shoot, as in
+//! Tomlinson's and McClure's models, and is kept. Absent: the qualifiers of the models (`models`).
 
 use super::tolerance::PLAGIOTROPIC_DEG;
 use phytomer_outputs::rows::ComponentRow;
@@ -12,67 +12,67 @@ use phytomer_sim::Tick;
 use phytomer_sim::plant::{Cause, Class, Kind, Origin, PartOfPlant};
 use std::collections::BTreeMap;
 
-/// The share of the nodes of an axis that are its base, and the least number of them.
+/// The share of the nodes of an axis, from below, that count as its base; at least [`LEAST_BASE`] nodes do.
 const BASE_SHARE: f64 = 0.2;
 const LEAST_BASE: u32 = 5;
 
 /// One internode.
 #[derive(Debug, Clone, Copy)]
 pub struct Node {
-    /// Its rank in its growth unit, from 1.
+    /// The rank of the internode in its growth unit, from 1.
     pub unit_rank: u32,
-    /// The inclination that its axis tends to there, degrees.
+    /// The inclination of the axis's trend at this internode, degrees from the upward vertical.
     pub trend: Option<f32>,
 }
 
-/// What an axis is to the plant.
+/// The part that an axis has in the architecture of the plant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// It belongs to the plant's own architecture.
+    /// The axis belongs to the plant's own architecture.
     Own,
-    /// It arose from the base of another trunk.
+    /// The axis arose from the base of another trunk.
     Basal,
-    /// It is a reiterate, or borne by one.
+    /// The axis is a reiterate, or is borne by a reiterate.
     Reiterate,
-    /// It is a leaf, an inflorescence or a part of one that is drawn as an axis.
+    /// The axis is a leaf, an inflorescence or a part of an inflorescence, drawn as an axis.
     Organ,
 }
 
-/// One axis.
+/// One axis of a plant.
 #[derive(Debug, Clone)]
 pub struct Axis {
-    /// The component of its bud.
+    /// The component number of its apical bud.
     pub id: u32,
-    /// From 1.
+    /// Its order, from 1 for the trunk.
     pub order: u32,
-    /// How it came to be.
+    /// From which kind of bud or event the axis arose.
     pub origin: Origin,
-    /// What it is to the plant.
+    /// Its part in the architecture of the plant.
     pub role: Role,
-    /// The axis that bears it, as a place in the list.
+    /// The index in the list of the axis that bears it.
     pub bearing: Option<usize>,
-    /// The rank of the bearing node.
+    /// The rank of the node that bears it.
     pub bearer_rank: u32,
-    /// When its bud appeared.
+    /// The age of the plant at which its bud appeared.
     pub birth: Tick,
-    /// When its apex ended, and how.
+    /// The age of the plant at which its apex ended, and the cause.
     pub end: Option<(Tick, Cause)>,
-    /// When its wood left the plant.
+    /// The age of the plant at which its wood fell.
     pub shed: Option<Tick>,
     /// Its internodes by rank.
     pub nodes: Vec<Node>,
-    /// Flowers and inflorescences that stand on its sides.
+    /// The number of flowers and inflorescences on its sides.
     pub lateral_flowers: u32,
-    /// Whether it became an inflorescence, or one took the place of its apex.
+    /// Whether the axis became an inflorescence, or an inflorescence took the place of its apex.
     pub blooms: bool,
     /// The kind of its first internode.
     kind: Kind,
-    /// The axes that it bears, as places in the list.
+    /// The indices in the list of the axes that it bears.
     pub bears: Vec<usize>,
 }
 
 impl Axis {
-    /// Whether it says something of the model: it is the plant's own, or a basal shoot.
+    /// Whether the qualifiers look at the axis: it is the plant's own, or a basal shoot.
     pub fn is_judged(&self) -> bool {
         matches!(self.role, Role::Own | Role::Basal)
     }
@@ -82,34 +82,34 @@ impl Axis {
         self.blooms || self.end.is_some_and(|(_, cause)| cause == Cause::Flowered)
     }
 
-    /// Whether its apex came to the end that its architecture gives it: a flower, or the last of its growth units.
+    /// Whether its apex ended as its architecture has it: by a flower, or after the last of its growth units.
     pub fn finished(&self) -> bool {
         self.flowered() || self.end.is_some_and(|(_, cause)| cause == Cause::Completed)
     }
 
-    /// Whether its apex lived at `age`, or later.
+    /// Whether its apex was still alive after `age`.
     pub fn lives_past(&self, age: Tick) -> bool {
         self.end.is_none_or(|(end, _)| end > age)
     }
 
-    /// The inclination that it tends to at first, degrees.
+    /// The inclination of its trend at its first internode, degrees from the upward vertical.
     pub fn first_trend(&self) -> Option<f32> {
         self.nodes.first().and_then(|node| node.trend)
     }
 
-    /// The inclination that it tends to at last, degrees.
+    /// The inclination of its trend at its last internode, degrees from the upward vertical.
     pub fn last_trend(&self) -> Option<f32> {
         self.nodes.last().and_then(|node| node.trend)
     }
 }
 
-/// Whether an axis that tends to such an angle to the vertical, in degrees, is plagiotropic.
+/// Whether a trend at this angle to the upward vertical, in degrees, is plagiotropic.
 pub fn is_plagiotropic(trend_deg: f32) -> bool {
     trend_deg > PLAGIOTROPIC_DEG
 }
 
-/// The axes of a plant by their numbers, those among them that are buds still: a bearing axis comes before those that
-/// it bears.
+/// The axes of one plant in the order of their numbers, from its rows of `components`. Axes that are still buds are
+/// included. A bearing axis comes before the axes that it bears. Takes O(n log a) for n rows and a axes.
 pub fn axes_of(rows: &[ComponentRow]) -> Vec<Axis> {
     let mut axes: BTreeMap<u32, Axis> = BTreeMap::new();
     let mut bearing: BTreeMap<u32, u32> = BTreeMap::new();
@@ -134,7 +134,7 @@ pub fn axes_of(rows: &[ComponentRow]) -> Vec<Axis> {
     axes
 }
 
-/// Tells the bearing axis of what it bears. An inflorescence that is an axis is a flower to it.
+/// Enters an axis at the axis that bears it. An inflorescence that is an axis counts there as a flower.
 fn attach(axes: &mut [Axis], place: usize, bearing: usize) {
     let Axis { role, origin, kind, .. } = axes[place];
     match role {
@@ -145,12 +145,12 @@ fn attach(axes: &mut [Axis], place: usize, bearing: usize) {
     }
 }
 
-/// Whether an axis of such internodes is a flower, an inflorescence or a part of one.
+/// Whether an axis of internodes of this kind is a flower, an inflorescence or a part of an inflorescence.
 fn is_of_flower(kind: Kind) -> bool {
     kind.class() == Class::Internode && kind.part() == PartOfPlant::Flower
 }
 
-/// Whether an axis of such internodes is a leaf or a part of one.
+/// Whether an axis of internodes of this kind is a leaf or a part of a leaf.
 fn is_of_leaf(kind: Kind) -> bool {
     kind.class() == Class::Internode && kind.part() == PartOfPlant::Leaf
 }
@@ -174,7 +174,7 @@ fn begun(bud: &ComponentRow) -> Axis {
     }
 }
 
-/// Rows are in the order of their numbers, in which the nodes of an axis climb.
+/// Adds a row to its axis. Rows come in the order of component numbers, in which the nodes of an axis climb.
 fn add(axis: &mut Axis, row: &ComponentRow) {
     match row.kind.class() {
         Class::Internode => {

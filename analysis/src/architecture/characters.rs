@@ -1,9 +1,9 @@
 //! The characters by which Hallé, Oldeman & Tomlinson 1978 tell their models apart, measured on one recorded plant:
-//! where it branches and when, how axes end, how they are relayed, where they tend, where flowers stand.
+//! where and when it branches, how its axes end, how they are relayed, how they are inclined, where its flowers stand.
 //!
-//! Counts and shares over topology, fates and stated trends; no place in space is looked at. Only how axes lie under
-//! weight, and how a trunk's base rights itself, are read from recorded directions, because two models are defined by
-//! it. Absent: the models, which `models` states over these.
+//! Characters are counts and shares over topology, fates and stated trends. Recorded directions are read only for how
+//! axes bend under their weight and how the base of a trunk is erected (`lie`), since two models are defined by these.
+//! Absent: the models, each a list of required characters (`models`).
 
 use super::axes::{Axis, Role, axes_of, is_plagiotropic};
 use super::lie::{Lie, lie_of};
@@ -16,53 +16,54 @@ use phytomer_sim::plant::{Cause, Kind, Origin};
 /// The characters of one plant.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Characters {
-    /// Axes that made an internode, without reiterates.
+    /// The number of axes that made an internode, without reiterates.
     pub axes: u32,
-    /// Trunks: axes of order 1 among them.
+    /// The number of trunks: the axes of order 1, without reiterates.
     pub trunks: u32,
-    /// Axes of order 1 from the base of another of order 1.
+    /// The number of axes of order 1 from the base of another axis of order 1.
     pub basal: u32,
-    /// Axes out of axillary buds.
+    /// The number of axes from axillary buds.
     pub axillary: u32,
-    /// Of the apices that divided, those that divided into two.
+    /// Of the apices that divided: the share that divided into two.
     pub dichotomies: Share,
     /// Whether a bud lives at the last age.
     pub lives: bool,
-    /// Flowers on the sides of axes.
+    /// The number of flowers on the sides of axes.
     pub lateral_flowers: u32,
-    /// Axes of order 1 that ended in a flower.
+    /// The number of axes of order 1 that ended in a flower.
     pub flowered_trunks: u32,
-    /// Axes of higher orders that ended in a flower.
+    /// The number of axes of higher orders that ended in a flower.
     pub flowered_branches: u32,
-    /// Of the trunks that came to an end of their own, those that made all their growth units without a flower.
+    /// Of the trunks that flowered or completed their growth: the share that completed it without a flower.
     pub completed_trunks: Share,
-    /// Of the branches that came to an end of their own, those that ended in a flower.
+    /// Of the branches that flowered or completed their growth: the share that flowered.
     pub branch_flowers: Share,
-    /// Of the axes of order 1 that tend somewhere, those that are plagiotropic at first.
+    /// Of the axes of order 1 with a trend: the share that is plagiotropic at first.
     pub plagiotropic_trunks: Share,
-    /// Of the axes of order 2 that tend somewhere, those that are plagiotropic at first.
+    /// Of the axes of order 2 with a trend: the share that is plagiotropic at first.
     pub plagiotropic_limbs: Share,
-    /// Of the axes of all higher orders that tend somewhere, those that are plagiotropic at first.
+    /// Of the axes of all higher orders with a trend: the share that is plagiotropic at first.
     pub plagiotropic_branches: Share,
     /// Whether the trunk's branches stand in tiers at the tips of growth units; `None` with fewer than three branches.
     pub tiers: Option<bool>,
-    /// Of the axes of order 2 on the trunk, those that are determinate: they made all their growth units.
+    /// Of the axes of order 2 on the trunk whose apices have ended: the share that is determinate, having completed all
+    /// growth units.
     pub determinate_branches: Share,
-    /// Of the axes of order 2 that are determinate, those that bear no axes.
+    /// Of the determinate axes of order 2: the share that bears no axes.
     pub simple_branches: Share,
-    /// The determinate branches that were shed whole.
+    /// The number of determinate branches that were shed whole.
     pub shed_branches: u32,
     /// The relays of axes of order 1.
     pub trunk_relays: Relays,
     /// The relays of axes of higher orders.
     pub branch_relays: Relays,
-    /// How axes lie.
+    /// Inclinations under weight, from recorded directions.
     pub lie: Lie,
 }
 
 impl Characters {
-    /// The characters of one plant from its rows of `components`, and from how its internodes lie at the recorded ages
-    /// where that is known.
+    /// The characters of one plant from its rows of `components`, and from the recorded poses of its internodes.
+    /// Without `poses` the characters in [`Lie`] are empty. Takes O(n log n) for n rows.
     pub fn of(components: &[ComponentRow], poses: &[PoseRow]) -> Self {
         let axes = axes_of(components);
         let lives = components.iter().any(|row| row.kind == Kind::ApicalBud && row.death_age.is_none());
@@ -123,8 +124,8 @@ impl Characters {
     }
 }
 
-/// Whether the branches of the trunk stand in the outer halves of growth units. A growth unit of fewer than four nodes
-/// has no tip to speak of: branches on such units stand in no tier.
+/// Whether the branches of the trunk stand in the outer halves of its growth units. Branches on a growth unit of fewer
+/// than four nodes count as outside a tier, since so short a unit has no distinct tip.
 fn tiers(axes: &[Axis]) -> Option<bool> {
     const LEAST_NODES: usize = 4;
     const LEAST_BRANCHES: u32 = 3;
@@ -144,7 +145,8 @@ fn tiers(axes: &[Axis]) -> Option<bool> {
     (outer.of >= LEAST_BRANCHES).then(|| outer.is_at_least(TIER_SHARE))
 }
 
-/// The first and the last rank of each growth unit of an axis: one begins where the rank in the unit does not go on.
+/// The first and the last rank of each growth unit of an axis. A new unit begins where the rank in the unit does not
+/// rise.
 fn units_of(axis: &Axis) -> Vec<(usize, usize)> {
     let mut units: Vec<(usize, usize)> = Vec::new();
     let mut before = u32::MAX;

@@ -1,9 +1,9 @@
-//! How axes lie: whether tips hang that weight has lowered, where relays stand on an arch, whether a trunk's base has
-//! risen.
+//! How axes lie under their weight: whether their tips hang, where relays stand on an arch, and whether the base of a
+//! trunk was erected.
 //!
-//! The two characters for which directions are read: Champagnat's axes are upright by their trend and hang by their
-//! weight alone, Troll's are laid by their trend and their bases are erected later (Hallé, Oldeman & Tomlinson 1978).
-//! Both need the recorded columns of mechanics, without which it is not known that anything bent.
+//! Two models are defined by directions. Champagnat's axes are upright by their trend and hang by their weight alone;
+//! Troll's are laid by their trend, and their bases are erected later (Hallé, Oldeman & Tomlinson 1978). Both need the
+//! recorded columns of mechanics: without them no bending is recorded.
 
 use super::axes::{Axis, is_plagiotropic};
 use super::share::Share;
@@ -15,19 +15,19 @@ use std::collections::BTreeMap;
 /// How the axes of a plant lie at the recorded ages.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Lie {
-    /// Of the relayed axes that still stand and bend, those whose tip has pointed below the horizontal.
+    /// Of the relayed axes that still stand and bend: the share whose tip has pointed below the horizontal.
     pub tips_lowered: Share,
-    /// Of the relays of axes that bend over, those that stand below the part that hangs: no later than just past the
-    /// summit of the arch.
+    /// Of the relays of axes that bend over: the share below the part that hangs, up to a few nodes past the summit of
+    /// the arch.
     pub before_the_fall: Share,
-    /// Whether the base of the first axis was laid and is erect.
+    /// Whether the base of the first axis was laid by its trend and is now erect.
     pub base_erected: bool,
 }
 
-/// The directions of one axis: by age, then by rank.
+/// The vertical parts of the directions of one axis: by age, then by rank.
 type Course = BTreeMap<u32, BTreeMap<u32, f32>>;
 
-/// How the axes lie.
+/// How the axes of one plant lie at the recorded ages. Empty where no pose has a curvature.
 pub fn lie_of(axes: &[Axis], poses: &[PoseRow]) -> Lie {
     let mut courses: BTreeMap<u32, Course> = BTreeMap::new();
     for pose in poses.iter().filter(|pose| pose.curvature_per_m.is_some()) {
@@ -54,18 +54,18 @@ impl Lie {
         let hanging = course.values().rev().find(hangs);
         self.tips_lowered.add(hanging.is_some());
         if let Some(ranks) = hanging {
-            // The summit is the last internode from which on all point down.
+            // The summit is the last internode that does not point down: all after it do.
             let summit = ranks.iter().rev().find(|(_, dir_z)| **dir_z >= 0.0).map_or(0, |(rank, _)| *rank);
             relays.iter().for_each(|relay| self.before_the_fall.add(*relay <= summit + NEAR));
         }
     }
 }
 
-/// How many nodes past the summit of an arch are still near it.
+/// The number of nodes past the summit of an arch that still count as near it.
 const NEAR: u32 = 6;
 
-/// Whether the piece of an axis below its relay, laid by its trend, has risen and stands erect at the last age. It is
-/// told by the internode that bears the relay, since the first one of all stands in the ground as the seed set it.
+/// Whether the part of an axis below its relay was laid by its trend, has risen, and stands erect at the last age. The
+/// internode that bears the relay is looked at, since the first internode of an axis keeps the direction of the seed.
 fn base_erected(axis: &Axis, course: &Course, relay: u32) -> bool {
     let laid = axis.first_trend().is_some_and(is_plagiotropic);
     let mut directions = course.values().filter_map(|ranks| ranks.get(&relay));

@@ -1,14 +1,14 @@
 //! The 23 architectural models of Hallé, Oldeman & Tomlinson 1978 (*Tropical Trees and Forests*), each as what must
-//! hold and must not hold of the characters of a plant: one function a model, one line a character.
+//! hold and must not hold of the characters of a plant: one function per model, one line per character.
 //!
-//! A function gives the first character that the plant lacks. Absent: looks; and every model that a mixture of two
-//! would be.
+//! A function returns the first character that the plant lacks. Absent: the shapes of crowns and organs, and models
+//! that mix two of these.
 
 use super::characters::Characters;
 use super::share::Share;
 use super::tolerance::{BENT_OVER, HARDLY_ANY, NEARLY_ALL, RELAYED, SEVERAL};
 
-/// What a plant lacks of a model, in words.
+/// `Ok` for a plant that qualifies for a model; else the first character that it lacks, in words.
 pub type Lacks = Result<(), &'static str>;
 
 /// A model: its name as species files write it, and its qualifier.
@@ -19,10 +19,10 @@ pub struct Architecture {
 }
 
 impl Architecture {
-    /// What a plant of these characters lacks of the model first; nothing where it qualifies.
+    /// Whether a plant of these characters qualifies for the model.
     ///
     /// # Errors
-    /// The character, in words.
+    /// The first character of the model that the plant lacks, in words.
     pub fn qualify(&self, characters: &Characters) -> Lacks {
         (self.qualifies)(characters)
     }
@@ -117,7 +117,7 @@ fn orthotropic_branches(c: &Characters) -> Lacks {
     must(c.plagiotropic_limbs.of > 0 && orthotropic, "branches are orthotropic")
 }
 
-/// Branches of modules that end in flowers, by substitution.
+/// The branches are sympodia of modules that end in flowers, relayed by substitution.
 fn flowering_modules(c: &Characters) -> Lacks {
     must(c.flowered_branches > 0, "branches end in flowers")?;
     must(nearly_all(c.branch_flowers), "the branch modules that are finished end in flowers")?;
@@ -147,8 +147,8 @@ fn tomlinson(c: &Characters) -> Lacks {
     no_axillary_axes(c)?;
     no_relays(c)?;
     no_forks(c)?;
-    // An axis that ends in a flower is as in Holttum's model, with whatever flowers stand below its tip; else as in
-    // Corner's.
+    // An axis that ends in a flower is that of Holttum's model, whatever flowers stand below its tip; any other axis is
+    // that of Corner's model.
     must(c.lateral_flowers + c.flowered_trunks > 0, "axes flower, at their tips or on their sides")
 }
 

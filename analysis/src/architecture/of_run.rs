@@ -1,7 +1,7 @@
 //! The architectural models of the plants of a recorded run.
 //!
-//! The first plants are looked at, in `components` and, where the run has the columns of mechanics, in `records`.
-//! Absent: plants of millions of components, which need no architecture to be told apart.
+//! The classifier reads the first plants of a run from `components` and, where the run has the columns of mechanics,
+//! from `records`. Absent: runs whose first plants have millions of components, which are not classified.
 
 use super::{Characters, architectures};
 use phytomer_outputs::read::Run;
@@ -9,25 +9,26 @@ use phytomer_outputs::rows::{ComponentRow, PoseRow};
 use phytomer_outputs::{Error, Table};
 use std::collections::BTreeMap;
 
-/// How many plants of a run are looked at.
+/// The number of plants of a run that are classified.
 pub const LOOKED_AT: u32 = 8;
 
-/// A run whose first plants have more rows than this is not looked at.
+/// A run whose first plants have more rows than this is not classified.
 const MOST_ROWS: u64 = 4_000_000;
 
-/// What the plants that were looked at qualify for.
+/// The models that the first plants of a run qualify for.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Qualified {
-    /// How many were looked at.
+    /// The number of plants that were classified.
     pub plants: u32,
-    /// How many of them qualify for each model.
+    /// The number of classified plants that qualify for each model, by the model's name.
     pub models: BTreeMap<&'static str, u32>,
 }
 
-/// What the first plants of a run qualify for; `None` where it has no `components`, or plants too large to look at.
+/// The models that the first [`LOOKED_AT`] plants of a run qualify for. `None` where the run has no `components`, or
+/// where its first plants have more than four million rows. Holds the rows of these plants in memory.
 ///
 /// # Errors
-/// Where a table cannot be read.
+/// [`Error`] where a table cannot be read.
 pub fn qualified(run: &Run, plants_of_run: u32) -> Result<Option<Qualified>, Error> {
     let rows = run.rows()?;
     let share = f64::from(LOOKED_AT.min(plants_of_run)) / f64::from(plants_of_run.max(1));

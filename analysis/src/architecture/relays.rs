@@ -1,4 +1,5 @@
-//! Relays: how many an axis has, from which node, when, what its apex was doing then, and what became of the siblings.
+//! Relays of axes: how many there are, at which node and when they arise, whether the apex then lived, and how the
+//! relays of one set develop.
 //!
 //! A set of relays stands on one axis and appears at one tick. By substitution the apex of the bearing axis had ended;
 //! by apposition it lived on (Hallé, Oldeman & Tomlinson 1978). Absent: forks of an apex that divides.
@@ -11,41 +12,43 @@ use phytomer_sim::plant::Origin;
 /// The relays of the axes of some orders.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Relays {
-    /// How many there are.
+    /// The number of relays.
     pub relays: u32,
-    /// Of the sets, those of one relay.
+    /// Of the sets of relays: the share with one relay.
     pub single: Share,
-    /// Of the sets of the first generations, those of two and more.
+    /// Of the sets in the first generations: the share with two relays or more.
     pub early_several: Share,
-    /// Of the sets, those that came while the apex of their axis lived on.
+    /// Of the sets of relays: the share that appeared while the apex of their axis lived on.
     pub apposition: Share,
-    /// Of the relays that tend somewhere, those that are orthotropic at first.
+    /// Of the relays with a trend: the share that is orthotropic at first.
     pub orthotropic: Share,
-    /// Of the relays, those that are orthotropic at first and plagiotropic at last, or the other way round.
+    /// Of the relays with a trend: the share that is orthotropic at first and plagiotropic at last, or the other way
+    /// round.
     pub turned: Share,
-    /// Of the sets of several orthotropic siblings of which some are plagiotropic at last: those of which exactly one
-    /// is orthotropic at last.
+    /// Of the sets of several relays that are all orthotropic at first and of which some are plagiotropic at last: the
+    /// share of which exactly one relay stays orthotropic.
     pub one_leads: Share,
-    /// Of the axes that ended as their model has it, those that are relayed.
+    /// Of the axes that flowered or completed their growth: the share that is relayed.
     pub finished: Share,
-    /// Of the relayed axes, those that bear at least two plagiotropic axillary axes.
+    /// Of the sets of relays: the share whose bearing axis also bears at least two plagiotropic axillary axes.
     pub bears_branches: Share,
-    /// Of the relayed axes, those that bear branches above the relay, all of which are older than it.
+    /// Of the sets of relays: the share whose bearing axis has branches, all of them above the relays and older.
     pub below_older_branches: Share,
-    /// Of the relayed axes, those that turn from orthotropic to plagiotropic at the node of the relay, or near it.
+    /// Of the sets of relays: the share whose bearing axis turns from orthotropic to plagiotropic at the node of the
+    /// relays, or near it.
     pub at_the_turn: Share,
 }
 
-/// A set of relays.
+/// The relays that appear on one axis at one tick.
 struct Set<'a> {
     bearing: &'a Axis,
     generation: u32,
     relays: Vec<&'a Axis>,
-    /// What the bearing axis bears out of axillary buds.
+    /// The axes that the bearing axis bears from axillary buds.
     branches: Vec<&'a Axis>,
 }
 
-/// The relays of the axes whose order is asked for.
+/// The relays of the axes whose order satisfies `asked`.
 pub fn relays_of(axes: &[Axis], asked: impl Fn(u32) -> bool) -> Relays {
     let mut found = Relays::default();
     let generations = generations(axes);
@@ -66,7 +69,7 @@ pub fn relays_of(axes: &[Axis], asked: impl Fn(u32) -> bool) -> Relays {
     found
 }
 
-/// How many relays lie between each axis and the first of its line.
+/// The generation of each axis: the number of relays from the first axis of its line to it.
 fn generations(axes: &[Axis]) -> Vec<u32> {
     let mut generations = vec![0; axes.len()];
     for (place, axis) in axes.iter().enumerate() {
@@ -119,7 +122,8 @@ impl Relays {
     }
 }
 
-/// The last rank at which an axis that is orthotropic at first is so; `None` where it never turns.
+/// The last rank before the first plagiotropic internode of an axis; `None` where it has no plagiotropic internode, or
+/// where its first internode is plagiotropic.
 fn turn(axis: &Axis) -> Option<u32> {
     let plagiotropic = |rank: usize| axis.nodes.get(rank).and_then(|node| node.trend).is_some_and(is_plagiotropic);
     let first = (0..axis.nodes.len()).find(|&rank| plagiotropic(rank))?;

@@ -1,37 +1,42 @@
-//! How far a plant may be from the drawing of its model and still qualify: buds die by chance, crowns fill up, and a
-//! plant is young before it is old. Every tolerance that a qualifier has stands here.
+//! How far a plant may differ from the drawing of its model and still qualify.
+//!
+//! Buds die by chance, crowns fill up, and a young plant does not yet show its whole model. The qualifiers (`models`)
+//! and the characters (`characters`, `relays`, `lie`) take every tolerance from here.
 
-/// An axis that tends to more than so many degrees from the vertical is plagiotropic, to fewer orthotropic: half way.
+/// An axis whose trend is more than this many degrees from the vertical is plagiotropic, any other orthotropic. Half
+/// way.
 pub const PLAGIOTROPIC_DEG: f32 = 45.0;
 
-/// What holds of "all" holds of at least this share: epicormic shoots, and relays that never came, are few.
+/// The least share of axes for a character that all axes must have: epicormic shoots and missing relays are few.
 pub const NEARLY_ALL: f64 = 0.9;
 
-/// What "some at most" have at most this share has.
+/// The largest share of axes for a character that no axis should have.
 pub const HARDLY_ANY: f64 = 0.1;
 
-/// The share of a trunk's branches that stand in the outer halves of its growth units where it has tiers. Branches on
-/// every node, or on nodes at random, give one half.
+/// The least share of a trunk's branches in the outer halves of its growth units for the trunk to have tiers. Branches
+/// on every node, or on random nodes, give one half.
 pub const TIER_SHARE: f64 = 0.7;
 
-/// The share of the apices that ended as their model has it, at least so many ticks ago, that must have been relayed:
-/// the relay of a module may die as a bud, or be the last of a crown that fills up.
+/// The least share of finished modules that are relayed, where a model relays every module. A relay may die as a bud,
+/// and the last modules of a crown that fills up have none.
 pub const RELAYED: f64 = 0.5;
 
-/// The generations of modules of which each is to have several relays: those after them thin out as a crown fills up.
+/// The number of generations of modules, from the first, in which a module must have several relays. Later generations
+/// have fewer, as the crown fills up.
 pub const FIRST_GENERATIONS: u32 = 3;
 
-/// The share of the modules of the first generations that have several relays, where a module is to have several: now
-/// and then all relay buds but one are lost.
+/// The least share of modules of the first generations with several relays, where a model has several on each module.
+/// By chance all relay buds of a module but one may die.
 pub const SEVERAL: f64 = 0.6;
 
-/// How many nodes the relay of a mixed axis may stand from the node at which the axis turns.
+/// The largest distance, in nodes, between the relay of a mixed axis and the node at which the axis turns plagiotropic.
 pub const NODES_FROM_TURN: u32 = 2;
 
-/// The share of old axes that must hang, or nearly so, where axes bend over by their weight.
+/// Where axes bend over by their weight: the least share of relayed axes whose tips hang, and the least share of relays
+/// near the summit of an arch or before it.
 pub const BENT_OVER: f64 = 0.5;
 
-/// The vertical part of the direction of what is erect, and by how much what is erected has risen.
+/// The least vertical part of the direction (a unit vector) of an internode that is erect.
 pub const ERECT: f32 = 0.8;
-/// See [`ERECT`].
+/// The least rise of the vertical part of the direction of an internode that was erected.
 pub const RISEN: f32 = 0.3;

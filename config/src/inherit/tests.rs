@@ -1,4 +1,6 @@
-//! Inheritance on small trees: which generation wins, and that a value keeps the file that wrote it.
+//! Inheritance on small trees: which file's value is taken, and that a value keeps the span in its own file.
+//!
+//! Absent: reading the files, and the check of what is merged (`load`).
 
 use serde_json::json;
 

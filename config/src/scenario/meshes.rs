@@ -1,6 +1,6 @@
 //! The meshes of a run: which plants, at which ages, in which files.
 //!
-//! Absent: what a mesh looks like, and its format.
+//! Absent: the shapes and colours of meshes, and their file format (`phytomer_meshes`).
 
 use super::{All, Scenario, list_some};
 use phytomer_law::fault::{Fault, Path};
@@ -8,21 +8,21 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// Which meshes are written.
+/// The meshes that are written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Meshes {
-    /// The ages: `"last"`, `"all"` recorded ages, or a list. The last if not given.
+    /// The ages: `"last"`, `"all"` recorded ages, or a list of ages. The last age if not given.
     #[serde(default)]
     pub ages: MeshAges,
-    /// The plants: `"all"`, how many from the first, or a list of numbers from 0. The first if not given.
+    /// The plants: `"all"`, a number of plants from plant 0, or a list of plant numbers from 0. Plant 0 if not given.
     #[serde(default)]
     pub plants: MeshPlants,
-    /// Sides of the tube that an internode is drawn as.
+    /// The number of sides of the tube that an internode is drawn as.
     #[serde(default = "default_sides")]
     #[schemars(range(min = 3, max = 64))]
     pub sides: u32,
-    /// What one file holds: a plant at an age, a plant at all its ages, or all plants at an age.
+    /// The content of one file: a plant at an age, a plant at all its ages, or all plants at an age.
     #[serde(default)]
     pub per: MeshFile,
 }
@@ -31,13 +31,13 @@ pub struct Meshes {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum MeshAges {
-    /// By a word.
+    /// The last age, or all recorded ages.
     Word(MeshAgesWord),
-    /// These ages.
+    /// The ages of the list.
     List(#[schemars(length(min = 1))] BTreeSet<u32>),
 }
 
-/// The ages of the meshes by a word.
+/// The words for ages of meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MeshAgesWord {
@@ -57,11 +57,11 @@ impl Default for MeshAges {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum MeshPlants {
-    /// Every plant, by the word.
+    /// All plants, by the word `all`.
     All(All),
-    /// So many, from the first.
+    /// This number of plants, from plant 0.
     First(#[schemars(range(min = 1))] u32),
-    /// These, numbered from 0.
+    /// The plants of the list, numbered from 0.
     List(#[schemars(length(min = 1))] BTreeSet<u32>),
 }
 
@@ -71,16 +71,16 @@ impl Default for MeshPlants {
     }
 }
 
-/// What one mesh file holds.
+/// The content of one mesh file.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MeshFile {
     /// One plant at one age.
     #[default]
     PlantAge,
-    /// One plant at all ages asked for.
+    /// One plant at all ages of `ages`.
     Plant,
-    /// All plants asked for at one age.
+    /// All plants of `plants` at one age.
     Age,
 }
 
@@ -89,7 +89,7 @@ fn default_sides() -> u32 {
 }
 
 impl Scenario {
-    /// The ages at which meshes are written, rising; none where no meshes are asked for.
+    /// The ages at which meshes are written, rising; empty where the scenario has no meshes.
     pub fn mesh_ages(&self) -> Vec<u32> {
         match self.meshes.as_ref().map(|meshes| &meshes.ages) {
             None => Vec::new(),
@@ -99,7 +99,7 @@ impl Scenario {
         }
     }
 
-    /// Whether a mesh of this plant is written.
+    /// Whether a mesh of the plant with the number `plant` is written.
     pub fn draws(&self, plant: u32) -> bool {
         match self.meshes.as_ref().map(|meshes| &meshes.plants) {
             None => false,
@@ -109,8 +109,8 @@ impl Scenario {
         }
     }
 
-    /// Makes so many plants grow. Of the meshes that are asked for those of plants that then do not grow are left out;
-    /// how many plants that are, where it can be counted.
+    /// Limits the run to its first `plants` plants and leaves out the meshes of all others. Returns the number of
+    /// plants whose meshes are left out; 0 where the scenario has meshes of all plants.
     pub fn grow_only(&mut self, plants: u32) -> u32 {
         self.plants = plants;
         let Some(meshes) = &mut self.meshes else { return 0 };

@@ -1,30 +1,30 @@
-//! The plots of a run: which plants share one, of which species, where they stand in it and when they are sown.
+//! The plots of a run: their plants, the species of each, where each stands in its plot and when it is sown.
 //!
-//! Plots are equal to each other but for their place and the draws of their plants: plant number = plot × members +
-//! member, and draws are keyed by run seed and plant number. A plot has a tick, and each plant an age: the ticks since
-//! it was sown. The list of species has the scenario's own first, then the others as members name them.
-//! Absent: growing them.
+//! Plots differ only in their places and in the random draws of their plants: plant number = plot × members + member,
+//! and draws are keyed by run seed and plant number. A plot has a tick, and each plant an age: the ticks since it was
+//! sown. The list of species begins with the scenario's own; the others follow in the order in which members name them.
+//! Absent: growth.
 
 use super::Scenario;
 use phytomer_law::fault::{Fault, Path};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A plant of each plot.
+/// One of the plants of each plot.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Member {
-    /// Its species, as the scenario's: a shipped one by its name, or the path of a species file. The scenario's species
+    /// The species of the plant: a shipped species by its name, or a species file by its path. The scenario's species
     /// if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1))]
     pub species: Option<String>,
-    /// Where it stands, metres from the place of its plot: two numbers on level ground, or three. The place of the plot
-    /// if not given.
+    /// The place of the plant, metres from the place of its plot: two numbers on level ground, or three. The place of
+    /// the plot if not given.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(min = 2, max = 3), inner(range(min = -1e5, max = 1e5)))]
     pub at_m: Vec<f64>,
-    /// The tick of the plot at which it is sown: it has age 0 then. 0 if not given.
+    /// The tick of the plot at which the plant is sown and has the age 0. Tick 0 if not given.
     #[serde(default, skip_serializing_if = "is_first")]
     #[schemars(range(min = 0, max = 65_534))]
     pub sown: u32,
@@ -35,7 +35,7 @@ fn is_first(sown: &u32) -> bool {
 }
 
 impl Member {
-    /// From the place of its plot to its own, metres.
+    /// The place of the plant from the place of its plot, [x, y, z] in metres.
     pub fn place(&self) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.at_m.get(axis).copied().unwrap_or(0.0))
     }
@@ -52,12 +52,12 @@ impl Scenario {
         self.plants / self.members()
     }
 
-    /// The plants of one plot, in their order; of a plot without members one plant of the scenario's species.
+    /// The members of one plot, in their order. A scenario without members has one: a plant of the scenario's species.
     pub fn plot_members(&self) -> Vec<Member> {
         if self.member.is_empty() { vec![Member::default()] } else { self.member.clone() }
     }
 
-    /// The plot of a plant, and its place among the members.
+    /// The number of the plot of a plant, and the index of the plant among the members of the plot.
     pub fn plot_of(&self, plant: u32) -> (u32, u32) {
         (plant / self.members(), plant % self.members())
     }
@@ -67,12 +67,13 @@ impl Scenario {
         self.member.get(self.plot_of(plant).1 as usize).map_or(0, |member| member.sown)
     }
 
-    /// The last age of a plant.
+    /// The age, in ticks, that a plant has at the end of the run.
     pub fn last_age_of(&self, plant: u32) -> u32 {
         self.ages.until.saturating_sub(self.sown_at(plant))
     }
 
-    /// The names of the species that grow, each once: the scenario's own, then the others in the order of the members.
+    /// The names of all species that grow, without repetition: the scenario's own first, then the others in the order
+    /// of the members.
     pub fn species_names(&self) -> Vec<&str> {
         let mut names = vec![self.species.as_str()];
         for name in self.member.iter().filter_map(|member| member.species.as_deref()) {
@@ -83,26 +84,26 @@ impl Scenario {
         names
     }
 
-    /// The species of a member, as a place in [`Scenario::species_names`].
+    /// The species of a member, as an index into [`Scenario::species_names`].
     pub fn species_of(&self, member: &Member) -> usize {
         let name = member.species.as_deref().unwrap_or(&self.species);
         self.species_names().iter().position(|known| *known == name).unwrap_or(0)
     }
 
-    /// The species of a plant, as a place in [`Scenario::species_names`].
+    /// The species of a plant, as an index into [`Scenario::species_names`].
     pub fn species_of_plant(&self, plant: u32) -> usize {
         self.member.get(self.plot_of(plant).1 as usize).map_or(0, |member| self.species_of(member))
     }
 
-    /// The last age that a plant of a species reaches: that of its member that is sown first. A species is checked and
-    /// compiled for the ages up to it.
+    /// The last age, in ticks, that a plant of a species reaches: that of its member that is sown first. A species is
+    /// checked and compiled for the ages up to it.
     pub fn last_age_of_species(&self, species: usize) -> u32 {
         let of_species = self.member.iter().filter(|member| self.species_of(member) == species);
         let first = of_species.map(|member| member.sown).min().unwrap_or(0);
         self.ages.until.saturating_sub(first).max(1)
     }
 
-    /// What no schema can say of members.
+    /// Adds the faults of members that the schema cannot state.
     pub(super) fn check_members(&self, faults: &mut Vec<Fault>) {
         let members = self.members();
         if !self.plants.is_multiple_of(members) {

@@ -1,4 +1,4 @@
-//! What acts on the plants of a run from outside: gravity, a steady wind, and planes that kill buds.
+//! External influences on the plants of a run: gravity, a steady wind, and planes that kill the buds that reach them.
 //!
 //! Gravity and wind act only on species whose wood bends. Absent: light and soil.
 
@@ -18,7 +18,7 @@ pub struct Site {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wind: Option<Wind>,
     /// Planes that kill every bud that reaches them, as `[[site.plane]]`: a roof, a wall, a mown height. None if not
-    /// given. They are told from the place of their plot, and stand in each plot.
+    /// given. Each plot has these planes, placed relative to the plot.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub plane: Vec<Plane>,
 }
@@ -27,19 +27,19 @@ pub struct Site {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plane {
-    /// A point on it, metres from the place of the plot.
+    /// A point on the plane, metres from the place of the plot.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub point_m: [f64; 3],
-    /// The direction of the side on which no bud lives; of any length but 0.
+    /// The normal of the plane, on the side where no bud lives; any length but 0.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub normal: [f64; 3],
 }
 
-/// A steady, level wind, the same at every height.
+/// A steady, horizontal wind, equal at every height.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Wind {
-    /// Its speed, m/s.
+    /// The speed of the wind, m/s.
     #[schemars(range(min = 0, max = 100))]
     pub speed_m_s: f64,
     /// The direction towards which it blows, degrees from the X axis (east) to the Y axis (north).
@@ -55,19 +55,19 @@ impl Default for Site {
 }
 
 impl Site {
-    /// Whether it is the open ground that a scenario without a site stands on.
+    /// Whether the site is that of a scenario without `[site]`: open ground without wind, under gravity.
     pub(super) fn is_default(&self) -> bool {
         *self == Self::default()
     }
 
-    /// The site as the plants of a plot feel it that has this place, metres: its planes stand with the plot.
+    /// The site of the plants of a plot at `place`, metres: its planes are moved with the plot.
     pub fn felt_at(&self, place: [f64; 3]) -> phytomer_sim::site::Site {
         let wind = self.wind.as_ref().map_or_else(SimWind::default, Wind::felt);
         let planes = self.plane.iter().map(|plane| plane.moved(place)).collect();
         phytomer_sim::site::Site { gravity: self.gravity_m_s2, wind, planes, ..phytomer_sim::site::Site::default() }
     }
 
-    /// What no schema can say of planes.
+    /// Adds the faults of planes that the schema cannot state.
     pub(super) fn check_planes(&self, path: &Path, faults: &mut Vec<Fault>) {
         for (number, plane) in self.plane.iter().enumerate().filter(|(_, plane)| plane.normal == [0.0; 3]) {
             let path = path.key("plane").index(number).key("normal");
@@ -78,14 +78,14 @@ impl Site {
 }
 
 impl Plane {
-    /// The plane in a plot that has this place.
+    /// The plane of a plot at `place`, metres.
     fn moved(&self, place: [f64; 3]) -> SimPlane {
         SimPlane { point: [0, 1, 2].map(|k| self.point_m[k] + place[k]), normal: self.normal }
     }
 }
 
 impl Wind {
-    /// The wind as plants feel it.
+    /// The wind as `phytomer_sim` takes it.
     pub fn felt(&self) -> SimWind {
         SimWind { speed: self.speed_m_s, towards: self.towards_deg.to_radians() }
     }

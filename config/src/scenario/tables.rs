@@ -1,6 +1,6 @@
-//! The tables of a run: what there is, what a scenario that names none has, and what goes with those that it names.
+//! The tables of a run: their names, the default of a scenario that names none, and the tables that are always added.
 //!
-//! Absent: their columns, and how they are written, which are `outputs`'.
+//! Absent: the columns of the tables, and writing them (`phytomer_outputs`).
 
 use super::Scenario;
 use schemars::JsonSchema;
@@ -11,15 +11,15 @@ use std::collections::BTreeSet;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Table {
-    /// A row per component that ever lived.
+    /// A row per component that ever lived: its identity, birth and fate.
     Components,
     /// A row per living component per recorded age, with its pose.
     Records,
-    /// What became of the buds.
+    /// A row per fate of a bud or a branch.
     Events,
-    /// A row per plant per age.
+    /// A row per plant per recorded age.
     Summary,
-    /// A row per plant, with its place in the plot.
+    /// A row per plant, with its species and its place in the plot.
     Plants,
 }
 
@@ -29,8 +29,8 @@ pub(super) fn all() -> BTreeSet<Table> {
 }
 
 impl Scenario {
-    /// The tables that are written: those that are asked for, and with any of them `plants`. Without the places of the
-    /// plants none of the others tells where anything stands.
+    /// The tables that are written: those of the scenario, and with any of them `plants`, without which the place of a
+    /// plant is unknown.
     pub fn written_tables(&self) -> BTreeSet<Table> {
         let plants = (!self.tables.is_empty()).then_some(Table::Plants);
         self.tables.iter().copied().chain(plants).collect()

@@ -1,14 +1,14 @@
 //! Bounds of single values: numbers, the width of whole numbers, lengths of texts and lists.
 //!
 //! schemars writes the width of a Rust integer as `format` and only sometimes as bounds, so the format is read too:
-//! what passes here must not be refused by serde afterwards.
-//! Absent: `multipleOf`, `uniqueItems` and text patterns, which no type of ours makes.
+//! serde must not refuse a value that passes here. Absent: `multipleOf`, `uniqueItems` and text patterns, which no type
+//! of this project makes.
 
 use serde_json::Value as Json;
 
 use crate::document::{Node, Value};
 
-/// What is wrong with a number or a text ("0.0"), `None` when nothing is.
+/// The problem with a number or a text, in words ("0.0"); `None` where it is within its bounds.
 pub fn of_scalar(schema: &Json, node: &Node) -> Option<String> {
     match &node.value {
         Value::Integer(n) => (!within(schema, *n as f64) || !fits_format(schema, *n)).then(|| n.to_string()),
@@ -18,7 +18,7 @@ pub fn of_scalar(schema: &Json, node: &Node) -> Option<String> {
     }
 }
 
-/// What is wrong with a list's length.
+/// The problem with the length of a list, in words; `None` where it is within its bounds.
 pub fn of_array(schema: &Json, items: &[Node]) -> Option<String> {
     let n = items.len();
     let outside = count(schema, "minItems").is_some_and(|least| n < least)
@@ -30,7 +30,7 @@ pub fn of_array(schema: &Json, items: &[Node]) -> Option<String> {
     })
 }
 
-/// What is wrong with the number of a table's keys.
+/// The problem with the number of keys of a table, in words; `None` where it is within its bounds.
 pub fn of_table(schema: &Json, keys: usize) -> Option<String> {
     let few = count(schema, "minProperties").is_some_and(|least| keys < least);
     let many = count(schema, "maxProperties").is_some_and(|most| keys > most);
@@ -41,12 +41,12 @@ pub fn of_table(schema: &Json, keys: usize) -> Option<String> {
     })
 }
 
-/// A bound by its keyword.
+/// The bound of a number that a keyword such as `minimum` states; `None` without the keyword.
 pub fn number(schema: &Json, keyword: &str) -> Option<f64> {
     schema.get(keyword).and_then(Json::as_f64)
 }
 
-/// A bound on a length by its keyword.
+/// The bound of a length that a keyword such as `minItems` states; `None` without the keyword.
 pub fn count(schema: &Json, keyword: &str) -> Option<usize> {
     schema.get(keyword).and_then(Json::as_u64).map(|n| n as usize)
 }

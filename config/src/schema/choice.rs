@@ -1,8 +1,9 @@
-//! Which form of a value was meant, where several are allowed (a bare number or a distribution; one of many laws).
+//! The choice of the form that a value was meant to have, where its schema allows several (a bare number or a
+//! distribution; many laws).
 //!
-//! A form is chosen by type first, then by the constants that name it (`model = "buds"`), then by its keys, then, of
-//! equals, by the fewest faults; only the chosen form's faults are told. A key that no form knows gets the spelling
-//! nearest among all forms' keys.
+//! A form is chosen by type first, then by the constants that name it (`model = "buds"`), then by its keys; among equal
+//! forms, by the fewest faults. Only the faults of the chosen form are reported. For a key of no form the nearest
+//! spelling among the keys of all forms is suggested.
 
 use serde_json::Value as Json;
 
@@ -39,7 +40,7 @@ impl<'s> Walk<'s> {
         self.try_forms(&fitting, place, depth);
     }
 
-    /// Of forms equal in shape, the one with the fewest faults.
+    /// Reports the faults of the form with the fewest, among forms that fit equally well by shape.
     fn try_forms(&mut self, fitting: &[&'s Json], place: &Place<'_>, depth: usize) {
         let mut best: Option<Vec<Fault>> = None;
         for form in fitting {
@@ -57,7 +58,7 @@ impl<'s> Walk<'s> {
         self.faults.extend(best.unwrap_or_default());
     }
 
-    /// Tells of a key that names the form in every form (`model`) but has a value that names none.
+    /// Reports a key that names the form in every form (`model`) where its value names none of the forms.
     fn no_tag_agrees(&mut self, fitting: &[&'s Json], entries: &[Entry], place: &Place<'_>) -> bool {
         for entry in entries {
             let tags: Option<Vec<Vec<&Json>>> =
@@ -73,7 +74,7 @@ impl<'s> Walk<'s> {
         false
     }
 
-    /// Tells of a table none of whose keys belongs to any form: one fault for the whole, not one a form.
+    /// Reports a table with no key of any form: one fault for the whole table, not one per form.
     fn no_form_known(&mut self, fitting: &[&'s Json], entries: &[Entry], place: &Place<'_>) -> bool {
         if fitting.iter().any(|form| entries.iter().any(|e| property(form, &e.key).is_some())) {
             return false;
@@ -97,13 +98,13 @@ impl<'s> Walk<'s> {
     }
 }
 
-/// The keys that tell a form from the others: the required ones, or all where none is.
+/// The keys by which a form is told from the others: its required keys, or all keys where none is required.
 fn naming_keys(form: &Json) -> Vec<&str> {
     let required = missing_keys(form, &[]);
     if required.is_empty() { known_keys(form) } else { required }
 }
 
-/// The forms with references followed and forms of forms taken apart.
+/// All forms in one list: references are followed, and forms that have forms themselves are replaced by these.
 fn flatten<'s>(root: &'s Json, branches: &'s [Json], depth: usize) -> Vec<&'s Json> {
     let mut flat = Vec::new();
     for branch in branches {
@@ -118,8 +119,8 @@ fn flatten<'s>(root: &'s Json, branches: &'s [Json], depth: usize) -> Vec<&'s Js
     flat
 }
 
-/// How well a table's shape fits a form: constants that agree, keys that are known or nearly so, then required keys
-/// that are there.
+/// How well a table's shape fits a form, larger for a better fit: constants that agree less those that differ, then
+/// keys that are known or nearly so, then required keys that are present.
 fn score(root: &Json, form: &Json, entries: &[Entry]) -> (isize, usize, isize) {
     let mut constants = 0;
     let mut known = 0;

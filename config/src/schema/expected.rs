@@ -1,8 +1,9 @@
-//! Words for schemas and values: "a number in [0, 1]", "one of `a`, `b`", "a table with `shape` and `scale`".
+//! Words for schemas and values in messages: "a number in [0, 1]", "one of `a`, `b`", "a table with `shape` and
+//! `scale`".
 //!
-//! Short enough for one line of a message; long lists are cut, since `phytomer schema` has them whole. The words are
-//! for botanists: text, whole number, list, table.
-//! Absent: the descriptions in the schema, which are sentences for editors.
+//! Each description fits into one line of a message; long lists are cut, since `phytomer schema` shows them whole. The
+//! words are chosen for botanists: text, whole number, list, table. Absent: the descriptions in the schema, which are
+//! sentences for editors.
 
 use serde_json::Value as Json;
 
@@ -10,10 +11,10 @@ use super::bounds::{count, format_range, number};
 use super::parts::{forms, known_keys, missing_keys, options, resolve};
 use crate::document::{Node, Value};
 
-/// A message names at most this many keys or options.
+/// The most keys or options that a message names.
 const LISTED: usize = 40;
 
-/// What the value is, as typed.
+/// A value as it was typed, in words.
 pub fn found(node: &Node) -> String {
     match &node.value {
         Value::Text(text) if text.chars().count() <= 40 => format!("the text {text:?}"),
@@ -27,7 +28,7 @@ pub fn found(node: &Node) -> String {
     }
 }
 
-/// What a schema asks for.
+/// The values that a schema allows, in words.
 pub fn describe(root: &Json, schema: &Json) -> String {
     describe_at(root, schema, 0)
 }
@@ -97,7 +98,7 @@ fn describe_table(schema: &Json) -> String {
     }
 }
 
-/// The forms in a row; tables that one key names are told together.
+/// All forms in one sentence; tables with one naming key are described together.
 fn describe_forms(root: &Json, schema: &Json, depth: usize) -> String {
     if let Some((tag, names)) = tag_of(root, forms(schema)) {
         return format!("a table whose `{tag}` is {}", list_options(&names));
@@ -126,7 +127,7 @@ fn describe_forms(root: &Json, schema: &Json, depth: usize) -> String {
     words.join(", or ")
 }
 
-/// The key that names the form in every form, with what it can be, where there is one.
+/// The key that names the form in every form, with its possible values; `None` where there is no such key.
 fn tag_of<'s>(root: &'s Json, forms: &'s [Json]) -> Option<(&'s str, Vec<&'s Json>)> {
     let constants = |form| {
         let properties = resolve(root, form)?.get("properties")?.as_object()?;
@@ -138,7 +139,7 @@ fn tag_of<'s>(root: &'s Json, forms: &'s [Json]) -> Option<(&'s str, Vec<&'s Jso
     Some((tag, named.into_iter().map(|(_, name)| name).collect()))
 }
 
-/// Whether the schema asks for an array of tables.
+/// Whether the schema is that of an array of tables.
 pub fn is_list_of_tables(root: &Json, schema: &Json) -> bool {
     let item = schema.get("items").and_then(|item| resolve(root, item));
     item.and_then(|item| item.get("type")).is_some_and(|t| t == "object")
@@ -150,14 +151,14 @@ fn push_new(words: &mut Vec<String>, word: String) {
     }
 }
 
-/// "one of `a`, `b`".
+/// The options in words: "one of `a`, `b`".
 pub fn list_options(options: &[&Json]) -> String {
     let names: Vec<String> =
         options.iter().map(|o| o.as_str().map_or_else(|| o.to_string(), |s| s.to_owned())).collect();
     list_keys(&names.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
-/// "one of `a`, `b`", cut when long.
+/// The keys in words: "one of `a`, `b`", shortened when there are many.
 pub fn list_keys(keys: &[&str]) -> String {
     let shown: Vec<String> = keys.iter().take(LISTED).map(|k| format!("`{k}`")).collect();
     match shown.len() {

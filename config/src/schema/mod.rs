@@ -1,9 +1,9 @@
-//! A document held against the JSON Schema that schemars makes from the types, with every fault collected.
+//! The check of a document against the JSON Schema that schemars makes from the types; every fault is collected.
 //!
-//! The same schema is what editors get (`phytomer schema species`), so editor and program agree by construction. The
-//! keywords that schemars writes for our types are checked; where a value has several forms (`anyOf`, `oneOf`) the
-//! form that fits best is chosen first and only its faults are told.
-//! Absent: annotations, `not`, `if`, remote references, which no type of ours makes.
+//! Editors get the same schema (`phytomer schema species`), so editor and program agree. The keywords that schemars
+//! writes for the types of this project are checked. Where a value has several forms (`anyOf`, `oneOf`), the form that
+//! fits best is chosen first and only its faults are reported. Absent: annotations, `not`, `if` and remote references,
+//! which no type of this project makes.
 
 mod bounds;
 mod choice;
@@ -26,17 +26,19 @@ use crate::report::{Fault, MOST_FAULTS};
 use crate::source::Span;
 use phytomer_models::law::spelling::nearest;
 
-/// Trying forms one by one may take this many visits in one document; then the first that fits by shape is taken.
+/// The most visits of values in one document while forms are tried; after that the first form that fits by shape is
+/// taken.
 const FUEL: usize = 200_000;
 
-/// Checks `node` against `schema`, whose `$ref`s lead into `schema` itself.
+/// Checks `node` against `schema`, whose `$ref`s lead into `schema` itself, and adds the faults to `faults`. Stops
+/// after a thousand faults.
 pub fn check(schema: &Json, node: &Node, faults: &mut Vec<Fault>) {
     let mut walk = Walk { root: schema, faults: Vec::new(), fuel: FUEL };
     walk.visit(schema, &Place { node, at: node.span, path: Path::root() }, 0);
     faults.append(&mut walk.faults);
 }
 
-/// A value on the way, with its path and what to underline when it is wrong as a whole.
+/// A value during the walk, with its path and the span that is underlined when the whole value is wrong.
 struct Place<'n> {
     node: &'n Node,
     at: Span,
@@ -48,7 +50,7 @@ impl Place<'_> {
         Fault::new(self.at, &self.path, problem, expected)
     }
 
-    /// How a message calls the value.
+    /// The name of the value in messages.
     fn name(&self) -> String {
         match self.path.0.last() {
             Some(Segment::Key(key)) => format!("`{key}`"),
@@ -87,7 +89,7 @@ impl<'s> Walk<'s> {
         }
     }
 
-    /// Whether the value has the schema's type; tells if not.
+    /// Whether the value has the schema's type; adds a fault if not.
     fn check_type(&mut self, schema: &Json, place: &Place<'_>) -> bool {
         let fits = parts::has_type(schema, place.node);
         if !fits {
@@ -172,16 +174,16 @@ impl<'s> Walk<'s> {
                 None => meant.extend(self.unknown_key(schema, entry, &below)),
             }
         }
-        // A key that is only misspelt is not missing too.
+        // A key that is only misspelt is not reported as missing too.
         for key in missing.into_iter().filter(|key| !meant.contains(key)) {
             let expected = property(schema, key).flatten().map(|p| expected::describe(self.root, p));
-            // No path in the words: the same gap seen through inheritance is told once.
+            // The path is not in the message: so a gap that appears again through inheritance is reported once.
             let problem = format!("the key `{key}` is missing");
             self.faults.push(place.fault(problem, format!("`{key}`: {}", expected.unwrap_or_default())));
         }
     }
 
-    /// Tells of a key that is not allowed; gives the key that was meant.
+    /// Adds a fault for a key that is not allowed; returns the key nearest in spelling, which was probably meant.
     fn unknown_key(&mut self, schema: &'s Json, entry: &Entry, below: &Place<'_>) -> Option<&'s str> {
         let known = known_keys(schema);
         let near = nearest(&entry.key, known.iter().copied());

@@ -1,18 +1,19 @@
-//! The parts of a JSON Schema, read: where a reference leads, the forms of a value, its type and its options, the keys
-//! of a table type.
+//! The parts of a JSON Schema: the target of a reference, the forms of a value, its type and options, the keys of a
+//! table type.
 //!
-//! The walk, the choice of a form and the words of messages all read schemas by these. Absent: bounds (`bounds`), and
-//! what is told where a value does not fit.
+//! The walk, the choice of a form and the words of messages read schemas through these functions. Absent: bounds
+//! (`bounds`), and messages.
 
 use serde_json::Value as Json;
 
 use crate::document::{Entry, Node, Value};
 
-/// References and forms nest at most this deep at one value.
+/// The largest depth of references and forms at one value.
 pub const MAX_FORMS: usize = 32;
 
-/// Where `$ref` leads; the schema itself when it has none. draft 7 wraps a reference that has a description into an
-/// `allOf` of one, which is followed too. `None` for a reference that leads nowhere or in circles.
+/// The schema to which `$ref` leads; the schema itself where it has none. Draft 7 wraps a reference that has a
+/// description into an `allOf` with one item, which is followed too. `None` for a reference that leads nowhere or in
+/// circles.
 pub fn resolve<'s>(root: &'s Json, mut schema: &'s Json) -> Option<&'s Json> {
     for _ in 0..MAX_FORMS {
         schema = match (schema.get("$ref").and_then(Json::as_str), wrapped(schema)) {
@@ -24,24 +25,25 @@ pub fn resolve<'s>(root: &'s Json, mut schema: &'s Json) -> Option<&'s Json> {
     None
 }
 
-/// What may stand beside an `allOf` of one without asking anything of a value.
+/// Keywords that may stand beside an `allOf` with one item and add no condition.
 const ASKS_NOTHING: [&str; 7] = ["allOf", "description", "default", "title", "minimum", "maximum", "exclusiveMinimum"];
 
-/// The inside of an `allOf` of one beside which nothing is asked. Bounds beside it are for editors, which see the bare
-/// number alone: where the same number may be drawn, the model checks all that can come of it.
+/// The item of an `allOf` with one item and no further condition beside it. Bounds beside it are for editors, which
+/// check a bare number alone: where a distribution may stand for the number, the model checks all values that can be
+/// drawn.
 fn wrapped(schema: &Json) -> Option<&Json> {
     let keys = schema.as_object()?;
     let [inner] = keys.get("allOf")?.as_array()?.as_slice() else { return None };
     keys.keys().all(|key| ASKS_NOTHING.contains(&key.as_str())).then_some(inner)
 }
 
-/// The forms that a value may have: the branches of `anyOf` or `oneOf`, none for a value with one form.
+/// The forms that a value may have: the branches of `anyOf` or `oneOf`; empty for a value with one form.
 pub fn forms(schema: &Json) -> &[Json] {
     let branches = schema.get("anyOf").or_else(|| schema.get("oneOf"));
     branches.and_then(Json::as_array).map_or(&[], Vec::as_slice)
 }
 
-/// Whether the node's type is one that the schema's `type` allows; any is where it names none, but for dates.
+/// Whether the schema's `type` allows the node's type. Without a `type` every node is allowed but a date.
 pub fn has_type(schema: &Json, node: &Node) -> bool {
     match schema.get("type") {
         None => !matches!(node.value, Value::Date(_)),
@@ -70,7 +72,7 @@ pub fn options(schema: &Json) -> Option<Vec<&Json>> {
     }
 }
 
-/// The schema of an array's item: by place (`prefixItems`, or `items` as a list), else for all.
+/// The schema of an array's item: that of its place (`prefixItems`, or `items` as a list), else that of all items.
 pub fn item_schema(schema: &Json, i: usize) -> Option<&Json> {
     match (schema.get("prefixItems"), schema.get("items")) {
         (Some(Json::Array(places)), rest) if i < places.len() => places.get(i).or(rest),
@@ -79,7 +81,8 @@ pub fn item_schema(schema: &Json, i: usize) -> Option<&Json> {
     }
 }
 
-/// `None`: the key is not allowed. `Some(None)`: allowed, whatever its value.
+/// The schema of a key of a table type. `None`: the key is not allowed. `Some(None)`: the key is allowed with any
+/// value.
 pub fn property<'s>(schema: &'s Json, key: &str) -> Option<Option<&'s Json>> {
     if let Some(property) = schema.get("properties").and_then(|p| p.get(key)) {
         return Some(Some(property));

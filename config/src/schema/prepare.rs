@@ -1,8 +1,8 @@
-//! The schema of a type, made ready for files that people type.
+//! The JSON Schema of a type, prepared for files that people type.
 //!
-//! TOML has no null, so that an optional key is a key that may be absent and nothing else: the null forms that
-//! schemars adds are taken out. Draft 7 is asked for, the one that the taplo editor plugin reads best.
-//! Here too: leaving `required` out, for files that inherit, and joining the keys of two table types.
+//! TOML has no null, so an optional key is one that may be absent: the null forms that schemars adds are removed. Draft
+//! 7 is used, which the taplo editor plugin reads best. Schemas for files that inherit, without required keys, and
+//! schemas that join the keys of two table types are made here too.
 
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
@@ -18,8 +18,8 @@ pub fn of_type<T: JsonSchema>() -> Json {
     json
 }
 
-/// Takes `null` out of types and forms, and the line breaks of the source out of descriptions; a form left alone takes
-/// the place of the choice.
+/// Removes `null` from types and forms, and the line breaks of the source from descriptions. A choice with one form
+/// left is replaced by this form.
 fn tidy(json: &mut Json) {
     match json {
         Json::Array(items) => items.iter_mut().for_each(tidy),
@@ -63,8 +63,8 @@ fn drop_null_forms(map: &mut Map<String, Json>) {
     }
 }
 
-/// The same table type for a file that may leave keys to its ancestors: no key is required in any table that merges,
-/// the tables of the list `by_place` among them.
+/// The schema of a table type for a file that may leave keys to its ancestors: no key is required in any table that
+/// merges, nor in the tables of the list `by_place`.
 pub fn partial(root: &Json, by_place: Option<&str>) -> Json {
     let mut schema = root.clone();
     let mut tables = vec![String::new()];
@@ -83,7 +83,7 @@ pub fn partial(root: &Json, by_place: Option<&str>) -> Json {
     schema
 }
 
-/// JSON pointers to the types of a table's values that are tables with one form, or lists of such.
+/// JSON pointers to the types of a table's values that are tables with one form, or lists of such tables.
 fn plain_tables(root: &Json, pointer: &str, by_place: Option<&str>) -> Vec<String> {
     let Some(table) = root.pointer(pointer) else { return Vec::new() };
     let properties = table.get("properties").and_then(Json::as_object);
@@ -95,7 +95,7 @@ fn plain_tables(root: &Json, pointer: &str, by_place: Option<&str>) -> Vec<Strin
     places.filter_map(table).collect()
 }
 
-/// Follows references from `pointer` to a table with one form.
+/// Follows references from `pointer` to a table with one form; the pointer to it, or `None` where they lead elsewhere.
 fn plain_table(root: &Json, mut pointer: String) -> Option<String> {
     for _ in 0..8 {
         let schema = root.pointer(&pointer)?;

@@ -1,4 +1,6 @@
-//! The walk against the schema, on a small type with the shapes that species files have.
+//! The check against a schema, on a small type with the shapes that species files have.
+//!
+//! Each test states the faults with their places. Absent: files (`config/tests/fixtures.rs`).
 
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -1,7 +1,7 @@
-//! Ways to break a file: what somebody might type, delete or paste by mistake, drawn from a number.
+//! Ways to break a file as people do when they type, delete or paste by mistake, drawn from a number.
 //!
-//! Bytes, lines, tokens and values are deleted, doubled, swapped and replaced by extremes. The draws are fixed: the
-//! same number breaks the same text in the same way. Absent: what must come of it, which each test says for itself.
+//! Bytes, lines, tokens and values are deleted, doubled, swapped and replaced by extremes. The draws are fixed: an
+//! equal number breaks an equal text in an equal way. Absent: the expected result, which each test states.
 
 #![allow(dead_code, reason = "each test program uses a part of it")]
 
@@ -91,7 +91,7 @@ const KEYS: &[&str] = &[
     "[every_order]",
 ];
 
-/// splitmix64: enough to choose where to break things.
+/// splitmix64, which is good enough to choose where to break a text.
 pub struct Draw(u64);
 
 impl Draw {
@@ -172,7 +172,7 @@ fn replace_token(text: &mut Vec<u8>, draw: &mut Draw, part: fn(u8) -> bool, by: 
     text.splice(start..end, by);
 }
 
-/// Replaces a number, a text or what follows an equals sign up to the end of its line or its comma.
+/// Replaces a number, a text, or the rest of a value after an equals sign.
 fn replace_value(text: &mut Vec<u8>, draw: &mut Draw) {
     if draw.below(2) == 0 {
         return replace_token(text, draw, |b| b.is_ascii_digit() || b"+-.eE".contains(&b), EXTREMES);
@@ -192,7 +192,7 @@ pub fn corpus(good: &Path, folder: &Path) -> Vec<(String, Vec<u8>)> {
         let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         files.push((name, fs::read(&path).expect("a good file")));
     }
-    // A species and a scenario may share a name, and a file of that name beside a scenario would go before the preset.
+    // A species and a scenario may share a name, and a file beside a scenario would be found before the preset.
     for (kind, prefix) in [(Kind::Species, "species"), (Kind::Scenario, "scenario")] {
         let named = |(name, text): &(&str, &str)| {
             (format!("{prefix}_of_{}.toml", name.replace('/', "_")), text.as_bytes().to_vec())

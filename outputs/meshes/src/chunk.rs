@@ -1,18 +1,18 @@
-//! The packed vertex and face of the mesh profile, and the chunks of bytes in which they travel to a file.
+//! The packed vertex and face of the mesh profile, and the chunks of bytes that carry them to a file.
 //!
 //! A vertex is `float x y z nx ny nz, uchar red green blue alpha, float s t, float birth_age death_age, int
 //! component_id, uchar kind`: 49 bytes without padding, little endian on every platform. A face is `uchar 3, int, int,
-//! int`: 13 bytes. Both are made of bytes alone, so a chunk is read as either without a copy and written as it stands.
+//! int`: 13 bytes. Both are made of bytes alone, so a chunk is read as either without a copy and is written as it is.
 
 use bytemuck::{Pod, Zeroable};
 use std::io;
 
 type Word = [u8; 4];
 
-/// The most vertices that 32-bit signed indices reach.
+/// The most vertices of one mesh file: 32-bit signed indices reach no further.
 pub const MOST_VERTICES: u64 = i32::MAX as u64;
 
-/// A vertex as it stands in a file.
+/// A vertex with the layout of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Vertex {
@@ -31,7 +31,7 @@ struct Tagged {
     kind: u8,
 }
 
-/// A triangle as it stands in a file.
+/// A triangle with the layout of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Face {
@@ -39,26 +39,26 @@ pub struct Face {
     indices: [Word; 3],
 }
 
-/// What all vertices of a component share.
+/// The properties that all vertices of a component share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tag {
-    /// Red, green, blue and opacity.
+    /// Red, green, blue and opacity, 0 to 255.
     pub colour: [u8; 4],
-    /// The tick of its birth.
+    /// The age of the plant at the component's birth, ticks.
     pub birth: f32,
-    /// The tick of its death; +∞ while it lives.
+    /// The age of the plant at the component's death, ticks; +∞ while it lives.
     pub death: f32,
-    /// Its component number.
+    /// The component number.
     pub component: i32,
     /// The number of its [`phytomer_sim::plant::Kind`].
     pub kind: u8,
 }
 
 impl Vertex {
-    /// Its size in a file.
+    /// The size of a vertex in a file, bytes.
     pub const BYTES: usize = size_of::<Self>();
 
-    /// A vertex at `position`, metres, with a unit `normal` and a place in the texture.
+    /// A vertex at `position`, metres, with a unit `normal` and texture coordinates.
     #[inline]
     pub fn new(position: [f32; 3], normal: [f32; 3], texture: [f32; 2], tag: &Tag) -> Self {
         Self {
@@ -74,28 +74,28 @@ impl Vertex {
         }
     }
 
-    /// Where it is, metres from the seed of the plant.
+    /// The position, metres from the seed of the plant.
     pub fn position(&self) -> [f32; 3] {
         self.position.map(f32::from_le_bytes)
     }
 
-    /// Moves it, in double precision until it is stored.
+    /// Moves the vertex by `offset`, metres; the sum is in double precision and then rounded.
     pub fn move_by(&mut self, offset: [f64; 3]) {
         let from = self.position();
         self.position = [0, 1, 2].map(|k| ((f64::from(from[k]) + offset[k]) as f32).to_le_bytes());
     }
 
-    /// Its unit normal.
+    /// The unit normal.
     pub fn normal(&self) -> [f32; 3] {
         self.normal.map(f32::from_le_bytes)
     }
 
-    /// Its place in the texture, s around or across and t along.
+    /// The texture coordinates: s around or across the component, t along it.
     pub fn texture(&self) -> [f32; 2] {
         self.texture_and_tag.texture.map(f32::from_le_bytes)
     }
 
-    /// What it shares with its component.
+    /// The properties that the vertex shares with its component.
     pub fn tag(&self) -> Tag {
         let Tagged { colour, ages, component, kind, .. } = self.texture_and_tag;
         let [birth, death] = ages.map(f32::from_le_bytes);
@@ -104,33 +104,34 @@ impl Vertex {
 }
 
 impl Face {
-    /// Its size in a file.
+    /// The size of a face in a file, bytes.
     pub const BYTES: usize = size_of::<Self>();
 
-    /// A triangle of three vertices, by their numbers; below 2³¹.
+    /// A triangle of three vertices, by their indices, which must be below 2³¹.
     #[inline]
     pub fn new(indices: [u32; 3]) -> Self {
         Self { corners: 3, indices: indices.map(u32::to_le_bytes) }
     }
 
-    /// The numbers of its vertices, counterclockwise as seen from outside.
+    /// The indices of its vertices, counterclockwise as seen from outside.
     pub fn indices(&self) -> [u32; 3] {
         self.indices.map(u32::from_le_bytes)
     }
 }
 
-/// A block of bytes that is filled, handed on and filled again.
+/// A buffer of bytes that is filled, written and filled again.
 #[derive(Debug)]
 pub struct Chunk {
     bytes: Vec<u8>,
     used: usize,
 }
 
-/// Takes a full chunk and leaves an empty one.
+/// A function that takes the content of a full chunk and leaves the chunk empty.
 pub type Sink<'a> = dyn FnMut(&mut Chunk) -> io::Result<()> + 'a;
 
 impl Chunk {
-    /// The size of a block: it stays in the second cache of a core, and one system call for it costs nothing.
+    /// The size of a chunk, bytes: it fits the second-level cache of a core, and one system call per chunk costs
+    /// little.
     pub const BYTES: usize = 1 << 20;
 
     /// An empty chunk.
@@ -138,13 +139,14 @@ impl Chunk {
         Self { bytes: vec![0; Self::BYTES], used: 0 }
     }
 
-    /// Room for `count` things, to be written whole; `sink` is called first where the chunk is too full for them.
+    /// Room for `count` values of type `T`, which the caller must write. `sink` is called first where the chunk has too
+    /// little room.
     ///
     /// # Errors
-    /// The sink's.
+    /// The errors of `sink`.
     ///
     /// # Panics
-    /// Where they do not fit into an empty chunk either.
+    /// Where `count` values do not fit into an empty chunk.
     #[inline]
     pub fn room<T: Pod>(&mut self, count: usize, sink: &mut Sink) -> io::Result<&mut [T]> {
         let bytes = count * size_of::<T>();
@@ -156,17 +158,17 @@ impl Chunk {
         Ok(bytemuck::cast_slice_mut(&mut self.bytes[start..start + bytes]))
     }
 
-    /// What it holds.
+    /// The bytes that were written.
     pub fn filled(&self) -> &[u8] {
         &self.bytes[..self.used]
     }
 
-    /// The same, to be changed; it holds nothing but such things.
+    /// The written bytes as values of type `T`, to be changed. The chunk must hold no other type.
     pub fn filled_mut<T: Pod>(&mut self) -> &mut [T] {
         bytemuck::cast_slice_mut(&mut self.bytes[..self.used])
     }
 
-    /// Forgets what it holds.
+    /// Empties the chunk.
     pub fn clear(&mut self) {
         self.used = 0;
     }

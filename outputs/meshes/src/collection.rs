@@ -1,11 +1,10 @@
-//! Several scenes in one PLY file: a plant at all its ages, or all plants at an age, one after another as they come.
+//! Several scenes in one PLY file, one after another: a plant at all its ages, or all plants at an age.
 //!
-//! The header has the counts, which are known only at the end; so room is kept for it, vertices go straight into the
-//! file and triangles into a file beside it, which is put behind them at last. Memory does not grow with the number of
-//! scenes. The finished file has the same profile as that of one scene; its comments name the first and the last one.
-//!
-//! Several plants stand as they do in the plot, told from the seed of the first, whose place is in the comments. Single
-//! precision holds them as far as they stand apart: to 0.06 mm at a kilometre. A file for each plant has no such bound.
+//! The counts in the header are known only at the end. So room is kept for the header, vertices go straight into the
+//! file and triangles into a second file, which is appended at the end; memory does not grow with the number of scenes.
+//! The file has the profile of a single scene; its comments name the first and the last scene. Plants stand as they do
+//! in the plot, relative to the seed of the first plant, whose place is in the comments. Single precision then holds
+//! them to 0.06 mm at a distance of a kilometre; a file per plant has no such limit.
 
 use super::chunk::{Chunk, Face, MOST_VERTICES, Vertex};
 use super::ply::{header_of, in_words, place_comment};
@@ -14,10 +13,10 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// The bytes that are kept for the header; what it leaves is filled with a comment.
+/// The bytes that are kept for the header; the rest of them is filled with a comment.
 const HEADER: usize = 1024;
 
-/// A PLY file that scenes are added to.
+/// A PLY file to which scenes are added.
 #[derive(Debug)]
 pub struct Collection {
     vertices: BufWriter<File>,
@@ -29,10 +28,10 @@ pub struct Collection {
 }
 
 impl Collection {
-    /// Begins the file at `path`; a second one stands beside it until the end.
+    /// Begins the file at `path`. A second file stands beside it until [`Collection::finish`].
     ///
     /// # Errors
-    /// Where they cannot be made.
+    /// Where a file cannot be created.
     pub fn create(path: &Path) -> io::Result<Self> {
         let faces_path = path.with_extension("faces.tmp");
         let mut vertices = BufWriter::new(File::create(path)?);
@@ -42,7 +41,7 @@ impl Collection {
         Ok(Self { vertices, faces, faces_path, counts: Counts::default(), ends: None, scenes: 0 })
     }
 
-    /// Adds a scene behind those that are there.
+    /// Writes a scene after the scenes that were added before.
     ///
     /// # Errors
     /// Where the file cannot be written, or would have more vertices than its format can count.
@@ -73,16 +72,16 @@ impl Collection {
         Ok(())
     }
 
-    /// From the seed of the first plant of the file to that of another.
+    /// The offset from the seed of the first plant of the file to the seed of another plant, metres.
     fn apart_from_first(&self, about: &About) -> [f64; 3] {
         let first = self.ends.map_or(about.place, |[first, _]| first.place);
         [0, 1, 2].map(|k| about.place[k] - first[k])
     }
 
-    /// Puts the triangles behind the vertices and the header before them.
+    /// Appends the triangles, writes the header, and returns the counts of the whole file.
     ///
     /// # Errors
-    /// Where the files cannot be written.
+    /// Where a file cannot be read or written.
     pub fn finish(mut self) -> io::Result<Counts> {
         self.vertices.flush()?;
         self.faces.flush()?;
@@ -95,7 +94,7 @@ impl Collection {
         Ok(self.counts)
     }
 
-    /// The header, filled up to its room.
+    /// The header, filled up to [`HEADER`] bytes.
     fn header(&self) -> io::Result<Vec<u8>> {
         let mut comments = vec![format!("{} scenes, one after another", self.scenes)];
         for (word, about) in ["first", "last"].iter().zip(self.ends.iter().flatten()) {
@@ -112,7 +111,7 @@ impl Collection {
 
 impl Drop for Collection {
     fn drop(&mut self) {
-        // Nothing is lost where this fails: the file is named as one to be swept.
+        // A failure here is harmless: the name of the file marks it as one to be removed.
         let _ = fs::remove_file(&self.faces_path);
     }
 }
@@ -123,7 +122,7 @@ fn put(chunk: &mut Chunk, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes triangles whose first vertex has the number `first`.
+/// Writes triangles after `first` has been added to the indices of their vertices.
 fn shift(chunk: &Chunk, first: u32, out: &mut impl Write) -> io::Result<()> {
     let faces: &[Face] = bytemuck::cast_slice(chunk.filled());
     let shifted: Vec<Face> = faces.iter().map(|face| Face::new(face.indices().map(|corner| corner + first))).collect();
@@ -170,7 +169,7 @@ mod tests {
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no triangles are left beside the files");
     }
 
-    /// The first plant stands at its own seed, whose place the header has, and the second as far from it as in the
+    /// The first plant stands at its own seed, whose place is in the header; the second is as far from it as in the
     /// plot.
     #[test]
     fn plants_stand_apart_as_they_do_in_the_plot() {

@@ -1,9 +1,8 @@
-//! The colour of each component: by kind, form, order, age and season (de Reffye 1988 §6 gives each form a colour).
+//! The colour of each component, by kind, form, order, age and season (de Reffye 1988 §6 gives each form a colour).
 //!
-//! Wood goes from the green of the shoot to brown and darkens; dead wood turns grey. Leaves darken as they grow old and
-//! turn before they fall with the season, fruits ripen by way of a third colour. A colour
-//! that the species states holds; where it states none, the palette has one by kind and form. Every picture takes its
-//! colours from here.
+//! Wood turns from the green of the shoot to brown and darkens; dead wood turns grey. Leaves darken with age and turn
+//! before they fall with the season; fruits ripen through a third colour. A colour that the species states is used as
+//! stated; else the palette gives one by kind and form (`palette`). Meshes and pictures take their colours from here.
 
 use super::palette::{self, Rgb};
 use phytomer_looks::{Bark, Colour, Paints};
@@ -11,17 +10,17 @@ use phytomer_sim::clock::{NEVER, Tick};
 use phytomer_sim::plant::{Cause, Class, Kind, OrganId, PaintNumber, Plant};
 
 const DEAD_WOOD: Rgb = [150.0, 145.0, 138.0];
-/// The share of that colour in dead wood.
+/// The share of the grey colour in dead wood.
 const GREYED: f32 = 0.7;
 
-/// The ticks in which a shoot turns halfway to young bark, and young bark halfway to old.
+/// The ticks after which a shoot has turned halfway to young bark, and young bark halfway to old.
 const BARK_FORMS: Tick = 2;
 const BARK_DARKENS: Tick = 20;
 
-/// The ticks in which an organ without a life length is half old.
+/// The ticks after which an organ without a stated life length is half old.
 const AGES: Tick = 4;
 
-/// The colour of an internode of a kind that is `old` ticks old.
+/// The colour of an internode of a kind, `old` ticks after its birth.
 #[inline]
 pub fn wood(kind: Kind, bark: &Bark, old: Tick, dead: bool) -> [u8; 4] {
     let [shoot, young, grown] = palette::wood(kind);
@@ -36,7 +35,7 @@ pub fn wood(kind: Kind, bark: &Bark, old: Tick, dead: bool) -> [u8; 4] {
     })
 }
 
-/// The colours of an organ and of its stalk, `age` ticks after the seed.
+/// The colours of an organ and of its stalk, at an age of the plant.
 #[inline]
 pub fn organ(plant: &Plant, paints: &Paints, organ: OrganId, age: Tick) -> [[u8; 4]; 2] {
     let organs = &plant.organs;
@@ -45,7 +44,7 @@ pub fn organ(plant: &Plant, paints: &Paints, organ: OrganId, age: Tick) -> [[u8;
     let tints = palette::organ(kind, form);
     let look = paints.organ(plant.look_of_organ(organ).map_or(PaintNumber::NONE, |look| look.paint));
     let [young, old] = [stated(look.young, tints.young), stated(look.old, tints.old)];
-    // Between two stated colours there is no third of the palette's.
+    // Between two stated colours the palette's third colour is not used.
     let turning = look.turning.map(rgb).or(tints.turning.filter(|_| look.young.is_none() || look.old.is_none()));
     let lived = lived(organs.birth[place], organs.death[place], age);
     let mut blade = match turning {
@@ -60,13 +59,14 @@ pub fn organ(plant: &Plant, paints: &Paints, organ: OrganId, age: Tick) -> [[u8;
     [opaque(blade), opaque(stated(look.stalk, tints.stalk))]
 }
 
-/// The share of its life that an organ has lived; without an end to it, half after [`AGES`] ticks.
+/// The share of its life that an organ has lived; without an end of its life, half after [`AGES`] ticks.
 fn lived(birth: Tick, death: Tick, age: Tick) -> f32 {
     let old = age.saturating_sub(birth);
     if death == NEVER { half_way(old, AGES) } else { old as f32 / (death.saturating_sub(birth).max(1) as f32) }
 }
 
-/// How far a leaf has turned that falls in `left` ticks: wholly at its last, one tick's part `turns_in` ticks before.
+/// How far a leaf that falls in `left` ticks has turned, from 0 to 1: wholly at its last tick, by one tick's part
+/// `turns_in` ticks before it.
 fn turned(left: Tick, turns_in: Tick) -> f32 {
     if left == 0 || left > turns_in { 0.0 } else { (turns_in - left + 1) as f32 / turns_in as f32 }
 }

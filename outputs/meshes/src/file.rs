@@ -1,7 +1,7 @@
-//! Mesh files of a run: `meshes/plant-00000_age-0010.ply`, one a plant and age.
+//! Mesh files of a run: `meshes/plant-00000_age-0010.ply`, one per plant and age.
 //!
 //! A file is written beside its final name as `….tmp`, synced and renamed, so that a name never stands for half a mesh.
-//! Absent: which plants at which ages, which a run decides, and the journal of a run folder that names the files.
+//! Absent: the choice of plants and ages, and the journal of the run folder, which names the files.
 
 use super::chunk::MOST_VERTICES;
 use super::{Counts, MeshOptions, MeshWriter, Scene};
@@ -11,20 +11,20 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why a mesh was not written.
+/// The error of a mesh that was not written.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshError {
-    /// The file system refused.
+    /// The file system returned an error.
     #[error("cannot {doing} {}", path.display())]
     Io {
         /// What was tried.
         doing: &'static str,
         /// The file or folder.
         path: PathBuf,
-        /// The system's answer.
+        /// The system's error.
         source: io::Error,
     },
-    /// The mesh has more vertices than its format can count.
+    /// The mesh has more vertices than its format can index.
     #[error(
         "the mesh of plant {plant} at age {age} would have {vertices} vertices, and a mesh file holds at most {}: \
          choose fewer sides or kinds",
@@ -35,7 +35,7 @@ pub enum MeshError {
         plant: u32,
         /// Its age.
         age: Tick,
-        /// How many vertices.
+        /// The number of vertices.
         vertices: u64,
     },
 }
@@ -43,19 +43,19 @@ pub enum MeshError {
 /// A mesh file that was written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MeshFile {
-    /// Where it is.
+    /// The path of the file.
     pub path: PathBuf,
     /// The number of the plant that is drawn.
     pub plant: u32,
-    /// At which age.
+    /// The age of the plant.
     pub age: Tick,
-    /// How large the mesh is.
+    /// The size of the mesh.
     pub counts: Counts,
-    /// The size of the file.
+    /// The size of the file, bytes.
     pub bytes: u64,
 }
 
-/// Writes the mesh of what stands of `plant` at `age` into `folder`, which must exist; a file of its name is replaced.
+/// Writes the mesh of `plant` at `age` into `folder`, which must exist; a file of the same name is replaced.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`] before anything is written, [`MeshError::Io`] where the file system refuses.

@@ -1,11 +1,11 @@
-//! Meshes of plants, for the ten readers of the profile (Blender, MeshLab, CloudCompare, Open3D, trimesh, PyVista,
-//! meshio, plyfile, three.js, ply-rs-bw): a form for each component (de Reffye 1988 §6), in metres, Z up.
+//! Meshes of plants, with a form for each component (de Reffye 1988 §6), in metres, Z up. The file profile suits ten
+//! readers: Blender, MeshLab, CloudCompare, Open3D, trimesh, PyVista, meshio, plyfile, three.js, ply-rs-bw.
 //!
-//! A [`Scene`] is what stands of a plant at an age, told from the plant's seed: single precision then holds it wherever
-//! the plant stands, and a comment of the file says where that is. A scene hands out vertices and triangles in chunks
-//! of packed bytes, and a [`MeshWriter`] puts them into a file. A new format is one file and the line that names it
-//! here; what a run and `phytomer mesh` write is chosen where they call it.
-//! Vertices are not shared between components. Absent: buds, which have no form; curvature, which is the pose's.
+//! A [`Scene`] is the standing part of a plant at an age, relative to the plant's seed: single precision then suffices
+//! wherever the plant stands, and a comment of the file states the place. A scene gives vertices and triangles in
+//! chunks of packed bytes, and a [`MeshWriter`] writes them to a file. A new format is one file and one line here;
+//! which format is written is the caller's choice. Vertices are not shared between components. Absent: buds, which have
+//! no form, and bending, which is part of the pose.
 
 mod chunk;
 mod collection;
@@ -39,14 +39,14 @@ use phytomer_sim::plant::{Form, Kind, Plant};
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// How plants are drawn.
+/// Options for drawing plants.
 #[derive(Debug, Clone)]
 pub struct MeshOptions {
-    /// The sides of an internode's tube, at least 3.
+    /// The number of sides of an internode's tube, at least 3.
     pub sides: u8,
-    /// Which kinds are drawn, by the numbers of [`Kind`].
+    /// For each kind, by the number of [`Kind`], whether it is drawn.
     pub kinds: [bool; Kind::ALL.len()],
-    /// The meshes of its own that the species names; empty where it names none.
+    /// The mesh files that the species names as forms; empty where it names none.
     pub own: Arc<OwnForms>,
 }
 
@@ -65,28 +65,28 @@ impl Default for MeshOptions {
     }
 }
 
-/// What a file says of its mesh.
+/// The identity of a mesh, which its file states.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct About {
     /// The plant's number in the run.
     pub plant: u32,
     /// Its age, in ticks since the seed.
     pub age: Tick,
-    /// The seed of the run's draws.
+    /// The seed of the run's random draws.
     pub run_seed: u64,
-    /// Where the plant's seed lies in the plot, metres: what is to be added to its vertices.
+    /// The place of the plant's seed in the plot, metres. Added to the vertices, it gives their places in the plot.
     pub place: [f64; 3],
 }
 
 /// A format of mesh files.
 pub trait MeshWriter {
-    /// The ending of its files' names, without the dot.
+    /// The ending of the format's file names, without the dot.
     fn extension(&self) -> &'static str;
 
-    /// Writes a whole file; `scene` has at most 2³¹ − 1 vertices.
+    /// Writes a whole file; `scene` must have at most 2³¹ − 1 vertices.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// The errors of `out`.
     fn write(&self, scene: &Scene, about: &About, out: &mut (dyn Write + Send)) -> io::Result<()>;
 }
 
@@ -99,8 +99,9 @@ pub struct Mesh {
     pub faces: Vec<Face>,
 }
 
-/// The mesh of what stands of `plant` at `age`, whose frames and diameters must be those of that age: internodes in the
-/// order of their nodes, then leaves, flowers and fruits in theirs.
+/// The mesh of the standing components of `plant` at `age`, whose frames and diameters must be those of that age. First
+/// come internodes in the order of their nodes, then leaves, flowers and fruits in the order of organs. Takes O(n) for
+/// n components, and holds all vertices (49 bytes each) and triangles (13 bytes each) in memory.
 pub fn mesh_plant(plant: &Plant, age: Tick, options: &MeshOptions) -> Mesh {
     let scene = Scene::new(plant, age, options);
     let mut mesh = Mesh::default();

@@ -1,7 +1,6 @@
 //! Measures of a mesh, for tests: closedness, area, signed volume, normals.
 //!
-//! They read vertices and triangles as a file has them, and know nothing of the plant. Absent: bounds, which are the
-//! tests'.
+//! They read vertices and triangles as a file has them, without the plant. Absent: the bounds, which each test states.
 
 use super::chunk::{Face, Vertex};
 use std::collections::BTreeMap;
@@ -46,7 +45,7 @@ pub fn surface(vertices: &[Vertex], faces: &[Face]) -> f64 {
     faces.iter().map(area).sum()
 }
 
-/// Each edge between two positions belongs to one triangle in each direction.
+/// Asserts that each edge between two positions belongs to exactly one triangle in each direction.
 pub fn assert_closed(vertices: &[Vertex], faces: &[Face]) {
     let mut edges: BTreeMap<[[u32; 3]; 2], i32> = BTreeMap::new();
     for face in faces {
@@ -67,7 +66,7 @@ pub fn assert_unit_normals(vertices: &[Vertex]) {
     }
 }
 
-/// The share of the triangles that all their vertices' normals agree with.
+/// The share of the triangles whose vertex normals all point to the triangle's outer side.
 pub fn outward_share(vertices: &[Vertex], faces: &[Face]) -> f64 {
     let agrees = |face: &&Face| {
         let across = area_vector(vertices, face);

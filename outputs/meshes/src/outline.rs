@@ -1,7 +1,7 @@
-//! Organs that state their outline: the polygon in its plane, in triangles, concave ones too.
+//! Organs that state their outline: a polygon in their plane, in triangles; it may be concave.
 //!
-//! The corners are the vertices, in their order. The upper side is that from which they run counterclockwise. The
-//! polygon grows from the organ's base as the organ expands. Its triangles are found once a scene.
+//! The corners are the vertices, in their order. The upper side is the side from which they run counterclockwise. The
+//! polygon grows from the organ's base as the organ expands. Its triangles are computed once per scene.
 
 use super::chunk::{Tag, Vertex};
 use super::forms::own::polygon::triangles;
@@ -15,12 +15,12 @@ use std::ops::Range;
 #[derive(Debug, Default)]
 pub struct Outlines {
     faces: Vec<[u32; 3]>,
-    /// Of each organ; no entries where no organ of the plant has an outline.
+    /// For each organ its triangles; empty where no organ of the plant has an outline.
     spans: Vec<Range<u32>>,
 }
 
 impl Outlines {
-    /// Those of the organs of `plant`.
+    /// The triangles of the organs of `plant`.
     pub fn of(plant: &Plant) -> Self {
         let mut outlines = Self::default();
         if plant.stated_organs.have_forms() {
@@ -37,7 +37,7 @@ impl Outlines {
         outlines
     }
 
-    /// The triangles of an organ that has an outline, by the numbers of its own corners.
+    /// The triangles of an organ by the indices of its corners; `None` for an organ without an outline.
     #[inline]
     pub fn faces(&self, organ: OrganId) -> Option<&[[u32; 3]]> {
         let span = self.spans.get(organ.index()).filter(|span| !span.is_empty())?;
@@ -45,7 +45,7 @@ impl Outlines {
     }
 }
 
-/// Writes the vertices of an outline that has grown to a share of its size; `out` has exactly their number.
+/// Writes the vertices of an outline that has grown to `share` of its size; `out` has exactly one place per corner.
 pub fn write(corners: &[[f32; 3]], frame: &Frame, share: f32, tag: &Tag, out: &mut [Vertex]) {
     let left = cross(frame.up, frame.heading);
     let turned = |[x, y, z]: [f32; 3]| [0, 1, 2].map(|k| x * frame.heading[k] + y * left[k] + z * frame.up[k]);

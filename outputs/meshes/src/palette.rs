@@ -1,7 +1,7 @@
-//! The colours of components for which their species states none: by kind, and by form where a kind has several.
+//! The colours of components whose species states none: by kind, and by form where a kind has several forms.
 //!
-//! They are chosen by eye, after fresh plants in daylight, in sRGB; nothing is measured from them. Absent: how colours
-//! change with age and season (`colour`).
+//! They are sRGB, chosen by eye after fresh plants in daylight, and are not data. Absent: the change of colours with
+//! age and season (`colour`).
 
 use phytomer_looks::FormName as Name;
 use phytomer_sim::plant::{Class, Form, Kind};
@@ -9,18 +9,18 @@ use phytomer_sim::plant::{Class, Form, Kind};
 /// Red, green and blue, 0 to 255.
 pub type Rgb = [f32; 3];
 
-/// The colours of an organ.
+/// The colours of an organ through its life.
 #[derive(Debug, Clone, Copy)]
 pub struct Tints {
-    /// At birth.
+    /// The colour at birth.
     pub young: Rgb,
-    /// In the middle of its life, where it turns twice.
+    /// The colour in the middle of its life, for organs that turn twice.
     pub turning: Option<Rgb>,
-    /// At the end.
+    /// The colour at the end of its life.
     pub old: Rgb,
-    /// Of a leaf before it falls with the season.
+    /// The colour of a leaf before it falls with the season.
     pub autumn: Rgb,
-    /// Of its stalk.
+    /// The colour of its stalk.
     pub stalk: Rgb,
 }
 
@@ -30,7 +30,7 @@ const GOLD: Rgb = [216.0, 164.0, 56.0];
 const SEPAL: Rgb = [118.0, 152.0, 76.0];
 const POLLEN: Rgb = [226.0, 190.0, 84.0];
 
-/// The colours of an internode: of the shoot, of young and of old bark.
+/// The colours of an internode: shoot, young bark, old bark.
 pub fn wood(kind: Kind) -> [Rgb; 3] {
     match kind {
         Kind::RhizomeInternode => [[216.0, 198.0, 160.0], [184.0, 158.0, 116.0], [140.0, 112.0, 82.0]],
@@ -49,7 +49,7 @@ pub fn wood(kind: Kind) -> [Rgb; 3] {
     }
 }
 
-/// The colours of an organ; of one with a mesh of the user's, those of a form without colours of its own.
+/// The colours of an organ. An organ drawn with a mesh file has the colours of a form without colours of its own.
 pub fn organ(kind: Kind, form: Form) -> Tints {
     let form = Name::of(form);
     match kind.class() {

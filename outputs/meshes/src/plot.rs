@@ -1,9 +1,9 @@
-//! All plants of a plot in one PLY file, each in its place, one after another in the order of the plot.
+//! All plants of a plot in one PLY file, each in its place, in the order of the plot.
 //!
-//! Vertices are told from the place of the plot, which is in the comments, so that single precision holds a plot of a
-//! hundred metres to 0.004 mm wherever it stands. A comment for each plant says which one it is, and how many vertices
-//! of the file are its own. A plant that stands at several places is made once and kept. The profile of vertices and
-//! triangles is that of a single plant's file.
+//! Vertices are relative to the place of the plot, which is in the comments, so that single precision holds a plot of a
+//! hundred metres to 0.004 mm wherever it stands. A comment for each plant states its name and its number of vertices
+//! in the file. A plant that stands at several places is made once and kept. The profile of vertices and triangles is
+//! that of a single plant's file.
 
 use super::chunk::{Chunk, Face, Vertex};
 use super::ply::{header_of, place_comment};
@@ -12,41 +12,41 @@ use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::io::{self, Write};
 
-/// The most vertices that 32-bit signed indices reach.
+/// The most vertices of one mesh file: 32-bit signed indices reach no further.
 const MOST_VERTICES: u64 = i32::MAX as u64;
 
-/// A plant as it stands in one or several places of a plot.
+/// A plant that stands at one or several places of a plot.
 #[derive(Debug)]
 pub struct PlotBody<'a> {
-    /// The plant, its frames and diameters those of the age.
+    /// The plant, with the frames and diameters of the age.
     pub plant: &'a Plant,
     /// Its age.
     pub age: Tick,
-    /// How it is drawn.
+    /// Options for drawing it.
     pub options: MeshOptions,
 }
 
 /// A plant of a plot.
 #[derive(Debug, Clone)]
 pub struct PlotMember {
-    /// What stands there, as a place in the list of bodies.
+    /// The index of its plant in the list of bodies.
     pub body: usize,
-    /// Where its seed lies, metres from the place of the plot.
+    /// The place of its seed, metres from the place of the plot.
     pub place: [f64; 3],
-    /// Which plant it is, for the comments: its number and its species.
+    /// The name of the plant for the comments: its number and its species.
     pub name: String,
 }
 
 /// The plants of a plot at a tick.
 #[derive(Debug)]
 pub struct PlotMesh<'a> {
-    /// What stands in it, each once.
+    /// The plants, each once, whatever the number of places where it stands.
     pub bodies: Vec<PlotBody<'a>>,
-    /// Its plants.
+    /// The members of the plot, in their order.
     pub members: Vec<PlotMember>,
-    /// Which plot it is, at which tick, of which run.
+    /// The name of the plot for the comments: its number, tick and run.
     pub name: String,
-    /// The place of the plot, metres: what is to be added to the vertices.
+    /// The place of the plot, metres. Added to the vertices, it gives their places in the run.
     pub place: [f64; 3],
 }
 
@@ -54,15 +54,15 @@ pub struct PlotMesh<'a> {
 struct Ready<'a> {
     scene: Scene<'a>,
     counts: Counts,
-    /// Its mesh, where it stands at several places.
+    /// The mesh of the plant, kept where it stands at several places.
     kept: Option<Mesh>,
 }
 
 impl PlotMesh<'_> {
-    /// Writes the file.
+    /// Writes the file. Plants that stand at one place are made while they are written.
     ///
     /// # Errors
-    /// Those of `out`, and where the file would have more vertices than its format can count.
+    /// The errors of `out`, or an error where the file would have more vertices than its format can index.
     pub fn write(&self, out: &mut (dyn Write + Send)) -> io::Result<()> {
         let bodies: Vec<Ready> = self.bodies.iter().enumerate().map(|(place, body)| self.ready(place, body)).collect();
         let members = || self.members.iter().filter_map(|member| Some((member, bodies.get(member.body)?)));
@@ -117,7 +117,7 @@ impl Ready<'_> {
         })
     }
 
-    /// Writes its triangles, whose first vertex has the number `first` in the file.
+    /// Writes the plant's triangles; `first` is the index in the file of its first vertex.
     fn write_faces(&self, first: u32, out: &mut (dyn Write + Send)) -> io::Result<()> {
         let mut put = |faces: &[Face]| {
             let shifted = faces.iter().map(|face| Face::new(face.indices().map(|corner| corner + first)));
@@ -159,8 +159,8 @@ mod tests {
         bytes
     }
 
-    /// The first plant is that of its own file, the others are the same moved, whether they are told as one plant or
-    /// as several.
+    /// The first plant is as in its own file, and the others are copies of it that are moved. The bytes are equal
+    /// whether the list of bodies has the plant once or three times.
     #[test]
     fn plants_stand_in_their_places_one_after_another() {
         let plant = specimen();

@@ -1,9 +1,9 @@
-//! PLY, `binary_little_endian`: header and element definitions through ply-rs-bw, the payload in bulk.
+//! The PLY format, `binary_little_endian`: header and elements through ply-rs-bw, vertices and triangles in bulk.
 //!
-//! Counts go into the header, so the scene is counted first and then written in one pass. Where the payload is large,
-//! the next chunk is drawn while the last one is written: two threads, the same bytes. Comments state the unit, what
-//! tubes and leaves keep, the plant, its age, the run's seed and the place in the plot from which the vertices are
-//! told; the file has no face properties and no edges.
+//! Counts are in the header, so the scene is counted first and then written in one pass. For a large scene the next
+//! chunk is drawn while the last chunk is written, on two threads, with the same bytes. Comments state the unit, the
+//! conserved measures of tubes and leaves, the plant, its age, the run's seed and the plant's place in the plot. The
+//! file has no face properties and no edges.
 
 use super::chunk::{Chunk, Face, Vertex};
 use super::{About, Counts, MeshWriter, Scene};
@@ -13,10 +13,10 @@ use std::io::{self, Write};
 use std::sync::mpsc::sync_channel;
 use std::thread;
 
-/// Above this size of the payload, drawing and writing overlap.
+/// The size of vertices and triangles, bytes, above which drawing and writing overlap.
 const OVERLAP_FROM: u64 = 8 << 20;
 
-/// The chunks under way between drawing and writing.
+/// The number of chunks between the drawing and the writing thread.
 const UNDER_WAY: usize = 3;
 
 /// The PLY format.
@@ -50,7 +50,7 @@ fn write_in_turn(scene: &Scene, out: &mut (dyn Write + Send)) -> io::Result<()> 
     scene.faces(&mut chunk, &mut sink)
 }
 
-/// Draws on a thread of its own; chunks go to the writer full and come back empty.
+/// Draws on a thread of its own, which sends full chunks to the writer and gets them back empty.
 fn write_overlapped(scene: &Scene, out: &mut (dyn Write + Send)) -> io::Result<()> {
     let (full, to_write) = sync_channel::<Chunk>(UNDER_WAY);
     let (empty, to_fill) = sync_channel::<Chunk>(UNDER_WAY);
@@ -71,7 +71,7 @@ fn write_overlapped(scene: &Scene, out: &mut (dyn Write + Send)) -> io::Result<(
         let written = to_write.iter().try_for_each(|mut chunk| {
             out.write_all(chunk.filled())?;
             chunk.clear();
-            // The drawing thread may have ended: then no thread needs the chunk.
+            // The drawing thread may have ended and need no more chunks.
             let _ = empty.send(chunk);
             Ok(())
         });
@@ -81,12 +81,12 @@ fn write_overlapped(scene: &Scene, out: &mut (dyn Write + Send)) -> io::Result<(
     })
 }
 
-/// Which plant a scene is, at which age, of which run.
+/// The plant, age and run of a scene, as a comment.
 pub(super) fn in_words(about: &About) -> String {
     format!("plant {} age {} seed {}", about.plant, about.age, about.run_seed)
 }
 
-/// The place from which the vertices of a file are told, in the shortest decimals that read back as the same numbers.
+/// The comment with the origin of a file's vertices, in the shortest decimals that read back as the same numbers.
 pub(super) fn place_comment([x, y, z]: [f64; 3]) -> String {
     format!("place_m {x:?} {y:?} {z:?}")
 }

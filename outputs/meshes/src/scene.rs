@@ -1,9 +1,9 @@
-//! What stands of a plant at an age, as vertices and triangles in chunks.
+//! The standing part of a plant at an age, as vertices and triangles in chunks.
 //!
-//! An internode stands from its birth until its branch falls, an organ from its birth until its death. A component that
-//! lives has the death age +∞, so that `birth_age <= a and a < death_age` needs no special case and no future is told;
-//! an internode that stands dead has the tick of its death. An organ's base is moved from the line of the axis to the
-//! surface of the stem, half the tip's diameter out towards the organ.
+//! An internode stands from its birth until its branch falls, an organ from its birth until its death. A living
+//! component has the death age +∞, so that `birth_age <= a and a < death_age` holds without a special case and no later
+//! fate is shown; an internode that stands dead has the age of its death. The base of an organ is moved from the axis
+//! line to the surface of the stem, by half the tip's diameter towards the organ.
 
 use super::MeshOptions;
 use super::chunk::{Chunk, Face, Sink, Tag, Vertex};
@@ -19,37 +19,37 @@ use phytomer_sim::pose::{Frame, organ_frame, stated_organ_frame};
 use std::io;
 use std::ops::Range;
 
-/// The entries of a column that one block of a scene goes through.
+/// The number of entries of a column in one block of a scene.
 const BLOCK: usize = 256;
 
-/// Below this sine of its insertion angle an organ stands on the tip of the stem, not on its side.
+/// An organ whose insertion angle has a smaller sine stands on the tip of the stem, not on its side.
 const TERMINAL: f32 = 1e-3;
 
-/// How large a mesh is.
+/// The size of a mesh.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Its components.
+    /// The number of its components.
     pub components: u64,
-    /// Its vertices.
+    /// The number of its vertices.
     pub vertices: u64,
-    /// Its triangles.
+    /// The number of its triangles.
     pub faces: u64,
 }
 
-/// A plant at an age, to be drawn.
+/// A plant at an age, ready to be drawn.
 #[derive(Debug)]
 pub struct Scene<'a> {
     plant: &'a Plant,
     age: Tick,
     options: MeshOptions,
     paints: &'a Paints,
-    /// How internodes are drawn, by the place of their look in the habit's; the last entry is for those without a look.
+    /// The form of internodes by the index of their look in the habit; the last entry is for internodes without a look.
     stems: Vec<Drawn>,
-    /// The triangles of organs that fill polygons.
+    /// The triangles of organs that state an outline.
     outlines: Outlines,
 }
 
-/// How an organ is drawn.
+/// The form of an organ.
 #[derive(Debug, Clone, Copy)]
 enum OrganForm<'s> {
     Shape(&'s FormMesh),
@@ -74,12 +74,12 @@ impl<'s> OrganForm<'s> {
     }
 }
 
-/// How an internode is drawn.
+/// The form of an internode.
 #[derive(Debug)]
 enum Drawn {
     Tube(Tube),
     Strip,
-    /// As an organ is, with the internode's length and diameter.
+    /// A form of an organ, with the internode's length and diameter.
     Form(FormMesh),
 }
 
@@ -111,7 +111,7 @@ impl Drawn {
 }
 
 impl<'a> Scene<'a> {
-    /// What stands of `plant` at `age`; its frames and diameters must be those of that age.
+    /// The scene of `plant` at `age`; its frames and diameters must be those of that age.
     pub fn new(plant: &'a Plant, age: Tick, options: &MeshOptions) -> Self {
         let looks = plant.habit.looks.internodes.iter().chain(&plant.habit.looks.apart);
         let paints = Paints::of(&plant.habit);
@@ -125,12 +125,12 @@ impl<'a> Scene<'a> {
         self.age
     }
 
-    /// What a file says of it.
+    /// The identity of the mesh, for its file.
     pub fn about(&self, run_seed: u64) -> About {
         About { plant: self.plant.id, age: self.age, run_seed, place: self.plant.place }
     }
 
-    /// How large its mesh is: one scan of births and deaths.
+    /// The size of the mesh, by one scan of births and deaths.
     pub fn counts(&self) -> Counts {
         let mut counts = Counts::default();
         let mut count = |vertices: usize, faces: usize| {
@@ -149,10 +149,10 @@ impl<'a> Scene<'a> {
         counts
     }
 
-    /// Hands the vertices to `sink`, chunk by chunk, the last one too.
+    /// Writes the vertices into `chunk`, and calls `sink` with each full chunk and with the last one.
     ///
     /// # Errors
-    /// The sink's.
+    /// The errors of `sink`.
     pub fn vertices(&self, chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
         for node in self.nodes() {
             let stem = self.stem(node);
@@ -165,10 +165,11 @@ impl<'a> Scene<'a> {
         sink(chunk)
     }
 
-    /// Hands the triangles to `sink`, chunk by chunk, the last one too, in the order of the vertices.
+    /// Writes the triangles into `chunk`, in the order of the vertices, and calls `sink` with each full chunk and with
+    /// the last one.
     ///
     /// # Errors
-    /// The sink's.
+    /// The errors of `sink`.
     pub fn faces(&self, chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
         let mut first = 0;
         for node in self.nodes() {
@@ -184,14 +185,14 @@ impl<'a> Scene<'a> {
         sink(chunk)
     }
 
-    /// How many blocks [`Scene::block`] has.
+    /// The number of blocks of the scene, for [`Scene::block`].
     pub fn blocks(&self) -> usize {
         self.plant.nodes.len().div_ceil(BLOCK) + self.plant.organs.len().div_ceil(BLOCK)
     }
 
-    /// Makes `mesh` the vertices and triangles of one block of neighbouring components, the triangles by the numbers of
-    /// the block's own vertices. All blocks in their order are the mesh of the scene; each can be made by itself, on
-    /// any thread. A block may be empty.
+    /// Replaces `mesh` by one block of neighbouring components; triangles refer to the block's own vertices. All blocks
+    /// in their order are the mesh of the scene, and each can be made alone, on any thread. A block may be empty. Takes
+    /// O(1) per component of the block.
     pub fn block(&self, block: usize, mesh: &mut Mesh) {
         mesh.vertices.clear();
         mesh.faces.clear();
@@ -253,7 +254,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// How an internode is drawn.
+    /// The form of an internode.
     #[inline]
     fn stem(&self, node: NodeId) -> &Drawn {
         let Plant { axes, nodes, habit, own_looks, .. } = self.plant;
@@ -274,7 +275,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The place of an internode that is drawn as an organ is.
+    /// The placement of an internode that has the form of an organ.
     fn stands(&self, node: NodeId) -> Placement {
         let frame = self.plant.frames.at(node);
         let nodes = &self.plant.nodes;
@@ -291,19 +292,19 @@ impl<'a> Scene<'a> {
         Frustum { base: frame.base, heading: frame.heading, up: frame.up, length, radii }
     }
 
-    /// Where an organ stands, how large it is at its age, and how full it is for the area that the tables state of it.
+    /// The placement of an organ, with its size at its age, and with the fullness that gives it the area in the tables.
     fn placement(&self, organ: OrganId, shape: &FormMesh) -> Placement {
         let frame = self.organ_base(organ);
         let organs = &self.plant.organs;
         let share = self.plant.expanded(organ, self.age);
         let full = [organs.length[organ.index()], organs.width[organ.index()]];
-        // It expands in proportion, so that its fullness is that of its full size.
+        // An organ expands in proportion, so its fullness is that of its full size.
         let fullness = shape.fullness(full, organs.area[organ.index()]);
         let size = full.map(|size| size * share);
         Placement { base: frame.base, heading: frame.heading, up: frame.up, size, fullness }
     }
 
-    /// The frame of an organ with its base where it is drawn: where it states, or on the surface of its stem.
+    /// The frame of an organ at its drawn base: where the organ states it, else on the surface of its stem.
     #[inline]
     fn organ_base(&self, organ: OrganId) -> Frame {
         if let Some(stated) = stated_organ_frame(self.plant, organ) {
@@ -351,12 +352,12 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// The entries of a column of `length` that a block goes through.
+/// The entries of a column of `length` entries in a block.
 fn span(block: usize, length: usize) -> Range<usize> {
     block * BLOCK..((block + 1) * BLOCK).min(length)
 }
 
-/// Room for more vertices at the end of `mesh`, and their triangles in it.
+/// Adds room for `vertices` vertices at the end of `mesh`, and adds their triangles.
 #[inline]
 fn appended<'m>(mesh: &'m mut Mesh, vertices: usize, faces: &[[u32; 3]]) -> &'m mut [Vertex] {
     let first = mesh.vertices.len();
@@ -365,7 +366,7 @@ fn appended<'m>(mesh: &'m mut Mesh, vertices: usize, faces: &[[u32; 3]]) -> &'m 
     &mut mesh.vertices[first..]
 }
 
-/// The part of an organ's heading across its stem's, as a unit vector; nothing for an organ on the tip.
+/// The part of an organ's heading across its stem, as a unit vector; zero for an organ on the tip.
 fn outward(stem: [f32; 3], organ: [f32; 3]) -> [f32; 3] {
     let along = stem[0] * organ[0] + stem[1] * organ[1] + stem[2] * organ[2];
     let across = [0, 1, 2].map(|k| organ[k] - along * stem[k]);

@@ -1,5 +1,7 @@
 //! Meshes of plants that state more than insertion and trend: rest frames, outlines, looks of single nodes, lengths by
 //! age and cuts.
+//!
+//! Areas and heights are compared with closed forms. Absent: plants without such statements (`tests`).
 
 use super::measure::{assert_unit_normals, surface};
 use super::tests::specimen;
@@ -20,7 +22,7 @@ fn meshed(plant: &Plant) -> Mesh {
     mesh
 }
 
-/// A plant of which nothing falls.
+/// A plant without falls.
 fn standing() -> Plant {
     let mut plant = specimen();
     plant.axes.death.fill(phytomer_sim::NEVER);
@@ -55,7 +57,7 @@ fn a_plant_of_stated_frames_has_the_mesh_of_insertion_and_trend() {
     }
 }
 
-/// An L of three squares of a decimetre, half expanded: a quarter of 0.03 m², on the polygon's own plane.
+/// An L of three squares with sides of a decimetre, half expanded: a quarter of 0.03 m², in the polygon's own plane.
 #[test]
 fn an_outlined_organ_is_its_polygon() {
     let mut plant = standing();

@@ -1,11 +1,11 @@
-//! Internodes as closed tubes, frusta with a regular polygon across, as the hexagonal cones of de Reffye 1988 §6; and
-//! as plane strips, where they are stretches of a petal or of a blade.
+//! Internodes as closed tubes (frusta with a regular polygon across, as the hexagonal cones of de Reffye 1988 §6), or
+//! as plane strips where they are segments of a petal or of a blade.
 //!
-//! The side has normals that lean with its slope, the two caps axial ones, so each ring stands twice; the side's ring
-//! closes on a vertex of its own, so that the texture runs once around (s) and from base to tip (t). With n sides that
-//! is 4n + 2 vertices and 4n − 4 triangles. The polygon has the area of the circle of the diameter, so that a tube
-//! keeps the section of its internode at every height, and its volume; its corners lie √(2π / (n sin 2π/n)) radii from
-//! the line of the axis, 1.054 for eight sides.
+//! The side has normals that lean with its slope, the two caps have axial normals, so each ring is there twice. The
+//! ring of the side ends on a vertex of its own, so that the texture runs once around (s) and from base to tip (t).
+//! With n sides there are 4n + 2 vertices and 4n − 4 triangles. The polygon has the area of the circle with the
+//! diameter, so that a tube keeps the section of its internode at every height, and its volume; its corners are √(2π /
+//! (n sin 2π/n)) radii from the axis line, 1.054 for eight sides.
 
 use super::chunk::{Tag, Vertex};
 use phytomer_sim::math::{sin, sincos};
@@ -15,28 +15,28 @@ use phytomer_sim::math::{sin, sincos};
 pub struct Frustum {
     /// The centre of its base.
     pub base: [f32; 3],
-    /// Along it.
+    /// The direction along it.
     pub heading: [f32; 3],
-    /// Across it.
+    /// A direction across it.
     pub up: [f32; 3],
     /// Its length.
     pub length: f32,
-    /// The radius at its base and at its tip.
+    /// The radii at its base and at its tip.
     pub radii: [f32; 2],
 }
 
-/// The table of a polygon with its triangles, made once for all the tubes of a mesh.
+/// The corners and triangles of a tube with a fixed number of sides, computed once per mesh.
 #[derive(Debug, Clone)]
 pub struct Tube {
-    /// Cosine, sine and share of the way around, of each corner; the first comes again at the end.
+    /// For each corner its cosine, sine and share of the way around; the first corner is repeated at the end.
     corners: Vec<[f32; 3]>,
-    /// How far a corner is from the line of the axis, in radii.
+    /// The distance of a corner from the axis line, in radii.
     reach: f32,
     faces: Vec<[u32; 3]>,
 }
 
 impl Tube {
-    /// Tubes of `sides` sides, at least 3.
+    /// Tubes with `sides` sides, at least 3.
     pub fn new(sides: u8) -> Self {
         let sides = u32::from(sides.max(3));
         let corner = |k: u32| {
@@ -49,17 +49,17 @@ impl Tube {
         Self { corners: (0..=sides).map(corner).collect(), reach, faces: faces(sides) }
     }
 
-    /// The vertices of a tube.
+    /// The number of vertices of a tube.
     pub fn vertices(&self) -> usize {
         4 * self.corners.len() - 2
     }
 
-    /// The triangles of a tube, by the numbers of its own vertices, counterclockwise from outside.
+    /// The triangles of a tube, by the indices of its own vertices, counterclockwise from outside.
     pub fn faces(&self) -> &[[u32; 3]] {
         &self.faces
     }
 
-    /// Writes the vertices of one tube; `out` has exactly their number.
+    /// Writes the vertices of one tube; `out` must have exactly [`Tube::vertices`] places.
     #[inline]
     pub fn write(&self, frustum: &Frustum, tag: &Tag, out: &mut [Vertex]) {
         let Frustum { base, heading: h, up, length, radii } = *frustum;
@@ -88,18 +88,18 @@ impl Tube {
     }
 }
 
-/// A plane internode: a strip as wide as its diameters, seen from its upper side.
+/// A plane internode: a strip as wide as its diameters, facing its upper side.
 #[derive(Debug, Clone, Copy)]
 pub struct Strip;
 
 impl Strip {
-    /// The vertices of a strip.
+    /// The number of vertices of a strip.
     pub const VERTICES: usize = 4;
     /// Its triangles, counterclockwise from its upper side.
     pub const FACES: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
-    /// Writes the vertices of one strip; `out` has exactly their number. Strips of one axis that bends in its own plane
-    /// join without a gap.
+    /// Writes the vertices of one strip; `out` must have exactly [`Strip::VERTICES`] places. Strips of an axis that
+    /// bends in its own plane join without a gap.
     #[inline]
     pub fn write(frustum: &Frustum, tag: &Tag, out: &mut [Vertex]) {
         let Frustum { base, heading: h, up, length, radii } = *frustum;
@@ -114,7 +114,7 @@ impl Strip {
     }
 }
 
-/// The normal of the side, along the radius and along the axis.
+/// The normal of the side as its parts along the radius and along the axis.
 fn lean(length: f32, narrowing: f32) -> [f32; 2] {
     let norm = (length * length + narrowing * narrowing).sqrt();
     if norm > 0.0 { [length / norm, narrowing / norm] } else { [1.0, 0.0] }

@@ -1,8 +1,8 @@
 //! Cameras: from a point in space to a point of the picture with its depth, and back.
 //!
-//! A picture has pixels to the right and down, counted from its upper left corner. Depth is what is linear across the
-//! picture of a plane and grows towards the eye: 1/w under perspective, a share of the reach under parallel projection;
-//! always positive, so that its bits sort as it does. Absent: clipping; a camera stands outside of what it looks at.
+//! Picture coordinates are pixels to the right and down, from the upper left corner. Depth is linear across the picture
+//! of a plane and grows towards the eye: 1/w in perspective, a share of the reach in parallel projection. It is always
+//! positive, so that its bits sort as it does. Absent: clipping, since a camera stands outside the plants.
 
 use super::extent::Extent;
 use super::gaze::Gaze;
@@ -31,37 +31,38 @@ impl Frame {
     }
 }
 
-/// How rays meet the picture.
+/// The projection of a camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Lens {
-    /// Through one point; the focal length in pixels.
+    /// Rays through one point.
     Perspective {
-        /// Pixels.
+        /// The focal length, pixels.
         focal: f32,
     },
-    /// All parallel.
+    /// Parallel rays.
     Parallel {
-        /// Pixels a metre.
+        /// The scale, pixels per metre.
         scale: f32,
         /// The distance from the eye's plane at which depth is 0, metres.
         reach: f32,
     },
 }
 
-/// A camera in its place.
+/// A camera at a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// Which way it looks.
+    /// The direction in which it looks.
     pub gaze: Gaze,
-    /// Where it stands.
+    /// The position of its eye, metres.
     pub eye: Vec3,
-    /// How it sees.
+    /// Its projection.
     pub lens: Lens,
-    /// The pixel straight ahead.
+    /// The pixel at which straight ahead is seen.
     pub centre: [f32; 2],
 }
 
-/// The tangents within which a perspective sees a frame, left, right, up and down; zeros for a parallel projection.
+/// The tangents of the angles to the sides of a frame in perspective: left, right, up, down; zeros in parallel
+/// projection.
 pub fn tangents(frame: &Frame, height: f32, perspective: bool) -> [f32; 4] {
     if !perspective {
         return [0.0; 4];
@@ -76,15 +77,15 @@ fn focal(height: f32) -> f32 {
 }
 
 impl Camera {
-    /// The camera that sees all of `extent` in `frame`, as large as it can; the extent was taken with the [`tangents`]
-    /// of the same frame. A parallel projection has at most `most` pixels a metre.
+    /// The camera that sees all of `extent` in `frame`, as large as possible. `extent` must be measured with the
+    /// [`tangents`] of this frame. A parallel projection has at most `most` pixels per metre.
     pub fn fitting(extent: &Extent, frame: &Frame, height: f32, most: f32) -> Self {
         let (gaze, [left, right, up, down]) = (extent.gaze, extent.tangents);
         let [west, east, north, south] = extent.most;
         let centre = frame.centre();
         if right > 0.0 {
-            // How far ahead of the origin the eye may stand for its sides to hold the plants, and for its top and
-            // bottom.
+            // The farthest positions ahead of the origin from which the sides of the frame hold the plants, and its top
+            // and bottom do.
             let ahead = (-(west + east) / (left + right)).min(-(north + south) / (up + down));
             let across = 0.5 * ((east + right * ahead) - (west + left * ahead));
             let above = 0.5 * ((north + up * ahead) - (south + down * ahead));
@@ -97,14 +98,15 @@ impl Camera {
         Self::parallel(gaze, [across, above], extent.depths, scale, centre)
     }
 
-    /// A parallel projection of what lies between two depths along the gaze, `middle` to the right and up ahead.
+    /// A parallel projection of the space between two depths along the gaze; `middle` is its centre, to the right and
+    /// up.
     pub fn parallel(gaze: Gaze, middle: [f32; 2], depths: [f32; 2], scale: f32, centre: [f32; 2]) -> Self {
         let room = 0.05 * (depths[1] - depths[0]) + 0.1;
         let eye = gaze.right * middle[0] + gaze.up * middle[1] + gaze.forward * (depths[0] - room);
         Self { gaze, eye, lens: Lens::Parallel { scale, reach: depths[1] - depths[0] + 2.0 * room }, centre }
     }
 
-    /// Where a point is in the picture, and its depth; `None` at and behind the eye.
+    /// The place of a point in the picture, and its depth; `None` at and behind the eye.
     #[inline]
     pub fn project(&self, point: Vec3) -> Option<Vec3> {
         let seen = point - self.eye;
@@ -120,7 +122,7 @@ impl Camera {
         }
     }
 
-    /// The point that is seen at a place of the picture with a depth.
+    /// The point in space at a place of the picture with this depth.
     #[inline]
     pub fn unproject(&self, x: f32, y: f32, depth: f32) -> Vec3 {
         let (right, down) = (x - self.centre[0], y - self.centre[1]);
@@ -131,7 +133,7 @@ impl Camera {
         self.eye + self.gaze.forward * w + (self.gaze.right * right - self.gaze.up * down) * per_pixel
     }
 
-    /// Where the ray of a place in the picture meets the ground, z = 0; `None` where it does not.
+    /// The point where the ray through a place of the picture meets the ground, z = 0; `None` where it does not.
     #[inline]
     pub fn ground(&self, x: f32, y: f32) -> Option<Vec3> {
         let (right, down) = (x - self.centre[0], y - self.centre[1]);
@@ -141,11 +143,11 @@ impl Camera {
             Lens::Parallel { scale, .. } => (self.eye + aside / scale, self.gaze.forward, false),
         };
         let far = -from.z / along.z;
-        // A parallel gaze has no eye that ground could be behind of.
+        // In a parallel projection the ground cannot be behind an eye.
         (along.z < -1e-4 && (far > 0.0 || !eye)).then(|| from + along * far)
     }
 
-    /// Towards the eye from a point.
+    /// The direction from a point towards the eye, a unit vector.
     #[inline]
     pub fn back(&self, point: Vec3) -> Vec3 {
         match self.lens {
@@ -154,7 +156,7 @@ impl Camera {
         }
     }
 
-    /// Pixels a metre across the gaze, at a point.
+    /// The scale across the gaze at a point, pixels per metre.
     pub fn scale_at(&self, point: Vec3) -> f32 {
         match self.lens {
             Lens::Perspective { focal } => focal / (point - self.eye).dot(self.gaze.forward).max(1e-4),
@@ -162,7 +164,7 @@ impl Camera {
         }
     }
 
-    /// Whether its ground is a surface: a level gaze sees it as a line.
+    /// Whether the ground is seen as a surface; a level gaze sees it as a line.
     pub fn sees_ground(&self) -> bool {
         matches!(self.lens, Lens::Perspective { .. }) || self.gaze.forward.z < -1e-3
     }

@@ -1,7 +1,7 @@
-//! The finished picture: rows of pixels, and what is drawn flat upon it.
+//! The finished picture: rows of pixels, and functions that draw flat shapes on it.
 //!
-//! Pixels are red, green, blue and opacity as a screen shows them, not multiplied. Flat things are laid over what is
-//! there by the share of each pixel that they cover.
+//! Pixels are red, green, blue and opacity in sRGB; colours are not multiplied by opacity. Flat shapes are laid over
+//! the pixels by the share of each pixel that they cover.
 
 /// A picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// Nothing but transparency.
+    /// A transparent picture.
     pub fn new(width: u32, height: u32) -> Self {
         Self { width, height, pixels: vec![[0; 4]; width as usize * height as usize] }
     }
@@ -25,7 +25,7 @@ impl Canvas {
         self.pixels[y as usize * self.width as usize + x as usize]
     }
 
-    /// Lays a colour over a pixel of which it covers a share; outside of the picture nothing happens.
+    /// Lays a colour over a pixel, of which it covers a share; does nothing outside the picture.
     pub fn lay(&mut self, x: i64, y: i64, colour: [u8; 3], share: f32) {
         let inside = x >= 0 && y >= 0 && x < i64::from(self.width) && y < i64::from(self.height);
         if !inside || share <= 0.0 {
@@ -41,7 +41,7 @@ impl Canvas {
         pixel[3] = (opacity * 255.0 + 0.5) as u8;
     }
 
-    /// A rectangle with exact edges, in pixels.
+    /// Draws a rectangle with exact edges, in pixels.
     pub fn rectangle(&mut self, [left, top, right, bottom]: [f32; 4], colour: [u8; 3]) {
         let covered = |from: f32, to: f32, k: i64| (to.min(k as f32 + 1.0) - from.max(k as f32)).clamp(0.0, 1.0);
         for y in top.floor() as i64..bottom.ceil() as i64 {
@@ -51,7 +51,7 @@ impl Canvas {
         }
     }
 
-    /// Strokes of a round pen, each a chain of points; where they cross nothing is laid twice.
+    /// Draws strokes of a round pen, each a chain of points; where strokes cross the colour is laid once.
     pub fn strokes(&mut self, strokes: &[Vec<[f32; 2]>], radius: f32, colour: [u8; 3]) {
         let all = || strokes.iter().flatten();
         let bound = |k: usize, sign: f32| all().map(|point| sign * point[k]).fold(f32::NEG_INFINITY, f32::max) * sign;
@@ -70,7 +70,7 @@ impl Canvas {
         }
     }
 
-    /// Puts another picture in, its upper left corner at a place.
+    /// Copies another picture into this one, with its upper left corner at a place.
     pub fn put(&mut self, other: &Self, left: u32, top: u32) {
         for y in 0..other.height.min(self.height.saturating_sub(top)) {
             let width = other.width.min(self.width.saturating_sub(left)) as usize;

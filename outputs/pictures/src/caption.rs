@@ -1,27 +1,27 @@
-//! What is written on a picture: how large it is, how old its plants are, and what its colours mean.
+//! The text on a picture: its scale, the ages of its plants, and the meaning of its colours.
 //!
-//! The scale bar is the longest of 1, 2 or 5 times a power of ten metres that fits. Under perspective it holds at the
-//! foot of the plants, which stand equally far from the eye.
+//! The scale bar is the longest of 1, 2 or 5 times a power of ten metres that fits. In perspective it holds at the foot
+//! of the plants, which are all at the same distance from the eye.
 
 use super::canvas::Canvas;
 use super::letters::{width, written};
 
-/// The colour of what is written.
+/// The colour of text.
 pub const INK: [u8; 3] = [70, 66, 60];
 
-/// The height of a capital on a picture so tall, pixels.
+/// The height of a capital, pixels, for a picture of this height.
 pub fn letter_size(height: u32) -> f32 {
     (height as f32 / 62.0).clamp(7.0, 34.0)
 }
 
-/// How a line of text stands to its point.
+/// The alignment of a line of text to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Align {
-    /// It begins there.
+    /// The text begins at the point.
     Left,
-    /// Its middle is there.
+    /// The middle of the text is at the point.
     Middle,
-    /// It ends there.
+    /// The text ends at the point.
     Right,
 }
 
@@ -37,7 +37,7 @@ pub fn write(canvas: &mut Canvas, text: &str, size: f32, [x, line]: [f32; 2], al
     canvas.strokes(&strokes, (0.062 * size).max(0.55), INK);
 }
 
-/// A length that a scale bar stands for, metres, at so many pixels a metre: the longest that fits into `room` pixels.
+/// The length of a scale bar, metres, for a scale in pixels per metre: the longest that fits into `room` pixels.
 pub fn bar_length(scale: f32, room: f32) -> Option<f32> {
     let most = f64::from(room) / f64::from(scale);
     let fits = |length: &f64| *length <= most;
@@ -48,7 +48,7 @@ pub fn bar_length(scale: f32, room: f32) -> Option<f32> {
     lengths.rev().find(fits).map(|length| length as f32)
 }
 
-/// A whole power by multiplication, which is the same everywhere.
+/// An integer power by multiplication, which gives the same bits on every platform.
 trait PowWhole {
     fn pow_whole(self, power: i32) -> Self;
 }
@@ -81,7 +81,7 @@ pub fn scale_bar(canvas: &mut Canvas, scale: f32, room: f32, size: f32, [left, l
     write(canvas, &length_in_words(length), size, [0.5 * (left + right), line - 0.75 * size], Align::Middle);
 }
 
-/// As much of a line of text as fits into `room` pixels.
+/// The beginning of a line of text that fits into `room` pixels.
 pub fn fitting(text: &str, size: f32, room: f32) -> String {
     let mut fitting = text.to_owned();
     while width(&fitting, size) > room && fitting.chars().count() > 2 {
@@ -92,8 +92,8 @@ pub fn fitting(text: &str, size: f32, room: f32) -> String {
     fitting
 }
 
-/// Writes labels around their places on a line, on a second line above where the first is taken, and not at all where
-/// both are.
+/// Writes labels around their places on a line. A label that does not fit there is written on a second line above, or
+/// left out where that is taken too.
 pub fn write_row(canvas: &mut Canvas, labels: &[(f32, &str)], size: f32, line: f32) {
     let mut ends = [f32::NEG_INFINITY; 2];
     for (x, label) in labels {

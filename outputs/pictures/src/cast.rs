@@ -1,8 +1,8 @@
-//! The plants of one picture, or the plots: put side by side, looked for by a camera, drawn, and written below.
+//! The plants, or plots, of one picture: put side by side, framed by a camera, drawn, and labelled.
 //!
-//! The first plant stands at the left, its foot at the origin of the picture; the others follow along the gaze's right,
-//! as far apart as their crowns need. The plants of a plot are put as one, each in its place. Absent: what they
-//! look like, of which `draw` makes pixels.
+//! The first plant stands at the left, its foot at the origin of the picture; the others follow to the right of the
+//! gaze, as far apart as their crowns need. The plants of a plot are put as one, each in its place. Absent: pixels
+//! (`draw`).
 
 use super::camera::{Camera, Frame, tangents};
 use super::canvas::Canvas;
@@ -19,20 +19,20 @@ use std::collections::BTreeMap;
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-/// A plant is flat if it is so many times as wide from elsewhere.
+/// A plant is flat if from some side it is this many times as wide as from another.
 const FLAT: f32 = 1.4;
 
-/// What stands in a picture, with what is written of it.
+/// The plants of a picture, with their labels.
 pub struct Cast<'a> {
     stands: Vec<PlacedStand<'a>>,
     labels: Vec<&'a str>,
     legend: Option<Legend>,
-    /// The angle by which whoever looks has gone on around them.
+    /// The angle, radians, by which the viewer has moved around them.
     turn: f32,
 }
 
 impl<'a> Cast<'a> {
-    /// What stands in a picture, not yet in its place.
+    /// The plants of a picture, not yet put in their places.
     pub fn of(stands: &'a [Stand], picture: &Picture) -> Self {
         let stands = &stands[..stands.len().min(MOST_SUBJECTS)];
         let (colours, legend) = picture.colour_by.as_ref().map(colours).unzip();
@@ -46,15 +46,15 @@ impl<'a> Cast<'a> {
         Self { stands: placed.collect(), labels, legend: legend.flatten(), turn: 0.0 }
     }
 
-    /// Puts the plants side by side, the first at the left, and finds the camera that sees them all, at no more than
-    /// `most` pixels a metre.
+    /// Puts the plants side by side, the first at the left, and returns the camera that sees all of them, at no more
+    /// than `most` pixels per metre.
     pub fn aim(&mut self, picture: &Picture, most: f32) -> Camera {
         self.turn = picture.turn.unwrap_or_else(|| self.wide(picture.view));
         let gaze = picture.view.gaze(self.turn);
         let height = picture.size[1] as f32;
         let frame = self.frame(picture);
         let tangents = tangents(&frame, height, picture.view == View::Perspective);
-        // Ground that is a surface hides what is below it.
+        // Below a ground that is seen as a surface nothing is visible.
         let buried = !picture.ground || gaze.forward.z == 0.0;
         let extents: Vec<Extent> = self.stands.iter().map(|stand| stand.extent(gaze, tangents, buried)).collect();
         let widest = extents.iter().map(|extent| extent.across[1] - extent.across[0]).fold(0.0, f32::max);
@@ -69,7 +69,7 @@ impl<'a> Cast<'a> {
         Camera::fitting(&all, &frame, height, most)
     }
 
-    /// Draws them as a camera sees them.
+    /// Draws the plants as a camera sees them, with their labels.
     pub fn draw(&self, picture: &Picture, camera: &Camera, title: &str) -> Canvas {
         let sun = picture.sun.unwrap_or_else(|| picture.view.sun(self.turn));
         let lights: Vec<_> = self.stands.iter().map(|stand| stand.light(sun)).collect();
@@ -82,7 +82,7 @@ impl<'a> Cast<'a> {
         canvas
     }
 
-    /// By how much to go around the first plant to see it where it is wide: not at all unless it is flat.
+    /// The angle around the first plant, radians, from which it is seen wide; 0 for a plant that is not flat.
     fn wide(&self, view: View) -> f32 {
         let Some(stand) = self.stands.first().filter(|_| view == View::Perspective) else { return 0.0 };
         let quarter = FRAC_PI_2 / 2.0;
@@ -95,7 +95,7 @@ impl<'a> Cast<'a> {
         if widest.1 > FLAT * straight { f32::from(widest.0) * quarter } else { 0.0 }
     }
 
-    /// The part of a picture that plants fill.
+    /// The part of a picture that is free for plants.
     fn frame(&self, picture: &Picture) -> Frame {
         let [width, height] = picture.size.map(|side| side as f32);
         let margin = 0.045 * width.min(height);
@@ -133,8 +133,8 @@ impl<'a> Cast<'a> {
     }
 }
 
-/// The plants of a stand, each once with all places where it stands: a plant is the same where it is the same in memory
-/// at the same age.
+/// The plants of a stand, each once with all places where it stands. Two plants are the same if they are one reference
+/// at one age.
 fn bodies<'a>(stand: &'a Stand, sides: u8, colours: Vec<Option<Vec<[u8; 3]>>>) -> Vec<Body<'a>> {
     let key = |placed: &Placed| (std::ptr::from_ref(placed.plant).addr(), placed.age);
     let mut places: BTreeMap<(usize, Tick), Vec<Vec3>> = BTreeMap::new();

@@ -1,27 +1,27 @@
-//! Plants coloured by a value of each component, and the legend that says what the colours mean.
+//! Plants coloured by a value of each component, and the legend that states the meaning of the colours.
 //!
-//! All plants of a picture share one scale, from the least to the largest value of what stands on any of them. Absent:
-//! where values come from; a column of `records` gives them in `phytomer_outputs::colouring`.
+//! All plants of a picture share one scale, from the smallest to the largest value of the standing components of all
+//! plants. Absent: the origin of the values; `phytomer_outputs::colouring` makes them from a column of `records`.
 
 use super::canvas::Canvas;
 use super::caption::{Align, write};
 use super::value_colours::{NOTHING, of_class, of_share};
 
-/// How wide a legend is, in letter sizes.
+/// The width of a legend, in letter sizes.
 pub const WIDTH: f32 = 9.5;
 
-/// What the components of the plants of a picture are coloured by.
+/// Values that colour the components of a picture's plants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Colouring {
     /// The name of the values, which heads the legend.
     pub name: String,
-    /// Of each plant the value of each component, by the component's number; NaN where it has none.
+    /// For each plant the value of each component, by component number; NaN for no value.
     pub values: Vec<Vec<f64>>,
-    /// What the values are.
+    /// The scale of the values: amounts or classes.
     pub scale: Scale,
 }
 
-/// What the values of a colouring are.
+/// The scale of the values of a colouring.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Scale {
     /// Amounts, which run through a ramp of colours.
@@ -35,7 +35,7 @@ pub enum Scale {
     },
 }
 
-/// What the colours of a picture mean.
+/// The meaning of the colours of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Legend {
     name: String,
@@ -50,10 +50,10 @@ enum Means {
     Range(f64, f64),
 }
 
-/// The colours of every component of each plant.
+/// The colours of every component, for each plant.
 pub type Colours = Vec<Vec<[u8; 3]>>;
 
-/// The colours of every component of each plant, and what they mean; no legend where no component has a value.
+/// The colours of every component, for each plant, and their legend; no legend where no component has a value.
 pub fn colours(colouring: &Colouring) -> (Colours, Option<Legend>) {
     let all = colouring.values.iter().flatten().copied().filter(|value| !value.is_nan());
     let (low, high) =
@@ -78,7 +78,7 @@ fn means(scale: &Scale, low: f64, high: f64) -> Means {
 }
 
 impl Legend {
-    /// Draws the legend into a band of [`WIDTH`] letter sizes at the right of a picture.
+    /// Draws the legend into a band at the right of a picture, [`WIDTH`] letter sizes wide.
     pub fn draw(&self, canvas: &mut Canvas, size: f32) {
         let left = canvas.width as f32 - WIDTH * size;
         let top = 2.6 * size;

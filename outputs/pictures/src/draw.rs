@@ -1,7 +1,7 @@
-//! One picture: light, then film by film the samples of some rows, then their pixels.
+//! One picture: the samples of some rows at a time on a film, then their pixels.
 //!
-//! A pixel is the mean of [`FINE`]² samples, each shaded where it lies. Rows are taken in pages, so that memory does
-//! not grow with the picture; blocks of plants outside of a page are not drawn for it.
+//! A pixel is the mean of [`FINE`]² samples, each shaded at its own place. Rows are drawn in pages, so that memory does
+//! not grow with the picture; blocks of plants that a page does not show are skipped for it.
 
 use super::camera::Camera;
 use super::canvas::Canvas;
@@ -14,29 +14,29 @@ use super::tone;
 use glam::Vec3;
 use rayon::prelude::*;
 
-/// Samples of a pixel along each side.
+/// The number of samples of a pixel along each side.
 pub const FINE: u32 = 4;
-/// The samples of a page: 12 bytes each.
+/// The number of samples of a page, at 12 bytes each.
 const PAGE: u32 = 8 << 20;
 /// The rows of samples of one pixel stand apart by a quarter of a sample.
 const SHIFTS: &[f32] = &[-0.375, 0.125, -0.125, 0.375];
 
-/// What a picture is made of.
+/// The content of a picture.
 #[derive(Debug)]
 pub struct Set<'a> {
-    /// What stands in the picture, in its place.
+    /// The stands, in their places in the picture.
     pub stands: &'a [PlacedStand<'a>],
-    /// Their light, one each.
+    /// The light over each stand.
     pub lights: &'a [Light],
     /// The camera.
     pub camera: Camera,
     /// Whether ground is drawn.
     pub ground: bool,
-    /// Whether the background is left out.
+    /// Whether the background is transparent.
     pub transparent: bool,
 }
 
-/// Draws a picture of so many pixels, without anything written on it.
+/// Draws a picture of this size, pixels, without text.
 pub fn draw(set: &Set, [width, height]: [u32; 2]) -> Canvas {
     let mut canvas = Canvas::new(width, height);
     let footings: Vec<Footing> =

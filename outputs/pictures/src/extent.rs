@@ -1,32 +1,32 @@
-//! How far plants reach: in the four directions that bound a picture, along the gaze, and along the three axes.
+//! The extent of plants: in the four directions that bound a picture, along the gaze, and along the three axes.
 //!
-//! Under perspective a picture is bounded by four planes through the eye; the farthest point of a plant across each is
-//! all that is needed to find the nearest eye that sees it whole. Maxima do not depend on the order of points.
+//! In perspective a picture is bounded by four planes through the eye. The farthest point of a plant beyond each plane
+//! determines the nearest eye that sees the whole plant. Maxima do not depend on the order of points.
 
 use super::gaze::Gaze;
 use glam::Vec3;
 
-/// What is bounded, as seen along a gaze.
+/// The extent of points, as seen along a gaze.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
     /// The gaze.
     pub gaze: Gaze,
-    /// The tangents of the sides of the picture, left, right, up and down; zeros under parallel projection.
+    /// The tangents of the angles to the sides of the picture, left, right, up and down; zeros in parallel projection.
     pub tangents: [f32; 4],
-    /// The largest distance beyond the four planes through the origin, left, right, up and down.
+    /// The largest distance beyond each of the four planes through the origin, left, right, up and down, metres.
     pub most: [f32; 4],
-    /// The least and the largest distance along the gaze.
+    /// The smallest and the largest distance along the gaze, metres.
     pub depths: [f32; 2],
-    /// The least and the largest distance to the right.
+    /// The smallest and the largest distance to the right, metres.
     pub across: [f32; 2],
-    /// The least corner of the box along the axes.
+    /// The lower corner of the box along the axes.
     pub low: Vec3,
-    /// The largest corner of the box along the axes.
+    /// The upper corner of the box along the axes.
     pub high: Vec3,
 }
 
 impl Extent {
-    /// Of nothing yet.
+    /// The extent of no points.
     pub fn new(gaze: Gaze, tangents: [f32; 4]) -> Self {
         Self {
             gaze,
@@ -39,7 +39,7 @@ impl Extent {
         }
     }
 
-    /// Takes a point in.
+    /// Adds a point.
     #[inline]
     pub fn add(&mut self, point: Vec3) {
         let (a, b, c) = (point.dot(self.gaze.right), point.dot(self.gaze.up), point.dot(self.gaze.forward));
@@ -52,7 +52,7 @@ impl Extent {
         self.high = self.high.max(point);
     }
 
-    /// Takes in what another one holds.
+    /// The extent of the points of both extents.
     pub fn join(mut self, other: &Self) -> Self {
         (0..4).for_each(|k| self.most[k] = self.most[k].max(other.most[k]));
         self.depths = [self.depths[0].min(other.depths[0]), self.depths[1].max(other.depths[1])];
@@ -62,7 +62,7 @@ impl Extent {
         self
     }
 
-    /// The same, moved by `offset`.
+    /// The extent of the points moved by `offset`.
     pub fn moved(mut self, offset: Vec3) -> Self {
         let mut origin = Self::new(self.gaze, self.tangents);
         origin.add(offset);

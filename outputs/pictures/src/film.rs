@@ -1,40 +1,40 @@
-//! What is seen at each sample of some rows of a picture: how deep, what colour, what stuff, which way its face looks.
+//! The visible surface at each sample of some rows of a picture: its depth, colour, material and normal.
 //!
-//! Triangles come on any thread in any order, twice. First each sample keeps the nearest depth, then the paint of the
-//! triangle that has it; two triangles of one depth leave the paint of the larger number. A maximum does not depend on
-//! the order of what it is taken of, so neither does the picture. (This is a depth pass with atomic maxima; no lock, no
-//! sorting, no merging of tiles.)
+//! Triangles come in any order, on any thread, in two passes. In the first pass each sample keeps the nearest depth; in
+//! the second, the paint of the triangle with that depth. Of two triangles at one depth the paint with the larger bits
+//! stays. A maximum does not depend on the order of its values, so the picture does not either. (This is a depth pass
+//! with atomic maxima; no lock, no sorting, no merging of tiles.)
 
 use super::raster::{Plane, Sample, Window, cover};
 use glam::Vec3;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
 
-/// What a face is made of.
+/// The colour and material of a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Paint {
     /// Red, green and blue, as a screen shows them.
     pub colour: [u8; 3],
-    /// Whether light comes through, as through leaves and petals.
+    /// Whether light passes through, as through leaves and petals.
     pub thin: bool,
-    /// Whether the colour stands for something: light then changes it little.
+    /// Whether the colour stands for a value; light then changes it little.
     pub stained: bool,
-    /// The plant that it belongs to, by its place in the picture.
+    /// The index in the picture of the stand that it belongs to.
     pub subject: u8,
 }
 
-/// What is seen at a sample.
+/// The visible surface at a sample.
 #[derive(Debug, Clone, Copy)]
 pub struct Seen {
-    /// How deep.
+    /// Its depth.
     pub depth: f32,
-    /// What.
+    /// Its colour and material.
     pub paint: Paint,
-    /// The normal there; not quite a unit vector.
+    /// Its normal, nearly a unit vector.
     pub normal: Vec3,
 }
 
-/// The samples of some rows.
+/// The samples of some rows of a picture.
 #[derive(Debug, Default)]
 pub struct Film {
     depths: Vec<AtomicU32>,
@@ -45,7 +45,7 @@ const THIN: u64 = 1 << 63;
 const STAINED: u64 = 1 << 62;
 
 impl Film {
-    /// Makes room for the samples of a window, with nothing seen.
+    /// Empties the film and makes room for the samples of a window.
     pub fn clear(&mut self, window: &Window) {
         let samples = window.len();
         self.depths.par_iter().take(samples).for_each(|depth| depth.store(0, Relaxed));
@@ -54,13 +54,13 @@ impl Film {
         self.paints.resize_with(samples, AtomicU64::default);
     }
 
-    /// The first pass: keeps the nearest depth.
+    /// The first pass: keeps the nearest depth at each sample of a triangle.
     #[inline]
     pub fn deepen(&self, corners: &[Vec3; 3], window: &Window) {
         cover(corners, window, |sample| keep_nearest(&self.depths[sample.index], sample.depth));
     }
 
-    /// The second pass: leaves paint where the triangle is the nearest; `normals` are those of its corners.
+    /// The second pass: stores the paint where the triangle is the nearest; `normals` are those of its corners.
     #[inline]
     pub fn paint(&self, corners: &[Vec3; 3], normals: &[Vec3; 3], paint: &Paint, window: &Window) {
         let mut planes = None;
@@ -75,7 +75,7 @@ impl Film {
         });
     }
 
-    /// What is seen at a sample.
+    /// The visible surface at a sample; `None` for the background.
     #[inline]
     pub fn seen(&self, index: usize) -> Option<Seen> {
         let depth = f32::from_bits(self.depths[index].load(Relaxed));
@@ -83,17 +83,17 @@ impl Film {
     }
 }
 
-/// Keeps the larger of two depths; the bits of positive floats sort as they do.
+/// Keeps the larger of two depths, as bits: those of positive floats sort as the floats do.
 #[inline]
 pub fn keep_nearest(kept: &AtomicU32, depth: f32) {
     let bits = depth.to_bits();
-    // Most triangles lie behind others: looking first spares the dearer exchange.
+    // Most triangles lie behind others: a plain load avoids most of the slower exchanges.
     if depth > 0.0 && kept.load(Relaxed) < bits {
         kept.fetch_max(bits, Relaxed);
     }
 }
 
-/// Thin and stained 1 bit each, subject 6, colour 24, then the normal in 3 times 10 bits.
+/// Packs 1 bit each for thin and stained, 6 for the subject, 24 for the colour, and 3 times 10 for the normal.
 #[inline]
 fn packed(paint: &Paint, normal: Vec3) -> u64 {
     let ten = |x: f32| (x * 511.0 + 512.5).clamp(0.0, 1023.0) as u64;

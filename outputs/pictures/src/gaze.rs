@@ -1,12 +1,12 @@
-//! Which way a camera looks: three directions across one another, in the coordinates of the plants.
+//! The direction in which a camera looks: three perpendicular directions, in the coordinates of the plants.
 //!
-//! A gaze is all that is needed to tell how far plants reach in a picture; where the camera stands follows from that.
-//! Absent: the camera itself, which `camera` has.
+//! The gaze alone determines how far plants extend in a picture; the place of the camera follows from that. Absent: the
+//! camera itself (`camera`).
 
 use glam::Vec3;
 use phytomer_sim::math::sincosf;
 
-/// Three directions across one another: which way a camera looks.
+/// Three perpendicular unit vectors: the direction in which a camera looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gaze {
     /// To the right of the picture, level.
@@ -18,7 +18,7 @@ pub struct Gaze {
 }
 
 impl Gaze {
-    /// Looking level towards `azimuth`, from the X axis to the Y axis, and down by `decline`; radians.
+    /// A gaze towards `azimuth`, from the X axis to the Y axis, and down by `decline`; radians.
     pub fn towards(azimuth: f32, decline: f32) -> Self {
         let ((sin_a, cos_a), (sin_d, cos_d)) = (sincosf(azimuth), sincosf(decline));
         Self {
@@ -28,7 +28,7 @@ impl Gaze {
         }
     }
 
-    /// Straight down, the Y axis up the picture, turned to the left by an angle.
+    /// A gaze straight down, with the Y axis up the picture, turned to the left by an angle, radians.
     pub fn down(turn: f32) -> Self {
         let (sin, cos) = sincosf(turn);
         Self { right: Vec3::new(cos, sin, 0.0), up: Vec3::new(-sin, cos, 0.0), forward: Vec3::NEG_Z }

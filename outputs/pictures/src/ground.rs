@@ -1,8 +1,8 @@
-//! What stands behind and below the plants: a light background, and ground that bears their shadows.
+//! The background behind and below the plants: a light sky, and ground that shows their shadows.
 //!
-//! The ground is paper: near a plant it has a tone of its own, farther off it is the background, so that no horizon
-//! cuts the picture. Shadows only darken it, by the shares of sun and sky that they leave; on a transparent picture
-//! they are the opacity of a dark blue. To a level gaze the ground is a line.
+//! Near a plant the ground has a tone of its own; farther off it fades into the background, so that no horizon cuts the
+//! picture. Shadows darken the ground by the shares of sun and sky that are left; on a transparent picture they are the
+//! opacity of a dark blue. In a level gaze the ground is a line.
 
 use super::camera::Camera;
 use super::shade::{Light, SKY, SUN};
@@ -13,31 +13,31 @@ use glam::Vec3;
 const ZENITH: [u8; 3] = [222, 231, 239];
 const HORIZON: [u8; 3] = [248, 247, 243];
 const EARTH: [u8; 3] = [229, 224, 211];
-/// What is below the line of the ground to a level gaze.
+/// The colour below the line of the ground, in a level gaze.
 const SECTION: [u8; 3] = [236, 231, 221];
 const LINE: [u8; 3] = [139, 130, 116];
-/// The colour of a shadow on nothing.
+/// The colour of a shadow on a transparent picture.
 const SHADE: [u8; 3] = [38, 44, 58];
 
-/// A plant as the ground knows it.
+/// The effect of a plant, or of a stand, on the ground.
 #[derive(Debug, Clone, Copy)]
 pub struct Footing<'a> {
     /// Its light.
     pub light: &'a Light,
-    /// From the place where it was drawn to where it stands.
+    /// The offset from the place where its light was computed to its place in the picture.
     pub offset: Vec3,
-    /// Where it stands.
+    /// Its place in the picture.
     pub foot: Vec3,
     /// Its size, metres.
     pub size: f32,
 }
 
-/// What is behind a pixel: the roots of its light, and how much it hides.
+/// The background of a pixel.
 #[derive(Debug, Clone, Copy)]
 pub struct Behind {
-    /// Roots of light.
+    /// The roots of its light.
     pub roots: Vec3,
-    /// Opacity.
+    /// Its opacity.
     pub opacity: f32,
     /// The depth of the ground; 0 where there is none.
     pub depth: f32,
@@ -50,16 +50,16 @@ pub struct Ground<'a> {
     pub camera: &'a Camera,
     /// The plants that stand on it.
     pub footings: &'a [Footing<'a>],
-    /// The height of the picture.
+    /// The height of the picture, pixels.
     pub height: f32,
-    /// Whether there is ground.
+    /// Whether ground is drawn.
     pub drawn: bool,
-    /// Whether what is not drawn is left out.
+    /// Whether the background is transparent.
     pub transparent: bool,
 }
 
 impl Ground<'_> {
-    /// What is behind the pixel around a place.
+    /// The background of the pixel around a place.
     pub fn behind(&self, x: f32, y: f32) -> Behind {
         let paper = self.paper(y);
         let none = Behind { roots: paper, opacity: if self.transparent { 0.0 } else { 1.0 }, depth: 0.0 };
@@ -84,7 +84,7 @@ impl Ground<'_> {
         tone::roots(ZENITH).lerp(tone::roots(HORIZON), smooth(y / self.height / 0.85))
     }
 
-    /// The ground as a line, one pixel wide, and what is below it.
+    /// The background in a level gaze: the ground as a line one pixel wide, and the section below it.
     fn section(&self, y: f32, none: Behind) -> Behind {
         let line = self.camera.project(Vec3::ZERO).map_or(f32::MAX, |seen| seen.y);
         let below = (y + 0.5 - line).clamp(0.0, 1.0);
@@ -97,7 +97,7 @@ impl Ground<'_> {
         Behind { roots, ..none }
     }
 
-    /// How near a point is to what stands on the ground: 1 below it, 0 far away.
+    /// How near a point is to the plants on the ground, from 0 (far away) to 1 (below a plant).
     fn nearness(&self, point: Vec3) -> f32 {
         let of = |footing: &Footing| {
             let far = (point - footing.foot).length() / footing.size.max(1e-6);
@@ -106,7 +106,7 @@ impl Ground<'_> {
         self.footings.iter().map(of).fold(0.0, f32::max)
     }
 
-    /// The share of the light of open ground that the plants leave to a point.
+    /// The share of the light on open ground that reaches a point under the plants, by colour.
     fn left(&self, point: Vec3) -> Vec3 {
         self.footings.iter().fold(Vec3::ONE, |left, footing| {
             let light = footing.light;

@@ -1,15 +1,16 @@
-//! Letters of round strokes, our own: what captions, scale bars and legends are written with.
+//! Letters of round strokes, drawn for this project, for captions, scale bars and legends.
 //!
-//! A capital is 12 units tall, a small letter 8, a stem below the line goes 4 farther. A point is a digit for its place
-//! to the right and a letter for its place down from the top of a capital (`m` is the line). A stroke is a chain of
-//! points; with `~` it is a smooth curve through them. A letter that is not here is written as a question mark.
+//! A capital is 12 units tall, a small letter 8, and a stem below the line reaches 4 units down. A point is a digit for
+//! its place to the right and a letter for its place down from the top of a capital (`m` is the line). A stroke is a
+//! chain of points; with `~` it is a smooth curve through them. A letter that is missing here is written as a question
+//! mark.
 
 /// The height of a capital, units.
 const CAPITAL: f32 = 12.0;
-/// Between two letters, and the width of a space.
+/// The distance between two letters, and the width of a space, units.
 const GAP: f32 = 2.6;
 const SPACE: f32 = 4.2;
-/// Points of a curve between two of its own.
+/// The number of points that a curve adds between two of its given points.
 const CUTS: u8 = 6;
 
 #[rustfmt::skip]
@@ -60,7 +61,7 @@ fn unmarked(letter: char) -> (char, &'static str) {
     }
 }
 
-/// The strokes of a line of text whose capitals are `size` pixels tall, from a point on its line, and where it ends.
+/// The strokes of a line of text that starts at a point, with capitals `size` pixels tall, and the x where it ends.
 pub fn written(text: &str, size: f32, [left, line]: [f32; 2]) -> (Vec<Vec<[f32; 2]>>, f32) {
     let unit = size / CAPITAL;
     let (mut strokes, mut x) = (Vec::new(), left);
@@ -83,7 +84,7 @@ pub fn written(text: &str, size: f32, [left, line]: [f32; 2]) -> (Vec<Vec<[f32; 
     (strokes, x - GAP * unit)
 }
 
-/// How wide a line of text is, pixels.
+/// The width of a line of text, pixels.
 pub fn width(text: &str, size: f32) -> f32 {
     written(text, size, [0.0; 2]).1.max(0.0)
 }

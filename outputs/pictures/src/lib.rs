@@ -1,11 +1,10 @@
-//! Pictures of plants, without a graphics processor: the meshes of [`phytomer_meshes`] through a small rasteriser of
-//! our own.
+//! Pictures of plants, without a graphics processor: the meshes of [`phytomer_meshes`], drawn by a small rasteriser.
 //!
-//! No kept crate serves: those in pure Rust draw flat shapes, or are studies of one person that fix their own mesh in
-//! memory. What happens: plants are put side by side (`placed`), a camera is fitted to them (`camera`, `extent`), sun
-//! and sky are let fall on each (`shadow`, `sky`), triangles are covered with samples (`raster`, `film`), samples
-//! are shaded and averaged (`shade`, `ground`, `draw`), and what they show is written below (`caption`).
-//! The same plants and the same [`Picture`] give the same bytes on any number of threads. Absent: films; textures.
+//! The rasteriser is the project's own: crates in pure Rust draw flat shapes only, or keep whole meshes in a memory
+//! layout of their own. Plants are put side by side (`placed`), a camera is fitted to them (`camera`, `extent`), the
+//! light of sun and sky on each is computed (`shadow`, `sky`), triangles are turned into samples (`raster`, `film`),
+//! samples are shaded and averaged (`shade`, `ground`, `draw`), and the caption is written (`caption`). Equal plants
+//! and an equal [`Picture`] give equal bytes on any number of threads. Absent: films; textures.
 
 mod camera;
 mod canvas;
@@ -43,26 +42,26 @@ use phytomer_sim::plant::Plant;
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// The most plants of one picture that stand side by side, or plots; in each plot there may be any number of plants.
+/// The most plants, or plots, that stand side by side in one picture. The number of plants in each plot is not limited.
 pub const MOST_SUBJECTS: usize = 64;
 
-/// From where plants are seen.
+/// The direction from which plants are seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum View {
-    /// By an eye a little above the ground, in perspective.
+    /// From an eye a little above the ground, in perspective.
     Perspective,
     /// From above, the Y axis (north) up the picture.
     Top,
     /// From the front, towards the Y axis.
     Front,
-    /// From the right of the front, against the X axis.
+    /// From the right, against the X axis.
     Side,
     /// From the front, the right and above, in parallel projection.
     Oblique,
 }
 
 impl View {
-    /// Which way it looks, turned to the left by an angle, radians.
+    /// The gaze of the view, turned to the left by an angle, radians.
     fn gaze(self, turn: f32) -> Gaze {
         let degrees = |degrees: f32| degrees * PI / 180.0;
         match self {
@@ -74,7 +73,7 @@ impl View {
         }
     }
 
-    /// The sun over the left shoulder of whoever looks, radians.
+    /// Azimuth and elevation of a sun over the left shoulder of the viewer, radians.
     fn sun(self, turn: f32) -> [f32; 2] {
         let azimuth: f32 = match self {
             Self::Perspective => 110.0 + 180.0 - 52.0,
@@ -87,34 +86,35 @@ impl View {
     }
 }
 
-/// How plants are drawn.
+/// Options for a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
     /// Width and height, pixels.
     pub size: [u32; 2],
-    /// From where.
+    /// The direction of view.
     pub view: View,
-    /// The angle, radians, by which whoever looks goes on around the plants, counterclockwise from above. If not given,
-    /// a flat plant is seen in perspective from where it is wide, any other from the front.
+    /// The angle, radians, by which the viewer moves around the plants, counterclockwise from above. If not given, a
+    /// flat plant is seen in perspective from its wide side, any other plant from the front.
     pub turn: Option<f32>,
-    /// Whether the background is left out.
+    /// Whether the background is transparent.
     pub transparent: bool,
     /// Whether ground and shadow are drawn.
     pub ground: bool,
-    /// Whether the scale bar and what is written are drawn.
+    /// Whether scale bar and text are drawn.
     pub caption: bool,
-    /// Azimuth from the X axis to the Y axis, and elevation of the sun, radians; over the left shoulder if not given.
+    /// Azimuth of the sun, from the X axis to the Y axis, and its elevation, radians. Over the left shoulder of the
+    /// viewer if not given.
     pub sun: Option<[f32; 2]>,
-    /// Sides of the tube that an internode is drawn as.
+    /// The number of sides of the tube that an internode is drawn as.
     pub sides: u8,
-    /// The meshes of its own that the species names, where the picture is of single plants.
+    /// The mesh files that the species names as forms, for pictures of single plants.
     pub own: Arc<OwnForms>,
-    /// What colours the components, its plants those of the picture; their own colours if not given.
+    /// Values that colour the components of the picture's plants; natural colours if not given.
     pub colour_by: Option<Colouring>,
 }
 
 impl Default for Picture {
-    /// In perspective and sunshine, on ground, with its captions, 1600 by 1200 pixels.
+    /// Perspective, sunshine, ground and caption, 1600 by 1200 pixels.
     fn default() -> Self {
         Self {
             size: [1600, 1200],
@@ -134,52 +134,53 @@ impl Default for Picture {
 /// A plant at an age, to be drawn.
 #[derive(Debug, Clone)]
 pub struct Subject<'a> {
-    /// The plant, its frames and diameters those of the age.
+    /// The plant, with the frames and diameters of the age.
     pub plant: &'a Plant,
-    /// The age.
+    /// Its age.
     pub age: Tick,
-    /// What is written below it.
+    /// The text below it.
     pub label: String,
 }
 
-/// Plants that stand together, as those of a plot do, to be drawn in their places.
+/// Plants that stand together, such as those of a plot, to be drawn in their places.
 #[derive(Debug, Clone)]
 pub struct Stand<'a> {
-    /// The plants; any number. One that stands at several places is told several times, as the same plant in memory,
-    /// and its mesh is made once.
+    /// The plants; any number. A plant that stands at several places is in the list once per place, as the same
+    /// reference, and its mesh is made once.
     pub plants: Vec<Placed<'a>>,
-    /// What is written below them.
+    /// The text below them.
     pub label: String,
 }
 
 /// A plant of a stand.
 #[derive(Debug, Clone)]
 pub struct Placed<'a> {
-    /// The plant, its frames and diameters those of the age.
+    /// The plant, with the frames and diameters of the age.
     pub plant: &'a Plant,
-    /// The age.
+    /// Its age.
     pub age: Tick,
-    /// Where its seed lies, metres from the origin of the stand.
+    /// The place of its seed, metres from the origin of the stand.
     pub place: [f32; 3],
-    /// The meshes of its own that its species names.
+    /// The mesh files that its species names as forms.
     pub own: Arc<OwnForms>,
 }
 
-/// Draws plants side by side, in one scale on one ground, `title` written in the corner.
-/// All plants are in memory, but of their triangles only some blocks at a time.
+/// Draws plants side by side, in one scale on one ground, with `title` in the corner. All plants are in memory, but
+/// their triangles are made in blocks and dropped. The triangles are made several times: for the box, the light, the
+/// depths and the colours. Subjects after the first [`MOST_SUBJECTS`] are left out.
 pub fn draw(subjects: &[Subject], title: &str, picture: &Picture) -> Canvas {
     draw_stands(&alone(subjects, picture), title, picture)
 }
 
-/// Draws plots side by side, in one scale on one ground, each plant in its place and in the shade of the others of its
-/// plot.
+/// Draws stands side by side, in one scale on one ground, each plant in its place and in the shade of its stand. See
+/// [`draw()`] for memory and the largest number of stands.
 pub fn draw_stands(stands: &[Stand], title: &str, picture: &Picture) -> Canvas {
     let mut cast = Cast::of(stands, picture);
     let camera = cast.aim(picture, f32::INFINITY);
     cast.draw(picture, &camera, title)
 }
 
-/// Each plant as a stand of its own.
+/// A stand for each plant.
 fn alone<'a>(subjects: &[Subject<'a>], picture: &Picture) -> Vec<Stand<'a>> {
     let placed = |subject: &Subject<'a>| {
         let own = Arc::clone(&picture.own);
@@ -193,7 +194,7 @@ pub fn sheet(subjects: &[Subject], title: &str, picture: &Picture) -> Canvas {
     sheet_of_stands(&alone(subjects, picture), title, picture)
 }
 
-/// The same of plots.
+/// Draws the four parallel views of stands on one sheet, in one scale, as [`sheet`] does for plants.
 pub fn sheet_of_stands(stands: &[Stand], title: &str, picture: &Picture) -> Canvas {
     let [width, height] = picture.size;
     let mut cast = Cast::of(stands, picture);

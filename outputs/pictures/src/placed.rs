@@ -1,9 +1,9 @@
-//! What stands together in a picture, told from its own origin and put where it is to be seen, and the ways through its
-//! triangles: a single plant, or all plants of a plot in their places.
+//! The plants that stand together in a picture, at their places, and the passes over their triangles: a single plant,
+//! or all plants of a plot.
 //!
-//! Meshes are those of [`phytomer_meshes`], made block by block on whatever thread is free, looked at and thrown away:
-//! a picture of ten million triangles needs no more memory than one of ten. A plant that stands at several places is
-//! made once and kept. What is left by the triangles is sums of whole numbers and maxima, so their order shows nowhere.
+//! Meshes are those of [`phytomer_meshes`], made block by block on any free thread, used and dropped: a picture of ten
+//! million triangles needs no more memory than one of ten. A plant that stands at several places is made once and kept.
+//! Triangles only add to sums of whole numbers and to maxima, so their order has no effect.
 
 use super::camera::Camera;
 use super::extent::Extent;
@@ -21,38 +21,38 @@ use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Where nothing is left of a plant, a picture shows the place where it stood, a metre high from its seed.
+/// The visible place of a plant of which nothing is left: one metre up from its seed.
 const EMPTY: Vec3 = Vec3::Z;
 
-/// So many places of one plant are gone through at once with one of its blocks.
+/// The number of places of one plant that a thread handles with one block.
 const PLACES_AT_ONCE: usize = 16;
 
 /// A plant at an age, with the places where it stands.
 #[derive(Debug)]
 pub struct Body<'a> {
     scene: Scene<'a>,
-    /// The colours of its components by their numbers, where they do not have their own.
+    /// The colours of its components by number; `None` for natural colours.
     colours: Option<Vec<[u8; 3]>>,
-    /// The boxes of its blocks; those of empty ones are inside out.
+    /// The bounding boxes of its blocks; an empty block has its lower corner above its upper corner.
     boxes: Vec<[Vec3; 2]>,
     stuff: [Stuff; Kind::ALL.len()],
     places: Vec<Vec3>,
-    /// Its blocks, where it stands at several places; else they are made when they are looked at.
+    /// The meshes of its blocks, where it stands at several places; else empty, and blocks are made when they are used.
     kept: Vec<Mesh>,
 }
 
-/// What stands together in a picture.
+/// The plants that stand together, at their place in the picture.
 #[derive(Debug)]
 pub struct PlacedStand<'a> {
     bodies: Vec<Body<'a>>,
     looks: Vec<Look>,
-    /// From its origin to where it stands in the picture.
+    /// The offset from their origin to their place in the picture.
     pub offset: Vec3,
-    /// Its place in the picture.
+    /// The index of the stand in the picture.
     pub number: u8,
 }
 
-/// A block of a body at some of its places: what one thread looks at.
+/// A block of a body at some of its places: the unit of work of a thread.
 #[derive(Debug, Clone)]
 struct Look {
     body: usize,
@@ -60,7 +60,7 @@ struct Look {
     places: Range<usize>,
 }
 
-/// Memory of a thread that looks.
+/// The working memory of a thread.
 #[derive(Default)]
 struct Scratch {
     mesh: Mesh,
@@ -68,7 +68,7 @@ struct Scratch {
 }
 
 impl<'a> Body<'a> {
-    /// A plant as it stands at `age`, at each of some places.
+    /// A plant at `age`, at each of some places.
     pub fn new(
         (plant, age): (&'a Plant, Tick),
         options: &MeshOptions,
@@ -103,7 +103,7 @@ impl<'a> Body<'a> {
         self.boxes.iter().all(|[low, high]| low.x > high.x)
     }
 
-    /// The boxes of its blocks that hold anything, at all its places.
+    /// The bounding boxes of its blocks that are not empty, at all its places.
     fn placed_boxes(&self) -> impl Iterator<Item = [Vec3; 2]> {
         let full = self.boxes.iter().filter(|[low, high]| low.x <= high.x);
         full.flat_map(|[low, high]| self.places.iter().map(|place| [*low + *place, *high + *place]))
@@ -121,7 +121,8 @@ impl<'a> Body<'a> {
             let vertices = indices.map(|index| &mesh.vertices[index]);
             let tag = vertices[0].tag();
             let Stuff { thin, closed } = self.stuff_of(&tag);
-            // The far side of what is closed is never seen. Corners behind the eye are no numbers and compare as false.
+            // The far side of a closed surface is never seen. Corners behind the eye are NaN, so the comparison is
+            // false.
             if closed && turn(&corners) > 0.0 {
                 continue;
             }
@@ -147,7 +148,7 @@ impl<'a> Body<'a> {
 }
 
 impl<'a> PlacedStand<'a> {
-    /// Plants that stand together.
+    /// A stand of these plants, with its index in the picture.
     pub fn new(bodies: Vec<Body<'a>>, number: u8) -> Self {
         let mut looks = Vec::new();
         for (body, of) in bodies.iter().enumerate() {
@@ -166,20 +167,20 @@ impl<'a> PlacedStand<'a> {
         self.bodies.iter().flat_map(|body| body.places.iter().copied())
     }
 
-    /// The middle of the places of its plants, as it grew.
+    /// The middle of the places of its plants, in its own coordinates.
     pub fn middle(&self) -> Vec3 {
         let ends = self.places().map(|place| [place, place]).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
         ends.map_or(Vec3::ZERO, |[low, high]| 0.5 * (low + high))
     }
 
-    /// The box around it as it grew, the feet of its plants within.
+    /// The box around it, with the feet of its plants, in its own coordinates.
     pub fn bounds(&self) -> [Vec3; 2] {
         let feet = self.places().map(|place| [place; 2]);
         let boxes = feet.chain(self.bodies.iter().flat_map(Body::placed_boxes));
         boxes.reduce(|[low, high], [a, b]| [low.min(a), high.max(b)]).unwrap_or_default()
     }
 
-    /// How wide it is along a direction, about: the boxes of its blocks are.
+    /// Its width along a direction, about: from the boxes of its blocks.
     pub fn width(&self, right: Vec3) -> f32 {
         let feet = self.places().map(|place| [place; 2]);
         let boxes = feet.chain(self.bodies.iter().flat_map(Body::placed_boxes));
@@ -191,8 +192,8 @@ impl<'a> PlacedStand<'a> {
         ends.reduce(|[least, most], [a, b]| [least.min(a), most.max(b)]).map_or(0.0, |[least, most]| most - least)
     }
 
-    /// How far it reaches as it grew, to be seen along a gaze within tangents; what lies below its foot counts where it
-    /// is to be seen too.
+    /// Its extent in its own coordinates, for a gaze and the tangents of a frame. With `buried`, the parts below its
+    /// foot count too.
     pub fn extent(&self, gaze: Gaze, tangents: [f32; 4], buried: bool) -> Extent {
         let lowest = if buried { f32::NEG_INFINITY } else { 0.0 };
         let empty = || Extent::new(gaze, tangents);
@@ -218,7 +219,7 @@ impl<'a> PlacedStand<'a> {
         extent
     }
 
-    /// The light over it, the sun at an azimuth and an elevation.
+    /// The light over it, for a sun at an azimuth and an elevation, radians.
     pub fn light(&self, sun: [f32; 2]) -> Light {
         let [low, high] = self.bounds();
         let (shadow, crown) = (Shadow::over(low, high, sun), Crown::over(low, high));
@@ -242,7 +243,8 @@ impl<'a> PlacedStand<'a> {
         Light { shadow, sky: crown.lighten() }
     }
 
-    /// Leaves on the film what a camera sees of it in a window of samples, `fine` to a pixel each way.
+    /// Draws it on the film for a camera and a window of samples, `fine` samples per pixel each way. With `painting`
+    /// this is the second pass, else the first.
     pub fn expose(&self, camera: &Camera, film: &Film, window: &Window, fine: f32, painting: bool) {
         let rows = [window.rows.start as f32, window.rows.end as f32];
         let in_rows = |look: &Look, place: Vec3| {
@@ -265,7 +267,7 @@ impl<'a> PlacedStand<'a> {
         );
     }
 
-    /// The rows of samples that a block may reach at a place; `None` for one that is empty.
+    /// The rows of samples that a block may reach at a place; `None` for an empty block.
     fn rows_of(&self, look: &Look, camera: &Camera, place: Vec3, fine: f32) -> Option<[f32; 2]> {
         let [low, high] = self.bodies[look.body].boxes[look.block];
         let mut rows = [f32::INFINITY, f32::NEG_INFINITY];
@@ -280,7 +282,7 @@ impl<'a> PlacedStand<'a> {
         Some(rows)
     }
 
-    /// Looks at every block that is wanted, on all threads, and joins what comes of it in any order.
+    /// Calls a function with every selected block, on all threads, and joins the results in any order.
     fn each_look<T: Send>(
         &self,
         wanted: impl Fn(&Look) -> bool + Sync,
@@ -293,7 +295,7 @@ impl<'a> PlacedStand<'a> {
     }
 }
 
-/// Where a camera sees the vertices of a block that is moved by `offset`, in samples.
+/// The places in the picture, in samples, of the vertices of a block that is moved by `offset`.
 fn project(mesh: &Mesh, camera: &Camera, offset: Vec3, fine: f32, corners: &mut Vec<Vec3>) {
     let place = |vertex: &Vertex| {
         let seen = camera.project(at(vertex) + offset).unwrap_or(Vec3::NAN);
@@ -308,16 +310,16 @@ fn at(vertex: &Vertex) -> Vec3 {
     Vec3::from_array(vertex.position())
 }
 
-/// What the components of each kind are for light.
+/// The optical properties of the components of a kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Stuff {
-    /// Light comes through, and both sides are seen: leaves, flowers, internodes that are blades.
+    /// Light passes through, and both sides are seen: leaves, flowers, internodes that are blades.
     thin: bool,
-    /// Its far side is never seen: internodes that are tubes and nothing else.
+    /// The far side is never seen: internodes that are tubes and nothing else.
     closed: bool,
 }
 
-/// The stuff of each kind of a plant.
+/// The optical properties of each kind of a plant.
 fn stuff(plant: &Plant) -> [Stuff; Kind::ALL.len()] {
     let paints = Paints::of(&plant.habit);
     let looks = plant.habit.looks.internodes.iter().chain(&plant.habit.looks.apart);
@@ -340,7 +342,7 @@ fn is_leafy(kind: Kind) -> bool {
     matches!(kind.class(), Class::Leaf | Class::Flower)
 }
 
-/// A colour made a little lighter or darker, warmer or cooler, as leaves differ; the same for a component at every age.
+/// A colour made a little lighter or darker, warmer or cooler, as leaves differ; constant for a component at every age.
 fn varied(colour: [u8; 3], component: u32) -> [u8; 3] {
     // Two bytes of a multiplicative hash (Knuth).
     let hash = component.wrapping_mul(2_654_435_761) >> 16;

@@ -1,40 +1,40 @@
-//! Which samples a triangle covers, and how deep it lies there.
+//! The samples that a triangle covers, with its depth at each.
 //!
-//! Samples stand on rows; within the rows of one pixel each row is shifted against the next, so that an edge that runs
-//! nearly upright still meets as many different places as a pixel has samples. A sample on an edge belongs to both
-//! triangles of it. The triangle is walked row by row between its two sides. Absent: clipping against the eye.
+//! Samples stand on rows. The rows within a pixel are shifted against each other, so that a nearly upright edge meets
+//! as many different columns as a pixel has samples. A sample on an edge belongs to both triangles of the edge. A
+//! triangle is scanned row by row between its two sides. Absent: clipping against the eye.
 
 use glam::Vec3;
 use std::ops::Range;
 
-/// The samples that are looked at: all columns of some rows of a picture.
+/// A window of samples: all columns of some rows of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Window {
     /// Samples in a row.
     pub width: u32,
     /// The rows, counted over the whole picture.
     pub rows: Range<u32>,
-    /// Where the samples of a row stand beyond their columns' middles, in columns; row after row, again and again.
+    /// The shift of the samples of a row from the middles of their columns, in columns; the list repeats row after row.
     pub shifts: &'static [f32],
 }
 
-/// Rows that stand straight below one another.
+/// Shifts for rows that stand straight below one another.
 pub const UPRIGHT: &[f32] = &[0.0];
 
 impl Window {
-    /// How many samples it has.
+    /// The number of its samples.
     pub fn len(&self) -> usize {
         self.width as usize * self.rows.len()
     }
 
-    /// Where the sample of a column stands on a row, in columns.
+    /// The position of the sample of a column on a row, in columns.
     #[inline]
     pub fn place(&self, column: u32, row: u32) -> f32 {
         column as f32 + 0.5 + self.shifts[row as usize % self.shifts.len()]
     }
 }
 
-/// The plane of a quantity over the picture: its value at a corner and what it gains to the right and down.
+/// A quantity that is linear over the picture: its value at a corner, and its slopes to the right and down.
 #[derive(Debug, Clone, Copy)]
 pub struct Plane {
     at: [f32; 2],
@@ -43,7 +43,7 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// Through three corners with three values; flat where the corners lie in a line.
+    /// The plane through three corners with three values; constant where the corners lie in a line.
     #[inline]
     pub fn through(corners: &[Vec3; 3], values: [f32; 3]) -> Self {
         let [a, b, c] = corners;
@@ -65,28 +65,28 @@ impl Plane {
 /// A sample that a triangle covers.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample {
-    /// Its number in the window.
+    /// The index of the sample in the window.
     pub index: usize,
-    /// Its place, in columns and rows.
+    /// Its place to the right, in columns.
     pub x: f32,
-    /// The same, down.
+    /// Its place down, in rows.
     pub y: f32,
-    /// How deep the triangle lies there.
+    /// The depth of the triangle there.
     pub depth: f32,
 }
 
-/// Twice the area of a triangle in the picture, positive where its corners go clockwise as seen (y points down).
+/// Twice the area of a triangle in the picture, positive where its corners run clockwise as seen (y points down).
 #[inline]
 pub fn turn(corners: &[Vec3; 3]) -> f32 {
     let [a, b, c] = corners;
     (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
 }
 
-/// Hands every sample of `window` that the triangle covers to `put`; corners in columns, rows and depth.
+/// Calls `put` with every sample of `window` that the triangle covers; corners are in columns, rows and depth.
 #[inline]
 pub fn cover(corners: &[Vec3; 3], window: &Window, mut put: impl FnMut(Sample)) {
     let [mut a, mut b, mut c] = *corners;
-    // From top to bottom.
+    // Sort the corners from top to bottom.
     if b.y < a.y {
         std::mem::swap(&mut a, &mut b);
     }
@@ -97,7 +97,7 @@ pub fn cover(corners: &[Vec3; 3], window: &Window, mut put: impl FnMut(Sample)) 
         }
     }
     let Some(rows) = between(a.y - 0.5, c.y - 0.5, &window.rows) else { return };
-    // A float that is no number leaves no rows, so what follows is finite.
+    // Corners that are NaN give no rows, so all values below are finite.
     let depth = Plane::through(corners, corners.map(|corner| corner.z));
     let deepest = a.z.min(b.z).min(c.z);
     let nearest = a.z.max(b.z).max(c.z);
@@ -113,7 +113,7 @@ pub fn cover(corners: &[Vec3; 3], window: &Window, mut put: impl FnMut(Sample)) 
         let first = (row - window.rows.start) as usize * window.width as usize;
         for column in columns {
             let x = column as f32 + shift;
-            // Rounding may lead a hair beyond the corners.
+            // Rounding may lead slightly beyond the depths of the corners.
             let depth = depth.at(x, y).max(deepest).min(nearest);
             put(Sample { index: first + column as usize, x, y, depth });
         }
@@ -141,11 +141,11 @@ impl Side {
     }
 }
 
-/// The whole numbers of `within` from `low` to `high`, both included; `None` where there is none.
+/// The whole numbers of `within` from `low` to `high`, both included; `None` where there are none.
 #[inline]
 fn between(low: f32, high: f32, within: &Range<u32>) -> Option<Range<u32>> {
     let start = low.ceil().max(within.start as f32);
     let last = high.floor().min(within.end as f32 - 1.0);
-    // Not a number compares as false.
+    // A comparison with NaN is false.
     (start <= last).then(|| start as u32..last as u32 + 1)
 }

@@ -1,10 +1,10 @@
-//! The light that leaves a face towards the eye: sun, sky, ground, and what comes through leaves.
+//! The light that leaves a face towards the eye: from sun, sky and ground, and through leaves.
 //!
-//! Leaves are seen from both sides and lit on both: the sun on the far side shines through, yellower than it is thrown
-//! back. What is pale, as petals are, hardly tints what it lets through, and its neighbours pass light on that never
-//! reaches the shade of dark leaves: so a tree in blossom is white in its own shadow. Strengths and tints are by eye,
-//! chosen so that a leaf in full light shows the colour that it is given. Absent: textures, gloss beyond a faint sheen
-//! of leaves, and light that is scattered twice, for which there is a small constant.
+//! Leaves are seen and lit on both sides: sunlight on the far side shines through, yellower than reflected light. A
+//! pale petal hardly tints the light that it transmits, and pale neighbours pass light on that does not reach the shade
+//! of dark leaves: so a tree in blossom is white in its own shadow. Strengths and tints are by eye, chosen so that a
+//! leaf in full light shows its stated colour. Absent: textures, gloss beyond a faint sheen of leaves, and light that
+//! is scattered twice, for which there is a small constant.
 
 use super::film::{Paint, Seen};
 use super::shadow::Shadow;
@@ -12,37 +12,38 @@ use super::sky::{Sky, falling_on};
 use super::tone;
 use glam::Vec3;
 
-/// The light of the sun on a face across it.
+/// The light of the sun on a face perpendicular to its rays.
 pub const SUN: Vec3 = Vec3::new(1.62, 1.48, 1.24);
 /// The light of the whole sky on level ground.
 pub const SKY: Vec3 = Vec3::new(0.62, 0.69, 0.78);
-/// What the ground throws back up.
+/// The light that the ground reflects upwards.
 const GROUND: Vec3 = Vec3::new(0.33, 0.305, 0.245);
-/// What is left in the deepest shade.
+/// The light in the deepest shade.
 const LEAST: Vec3 = Vec3::new(0.095, 0.1, 0.088);
-/// The shares of light that leaves throw back and let through.
+/// The shares of light that leaves reflect and transmit.
 const BACK: f32 = 0.78;
 const THROUGH: f32 = 0.5;
 const THROUGH_TINT: Vec3 = Vec3::new(1.15, 1.12, 0.5);
 const SHEEN: f32 = 0.07;
-/// The shares of the sky that is hidden and of the sun that is cut off which white neighbours pass on to a white face.
+/// The shares of the hidden sky and of the blocked sun that white neighbours pass on to a white face.
 const PASSED_SKY: f32 = 0.5;
 const PASSED_SUN: f32 = 0.25;
-/// The light of colours that stand for something: what they have anyway, of the sky, of the sun.
+/// The light of colours that stand for values: a constant part, the part of the sky, the part of the sun.
 const STAIN: f32 = 0.5;
 const STAIN_SKY: f32 = 0.45;
 const STAIN_SUN: f32 = 0.4;
 
-/// The light over one plant.
+/// The light over one plant or stand.
 #[derive(Debug)]
 pub struct Light {
-    /// That of the sun.
+    /// The light of the sun.
     pub shadow: Shadow,
-    /// That of the sky.
+    /// The light of the sky.
     pub sky: Sky,
 }
 
-/// The light that leaves what is seen at `point` towards `back`; the sun by one tap of its disc.
+/// The light that leaves the surface `seen` at `point` in the direction `back`; `tap` chooses a point of the sun's
+/// disc.
 #[inline]
 pub fn shade(seen: &Seen, point: Vec3, back: Vec3, light: &Light, tap: usize) -> Vec3 {
     let Paint { colour, thin, stained, .. } = seen.paint;

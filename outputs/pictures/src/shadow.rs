@@ -1,8 +1,8 @@
-//! Where the sun reaches: the nearest depths of a plant as the sun sees it, over a square of texels.
+//! The shadow of a plant: its nearest depths as seen from the sun, over a grid of texels.
 //!
-//! A shadow map under parallel light, filled by atomic maxima as [`super::film`] is. A point is in shadow where
-//! something lies nearer to the sun; the taps of a penumbra widen with the distance to it, as those of the sun's disc
-//! do.
+//! This is a shadow map under parallel light, filled by atomic maxima as [`super::film`] is. A point is in shadow where
+//! a surface lies nearer to the sun. The taps of a penumbra spread with the distance to that surface, as the sun's disc
+//! makes them do.
 
 use super::camera::Camera;
 use super::extent::Extent;
@@ -14,22 +14,22 @@ use phytomer_sim::math::sincosf;
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-/// Texels along the longer side.
+/// The number of texels along the longer side.
 const TEXELS: f32 = 2048.0;
-/// The half-width of the penumbra, metres for each metre between what throws the shadow and what bears it. The sun's
-/// disc has 0.0047; a hazy sky is softer and pleases more.
+/// The half-width of the penumbra, metres per metre between the surface that throws the shadow and the surface that
+/// shows it. The sun's disc gives 0.0047; a hazy sky is softer and looks better.
 const SOFTNESS: f32 = 0.016;
 
-/// How many taps a penumbra has; the samples of a pixel take one each.
+/// The number of taps of a penumbra; each sample of a pixel takes one tap.
 pub const TAPS: usize = 16;
 
-/// And how many that of the ground, which is looked at once a pixel.
+/// The number of taps of a penumbra on the ground, which is shaded once per pixel.
 const GROUND_TAPS: usize = 64;
 
 static DISC: LazyLock<[[f32; 2]; TAPS]> = LazyLock::new(disc);
 static GROUND_DISC: LazyLock<[[f32; 2]; GROUND_TAPS]> = LazyLock::new(disc);
 
-/// Places all over the unit disc: Vogel's sunflower spiral.
+/// Points spread over the unit disc: Vogel's sunflower spiral.
 fn disc<const N: usize>() -> [[f32; 2]; N] {
     std::array::from_fn(|k| {
         let radius = ((k as f32 + 0.5) / N as f32).sqrt();
@@ -39,22 +39,22 @@ fn disc<const N: usize>() -> [[f32; 2]; N] {
     })
 }
 
-/// The sun over one plant.
+/// The sunlight over one plant or stand.
 #[derive(Debug)]
 pub struct Shadow {
-    /// Towards the sun.
+    /// The direction towards the sun, a unit vector.
     pub sun: Vec3,
     camera: Camera,
     window: Window,
     depths: Vec<AtomicU32>,
-    /// Metres from front to back.
+    /// The depth of the map from front to back, metres.
     reach: f32,
-    /// Metres a texel.
+    /// The size of a texel, metres.
     texel: f32,
 }
 
 impl Shadow {
-    /// No shadow yet, over what lies in a box, the sun at an azimuth and an elevation, radians.
+    /// An empty shadow map over a box, for a sun at an azimuth and an elevation, radians.
     pub fn over(low: Vec3, high: Vec3, [azimuth, elevation]: [f32; 2]) -> Self {
         let gaze = Gaze::towards(azimuth + std::f32::consts::PI, elevation);
         let mut seen = Extent::new(gaze, [0.0; 4]);
@@ -65,7 +65,7 @@ impl Shadow {
         let [west, east, north, south] = seen.most;
         let (wide, tall) = ((west + east).max(1e-3), (north + south).max(1e-3));
         let scale = TEXELS / wide.max(tall);
-        // A texel of margin all around, so that taps beyond the map are in the light.
+        // A margin of texels all around, so that taps beyond the map are in the light.
         let size = [wide, tall].map(|side| (side * scale).ceil() + 4.0);
         let middle = [0.5 * (east - west), 0.5 * (north - south)];
         let camera = Camera::parallel(gaze, middle, seen.depths, scale, size.map(|side| 0.5 * side));
@@ -79,14 +79,14 @@ impl Shadow {
         Self { sun: -gaze.forward, camera, window, depths, reach, texel: 1.0 / scale }
     }
 
-    /// Lets a triangle throw its shadow.
+    /// Adds the shadow of a triangle.
     #[inline]
     pub fn cast(&self, corners: &[Vec3; 3]) {
         let [Some(a), Some(b), Some(c)] = corners.map(|corner| self.camera.project(corner)) else { return };
         cover(&[a, b, c], &self.window, |sample| keep_nearest(&self.depths[sample.index], sample.depth));
     }
 
-    /// How far above a tap the nearest thing towards the sun lies, metres; `None` in the light.
+    /// The distance from a tap to the nearest surface towards the sun, metres; `None` in the light.
     #[inline]
     fn above(&self, seen: Vec3, tap: [f32; 2], radius: f32) -> Option<f32> {
         let (x, y) = (seen.x + radius * tap[0], seen.y + radius * tap[1]);
@@ -96,11 +96,11 @@ impl Shadow {
         }
         let depth = f32::from_bits(self.depths[y as usize * self.window.width as usize + x as usize].load(Relaxed));
         let above = (depth - seen.z) * self.reach;
-        // A depth of nothing is where nothing was cast; the ground may lie beyond the reach of the map.
+        // The depth is 0 where no triangle was added; the ground may lie beyond the reach of the map.
         (depth > 0.0 && above > 0.0).then_some(above)
     }
 
-    /// A point of a surface as the map sees it, lifted off the surface so that it does not shade itself.
+    /// A point of a surface in the coordinates of the map, lifted off the surface so that it does not shade itself.
     #[inline]
     fn lifted(&self, point: Vec3, normal: Vec3) -> Vec3 {
         let side = if normal.dot(self.sun) < 0.0 { -normal } else { normal };
@@ -108,7 +108,7 @@ impl Shadow {
         self.camera.project(lifted).unwrap_or(Vec3::ZERO)
     }
 
-    /// Whether one of the taps of a point on a surface is in the light.
+    /// Whether a point on a surface is in the light, by one of its taps.
     #[inline]
     pub fn lit(&self, point: Vec3, normal: Vec3, tap: usize) -> bool {
         let seen = self.lifted(point, normal);

@@ -1,10 +1,10 @@
-//! How much of the sky a point sees inside a crown: light that falls through a grid of leaf area.
+//! The light of the sky inside a crown, which falls through a grid of leaf area.
 //!
-//! Light from a direction loses exp(−k · area) on its way, k · area being the mean projected area of what it crosses
-//! (Beer's law in a canopy, Monsi & Saeki 1953). The grid holds that area in each cell; each direction of the sky is
-//! swept through it once, from the top layer down. What arrives is kept as a mean and a vector, the first two bands of
-//! spherical harmonics, from which a face of any direction gets its light. Absent: what leaves scatter, which shading
-//! adds by eye.
+//! Light from a direction is reduced to exp(−k · area) on its way, where k · area is the mean projected area that it
+//! crosses (Beer's law in a canopy, Monsi & Saeki 1953). The grid holds the area in each cell, and each direction of
+//! the sky is swept through it once, from the top layer down. The arriving light is kept as a mean and a vector, the
+//! first two bands of spherical harmonics, from which the light on a face of any direction is computed. Absent: light
+//! scattered by leaves, which shading adds by eye.
 
 use glam::Vec3;
 use phytomer_sim::math::{expf, sincosf};
@@ -12,15 +12,15 @@ use rayon::prelude::*;
 use std::f32::consts::{PI, TAU};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-/// Cells along the longest side of a plant.
+/// The number of cells along the longest side of a plant.
 const CELLS: f32 = 72.0;
-/// Cells of air on each side, for what the plant darkens around it.
+/// The number of empty cells on each side, for the air that the plant darkens around it.
 const AIR: usize = 10;
-/// Parts of a cell's face that area is counted in: whole numbers add up in any order.
+/// The unit of area: this part of a cell's face. Sums of whole numbers do not depend on their order.
 const PARTS: f32 = 65536.0;
-/// The rings of the sky: elevation in degrees, directions, share of the sky.
+/// The rings of the sky: elevation in degrees, number of directions, share of the sky.
 const RINGS: [(f32, u16, f32); 4] = [(22.0, 8, 0.50), (42.0, 7, 0.30), (64.0, 4, 0.16), (90.0, 1, 0.04)];
-/// Directions that are swept at once; fixed, so that sums have one order.
+/// The number of directions that are swept at once; fixed, so that sums have one order.
 const AT_ONCE: usize = 4;
 
 /// The area in each cell.
@@ -42,7 +42,7 @@ pub struct Sky {
 }
 
 impl Crown {
-    /// Empty air over a box.
+    /// An empty grid over a box.
     pub fn over(low: Vec3, high: Vec3) -> Self {
         let cell = ((high - low).max_element() / CELLS).max(1e-5);
         let sides = (high - low) / cell;
@@ -54,8 +54,8 @@ impl Crown {
         Self { low, cell, size, areas }
     }
 
-    /// Puts a triangle in. A leaf, which is drawn once, shows half its area to a random direction; a closed surface
-    /// shows a quarter (Cauchy).
+    /// Adds a triangle. A leaf, which is drawn once, shows half its area to a random direction; a closed surface shows
+    /// a quarter (Cauchy).
     #[inline]
     pub fn add(&self, [a, b, c]: &[Vec3; 3], thin: bool) {
         let (ab, ac) = (*b - *a, *c - *a);
@@ -75,12 +75,12 @@ impl Crown {
         }
     }
 
-    /// Lets the light of the sky fall through.
+    /// Computes the light of the sky in each cell.
     pub fn lighten(self) -> Sky {
         let depths: Vec<f32> = self.areas.iter().map(|parts| parts.load(Relaxed) as f32 / PARTS).collect();
         let directions = directions();
         let open: Vec3 = directions.iter().map(|(direction, share)| *direction * *share).sum();
-        // A face that looks straight up under open sky gets all of it.
+        // The scale gives a face that looks straight up under open sky the light 1.
         let scale = 0.5 / open.z;
         let mut light = vec![[0.0; 4]; depths.len()];
         for some in directions.chunks(AT_ONCE) {
@@ -96,7 +96,7 @@ impl Crown {
         Sky { low: self.low, cell: self.cell, size: self.size, light }
     }
 
-    /// What arrives at the middle of each cell of the light of one direction.
+    /// The light of one direction that arrives at the middle of each cell.
     fn sweep(&self, depths: &[f32], direction: Vec3) -> Vec<f32> {
         let [width, rows, layers] = self.size;
         let layer = width * rows;
@@ -120,7 +120,7 @@ impl Crown {
     }
 }
 
-/// The directions of the sky, and the share of it that each stands for.
+/// The directions of the sky, and the share of the sky that each stands for.
 fn directions() -> Vec<(Vec3, f32)> {
     let mut all = Vec::new();
     for (ring, (elevation, count, share)) in RINGS.into_iter().enumerate() {
@@ -133,7 +133,7 @@ fn directions() -> Vec<(Vec3, f32)> {
     all
 }
 
-/// A value between four of a layer; 1 outside.
+/// A value interpolated between four cells of a layer; 1 outside.
 #[inline]
 fn between(layer: &[f32], [width, rows]: [usize; 2], x: f32, y: f32) -> f32 {
     let (left, top) = (x.floor(), y.floor());
@@ -149,7 +149,7 @@ fn between(layer: &[f32], [width, rows]: [usize; 2], x: f32, y: f32) -> f32 {
 }
 
 impl Sky {
-    /// How much of what is known of the light holds for a point: all inside of the grid, nothing a few cells beyond.
+    /// The weight of the grid's light at a point: 1 inside the grid, falling to 0 a few cells beyond.
     pub fn holds(&self, point: Vec3) -> f32 {
         let place = (point - self.low) / self.cell;
         let size = Vec3::from_array(self.size.map(|cells| cells as f32));
@@ -157,7 +157,7 @@ impl Sky {
         (1.0 - beyond / (2 * AIR) as f32).max(0.0)
     }
 
-    /// The light at a point: a mean, and a vector towards where it comes from; that of the nearest cells outside.
+    /// The light at a point: a mean, and a vector towards its source; outside the grid, that of the nearest cells.
     #[inline]
     pub fn at(&self, point: Vec3) -> [f32; 4] {
         let place = (point - self.low) / self.cell - Vec3::splat(0.5);
@@ -184,7 +184,7 @@ impl Sky {
     }
 }
 
-/// What a face with a unit normal gets of the light at a point; 1 for a level one under open sky.
+/// The light of a point that a face with this unit normal receives; 1 for a level face under open sky.
 #[inline]
 pub fn falling_on(light: [f32; 4], normal: Vec3) -> f32 {
     (light[0] + light[1] * normal.x + light[2] * normal.y + light[3] * normal.z).max(0.0)

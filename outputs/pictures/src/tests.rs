@@ -1,5 +1,7 @@
-//! Pictures against closed forms: where points come to lie, how large a ball and a tube are, which of two triangles is
-//! seen, how long a shadow is, how much an edge covers, how long the scale bar is; and that threads show nowhere.
+//! Pictures compared with closed forms: places of points, sizes of a ball and a tube, hidden triangles, lengths of
+//! shadows, coverage of edges, lengths of scale bars.
+//!
+//! Pictures made with different numbers of threads are compared as well.
 
 use super::camera::{Camera, Frame, Lens, tangents};
 use super::caption::{INK, bar_length, length_in_words, letter_size};
@@ -87,7 +89,7 @@ fn a_fitted_camera_sees_every_point_and_touches_the_frame() {
     }
 }
 
-/// The area of a triangle in samples, wherever it lies: the mean error of one is far below its edge.
+/// The area of a triangle in samples, at any place: the mean error is far below the length of its edge.
 #[test]
 fn a_triangle_covers_its_area_and_neighbours_leave_no_gap() {
     let window = window(400, 300);
@@ -97,7 +99,7 @@ fn a_triangle_covers_its_area_and_neighbours_leave_no_gap() {
     let area = 0.5 * super::raster::turn(&corners).abs();
     let count = hits.iter().map(|hit| f32::from(*hit)).sum::<f32>();
     assert!((count - area).abs() < 0.003 * area, "{count} of {area}");
-    // The same cut into three from a point within: every sample is still covered, none far outside.
+    // The triangle cut into three from a point inside: every sample is still covered, and none far outside.
     let within = Vec3::new(150.0, 130.0, 1.0);
     let mut cut = vec![0_u8; window.len()];
     for k in 0..3 {
@@ -177,11 +179,11 @@ fn a_canopy_darkens_the_sky_by_beers_law() {
     assert!(falling_on(sky.at(Vec3::new(0.5, 0.5, 0.05)), Vec3::NEG_Z) < 0.05, "no light from below");
 }
 
-/// How wide an octagon is that has the area of a circle, in its diameters: √(π / (4 sin 45°)) across a corner, and
-/// across a flat that times cos 22.5°.
+/// The widths, in diameters, of an octagon with the area of the circle: √(π / (4 sin 45°)) across a corner, and this
+/// times cos 22.5° across a flat.
 const ACROSS: [f64; 2] = [0.9737, 1.0539];
 
-/// A lone internode, upright: its silhouette is a rectangle of length times diameter.
+/// A single upright internode: its silhouette is a rectangle of length times diameter.
 #[test]
 fn a_tube_is_as_large_as_its_silhouette() {
     let plant = pole(1.0, 0.25);
@@ -189,7 +191,7 @@ fn a_tube_is_as_large_as_its_silhouette() {
     let opacity: f64 = canvas.pixels.iter().map(|pixel| f64::from(pixel[3]) / 255.0).sum();
     // The height fills the frame, which leaves 4.5 % on each side.
     let scale = 300.0 * 0.91;
-    // An octagon of the circle's area seen across a flat and across a corner.
+    // An octagon with the circle's area, seen across a flat and across a corner.
     let [least, most] = ACROSS.map(|share| 0.25 * share * scale * scale);
     assert!(opacity > 0.99 * least && opacity < 1.01 * most, "{opacity} of {least} to {most}");
 }
@@ -203,7 +205,7 @@ fn an_edge_covers_a_share_of_its_pixels() {
     let row = |y: u32| (0..300).map(|x| u32::from(canvas.at(x, y)[3])).sum::<u32>();
     let width = f64::from(row(150)) / 255.0;
     let expected = 0.25 * 300.0 * 0.91;
-    // Sixteen samples a pixel tell a sixteenth on each of two edges.
+    // Sixteen samples per pixel resolve a sixteenth on each of two edges.
     let [least, most] = ACROSS.map(|share| share * expected);
     assert!(width <= most + 0.13 && width >= least - 0.13, "{width} of {expected}");
     assert!((20..280).all(|y| row(y).abs_diff(row(150)) <= 2 * 16));

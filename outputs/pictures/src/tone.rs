@@ -1,8 +1,8 @@
-//! Colours of light and colours of screens: the sRGB curve (IEC 61966-2-1), a soft shoulder, and the scale in which
-//! samples are averaged.
+//! Light and screen colours: the sRGB curve (IEC 61966-2-1), a curve for bright light, and the scale in which samples
+//! are averaged.
 //!
-//! Samples of a pixel are averaged as the square roots of their light, which is nearly how eyes see steps: a dark twig
-//! that covers half a pixel before a bright sky then looks half as dark, not a fifth.
+//! Samples of a pixel are averaged as the square roots of their light, which is nearly the scale of human vision: a
+//! dark twig that covers half a pixel before a bright sky then looks half as dark, not a fifth.
 
 use glam::Vec3;
 use phytomer_sim::math::powf;
@@ -27,25 +27,25 @@ fn encoded(light: f32) -> f32 {
     if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * powf(light, 1.0 / 2.4) - 0.055 }
 }
 
-/// The light of a colour as a screen shows it.
+/// The light of a screen colour (sRGB).
 #[inline]
 pub fn light(colour: [u8; 3]) -> Vec3 {
     Vec3::from_array(colour.map(|byte| LIGHT[usize::from(byte)]))
 }
 
-/// The roots of the light of a colour.
+/// The square roots of the light of a screen colour.
 pub fn roots(colour: [u8; 3]) -> Vec3 {
     light(colour).map(f32::sqrt)
 }
 
-/// The colour of the roots of some light.
+/// The screen colour of some light, from its square roots.
 #[inline]
 pub fn colour(roots: Vec3) -> [u8; 3] {
     roots.to_array().map(|root| BYTES[(root.clamp(0.0, 1.0) * (STEPS - 1) as f32 + 0.5) as usize])
 }
 
-/// The light of a scene as a screen can show it: nearly unchanged below the middle, never above 1 (the curve of
-/// Reinhard et al. 2002 with a white at 2.4).
+/// The light of a scene as a screen shows it: nearly unchanged below the middle, never above 1 (the curve of Reinhard
+/// et al. 2002 with a white at 2.4).
 #[inline]
 pub fn shown(light: Vec3) -> Vec3 {
     const WHITE: f32 = 2.4;

@@ -1,9 +1,9 @@
-//! Colours for quantities and for classes.
+//! Colours for amounts and for classes.
 //!
-//! Quantities run through a ramp that is even to the eye: lightness, chroma and hue in Oklab (Ottosson 2020, "A
+//! Amounts run through a ramp that is perceptually even: lightness, chroma and hue in Oklab (Ottosson 2020, "A
 //! perceptual color space for image processing"), from dark violet over blue and green to yellow, so that it also reads
 //! in grey. Classes have the eight colours of Okabe & Ito 2008 ("Color Universal Design"), which people of every colour
-//! vision tell apart; from memory of both.
+//! vision can tell apart. Both are cited from memory.
 
 use glam::Vec3;
 use phytomer_sim::math::sincosf;
@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 
 use super::tone;
 
-/// The colour of what has no value.
+/// The colour of a component without a value.
 pub const NOTHING: [u8; 3] = [188, 184, 178];
 
 /// Lightness, chroma and hue in degrees, evenly along the ramp.
@@ -38,12 +38,12 @@ const CLASSES: [[u8; 3]; 8] = [
 
 static STEPS: LazyLock<[[u8; 3]; 256]> = LazyLock::new(|| std::array::from_fn(|step| ramp(step as f32 / 255.0)));
 
-/// The colour of a share of the way from the least to the largest value.
+/// The colour of an amount, by its share of the way from the smallest to the largest amount.
 pub fn of_share(share: f64) -> [u8; 3] {
     STEPS[(share.clamp(0.0, 1.0) * 255.0 + 0.5) as usize]
 }
 
-/// The colour of the class of a number; from the ninth on they come again.
+/// The colour of a class; from the ninth class on the colours repeat.
 pub fn of_class(class: usize) -> [u8; 3] {
     CLASSES[class % CLASSES.len()]
 }
@@ -57,7 +57,7 @@ fn ramp(share: f32) -> [u8; 3] {
     tone::colour(from_oklab(l, chroma * cos, chroma * sin).max(Vec3::ZERO).map(f32::sqrt))
 }
 
-/// The light of a colour in Oklab (Ottosson 2020).
+/// The linear light of a colour in Oklab (Ottosson 2020).
 fn from_oklab(l: f32, a: f32, b: f32) -> Vec3 {
     let cubed = |x: f32| x * x * x;
     let long = cubed(l + 0.396_337_78 * a + 0.215_803_76 * b);

@@ -1,11 +1,9 @@
-//! Whether a run folder holds what it says: every file that the journal and `run.json` name, and nothing else.
+//! The check whether a run folder holds every file that the journal and `run.json` name, as written, and nothing else.
 //!
-//! `verify`, `describe` and `--resume` ask here, so that they agree by construction: on what is wrong, and on which
-//! shards are to be grown again. A shard is sound where its line in the journal is whole and each file of that line has
-//! the length and the hash recorded. What is found beside the named files is a leftover where a shard or a document of
-//! this program would bear that name, and foreign elsewhere; `--resume` removes leftovers and leaves what is foreign.
-//!
-//! Absent: mending.
+//! `verify`, `describe` and `--resume` all use this check, so they agree on what is wrong and on the shards to grow
+//! again. A shard is sound where its line in the journal is whole and each file of the line has the recorded length and
+//! hash. A file that is not named is a leftover where a shard or a document of this program would have its name, else
+//! it is foreign; `--resume` removes leftovers and keeps foreign files. Absent: repair.
 
 use super::documents::{PACKAGE, RUN, VIEWS};
 use super::error::Error;
@@ -26,16 +24,16 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 /// The files of the run folder itself.
 pub const DOCUMENTS: [&str; 4] = [RUN, JOURNAL, PACKAGE, VIEWS];
 
-/// How closely files are looked at.
+/// How closely files are checked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
-    /// Whether they are there, and how long they are.
+    /// Existence and length; no file is read.
     Lengths,
-    /// Also whether their bytes have the hashes recorded.
+    /// Also the hash of the bytes; every file is read.
     Bytes,
 }
 
-/// How far a check has come, and the wish to stop it.
+/// The progress of a check, and the switch that stops it; shared between threads.
 #[derive(Debug, Default)]
 pub struct Checking {
     bytes: AtomicU64,
@@ -44,17 +42,17 @@ pub struct Checking {
 }
 
 impl Checking {
-    /// Asks the check to stop soon.
+    /// Stops the check at its next block of bytes.
     pub fn stop(&self) {
         self.stop.store(true, Relaxed);
     }
 
-    /// Bytes read so far.
+    /// The number of bytes read so far.
     pub fn bytes(&self) -> u64 {
         self.bytes.load(Relaxed)
     }
 
-    /// Bytes to be read.
+    /// The number of bytes to be read in all.
     pub fn in_all(&self) -> u64 {
         self.in_all.load(Relaxed)
     }
@@ -65,21 +63,21 @@ impl Checking {
     }
 }
 
-/// What is wrong with a file.
+/// The fault of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Trouble {
-    /// It is named and not there.
+    /// The file is named but does not exist.
     Missing,
-    /// It is not as it was written, in words.
+    /// The file differs from what was written; the difference in words.
     Damaged(String),
-    /// Nothing names it, and it bears the name of a file of a run.
+    /// The file is not named, and has the name of a file of a run.
     Leftover,
-    /// It is none of the run's.
+    /// The file does not belong to the run.
     Foreign,
 }
 
 impl Trouble {
-    /// One word for programs.
+    /// The fault as one word, for programs.
     pub fn word(&self) -> &'static str {
         match self {
             Self::Missing => "missing",
@@ -89,7 +87,7 @@ impl Trouble {
         }
     }
 
-    /// The same for people.
+    /// The fault in words, for people.
     pub fn in_words(&self) -> &str {
         match self {
             Self::Missing => "missing",
@@ -100,69 +98,70 @@ impl Trouble {
     }
 }
 
-/// A file that is not as it should be.
+/// A file with a fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {
     /// Its path in the run folder, with `/`.
     pub path: String,
-    /// What is wrong.
+    /// The fault.
     pub trouble: Trouble,
 }
 
-/// What a run folder is.
+/// The state of a run folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum State {
-    /// A process is filling it.
+    /// A process is filling the folder.
     InProgress,
-    /// Something that it names is missing or damaged, or a finished run has leftovers.
+    /// A named file is missing or damaged, or a finished run has leftovers.
     Damaged,
-    /// Shards are still to be grown, or the run is still to be closed; what is there is sound.
+    /// Shards are still to be grown, or the run is still to be closed; the files that exist are sound.
     Unfinished,
-    /// All that it names is there, as it was written.
+    /// All named files exist, as they were written.
     Complete,
 }
 
-/// What was found.
+/// The result of a check.
 #[derive(Debug, Clone)]
 pub struct Checkup {
-    /// What the folder is.
+    /// The state of the folder.
     pub state: State,
-    /// Every file that is not as it should be, by path. Of a run in progress those alone that the journal names.
+    /// Every file with a fault, sorted by path. For a run in progress, only files that the journal names.
     pub findings: Vec<Finding>,
-    /// The named files.
+    /// The number of named files.
     pub files: usize,
-    /// Their bytes.
+    /// The size of the named files, bytes.
     pub bytes: u64,
-    /// How closely they were looked at.
+    /// How closely the files were checked.
     pub depth: Depth,
-    /// How many shards the run has, where `run.json` can say it.
+    /// The number of shards of the run; `None` where `run.json` does not state it.
     pub shards: Option<u32>,
-    /// The shards of which everything is as it was written.
+    /// The numbers of the shards whose files are all as they were written.
     pub sound: BTreeSet<u32>,
-    /// The shards that are to be grown, or grown again.
+    /// The numbers of the shards that are to be grown, or grown again, ascending.
     pub to_grow: Vec<u32>,
-    /// The process that fills the folder now.
+    /// The process that fills the folder now, if any.
     pub holder: Option<Holder>,
 }
 
 impl Checkup {
-    /// Whether the run is complete and nothing else lies in its folder.
+    /// Whether the run is complete and its folder holds no other file.
     pub fn is_clean(&self) -> bool {
         self.state == State::Complete && self.findings.is_empty()
     }
 
-    /// The findings that are foreign files, or those that are not.
+    /// With `foreign`, the foreign files among the findings; else all other findings.
     pub fn findings(&self, foreign: bool) -> impl Iterator<Item = &Finding> {
         self.findings.iter().filter(move |finding| (finding.trouble == Trouble::Foreign) == foreign)
     }
 }
 
-/// Looks at a run folder.
+/// Checks a run folder. With [`Depth::Bytes`] all its files are read once, on as many threads as there are.
 ///
 /// # Errors
 /// [`Error::NotARun`], [`Error::OlderFormat`], [`Error::Stopped`], or where the folder cannot be read.
 pub fn check(folder: &Path, depth: Depth, checking: &Checking) -> Result<Checkup, Error> {
-    // Before the papers: a run that ends meanwhile is then told as one in progress, not as one that lacks something.
+    // The lock is read before the documents: a run that ends in between is then reported as in progress, not as
+    // incomplete.
     let holder = holder_of(folder);
     let papers = Papers::read(folder)?;
     if !papers.is_run() && holder.is_none() {
@@ -175,7 +174,7 @@ pub fn check(folder: &Path, depth: Depth, checking: &Checking) -> Result<Checkup
     of(folder, &papers, run.as_deref().unwrap_or_default(), holder, (depth, checking))
 }
 
-/// The same of papers that were read already, of the run with this fingerprint.
+/// Checks a run folder whose documents were read already; `run` is the fingerprint of the run.
 pub fn of(
     folder: &Path,
     papers: &Papers,
@@ -215,8 +214,8 @@ pub fn of(
 fn state_of(findings: &[Finding], in_progress: bool, complete: bool) -> State {
     let harms = |trouble: &Trouble| match trouble {
         Trouble::Missing | Trouble::Damaged(_) => true,
-        // What an interrupted shard leaves is no damage, but views and readers would take it for a part of a finished
-        // run.
+        // Files of an interrupted shard are no damage to an unfinished run. In a finished run, views and readers would
+        // take them for parts of it.
         Trouble::Leftover => complete,
         Trouble::Foreign => false,
     };
@@ -228,13 +227,13 @@ fn state_of(findings: &[Finding], in_progress: bool, complete: bool) -> State {
     }
 }
 
-/// The parts of the run that a `run.json` tells of.
+/// The number of shards of the run, from its `run.json`.
 fn shards_of(run: &Value) -> u32 {
     let number = |key: &str| run[key].as_u64().and_then(|number| u32::try_from(number).ok()).unwrap_or_default();
     number("plots").div_ceil(number("plots_per_part").max(1))
 }
 
-/// What is wrong with named files, by path; the files are read on as many threads as there are.
+/// The faults of named files, by path; the files are read on as many threads as there are.
 fn troubles_of(
     folder: &Path,
     named: &BTreeMap<String, FileReport>,
@@ -277,8 +276,8 @@ fn trouble_of(path: &Path, named: &FileReport, depth: Depth, checking: &Checking
     }
 }
 
-/// What is wrong with `run.json` and with lines of the journal. A torn last line of an unfinished run is no damage:
-/// that shard was never entered.
+/// The faults of `run.json` and of the lines of the journal. A torn last line of an unfinished run is no fault: its
+/// shard was never entered.
 fn troubles_of_papers(papers: &Papers, run: &str, complete: bool) -> BTreeMap<String, Trouble> {
     let mut troubles = BTreeMap::new();
     match &papers.run {
@@ -303,7 +302,7 @@ fn troubles_of_papers(papers: &Papers, run: &str, complete: bool) -> BTreeMap<St
     troubles
 }
 
-/// Files of the folder that nothing names.
+/// The files of the folder that are not named, by path, as leftovers or foreign files.
 pub fn others(folder: &Path, named: &BTreeSet<&str>) -> Result<BTreeMap<String, Trouble>, Error> {
     let mut found = BTreeMap::new();
     let mut folders = vec![(folder.to_path_buf(), String::new())];
@@ -311,7 +310,7 @@ pub fn others(folder: &Path, named: &BTreeSet<&str>) -> Result<BTreeMap<String, 
         for entry in fs::read_dir(&folder).map_err(Error::io("read", &folder))? {
             let entry = entry.map_err(Error::io("read", &folder))?;
             let path = format!("{below}{}", entry.file_name().to_string_lossy());
-            // A link to a folder is not followed: it may lead back.
+            // A link to a folder is not followed, since it may lead in a circle.
             if entry.file_type().map_err(Error::io("read", &folder))?.is_dir() {
                 folders.push((entry.path(), path + "/"));
             } else if !named.contains(path.as_str()) && path != LOCK && !DOCUMENTS.contains(&path.as_str()) {
@@ -323,12 +322,12 @@ pub fn others(folder: &Path, named: &BTreeSet<&str>) -> Result<BTreeMap<String, 
     Ok(found)
 }
 
-/// The folders that shards fill.
+/// The folders that shards write to.
 pub fn filled() -> impl Iterator<Item = &'static str> {
     Table::ALL.iter().map(|table| table.name()).chain(["meshes"])
 }
 
-/// Whether a path in the run folder is one that a shard writes, a part or a mesh, or any file of the run half written.
+/// Whether a path in the run folder is one that a run writes: a part, a mesh, or a half-written file of the run.
 fn is_own(path: &str) -> bool {
     let beside = |name: &str| name.starts_with('.') && name.ends_with(".tmp");
     match path.split_once('/') {

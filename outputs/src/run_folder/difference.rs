@@ -1,40 +1,40 @@
-//! How the run in a folder differs from the one that is to go on with it: key by key, with both values.
+//! The differences between the run in a folder and the run that is to resume it, key by key, with both values.
 //!
-//! The scenario and its species are compared as they were resolved, so that a changed default or ancestor shows too.
-//! What follows from them alone, such as the list of recorded ages, is told only where they are equal. Absent: what to
-//! do.
+//! The scenario and its species are compared as resolved, so that a changed default or ancestor shows too. Keys that
+//! follow from them, such as the list of recorded ages, are reported only where scenario and species are equal. Absent:
+//! the advice what to do, which is in the error.
 
 use super::identity::identity;
 use crate::tables::RunPlan;
 use serde_json::{Map, Value};
 use std::fmt;
 
-/// One key of which the values differ.
+/// A key whose values differ.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Difference {
-    /// Its place: `scenario.seed`, `species.order 2.pause`, `inputs.coffee.toml`.
+    /// The path of the key: `scenario.seed`, `species.order 2.pause`, `inputs.coffee.toml`.
     pub key: String,
-    /// The value in the run; `None` where it has none.
+    /// The value in the folder; `None` where it has no such key.
     pub run: Option<String>,
-    /// The value now.
+    /// The value of the resuming run; `None` where it has no such key.
     pub now: Option<String>,
 }
 
-/// What differs, in the order of the files.
+/// All differences, in the order of the keys in the files.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Differences(pub Vec<Difference>);
 
-/// Differences that a message shows.
+/// The most differences that a message shows.
 const SHOWN: usize = 12;
 
-/// Characters of a value that a message shows.
+/// The most characters of a value that a message shows.
 const LONGEST: usize = 60;
 
 /// Keys of the identity that do not follow from the resolved scenario.
 const OWN: [&str; 6] = ["format_version", "schema_version", "version", "git_hash", "treatments", "inputs"];
 
 impl Differences {
-    /// Between a `run.json` and a plan.
+    /// The differences between a `run.json` and a plan.
     pub fn between(run: &Value, plan: &RunPlan) -> Self {
         let mut found = Vec::new();
         compare(String::new(), run.get("resolved_scenario"), Some(&plan.provenance.resolved), &mut found);
@@ -70,7 +70,7 @@ impl fmt::Display for Differences {
     }
 }
 
-/// A list of inputs as hashes by path.
+/// A list of inputs as a table of hashes by path.
 fn by_path(inputs: &Value) -> Value {
     let pair = |input: &Value| Some((input["path"].as_str()?.to_owned(), input["sha256"].clone()));
     Value::Object(inputs.as_array().into_iter().flatten().filter_map(pair).collect())

@@ -1,8 +1,8 @@
-//! What a run folder says of itself: `run.json`, `datapackage.json` (Frictionless Data Package 1) and `views.sql`
+//! The documents of a run folder: `run.json`, `datapackage.json` (Frictionless Data Package 1) and `views.sql`
 //! (DuckDB).
 //!
-//! `run.json` names the others with their hashes and ends with a check of itself, so that damage to any of them is
-//! found. Absent: the tables themselves, and the journal, which holds a run together until these are written.
+//! `run.json` names the other documents with their hashes and ends with a check of itself, so that damage to any of
+//! them is found. Absent: the tables, and the journal, which lists the shards until these documents are written.
 
 use super::error::Error;
 use super::identity::{fingerprint, identity};
@@ -17,34 +17,34 @@ use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// What identifies a run, and at its end what came of it.
+/// The identity of the run, and at its end its results.
 pub const RUN: &str = "run.json";
-/// The columns, for programs that read Data Packages.
+/// The tables and their columns, for programs that read Data Packages.
 pub const PACKAGE: &str = "datapackage.json";
-/// The views, for DuckDB.
+/// SQL views and macros over the tables, for DuckDB.
 pub const VIEWS: &str = "views.sql";
 
-/// What a finished run has written.
+/// The results of a finished run.
 #[derive(Debug, Clone, Serialize)]
 pub struct RunReport {
-    /// Its plants that live at the last tick of their plot.
+    /// The number of plants that live at the last tick of their plot.
     pub living: u64,
-    /// Its plants that have died.
+    /// The number of plants that have died.
     pub dead: u64,
-    /// The components that ever were.
+    /// The number of components that ever lived.
     pub components: u64,
-    /// The rows of each table.
+    /// The number of rows of each table.
     pub rows: BTreeMap<Table, u64>,
-    /// The bytes of all files.
+    /// The size of all files, bytes.
     pub bytes: u64,
-    /// The files.
+    /// All files of the shards.
     pub files: Vec<FileReport>,
-    /// The plots that ended by a limit.
+    /// The plots that ended because a plant reached its limit.
     pub overgrown: Vec<OvergrownPlot>,
 }
 
 impl RunReport {
-    /// Adds up the shards of a run; reports of some of them make the report of a part of it.
+    /// Adds up the reports of shards: of all shards of a run, or of some of them for a part of it.
     pub fn of<'a>(shards: impl IntoIterator<Item = &'a ShardReport>) -> Self {
         let empty = BTreeMap::new();
         let mut run =
@@ -66,9 +66,10 @@ impl RunReport {
     }
 }
 
-/// The files that are there from the start.
+/// Writes the documents of a new run.
 ///
-/// `run.json` first: a folder that holds anything else holds it too, so that a run killed at its start can be resumed.
+/// `run.json` comes first, so that a folder with any other file of the run also holds it: a run that was killed at its
+/// start can be resumed.
 pub fn write_start(path: &Path, plan: &RunPlan) -> Result<(), Error> {
     let mut run = run(plan, "running");
     run.insert("documents".to_owned(), json!([document(VIEWS, views(plan).as_bytes())]));
@@ -76,12 +77,12 @@ pub fn write_start(path: &Path, plan: &RunPlan) -> Result<(), Error> {
     write_views(path, plan)
 }
 
-/// `views.sql`, which depends on the plan alone.
+/// Writes `views.sql`, which depends on the plan alone.
 pub fn write_views(path: &Path, plan: &RunPlan) -> Result<(), Error> {
     Ok(durable::write(&path.join(VIEWS), views(plan).as_bytes())?)
 }
 
-/// The files that a finished run has; its journal is in order.
+/// Writes the documents of a finished run, whose journal must be in order.
 pub fn write_end(
     path: &Path,
     plan: &RunPlan,
@@ -145,7 +146,7 @@ fn data_package(plan: &RunPlan, report: &RunReport) -> Value {
     })
 }
 
-/// A name as the Data Package specification wants it: lower case letters, digits and `-`.
+/// A name as the Data Package specification requires it: lower case letters, digits and `-`.
 fn slug(name: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
     name.chars().map(plain).collect()
@@ -195,15 +196,15 @@ fn field(column: &Column) -> Value {
     field
 }
 
-/// The view of a run that has `records` and `plants`, of what `records` says and where in the plot that is. The sums
-/// are in double precision, because one of their terms is.
+/// The view of a run with `records` and `plants`: the rows of `records` with the places of components in the plot. The
+/// sums are in double precision, as the places of plants are.
 const WORLD: (&str, &str) = (
     "Records with their places in the plot, `world_x_m`, `world_y_m` and `world_z_m`, beside those from the plant's seed.",
     "records_world AS SELECT r.*, p.x_m + r.x_m AS world_x_m, p.y_m + r.y_m AS world_y_m, p.z_m + r.z_m AS world_z_m \
      FROM records r JOIN plants p USING (plot_id, plant_id)",
 );
 
-/// The macros of `views.sql`, with the tables that each needs.
+/// The macros of `views.sql`: the tables that each needs, its description, and its SQL.
 const MACROS: [(&[Table], &str, &str); 7] = [
     (
         &[Table::Records],

@@ -1,7 +1,7 @@
-//! What can go wrong with a run folder, in words for the person who must set it right.
+//! Errors of a run folder, in words for the person who must set it right.
 //!
-//! What a table or a file refuses is told in its own words. A failed write ends the run: nothing here is logged and
-//! passed over. A message does not repeat its cause, which `source` has: a person is shown the whole chain.
+//! Errors of tables and files keep their own messages. A failed write ends the run; no error is only logged. A message
+//! does not repeat its cause, since people are shown the whole chain of causes (`source`).
 
 use super::difference::Differences;
 use super::holder::Holder;
@@ -13,18 +13,18 @@ use std::path::{Path, PathBuf};
 /// A failure of a run folder.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The file system refused.
+    /// The file system returned an error.
     #[error(transparent)]
     File(#[from] FileError),
     /// A table could not be written or read.
     #[error(transparent)]
     Table(#[from] TableError),
-    /// A JSON file could not be understood.
+    /// A JSON file could not be parsed.
     #[error("cannot understand {}", path.display())]
     Json {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The parser's error.
         source: serde_json::Error,
     },
     /// The folder for a new run holds files already.
@@ -43,7 +43,7 @@ pub enum Error {
         /// The folder.
         path: PathBuf,
     },
-    /// The run to resume is another run.
+    /// The plan of the run to resume differs.
     #[error(
         "{} holds another run: resume it with the scenario and the program that it began with, or choose another folder \
          by --out. What differs:\n{differences}",
@@ -52,10 +52,10 @@ pub enum Error {
     Foreign {
         /// The folder.
         path: PathBuf,
-        /// What differs.
+        /// The differences between both plans.
         differences: Differences,
     },
-    /// The run to resume cannot be told from another.
+    /// The identity of the run to resume cannot be read.
     #[error(
         "in {} run.json is missing or damaged, and the journal has no whole line of this run: resume it with the scenario \
          and the program that it began with, or begin anew with --overwrite",
@@ -77,7 +77,7 @@ pub enum Error {
         /// The process.
         holder: Holder,
     },
-    /// `run.json` is not as it was written.
+    /// `run.json` was changed after it was written.
     #[error(
         "{} is damaged: its check does not hold. `phytomer grow` with --resume, and with the scenario and the folder of \
          the run, mends it",
@@ -87,48 +87,48 @@ pub enum Error {
         /// The file.
         path: PathBuf,
     },
-    /// The run was written by a program that kept no checks.
+    /// The run was written by a program version that wrote no checks.
     #[error(
-        "{} was written by an older phytomer, without the checks that this one looks for: nothing can be said of it. Grow \
-         it again with --overwrite, or use the program that `run.json` names",
+        "{} was written by an older phytomer, which stored no checks, so its files cannot be checked. Grow it again with \
+         --overwrite, or use the program that `run.json` names",
         path.display()
     )]
     OlderFormat {
         /// The folder.
         path: PathBuf,
     },
-    /// The check of the files was told to stop.
-    #[error("the check of the files was told to stop")]
+    /// The caller stopped the check of the files.
+    #[error("the check of the files was stopped")]
     Stopped,
-    /// A shard was asked for that the plan does not have.
+    /// The plan has no shard with this number.
     #[error("there is no shard {shard}: the run has {shards}")]
     NoSuchShard {
-        /// The one asked for.
+        /// The number that was asked for.
         shard: u32,
-        /// How many there are.
+        /// The number of shards of the run.
         shards: u32,
     },
-    /// A plot came to a shard out of its turn.
+    /// A plot of a shard was ended out of order.
     #[error("shard {shard} was given plot {plot} where plot {expected} is next")]
     PlotOutOfTurn {
         /// The shard.
         shard: u32,
-        /// The plot that came.
+        /// The plot that was ended.
         plot: u32,
-        /// The plot whose turn it was.
+        /// The next plot of the shard.
         expected: u32,
     },
-    /// A shard was to be committed before all its plots had ended.
+    /// A shard was committed before all its plots had ended.
     #[error("shard {shard} has {ended} of its {plots} plots: it cannot be committed")]
     UnfinishedShard {
         /// The shard.
         shard: u32,
-        /// The plots that have ended.
+        /// The number of its plots that have ended.
         ended: u32,
-        /// The plots that it covers.
+        /// The number of its plots.
         plots: u32,
     },
-    /// A line of the journal was torn by a failed write and could not be taken back.
+    /// A failed write left a torn line in the journal that could not be removed.
     #[error(
         "nothing more is entered in {}: a write to it failed and could not be taken back; what is complete is kept: \
          free some space, then go on with --resume",
@@ -138,18 +138,18 @@ pub enum Error {
         /// The journal.
         path: PathBuf,
     },
-    /// The run was to be finished before all its shards were committed.
+    /// The run was closed before all its shards were committed.
     #[error("{} lacks {missing} shards: go on with it by --resume", path.display())]
     MissingShards {
         /// The folder.
         path: PathBuf,
-        /// How many.
+        /// The number of missing shards.
         missing: usize,
     },
 }
 
 impl Error {
-    /// The file system's answer, as the file that it is about tells it.
+    /// Makes an [`Error::File`] from the system's error: `doing` is what was tried.
     pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let told = FileError::io(doing, path);
         move |source| Self::File(told(source))

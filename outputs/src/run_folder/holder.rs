@@ -1,6 +1,6 @@
 //! The process that fills a run folder, as its lock file names it: number, machine and start.
 //!
-//! The name is for people; whether a folder is being filled the lock alone decides (`lock`).
+//! The name is information for people. Whether a process fills the folder is decided by the lock alone (`lock`).
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -8,29 +8,29 @@ use std::fs::File;
 use std::io::Read;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// The longest name that is read.
+/// The most bytes of a lock file that are read.
 const MOST_BYTES: u64 = 4096;
 
-/// A process that fills a run folder; what of it is not known is `None`.
+/// A process that fills a run folder; an unknown property is `None`.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Holder {
-    /// Its number.
+    /// The process number.
     pub process: Option<u32>,
-    /// The machine that it runs on.
+    /// The name of the machine that it runs on.
     pub host: Option<String>,
-    /// When it began, in UTC.
+    /// The date and time of its start, in UTC.
     pub started: Option<String>,
 }
 
 impl Holder {
-    /// This process, from now on.
+    /// This process, with the present time as its start.
     pub fn this_process() -> Self {
         let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         Self { process: Some(std::process::id()), host: host(), started: Some(in_utc(now.as_secs())) }
     }
 
-    /// The process that a lock file names; on Windows only that process can read it.
+    /// The process that a lock file names. On Windows only that process can read the file.
     pub fn named_in(file: &File) -> Self {
         let mut text = Vec::new();
         let read = file.take(MOST_BYTES).read_to_end(&mut text);
@@ -59,7 +59,7 @@ fn host() -> Option<String> {
     std::env::var("COMPUTERNAME").ok()
 }
 
-/// Seconds since 1970 as a date and a time; the date by Hinnant's `civil_from_days`.
+/// A number of seconds since 1970 as date and time, in UTC; the date by Hinnant's `civil_from_days`.
 fn in_utc(seconds: u64) -> String {
     let (days, second) = (seconds / 86_400, seconds % 86_400);
     let since_march = days + 719_468;

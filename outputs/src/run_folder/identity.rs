@@ -1,7 +1,8 @@
-//! What identifies a run: all that the bytes of its tables depend on. A run is resumed only under an equal identity.
+//! The identity of a run: everything that the bytes of its tables depend on. A run is resumed only under an equal
+//! identity.
 //!
-//! The identity stands in `run.json`; its fingerprint stands in each line of the journal. Limits and threads are not in
-//! it.
+//! The identity is in `run.json`, and its fingerprint is in each line of the journal. Limits and threads are not part
+//! of it.
 
 use super::seal::check_of;
 use crate::storage::durable::sha256_of;
@@ -9,10 +10,11 @@ use crate::tables::RunPlan;
 use crate::tables::columns::SCHEMA_VERSION;
 use serde_json::{Map, Value, json};
 
-/// The version of the run folder's own files: 2 has checks in `run.json` and in each line of the journal.
+/// The format version of the run folder's own files. Version 2 has checks in `run.json` and in each line of the
+/// journal.
 pub const FORMAT_VERSION: u32 = 2;
 
-/// Everything that the bytes of the tables depend on, key by key; the resolved scenario as its hash.
+/// The identity as JSON, key by key; the resolved scenario is replaced by its hash.
 pub fn identity(plan: &RunPlan) -> Map<String, Value> {
     let provenance = &plan.provenance;
     let identity = json!({
@@ -41,7 +43,7 @@ pub fn identity(plan: &RunPlan) -> Map<String, Value> {
     identity
 }
 
-/// A short name of the identity: the lines of the journal say by it which run they belong to.
+/// The fingerprint of the identity: a short hash, by which each line of the journal names its run.
 pub fn fingerprint(plan: &RunPlan) -> String {
     check_of(Value::Object(identity(plan)).to_string().as_bytes())
 }

@@ -1,9 +1,9 @@
 //! The journal of a run: one line of JSON for each shard whose files are whole and on the disk.
 //!
 //! Each line names its run and ends with a check of itself. A crash may tear the last line, which then counts as not
-//! written; a damaged line costs the shard that it was about, and where the end of a line is damaged the shard of the
-//! next one too. Where two lines name the same shard the later one holds. No line ever follows a torn one: what a
-//! failed write left is taken back, and where even that fails the journal takes no more.
+//! written. A damaged line loses its shard, and where its end is damaged also the shard of the next line. Where two
+//! lines name the same shard, the later line holds. No line ever follows a torn line: after a failed write the file is
+//! shortened to its whole lines, and where that fails too, the journal takes no more lines.
 
 use super::error::Error;
 use super::seal::LINE;
@@ -19,20 +19,21 @@ use std::path::{Path, PathBuf};
 /// The name of the file.
 pub const JOURNAL: &str = "journal.jsonl";
 
-/// What a committed shard has written.
+/// The report of a committed shard.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ShardReport {
     /// The shard's number, from 0.
     pub shard: u32,
-    /// Its files.
+    /// Its files: parts of tables, and meshes.
     pub files: Vec<FileReport>,
-    /// Its plants that live at the last tick of their plot; a plant that is not sown by then neither lives nor is dead.
+    /// The number of its plants that live at the last tick of their plot. A plant that is not sown by then is neither
+    /// living nor dead.
     pub living: u64,
-    /// Its plants that have died.
+    /// The number of its plants that have died.
     pub dead: u64,
-    /// The components that ever were.
+    /// The number of components that ever lived.
     pub components: u64,
-    /// Its plots that ended by a limit.
+    /// Its plots that ended because a plant reached its limit.
     pub overgrown: Vec<OvergrownPlot>,
 }
 
@@ -41,26 +42,26 @@ pub struct ShardReport {
 pub struct FileReport {
     /// Its path in the run folder, with `/`.
     pub path: String,
-    /// Its table, if it is a part of one.
+    /// Its table, for a part of a table.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub table: Option<Table>,
-    /// Its rows, if it is a part of a table.
+    /// The number of its rows, for a part of a table.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rows: Option<u64>,
-    /// Its bytes.
+    /// Its size in bytes.
     pub bytes: u64,
-    /// Its hash, in hexadecimal.
+    /// Its SHA-256, in hexadecimal.
     pub sha256: String,
 }
 
-/// A plot that came to its limit.
+/// A plot that ended because a plant reached its limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct OvergrownPlot {
-    /// The plot.
+    /// The number of the plot.
     pub plot: u32,
-    /// The plant that came to its limit.
+    /// The number of the plant that reached its limit.
     pub plant: u32,
-    /// The tick of the plot that it could not finish; the ticks before it are recorded. Older runs call it `age`.
+    /// The tick that the plot could not finish; the ticks before it are recorded. In older runs the key is `age`.
     #[serde(alias = "age")]
     pub tick: Tick,
     /// The limit, in components.
@@ -68,18 +69,18 @@ pub struct OvergrownPlot {
 }
 
 impl ShardReport {
-    /// The rows that it has written, over all tables.
+    /// The number of its rows, over all tables.
     pub fn rows(&self) -> u64 {
         self.files.iter().filter_map(|file| file.rows).sum()
     }
 
-    /// The bytes of its files.
+    /// The size of its files, bytes.
     pub fn bytes(&self) -> u64 {
         self.files.iter().map(|file| file.bytes).sum()
     }
 }
 
-/// A line of the journal: a shard, and the run that it belongs to ([`super::identity::fingerprint`]).
+/// A line of the journal: a shard, and the fingerprint of its run ([`super::identity::fingerprint`]).
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Line {
     #[serde(flatten)]
@@ -87,7 +88,7 @@ struct Line {
     run: String,
 }
 
-/// The journal, open for more.
+/// The journal, open for further lines.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
@@ -101,21 +102,21 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Writes the journal of a run with the shards that are done, and goes on with it.
+    /// Writes the journal of a run with the shards that are done, and keeps it open for further lines.
     pub fn of(path: &Path, run: String, done: BTreeMap<u32, ShardReport>) -> Result<Self, Error> {
         let (file, whole) = written(path, &run, &done)?;
         Ok(Self { path: path.to_path_buf(), run, file, done, whole, torn: false })
     }
 
-    /// The shards that are done, by number.
+    /// The reports of the shards that are done, by number.
     pub fn done(&self) -> &BTreeMap<u32, ShardReport> {
         &self.done
     }
 
-    /// Enters a shard; it is on the disk when this returns. After an error the journal is as it was before.
+    /// Enters a shard; its line is on the disk when this returns. After an error the journal is unchanged.
     ///
     /// # Errors
-    /// A failed write, or [`Error::TornJournal`] after one that could not be taken back.
+    /// A failed write, or [`Error::TornJournal`] after a failed write whose remains could not be removed.
     pub fn enter(&mut self, report: ShardReport) -> Result<(), Error> {
         self.enter_by(report, |file, line| {
             file.write_all(line)?;
@@ -141,7 +142,7 @@ impl Journal {
         Ok(())
     }
 
-    /// Writes the whole journal anew, in the order of the shards.
+    /// Writes the journal anew, with its lines in the order of the shards.
     pub fn put_in_order(&mut self) -> Result<(), Error> {
         (self.file, self.whole) = written(&self.path, &self.run, &self.done)?;
         self.torn = false;
@@ -149,7 +150,7 @@ impl Journal {
     }
 }
 
-/// Writes a whole journal; the file, open at its end, and its length.
+/// Writes a whole journal; returns the file, open at its end, and its length in bytes.
 fn written(path: &Path, run: &str, done: &BTreeMap<u32, ShardReport>) -> Result<(File, u64), Error> {
     let lines: Result<Vec<_>, _> = done.values().map(|report| line_of(run, report)).collect();
     let content = lines.map_err(Error::json(path))?.concat();
@@ -159,7 +160,7 @@ fn written(path: &Path, run: &str, done: &BTreeMap<u32, ShardReport>) -> Result<
     Ok((file, content.len() as u64))
 }
 
-/// Shortens the file to its whole lines; the next line goes there.
+/// Shortens the file to its whole lines, so that the next line follows them.
 fn cut(file: &mut File, whole: u64) -> io::Result<()> {
     file.set_len(whole)?;
     file.seek(SeekFrom::Start(whole))?;
@@ -171,7 +172,7 @@ fn line_of(run: &str, report: &ShardReport) -> Result<Vec<u8>, serde_json::Error
     Ok(LINE.put(serde_json::to_vec(&line)?))
 }
 
-/// What a journal says, as far as its lines are whole.
+/// The whole lines of a journal that was read.
 #[derive(Debug, Default)]
 pub struct Reading {
     lines: Vec<(usize, Line)>,
@@ -181,23 +182,23 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// The runs that its lines name: a single run, unless the file was edited.
+    /// The fingerprints of the runs that its lines name: a single run, unless the file was edited.
     pub fn runs(&self) -> BTreeSet<&str> {
         self.lines.iter().map(|(_, line)| line.run.as_str()).collect()
     }
 
-    /// Every file that a whole line names, of whichever run.
+    /// Every file that a whole line names, for any run.
     pub fn files(&self) -> impl Iterator<Item = &FileReport> {
         self.lines.iter().flat_map(|(_, line)| &line.report.files)
     }
 
-    /// The shards of a run.
+    /// The reports of the shards of a run, by number.
     pub fn done(&self, run: &str) -> BTreeMap<u32, ShardReport> {
         let own = self.lines.iter().filter(|(_, line)| line.run == run);
         own.map(|(_, line)| (line.report.shard, line.report.clone())).collect()
     }
 
-    /// The lines, from 1, that are no whole line of this run.
+    /// The numbers, from 1, of all lines that are not whole lines of this run.
     pub fn damaged(&self, run: &str) -> Vec<usize> {
         let others = self.lines.iter().filter(|(_, line)| line.run != run).map(|(number, _)| *number);
         let lines: BTreeSet<usize> = others.chain(self.damaged.iter().copied()).collect();
@@ -205,7 +206,7 @@ impl Reading {
     }
 }
 
-/// Reads a journal; `None` where there is none.
+/// Reads a journal; `None` where there is no such file.
 pub fn read(path: &Path) -> Result<Option<Reading>, Error> {
     let content = match fs::read(path) {
         Err(source) if source.kind() == io::ErrorKind::NotFound => return Ok(None),

@@ -1,9 +1,9 @@
-//! The lock of a run folder: of two processes that would fill it, the second is refused.
+//! The lock of a run folder: a second process that would fill the folder is refused.
 //!
-//! `run.lock` is locked by the system for as long as a process fills the folder, and freed by it when that process
-//! ends, however it ends. Its content names the process, for people; an empty file says that no process does. The file
-//! is never removed: a second process could then lock a new file of that name beside the first one. Some network file
-//! systems know no locks; a run in one of them says so ([`Lock::unlockable`]) and goes on.
+//! The system locks `run.lock` as long as a process fills the folder, and frees it when the process ends in any way.
+//! The content names the process for people; an empty file means no process. The file is never removed: else a second
+//! process could lock a new file of the same name beside the first. Some network file systems have no locks; a run on
+//! them reports this ([`Lock::unlockable`]) and goes on.
 
 use super::error::Error;
 use super::holder::Holder;
@@ -13,15 +13,15 @@ use std::path::Path;
 use std::thread::sleep;
 use std::time::Duration;
 
-/// The name of the file.
+/// The name of the lock file.
 pub const LOCK: &str = "run.lock";
 
-/// A reader holds the lock for a moment while it looks, and the holder writes its name after it has the lock: so a
-/// refusal waits a little.
+/// The number of attempts before a refusal. A reader holds the lock for a moment while it looks, and a process writes
+/// its name only after it has the lock.
 const TRIES: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(10);
 
-/// The lock, held until this is dropped.
+/// The lock of a run folder, held until the value is dropped.
 #[derive(Debug)]
 pub struct Lock {
     file: File,
@@ -49,7 +49,7 @@ impl Lock {
         Ok(lock)
     }
 
-    /// Why the file system could not lock the file, where it could not.
+    /// The reason why the file system could not lock the file; `None` where it could.
     pub fn unlockable(&self) -> Option<&str> {
         self.unlockable.as_deref()
     }
@@ -65,14 +65,14 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // A name that stays does no harm: only the lock says whether a process fills the folder.
+        // A name that stays is harmless, since the lock alone decides whether a process fills the folder.
         let _ = self.file.set_len(0);
-        // Closing would do, but a child process that is just being started holds copies of all open files for a moment.
+        // Closing is not enough: a child process that is just starting holds copies of all open files for a moment.
         let _ = self.file.unlock();
     }
 }
 
-/// Tries again for a while where another has the lock.
+/// Tries again for a while where another process has the lock.
 fn patiently(mut lock: impl FnMut() -> Result<(), TryLockError>) -> Result<(), TryLockError> {
     for _ in 1..TRIES {
         match lock() {
@@ -83,7 +83,7 @@ fn patiently(mut lock: impl FnMut() -> Result<(), TryLockError>) -> Result<(), T
     lock()
 }
 
-/// The process that fills a run folder now; `None` where there is none, or where the file system does not tell.
+/// The process that fills a run folder now; `None` without such a process, or where the file system has no locks.
 pub fn holder_of(folder: &Path) -> Option<Holder> {
     let file = File::open(folder.join(LOCK)).ok()?;
     match file.try_lock_shared() {

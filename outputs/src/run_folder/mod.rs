@@ -1,9 +1,9 @@
-//! The run folder: made, filled shard by shard, closed; after a crash, gone on with.
+//! The run folder of a run: created, filled shard by shard, closed, and resumed after a crash.
 //!
-//! One process at a time has a folder (`lock`). `run.json` is written first, with what identifies the run, and again at
-//! the end, with what came of it. Between the two the journal holds the shards that are whole. A resumed run looks at
-//! every file that it keeps (`check`), redoes only what is missing or damaged, and ends with the same bytes as one that
-//! was never interrupted, but for the timings in `run.json`.
+//! One process at a time fills a folder (`lock`). `run.json` is written first, with the identity of the run, and again
+//! at the end, with its results. In between, the journal lists the shards that are whole. A resumed run checks every
+//! file that it keeps (`check`), grows again only what is missing or damaged, and ends with the same bytes as a run
+//! that was never interrupted, but for the timings in `run.json`.
 
 mod check;
 mod difference;
@@ -39,27 +39,27 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// What to do where the folder holds files already.
+/// What to do with a folder that already holds files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
-    /// Refuse.
+    /// Refuse the folder.
     New,
-    /// Go on with the run that is there, if it is this one; begin it where there is none.
+    /// Continue the run in the folder, if its plan is equal; start a run where the folder has none.
     Resume,
-    /// Replace the run that is there.
+    /// Replace the run in the folder.
     Overwrite,
 }
 
-/// How a run folder is opened, beside its mode.
+/// Options for opening a run folder, beside its mode.
 #[derive(Debug)]
 pub struct Opening<'a> {
-    /// How far the check of what a resumed run keeps has come.
+    /// The progress of checking the files that a resumed run keeps, and the switch that stops the check.
     pub checking: &'a Checking,
-    /// What tells the free space of the disk: the system, or a test.
+    /// The source of the free space of the disk: the system, or a test.
     pub space: Arc<dyn FreeSpace>,
 }
 
-/// A run folder that is being filled; shards of several threads may be open at once.
+/// A run folder that is being filled. Several threads may each fill a shard at once.
 #[derive(Debug)]
 pub struct RunFolder {
     path: PathBuf,
@@ -71,7 +71,7 @@ pub struct RunFolder {
 }
 
 impl RunFolder {
-    /// Makes the folder, or opens that of an earlier start, with the free space that the system tells.
+    /// Creates the folder, or opens the folder of an earlier start. Free space is that reported by the system.
     ///
     /// # Errors
     /// As [`RunFolder::open`].
@@ -80,8 +80,9 @@ impl RunFolder {
         Self::open(path, plan, mode, &Opening { checking: &Checking::default(), space })
     }
 
-    /// Makes the folder, or opens that of an earlier start. The lock is taken before anything in it is read or removed,
-    /// and held until this is dropped; a folder that is no run is refused before that, and stays as it is.
+    /// Creates the folder, or opens the folder of an earlier start. Before anything in it is read or removed, the lock
+    /// is taken, and it is held until the value is dropped. A folder that is not a run is refused first, and stays
+    /// unchanged. Resuming reads all files that are kept.
     ///
     /// # Errors
     /// [`Error::Occupied`], [`Error::NotARun`], [`Error::InProgress`], [`Error::Foreign`], [`Error::Unrecognised`],
@@ -109,33 +110,34 @@ impl RunFolder {
         Ok(Self { path: path.to_path_buf(), plan, journal: Mutex::new(journal), watch, found, lock })
     }
 
-    /// What a resumed run found in its folder before it mended it; `None` of one that was begun.
+    /// What the check of a resumed run found, before repair; `None` for a new run.
     pub fn found(&self) -> Option<&Checkup> {
         self.found.as_ref()
     }
 
-    /// Why the file system could not lock the folder, where it could not: another run in it would not be noticed.
+    /// The reason why the file system cannot lock the folder, if it cannot: a second process in the folder would go
+    /// unnoticed.
     pub fn unlockable(&self) -> Option<&str> {
         self.lock.unlockable()
     }
 
-    /// The folder.
+    /// The path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What the run writes.
+    /// The plan of the run.
     pub fn plan(&self) -> &RunPlan {
         &self.plan
     }
 
-    /// The shards that are still to be grown, ascending.
+    /// The numbers of the shards that are still to be grown, ascending.
     pub fn missing_shards(&self) -> Vec<u32> {
         let journal = self.journal();
         (0..self.plan.shards()).filter(|shard| !journal.done().contains_key(shard)).collect()
     }
 
-    /// Opens a shard.
+    /// Opens a shard for writing.
     ///
     /// # Errors
     /// [`Error::NoSuchShard`], or a failed write.
@@ -147,8 +149,8 @@ impl RunFolder {
         Shard::create(self, shard)
     }
 
-    /// Closes the run: the journal in order, `datapackage.json`, `run.json` with the `timings` in seconds.
-    ///
+    /// Closes the run: sorts the journal, writes `datapackage.json`, and writes `run.json` with the `timings`, pairs of
+    /// a name and seconds.
     /// # Errors
     /// [`Error::MissingShards`], or a failed write.
     pub fn finish(&self, timings: &[(&str, f64)]) -> Result<RunReport, Error> {
@@ -166,7 +168,7 @@ impl RunFolder {
     }
 }
 
-/// Refuses a folder that is not to be touched in this mode.
+/// Refuses a folder that must not be changed in this mode.
 fn refuse(path: &Path, mode: Mode, is_run: bool) -> Result<(), Error> {
     let counts = |file: &PathBuf| !durable::is_beside(file) && !file.ends_with(LOCK);
     let occupied = durable::files_in(path)?.iter().any(counts);
@@ -177,7 +179,7 @@ fn refuse(path: &Path, mode: Mode, is_run: bool) -> Result<(), Error> {
     }
 }
 
-/// Looks at all that a run to be resumed has, if it is this run.
+/// Checks all files of a run that is to be resumed, if its plan is equal.
 fn check_resumed(path: &Path, papers: &Papers, plan: &RunPlan, checking: &Checking) -> Result<Checkup, Error> {
     let run = fingerprint(plan);
     match &papers.run {
@@ -197,15 +199,16 @@ fn check_resumed(path: &Path, papers: &Papers, plan: &RunPlan, checking: &Checki
     check::of(path, papers, &run, None, (Depth::Bytes, checking))
 }
 
-/// The shards that need not be grown again.
+/// The shards that need not be grown again, by number.
 fn kept(papers: &Papers, plan: &RunPlan, found: &Checkup) -> BTreeMap<u32, ShardReport> {
     let mut done = papers.journal.as_ref().map(|journal| journal.done(&fingerprint(plan))).unwrap_or_default();
     done.retain(|shard, _| found.sound.contains(shard));
     done
 }
 
-/// Makes the folder ready for the shards that are not `done`: documents, folders and journal; what an interrupted or
-/// damaged shard left is removed. `run.json` is that of an unfinished run before anything that it named goes.
+/// Prepares the folder for the shards that are not `done`: documents, folders and journal. Files of interrupted or
+/// damaged shards are removed. `run.json` is first set to that of an unfinished run, before any file that it named is
+/// removed.
 fn prepare(path: &Path, plan: &RunPlan, papers: &Papers, done: BTreeMap<u32, ShardReport>) -> Result<Journal, Error> {
     if papers.whole().is_some() && done.len() == plan.shards() as usize {
         documents::write_views(path, plan)?;
@@ -231,9 +234,9 @@ fn make_tables(path: &Path, plan: &RunPlan) -> Result<(), Error> {
     Ok(())
 }
 
-/// Removes what a run has written, and nothing else; the lock stays.
+/// Removes the files that a run has written, and no others; the lock stays.
 fn clear(path: &Path, papers: &Papers) -> Result<(), Error> {
-    // A damaged journal is no hindrance: this is the way to be rid of it.
+    // A damaged journal does not prevent this, since replacing the run is the way to get rid of it.
     let entered = papers.journal.iter().flat_map(journal::Reading::files);
     for file in entered.filter(|file| papers::is_inside(&file.path)) {
         durable::remove(&path.join(&file.path))?;
@@ -244,9 +247,9 @@ fn clear(path: &Path, papers: &Papers) -> Result<(), Error> {
         }
     }
     for name in check::filled() {
-        // Stays where it holds something else, which is not ours to remove.
+        // A folder with files of others is not empty, and stays.
         let _ = fs::remove_dir(path.join(name));
     }
-    // `run.json` last: until then the folder is a run, which can be replaced.
+    // `run.json` is removed last: until then the folder is a run, which can be replaced.
     Ok(check::DOCUMENTS.iter().rev().try_for_each(|name| durable::remove(&path.join(name)))?)
 }

@@ -1,6 +1,6 @@
-//! What a run folder says of itself, read back: `run.json` and the journal, each with whether its checks hold.
+//! The documents that describe a run folder, read back: `run.json` and the journal, with whether their checks hold.
 //!
-//! Absent: whether the files that they name are there, which is `check`'s.
+//! Absent: whether the files that they name exist (`check`).
 
 use super::documents::RUN;
 use super::error::Error;
@@ -15,20 +15,20 @@ use std::path::{Component, Path};
 /// A `run.json`.
 #[derive(Debug)]
 pub enum RunJson {
-    /// There is none.
+    /// There is no `run.json`.
     Missing,
-    /// Its check does not hold; whether it still looks like a run's.
+    /// The check of the file does not hold.
     Damaged {
-        /// It names this program.
+        /// Whether the file still names this program.
         ours: bool,
     },
-    /// Of a program that wrote no checks yet.
+    /// The file is of a program version that wrote no checks.
     Older(Value),
-    /// As it was written.
+    /// The file is as it was written.
     Whole(Value),
 }
 
-/// The papers of a run folder.
+/// `run.json` and the journal of a run folder.
 #[derive(Debug)]
 pub struct Papers {
     /// `run.json`.
@@ -38,7 +38,7 @@ pub struct Papers {
 }
 
 impl Papers {
-    /// Reads them.
+    /// Reads both documents.
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let file = folder.join(RUN);
         let run = match fs::read(&file) {
@@ -58,12 +58,12 @@ impl Papers {
         }
     }
 
-    /// What `run.json` says, where its check holds.
+    /// The content of `run.json`; `None` where its check does not hold.
     pub fn whole(&self) -> Option<&Value> {
         if let RunJson::Whole(run) = &self.run { Some(run) } else { None }
     }
 
-    /// The fingerprint of the run's plan: as `run.json` has it, else as the journal does where it names one run alone.
+    /// The fingerprint of the run's plan: from `run.json`, else from the journal where all its lines name one run.
     pub fn fingerprint(&self) -> Option<String> {
         let stated = self.whole().and_then(|run| run["fingerprint"].as_str().map(str::to_owned));
         stated.or_else(|| {
@@ -72,14 +72,14 @@ impl Papers {
         })
     }
 
-    /// The files of the run, where `run.json` is whole.
+    /// The paths of the files of the run; `None` where `run.json` is not whole.
     pub fn names(&self) -> Option<Vec<String>> {
         self.whole()?;
         let done = self.journal.as_ref().zip(self.fingerprint()).map(|(journal, run)| journal.done(&run));
         Some(self.named(&done.unwrap_or_default(), false).into_keys().collect())
     }
 
-    /// The files that the run names: its tables and meshes, and the documents of which `run.json` has the hashes.
+    /// The files that the run names, by path: its tables and meshes, and the documents whose hashes are in `run.json`.
     pub fn named(&self, done: &BTreeMap<u32, ShardReport>, in_progress: bool) -> BTreeMap<String, FileReport> {
         let of_run = |key: &str| -> Vec<FileReport> {
             let list = self.whole().filter(|_| !in_progress).and_then(|run| run.get(key).cloned());
@@ -97,7 +97,7 @@ impl RunJson {
         let ours = |json: &Value| json["format"] == "phytomer run";
         match json {
             Some(json) if DOCUMENT.holds(text) && ours(&json) => Self::Whole(json),
-            // Damage to one place does not take both keys away.
+            // Damage at one place leaves at least one of the two keys.
             Some(json) if ours(&json) && json.get("check").is_none() && json.get("format_version").is_none() => {
                 Self::Older(json)
             }

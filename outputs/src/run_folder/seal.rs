@@ -1,32 +1,32 @@
-//! Checksums inside JSON: a line of the journal and `run.json` end with a `check` of all that stands before it.
+//! Checksums inside JSON: a line of the journal and `run.json` end with a `check` of all text before it.
 //!
-//! The check is the first sixteen hexadecimal digits of the SHA-256 of the text as it stands, so that a changed byte is
-//! found wherever it is, also between the values. It guards against damage, not against forgery.
+//! The check is the first sixteen hexadecimal digits of the SHA-256 of the text, so any changed byte is found, also
+//! between the values. It detects damage, not forgery.
 
 use crate::storage::durable::sha256_of;
 
-/// The digits of a check.
+/// The number of digits of a check.
 const DIGITS: usize = 16;
 
-/// How a check is put before the end of a JSON object.
+/// The text of a check before the end of a JSON object.
 #[derive(Debug, Clone, Copy)]
 pub struct Seal {
-    /// How the object ends without its check.
+    /// The end of the object without a check.
     end: &'static str,
-    /// What stands between the object and the digits.
+    /// The text between the object and the digits.
     before: &'static str,
-    /// What stands behind the digits.
+    /// The text after the digits.
     after: &'static str,
 }
 
-/// One object on one line.
+/// The check of an object on one line.
 pub const LINE: Seal = Seal { end: "}", before: ",\"check\":\"", after: "\"}\n" };
 
-/// One object on many lines.
+/// The check of an object on many lines.
 pub const DOCUMENT: Seal = Seal { end: "\n}", before: ",\n  \"check\": \"", after: "\"\n}\n" };
 
 impl Seal {
-    /// The text of an object, with its check.
+    /// The text of an object, with its check added.
     pub fn put(self, mut object: Vec<u8>) -> Vec<u8> {
         if object.ends_with(self.end.as_bytes()) {
             object.truncate(object.len() - self.end.len());
@@ -35,7 +35,7 @@ impl Seal {
         [&object, self.before.as_bytes(), check.as_bytes(), self.after.as_bytes()].concat()
     }
 
-    /// Whether the text is exactly what [`Seal::put`] made.
+    /// Whether the text is exactly as [`Seal::put`] returned it.
     pub fn holds(self, text: &[u8]) -> bool {
         let content = text.strip_suffix(self.after.as_bytes()).and_then(|rest| {
             let (rest, digits) = rest.split_at_checked(rest.len().checked_sub(DIGITS)?)?;
@@ -45,7 +45,7 @@ impl Seal {
     }
 }
 
-/// The check of some bytes.
+/// The digits of the check of some bytes.
 pub fn check_of(bytes: &[u8]) -> String {
     let mut check = sha256_of(bytes);
     check.truncate(DIGITS);

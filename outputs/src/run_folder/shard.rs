@@ -1,7 +1,7 @@
 //! A shard: a fixed range of plots that makes one part file of each table.
 //!
-//! Its files are written beside their final names and get those names in [`Shard::commit`], which ends with the shard's
-//! line in the journal. A shard that is dropped before leaves nothing.
+//! Its files are written beside their final names and renamed in [`Shard::commit`], which ends with the shard's line in
+//! the journal. A shard that is dropped before that leaves nothing.
 
 use super::RunFolder;
 use super::error::Error;
@@ -13,7 +13,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A shard being written: a [`Recorder`] for each of its plots in turn.
+/// A shard that is being written. It is the [`Recorder`] of each of its plots, one after another.
 pub struct Shard<'a> {
     folder: &'a RunFolder,
     /// `None` once the shard is being committed.
@@ -37,11 +37,11 @@ impl<'a> Shard<'a> {
         Ok(Part::create(table, &path, &self.folder.plan, (queue, &self.folder.watch))?)
     }
 
-    /// Registers a further file of this shard, such as a mesh, by its path in the run folder (with `/`). Write it to
-    /// the path that this returns; [`Shard::commit`] syncs it, gives it its name and enters it in the journal.
+    /// Registers a further file of this shard, such as a mesh, by its path in the run folder (with `/`). Returns the
+    /// path to write it to; [`Shard::commit`] syncs and renames the file and enters it in the journal.
     ///
     /// # Errors
-    /// Where its folder cannot be made, or the disk has no room for it.
+    /// Where its folder cannot be made, or the disk has less free space than a run leaves.
     pub fn stage(&mut self, path: &str) -> Result<PathBuf, Error> {
         self.look_at_disk()?;
         let full = self.folder.path.join(path);
@@ -52,7 +52,7 @@ impl<'a> Shard<'a> {
         Ok(durable::beside(&full))
     }
 
-    /// Looks at the free space, before something is written that does not look itself.
+    /// Checks the free space of the disk. Call it before writing files that do not check it themselves.
     ///
     /// # Errors
     /// Where less is free than a run leaves.
@@ -65,8 +65,8 @@ impl<'a> Shard<'a> {
         self.report.shard
     }
 
-    /// Writes what is known of a plot at its end: its components, its events and its plants. Comes after its last tick,
-    /// for each plot of the shard in turn.
+    /// Writes the components, events and `plants` rows of a plot at its end. Call it after the last tick of each plot,
+    /// in the order of the plots.
     ///
     /// # Errors
     /// [`Error::PlotOutOfTurn`], or a failed write.
@@ -99,7 +99,7 @@ impl<'a> Shard<'a> {
         Err(Error::PlotOutOfTurn { shard: self.report.shard, plot: plot.id, expected })
     }
 
-    /// Closes the files, gives them their names and enters the shard in the journal.
+    /// Closes and renames the files, and enters the shard in the journal.
     ///
     /// # Errors
     /// [`Error::UnfinishedShard`] where a plot has not ended, or a failed write.
@@ -120,7 +120,7 @@ impl<'a> Shard<'a> {
         Ok(self.report.clone())
     }
 
-    /// Gives a staged file its name; one that is not a table's is synced and hashed first.
+    /// Renames a staged file; a file that is no table is synced and hashed first.
     fn name(&mut self, path: String) -> Result<(), Error> {
         let full = self.folder.path.join(&path);
         let staged = durable::beside(&full);
@@ -151,7 +151,7 @@ impl Recorder for Shard<'_> {
 impl Drop for Shard<'_> {
     fn drop(&mut self) {
         for path in &self.staged {
-            // Nothing is lost where this fails: a resumed run removes such files.
+            // A failure here is harmless: a resumed run removes such files.
             let _ = fs::remove_file(durable::beside(&self.folder.path.join(path)));
         }
     }

@@ -1,6 +1,6 @@
-//! Creation, journal, resuming, refusals, and the same bytes on any number of threads.
+//! Creation, journal, resuming and refusals of run folders, and equal bytes on any number of threads.
 //!
-//! A crash is played by what it leaves behind: torn lines, parts without an entry, files beside their names.
+//! A crash is simulated by its remains: torn lines, parts without an entry, files beside their names.
 
 use super::*;
 use crate::Table;
@@ -62,8 +62,8 @@ fn the_bytes_do_not_depend_on_the_number_of_threads() {
     assert_eq!(written[0], written[2]);
 }
 
-/// Three plants a plot, of two species and sown at three ticks: the same bytes on any number of threads, in whichever
-/// way the run came to its end.
+/// Three plants per plot, of two species and sown at three ticks: equal bytes on any number of threads, whether or not
+/// the run was interrupted.
 #[test]
 fn plots_of_several_plants_are_checked_and_resumed_as_those_of_one() {
     let written = [1, 2, 7].map(|threads| {
@@ -87,7 +87,7 @@ fn plots_of_several_plants_are_checked_and_resumed_as_those_of_one() {
     assert!(contents(home.path()) == written[0]);
 }
 
-/// A mesh that was renamed but not entered, one that was half written, and a file that is not the run's.
+/// A mesh that was renamed but not entered, a mesh that was half written, and a file that does not belong to the run.
 fn unentered_meshes(run: &Path) {
     fs::create_dir_all(run.join("meshes")).unwrap();
     for name in ["plant-00003_age-0012.ply", ".plant-00004_age-0012.ply.tmp", "notes.txt"] {
@@ -108,7 +108,7 @@ fn an_interrupted_run_ends_with_the_same_bytes() {
     let folder = RunFolder::create(&broken, plan(7, 2), Mode::New).unwrap();
     grow_shard(&folder, 2, 100_000);
     grow_shard(&folder, 0, 100_000);
-    // A shard that was renamed but not entered, one that was half written, and a torn line.
+    // A shard that was renamed but not entered, a shard that was half written, and a torn line.
     fs::copy(broken.join("records/part-00000.parquet"), broken.join("records/part-00001.parquet")).unwrap();
     fs::write(broken.join("events/.part-00003.parquet.tmp"), b"half").unwrap();
     unentered_meshes(&broken);
@@ -180,7 +180,7 @@ fn a_check_that_is_told_to_stop_says_so_and_changes_nothing() {
     assert_eq!(check(home.path(), Depth::Bytes, &Checking::default()).unwrap().state, State::Complete);
 }
 
-/// What a program of the first format left is told as such, and replaced where that is asked for.
+/// A run of the first format is refused with its own message, and replaced by `Overwrite`.
 #[test]
 fn a_run_without_checks_is_told_kindly() {
     let home = tempdir().unwrap();

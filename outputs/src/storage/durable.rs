@@ -1,6 +1,6 @@
-//! Files that are either whole or not there: written beside their final name, synced, then renamed.
+//! Files that are either whole or absent: written beside their final name, synced, then renamed.
 //!
-//! A crash at any moment leaves the old file, the new one, or a file beside its name that a resumed run removes.
+//! A crash at any moment leaves the old file, the new file, or a file beside its name, which a resumed run removes.
 
 use super::error::FileError;
 use super::space::Watch;
@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 
-/// So many bytes are sent on their way to the disk at a time, while the next ones are made: at its end a large file has
-/// little left to wait for.
+/// The number of bytes that are synced at a time, while the next bytes are made. So little is left to sync at the end
+/// of a large file.
 const SENT_AT_ONCE: u64 = 32 << 20;
 
 /// A new file that is hashed as it is written.
@@ -28,34 +28,34 @@ pub struct HashingFile {
 }
 
 impl HashingFile {
-    /// Creates the file, replacing what is there; the watch looks at the disk as the file grows.
+    /// Creates the file, replacing an existing file; `watch` checks the free space of the disk as the file grows.
     pub fn create(path: &Path, watch: &Arc<Watch>) -> Result<Self, FileError> {
         let file = File::create(path).map_err(FileError::io("create", path))?;
         let (path, watch) = (path.to_path_buf(), Arc::clone(watch));
         Ok(Self { file, path, hash: Sha256::new(), bytes: 0, sent: 0, sending: None, watch })
     }
 
-    /// Makes sure that the file is on the disk; its bytes and its hash.
+    /// Syncs the file; returns its size in bytes and its SHA-256 in hexadecimal.
     pub fn finish(mut self) -> Result<(u64, String), FileError> {
-        // The system tells of a lost block once: to the first that asks.
+        // The system reports a lost block once, to the first call that asks, so the background syncs are checked first.
         self.sent().and_then(|()| self.file.sync_all()).map_err(FileError::io("write to disk", &self.path))?;
         Ok((self.bytes, hexadecimal(&self.hash.finalize())))
     }
 
-    /// Sends what is written to the disk, on a thread that only waits; where one is still waiting, later.
+    /// Starts to sync the written bytes on a thread of its own; while an earlier sync runs, the next call starts it.
     fn send(&mut self) -> io::Result<()> {
         if self.sending.as_ref().is_some_and(|sending| !sending.is_finished()) {
             return Ok(());
         }
         self.sent()?;
         let file = self.file.try_clone()?;
-        // Where no thread can start the bytes wait for the next piece, or for the end of the file.
+        // Where no thread can start, the bytes are synced with the next piece, or at the end of the file.
         self.sending = thread::Builder::new().name("sync".to_owned()).spawn(move || file.sync_data()).ok();
         self.sent = self.bytes;
         Ok(())
     }
 
-    /// What came of what was sent.
+    /// Waits for the sync under way and returns its result.
     fn sent(&mut self) -> io::Result<()> {
         let Some(sending) = self.sending.take() else { return Ok(()) };
         sending.join().unwrap_or_else(|_| Err(io::Error::other("the thread that syncs the file has ended")))
@@ -79,13 +79,13 @@ impl Write for HashingFile {
     }
 }
 
-/// The name beside `path` under which it is written.
+/// The name beside `path` under which the file is written before it is renamed.
 pub fn beside(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!(".{name}.tmp"))
 }
 
-/// Whether a file is one that [`beside`] names.
+/// Whether a file has a name that [`beside`] makes.
 pub fn is_beside(path: &Path) -> bool {
     path.file_name().is_some_and(|name| {
         let name = name.to_string_lossy();
@@ -93,7 +93,7 @@ pub fn is_beside(path: &Path) -> bool {
     })
 }
 
-/// Writes a whole small file.
+/// Writes a small file as a whole.
 pub fn write(path: &Path, content: &[u8]) -> Result<(), FileError> {
     let staged = beside(path);
     let mut file = File::create(&staged).map_err(FileError::io("create", &staged))?;
@@ -102,13 +102,13 @@ pub fn write(path: &Path, content: &[u8]) -> Result<(), FileError> {
     rename(&staged, path)
 }
 
-/// Gives a synced file its final name, and makes sure that the name is on the disk.
+/// Gives a synced file its final name, and syncs the folder.
 pub fn rename(from: &Path, to: &Path) -> Result<(), FileError> {
     fs::rename(from, to).map_err(FileError::io("rename", from))?;
     sync_folder_of(to)
 }
 
-/// Makes sure that the names in the folder of `path` are on the disk, where a system can say so.
+/// Syncs the folder of `path`, so that the names in it survive a crash; does nothing where a system cannot.
 pub fn sync_folder_of(path: &Path) -> Result<(), FileError> {
     let Some(folder) = path.parent().filter(|folder| cfg!(unix) && !folder.as_os_str().is_empty()) else {
         return Ok(());
@@ -116,14 +116,15 @@ pub fn sync_folder_of(path: &Path) -> Result<(), FileError> {
     File::open(folder).and_then(|folder| folder.sync_all()).map_err(FileError::io("write to disk", folder))
 }
 
-/// Syncs a file that someone else has written; its bytes and its hash.
+/// Syncs a file that other code has written; returns its size in bytes and its SHA-256 in hexadecimal.
 pub fn sync_and_hash(path: &Path) -> Result<(u64, String), FileError> {
     let mut file = File::open(path).map_err(FileError::io("open", path))?;
     file.sync_all().map_err(FileError::io("write to disk", path))?;
     hash(&mut file, |_| Ok(())).map_err(FileError::io("read", path))
 }
 
-/// The bytes and the hash of a file; `progress` is told of each block and can end it by an error.
+/// The size in bytes and the SHA-256 of a file. `progress` is called with the size of each block, and can end the
+/// reading by an error.
 pub fn hash(file: &mut File, mut progress: impl FnMut(u64) -> io::Result<()>) -> io::Result<(u64, String)> {
     let mut hash = Sha256::new();
     let mut block = vec![0; 1 << 20];
@@ -139,7 +140,7 @@ pub fn hash(file: &mut File, mut progress: impl FnMut(u64) -> io::Result<()>) ->
     }
 }
 
-/// Removes a file if it is there.
+/// Removes a file; does nothing where there is no such file.
 pub fn remove(path: &Path) -> Result<(), FileError> {
     match fs::remove_file(path) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => Err(FileError::io("remove", path)(source)),
@@ -147,7 +148,7 @@ pub fn remove(path: &Path) -> Result<(), FileError> {
     }
 }
 
-/// The files directly in a folder, sorted; none where there is no folder.
+/// The files directly in a folder, sorted by name; empty where there is no folder.
 pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>, FileError> {
     let entries = match fs::read_dir(folder) {
         Err(source) if source.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
@@ -161,7 +162,7 @@ pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>, FileError> {
     Ok(files)
 }
 
-/// The hash of some bytes, in hexadecimal.
+/// The SHA-256 of some bytes, in hexadecimal.
 pub fn sha256_of(bytes: &[u8]) -> String {
     hexadecimal(&Sha256::digest(bytes))
 }

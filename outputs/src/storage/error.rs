@@ -1,4 +1,6 @@
-//! What a file system refuses, in words for the person who must set it right.
+//! Errors of the file system, in words for the person who must set it right.
+//!
+//! A message names the file or folder and what was tried; the cause is the system's own error (`source`).
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -6,14 +8,14 @@ use std::path::{Path, PathBuf};
 /// A file or a folder that could not be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
-    /// The file system refused.
+    /// The system returned an error.
     #[error("cannot {doing} {}", path.display())]
     Io {
         /// What was tried: "create", "rename", …
         doing: &'static str,
         /// The file or folder.
         path: PathBuf,
-        /// The system's answer.
+        /// The system's error.
         source: io::Error,
     },
     /// A file was to be written where a folder is.
@@ -25,7 +27,7 @@ pub enum FileError {
 }
 
 impl FileError {
-    /// Makes a [`FileError::Io`] of the system's answer.
+    /// Makes a [`FileError::Io`] from the system's error.
     pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_path_buf();
         move |source| Self::Io { doing, path, source }

@@ -1,6 +1,7 @@
-//! Files on a disk, below tables and run folder: files that are whole or not there, and the watch over the free space.
+//! Files on a disk, as tables and run folder need them: files that are either whole or absent, and the watch over free
+//! space.
 //!
-//! Absent: what the files hold, and what a run is expected to need.
+//! Absent: the content of files, and the size that a run is expected to need.
 
 pub mod durable;
 mod error;

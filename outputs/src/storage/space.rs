@@ -1,9 +1,9 @@
-//! The free space of a disk, and the watch that ends a run before there is none.
+//! The free space of a disk, and the watch that ends a run before the disk is full.
 //!
-//! A disk that is full to its last byte hurts everything else on the machine, and a run that is told of it by a failed
-//! write may have torn a file of another program. So tables look at the free space as they are written, and meshes
-//! before they are. Where a system does not tell its free space a run goes on unwatched. Absent: what a run is expected
-//! to need.
+//! A full disk harms every program on the machine, and a run that first learns of it from a failed write may have
+//! damaged a file of another program. So free space is checked while tables are written, and before each mesh. Where a
+//! system does not report its free space, a run goes on without this check. Absent: the size that a run is expected to
+//! need.
 
 use std::fmt;
 use std::io;
@@ -11,38 +11,38 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-/// The most that is left free, bytes: room for what is under way on other threads, for the journal and for other
+/// The most bytes that a run leaves free: for writes under way on other threads, for the journal and for other
 /// programs.
 const RESERVE: u64 = 64_000_000;
-/// Of a small disk this part is left free.
+/// On a small disk, its total space divided by this number is left free.
 const RESERVED_PART: u64 = 20;
 
-/// So many bytes are written between two looks.
+/// The number of bytes written between two checks.
 const STEP: u64 = 1 << 20;
 
-/// The room on a disk, bytes.
+/// The free and the total space of a disk, bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Space {
-    /// What this user may still write.
+    /// The bytes that this user may still write.
     pub free: u64,
     /// The size of the disk.
     pub total: u64,
 }
 
 impl Space {
-    /// What a run leaves free.
+    /// The bytes that a run leaves free on this disk.
     pub fn reserve(self) -> u64 {
         RESERVE.min(self.total / RESERVED_PART)
     }
 }
 
-/// Something that knows how much room there is: the system, or a test.
+/// A source of the free space of a disk: the system, or a test.
 pub trait FreeSpace: fmt::Debug + Send + Sync {
-    /// The room on the disk of a folder that exists; `None` where that is not known.
+    /// The space on the disk of an existing folder; `None` where it is unknown.
     fn space(&self, folder: &Path) -> Option<Space>;
 }
 
-/// The free space that the operating system tells.
+/// The free space that the operating system reports.
 #[derive(Debug, Clone, Copy)]
 pub struct SystemSpace;
 
@@ -53,19 +53,19 @@ impl FreeSpace for SystemSpace {
     }
 }
 
-/// The disk has less room than a run leaves.
+/// The error of a disk that has less free space than a run leaves.
 #[derive(Debug, thiserror::Error)]
 #[error("the disk of {} has {free} left, and a run leaves {reserve} free", path.display())]
 pub struct AlmostFull {
     /// The folder.
     pub path: PathBuf,
-    /// What is free.
+    /// The free bytes.
     pub free: Bytes,
-    /// What is left free.
+    /// The bytes that a run leaves free.
     pub reserve: Bytes,
 }
 
-/// Looks at the free space while a run folder is filled.
+/// Checks the free space of a disk while a run folder is filled.
 #[derive(Debug)]
 pub struct Watch {
     folder: PathBuf,
@@ -79,7 +79,7 @@ impl Watch {
         Arc::new(Self { folder: folder.to_path_buf(), space: Arc::clone(space), written: AtomicU64::new(0) })
     }
 
-    /// So many bytes were written; looks at the disk now and then.
+    /// Counts written bytes, and checks the disk once per megabyte.
     ///
     /// # Errors
     /// As [`Watch::check`].
@@ -88,7 +88,7 @@ impl Watch {
         if before / STEP == before.saturating_add(bytes) / STEP { Ok(()) } else { self.check() }
     }
 
-    /// Looks at the disk.
+    /// Checks the disk.
     ///
     /// # Errors
     /// `StorageFull` with an [`AlmostFull`] where less is free than a run leaves.
@@ -103,7 +103,7 @@ impl Watch {
     }
 }
 
-/// Bytes as people read them, in powers of a thousand: `31.5 MB`.
+/// A number of bytes, shown in powers of a thousand: `31.5 MB`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Bytes(pub u64);
 

@@ -1,4 +1,5 @@
-//! What arrow and Parquet are told of a table: types, field metadata, encodings, key-value metadata.
+//! The declared columns of a table as Arrow and Parquet take them: types, field metadata, encodings, key-value
+//! metadata.
 //!
 //! Nothing in a file depends on the clock, the machine or the number of threads; `created_by` names this program.
 
@@ -15,15 +16,16 @@ use phytomer_sim::plant::Kind;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// The dictionary page of a column of [`Encoding::Repeated`] may grow to this many bytes before it is given up.
+/// The largest dictionary, in bytes, of a column with [`Encoding::Repeated`]; a column with more values is written
+/// without.
 const SMALL_DICTIONARY: usize = 64 * 1024;
 
-/// The arrow schema of a table with these columns; a field's metadata has its `unit` and its `description`.
+/// The Arrow schema of a table with these columns. The metadata of a field has its `unit` and its `description`.
 pub fn schema(columns: &[Column]) -> SchemaRef {
     Arc::new(Schema::new(columns.iter().map(field).collect::<Vec<_>>()))
 }
 
-/// One column as an arrow field.
+/// A column as an Arrow field.
 pub fn field(column: &Column) -> Field {
     let mut metadata = HashMap::from([("description".to_owned(), column.description.to_owned())]);
     if !column.unit.is_empty() {
@@ -44,10 +46,10 @@ fn data_type(holds: Type) -> DataType {
     }
 }
 
-/// How the files of a table are written.
+/// The writer properties of the files of a table: encodings, compression, metadata.
 ///
 /// # Errors
-/// Where zstd has no such level.
+/// Where zstd has no such level as the plan states.
 pub fn properties(table: Table, plan: &RunPlan) -> Result<WriterProperties, ParquetError> {
     let base = WriterProperties::builder()
         .set_created_by(format!("phytomer version {}", plan.provenance.version))
@@ -80,7 +82,7 @@ fn sorting(table: Table, columns: &[Column]) -> Vec<SortingColumn> {
     table.sorted_by().iter().filter_map(place).map(sorted).collect()
 }
 
-/// The key-value metadata of every file of a table.
+/// The key-value metadata of each file of a table, which all parts share.
 pub fn key_values(table: Table, plan: &RunPlan) -> Vec<KeyValue> {
     let provenance = &plan.provenance;
     let entry = |key: &str, value: String| KeyValue::new(format!("phytomer.{key}"), value);
@@ -115,7 +117,7 @@ fn rounding(plan: &RunPlan) -> String {
     }
 }
 
-/// The Plant Ontology term of each kind, as JSON.
+/// The Plant Ontology terms as JSON, by the names of kinds.
 pub fn plant_ontology() -> serde_json::Value {
     Kind::ALL.map(|kind| (kind.tag().to_owned(), serde_json::Value::from(kind.ontology_term()))).into_iter().collect()
 }

@@ -1,8 +1,8 @@
-//! Column buffers: filled row by row, lent to arrow without a copy, and taken back with their memory.
+//! Column buffers: filled row by row, lent to Arrow without a copy, and emptied for reuse.
 //!
-//! While a buffer is being filled, a negative integer and a NaN stand for null; they become nulls when the buffer is
-//! lent and never reach a file. [`columns!`] makes a struct of buffers out of a table's columns and of their values in
-//! a row.
+//! While a buffer is filled, a negative integer or a NaN stands for null; both become nulls when the buffer is lent and
+//! never reach a file. [`columns!`] makes a struct of buffers from a table's columns and the expressions of their
+//! values in a row.
 
 use super::schema::{Column, Rounding};
 use arrow_array::types::{ArrowPrimitiveType, Float32Type, Float64Type, Int8Type, Int32Type, Int64Type};
@@ -12,7 +12,7 @@ use arrow_schema::ArrowError;
 use phytomer_sim::{NEVER, Tick};
 use std::sync::Arc;
 
-/// What stands for null in a buffer of integers.
+/// The integer that stands for null in a buffer.
 pub const NULL: i32 = -1;
 
 /// The values of one column.
@@ -20,22 +20,22 @@ pub const NULL: i32 = -1;
 pub enum Values {
     /// 0, 1, or −1 for null.
     Bool(Vec<i8>),
-    /// 32-bit numbers.
+    /// 32-bit integers; negative for null.
     Int(Vec<i32>),
-    /// 64-bit numbers, never null.
+    /// 64-bit integers, never null.
     Key(Vec<i64>),
-    /// Real numbers.
+    /// 32-bit real numbers; NaN for null.
     Float(Vec<f32>),
-    /// Real numbers, 64 bits wide.
+    /// 64-bit real numbers; NaN for null.
     Double(Vec<f64>),
-    /// Places in the column's list of words.
+    /// Indices into the column's list of words; negative for null.
     Word(Vec<i8>),
-    /// Places in the run's list of names, never null.
+    /// Indices into the run's list of names, never null.
     Name(Vec<i32>),
 }
 
 impl Values {
-    /// Forgets every value and keeps the memory.
+    /// Empties the buffer and keeps its memory.
     pub fn clear(&mut self) {
         match self {
             Self::Bool(values) | Self::Word(values) => values.clear(),
@@ -47,10 +47,10 @@ impl Values {
     }
 }
 
-/// The memory of a lent buffer, to be taken back once the array is dropped.
+/// The memory of a lent buffer, which can be taken back after the array is dropped.
 #[derive(Debug)]
 pub enum Lent {
-    /// A copy was lent: the buffer itself is still here.
+    /// Arrow got a copy: this is the buffer itself.
     Kept(Values),
     /// 32-bit numbers.
     Int(Buffer),
@@ -67,7 +67,7 @@ pub enum Lent {
 }
 
 impl Lent {
-    /// The buffer, empty, with its memory.
+    /// The buffer, emptied, with its memory.
     pub fn take_back(self) -> Values {
         match self {
             Self::Kept(Values::Bool(mut values)) => {
@@ -91,10 +91,11 @@ fn emptied<N: ArrowNativeType>(buffer: Buffer) -> Vec<N> {
     values
 }
 
-/// The arrow array of `values`, and the buffer to take back. `words` are those of a column of words or names.
+/// The Arrow array of `values`, and the lent buffer. `words` are the words or names of the column. Takes O(n) for n
+/// values, and copies only booleans.
 ///
 /// # Errors
-/// Where a word's place is not in the list.
+/// Where the index of a word is not in the list.
 pub fn lend(values: Values, column: &Column, words: &Arc<StringArray>) -> Result<(ArrayRef, Lent), ArrowError> {
     let nullable = column.nullable;
     Ok(match values {
@@ -147,8 +148,8 @@ fn applying(rows: usize, applies: impl FnMut(usize) -> bool) -> Option<NullBuffe
     (valid.null_count() > 0).then_some(valid)
 }
 
-/// Rounds positions and directions to a power of two, so that the low bits are zero and compress away. The step of a
-/// position is the greatest power of two that is not above `precision_m`, so no value moves by more than half of that.
+/// Rounds positions and directions to multiples of a power of two, so that the low bits are zero and compress well. The
+/// step of a position is the greatest power of two up to `precision_m`, so no value moves by more than half of it.
 pub fn round(values: &mut Values, rounding: Rounding, precision_m: f32) {
     let step = match rounding {
         Rounding::Exact => return,
@@ -158,32 +159,32 @@ pub fn round(values: &mut Values, rounding: Rounding, precision_m: f32) {
     if let Values::Float(values) = values {
         let steps = 1.0 / step;
         for value in values {
-            // Adding zero makes −0 a 0.
+            // The sum with zero turns −0 into 0.
             *value = (*value * steps).round_ties_even() * step + 0.0;
         }
     }
 }
 
-/// The greatest power of two that is not above a positive normal number: its exponent without its fraction.
+/// The greatest power of two up to a positive normal number: its exponent without its fraction.
 fn power_of_two_below(value: f32) -> f32 {
     f32::from_bits(value.to_bits() & 0x7f80_0000)
 }
 
-/// A set of buffers, one a column, in the order of the table's columns; those that a run does not ask for stay empty.
+/// The buffers of a table, in the order of its columns; buffers of columns that a run does not have stay empty.
 pub trait Columns: Default {
-    /// The rows that are in.
+    /// The number of rows in the buffers.
     fn rows(&self) -> usize;
 
-    /// Takes the buffers out, leaving empty ones.
+    /// Takes the buffers and leaves empty ones.
     fn take(&mut self) -> Vec<Values>;
 
-    /// Puts emptied buffers back, for their memory.
+    /// Puts emptied buffers back, so that their memory is used again.
     fn give_back(&mut self, values: Vec<Values>);
 }
 
-/// Makes a struct of column buffers and the way in which rows fill them. Each column is written once, in the order of
-/// the table's list of columns: its buffer, and its value in a row, made of an item and of what all items share. A
-/// column without a value is filled by the table's own code.
+/// Makes a struct of column buffers and the function that adds rows. Each column is written once, in the order of the
+/// table's list of columns: its buffer, and the expression of its value in a row, from an item and from values that all
+/// items share. A column without an expression is filled by the table's own code.
 macro_rules! columns {
     ($(#[$meta:meta])* $name:ident of $item:ident: $item_type:ty, $shared:ident: $shared_type:ty {
         $first:ident: $first_values:ident($first_type:ty) = $first_value:expr,
@@ -233,7 +234,7 @@ macro_rules! columns {
 }
 pub(crate) use columns;
 
-/// A tick that is over by `last`; null for one that has not come, which the run does not know.
+/// A tick as a number, or null where it is later than `last`, the last tick of which anything is known.
 #[inline]
 pub fn known(tick: Tick, last: Tick) -> i32 {
     if tick <= last && tick != NEVER { tick as i32 } else { NULL }

@@ -1,10 +1,10 @@
 //! The columns of the five tables, each declared once.
 //!
-//! The arrow schema, the Parquet metadata, `datapackage.json` and the documentation are all made from these lists. Ids
-//! and ticks are signed, because many readers know no unsigned numbers; null means "does not apply" or "not by the end
-//! of the run", and no number stands for it. A `tick` is the plot's, an `age` the plant's; all columns that end in
-//! `_age` are the plant's too. Where a component stands is told from the seed of its plant, in single precision; where
-//! the seed lies, once, in `plants`, in double.
+//! The Arrow schema, the Parquet metadata, `datapackage.json` and the documentation are made from these lists. Ids and
+//! ticks are signed, because many readers have no unsigned numbers. Null means "does not apply" or "not by the end of
+//! the run"; no number stands for it. A `tick` is the plot's, an `age` is the plant's, as is every column that ends in
+//! `_age`. The place of a component is relative to the seed of its plant, in single precision; the place of the seed is
+//! in `plants`, in double precision.
 
 use super::schema::{Column, Encoding, Named, Rounding, Type};
 use phytomer_sim::plant::{Cause, EventKind, Kind, Origin};
@@ -67,7 +67,7 @@ const TREATMENT: Column = Column::new(
 );
 const PLOT: Column = Column::id("plot_id", "The plot: the plants that share a site.");
 const PLANT: Column = Column::id("plant_id", "The plant's number in the run, from 0.");
-/// Constant over long runs of rows; DELTA_BINARY_PACKED gives such a run no bit a row.
+/// Constant over long runs of rows; DELTA_BINARY_PACKED stores such a run in no bits per row.
 const TICK: Column = Column::id("tick", "The tick of the plot, from 0.").unit("tick");
 const AGE: Column = Column::id(
     "age",
@@ -88,7 +88,7 @@ const AXIS: Column = Column::id("axis_id", "The axis, as the component_id of its
 const ORDER: Column = Column::small("order", "The order of the axis; the trunk is 1.");
 const KIND: Column = Column::word("kind", &KINDS, "What the component is.");
 
-/// The columns of [`RECORDS`] that every run has; those of mechanics follow, where a run asks for them.
+/// The number of columns of [`RECORDS`] that every run has; the columns of mechanics follow, for runs that state them.
 pub const RECORDS_OF_POSE: usize = 26;
 
 /// A row per component that stands at a recorded tick, living or dead.
@@ -116,16 +116,16 @@ pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
          place of the seed: added up in double precision they are the place in the plot.",
     )
     .rounded(Rounding::Position),
-    Column::float("y_m", "m", "The same, northward of the seed.").rounded(Rounding::Position),
-    Column::float("z_m", "m", "The same, above the seed.").rounded(Rounding::Position),
-    Column::float("dir_x", "", "The direction in which the component points, a unit vector.")
+    Column::float("y_m", "m", "The base of the component, northward of the seed of its plant; for an apical bud, its place.").rounded(Rounding::Position),
+    Column::float("z_m", "m", "The base of the component, above the seed of its plant; for an apical bud, its place.").rounded(Rounding::Position),
+    Column::float("dir_x", "", "The direction in which the component points, eastward: a unit vector with the next two.")
         .rounded(Rounding::Direction),
-    Column::float("dir_y", "", "The same, y.").rounded(Rounding::Direction),
-    Column::float("dir_z", "", "The same, z.").rounded(Rounding::Direction),
-    Column::float("up_x", "", "The direction of its upper side, a unit vector across the first.")
+    Column::float("dir_y", "", "The direction in which the component points, northward.").rounded(Rounding::Direction),
+    Column::float("dir_z", "", "The direction in which the component points, upward.").rounded(Rounding::Direction),
+    Column::float("up_x", "", "The direction of its upper side, eastward: a unit vector with the next two, across the first.")
         .rounded(Rounding::Direction),
-    Column::float("up_y", "", "The same, y.").rounded(Rounding::Direction),
-    Column::float("up_z", "", "The same, z.").rounded(Rounding::Direction),
+    Column::float("up_y", "", "The direction of its upper side, northward.").rounded(Rounding::Direction),
+    Column::float("up_z", "", "The direction of its upper side, upward.").rounded(Rounding::Direction),
     Column::float("length_m", "m", "Length along its direction at this age. Null for buds.").repeated().or_null(),
     Column::float("diameter_m", "m", "Diameter at the base at this age; width of an organ. Null for buds.").or_null(),
     Column::float("diameter_tip_m", "m", "Diameter at the tip at this age. Null for organs and buds.").or_null(),
@@ -304,6 +304,6 @@ pub static PLANTS: [Column; 9] = [
         "The place of the seed in the plot, eastward, to which the places in `records` and in meshes are to be added; never \
          rounded.",
     ),
-    Column::double("y_m", "m", "The same, northward."),
-    Column::double("z_m", "m", "The same, upward."),
+    Column::double("y_m", "m", "The place of the seed in the plot, northward; never rounded."),
+    Column::double("z_m", "m", "The place of the seed in the plot, upward; never rounded."),
 ];

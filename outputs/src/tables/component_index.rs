@@ -1,22 +1,22 @@
-//! Which components of a plant stand at an age, in the order of their numbers.
+//! An index of the components of one plant by their numbers, from which the standing components at an age are selected.
 //!
-//! Nodes, organs and axes together fill the numbers from 0 without a gap, in whatever order they stand in the columns.
-//! So the columns of a plant are laid out once by number: which component it is, from when and until when it stands. An
-//! age is then one straight scan. An index is of one plant at a time; the next plant takes its memory.
+//! Nodes, organs and axes together fill the numbers from 0 without a gap, but their columns have orders of their own.
+//! So the index lays them out by number: the component, and the first and the last tick at which it stands. Selecting
+//! an age is then one scan in order. An index holds one plant; the next plant reuses its memory.
 
 use super::TableError;
 use phytomer_sim::plant::{AxisId, NodeId, OrganId, Plant, Trend};
 use phytomer_sim::{NEVER, Tick};
 use std::ops::Range;
 
-/// Components that are looked at in one step of the scan: few enough for their rows to stay in a core's cache.
+/// The number of components in one step of the scan, small enough for their rows to stay in a core's cache.
 const SELECTION: usize = 512;
 
-/// The two high bits of a place tell the class, the others the index.
+/// The two highest bits of an entry are the class of the component, the other bits its index.
 const CLASS_SHIFT: u32 = 30;
 const INDEX: u32 = (1 << CLASS_SHIFT) - 1;
 
-/// A component, by the columns it is in.
+/// A component, by its class and its index in the columns of that class.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Component {
     /// An internode with its node.
@@ -34,15 +34,16 @@ pub struct ComponentIndex {
     places: Vec<u32>,
     from: Vec<Tick>,
     until: Vec<Tick>,
-    /// Of each [`SELECTION`] components, the tick from which the first of them stands.
+    /// For each block of [`SELECTION`] components, the first tick at which any of them stands.
     first: Vec<Tick>,
     tips: Vec<NodeId>,
-    /// The inclinations of the habit's trends, degrees; NaN where a trend tends nowhere.
+    /// The inclinations of the trends of the habit, degrees; NaN for a trend without inclination.
     trends: Vec<f32>,
 }
 
 impl ComponentIndex {
-    /// Lays out `plant`, unless it is laid out already: a plant changes its columns only with its age.
+    /// Lays out `plant` in O(n) for n components. Does nothing where it is laid out already, since the columns of a
+    /// plant change only with its age.
     ///
     /// # Errors
     /// [`TableError::PlantTooLarge`].
@@ -59,7 +60,7 @@ impl ComponentIndex {
         Ok(())
     }
 
-    /// Forgets the plant.
+    /// Empties the index.
     pub fn forget(&mut self) {
         self.of = None;
     }
@@ -94,7 +95,7 @@ impl ComponentIndex {
         self.until[component] = until;
     }
 
-    /// The component of a number.
+    /// The component with a number.
     #[inline]
     pub fn component(&self, number: u32) -> Component {
         let place = self.places[number as usize];
@@ -106,7 +107,7 @@ impl ComponentIndex {
         }
     }
 
-    /// The inclination that an internode tends to, degrees; NaN where it tends nowhere.
+    /// The inclination of an internode's trend, degrees from the upward vertical; NaN without a trend.
     #[inline]
     pub fn trend(&self, plant: &Plant, node: NodeId) -> f32 {
         let place = usize::from(plant.nodes.trend[node.index()]);
@@ -116,12 +117,13 @@ impl ComponentIndex {
         }
     }
 
-    /// Puts into `numbers` the next components that stand at `age`, at most [`SELECTION`] and at most `room`, going on
-    /// from `next`. None is left when `next` has come to the plant's number of components.
+    /// Replaces `numbers` by the numbers of the next components that stand at `age`, in rising order from `next` on: at
+    /// most [`SELECTION`] and at most `room`. All are selected when `next` has reached [`ComponentIndex::len`]. Takes
+    /// O(1) per component looked at.
     pub fn select(&self, age: Tick, room: usize, next: &mut u32, numbers: &mut Vec<u32>) {
         numbers.clear();
         let mut start = *next as usize;
-        // What an old plant bears last is many, and not there yet when it is young.
+        // The many components that an old plant bears last do not stand while it is young: whole blocks are skipped.
         while self.first.get(start / SELECTION).is_some_and(|&first| age < first) {
             start = (start / SELECTION + 1) * SELECTION;
         }
@@ -130,7 +132,7 @@ impl ComponentIndex {
         numbers.resize(end - start, 0);
         let mut found = 0;
         for (number, (from, until)) in (start as u32..).zip(self.from[start..end].iter().zip(&self.until[start..end])) {
-            // Written always, kept where it stands: no branch to mispredict.
+            // The number is always written and only kept if its component stands, so that no branch is mispredicted.
             numbers[found] = number;
             found += usize::from(*from <= age && age < *until);
         }
@@ -138,19 +140,19 @@ impl ComponentIndex {
         *next = end as u32;
     }
 
-    /// The next components from `next` on, whether they stand or not: at most [`SELECTION`] and at most `room`.
+    /// The numbers of the next components from `next` on, standing or not: at most [`SELECTION`] and at most `room`.
     pub fn following(&self, room: usize, next: &mut u32) -> Range<u32> {
         let start = *next;
         *next = self.len().min(start + SELECTION.min(room) as u32);
         start..*next
     }
 
-    /// The components of the plant.
+    /// The number of components of the plant.
     pub fn len(&self) -> u32 {
         self.places.len() as u32
     }
 
-    /// Finds the last internode of each axis at `age`, for [`ComponentIndex::tip`].
+    /// Finds the last internode of each axis at `age`, for [`ComponentIndex::tip`], in one pass over the nodes.
     pub fn find_tips(&mut self, plant: &Plant, age: Tick) {
         self.tips.clear();
         self.tips.resize(plant.axes.len(), NodeId::NONE);
@@ -159,7 +161,8 @@ impl ComponentIndex {
         });
     }
 
-    /// The last internode of an axis at the age of [`ComponentIndex::find_tips`]; [`NodeId::NONE`] before the first.
+    /// The last internode of an axis at the age of the last call of [`ComponentIndex::find_tips`]; [`NodeId::NONE`] for
+    /// an axis without internodes.
     #[inline]
     pub fn tip(&self, axis: AxisId) -> NodeId {
         self.tips[axis.index()]

@@ -1,6 +1,6 @@
-//! The rows of `components`: the identity, the birth and the fate of everything that ever lived.
+//! The rows of `components`: the identity, birth and fate of every component that ever lived.
 //!
-//! Fates later than the last age are not known, whichever way the plant was grown: they are null.
+//! Fates later than the last age are null, even where the plant was grown ahead and they are computed already.
 
 use super::buffers::{NULL, columns, known};
 use super::component_index::{Component, ComponentIndex};
@@ -38,21 +38,21 @@ columns! {
         area: Float(f32) = row.area,
         death: Int(i32) = known(row.death, of.last),
         shed: Int(i32) = known(row.shed, of.last),
-        // Causes are numbered from 1; 0 is "lives".
+        // Causes are numbered from 1; 0 stands for a living component.
         cause: Word(i8) = if known(row.death, of.last) == NULL { -1 } else { row.cause as i8 - 1 },
         trend: Float(f32) = row.trend,
     }
 }
 
-/// What all rows of one plant share.
+/// The values that all rows of one plant share.
 struct OfPlant<'a> {
     of: Membership,
     plant: &'a Plant,
-    /// The last age of the plant of which anything is known.
+    /// The last recorded age of the plant.
     last: Tick,
 }
 
-/// What one component puts into a row; numbers of −1 and NaN are nulls.
+/// The values of one row; −1 and NaN stand for null.
 pub struct ComponentRow {
     component: u32,
     key: LineageKey,
@@ -76,8 +76,8 @@ pub struct ComponentRow {
 }
 
 impl ComponentColumns {
-    /// Adds a row for each of the components `numbers` of `plant` that lived by its age `last`; `rows` is memory to
-    /// work in.
+    /// Adds a row for each component in `numbers` that lived by the plant's age `last`. `rows` is working memory, kept
+    /// between calls.
     pub fn fill(
         &mut self,
         of: Membership,
@@ -139,7 +139,7 @@ fn of_organ(plant: &Plant, organ: OrganId) -> ComponentRow {
         parent: nodes.component[node] as i32,
         axis,
         kind: organs.kind[i],
-        // That of what stands at the end of an axis is the greatest, which is no place among laterals.
+        // The greatest position marks an organ at the end of an axis, which has no position among laterals.
         position: if organs.position[i] == u16::MAX { NULL } else { i32::from(organs.position[i]) },
         rank: nodes.rank[node] as i32,
         unit_rank: i32::from(nodes.unit_rank[node]),
@@ -162,7 +162,8 @@ fn of_bud(plant: &Plant, axis: AxisId) -> ComponentRow {
     let axes = &plant.axes;
     let i = axis.index();
     let bearer = axes.bearer[i].some().map(NodeId::index);
-    // A dead bud does not stand: what the apex became, and the axis that it left, are components of their own.
+    // A dead bud does not stand: the organ that the apex became, and the axis that it left, are components of their
+    // own.
     let end = plant.bud_end(axis);
     ComponentRow {
         component: axes.component[i],

@@ -1,8 +1,8 @@
-//! Encoding of columns on as many threads as there are, while the thread that grows the plants goes on.
+//! Encodes columns on as many threads as there are, while the thread that grows the plants goes on.
 //!
-//! A full row group puts one job a column into a queue. The threads of the rayon pool take jobs from it; the thread
-//! that needs a row group finished takes jobs too, and waits only for what another thread is working on at that moment.
-//! So nothing depends on a free thread in the pool, and a shard never picks up another shard's plants while it waits.
+//! A full row group puts one job per column into a queue. The threads of the rayon pool take jobs from it. A thread
+//! that needs a finished row group also takes jobs, and then waits only for jobs that other threads have begun. So
+//! encoding needs no free thread in the pool, and a waiting shard never grows plants of another shard.
 
 use super::buffers::{self, Values};
 use super::schema::Column;
@@ -13,23 +13,23 @@ use parquet::errors::ParquetError;
 use std::collections::VecDeque;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
-/// One column of one row group, to be encoded.
+/// A job: one column of one row group.
 pub struct Job {
-    /// Where the result goes.
+    /// The row group that gets the result.
     pub group: Arc<RowGroup>,
-    /// Which column.
+    /// The index of the column.
     pub place: usize,
     /// The declared column.
     pub column: &'static Column,
-    /// The same for arrow.
+    /// The column as an Arrow field.
     pub field: Arc<Field>,
-    /// Its words, if it has any.
+    /// The words of the column; empty for a column of numbers.
     pub words: Arc<StringArray>,
-    /// The precision of positions, if they are rounded.
+    /// The precision of positions, metres; `None` without rounding.
     pub precision_m: Option<f32>,
-    /// Its values.
+    /// The values of the column.
     pub values: Values,
-    /// What encodes them.
+    /// The encoder of the column.
     pub writer: ArrowColumnWriter,
 }
 
@@ -47,7 +47,7 @@ struct Encoding {
 }
 
 impl RowGroup {
-    /// A row group of so many columns.
+    /// A row group of `columns` columns, of which none is encoded.
     pub fn of(columns: usize) -> Arc<Self> {
         let done = std::iter::repeat_with(|| None).take(columns).collect();
         Arc::new(Self { columns: Mutex::new(Encoding { done, left: columns }), finished: Condvar::new() })
@@ -88,7 +88,7 @@ struct Waiting {
 }
 
 impl Queue {
-    /// Puts jobs in, and asks the pool for hands where there are fewer at work than threads to spare.
+    /// Adds jobs, and starts workers in the pool until there is one for each thread but this one.
     pub fn submit(self: &Arc<Self>, jobs: Vec<Job>) {
         let spare = rayon::current_num_threads() - 1;
         let mut waiting = lock(&self.waiting);
@@ -100,7 +100,8 @@ impl Queue {
         }
     }
 
-    /// The columns of `group` in their order, encoding whatever stands before them in the queue.
+    /// Waits for the encoded columns of `group` and returns them in their order. Until then this thread runs jobs from
+    /// the queue.
     pub fn finish(&self, group: &RowGroup) -> Vec<Encoded> {
         while !group.is_finished() {
             let Some(job) = lock(&self.waiting).jobs.pop_front() else { break };

@@ -1,7 +1,7 @@
-//! What can go wrong with a table, as it is written, kept in memory or read back.
+//! Errors of tables: while a table is written, kept in memory or read back.
 //!
-//! A failed write ends the run: nothing here is logged and passed over. A message does not repeat its cause, which
-//! `source` has: a person is shown the whole chain.
+//! A failed write ends the run; no error is only logged. A message does not repeat its cause, since people are shown
+//! the whole chain of causes (`source`).
 
 use crate::storage::FileError;
 use parquet::errors::ParquetError;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// A failure of a table.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
-    /// The file system refused.
+    /// The file system returned an error.
     #[error(transparent)]
     File(#[from] FileError),
     /// A table could not be written.
@@ -18,7 +18,7 @@ pub enum TableError {
     Write {
         /// The part file.
         path: PathBuf,
-        /// The writer's answer.
+        /// The writer's error.
         source: Cause,
     },
     /// A table could not be read.
@@ -26,7 +26,7 @@ pub enum TableError {
     Read {
         /// The part file.
         path: PathBuf,
-        /// The reader's answer.
+        /// The reader's error.
         source: Cause,
     },
     /// A table could not be kept in memory.
@@ -34,7 +34,7 @@ pub enum TableError {
     Batch {
         /// The table.
         table: &'static str,
-        /// Arrow's answer.
+        /// Arrow's error.
         source: Cause,
     },
     /// A column of a table is not of the type that its schema states.
@@ -50,17 +50,17 @@ pub enum TableError {
     PlantTooLarge {
         /// The plant's number.
         plant: u32,
-        /// Its components.
+        /// The number of its components.
         components: u32,
-        /// The most that a table holds.
+        /// The largest number of components that a table holds.
         most: u32,
     },
 }
 
-/// The cause of a failure, as the crate that met it tells it.
+/// The cause of an error, as another crate reports it.
 pub type Cause = Box<dyn std::error::Error + Send + Sync>;
 
-/// What stands behind an error of the Parquet crate, which tells an outer cause twice: in its words and as its source.
+/// The cause of an error of the Parquet crate, which repeats an outer cause in its own message.
 fn cause(error: ParquetError) -> Cause {
     match error {
         ParquetError::External(cause) => cause,

@@ -1,27 +1,28 @@
-//! Where a plant belongs: its plot, what the plot is in the run, and the tick at which the plant was sown.
+//! The membership of a plant: its plot, the treatment and replicate of the plot, its species, and the tick of its
+//! sowing.
 //!
-//! All rows of a plant share this, in every table. Ticks count from the beginning of the plot, ages from the sowing of
-//! a plant; in the tables this file alone converts ticks into ages. Absent: the plant itself.
+//! All rows of a plant share it, in every table. Ticks count from the start of the plot, ages from the sowing of a
+//! plant; in the tables only this file converts between ticks and ages. Absent: the plant itself.
 
 use phytomer_sim::{Member, Plot, Tick};
 
-/// Where a plant belongs.
+/// The plot, species and sowing of a plant.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Membership {
     /// The number of its plot.
     pub plot: u32,
-    /// The treatment of the plot, as a place in the run's list of treatments.
+    /// The treatment of the plot, as an index into the run's list of treatments.
     pub treatment: u32,
     /// The replicate of that treatment.
     pub replicate: u32,
-    /// The species of the plant, as a place in the run's list of species.
+    /// The species of the plant, as an index into the run's list of species.
     pub species: usize,
     /// The tick of the plot at which the plant was sown.
     pub sown: Tick,
 }
 
 impl Membership {
-    /// Of the plant that stands at place `at` in a plot.
+    /// The membership of the plant with the index `at` in a plot.
     pub fn of(plot: &Plot, at: usize) -> Self {
         let Member { species, sown } = plot.members[at];
         Self { plot: plot.id, treatment: plot.treatment, replicate: plot.replicate, species, sown }
@@ -39,7 +40,7 @@ impl Membership {
     }
 }
 
-/// The places of a plot's plants in the order of their numbers, which is that of their rows.
+/// The indices of a plot's plants in the order of the plants' numbers, which is the order of rows.
 pub fn by_number(plot: &Plot) -> Vec<usize> {
     let mut places: Vec<usize> = (0..plot.plants.len()).collect();
     places.sort_by_key(|&at| plot.plants[at].id);

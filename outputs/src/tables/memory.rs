@@ -1,8 +1,8 @@
-//! Tables in memory: Arrow record batches with the rows, the schema and the metadata of the Parquet files of a run.
+//! Tables in memory: Arrow record batches with the rows, schemas and metadata of the Parquet files of a run.
 //!
-//! For programs that query a run or hand it on without a file between. A batch is one row group. Absent: encodings and
-//! compression, which memory has no need of; the memory is that of the rows, about 0.1 kB a row of `components` or of
-//! `records`, until the batches are dropped.
+//! For programs that query a run, or pass it on, without files. A batch is one row group. The memory is that of all
+//! rows, about 0.1 kB per row of `components` or `records`, until the batches are dropped. Absent: encodings and
+//! compression, which only files need.
 
 use super::buffers::{self, Values};
 use super::part::words_of_run;
@@ -16,7 +16,7 @@ use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The record batches of each table that was asked for, in the order of its rows.
+/// The record batches of each table of the plan, in the order of its rows.
 pub type TableBatches = BTreeMap<Table, Vec<RecordBatch>>;
 
 /// A [`Recorder`] that keeps the tables of its plots in memory.
@@ -27,13 +27,13 @@ pub struct MemoryTables {
 }
 
 impl MemoryTables {
-    /// The tables of a plan, empty.
+    /// Empty tables for a plan.
     pub fn of(plan: &RunPlan) -> Self {
         let Ok(recording) = Recording::of(plan, |table| Ok::<_, std::convert::Infallible>(MemorySink::of(table, plan)));
         Self { recording }
     }
 
-    /// Keeps what is known of a plot at its end: its components, its events and its plants. Comes after its last tick.
+    /// Adds the components, events and `plants` rows of a plot. Call it after the last tick of the plot.
     ///
     /// # Errors
     /// [`TableError::PlantTooLarge`].
@@ -42,10 +42,10 @@ impl MemoryTables {
         self.recording.end_plot(plot, last)
     }
 
-    /// The batches.
+    /// The record batches of all tables of the plan.
     ///
     /// # Errors
-    /// Where Arrow refuses a batch, which it does of none that follows the declared columns.
+    /// Where Arrow refuses a batch; batches with the declared columns are accepted.
     pub fn finish(self) -> Result<TableBatches, TableError> {
         Ok(self.recording.close()?.into_iter().collect())
     }
@@ -65,7 +65,7 @@ impl Recorder for MemoryTables {
     }
 }
 
-/// Keeps row groups as record batches.
+/// A sink that keeps row groups as record batches.
 struct MemorySink {
     table: Table,
     declared: &'static [Column],
@@ -91,7 +91,7 @@ impl MemorySink {
     }
 
     fn batch(&self, columns: Vec<Values>) -> Result<RecordBatch, ArrowError> {
-        // Buffers past the columns of this run are empty and dropped.
+        // The buffers after the columns of this run are empty, and are dropped.
         let columns = self.declared.iter().zip(columns).zip(&self.words).map(|((column, mut values), words)| {
             if let Some(precision) = self.precision_m {
                 buffers::round(&mut values, column.rounding, precision);

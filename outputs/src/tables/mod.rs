@@ -1,10 +1,10 @@
 //! The five tables of a run, from the plant's columns to Parquet part files, or to Arrow record batches in memory.
 //!
-//! [`columns`] declares what a table holds; `records`, `components`, `events`, `summary` and `plants` fill column
-//! buffers from a plant; `recording` says which rows are written when, for files and for memory alike. `part` turns
-//! full buffers into row groups of one file, encoded column by column on as many threads as there are (`encode`);
-//! `memory` keeps them as Arrow record batches. The bytes do not depend on the number of threads: a row group is a
-//! fixed number of rows and its columns are put into the file in their order.
+//! [`columns`] declares the columns of each table; `records`, `components`, `events`, `summary` and `plants` fill
+//! column buffers from a plant; `recording` decides which rows are written when, for files and for memory. `part`
+//! writes full buffers as row groups of a file, encoded column by column on as many threads as there are (`encode`);
+//! `memory` keeps them as Arrow record batches. The bytes do not depend on the number of threads: a row group has a
+//! fixed number of rows, and its columns are put into the file in their order.
 
 pub mod arrow;
 mod buffers;
@@ -75,7 +75,7 @@ impl Table {
     /// Every table.
     pub const ALL: [Self; 5] = [Self::Components, Self::Records, Self::Events, Self::Summary, Self::Plants];
 
-    /// Its name, and that of its folder in the run.
+    /// The name of the table, and of its folder in the run.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Components => "components",
@@ -86,7 +86,7 @@ impl Table {
         }
     }
 
-    /// One sentence about its rows.
+    /// The content of a row, in one sentence.
     pub const fn description(self) -> &'static str {
         match self {
             Self::Components => "A row per component that ever lived, by the last tick of the run.",
@@ -109,8 +109,8 @@ impl Table {
         }
     }
 
-    /// The columns by which its rows are sorted, the first of them first: plot, tick where the table has one, plant,
-    /// component. They also tell one row from another, but for events.
+    /// The columns by which the rows are sorted, most significant first: plot, tick where the table has one, plant,
+    /// component. Their values are unique to a row, except in `events`.
     pub const fn sorted_by(self) -> &'static [&'static str] {
         match self {
             Self::Components => &["plot_id", "plant_id", "component_id"],

@@ -1,7 +1,7 @@
-//! One part file of one table: full row groups are encoded column by column and go to the file in their order.
+//! One part file of one table: full row groups are encoded column by column and written in their order.
 //!
-//! Memory is bounded by [`IN_FLIGHT`] row groups and the one that is being filled, whatever the number of plants. The
-//! file is hashed as it is written.
+//! The memory is that of [`IN_FLIGHT`] row groups and the row group that is being filled, whatever the number of
+//! plants. The file is hashed while it is written.
 
 use super::buffers::Values;
 use super::encode::{Job, Queue, RowGroup};
@@ -20,7 +20,7 @@ use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Row groups that may be encoded while the next one is filled.
+/// The number of row groups that may be in encoding while the next one is filled.
 const IN_FLIGHT: usize = 3;
 
 /// A part file being written.
@@ -39,19 +39,19 @@ pub struct Part {
     rows: u64,
 }
 
-/// What a part file has become.
+/// A part file that was written.
 #[derive(Debug, Clone)]
 pub struct PartReport {
-    /// Its rows.
+    /// The number of its rows.
     pub rows: u64,
-    /// Its bytes.
+    /// Its size in bytes.
     pub bytes: u64,
-    /// Its hash, in hexadecimal.
+    /// Its SHA-256, in hexadecimal.
     pub sha256: String,
 }
 
 impl Part {
-    /// Creates the file at `path`, replacing what may be there.
+    /// Creates the file at `path`, replacing an existing file.
     pub fn create(
         table: Table,
         path: &Path,
@@ -84,7 +84,7 @@ impl Part {
         self.groups += 1;
         self.rows += rows as u64;
         let group = RowGroup::of(writers.len());
-        // Buffers past the columns of this run are empty and dropped.
+        // The buffers after the columns of this run are empty, and are dropped.
         let columns = self.declared.iter().zip(columns).zip(writers);
         let job = |(place, ((column, values), writer))| Job {
             group: group.clone(),
@@ -128,7 +128,7 @@ impl Sink for Part {
         Ok(self.spare.pop())
     }
 
-    /// Writes what is left, closes the file and makes sure that it is on the disk.
+    /// Writes the remaining rows, closes the file and syncs it.
     fn close(mut self) -> Result<PartReport, TableError> {
         while !self.in_flight.is_empty() {
             self.write_first().map_err(TableError::write(&self.path))?;
@@ -139,7 +139,7 @@ impl Sink for Part {
     }
 }
 
-/// The words of each column of a run; none for a column of numbers.
+/// The words of each column of a run; empty for a column of numbers.
 pub fn words_of_run(declared: &[Column], plan: &RunPlan) -> Vec<Arc<StringArray>> {
     declared.iter().map(|column| words_of(column, &plan.provenance)).collect()
 }

@@ -1,7 +1,7 @@
-//! What a run is to write, known before its first tick: tables, ages, parts, and where the figures come from.
+//! The plan of a run: its tables, recorded ticks, part files and provenance, known before the first tick.
 //!
-//! A table is written under a plan; a run folder is resumed under a plan equal to its own. Absent: limits and threads,
-//! which change no byte.
+//! A table is written under a plan, and a run folder is resumed under a plan equal to its own. Absent: limits and
+//! threads, which change no byte.
 
 use super::Table;
 use super::schema::Column;
@@ -13,63 +13,63 @@ use std::ops::Range;
 /// The plan of a run.
 #[derive(Debug, Clone)]
 pub struct RunPlan {
-    /// The tables that are wanted.
+    /// The tables that are written.
     pub tables: Vec<Table>,
     /// The ticks of the plots at which `records` and `summary` have rows, ascending.
     pub recorded: Vec<Tick>,
     /// The last tick of a plot.
     pub until: Tick,
-    /// The plots of the run, numbered from 0.
+    /// The number of plots of the run; plots are numbered from 0.
     pub plots: u32,
-    /// How many plots share a part file; at least 1.
+    /// The number of plots in one part file; at least 1.
     pub plots_per_part: u32,
-    /// The level of zstd: 1, or 3 where space matters more than time.
+    /// The level of zstd: 1, or 3 for smaller files in more time.
     pub compression_level: i32,
-    /// To what precision positions are rounded, metres; `None` keeps every bit.
+    /// The precision to which positions are rounded, metres; `None` keeps every bit.
     pub precision_m: Option<f64>,
     /// Whether `records` has the columns of mechanics.
     pub mechanics: bool,
-    /// Where it all comes from.
+    /// The origin of the figures.
     pub provenance: Provenance,
 }
 
-/// Where a run's figures come from.
+/// The origin of a run's figures: scenario, species, seed, program and input files.
 #[derive(Debug, Clone)]
 pub struct Provenance {
     /// The scenario's name.
     pub scenario: String,
-    /// The treatments of the run's plots, by the places that the plots name; `control` where there is one.
+    /// The treatments of the run, to which plots refer by index; `control` alone for a run without treatments.
     pub treatments: Vec<String>,
-    /// The names of the species of the run's plants, by their places in the plots' lists.
+    /// The names of the species of the run, to which plants refer by index.
     pub species: Vec<String>,
-    /// The seed of every draw.
+    /// The seed of all random draws.
     pub seed: u64,
     /// The program's version.
     pub version: String,
-    /// The commit that the program was built from; empty where that is not known.
+    /// The commit that the program was built from; empty where it is unknown.
     pub git_hash: String,
-    /// The scenario with everything that it inherits and every default.
+    /// The scenario with its defaults, and its species with inheritance resolved.
     pub resolved: Value,
     /// The files that were read.
     pub inputs: Vec<Input>,
 }
 
-/// A file that the run was made from.
+/// An input file of a run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Input {
-    /// Its path as the scenario names it, or the name of what the program ships.
+    /// Its path as the scenario states it, or the name of a shipped file.
     pub path: String,
-    /// Its hash, in hexadecimal.
+    /// Its SHA-256, in hexadecimal.
     pub sha256: String,
 }
 
 impl RunPlan {
-    /// How many part files each table has.
+    /// The number of shards, and so of part files of each table.
     pub fn shards(&self) -> u32 {
         self.plots.div_ceil(self.plots_per_part.max(1))
     }
 
-    /// The plots of a shard.
+    /// The numbers of the plots of a shard.
     pub fn plots_of(&self, shard: u32) -> Range<u32> {
         let first = shard.saturating_mul(self.plots_per_part.max(1)).min(self.plots);
         first..first.saturating_add(self.plots_per_part.max(1)).min(self.plots)

@@ -1,8 +1,8 @@
-//! The rows of `plants`: what is known of a plant at its sowing: species, tick, replicate and place.
+//! The rows of `plants`: what is known of a plant when it is sown, as species, tick, replicate and place.
 //!
-//! A place is told here once, in double precision, and nowhere else in a table: a float has 8 mm of precision 100 km
-//! away, and a plant told from its own seed keeps that of its size. Absent: what becomes of the plant, which `summary`
-//! has.
+//! The place of a plant is stated here alone, in double precision: a 32-bit float has a precision of 8 mm at 100 km,
+//! while components relative to the plant's seed keep a precision that fits the plant's size. Absent: the growth and
+//! fate of the plant (`summary`).
 
 use super::buffers::columns;
 use super::membership::Membership;

@@ -1,10 +1,10 @@
-//! The tables of a range of plots, filled from what the loop of growth shows: which rows are written, and when.
+//! The tables of a range of plots, filled while the plots grow: which rows are written, and when.
 //!
 //! Files and memory are filled by the same code, so a table in memory has the rows of the Parquet file. The components
-//! of a plant are written once, as soon as their lives are known; `records` and `summary` at each recorded tick; events
-//! and plants when the plot has ended. The plants of a plot are gone through in the order of their numbers, one at a
-//! time, each at its own age: what a pass needs in memory is what its largest plant needs. A plant that is not sown yet
-//! has no rows but that in `plants`. Absent: where row groups go, which is the [`Sink`]'s.
+//! of a plant are written once, when their fates are known; `records` and `summary` at each recorded tick; `events` and
+//! `plants` when the plot has ended. The plants of a plot are written in the order of their numbers, one at a time, so
+//! the working memory is that of the largest plant. A plant that is not sown yet has a row in `plants` only. Absent:
+//! storing row groups ([`Sink`]).
 
 use super::sink::{Rows, Sink};
 use super::{
@@ -13,7 +13,7 @@ use super::{
 };
 use phytomer_sim::{Ending, Plot, Tick};
 
-/// The tables that a run asks for.
+/// The tables of a run, each `None` where the plan does not have it.
 struct Tables<S> {
     components: Option<Rows<ComponentColumns, S>>,
     records: Option<Rows<RecordColumns, S>>,
@@ -22,13 +22,13 @@ struct Tables<S> {
     plants: Option<Rows<PlantColumns, S>>,
 }
 
-/// Tables being filled, plot after plot.
+/// Tables that are filled plot by plot.
 pub struct Recording<S> {
     tables: Tables<S>,
     recorded: Vec<Tick>,
     until: Tick,
     mechanics: bool,
-    /// Whether the components of the present plot are written already, which they are where its growth ran ahead.
+    /// Whether the components of the present plot are written, as they are early for a plot that was grown ahead.
     components_written: bool,
     index: ComponentIndex,
     numbers: Vec<u32>,
@@ -38,10 +38,10 @@ pub struct Recording<S> {
 }
 
 impl<S: Sink> Recording<S> {
-    /// The tables of a plan, each with the sink that `open` gives.
+    /// Empty tables for a plan; `open` makes the sink of each table.
     ///
     /// # Errors
-    /// Those of `open`.
+    /// The errors of `open`.
     pub fn of<E>(plan: &RunPlan, mut open: impl FnMut(Table) -> Result<S, E>) -> Result<Self, E> {
         let mut sink = |table| plan.tables.contains(&table).then(|| open(table)).transpose();
         let tables = Tables {
@@ -71,8 +71,8 @@ impl<S: Sink> Recording<S> {
         wanted && self.recorded.binary_search(&tick).is_ok()
     }
 
-    /// Growth has run ahead to the tick `until`: the components of the plot, the largest table of a plant, are written
-    /// before its first tick, so that other threads can encode them while this thread makes the ticks ready.
+    /// Called when a plot has been grown ahead to the tick `until`. Its components, the largest table, are written
+    /// before its first tick is recorded, so that other threads encode them while this thread prepares the ticks.
     pub fn grown(&mut self, until: Tick, plot: &Plot) -> Result<(), TableError> {
         self.write_components(plot, until)?;
         self.components_written = true;
@@ -84,7 +84,7 @@ impl<S: Sink> Recording<S> {
         by_number(plot).into_iter().try_for_each(|at| self.write_age(tick, plot, at))
     }
 
-    /// The last tick of which a plot that ended so has rows.
+    /// The last recorded tick of a plot that ended in this way.
     pub fn last_tick(&self, ending: &Ending) -> Tick {
         match ending {
             Ending::Complete => self.until,
@@ -92,7 +92,7 @@ impl<S: Sink> Recording<S> {
         }
     }
 
-    /// Writes what is known of a plot at its end, after its tick `last`: its components, its events and its plants.
+    /// Writes the components, events and `plants` rows of a plot at its end, up to its tick `last`.
     pub fn end_plot(&mut self, plot: &Plot, last: Tick) -> Result<(), TableError> {
         if !self.components_written {
             self.write_components(plot, last)?;
@@ -143,7 +143,7 @@ impl<S: Sink> Recording<S> {
         Ok(())
     }
 
-    /// Writes the rows of the plant at place `at` of a plot at a tick, if it is sown by then.
+    /// Writes the rows at a tick of the plant with the index `at` in a plot, if it is sown by then.
     fn write_age(&mut self, tick: Tick, plot: &Plot, at: usize) -> Result<(), TableError> {
         let (of, plant) = (Membership::of(plot, at), &plot.plants[at]);
         let Some(age) = of.age_at(tick) else { return Ok(()) };
@@ -164,10 +164,10 @@ impl<S: Sink> Recording<S> {
         Ok(())
     }
 
-    /// Completes the tables, in the order of [`Table::ALL`].
+    /// Completes the tables; returns what each sink closes to, in the order of [`Table::ALL`].
     ///
     /// # Errors
-    /// Those of the sinks.
+    /// The errors of the sinks.
     pub fn close(self) -> Result<Vec<(Table, S::Closed)>, TableError> {
         let Tables { components, records, events, summary, plants } = self.tables;
         let closed = [

@@ -1,7 +1,7 @@
 //! The rows of `records`: de Reffye's record (1988 §6) of each component that stands at an age, with its pose.
 //!
 //! Positions and directions are those of the pose; diameters those of the recorded age. The columns of mechanics are
-//! filled where a run asks for them. Absent: any formula of growth or of bending.
+//! filled for runs that have them. Absent: any formula of growth or of bending.
 
 use super::buffers::{NULL, columns};
 use super::component_index::{Component, ComponentIndex};
@@ -47,7 +47,7 @@ columns! {
     }
 }
 
-/// What one component puts into a row; NaN and −1 are nulls.
+/// The values of one row; NaN and −1 stand for null.
 pub struct RecordRow {
     component: u32,
     parent: i32,
@@ -64,9 +64,9 @@ pub struct RecordRow {
     alive: bool,
 }
 
-/// What the rows of one plant at one age share.
+/// The values that the rows of one plant at one age share.
 pub struct PlantAtAge<'a> {
-    /// Where it belongs.
+    /// The membership of the plant.
     pub of: Membership,
     /// The plant.
     pub plant: &'a Plant,
@@ -74,11 +74,11 @@ pub struct PlantAtAge<'a> {
     pub index: &'a ComponentIndex,
     /// Its age.
     pub age: Tick,
-    /// Whether the columns of mechanics are wanted.
+    /// Whether the columns of mechanics are filled.
     pub mechanics: bool,
 }
 
-/// What one component puts into the columns of mechanics; NaN is null.
+/// The values of one row in the columns of mechanics; NaN stands for null.
 #[derive(Debug, Clone, Copy)]
 struct Loaded {
     wood_volume: f32,
@@ -92,7 +92,7 @@ impl Loaded {
 }
 
 impl RecordColumns {
-    /// Adds a row for each of the components `numbers` of a plant at an age; `rows` is memory to work in.
+    /// Adds a row for each component in `numbers` of a plant at an age. `rows` is working memory, kept between calls.
     pub fn fill(&mut self, shown: &PlantAtAge<'_>, numbers: &[u32], rows: &mut Vec<RecordRow>) {
         rows.clear();
         let mut bearing = Bearing::of(shown, AxisId::TRUNK);
@@ -101,7 +101,8 @@ impl RecordColumns {
             Component::Organ(organ) => shown.of_organ(organ, &mut bearing),
             Component::Bud(axis) => shown.of_bud(axis),
         }));
-        // Column by column out of the cache, which is several times as fast as pushing row by row to 26 columns.
+        // The rows are copied column by column while they are in the cache: several times as fast as pushing to 26
+        // columns per row.
         self.extend(rows, shown);
         if shown.mechanics {
             self.push_mechanics(shown, numbers);
@@ -119,7 +120,7 @@ impl RecordColumns {
     }
 }
 
-/// What the components of one axis share. Most follow one of the same axis.
+/// The values that the components of one axis share; consecutive components are mostly of one axis.
 struct Bearing<'a> {
     axis: AxisId,
     component: u32,
@@ -140,7 +141,7 @@ impl<'a> Bearing<'a> {
         }
     }
 
-    /// The look of one of its internodes.
+    /// The look of one of the axis's internodes.
     #[inline]
     fn look_of(&self, plant: &'a Plant, node: NodeId) -> &'a InternodeLook {
         if plant.own_looks.is_empty() { self.look } else { plant.look_of_node(node) }
@@ -256,13 +257,13 @@ impl PlantAtAge<'_> {
     }
 }
 
-/// The component number of a node, or null.
+/// The component number of a node; −1 (null) for no node.
 #[inline]
 pub fn number_of(plant: &Plant, node: NodeId) -> i32 {
     node.some().map_or(NULL, |node| plant.nodes.component[node.index()] as i32)
 }
 
-/// An area, or what stands for null where area means nothing.
+/// An area, or NaN (null) for a component that has none.
 #[inline]
 pub fn area_of(area: f32) -> f32 {
     if area > 0.0 { area } else { f32::NAN }

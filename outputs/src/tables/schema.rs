@@ -1,15 +1,15 @@
-//! What a column of a table is: its name, type, unit, encoding and meaning.
+//! The declaration of a column of a table: name, type, unit, encoding and meaning.
 //!
-//! The lists themselves are in [`super::columns`]. Absent: arrow and Parquet, which [`super::arrow`] makes of this.
+//! The lists of columns are in [`super::columns`]. Absent: Arrow and Parquet schemas, which [`super::arrow`] makes.
 
-/// What a column holds.
+/// The type of a column's values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Type {
     /// True or false.
     Bool,
-    /// A 32-bit signed number.
+    /// A 32-bit signed integer.
     Int,
-    /// A 64-bit signed number.
+    /// A 64-bit signed integer.
     Key,
     /// A 32-bit real number.
     Float,
@@ -17,11 +17,11 @@ pub enum Type {
     Double,
     /// One word of a closed list, as a dictionary string.
     Word(&'static [&'static str]),
-    /// A word that the run chooses, as a dictionary string; there may be any number of them.
+    /// A name that the run states, as a dictionary string; the list of names has any length.
     Name(Named),
 }
 
-/// What a word that the run chooses is the name of.
+/// The kinds of names that a run states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Named {
     /// The treatment of a plot.
@@ -45,14 +45,14 @@ pub enum Encoding {
     Repeated,
 }
 
-/// What the optional rounding does to a column.
+/// The effect of the optional rounding on a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rounding {
-    /// Nothing.
+    /// No rounding.
     Exact,
-    /// A position: to the stated precision.
+    /// A position: rounded to the stated precision.
     Position,
-    /// A component of a unit vector: to 2⁻¹².
+    /// A component of a unit vector: rounded to 2⁻¹².
     Direction,
 }
 
@@ -61,17 +61,17 @@ pub enum Rounding {
 pub struct Column {
     /// Its name, with the unit in it.
     pub name: &'static str,
-    /// What it holds.
+    /// The type of its values.
     pub holds: Type,
-    /// How it is encoded.
+    /// Its encoding in Parquet.
     pub encoding: Encoding,
     /// Its unit; empty where it has none.
     pub unit: &'static str,
     /// Whether it may be null.
     pub nullable: bool,
-    /// What the optional rounding does to it.
+    /// The effect of the optional rounding.
     pub rounding: Rounding,
-    /// What it means.
+    /// Its meaning, in a sentence for the reader of the table.
     pub description: &'static str,
 }
 

@@ -1,7 +1,7 @@
-//! One column of `records` by itself: what each component of a plant would have there, without a table.
+//! One column of `records` by itself: the value of each component of a plant at an age, without a table.
 //!
-//! The rows are those of the table, made by the same code, so that what is coloured by a column shows what the table
-//! says.
+//! The values are made by the code that fills the table, so that a picture coloured by a column agrees with the table.
+//! Absent: the colours (`colouring`).
 
 use super::buffers::{Columns, Values};
 use super::schema::Column;
@@ -9,11 +9,12 @@ use super::{ComponentIndex, Membership, PlantAtAge, RecordColumns, TableError, c
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 
-/// Components whose rows are made at once.
+/// The number of components whose rows are made at a time.
 const ROWS: usize = 512;
 
-/// The value of a column for each component of a plant at an age, by its number; NaN where it is null and for
-/// components that do not stand. Words are given by their places in the column's list, names by those in the run's.
+/// The values of a column of `records` for all components of a plant at an age, by component number. NaN stands for
+/// null and for components that do not stand. A word is given as its index in the column's list, a name as its index in
+/// the run's list. Takes as long as making the rows of `records` of the plant.
 ///
 /// # Errors
 /// [`TableError::PlantTooLarge`].
@@ -39,7 +40,7 @@ pub fn record_values(of: Membership, plant: &Plant, age: Tick, column: &Column) 
     Ok(values)
 }
 
-/// The numbers of a buffer, null as NaN.
+/// The values of a buffer as numbers; NaN stands for null.
 fn numbers_of(values: &Values) -> Vec<f64> {
     let whole = |value: i64| if value < 0 { f64::NAN } else { value as f64 };
     match values {

@@ -1,18 +1,18 @@
-//! Where full row groups of a table go: to a Parquet file (`part`) or into memory (`memory`).
+//! The destination of full row groups of a table: a Parquet file (`part`) or memory (`memory`).
 //!
-//! A [`Rows`] is a table being filled: rows go into its column buffers, and a full row group goes to the sink. Memory
-//! is bounded by one row group and by what the sink keeps.
+//! [`Rows`] is a table that is being filled: rows go into its column buffers, and a full row group goes to the sink.
+//! The memory is that of one row group and of what the sink keeps.
 
 use super::buffers::{Columns, Values};
 use super::{ROW_GROUP, TableError};
 
-/// What takes the row groups of one table, in their order.
+/// A destination of the row groups of one table, which come in their order.
 pub trait Sink {
-    /// What is left of it at the end.
+    /// The result of the completed table.
     type Closed;
 
-    /// Takes a row group of so many rows: one buffer a column of the table, those that the run does not ask for empty.
-    /// Emptied buffers that come back lend their memory to a later row group.
+    /// Takes a row group of `rows` rows: one buffer per column of the table, empty for columns that the run does not
+    /// have. Returned buffers are empty, and a later row group uses their memory.
     ///
     /// # Errors
     /// Where the row group cannot be kept.
@@ -25,25 +25,25 @@ pub trait Sink {
     fn close(self) -> Result<Self::Closed, TableError>;
 }
 
-/// A table being filled.
+/// A table that is being filled.
 pub struct Rows<C, S> {
-    /// The rows of the row group that is being filled; [`Rows::flush_if_full`] goes after each row.
+    /// The rows of the present row group. Call [`Rows::flush_if_full`] after adding rows.
     pub columns: C,
     sink: S,
 }
 
 impl<C: Columns, S: Sink> Rows<C, S> {
-    /// No rows yet, on their way to a sink.
+    /// An empty table with its sink.
     pub fn to(sink: S) -> Self {
         Self { columns: C::default(), sink }
     }
 
-    /// The rows that still fit into the row group.
+    /// The number of rows that still fit into the row group.
     pub fn room(&self) -> usize {
         ROW_GROUP - self.columns.rows()
     }
 
-    /// Sends a full row group on its way.
+    /// Passes a full row group to the sink; does nothing before it is full.
     #[inline]
     pub fn flush_if_full(&mut self) -> Result<(), TableError> {
         if self.columns.rows() < ROW_GROUP { Ok(()) } else { self.flush() }
@@ -58,7 +58,7 @@ impl<C: Columns, S: Sink> Rows<C, S> {
         Ok(())
     }
 
-    /// Sends what is left on its way and completes the table.
+    /// Passes the last row group to the sink and completes the table.
     pub fn close(mut self) -> Result<S::Closed, TableError> {
         if self.columns.rows() > 0 {
             self.flush()?;

@@ -1,6 +1,7 @@
 //! The rows of `summary`: one plant at one age in a few numbers, which agree with a count of its `records`.
 //!
-//! Sums run in the order of the plant's columns, in double precision: the same bits on any number of threads.
+//! Sums run in the order of the plant's columns, in double precision, so their bits do not depend on the number of
+//! threads.
 
 use super::TableError;
 use super::buffers::{NULL, columns};
@@ -36,14 +37,14 @@ columns! {
     }
 }
 
-/// The plant and the age that a summary is of.
+/// The plant and the age of a summary.
 struct OfPlant<'a> {
     of: Membership,
     plant: &'a Plant,
     age: Tick,
 }
 
-/// One plant at one age.
+/// The summary of one plant at one age.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Summary {
     /// Living internodes.
@@ -60,12 +61,12 @@ pub struct Summary {
     pub dead_internodes: u32,
     /// Axes that stand.
     pub axes: u32,
-    /// The highest order of them.
+    /// The highest order of the standing axes.
     pub max_order: u8,
     /// The height of the tip of the highest living internode above the seed, m; NaN (null in the table) where none
     /// lives.
     pub height: f64,
-    /// The mean of the widths of what lives along x and y, m; NaN where no internode lives.
+    /// The mean of the widths along x and y of the living part of the plant, m; NaN where no internode lives.
     pub crown_width: f64,
     /// The area of one side of all leaves, m².
     pub leaf_area: f64,
@@ -74,10 +75,10 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Sums up `plant`, posed at `age`.
+    /// The summary of `plant`, posed at `age`, in O(n) for n components.
     ///
     /// # Errors
-    /// A plant of more components than fit a table.
+    /// [`TableError::PlantTooLarge`].
     pub fn of(plant: &Plant, age: Tick) -> Result<Self, TableError> {
         let mut index = ComponentIndex::default();
         index.read(plant)?;
@@ -86,7 +87,7 @@ impl Summary {
     }
 }
 
-/// Sums up `plant` at `age`; `index` has the tips of its axes at that age.
+/// The summary of `plant` at `age`; `index` holds the plant with the tips of its axes at that age.
 pub fn summarise(plant: &Plant, index: &ComponentIndex, age: Tick) -> Summary {
     let mut summary = Summary::default();
     count_nodes(plant, age, &mut summary);
@@ -99,7 +100,7 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
     let axes = &plant.axes;
     let mut low = [f32::INFINITY; 3];
     let mut high = [f32::NEG_INFINITY; 3];
-    // What stands of an axis lives, or is dead, as a whole.
+    // The standing part of an axis lives or is dead as a whole.
     plant.each_standing(age, |stretch| {
         let (axis, standing) = (stretch.axis, stretch.nodes());
         let frusta = standing.clone().map(|node| wood_volume(plant, NodeId(node as u32)));

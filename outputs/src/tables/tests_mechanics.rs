@@ -1,6 +1,6 @@
-//! The columns of mechanics: there where they are asked for, and what they hold of a plant that bends.
+//! The columns of mechanics: present where a run states them, with the values of a plant that bends.
 //!
-//! The moment is taken again from the masses and places in the rows: nothing here asks the mechanics.
+//! The moment is computed again from the masses and places in the rows, without the code of the mechanics.
 
 use super::Table;
 use super::columns::RECORDS_OF_POSE;
@@ -33,7 +33,7 @@ fn grown(wood: Option<Wood>) -> (TempDir, Run) {
     (home, run)
 }
 
-/// A row of `records`, with what these tests need of it.
+/// The values of a row of `records` that these tests use.
 #[derive(Debug, Clone)]
 struct MechanicsRow {
     age: i32,
@@ -142,7 +142,7 @@ fn volumes_and_masses_are_those_of_the_measures() {
     }
 }
 
-/// The moment of the first internode is the weight of all that stands beyond its middle, times how far out it hangs.
+/// The moment of the first internode is the weight of everything beyond its middle, times its horizontal distance.
 #[test]
 fn the_moment_is_that_of_the_masses_beyond() {
     let (_home, run) = grown(Some(wood(true)));

@@ -1,8 +1,8 @@
-//! Tables of plots of several plants of two species, sown at different ticks: what stands in each row, and in which
-//! order.
+//! Tables of plots of several plants of two species, sown at different ticks: the values of each row, and the order of
+//! rows.
 //!
-//! Rows are read back cell by cell. Those of a plant are held against a run of that plant alone, sown at tick 0, whose
-//! ticks are the ages of the plant in the plot.
+//! Rows are read back cell by cell. The rows of a plant are compared with a run of that plant alone, sown at tick 0,
+//! whose ticks are the ages of the plant in the plot.
 
 use super::*;
 use crate::read::Run;
@@ -65,7 +65,7 @@ fn int(row: &Row, column: &str) -> i64 {
     row[column].parse().unwrap_or_else(|_| panic!("{column}: {:?}", row[column]))
 }
 
-/// Of each plant by its number: its plot, its species, and the tick at which it is sown.
+/// For each plant by its number: its plot, its species, and the tick at which it is sown.
 fn sown() -> BTreeMap<i64, (u32, usize, Tick)> {
     let plots = (0..PLOTS).flat_map(|plot| MEMBERS.map(|member| (plot, member)));
     let of = |(plot, (species, in_plot, sown))| (i64::from(number_of(plot, in_plot, PLOTS)), (plot, species, sown));
@@ -95,7 +95,8 @@ fn rows_are_in_the_order_that_their_files_state() {
         assert!(keys.is_sorted_by(|a, b| a < b || repeats && a == b), "{table:?}");
         assert!(keys.len() >= 15);
     }
-    // Where a model rewrites, the columns are in another order than the numbers: there is something to be sorted.
+    // Where a model rewrites, the columns are in another order than the component numbers, so that sorting has an
+    // effect.
     let mut plot = mixed(0, PLOTS, 100_000);
     plot.grow_to(7).unwrap();
     assert!(!plot.plants[1].nodes.component.is_sorted());
@@ -138,7 +139,7 @@ fn ticks_are_those_of_the_plot_and_ages_those_of_the_plant() {
     assert_eq!(report.components, rows(home.path(), Table::Components).len() as u64);
 }
 
-/// The rows of a table without the columns that tell where a plant stands among others.
+/// The rows of one plant without the columns that place it among others.
 fn own(rows: Vec<Row>, plant: i64, last: Option<i64>) -> Vec<Row> {
     let mine = |row: &Row| int(row, "plant_id") == plant && last.is_none_or(|last| int(row, "age") <= last);
     let mut own: Vec<Row> = rows.into_iter().filter(mine).collect();
@@ -186,8 +187,8 @@ fn tables_in_memory_have_the_rows_of_the_files() {
     }
 }
 
-/// A sapling comes to its limit at a tick at which another is not sown yet: the ticks before are kept, of all plants,
-/// and the plant that never was sown has its row in `plants` alone.
+/// A sapling reaches its limit at a tick at which another plant is not sown yet. The ticks before are kept, for all
+/// plants, and the plant that never was sown has a row in `plants` only.
 #[test]
 fn a_plot_that_outgrows_its_limit_keeps_the_ticks_before_of_all_its_plants() {
     let home = tempdir().unwrap();
@@ -217,7 +218,7 @@ fn a_plot_that_outgrows_its_limit_keeps_the_ticks_before_of_all_its_plants() {
     }
 }
 
-/// Numbers of plants that do not rise plot by plot, and rows that are sorted by tick before plant.
+/// Numbers of plants that do not rise from plot to plot, and rows that are sorted by tick before plant.
 #[test]
 fn the_first_plants_are_found_wherever_their_rows_are() {
     let home = tempdir().unwrap();

@@ -10,7 +10,7 @@ use phytomer_sim::math::sincosf;
 /// The half widths of a strip at the ends of its four stretches.
 type Widths = [f32; 5];
 
-/// A grass leaf: it leaves its stem steeply and bends over through a right angle and more.
+/// A grass leaf: it leaves its stem steeply and bends over through more than a right angle.
 pub fn arching() -> FormMesh {
     strip(1.9, [0.36, 0.5, 0.46, 0.3, 0.0])
 }
@@ -53,8 +53,8 @@ fn strip(bend: f32, widths: Widths) -> FormMesh {
     shape
 }
 
-/// Two stretches along a spine of places along x and z, each in two halves: pairs of the share of the stretch and of
-/// the half width there. The edges rise by half of the half width.
+/// Two segments along a spine (points along x and z), each of two halves. A half is given by pairs: the share of the
+/// segment, and the half width there. The edges rise by half of the half width.
 fn hollow(spine: [[f32; 2]; 3], lower: &[[f32; 2]], upper: &[[f32; 2]]) -> FormMesh {
     let mut shape = FormMesh::new(Depth::Width);
     for (ends, outline) in spine.windows(2).zip([lower, upper]) {

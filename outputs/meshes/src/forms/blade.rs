@@ -89,7 +89,7 @@ pub fn needle() -> FormMesh {
     shape
 }
 
-/// Two needles that part: a pine's fascicle. Its width is that across both tips.
+/// Two needles that diverge: a pine's fascicle. Its width is the distance between both tips.
 pub fn fascicle() -> FormMesh {
     const HALF_WIDTH: f32 = 0.14;
     let mut shape = FormMesh::new(Depth::Width);
@@ -102,7 +102,7 @@ pub fn fascicle() -> FormMesh {
     shape
 }
 
-/// A blade with the outline of its right half, from the end of the stalk to the tip, and the rise of its halves.
+/// A blade from the outline of its right half, from the end of the stalk to the tip, and the rise of its halves.
 fn blade(outline: &[[f32; 2]], rise: f32) -> FormMesh {
     let mut shape = FormMesh::new(Depth::Width);
     stalk(&mut shape, outline[0][0]);

@@ -1,18 +1,18 @@
-//! What is many organs in nature and drawn as one: needles of a shoot or a short shoot, and inflorescences of many
+//! Clusters that are many organs in nature and drawn as a single form: needles of a shoot, and inflorescences of many
 //! flowers.
 //!
-//! Conifers bear hundreds of thousands of needles and a panicle a thousand flowers; one organ each would cost a
-//! component each (de Reffye 1988 §6 likewise draws small fruits as a few vectors). Needles are triangles, flowers
-//! plane polygons. Absent: inflorescences that are plants of their own (§5), which species files grow.
+//! Conifers have hundreds of thousands of needles and a panicle a thousand flowers; each as an organ would cost a
+//! component (de Reffye 1988 §6 likewise draws small fruits as a few vectors). Needles are triangles, flowers plane
+//! polygons. Absent: inflorescences with axes of their own (§5), which species files grow.
 
 use super::{Depth, FormMesh, along};
 use phytomer_sim::math::sincosf;
 use std::f32::consts::TAU;
 
-/// A rosette of needles on a short shoot: a cedar's, a larch's. Its width is that across the outer tips.
+/// A rosette of needles on a short shoot, as of a cedar or a larch. Its width is measured across the outer tips.
 pub fn tuft() -> FormMesh {
     let mut shape = FormMesh::new(Depth::Width);
-    // Around the axis: how many needles, and how far along and out their tips are.
+    // Each ring: the number of needles, how far along and out their tips are, and the turn of the ring.
     for (needles, tip, turn) in [(8_u8, [0.42, 0.5], 0.0), (6, [0.8, 0.36], 0.5), (3, [1.0, 0.12], 0.25)] {
         for number in 0..needles {
             let (sin, cos) = sincosf(TAU * (f32::from(number) + turn) / f32::from(needles));
@@ -24,8 +24,8 @@ pub fn tuft() -> FormMesh {
     shape
 }
 
-/// A piece of shoot with a row of needles on either side: a fir's or a yew's. Its length is that of the shoot with the
-/// last needles, its width that across two needles.
+/// A piece of shoot with a row of needles on either side, as of a fir or a yew. Its length includes the last needles,
+/// its width is measured across two needles.
 pub fn spray() -> FormMesh {
     const PAIRS: u8 = 6;
     let mut shape = FormMesh::new(Depth::Width);
@@ -77,7 +77,8 @@ fn blossom(shape: &mut FormMesh, [y, z]: [f32; 2]) {
     let height = 0.76 - 1.2 * (y * y + z * z);
     stem(shape, [0.0, 0.0, 0.0], [height, y, z], 0.02);
     for petal in 0..5_u8 {
-        // Turned from the middle of the petal; all four corners rise by the same slope, so that it is plane.
+        // Each corner is turned from the middle of the petal. All four corners rise by the same slope, so the petal is
+        // plane.
         let at = |turn: f32, out: f32| {
             let (sin, cos) = sincosf(TAU * (f32::from(petal) + turn) / 5.0);
             let (_, within) = sincosf(TAU * turn / 5.0);
@@ -87,7 +88,7 @@ fn blossom(shape: &mut FormMesh, [y, z]: [f32; 2]) {
     }
 }
 
-/// A small flat flower that faces away from the axis, in the direction around it of that sine and cosine.
+/// A small flat flower that faces away from the axis, in the direction around it with this sine and cosine.
 fn flower(shape: &mut FormMesh, [x, y, z]: [f32; 3], [sin, cos]: [f32; 2], half: f32) {
     let (aside, across) = (half * sin, half * cos);
     let corners = [[x - half, y, z], [x, y - aside, z + across], [x + half, y, z], [x, y + aside, z - across]];

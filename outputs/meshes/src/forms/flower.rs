@@ -1,7 +1,7 @@
-//! Flowers drawn whole, and the parts of a flower that are no blades.
+//! Flowers drawn whole, and the parts of a flower that are not blades.
 //!
-//! De Reffye 1988 §6 makes petals of convex polygons, here one plane polygon each. Absent: inflorescences as plants of
-//! their own (§5), which species files grow; catkins and spikelets are solids (`round`).
+//! De Reffye 1988 §6 makes petals of convex polygons; here each is one plane polygon. Absent: inflorescences with axes
+//! of their own (§5), which species files grow; catkins and spikelets are solids (`round`).
 
 use super::round::{revolve, swept};
 use super::{Depth, FormMesh};
@@ -70,7 +70,7 @@ pub fn pistil() -> FormMesh {
     shape
 }
 
-/// Five petals around the x axis: each a plane polygon of places along x and out from the axis, and aside.
+/// Five petals around the x axis: each a plane polygon of points along x and out from the axis, and aside.
 fn petals(shape: &mut FormMesh, petal: &[([f32; 2], f32)]) {
     for number in 0..PETALS {
         let (sin, cos) = sincosf(TAU * f32::from(number) / f32::from(PETALS));

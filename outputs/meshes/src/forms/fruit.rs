@@ -1,6 +1,6 @@
-//! Fruits as closed solids with few sides; some hang on a stalk or sit in a cup, which have the stalk's colour.
+//! Fruits as closed solids with few sides; some hang on a stalk or sit in a cup, with the colour of the stalk.
 //!
-//! The length of a fruit is that with its stalk. Absent: seeds, and bunches, which species files grow or draw as one.
+//! The length of a fruit includes its stalk. Absent: seeds, and bunches, which species files grow or draw as one form.
 
 use super::round::{revolve, swept};
 use super::{Depth, FormMesh, unit};
@@ -76,7 +76,7 @@ pub fn finger() -> FormMesh {
     shape
 }
 
-/// A pod, flat: a quarter as thick as broad.
+/// A flat pod: a quarter as thick as broad.
 pub fn pod() -> FormMesh {
     let mut shape = FormMesh::new(Depth::Width);
     revolve(&mut shape, &[[0.0, 0.0], [0.12, 0.3], [0.3, 0.5], [0.75, 0.46], [1.0, 0.0]], SIDES, false);
@@ -88,7 +88,7 @@ pub fn pod() -> FormMesh {
     shape
 }
 
-/// A ball from a share of the length to its end.
+/// A ball from a share of the length to the tip.
 fn ball(shape: &mut FormMesh, from: f32) {
     let meridian: Vec<[f32; 2]> = (0..=4_u8)
         .map(|k| {

@@ -1,13 +1,12 @@
-//! The library of forms (de Reffye 1988 §6): a small mesh for each form of organ, in a unit box, put in place by
-//! scaling.
+//! The library of forms (de Reffye 1988 §6): a small mesh in a unit box for each form of organ, placed by scaling.
 //!
 //! In the box x runs along the organ from its base (0) to its tip (1), y across it to its left (−½ to ½), z to its
-//! upper side. The length scales x, the width y, and one of the two z; so a form is parametrised by age. An organ of
-//! which an area is stated is drawn slimmer or fuller until it has that area (`side`): a simple blade in its width, a
-//! compound one in each of its parts. Triangles are single-sided, counterclockwise as seen from the upper or outer
-//! side, with one normal a vertex: doubled faces would flicker and count twice in areas. Leaves are assemblies of at
-//! most four plane convex polygons, folded along the midrib. Which functions make which forms is in the table of
-//! `phytomer_looks`. Absent: internodes ([`super::tube`]), and buds, which are not drawn.
+//! upper side. The length scales x, the width y, and one of both scales z; so a form grows with age. An organ with a
+//! stated area is drawn slimmer or fuller until it has that area (`side`): a simple blade in its width, a compound
+//! blade in each of its parts. Triangles are single-sided, counterclockwise as seen from the upper or outer side, with
+//! one normal per vertex: doubled faces would flicker and count twice in areas. Leaves consist of at most four plane
+//! convex polygons, folded along the midrib. The table of `phytomer_looks` states which function makes which form.
+//! Absent: internodes ([`super::tube`]), and buds, which are not drawn.
 
 mod arch;
 mod blade;
@@ -30,19 +29,19 @@ use std::sync::LazyLock;
 /// A corner of a shape, in its unit box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
-    /// Where.
+    /// The position in the box.
     pub at: [f32; 3],
-    /// How far it is from the middle of its part, in a form that is slim or full in its parts.
+    /// The offset from the middle line of its part, in a form that is slim or full in its parts.
     across: [f32; 3],
     /// The unit normal.
     pub normal: [f32; 3],
-    /// The place in the texture.
+    /// The texture coordinates.
     pub texture: [f32; 2],
     /// Whether it has the colour of the stalk.
     pub stalk: bool,
 }
 
-/// What scales the third direction of a shape.
+/// The measure that scales the z direction of a shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
     /// The width, as in fruits and folded blades.
@@ -56,39 +55,39 @@ pub enum Depth {
 pub struct FormMesh {
     /// Its corners.
     pub points: Vec<Point>,
-    /// Its triangles, by the numbers of its corners.
+    /// Its triangles, by the indices of its corners.
     pub faces: Vec<[u32; 3]>,
-    /// The plane polygons among it: the first corner and the number of corners of each.
+    /// The plane polygons in it: the index of the first corner and the number of corners of each.
     polygons: Vec<[u32; 2]>,
     depth: Depth,
-    /// Whether it is slim or full in each of its parts, not in its width.
+    /// Whether it becomes slim or full in each of its parts; else in its width.
     in_parts: bool,
     side: Side,
 }
 
-/// Where a shape goes, in metres and unit vectors.
+/// The placement of a shape, in metres and unit vectors.
 #[derive(Debug, Clone, Copy)]
 pub struct Placement {
-    /// The base.
+    /// The position of the base.
     pub base: [f32; 3],
-    /// Along the organ.
+    /// The direction along the organ.
     pub heading: [f32; 3],
-    /// Its upper side.
+    /// The direction of its upper side.
     pub up: [f32; 3],
     /// Its length and width.
     pub size: [f32; 2],
-    /// How many times fuller it is than its form.
+    /// The factor by which it is fuller than its form.
     pub fullness: f32,
 }
 
-/// The shape of a form of the library; of a mesh of the user's that is not at hand, a broad blade.
+/// The shape of a form of the library; a broad blade for the form of a mesh file, which the library does not have.
 pub fn shape(form: Form) -> &'static FormMesh {
     static LIBRARY: LazyLock<[FormMesh; FormName::ALL.len()]> =
         LazyLock::new(|| FormName::ALL.map(|form| made(form).measured()));
     LIBRARY.get(usize::from(form.0)).unwrap_or(&LIBRARY[FormName::Elliptic as usize])
 }
 
-/// Makes the function `made` of the table of forms, whose rows name the functions of this folder.
+/// Makes the function `made` from the table of forms, whose rows name the functions in this folder.
 macro_rules! made {
     ($(#[doc = $prose:tt] $form:ident, $name:tt, $share:literal, $module:ident :: $mesh:ident;)*) => {
         /// Makes the shape of a form.
@@ -109,18 +108,19 @@ impl FormMesh {
         Self { points, faces, polygons: Vec::new(), depth, in_parts: false, side }
     }
 
-    /// With its area known, once it has all its triangles.
+    /// The shape with its area computed, to be called after its last triangle is added.
     fn measured(mut self) -> Self {
         self.side = Side::of(&self.points, &self.faces, self.depth);
         self
     }
 
-    /// The area of one side as a share of length × width, of an organ so many times as wide as long.
+    /// The area of one side as a share of length × width, for an organ with `aspect` = width / length.
     pub(super) fn area_share(&self, aspect: f64) -> f64 {
         self.side.share(aspect)
     }
 
-    /// How many times fuller than its form an organ of this length and width is that has `area`, of one side.
+    /// The factor by which an organ of this length and width is fuller than its form, so that one side has the area
+    /// `area`.
     #[inline]
     pub fn fullness(&self, size: [f32; 2], area: f32) -> f32 {
         self.side.fullness(size, area, self.in_parts)
@@ -141,8 +141,8 @@ impl FormMesh {
         self.faces.extend((1..corners.len() as u32 - 1).map(|k| [first, first + k, first + k + 1]));
     }
 
-    /// The same for a part that is slim or full about its own middle line, which lies in its plane: corners by their
-    /// places on that line and their distances from it.
+    /// Adds a plane convex polygon that is slim or full about its own middle line, which lies in its plane. Each corner
+    /// is a pair: its place on that line, and its offset from the line.
     fn part(&mut self, corners: &[[[f32; 3]; 2]], stalk: bool) {
         let first = self.points.len();
         let places: Vec<[f32; 3]> = corners.iter().map(|[on, across]| [0, 1, 2].map(|k| on[k] + across[k])).collect();
@@ -151,15 +151,15 @@ impl FormMesh {
         self.points[first..].iter_mut().zip(corners).for_each(|(point, corner)| point.across = corner[1]);
     }
 
-    /// Writes the vertices of the shape in its place; `out` has exactly their number. `tags` are of the organ and of
-    /// its stalk.
+    /// Writes the vertices of the shape in its placement; `out` must have exactly one place per corner. `tags` are
+    /// those of the organ and of its stalk.
     #[inline]
     pub fn write(&self, place: &Placement, tags: &[Tag; 2], out: &mut [Vertex]) {
         let Placement { base, heading: h, up, size: [length, width], fullness } = *place;
         let (width, more) = if self.in_parts { (width, fullness - 1.0) } else { (width * fullness, 0.0) };
         let left = super::tube::cross(up, h);
         let depth = if self.depth == Depth::Width { width } else { length };
-        // A normal scales by the cofactors of what scales the shape.
+        // Normals scale by the cofactors of the scales of the shape.
         let cofactors = [width * depth, length * depth, length * width];
         let turned = |[x, y, z]: [f32; 3]| [0, 1, 2].map(|k| x * h[k] + y * left[k] + z * up[k]);
         let (mut of, mut normal) = ([f32::NAN; 3], [0.0; 3]);
@@ -167,7 +167,7 @@ impl FormMesh {
             let [x, y, z] = if more == 0.0 { point.at } else { point.fuller(more) };
             let offset = turned([x * length, y * width, z * depth]);
             let at = [0, 1, 2].map(|k| base[k] + offset[k]);
-            // The corners of a polygon follow one another and have one normal.
+            // The corners of a polygon are consecutive and have one normal.
             if point.normal != of {
                 (of, normal) = (point.normal, turned(scaled_normal(point.normal, cofactors)));
             }
@@ -177,7 +177,7 @@ impl FormMesh {
 }
 
 impl Point {
-    /// Where it is in a form whose parts are by so much fuller, as a share.
+    /// The position of a corner in the box when the parts of the form are fuller by the share `more`.
     #[inline]
     fn fuller(&self, more: f32) -> [f32; 3] {
         [0, 1, 2].map(|k| self.at[k] + more * self.across[k])
@@ -188,7 +188,7 @@ impl Point {
 fn scaled_normal(normal: [f32; 3], cofactors: [f32; 3]) -> [f32; 3] {
     let n = [0, 1, 2].map(|k| normal[k] * cofactors[k]);
     let square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    // Of an organ without any size nothing is seen; its normals stay as they are.
+    // An organ without any size is not seen; its normals stay unchanged.
     if square > f32::MIN_POSITIVE * 1e8 { n.map(|x| x / square.sqrt()) } else { normal }
 }
 

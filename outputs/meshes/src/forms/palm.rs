@@ -10,12 +10,12 @@ use phytomer_sim::math::sincosf;
 const ARCH: f32 = 1.25;
 const STEPS: u16 = 6;
 const PAIRS: u16 = 18;
-/// The bare stalk's share of the length.
+/// The share of the length that is a bare stalk.
 const STALK: f32 = 0.18;
-/// The corners of the rachis across it: on the box's axes, so that scaling keeps its normals outward.
+/// The corners of the rachis across it, on the axes of the box, so that its normals point outward after scaling.
 const CORNERS: [[f32; 2]; 5] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0], [1.0, 0.0]];
 const RACHIS_RADIUS: f32 = 0.012;
-/// How far a leaflet points ahead and how far it hangs, for each part that it reaches out.
+/// How far a leaflet points ahead and how far it hangs, per length that it reaches out.
 const AHEAD: f32 = 0.16;
 const HANG: f32 = 0.05;
 
@@ -31,7 +31,7 @@ pub fn palm() -> FormMesh {
     shape
 }
 
-/// The rachis at a share of its length: where it is and where it points, in the plane of x and z.
+/// The position and direction of the rachis at a share of its length, in the plane of x and z.
 fn arch(share: f32) -> ([f32; 2], [f32; 2]) {
     let bend = ARCH * share;
     let (sin, cos) = sincosf(bend);
@@ -59,7 +59,7 @@ fn rachis(shape: &mut FormMesh) {
     }
 }
 
-/// A leaflet at a share of the rachis, to the left (1) or the right (−1): longest below the middle.
+/// A leaflet at a share of the rachis, to the left (1) or the right (−1); leaflets are longest below the middle.
 fn leaflet(shape: &mut FormMesh, place: f32, side: f32) {
     let ([x, z], [along_x, along_z]) = arch(place);
     let among = (place - STALK) / (1.0 - STALK);
@@ -76,13 +76,13 @@ fn leaflet(shape: &mut FormMesh, place: f32, side: f32) {
     shape.part(&counterclockwise, false);
 }
 
-/// Four pairs of leaflets and one at the end, each a plane polygon, on a thin rachis: an ash leaf.
+/// Four pairs of leaflets and one terminal leaflet, each a plane polygon, on a thin rachis: an ash leaf.
 pub fn pinnate() -> FormMesh {
     let mut shape = FormMesh::new(Depth::Width);
     let rachis = [[0.0, -0.02], [0.75, -0.01], [0.75, 0.01], [0.0, 0.02]];
     shape.part(&rachis.map(|[x, y]| [[x, 0.0, 0.0], [0.0, y, 0.0]]), true);
     let place = |foot: f32, [cos, sin]: [f32; 2], long: f32, rise: f32| {
-        // An outline along the leaflet and across it, turned by its angle to the rachis.
+        // Points along the leaflet and across it, which are turned by its angle to the rachis.
         let outline = [[0.04, 0.0], [0.3, -0.16], [0.6, -0.15], [1.0, 0.0], [0.6, 0.15], [0.3, 0.16]];
         outline.map(|[out, aside]: [f32; 2]| {
             let [out, aside] = [out * long, aside * long];

@@ -1,7 +1,7 @@
-//! Solids of revolution with few sides: cones, catkins and spikelets, and what fruits are made of (`fruit`).
+//! Solids of revolution with few sides: cones, catkins and spikelets, and the solids that fruits are made of (`fruit`).
 //!
 //! A few rings of triangles are enough at the size of a fruit (de Reffye 1988 §6 draws a few vectors). A solid may be
-//! bent: its rings then stand on a curve. Every solid here but the tube of a corolla is closed.
+//! bent: its rings then stand on a curve. Every solid here is closed, except the tube of a corolla.
 
 use super::{Depth, FormMesh, Point, unit};
 use phytomer_sim::math::sincosf;
@@ -9,7 +9,7 @@ use std::f32::consts::TAU;
 
 const SIDES: u16 = 6;
 
-/// An egg, widest near its base, with a stalk's breadth at neither end.
+/// An egg, widest near its base.
 pub fn cone() -> FormMesh {
     let mut shape = FormMesh::new(Depth::Width);
     revolve(&mut shape, &[[0.0, 0.0], [0.1, 0.36], [0.3, 0.5], [0.7, 0.34], [1.0, 0.0]], SIDES, false);
@@ -44,8 +44,8 @@ pub fn spikelet() -> FormMesh {
     shape
 }
 
-/// Turns a meridian, places along x with radii, around the x axis: a ring of `sides` + 1 points at each of its places,
-/// or a fan at an end without a radius. Normals are the mean of the neighbouring zones'.
+/// Turns a meridian (pairs of x and radius) around the x axis: a ring of `sides` + 1 points for each pair, or a fan at
+/// an end with radius 0. Normals are the mean of those of the neighbouring zones.
 pub(super) fn revolve(shape: &mut FormMesh, meridian: &[[f32; 2]], sides: u16, stalk: bool) {
     let rings: Vec<u32> = (0..meridian.len()).map(|row| ring(shape, meridian, row, sides, stalk)).collect();
     for (zone, ring) in meridian.windows(2).zip(rings.windows(2)) {
@@ -61,8 +61,8 @@ pub(super) fn revolve(shape: &mut FormMesh, meridian: &[[f32; 2]], sides: u16, s
     }
 }
 
-/// Adds a ring and says at which number its corner 0 is. At a pole each triangle has a corner of its own, so that there
-/// is one fewer: the first pole lacks the last corner, the other one corner 0.
+/// Adds a ring and returns the index of its corner 0. At a pole each triangle has a corner of its own, so that a pole
+/// has one corner fewer: the first pole lacks the last corner, the other pole lacks corner 0.
 fn ring(shape: &mut FormMesh, meridian: &[[f32; 2]], row: usize, sides: u16, stalk: bool) -> u32 {
     let [x, r] = meridian[row];
     let [along, across] = meridian_normal(meridian, row);
@@ -76,7 +76,7 @@ fn ring(shape: &mut FormMesh, meridian: &[[f32; 2]], row: usize, sides: u16, sta
     first
 }
 
-/// The normal of a meridian at one of its places, along x and outward.
+/// The normal of a meridian at a row, as its parts along x and outward.
 fn meridian_normal(meridian: &[[f32; 2]], row: usize) -> [f32; 2] {
     let before = meridian[row.saturating_sub(1)];
     let after = meridian[(row + 1).min(meridian.len() - 1)];
@@ -88,13 +88,13 @@ fn meridian_normal(meridian: &[[f32; 2]], row: usize) -> [f32; 2] {
     [normal[0], normal[1]]
 }
 
-/// The same around a curve: rings at places along x that rise, each with the height of the curve there and its radius.
-/// Rings stay across x, so that the surface leans where the curve rises.
+/// Adds rings around a curve, each given by x, the height of the curve there, and the radius; x rises. Rings stay
+/// across x, so that the surface leans where the curve rises.
 pub(super) fn swept(shape: &mut FormMesh, rings: &[[f32; 3]], sides: u16, stalk: bool) {
     let first = shape.points.len();
     let meridian: Vec<[f32; 2]> = rings.iter().map(|&[x, _, r]| [x, r]).collect();
     revolve(shape, &meridian, sides, stalk);
-    // A ring's rise is the mean of its two neighbours'.
+    // The slope at a ring is the mean of those to its two neighbours.
     let rise = |row: usize| {
         let (before, after) = (rings[row.saturating_sub(1)], rings[(row + 1).min(rings.len() - 1)]);
         (after[1] - before[1]) / (after[0] - before[0])

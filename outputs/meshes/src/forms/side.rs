@@ -11,25 +11,25 @@
 use super::{Depth, Point};
 use std::collections::BTreeMap;
 
-/// How finely triangles are gathered by how they lean; of a gathered area at most 10⁻⁴ is lost.
+/// The number of classes of lean in which triangles are summed; at most 10⁻⁴ of an area is lost by it.
 const LEANS: usize = 64;
 
-/// A triangle that leans by a smaller part does not lean.
+/// A triangle that leans by a smaller share counts as upright.
 const UPRIGHT: f64 = 1e-5;
 
-/// The steps to the width that holds an area; three are enough for any form of the library.
+/// The most Newton steps to the width with the stated area; three suffice for every form of the library.
 const STEPS: usize = 12;
 
-/// How much fuller than its form an organ is drawn at most.
+/// The largest factor by which an organ is drawn fuller than its form.
 const FULLEST: f32 = 1e3;
 
-/// The triangles of a form as its area meets them.
+/// The triangles of a form, summed for the computation of its area.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Side {
-    /// Areas that do not change with r and those that do, by their ratio.
+    /// Pairs of areas by their ratio: the part that does not change with r, and the part that does.
     leans: Vec<[f64; 2]>,
     depth: Depth,
-    /// The share where no aspect changes it.
+    /// The share, where it does not depend on the aspect.
     constant: Option<f32>,
 }
 
@@ -58,12 +58,12 @@ impl Side {
         Self { leans, depth, constant }
     }
 
-    /// The area of one side as a share of length × width, where the width is so many times the length.
+    /// The area of one side as a share of length × width, for `aspect` = width / length.
     pub fn share(&self, aspect: f64) -> f64 {
         self.share_and_slope(aspect).0
     }
 
-    /// The share, and by how much it grows with the logarithm of the aspect.
+    /// The share, and its derivative by the logarithm of the aspect.
     fn share_and_slope(&self, aspect: f64) -> (f64, f64) {
         let (scale, sign) = match self.depth {
             Depth::Width => (aspect, 1.0),
@@ -76,8 +76,8 @@ impl Side {
         })
     }
 
-    /// How many times fuller than its form an organ of this length and width is drawn to have `area`: each of its parts
-    /// about its own middle where it is `in_parts`, else its width. 1 where no area is stated.
+    /// The factor by which an organ of this length and width is drawn fuller, so that one side has the area `area`:
+    /// each of its parts about its own middle line where it is `in_parts`, else its width. 1 where no area is stated.
     #[inline]
     pub fn fullness(&self, [length, width]: [f32; 2], area: f32, in_parts: bool) -> f32 {
         let box_area = length * width;
@@ -94,7 +94,7 @@ impl Side {
         if fullness.is_finite() { (fullness as f32).clamp(0.0, FULLEST) } else { 1.0 }
     }
 
-    /// k for which k times the share of a k times wider organ is that `wanted`: Newton steps.
+    /// The factor k for which k times the share of a k times wider organ equals `wanted`, by Newton's method.
     fn widened(&self, aspect: f64, wanted: f64, first: f64) -> f64 {
         let mut fullness = first;
         for _ in 0..STEPS {
@@ -116,13 +116,13 @@ fn vector([a, b, c]: [[f32; 3]; 3]) -> [f64; 3] {
     [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx]
 }
 
-/// For each triangle whether the part that it belongs to is closed: at each of its edges triangles meet in pairs of
-/// either direction. A part is what hangs together by edges; corners are the same where their places are.
+/// For each triangle whether its part is closed: at each edge of the part triangles meet in pairs of opposite
+/// direction. A part is a set of triangles joined by edges; corners at equal positions count as one corner.
 fn closed(points: &[[f32; 3]], faces: &[[u32; 3]]) -> Vec<bool> {
     let mut edges: BTreeMap<[[u32; 3]; 2], (usize, i64)> = BTreeMap::new();
     let mut parts = Parts { parents: (0..faces.len()).collect() };
     for (face, corners) in faces.iter().enumerate() {
-        // Zero has two signs.
+        // Adding zero turns −0 into 0.
         let at = corners.map(|corner| points[corner as usize].map(|x| (x + 0.0).to_bits()));
         for k in 0..3 {
             let (from, to) = (at[k], at[(k + 1) % 3]);
@@ -139,7 +139,7 @@ fn closed(points: &[[f32; 3]], faces: &[[u32; 3]]) -> Vec<bool> {
     (0..faces.len()).map(|face| !open[parts.part(face)]).collect()
 }
 
-/// Which triangles hang together: each points to one of its part, the last to itself.
+/// The parts of a mesh: each triangle points to another triangle of its part, the last one to itself.
 struct Parts {
     parents: Vec<usize>,
 }

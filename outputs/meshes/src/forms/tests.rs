@@ -1,4 +1,6 @@
-//! The library of forms: boxes, normals, planes, closed solids, areas.
+//! The library of forms: unit boxes, normals, planes, closed solids and areas.
+//!
+//! Every form is drawn at several sizes and measured. Absent: forms from mesh files (`own/tests`).
 
 use super::super::chunk::Face;
 use super::super::measure::{assert_closed, assert_unit_normals, outward_share, surface, volume};
@@ -9,18 +11,18 @@ use std::collections::BTreeSet;
 
 const FORMS: [FormName; FormName::ALL.len()] = FormName::ALL;
 
-/// What a form is made of.
+/// The construction of a form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Build {
-    /// A blade of one piece: a leaf, petal or sepal that is not compound.
+    /// A blade in one piece: a leaf, petal or sepal that is not compound.
     Blade,
-    /// One closed surface, or several.
+    /// One or several closed surfaces.
     Solid,
-    /// Several blades, with or without what bears them.
+    /// Several blades, with or without the axis that bears them.
     Compound,
 }
 
-/// The compiler asks it of every new form.
+/// A new form must be entered here, or the match does not compile.
 fn build(form: FormName) -> Build {
     use FormName::*;
     match form {
@@ -68,8 +70,8 @@ fn every_form_fits_its_box_and_its_normals_agree_with_its_triangles() {
     }
 }
 
-/// The area of one side: of plane polygons, and of what is closed half of it. The rachis of a palm and the tube of a
-/// corolla are open at their ends.
+/// The area of one side: of plane polygons their area, of closed surfaces half of it. The rachis of a palm and the tube
+/// of a corolla are open at their ends.
 fn area(form: FormName, size: [f32; 2], fullness: f32) -> f64 {
     let (vertices, faces) = fuller(form, size, fullness);
     let is_plane = |face: &Face| {
@@ -100,7 +102,7 @@ fn an_organ_has_the_area_that_is_stated_whatever_its_form_and_proportions() {
                 assert!((found - 1.0).abs() < 2e-3, "{form:?} {size:?} {share}: {found}");
                 let (vertices, faces) = fuller(form, size, fullness);
                 assert_unit_normals(&vertices);
-                // Solids far wider than long keep the normals of their own proportions, which lean too far.
+                // Solids that are far wider than long keep the normals of their own proportions, which lean too far.
                 let outward = build(form) == Build::Solid || outward_share(&vertices, &faces) == 1.0;
                 assert!(outward, "{form:?} {size:?} {share}");
             }

@@ -10,20 +10,19 @@ const MAGIC: &[u8] = b"glTF";
 const JSON: &[u8] = b"JSON";
 const BINARY: &[u8] = b"BIN\0";
 
-/// Nodes within nodes deeper than this are a mistake, or a circle.
+/// The largest depth of nodes within nodes; a deeper file is faulty or circular.
 const DEEPEST: usize = 32;
-/// Nodes and primitives visited in all: a node may stand in several places.
+/// The most nodes and primitives visited in all, since a node may stand in several places.
 const MOST_VISITED: usize = 4096;
-/// Vertices in all, with those that primitives share and do not use: a small file can name the same ones again and
-/// again.
+/// The most vertices read in all, used or not: a small file can refer to the same vertices many times.
 const MOST_POINTS: usize = 30 * MOST_TRIANGLES;
 
-/// Four columns of a transform.
+/// The four columns of a transform.
 type Matrix = [[f32; 4]; 4];
 
 const IDENTITY: Matrix = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
-/// Reads a file.
+/// Reads the triangles of a GLB file.
 pub fn read(bytes: &[u8]) -> Read<Soup> {
     let (json, binary) = chunks(bytes)?;
     let json: Value = serde_json::from_slice(json).map_err(|error| {
@@ -38,7 +37,7 @@ pub fn read(bytes: &[u8]) -> Read<Soup> {
     Ok(reading.soup)
 }
 
-/// The JSON and the binary chunk; the latter empty where there is none.
+/// The JSON chunk and the binary chunk; the binary chunk is empty where there is none.
 fn chunks(bytes: &[u8]) -> Read<(&[u8], &[u8])> {
     let word = |at: usize| bytes.get(at..at + 4).and_then(|word| word.try_into().ok()).map(u32::from_le_bytes);
     if bytes.get(..4) != Some(MAGIC) || word(4) != Some(2) {
@@ -69,7 +68,7 @@ struct Reading<'a> {
     visited: usize,
 }
 
-/// Numbers of an accessor in the binary chunk.
+/// The numbers of an accessor, in the binary chunk.
 struct Accessor<'a> {
     bytes: &'a [u8],
     count: usize,
@@ -78,7 +77,7 @@ struct Accessor<'a> {
 }
 
 impl<'a> Reading<'a> {
-    /// The nodes of the default scene; every mesh once where there is no scene.
+    /// Reads the nodes of the default scene; without a scene every mesh, once.
     fn scene(&mut self) -> Read<()> {
         let json = self.json;
         let scene = json["scene"].as_u64().unwrap_or(0) as usize;

@@ -1,11 +1,10 @@
-//! Meshes of the user's as forms: read from PLY, OBJ or GLB, checked, moved and scaled into the unit box of the
+//! Mesh files as forms of organs: read from PLY, OBJ or GLB, checked, moved and scaled into the unit box of the
 //! library.
 //!
-//! In the file x runs along the organ from its base to its tip, y across it and z to its upper side, in any unit, about
-//! the x axis as the organ's own line; a GLB, whose y is up, is turned first. The least x becomes 0 and the greatest 1,
-//! the greatest distance from the line ½, and z is scaled as y is. Vertices that a file shares between triangles have
-//! the mean of their normals, by area. Absent: materials, textures and the file's own normals; a species states
-//! colours.
+//! In the file x runs along the organ from its base to its tip, y across it and z to its upper side, in any unit; the x
+//! axis is the organ's own line. A GLB, whose y is up, is turned first. The smallest x becomes 0 and the largest 1, the
+//! largest distance from the line ½, and z is scaled as y is. A vertex that triangles share has the mean of their
+//! normals, weighted by area. Absent: materials, textures and the file's own normals; a species states colours.
 
 mod glb;
 mod obj;
@@ -16,32 +15,32 @@ mod tests;
 
 use super::{Depth, FormMesh, Point};
 
-/// The most triangles of one mesh: an organ is drawn thousands of times.
+/// The most triangles of a mesh file, since an organ is drawn thousands of times.
 pub const MOST_TRIANGLES: usize = 10_000;
 
-/// The meshes of its own that a species names, in the order of their numbers.
+/// The mesh files that a species names as forms, in the order of their numbers.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct OwnForms {
     forms: Vec<OwnForm>,
 }
 
-/// A mesh of the user's.
+/// A mesh file as a form.
 #[derive(Debug, Clone, PartialEq)]
 struct OwnForm {
     shape: FormMesh,
-    /// How many times as wide as long it is in its file.
+    /// Its width divided by its length, in the file.
     aspect: f64,
 }
 
-/// What is wrong with a mesh file: where, what, and what would be right.
+/// A fault of a mesh file: the place, the problem, and what was expected.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {problem}; expected {expected}")]
 pub struct MeshFault {
-    /// The line, byte or part of the file.
+    /// The line, byte or part of the file, in words.
     pub place: String,
-    /// What was found there.
+    /// What was found there, in words.
     pub problem: String,
-    /// What was expected.
+    /// What was expected, in words.
     pub expected: String,
 }
 
@@ -53,7 +52,7 @@ impl MeshFault {
 
 type Read<T> = Result<T, MeshFault>;
 
-/// Triangles as they stand in a file.
+/// The triangles of a file, as they stand there.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Soup {
     points: Vec<[f32; 3]>,
@@ -61,7 +60,7 @@ pub(super) struct Soup {
 }
 
 impl Soup {
-    /// Adds a polygon as triangles; its corners are numbers of points that are there.
+    /// Adds a polygon as triangles; `corners` are indices of points that were added before.
     fn polygon(&mut self, corners: &[u32], place: impl Fn() -> String) -> Read<()> {
         if corners.len() < 3 {
             let problem = format!("a face of {} corners", corners.len());
@@ -83,40 +82,41 @@ impl Soup {
 }
 
 impl OwnForms {
-    /// The forms of these files, by their names and contents, in their order.
+    /// Reads the forms from pairs of a file's name and its bytes, in their order.
     ///
     /// # Errors
-    /// What is wrong with the first file that is no such mesh.
+    /// The fault of the first file that is not such a mesh.
     pub fn read<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> Result<Self, MeshFault> {
         let forms: Result<_, MeshFault> = files.into_iter().map(|(name, bytes)| shape_of(name, bytes)).collect();
         Ok(Self { forms: forms? })
     }
 
-    /// How many there are.
+    /// The number of forms.
     pub fn len(&self) -> usize {
         self.forms.len()
     }
 
-    /// Whether there is none.
+    /// Whether there are no forms.
     pub fn is_empty(&self) -> bool {
         self.forms.is_empty()
     }
 
-    /// The shape at a place.
+    /// The shape of the form with the index `place`.
     pub(crate) fn shape(&self, place: u8) -> Option<&FormMesh> {
         self.forms.get(usize::from(place)).map(|form| &form.shape)
     }
 
-    /// The area of one side that the mesh at a place has in the proportions of its file, as a share of length × width.
+    /// The area of one side of the form with the index `place`, in the proportions of its file, as a share of length ×
+    /// width; `None` where there is no such form.
     pub fn area_share(&self, place: usize) -> Option<f64> {
         self.forms.get(place).map(|form| form.shape.area_share(form.aspect))
     }
 }
 
-/// Checks that a file holds a mesh that can be a form.
+/// Checks that a file holds a mesh that can be used as a form.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The first fault of the file.
 pub fn check(name: &str, bytes: &[u8]) -> Result<(), MeshFault> {
     shape_of(name, bytes).map(drop)
 }
@@ -125,7 +125,7 @@ fn shape_of(name: &str, bytes: &[u8]) -> Read<OwnForm> {
     shape(&soup(name, bytes)?)
 }
 
-/// The triangles of a file, whose format its name tells.
+/// The triangles of a file; its format follows from the ending of its name.
 fn soup(name: &str, bytes: &[u8]) -> Read<Soup> {
     let ending = name.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
     match ending.as_deref() {
@@ -159,7 +159,7 @@ fn shape(soup: &Soup) -> Read<OwnForm> {
     Ok(OwnForm { shape: in_box(&points, &soup.triangles)?.measured(), aspect: 2.0 * f64::from(half) / f64::from(long) })
 }
 
-/// A shape of the vertices that are used, without triangles of no area.
+/// A shape of the used vertices, without triangles of area 0.
 fn in_box(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Read<FormMesh> {
     let mut normals = vec![[0.0_f32; 3]; points.len()];
     let mut faces: Vec<[u32; 3]> = Vec::new();

@@ -1,29 +1,27 @@
-//! Triangles out of a Wavefront OBJ: the statements `v` and `f`; polygons become triangles.
+//! Triangles from a Wavefront OBJ: the statements `v` and `f`; polygons become triangles.
 //!
-//! A statement is a line, or several of which each but the last ends in a backslash; lines end in LF, CR LF or CR, and
-//! a
-//! `#` begins a comment, which is never continued: paths in comments end in backslashes. A corner is `v`, `v/vt`,
-//! `v//vn` or
-//! `v/vt/vn`, counted from 1 or, negative, from the end. Corners with the same `v` and `vn` are one vertex, so that a
-//! file's hard edges stay hard. Absent: everything else, which is passed over.
+//! A statement is a line, or several lines that end in a backslash, but for the last; lines end in LF, CR LF or CR. A
+//! `#` begins a comment, which is never continued, since paths in comments may end in backslashes. A corner is `v`,
+//! `v/vt`, `v//vn` or `v/vt/vn`, counted from 1 or, if negative, from the end. Corners with equal `v` and `vn` are one
+//! vertex, so that a file's hard edges stay hard. Absent: all other statements, which are skipped.
 
 use super::{MeshFault, Read, Soup};
 use std::collections::BTreeMap;
 
-/// The mark of UTF-8 that some editors put before a text.
+/// The byte order mark of UTF-8, which some editors put before a text.
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
-/// What the lines have told so far.
+/// The vertices and triangles of the lines read so far.
 #[derive(Default)]
 struct Reading {
     vertices: Vec<[f32; 3]>,
-    /// The normals are counted, not kept.
+    /// The normals are only counted.
     normals: i64,
     corners: BTreeMap<(usize, Option<i64>), u32>,
     soup: Soup,
 }
 
-/// Reads a file.
+/// Reads the triangles of an OBJ file.
 pub fn read(bytes: &[u8]) -> Read<Soup> {
     let mut reading = Reading::default();
     let mut statement = Vec::new();
@@ -41,12 +39,12 @@ pub fn read(bytes: &[u8]) -> Read<Soup> {
         statement.clear();
         begun = None;
     }
-    // The last line may promise one more.
+    // The last line may end in a backslash.
     reading.statement(&statement, bytes, begun.unwrap_or((0, 0)))?;
     Ok(reading.soup)
 }
 
-/// The lines of a text, whichever of the three ends they have, each with the byte at which it starts.
+/// The lines of a text, with any of the three line ends, each with the byte at which it starts.
 fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     let mut next = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
     std::iter::from_fn(move || {
@@ -59,7 +57,8 @@ fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
 }
 
 impl Reading {
-    /// One statement, which begins in a line of this number, at this byte. Names and other text may be in any encoding.
+    /// Reads one statement, given with the line and the byte at which it begins. Names and other text may have any
+    /// encoding.
     fn statement(&mut self, statement: &[u8], bytes: &[u8], (number, start): (usize, usize)) -> Read<()> {
         let mut words = statement.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         let kind = words.next().unwrap_or_default();
@@ -91,7 +90,7 @@ impl Reading {
         self.soup.polygon(&corners?, || format!("line {number}"))
     }
 
-    /// The number of a corner among the points, which gets one if it is new.
+    /// The index of a corner's point; a new corner gets a new point.
     fn corner(&mut self, word: &str, number: usize) -> Read<u32> {
         let mut parts = word.split('/');
         let fault = || {
@@ -106,7 +105,7 @@ impl Reading {
         let count = self.vertices.len() as i64;
         let place = from_either_end(index, count).filter(|place| (0..count).contains(place));
         let place = place.ok_or_else(fault)? as usize;
-        // A file may state its normals after its faces, so any number of them will do.
+        // A file may state its normals after its faces, so their number is not checked.
         let normal = parts.nth(1).and_then(|part| part.parse().ok());
         let normal = normal.and_then(|normal| from_either_end(normal, self.normals));
         let next = self.soup.points.len() as u32;
@@ -118,7 +117,7 @@ impl Reading {
     }
 }
 
-/// A place from 0 out of a number that counts from 1, or backwards from the `count` that are there.
+/// An index from 0, from an index that counts from 1, or backwards from the `count` entries so far.
 fn from_either_end(index: i64, count: i64) -> Option<i64> {
     if index < 0 { index.checked_add(count) } else { index.checked_sub(1) }
 }

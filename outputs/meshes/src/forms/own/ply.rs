@@ -1,14 +1,14 @@
-//! Triangles out of a PLY, ASCII or binary, by the crate ply-rs-bw: `vertex` with x, y, z and `face` with
+//! Triangles from a PLY, ASCII or binary, by the crate ply-rs-bw: `vertex` with x, y, z and `face` with
 //! `vertex_indices` or `vertex_index`; polygons become triangles.
 //!
-//! The header is held against the bytes before the payload is read, so that it cannot promise more than there is.
-//! Absent: everything else that a file may hold, which is read and passed over.
+//! The header is compared with the size of the file before the rest is read, so that it cannot announce more than there
+//! is. Absent: all other elements and properties, which are read and skipped.
 
 use super::{MOST_TRIANGLES, MeshFault, Read, Soup};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{DefaultElement, Header, Property};
 
-/// Reads a file.
+/// Reads the triangles of a PLY file.
 pub fn read(bytes: &[u8]) -> Read<Soup> {
     let parser = Parser::<DefaultElement>::new();
     let mut reader = Reader::new(bytes);
@@ -36,7 +36,7 @@ pub fn read(bytes: &[u8]) -> Read<Soup> {
     Ok(soup)
 }
 
-/// A header that promises more than the file can hold, or than a form may have, is refused before anything is read.
+/// Refuses a header that announces more elements than the file can hold or a form may have.
 fn check(header: &Header, bytes: usize) -> Read<()> {
     for (name, element) in &header.elements {
         let most = if name == "face" { MOST_TRIANGLES } else { bytes };

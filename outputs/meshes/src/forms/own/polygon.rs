@@ -1,16 +1,17 @@
-//! Triangles out of a polygon of a mesh file.
+//! Triangles from a polygon of a mesh file.
 //!
-//! A fan from the first corner where it covers the polygon, as of every convex one; else ears are cut off one after
-//! another (Meisters 1975, "Polygons have ears"), in that coordinate plane in which the polygon is largest.
-//! At most n² tests of a corner against a triangle. Absent: holes; a polygon that crosses itself stays a fan.
+//! A fan from the first corner is used where it covers the polygon, as it does every convex polygon. Else ears are cut
+//! off one after another (Meisters 1975, "Polygons have ears"), in the coordinate plane in which the polygon is
+//! largest. Takes at most n² tests of a corner against a triangle. Absent: holes; a polygon that crosses itself stays a
+//! fan.
 
-/// So small a share of a polygon may a fan cover twice: corners in a line are never quite so in 32 bits.
+/// The share of a polygon that a fan may cover twice: 32-bit corners in a line are never exactly so.
 const FLAT: f64 = 1e-6;
 
 /// A point of the polygon in the plane.
 type Flat = [f64; 2];
 
-/// The triangles of a polygon, by the places of its corners.
+/// The triangles of a polygon, by the indices of its corners.
 pub fn triangles(points: &[[f32; 3]]) -> Vec<[usize; 3]> {
     let fan = || (2..points.len()).map(|corner| [0, corner - 1, corner]).collect();
     if points.len() < 4 {
@@ -22,7 +23,7 @@ pub fn triangles(points: &[[f32; 3]]) -> Vec<[usize; 3]> {
     if turns.iter().all(|turn| *turn >= least) { fan() } else { ears(&flat).unwrap_or_else(fan) }
 }
 
-/// The corners in the plane, seen from the side to which the polygon is counterclockwise.
+/// The corners in the plane, seen from the side on which the polygon runs counterclockwise.
 fn flattened(points: &[[f32; 3]]) -> Vec<Flat> {
     let points: Vec<[f64; 3]> = points.iter().map(|point| point.map(f64::from)).collect();
     let next = |corner: usize| points[(corner + 1) % points.len()];
@@ -46,7 +47,7 @@ fn turn([a, b, c]: [Flat; 3]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Cuts off ears until a triangle is left; `None` where there is none to cut.
+/// Cuts off ears until a triangle is left; `None` where no ear is found.
 fn ears(flat: &[Flat]) -> Option<Vec<[usize; 3]>> {
     let mut left: Vec<usize> = (0..flat.len()).collect();
     let mut is_ear: Vec<bool> = (0..left.len()).map(|place| ear(flat, &left, place)).collect();
@@ -65,13 +66,13 @@ fn ears(flat: &[Flat]) -> Option<Vec<[usize; 3]>> {
     Some(triangles)
 }
 
-/// The corner at a place with those before and after it.
+/// The corner at a place, with the corners before and after it.
 fn around(left: &[usize], place: usize) -> [usize; 3] {
     let count = left.len();
     [left[(place + count - 1) % count], left[place], left[(place + 1) % count]]
 }
 
-/// Whether the triangle at a place is inside the polygon and holds none of its other corners.
+/// Whether the triangle at a place lies inside the polygon and contains none of its other corners.
 fn ear(flat: &[Flat], left: &[usize], place: usize) -> bool {
     let corners = around(left, place);
     let [a, b, c] = corners.map(|corner| flat[corner]);

@@ -1,4 +1,6 @@
-//! A leaf written in the three formats by hand reads back as the same triangles; broken files give their messages.
+//! Forms from mesh files: a leaf written in three formats by hand reads back as the same triangles.
+//!
+//! Broken files give their messages, and never a panic or a hang. Absent: the forms of the library (`forms/tests`).
 
 use super::*;
 use phytomer_sim::plant::key::scramble;
@@ -168,7 +170,7 @@ fn an_obj_is_read_as_exporters_write_it() {
     assert!(fault("x.obj", obj.as_bytes()).starts_with("line 5: the corner `9`"), "the line where the face begins");
 }
 
-/// The same normal, told from the start and from the end, is one normal; another one makes another vertex.
+/// Equal normals counted from the start and from the end are one normal; a different normal makes another vertex.
 #[test]
 fn normals_of_an_obj_are_counted_from_either_end() {
     let text = "v 0 -1 0\nv 2 -1 0\nv 2 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nvn 0 1 0\nf 1//-2 2//-1 3//-2\n";
@@ -232,7 +234,7 @@ fn bad_meshes_give_their_messages() {
     assert!(with("\"asset\"", "asset").starts_with("the JSON chunk: "));
 }
 
-/// A small file cannot ask for much memory or time by naming the same part again and again.
+/// A small file cannot demand much memory or time by naming the same part many times.
 #[test]
 fn a_part_that_is_named_again_and_again_is_a_fault() {
     let idle = GLTF
@@ -249,7 +251,7 @@ fn a_part_that_is_named_again_and_again_is_a_fault() {
     assert!(told.starts_with("mesh 0: more than 4096 nodes and primitives"), "{told}");
 }
 
-/// Bytes are changed, doubled and cut, by draws that are fixed: whatever comes of it is a mesh or a fault, soon.
+/// Bytes are changed, doubled and cut, by fixed draws: each result is a mesh or a fault, within a short time.
 #[test]
 fn no_broken_file_panics_or_hangs() {
     let files = files();
