@@ -1,11 +1,12 @@
 //! The parameters of the bud model as a species file states them (de Reffye 1988 §4, the list of parameters).
 //!
-//! One [`Order`] for each order of axes, the trunk first; every probability is a [`Law`] of state and the variables of
-//! [`crate::law`], every number of things a [`Count`], every measure a [`Variate`], every speed one of [`Speeds`], and
-//! what is one for a whole species a [`Quantity`] or a [`Constant`]; so each may be bare or say its source. A species
-//! without states, reiteration and relays reads as in 1988. Axes of an order past the last are never made.
+//! There is one [`Order`] for each order of axes, the trunk first; every probability is a [`Law`] of state and the
+//! variables of [`crate::law`], every number of things a [`Count`], every measure a [`Variate`], every speed one of
+//! [`Speeds`], and a number for a whole species a [`Quantity`] or a [`Constant`]; so each may be bare or state its
+//! source. A species without states, reiteration and relays reads as in 1988. Axes of an order past the last are never
+//! made.
 //!
-//! Absent on purpose: what the parameters do, which is in `compile` and `grow`.
+//! Absent on purpose: the effects of the parameters, which are in `compile` and `grow`.
 
 mod colour;
 mod geometry;

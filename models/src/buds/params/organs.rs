@@ -1,7 +1,7 @@
 //! Leaves, flowers and fruits (de Reffye 1988 §5): how many, how long they live, how large they are.
 //!
 //! Lateral organs stand in the axils of their node, terminal flowers at the end of their axis. Absent: how organs are
-//! drawn, which is known by their form's name alone.
+//! drawn; a species names the form alone.
 
 use super::colour::{FlowerChoice, FruitChoice, LeafChoice};
 use super::looks::{FormChoice, KindName};
