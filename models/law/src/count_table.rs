@@ -212,8 +212,8 @@ impl CountTable {
         self.distributions.iter().map(|distribution| distribution.first + distribution.len).max().unwrap_or(0)
     }
 
-    /// The largest count that can be drawn in a run of any length, which is the number of places that are kept for it in
-    /// a stream of words. Where a longer run has other parameters it is `MAX_COUNT`, unless
+    /// The largest count that can be drawn in a run of any length, which is the number of places that are kept for it
+    /// in a stream of words. Where a longer run has other parameters it is `MAX_COUNT`, unless
     /// [`Count::compile_places`] found a smaller number in the time that it may take.
     pub fn max_in_any_run(&self) -> u32 {
         self.goes_on_to.unwrap_or_else(|| self.max())
