@@ -1,4 +1,8 @@
 //! Whole plants: gravity off, wind, righting, and forks in space.
+//!
+//! Results are compared with sums of torques, with symmetries and with tabled rods. Absent: rods by themselves
+//! (`small`, `elastica`).
+//! themselves.
 
 use super::*;
 use crate::pose::pose;
