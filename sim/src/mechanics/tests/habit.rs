@@ -2,7 +2,6 @@
 //!
 //! Results are compared with sums of torques, with symmetries and with tabled rods. Absent: rods by themselves
 //! (`small`, `elastica`).
-//! themselves.
 
 use super::*;
 use crate::pose::pose;
