@@ -1,10 +1,9 @@
-//! The gallery: every species that ships, drawn in its prime, every plot that ships, and the life of one tree as a
-//! strip of pictures.
+//! The gallery: every species that ships, drawn in its prime, every plot that ships, and the life of a tree as a strip.
 //!
 //! `cargo run --release --example gallery [FOLDER]` writes `gallery.md`, its pictures below `gallery/` and `life.png`
 //! into a folder, `docs` if none is given. A species is grown by the shipped scenario of its name if there is one, else
-//! by itself, and drawn at the age that `phytomer picture` chooses; a scenario with members is drawn as `phytomer
-//! picture --plot` draws it. This file lists no names: every shipped species and plot is drawn.
+//! by itself, and drawn at the age that `phytomer picture` chooses; a scenario with members is drawn as
+//! `phytomer picture --plot` draws it. This file lists no names: every shipped species and plot is drawn.
 
 use anyhow::{Context, Result, anyhow};
 use phytomer::config::{Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, presets, validate, validate_species};

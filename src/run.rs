@@ -2,8 +2,8 @@
 //!
 //! The plots are dealt into shards of neighbours. Each shard sows its plots one after another into the same columns,
 //! grows each to the last tick, shows it to the tables and the meshes at the ticks asked for, and commits its files;
-//! shards grow in parallel, and so do the plants of a plot. A draw depends on the run's seed and the plant alone, so neither the number of
-//! threads nor an interruption shows in a single byte.
+//! shards grow in parallel, and so do the plants of a plot. A draw depends on the run's seed and the plant alone, so
+//! neither the number of threads nor an interruption shows in a single byte.
 //!
 //! Absent: growth (`sim`, `models`), files (`outputs`), and everything that a person sees (`cli`).
 
@@ -21,7 +21,8 @@ pub mod regrowth;
 
 pub use error::RunError;
 pub use in_memory::{InMemory, in_memory};
-pub use plan::{CONTROL, Program, component_limit, place_of, plan_of, seed_of};
+pub use plan::{CONTROL, Program, plan_of};
+pub use plots::{component_limit, place_of, seed_of};
 pub use progress::Progress;
 
 use drawing::RunMeshes;

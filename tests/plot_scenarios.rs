@@ -91,8 +91,8 @@ fn buds_die_where_they_reach_the_roof() {
     assert!(killed[0] > 20 && killed[1] > 20, "{killed:?}");
 }
 
-/// The mesh of a plant that is requested by its number is its own part of the plot's mesh, moved to its place: where
-/// the site has feedback and where it has none.
+/// The mesh of a plant that is requested by its number is its own part of the plot's mesh, moved to its place there:
+/// where the site has feedback and where it has none.
 #[test]
 fn a_plant_by_itself_is_its_part_of_the_mesh_of_its_plot() {
     let folder = tempfile::tempdir().unwrap();
@@ -190,8 +190,8 @@ fn members_that_are_not_sown_are_not_drawn() {
     assert_eq!([drawn(4), drawn(5), drawn(9)], [(vec![4], false), (vec![5, 0], true), (vec![9, 4], true)]);
 }
 
-/// The scenes after Photos 14 and 15 of de Reffye 1988: more plants than ever stand side by side, trees over herbs, and
-/// in the second scene yellow poplars; no other part of the picture is yellow.
+/// The scenes after Photos 14 and 15 of de Reffye 1988: more plants than can stand side by side, trees over herbs. In
+/// the second the poplars are yellow, and no part of the first picture is yellow.
 #[test]
 fn herbs_and_trees_stand_in_one_picture() {
     for (name, herb, yellow) in

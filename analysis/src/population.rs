@@ -1,7 +1,7 @@
 //! A population by age: how many plants live, how tall they are, how much they bear.
 //!
-//! Source: the table `summary`, one row a plant and recorded tick. Plants of one age are taken together, at whichever tick
-//! of their plots they have it. Standing dead plants are counted among the dead and not among the measured.
+//! Source: the table `summary`, one row a plant and recorded tick. Plants of one age are taken together, at whichever
+//! tick of their plots they have it. Standing dead plants are counted among the dead and not among the measured.
 
 use phytomer_outputs::Error;
 use phytomer_outputs::read::{Run, SummaryRow};

@@ -30,7 +30,7 @@ pub struct Plot<'m> {
     pub id: u32,
     /// The treatment that it is given, as a place in the run's list of treatments.
     pub treatment: u32,
-    /// Which of the plots of its treatment it is, from 0.
+    /// The replicate of its treatment, from 0; 0 where a run compares no treatments.
     pub replicate: u32,
     /// Its species.
     pub species: Vec<&'m dyn GrowthModel>,

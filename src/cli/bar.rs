@@ -1,4 +1,5 @@
-//! The progress bars: drawn on stderr beside the work, with the rate and the time left; none where stderr is no terminal.
+//! The progress bars: drawn on stderr beside the work, with the rate and the time left. Where stderr is no terminal
+//! there are none.
 //!
 //! The working threads only raise numbers ([`Progress`], [`Checking`]); a thread of the bar's reads them ten times a
 //! second.

@@ -44,8 +44,8 @@ pub struct Grow {
     /// The seed of every draw, from 0 to 2^63 - 1, in the place of the scenario's.
     #[arg(long, allow_negative_numbers = true, value_parser = seed)]
     seed: Option<u64>,
-    /// How many plants grow, in the place of the scenario's number: of plots with several members whole plots. Meshes of plants that then do not grow are left
-    /// out.
+    /// How many plants grow, in the place of the scenario's number; of plots with several members whole plots.
+    /// Meshes of plants that then do not grow are left out.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
     plants: Option<u32>,
     /// The run folder; `runs/<name>` if not given.

@@ -136,7 +136,7 @@ impl Picture {
         Ok(Verdict::Done)
     }
 
-    /// The plants that are asked for, each at each age, and what they are in words; the file is there before anything grows.
+    /// The plants that are asked for, each at each age, and what they are in words; the file is there before they grow.
     fn plants(&self, regrown: &Regrown, mut ages: Vec<Tick>) -> Result<(Destination, Pictured, String)> {
         let plants = if self.plants.is_empty() { vec![self.plant.unwrap_or(0)] } else { self.plants.clone() };
         let plant_option = if self.plants.is_empty() { "--plant" } else { "--plants" };
@@ -154,7 +154,7 @@ impl Picture {
         Ok((file, pictured, whom + &when))
     }
 
-    /// The plot that is asked for at each tick, and what it is in words; the file is there before anything grows.
+    /// The plot that is asked for at each tick, and what it is in words; the file is there before it grows.
     fn plot(&self, regrown: &Regrown, plot: u32, mut ticks: Vec<Tick>) -> Result<(Destination, Pictured, String)> {
         regrown.check_plot((self.age_option(), &ticks), plot)?;
         if ticks.is_empty() {

@@ -200,10 +200,13 @@ pub fn plot_mesh<'a>(
 /// What tells plants apart at a glance: species, age, and how many internodes and organs there are.
 type Glance = (usize, Tick, usize, usize);
 
+/// A plant that is kept, by its place among those that are, and the digest of its mesh where one was needed.
+type Kept = (usize, Option<[u8; 32]>);
+
 /// The plants of a plot, equal ones once unless they are to be kept apart; where they belong is still to be filled in.
 fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
     let mut stand = PicturedStand { plants: Vec::new(), members: Vec::new(), label: String::new() };
-    let mut alike: BTreeMap<Glance, Vec<(usize, Option<[u8; 32]>)>> = BTreeMap::new();
+    let mut alike: BTreeMap<Glance, Vec<Kept>> = BTreeMap::new();
     for Standing { plant, age, species } in standing {
         let known = alike.entry((*species, *age, plant.nodes.len(), plant.organs.len())).or_default();
         // A plant that is like no other at a glance needs no closer look.

@@ -1,14 +1,12 @@
-//! What a scenario means for a run: its plan of tables and parts, and each plant's seed, place and limit.
+//! What a scenario means for a run: its plan of tables and parts.
 //!
 //! Everything here follows from the scenario alone, never from the machine, so that a run can be resumed anywhere and
 //! ends with the same bytes.
 
 use super::RunError;
 use super::forecast::Forecast;
-use super::plots::plot_place;
-use phytomer_config::{Resolved, Scenario, scenario};
+use phytomer_config::{Resolved, scenario};
 use phytomer_outputs::{Input, Provenance, RunPlan, Table};
-use phytomer_sim::plant::Seed;
 use sha2::{Digest, Sha256};
 
 /// The work of a part file, in components shown to a table: about 60 MB of `records`, some seconds of one core.
@@ -108,76 +106,16 @@ fn plots_per_part(resolved: &Resolved) -> u32 {
     (f64::from(plots) / parts).ceil().max(1.0) as u32
 }
 
-/// The most components of a plant.
-pub fn component_limit(scenario: &Scenario) -> u32 {
-    scenario.limits.components()
-}
-
-/// What plant number `plant` of a scenario grows from.
-pub fn seed_of(scenario: &Scenario, plant: u32) -> Seed {
-    Seed {
-        plant,
-        run_seed: scenario.seed,
-        component_limit: component_limit(scenario),
-        keep_events: scenario.tables.contains(&scenario::Table::Events),
-    }
-}
-
-/// Where its seed lies, metres: the place of its plot, and from there to that of the member.
-pub fn place_of(scenario: &Scenario, plant: u32) -> [f64; 3] {
-    let (plot, member) = scenario.plot_of(plant);
-    let place = plot_place(scenario, plot);
-    let Some(member) = scenario.member.get(member as usize) else { return place };
-    let beside = member.place();
-    [0, 1, 2].map(|axis| place[axis] + beside[axis])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use phytomer_config::scenario::{Limits, Member};
+    use phytomer_config::Scenario;
     use phytomer_config::validate;
 
     fn changed(change: impl FnOnce(&mut Scenario)) -> Resolved {
         let mut resolved = validate("example1").unwrap_or_else(|report| panic!("{}", report.render(false)));
         change(&mut resolved.scenario);
         resolved
-    }
-
-    #[test]
-    fn plants_keep_their_places_however_many_grow() {
-        let place = |plants, spacing_m, plant| {
-            let resolved = changed(|scenario| {
-                scenario.plants = plants;
-                scenario.spacing_m = spacing_m;
-            });
-            place_of(&resolved.scenario, plant)
-        };
-        for plants in [3, 4, 9, 10, 1_000_000] {
-            let first = [0, 1, 2].map(|plant| place(plants, Some(2.5), plant));
-            assert_eq!(first, [[0.0; 3], [2.5, 0.0, 0.0], [2.5, 2.5, 0.0]], "{plants} plants");
-        }
-        assert_eq!(place(9, Some(1.0), 8), [0.0, 2.0, 0.0]);
-        assert_eq!(place(9, None, 8), [0.0; 3]);
-    }
-
-    #[test]
-    fn members_stand_beside_the_place_of_their_plot() {
-        let resolved = changed(|scenario| {
-            let aside = Member { at_m: vec![0.5, -1.0], ..Member::default() };
-            (scenario.plants, scenario.spacing_m) = (8, Some(10.0));
-            scenario.member = vec![Member::default(), aside];
-        });
-        let places = [0, 1, 2, 5].map(|plant| place_of(&resolved.scenario, plant));
-        assert_eq!(places, [[0.0; 3], [0.5, -1.0, 0.0], [10.0, 0.0, 0.0], [10.5, 9.0, 0.0]]);
-    }
-
-    #[test]
-    fn the_smaller_limit_holds() {
-        let limit = |limits: Limits| component_limit(&changed(|scenario| scenario.limits = limits).scenario);
-        assert_eq!(limit(Limits::default()), 50_000_000);
-        assert_eq!(limit(Limits { max_memory_mb: Some(96), ..Limits::default() }), 1_000_000);
-        assert_eq!(limit(Limits { max_components: 5_000, max_memory_mb: Some(96) }), 5_000);
     }
 
     #[test]

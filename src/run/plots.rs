@@ -4,10 +4,9 @@
 //! their plot: so a plot differs from the others by its place and by the draws of its plants alone. Where no plant can
 //! feel another one, or a plane, a single plant can be sown without its plot. Absent: growing.
 
-use super::{place_of, seed_of};
 use phytomer_config::Scenario;
-use phytomer_config::scenario::Member;
-use phytomer_sim::plant::ThreadBudget;
+use phytomer_config::scenario::{Member, Table};
+use phytomer_sim::plant::{Seed, ThreadBudget};
 use phytomer_sim::site::Site;
 use phytomer_sim::{GrowthModel, Plot, Sowing};
 
@@ -83,6 +82,30 @@ impl<'a> Plots<'a> {
     }
 }
 
+/// The most components of a plant.
+pub fn component_limit(scenario: &Scenario) -> u32 {
+    scenario.limits.components()
+}
+
+/// What plant number `plant` of a scenario grows from.
+pub fn seed_of(scenario: &Scenario, plant: u32) -> Seed {
+    Seed {
+        plant,
+        run_seed: scenario.seed,
+        component_limit: component_limit(scenario),
+        keep_events: scenario.tables.contains(&Table::Events),
+    }
+}
+
+/// Where its seed lies, metres: the place of its plot, and from there to that of the member.
+pub fn place_of(scenario: &Scenario, plant: u32) -> [f64; 3] {
+    let (plot, member) = scenario.plot_of(plant);
+    let place = plot_place(scenario, plot);
+    let Some(member) = scenario.member.get(member as usize) else { return place };
+    let beside = member.place();
+    [0, 1, 2].map(|axis| place[axis] + beside[axis])
+}
+
 /// The place of a plot, metres: on a square grid; each at an origin of its own where the scenario gives no spacing.
 pub fn plot_place(scenario: &Scenario, plot: u32) -> [f64; 3] {
     let Some(spacing) = scenario.spacing_m else { return [0.0; 3] };
@@ -105,7 +128,51 @@ fn lattice_of(plot: u32) -> [u32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use phytomer_config::scenario::Limits;
+    use phytomer_config::{Resolved, validate};
     use std::collections::BTreeSet;
+
+    fn changed(change: impl FnOnce(&mut Scenario)) -> Resolved {
+        let mut resolved = validate("example1").unwrap_or_else(|report| panic!("{}", report.render(false)));
+        change(&mut resolved.scenario);
+        resolved
+    }
+
+    #[test]
+    fn plants_keep_their_places_however_many_grow() {
+        let place = |plants, spacing_m, plant| {
+            let resolved = changed(|scenario| {
+                scenario.plants = plants;
+                scenario.spacing_m = spacing_m;
+            });
+            place_of(&resolved.scenario, plant)
+        };
+        for plants in [3, 4, 9, 10, 1_000_000] {
+            let first = [0, 1, 2].map(|plant| place(plants, Some(2.5), plant));
+            assert_eq!(first, [[0.0; 3], [2.5, 0.0, 0.0], [2.5, 2.5, 0.0]], "{plants} plants");
+        }
+        assert_eq!(place(9, Some(1.0), 8), [0.0, 2.0, 0.0]);
+        assert_eq!(place(9, None, 8), [0.0; 3]);
+    }
+
+    #[test]
+    fn members_stand_beside_the_place_of_their_plot() {
+        let resolved = changed(|scenario| {
+            let aside = Member { at_m: vec![0.5, -1.0], ..Member::default() };
+            (scenario.plants, scenario.spacing_m) = (8, Some(10.0));
+            scenario.member = vec![Member::default(), aside];
+        });
+        let places = [0, 1, 2, 5].map(|plant| place_of(&resolved.scenario, plant));
+        assert_eq!(places, [[0.0; 3], [0.5, -1.0, 0.0], [10.0, 0.0, 0.0], [10.5, 9.0, 0.0]]);
+    }
+
+    #[test]
+    fn the_smaller_limit_holds() {
+        let limit = |limits: Limits| component_limit(&changed(|scenario| scenario.limits = limits).scenario);
+        assert_eq!(limit(Limits::default()), 50_000_000);
+        assert_eq!(limit(Limits { max_memory_mb: Some(96), ..Limits::default() }), 1_000_000);
+        assert_eq!(limit(Limits { max_components: 5_000, max_memory_mb: Some(96) }), 5_000);
+    }
 
     #[test]
     fn shells_fill_squares_place_by_place() {

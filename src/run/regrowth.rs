@@ -1,10 +1,10 @@
 //! Plants of a run grown again from their seeds, and shown at some ages: what meshes and pictures are made of.
 //!
 //! Draws are keyed by the run's seed and the plant, so it is the same plant, with the same component numbers, that the
-//! run has recorded. A plant is asked for by its number and its own ages, a plot by its number and its ticks. A plant of
-//! a plot in which something feeds back is grown with its whole plot, any other one by itself. In a wind each age is
-//! shown as a frame that the wind has moved, for that age alone. Where no age is given, a plant is shown at that of its
-//! species or in its prime. Absent: what is made of it.
+//! run has recorded. A plant is asked for by its number and its own ages, a plot by its number and its ticks. Where
+//! something in a plot feeds back, a plant is grown with its whole plot, else by itself. In a wind each age is shown as
+//! a frame that the wind has moved, for that age alone. Where no age is given, a plant is shown at that of its species
+//! or in its prime. Absent: what is made of it.
 
 use super::RunError;
 use super::plots::Plots;

@@ -105,7 +105,7 @@ impl Scenario {
     /// What no schema can say of members.
     pub(super) fn check_members(&self, faults: &mut Vec<Fault>) {
         let members = self.members();
-        if self.plants % members != 0 {
+        if !self.plants.is_multiple_of(members) {
             let problem = format!("{} plants cannot be dealt into plots of {members}", self.plants);
             let below = u64::from(self.plots()) * u64::from(members);
             let above = below + u64::from(members);

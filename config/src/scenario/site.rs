@@ -1,4 +1,4 @@
-//! What acts on the plants of a run from outside: gravity, a steady wind, and planes that kill the buds that reach them.
+//! What acts on the plants of a run from outside: gravity, a steady wind, and planes that kill buds.
 //!
 //! Gravity and wind act only on species whose wood bends. Absent: light and soil.
 

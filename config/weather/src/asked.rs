@@ -4,6 +4,7 @@
 //! file. The method of degree-days has no default, since methods differ by a fifth. Absent: finding the file, and the
 //! place of a key in its scenario; a fault names the key by its path.
 
+use crate::weather::Station;
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::site::degree_days;
 use schemars::JsonSchema;
@@ -116,6 +117,16 @@ impl WeatherFile {
     pub fn asked(&self) -> Asked {
         let interpolate_days = self.gaps.map_or(0, |gaps| gaps.interpolate_days);
         Asked { format: self.format, interpolate_days, beyond: self.beyond }
+    }
+
+    /// The station with what is stated of its place; the rest is as its file has it.
+    pub fn placed(&self, station: Station) -> Station {
+        Station {
+            latitude: self.latitude_deg.map(f64::to_radians).or(station.latitude),
+            longitude: self.longitude_deg.map(f64::to_radians).or(station.longitude),
+            elevation_m: self.elevation_m.or(station.elevation_m),
+            ..station
+        }
     }
 }
 

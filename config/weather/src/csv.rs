@@ -1,8 +1,9 @@
 //! CSV: a line of names, then a row a day; the separator is the one that the names have most of.
 //!
 //! Commas, semicolons and tabs separate; with semicolons a comma is the decimal point, as tables of half of Europe have
-//! it. Lines that begin with `#` or `!` are comments. A value may stand in quotes, which hold separators and no end of a
-//! line. An empty cell is a day on which nothing was measured. Absent: units, which are those of the ICASA dictionary.
+//! it. Lines that begin with `#` or `!` are comments. A value may stand in quotes, which hold separators and no end of
+//! a line. An empty cell is a day on which nothing was measured. Absent: units, which are those of the ICASA
+//! dictionary.
 
 use crate::asked::Format;
 use crate::fault::{Kind, Place};

@@ -2,8 +2,8 @@
 //!
 //! Jones et al. 2003 (*European Journal of Agronomy* 18: 235–265), and DSSAT's reader `IPWTH`. `*` or `$` opens a
 //! section, `!` a comment; the table with a date holds the days, that with a latitude the station, and the rows of
-//! others are passed over. `.AgMIP` files differ in two units and repeat the date as year, month and day. Absent: where a
-//! value stands, which `layout` knows, and what a table of days must have beside temperatures.
+//! others are passed over. `.AgMIP` files differ in two units and repeat the date as year, month and day. Absent: where
+//! a value stands, which `layout` knows, and what a table of days must have beside temperatures.
 
 mod layout;
 mod token;
@@ -11,7 +11,7 @@ mod token;
 use crate::asked::Format;
 use crate::dates::{Order, date, of_numbers, whole_number};
 use crate::fault::{Kind, Place};
-use crate::names::{Column, MOST_COLUMNS, column, extremes, meant};
+use crate::names::{Column, MOST_COLUMNS, column, lacking};
 use crate::number::{Cell, cell};
 use crate::quantity::Values;
 use crate::rows::{Rows, Written};
@@ -146,17 +146,10 @@ impl Reader<'_, '_> {
     /// Checks the headers of a table of days.
     fn days(&mut self, line: &Line<'_>, layout: &Layout, names: &[String]) {
         self.has_days = true;
-        let of =
-            |wanted| layout.heads.iter().position(|head| matches!(head.column, Column::Of(m) if m.quantity == wanted));
-        for (code, quantity) in extremes(self.format) {
-            if of(quantity).is_none() {
-                let unknown = names.iter().zip(&layout.heads).filter(|(_, head)| head.column == Column::Unused);
-                let near = meant(code, unknown.map(|(name, _)| name.as_str()));
-                let problem = format!("there is no column for the {}", quantity.words());
-                let expected =
-                    near.map_or_else(|| format!("a column `{code}`"), |near| format!("`{code}` for `{near}`"));
-                self.rows.faults.tell(Kind::Layout, Place::whole(line), problem, expected);
-            }
+        let has = |wanted| layout.heads.iter().any(|head| matches!(head.column, Column::Of(m) if m.quantity == wanted));
+        let unused = names.iter().zip(&layout.heads).filter(|(_, head)| head.column == Column::Unused);
+        for (problem, expected) in lacking(self.format, has, unused.map(|(name, _)| name.as_str())) {
+            self.rows.faults.tell(Kind::Layout, Place::whole(line), problem, expected);
         }
         for (at, head) in layout.heads.iter().enumerate() {
             let is_twice = head.column != Column::Unused && layout.heads[..at].iter().any(|h| h.column == head.column);
@@ -250,10 +243,6 @@ impl Reader<'_, '_> {
     /// The row of the station.
     fn place(&mut self, line: &Line<'_>) {
         let Table::Station(layout) = std::mem::replace(&mut self.table, Table::Other) else { return };
-        if self.station.is_some() {
-            let expected = "the weather of one station a file";
-            return self.rows.faults.tell(Kind::Layout, Place::whole(line), "a second station", expected);
-        }
         let bytes = line.text.as_bytes();
         tokens(bytes, &mut self.tokens);
         let mut station = Station::default();
@@ -265,7 +254,11 @@ impl Reader<'_, '_> {
                 column => locate(&mut station, column, token.of(bytes), place, &mut self.rows.faults),
             }
         }
-        self.station = Some(station);
+        // Years that were joined to one file say their station again.
+        if self.station.get_or_insert_with(|| station.clone()) != &station {
+            let expected = "the weather of one station a file";
+            self.rows.faults.tell(Kind::Layout, Place::whole(line), "a second station", expected);
+        }
     }
 }
 

@@ -6,7 +6,7 @@
 use crate::asked::Format;
 use crate::dates::{Order, date, of_numbers, whole_number};
 use crate::fault::{Kind, Place};
-use crate::names::{Column, MOST_COLUMNS, column, extremes, meant};
+use crate::names::{Column, MOST_COLUMNS, column, lacking};
 use crate::number::{Cell, cell};
 use crate::quantity::{Quantity, Values};
 use crate::rows::{Rows, Written};
@@ -112,16 +112,13 @@ impl Named {
 
     /// Whether the names make a table of days.
     fn check(&mut self, names: &[Name], rows: &mut Rows<'_>, line: &Line<'_>) {
-        for (code, quantity) in extremes(self.format) {
-            let is_there = self.columns.iter().any(|c| matches!(c, Column::Of(m) if m.quantity == quantity));
-            if !is_there && self.constants.get(quantity).is_none() {
-                let unknown = names.iter().zip(&self.columns).filter(|(_, column)| **column == Column::Unused);
-                let near = meant(code, unknown.map(|(name, _)| name.text.as_str()));
-                let problem = format!("there is no column for the {}", quantity.words());
-                let expected =
-                    near.map_or_else(|| format!("a column `{code}`"), |near| format!("`{code}` for `{near}`"));
-                rows.faults.tell(Kind::Layout, Place::whole(line), problem, expected);
-            }
+        let is_there = |quantity| {
+            let is_column = self.columns.iter().any(|c| matches!(c, Column::Of(m) if m.quantity == quantity));
+            is_column || self.constants.get(quantity).is_some()
+        };
+        let unused = names.iter().zip(&self.columns).filter(|(_, column)| **column == Column::Unused);
+        for (problem, expected) in lacking(self.format, is_there, unused.map(|(name, _)| name.text.as_str())) {
+            rows.faults.tell(Kind::Layout, Place::whole(line), problem, expected);
         }
         let has = |part: usize| self.parts[part].is_some() || self.columns.contains(&ALL_PARTS[part]);
         if !self.columns.contains(&Column::Date) && !(has(0) && (has(3) || (has(1) && has(2)))) {

@@ -1,10 +1,10 @@
 //! What a column of a weather file is called in each format, and in which unit it then is.
 //!
-//! DSSAT's codes are those of its `WEATHER.CDE`; `.AgMIP` files have the same codes with the wind in m/s and the pressure
-//! of vapour in hPa (agmip translators, which multiply by 86.4 and divide by 10 on the way to the database). CSV files
-//! have the codes of the ICASA dictionary (`W_DATE`, `TDEW`, `VPRSD` in kPa, `RHAVD`, wind in km/d; White et al. 2013,
-//! *Computers and Electronics in Agriculture* 96: 1–12) or words. APSIM's are those of its weather component. Case,
-//! hyphens and blanks make no difference. Absent: columns that nobody asks for, which are passed over and noted.
+//! DSSAT's codes are those of its `WEATHER.CDE`; `.AgMIP` files have the same codes with the wind in m/s and the
+//! pressure of vapour in hPa (agmip translators, which multiply by 86.4 and divide by 10 on the way to the database).
+//! CSV files have the codes of the ICASA dictionary (`W_DATE`, `TDEW`, `VPRSD` in kPa, `RHAVD`, wind in km/d; White et
+//! al. 2013, *Computers and Electronics in Agriculture* 96: 1–12) or words. APSIM's are those of its weather component.
+//! Case, hyphens and blanks make no difference. Absent: columns that nobody asks for, which are passed over and noted.
 
 use crate::asked::Format;
 use crate::quantity::{Measure, Quantity};
@@ -93,15 +93,21 @@ pub(crate) fn unit_is_known(column: Column, unit: &str) -> bool {
     unit.is_empty() || known.contains(&unit.as_str())
 }
 
-/// What the extremes are called in a format.
-pub(crate) fn extremes(format: Format) -> [(&'static str, Quantity); 2] {
-    match format {
+/// What is told where a table has no column for a temperature: the problem, and what was expected, with the name that
+/// was most likely meant. `has` tells which there are, `unused` are the names that say nothing.
+pub(crate) fn lacking<'n>(
+    format: Format,
+    has: impl Fn(Quantity) -> bool,
+    unused: impl Iterator<Item = &'n str> + Clone,
+) -> Vec<(String, String)> {
+    let codes = match format {
         Format::Apsim => [("maxt", Quantity::Maximum), ("mint", Quantity::Minimum)],
         _ => [("TMAX", Quantity::Maximum), ("TMIN", Quantity::Minimum)],
-    }
-}
-
-/// The name that was most likely meant for another.
-pub(crate) fn meant<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
-    names.into_iter().find(|candidate| nearest(candidate, [name.to_lowercase().as_str(), name]).is_some())
+    };
+    let told = |(code, quantity): (&str, Quantity)| {
+        let meant = unused.clone().find(|name| nearest(code, [name.to_lowercase().as_str()]).is_some());
+        let expected = meant.map_or_else(|| format!("a column `{code}`"), |near| format!("`{code}` for `{near}`"));
+        (format!("there is no column for the {}", quantity.words()), expected)
+    };
+    codes.into_iter().filter(|(_, quantity)| !has(*quantity)).map(told).collect()
 }

@@ -2,8 +2,8 @@
 //!
 //! −99, −999 and −9999, with or without a further nine behind the point, and the words of other programs (`NA`, `nan`,
 //! `?`) mean that nothing was measured: no quantity can have such a value. One letter behind a number (`-99m`, `12.5e`)
-//! is a flag of the station and says that the value was estimated or is missing. Stars are a number that did not fit its
-//! column, as Fortran writes it. Absent: dates and units.
+//! is a flag of the station and says that the value was estimated or is missing. Stars are a number that did not fit
+//! its column, as Fortran writes it. Absent: dates and units.
 
 /// What stands in a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,13 +108,9 @@ mod tests {
         {
             assert_eq!(read(text), (Cell::Value(text.parse().expect("a number")), false), "{text}");
         }
-        for tenths in -9_000..=6_000 {
-            let text = format!(
-                "{}{}.{}",
-                if tenths < 0 { "-" } else { "" },
-                (tenths as i32).abs() / 10,
-                (tenths as i32).abs() % 10
-            );
+        for tenths in -9_000..=6_000_i32 {
+            let (sign, size) = (if tenths < 0 { "-" } else { "" }, tenths.abs());
+            let text = format!("{sign}{}.{}", size / 10, size % 10);
             let value: f64 = text.parse().expect("a number");
             if !is_mark(value) {
                 assert_eq!(read(&text), (Cell::Value(value), false), "{text}");

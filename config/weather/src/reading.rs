@@ -44,8 +44,9 @@ pub fn read_text(name: &str, text: &str, asked: &Asked) -> Result<Weather, Refus
         Format::Csv => csv::read(content, &mut rows),
     };
     if !rest.chars().all(|c| c.is_whitespace() || (c.is_ascii() && is_blank(c as u8))) {
-        let line = content.matches('\n').count() as u32 + 1;
-        let line_start = content.rfind('\n').map_or(0, |end| end + 1);
+        let end = if text.contains('\n') { '\n' } else { '\r' };
+        let line = content.matches(end).count() as u32 + 1;
+        let line_start = content.rfind(end).map_or(0, |end| end + 1);
         let start = (content.len() - line_start) as u32;
         let place = Place { line, line_start, start, end: start + 1 };
         rows.faults.tell(Kind::Layout, place, "^Z ends the text, and more follows", "nothing but blanks behind it");

@@ -1,8 +1,8 @@
 //! The rows of a weather file as they are read: each value checked by itself and against its day.
 //!
-//! A reader opens a row, hands over its cells and closes it with its date. What is wrong within the row is told at once;
-//! a row whose date or columns cannot be known is left out, and then the next is not told to follow a gap. Absent: how
-//! rows follow one another, which `series` checks when all are there.
+//! A reader opens a row, hands over its cells and closes it with its date. What is wrong within the row is told at
+//! once; a row whose date or columns cannot be known is left out, and then the next is not told to follow a gap.
+//! Absent: how rows follow one another, which `series` checks when all are there.
 
 use crate::fault::{Faults, Kind, Place};
 use crate::number::{Cell, cell};
@@ -52,11 +52,13 @@ pub(crate) struct Rows<'t> {
 
 /// A row takes at least so many bytes in most files.
 const BYTES_OF_ROW: usize = 24;
+/// Room for more rows than this, two centuries, is made as they come.
+const MOST_ROOM: usize = 73_049;
 
 impl<'t> Rows<'t> {
     /// None yet.
     pub fn of(text: &'t str) -> Self {
-        let rows = text.len() / BYTES_OF_ROW;
+        let rows = (text.len() / BYTES_OF_ROW).min(MOST_ROOM);
         Self {
             faults: Faults::of(text),
             found: Vec::with_capacity(rows),

@@ -1,9 +1,10 @@
 //! From the rows of a file to days without a gap, or to what is wrong with their order.
 //!
-//! Rows must go forward. Days without a row and days without a temperature are one thing to a sum of degree-days: a
-//! run of them is filled where that is asked for and it is short enough and lies between days that have both; else it
-//! is told once, with its length. A fill is the straight line between the days around it, for all that both of them
-//! have, but for rain, which is then not known; what is filled never crosses the other extreme of its day. Absent: values of a row.
+//! Rows must go forward. Days without a row and days without a temperature are one thing to a sum of degree-days: a run
+//! of them is filled where that is asked for and it is short enough and lies between days that have both; else it is
+//! told once, with its length. A fill is the straight line between the days around it, for all that both of them have,
+//! but for rain, which is then not known; what is filled never crosses the other extreme of its day. Absent: values of
+//! a row.
 
 use crate::asked::{Asked, Beyond};
 use crate::fault::{Faults, Kind, Place, Refused};

@@ -1,6 +1,7 @@
 //! Where a station stands: its latitude, longitude and height, checked and in the units that are kept.
 //!
-//! −99 means not known, for longitudes too, as DSSAT writes it. Absent: whether a longitude has the right sign, which no file shows.
+//! −99 means not known, for longitudes too, as DSSAT writes it. Absent: whether a longitude has the right sign, which
+//! no file shows.
 
 use crate::fault::{Faults, Kind, Place};
 use crate::names::Column;

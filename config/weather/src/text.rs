@@ -1,8 +1,8 @@
 //! The text of a weather file: its bytes as characters, and its lines.
 //!
 //! Stations write what their machine writes. Bytes that are no UTF-8 are taken for Latin-1, of which every byte is a
-//! character; lines end with LF, CR LF, or CR alone; a byte order mark is passed over; ^Z ends the text, as CP/M and DOS
-//! had it, and only blanks may follow it. Every control character is a blank. Absent: UTF-16, which is told.
+//! character; lines end with LF, CR LF, or CR alone; a byte order mark is passed over; ^Z ends the text, as CP/M and
+//! DOS had it, and only blanks may follow it. Every control character is a blank. Absent: UTF-16, which is told.
 
 use std::borrow::Cow;
 

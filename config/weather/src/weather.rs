@@ -1,8 +1,8 @@
 //! The days of a weather file, one after the other without a gap, and what had to be noted of them.
 //!
 //! Where the weather repeats itself, a day beyond the file has that of the same day of the year, whole years earlier or
-//! later: the fewest times as many years as the file holds whole ones, so that years come again in their order. 29 February
-//! takes the weather of the 28th where its year in the file has none. Absent: what is between the days.
+//! later: the fewest times as many years as the file holds whole ones, so that years come again in their order. 29
+//! February takes the weather of the 28th where its year in the file has none. Absent: what is between the days.
 
 use crate::quantity::{Quantity, Values};
 use phytomer_sim::site::date::Date;

@@ -1,10 +1,11 @@
-//! The keys of `[weather]` and of degree-days, as a scenario will state them: read, refused, and told in the JSON Schema.
+//! The keys of `[weather]` and of degree-days, as a scenario will state them: read, refused, and told in the JSON
+//! Schema.
 //!
 //! Absent: their place in a scenario, and the reports of faults.
 
 use phytomer_law::fault::Path;
 use phytomer_sim::site::degree_days;
-use phytomer_weather::{Asked, Beyond, DegreeDays, Format, Method, WeatherFile};
+use phytomer_weather::{Asked, Beyond, DegreeDays, Format, Method, Station, WeatherFile};
 use serde_json::{from_value, json, to_value};
 
 #[test]
@@ -21,6 +22,9 @@ fn what_is_not_stated_changes_nothing() {
     let all: WeatherFile = from_value(stated.clone()).expect("all keys");
     let asked = Asked { format: Some(Format::Agmip), interpolate_days: 3, beyond: Beyond::Repeat };
     assert_eq!((all.asked(), all.latitude_deg), (asked, Some(-20.0)));
+    let known = Station { latitude: Some(0.5), longitude: Some(1.0), ..Station::default() };
+    let placed = Station { latitude: Some(-20_f64.to_radians()), ..known.clone() };
+    assert_eq!((all.placed(known.clone()), plain.placed(known.clone())), (placed, known));
     assert_eq!(to_value(&all).expect("JSON"), stated, "what is written is what was read");
     for wrong in [json!({}), json!({ "file": "a.WTH", "gap": 3 }), json!({ "file": "a.WTH", "beyond": "loop" })] {
         assert!(from_value::<WeatherFile>(wrong).is_err());

@@ -8,6 +8,7 @@
 #[path = "../../../tests/program/absent.rs"]
 mod absent;
 
+use phytomer_sim::math::pow;
 use phytomer_sim::site::degree_days::{DegreeDays, Method};
 use phytomer_weather::{Asked, Kind, Refused, Weather, read};
 use std::collections::{BTreeMap, BTreeSet};
@@ -57,9 +58,9 @@ fn clean_files_have_the_days_and_degree_days_of_another_reader() {
         {
             let known = &row[&format!("dd10_{column}")];
             let sum = sum(&weather, method);
-            let digits = known.split_once('.').map_or(0, |(_, decimals)| decimals.len()).max(2) as i32;
+            let digits = known.split_once('.').map_or(0, |(_, decimals)| decimals.len()).max(2);
             let known: f64 = known.parse().expect("degree-days");
-            let half = 0.5 * 10_f64.powi(-digits) + 1e-9;
+            let half = 0.5 / pow(10.0, digits as f64) + 1e-9;
             assert!((sum - known).abs() <= half, "{name}, {column}: {sum}, not {known}");
         }
     }
@@ -125,9 +126,8 @@ fn values_that_touch_are_those_of_their_columns() {
     let of_minuses =
         |row: &str| row.replace('-', " -").split_whitespace().skip(1).map(str::to_owned).collect::<Vec<_>>();
     let of_columns = |row: &str| [5, 11, 17, 23].map(|at| row[at..at + 6].trim().to_owned()).to_vec();
-    let cuts: [(_, _, &dyn Fn(&str) -> Vec<String>); 2] =
-        [("MSKB9501.WTH", "95", &of_minuses), ("CNCH8401.WTH", "84", &of_columns)];
-    for (name, year, cut) in cuts {
+    let cuts: [fn(&str) -> Vec<String>; 2] = [of_minuses, of_columns];
+    for ((name, year), cut) in [("MSKB9501.WTH", "95"), ("CNCH8401.WTH", "84")].into_iter().zip(cuts) {
         let Some(text) = absent::measured(&format!("weather/{name}")) else { return };
         let weather = read(name, text.as_bytes(), &Asked::default()).unwrap_or_else(|refused| panic!("{refused}"));
         let rows = text.lines().filter(|line| line.starts_with(year)).map(cut);

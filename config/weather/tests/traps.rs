@@ -1,7 +1,7 @@
 //! Each trap of weather files in a small file of its own: what is read right, and what is told, word for word.
 //!
-//! The files are texts in the tests, written for them. `read` is what a day has; `told` what people see. Absent: files of
-//! stations, which `measured` has, and broken bytes, which `broken` has.
+//! The files are texts in the tests, written for them. `read` is what a day has; `told` what people see. Absent: files
+//! of stations, which `measured` has, and broken bytes, which `broken` has.
 
 use phytomer_weather::{Asked, Beyond, Day, Format, Kind, Refused, Weather, read};
 
@@ -204,6 +204,19 @@ fn headers_are_told() {
             .map(|weather| weather.days().len()),
         Ok(1)
     );
+}
+
+#[test]
+fn years_joined_to_one_file_are_of_one_station() {
+    let year = |date: &str, latitude: &str| {
+        format!(
+            "*WEATHER\n@ INSI      LAT     LONG\n  ABCD {latitude:>8}     10.0\n@DATE  TMAX  TMIN\n{date}  24.8  14.3\n"
+        )
+    };
+    let joined = weather("a.WTH", year("95365", "45.0") + &year("96001", "45.0"));
+    assert_eq!((joined.days().len(), joined.station.latitude), (2, Some(45_f64.to_radians())));
+    let told = told("a.WTH", year("95365", "45.0") + &year("96001", "46.0"));
+    assert_eq!(told, "a.WTH:8:3: a second station; expected the weather of one station a file\n");
 }
 
 #[test]

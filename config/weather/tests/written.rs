@@ -1,4 +1,5 @@
-//! What is written in a format is what is read: random days in random layouts, written by another rule than they are read.
+//! What is written in a format is what is read: random days in random layouts, written by another rule than they are
+//! read.
 //!
 //! Columns come in any order, some cells are blank, rows are shifted by up to four characters. Read back, each value is
 //! the one that was written, or the file is told; where nothing is shifted or blank it must be read. Absent: slips of

@@ -76,7 +76,8 @@ impl PlotMesh<'_> {
         }
         if all.vertices > MOST_VERTICES {
             return Err(io::Error::other(format!(
-                "the mesh of {} would have {} vertices, and a mesh file holds at most {MOST_VERTICES}: choose fewer sides",
+                "the mesh of {} would have {} vertices, and a mesh file holds at most {MOST_VERTICES}: choose fewer \
+                 sides",
                 self.name, all.vertices
             )));
         }

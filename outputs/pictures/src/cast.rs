@@ -1,7 +1,8 @@
 //! The plants of one picture, or the plots: put side by side, looked for by a camera, drawn, and written below.
 //!
 //! The first plant stands at the left, its foot at the origin of the picture; the others follow along the gaze's right,
-//! as far apart as their crowns need. The plants of a plot are put as one, each in its place. Absent: what they look like, of which `draw` makes pixels.
+//! as far apart as their crowns need. The plants of a plot are put as one, each in its place. Absent: what they
+//! look like, of which `draw` makes pixels.
 
 use super::camera::{Camera, Frame, tangents};
 use super::canvas::Canvas;

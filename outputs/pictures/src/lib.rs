@@ -43,7 +43,7 @@ use phytomer_sim::plant::Plant;
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// The most plants of one picture that stand side by side, or plots: of the plants in each plot there may be any number.
+/// The most plants of one picture that stand side by side, or plots; in each plot there may be any number of plants.
 pub const MOST_SUBJECTS: usize = 64;
 
 /// From where plants are seen.

@@ -292,7 +292,10 @@ pub static PLANTS: [Column; 9] = [
     TREATMENT,
     PLOT,
     PLANT,
-    Column::small("replicate", "Which of the plots of its treatment the plot is, from 0."),
+    Column::small(
+        "replicate",
+        "The replicate of the treatment of the plot, from 0; 0 where a run compares no treatments.",
+    ),
     Column::new("species", Type::Name(Named::Species), Encoding::Dictionary, "The species of the plant."),
     Column::tick("sown_tick", "The tick of the plot at which the plant was sown: its age 0."),
     Column::double(

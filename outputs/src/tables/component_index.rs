@@ -1,8 +1,8 @@
 //! Which components of a plant stand at an age, in the order of their numbers.
 //!
-//! Nodes, organs and axes together fill the numbers from 0 without a gap, in whatever order they stand in the columns. So
-//! the columns of a plant are laid out once by number: which component it is, from when and until when it stands. An age
-//! is then one straight scan. An index is of one plant at a time; the next plant takes its memory.
+//! Nodes, organs and axes together fill the numbers from 0 without a gap, in whatever order they stand in the columns.
+//! So the columns of a plant are laid out once by number: which component it is, from when and until when it stands. An
+//! age is then one straight scan. An index is of one plant at a time; the next plant takes its memory.
 
 use super::TableError;
 use phytomer_sim::plant::{AxisId, NodeId, OrganId, Plant, Trend};

@@ -12,7 +12,7 @@ pub struct Membership {
     pub plot: u32,
     /// The treatment of the plot, as a place in the run's list of treatments.
     pub treatment: u32,
-    /// Which of the plots of its treatment it is.
+    /// The replicate of that treatment.
     pub replicate: u32,
     /// The species of the plant, as a place in the run's list of species.
     pub species: usize,

@@ -13,6 +13,7 @@ use ::arrow_array::cast::AsArray;
 use ::arrow_array::types::{Float32Type, Float64Type, Int8Type, Int32Type, Int64Type};
 use ::arrow_array::{Array, RecordBatch};
 use ::arrow_schema::DataType;
+use phytomer_sim::plant::{AxisId, EventKind, NewAxis};
 use phytomer_sim::{Ending, Plot, Tick, grow};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -238,4 +239,22 @@ fn the_first_plants_are_found_wherever_their_rows_are() {
         let of = |row: &crate::rows::PoseRow| [row.plant_id, row.age, row.axis_id, row.rank].map(i64::from);
         assert_eq!(found.iter().map(of).collect::<Vec<_>>(), expected, "poses of the plants below {plants}");
     }
+}
+
+/// A model may keep the axes of its plants in another order than that of their buds' numbers.
+#[test]
+fn events_follow_the_numbers_of_buds_whatever_the_order_of_axes() {
+    let mut plot = Plot::of_one(model(0), &seed(0, 100));
+    let plant = &mut plot.plants[0];
+    plant.begin_rewriting();
+    for number in [0, 7, 4] {
+        plant.place_axis(NewAxis::OF_THE_SEED, number);
+    }
+    for (tick, axis) in [(2, 1), (1, 2), (1, 1), (1, 0)] {
+        plant.note(tick, AxisId(axis), EventKind::Grew, 1);
+    }
+    let mut sorted = SortedEvents::default();
+    sorted.sort(&plot, 2);
+    let events: Vec<_> = sorted.stretches().flat_map(|(_, events)| events).map(|of| (of.tick, of.axis.0)).collect();
+    assert_eq!(events, [(1, 0), (1, 2), (1, 1), (2, 1)], "the third axis has a lower number than the second");
 }

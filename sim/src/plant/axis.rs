@@ -112,7 +112,7 @@ impl NewAxis {
 
 columns! {
     /// The columns of the axes.
-    Axes of axis: NewAxis, numbered component, joined by joint from more at place {
+    pub struct Axes of axis: NewAxis, numbered component, joined by joint from more at place {
         /// The bearing node; [`NodeId::NONE`] for the axis of the seed.
         bearer: NodeId = axis.bearer.unwrap_or(NodeId::NONE) => joint.node(more.bearer[place]),
         /// The component number of the apical bud.

@@ -30,7 +30,7 @@ macro_rules! columns {
     (@join $column:expr, $old:expr, $new:expr, $joined:expr) => {
         $column.extend($new.map($joined))
     };
-    ($(#[$meta:meta])* $name:ident of $entry:ident: $entry_type:ty, numbered $component:ident,
+    ($(#[$meta:meta])* pub struct $name:ident of $entry:ident: $entry_type:ty, numbered $component:ident,
      joined by $joint:ident from $more:ident at $place:ident {
         $($(#[$doc:meta])* $column:ident: $type:ty = $value:expr $(=> $joined:expr)?,)*
     } $(beside $(#[$beside_doc:meta])* $beside:ident: $beside_type:ty)?) => {

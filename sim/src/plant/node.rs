@@ -38,7 +38,7 @@ pub struct NewNode {
 
 columns! {
     /// The columns of the nodes.
-    Nodes of node: NewNode, numbered component, joined by joint from more at place {
+    pub struct Nodes of node: NewNode, numbered component, joined by joint from more at place {
         /// The node at the base of the internode.
         parent: NodeId = node.parent => joint.below(more.parent[place], more.axis[place], more.rank[place] - 1),
         /// The axis.

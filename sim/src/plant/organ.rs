@@ -40,7 +40,7 @@ pub struct NewOrgan {
 
 columns! {
     /// The columns of the organs.
-    Organs of organ: NewOrgan, numbered component, joined by joint from more at place {
+    pub struct Organs of organ: NewOrgan, numbered component, joined by joint from more at place {
         /// The bearing node.
         node: NodeId = organ.node => joint.node(more.node[place]),
         /// The component number.

@@ -1,13 +1,13 @@
 //! Where the sun stands and how much of it reaches the top of the atmosphere, for all who ask.
 //!
-//! Two formulas, each for what it is used for. **Days** ([`declination`], [`day_length_h`],
-//! [`extraterrestrial_mj_m2`]) follow FAO-56 (Allen et al. 1998, *Crop evapotranspiration*, eqs 21–25 and 34), whose
-//! numbers agronomists compare with theirs; its declination is off by up to 1.5°. **Instants** ([`Sun`]), for shadows,
-//! follow the low-precision formula of the *Astronomical Almanac* (section C, "Low precision formulas for the Sun"; also
-//! Michalsky 1988, *Solar Energy* 40: 227–235): stated to .01° for 1950–2050, and within .017° of VSOP87 from 1900 to
-//! 2100. Sidereal time is that of the IAU of 1982 (Meeus 1998, *Astronomical Algorithms*, eq. 12.4). Places are those of
-//! the centre of the sun without an atmosphere. Absent: refraction (half a degree at the horizon), the sun's parallax
-//! (.0024°), the difference of terrestrial and universal time (.0008°).
+//! Two formulas, each for what it is used for. **Days** ([`declination`], [`day_length_h`], [`extraterrestrial_mj_m2`])
+//! follow FAO-56 (Allen et al. 1998, *Crop evapotranspiration*, eqs 21–25 and 34), whose numbers agronomists compare
+//! with theirs; its declination is off by up to 1.5°. **Instants** ([`Sun`]), for shadows, follow the low-precision
+//! formula of the *Astronomical Almanac* (section C, "Low precision formulas for the Sun"; also Michalsky 1988, *Solar
+//! Energy* 40: 227–235): stated to .01° for 1950–2050, and within .017° of VSOP87 from 1900 to 2100. Sidereal time is
+//! that of the IAU of 1982 (Meeus 1998, *Astronomical Algorithms*, eq. 12.4). Places are those of the centre of the sun
+//! without an atmosphere. Absent: refraction (half a degree at the horizon), the sun's parallax (.0024°), the
+//! difference of terrestrial and universal time (.0008°).
 
 use super::date::Date;
 use crate::math::{acos, asin, atan2, cos, fmod, sin, sincos, tan};
@@ -262,7 +262,7 @@ mod tests {
         (2090, 55, 1.41, 27.2, -81.7, 273.5391, -27.4822),
         (1958, 350, 21.01, -70.1, 8.1, 212.6369, 6.7962),
         (1968, 126, 19.79, 79.0, -158.3, 136.6321, 24.6330),
-        (2083, 17, 1.36, -24.9, -90.2, 243.6593, -6.2830),
+        (2083, 17, 1.50, -24.9, -90.2, 242.6687, -7.9829),
         (1906, 43, 2.77, -77.0, -165.3, 303.9428, 21.6205),
     ];
 

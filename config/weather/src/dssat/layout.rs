@@ -2,11 +2,11 @@
 //!
 //! DSSAT cuts each line at the ends of the headers, and so takes a value that is shifted for its neighbour's
 //! (dssat-csm-os, issue 234). Here a value is its header's where both end within one character of each other, as
-//! right-aligned numbers do, whatever columns are blank. Where a row has as many values as there are headers and none of
-//! them ends below another's, or all end left of their own, the order tells, however they are shifted. A mark for a missing value may also stand
-//! anywhere below its header alone. Values that touch are parted at a minus, or at the end of a header where both parts
-//! then have equally many decimals. Of what is left, a value that can only be humidity, wind or another minor quantity is
-//! left out and noted; all else is told. Absent: what the values are.
+//! right-aligned numbers do, whatever columns are blank. Where a row has as many values as there are headers and none
+//! of them ends below another's, or all end left of their own, the order tells, however they are shifted. A mark for a
+//! missing value may also stand anywhere below its header alone. Values that touch are parted at a minus, or at the end
+//! of a header where both parts then have equally many decimals. Of what is left, a value that can only be humidity,
+//! wind or another minor quantity is left out and noted; all else is told. Absent: what the values are.
 
 use super::token::{Token, is_mark};
 use crate::names::Column;
@@ -174,7 +174,8 @@ impl Layout {
         (is_inside && only_one && decimals(&left) == decimals(&right)).then_some(seam)
     }
 
-    /// The value below a header of the station's table: by its end, by the order of a full row, or by standing below it.
+    /// The value below a header of the station's table: by its end, by the order of a full row, or by standing below
+    /// it.
     pub fn below(&self, tokens: &[Token], head: usize) -> Option<usize> {
         let end = self.heads.get(head)?.end;
         let by_end = tokens.iter().position(|token| token.end.abs_diff(end) <= 1);

@@ -1,7 +1,7 @@
 //! What must come of any bytes: weather that holds together, or faults with places in the text.
 //!
-//! The first byte chooses the format, whether gaps are filled and whether the weather comes again; the rest is the file.
-//! It is the fuzz target `weather`, and the test of broken files runs it too. Absent: whether a value is right.
+//! The first byte chooses the format, whether gaps are filled and whether the weather comes again; the rest is the
+//! file. It is the fuzz target `weather`, and the test of broken files runs it too. Absent: whether a value is right.
 
 use phytomer_weather::{Asked, Beyond, Format, MOST_FAULTS, Refused, Weather, decode, read};
 
