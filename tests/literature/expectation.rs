@@ -33,7 +33,7 @@ fn random_laws(seed: u64) -> [Constant; 3] {
     })
 }
 
-/// The recursion, as it stands in the module's documentation; orders from 0.
+/// The recursion, as in the documentation of `BudModel::expectation_from`; orders from 0.
 fn recursion(laws: &[Constant; 3], order: usize, counted: usize, ticks: u32) -> f64 {
     if order > 2 || ticks == 0 {
         return 0.0;

@@ -4,7 +4,8 @@
 //! parentheses is a branch (4). The branches along an axis stand on opposite sides by turns, the first of each axis on
 //! the left (5), also where several stand at one cell (6), at one angle in one plane: x–z, with x to the right. Where
 //! an axis divides its apex ends, and the branches are of its order. Internodes stand in the columns in the order of
-//! the string, axes in the order of their numbers. Absent: rewriting (`string`).
+//! the string, axes in the order of their numbers, which never change.
+//! Absent: rewriting (`string`).
 
 use super::string::{Born, Living, Module};
 use phytomer_sim::clock::{NEVER, Tick};

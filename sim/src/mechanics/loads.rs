@@ -25,7 +25,8 @@ const LEFT: f64 = 1e-3;
 /// The largest response of an internode, rad; far more than any internode may turn in a step.
 const MOST_TURN: f64 = 1e3;
 
-/// The load on a point of an axis: the sums over everything beyond the point.
+/// The load on a point of an axis: the sums over everything beyond the point. For weights the mass and its first
+/// moments are enough to have F and N.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Load {
     /// The mass, kg.

@@ -1,10 +1,10 @@
 //! How axes right themselves: reaction wood in internodes that thicken, and the turning of young internodes.
 //!
 //! An axis keeps to a direction t at a stated angle to the vertical, in the vertical plane of its heading h. Reaction
-//! wood shrinks more on one side as it matures, so a ring that adds dR to the radius adds the curvature dκ = 2 Δε dR /
-//! R² (Fournier, Bailleres & Chanson 1994; Alméras & Fournier 2009), here weighted by sin γ, the sine of the angle
-//! between h and t: the response of shoots to their inclination. A young internode adds its rate times sin γ each tick.
-//! Both change the curvature that the internode has without load, and are frozen in like growth.
+//! wood shrinks more on one side as it matures, so a ring that adds dR to the radius adds the curvature
+//! dκ = 2 Δε dR / R² (Fournier, Bailleres & Chanson 1994; Alméras & Fournier 2009), here weighted by sin γ, the sine of
+//! the angle between h and t: the response of shoots to their inclination. A young internode adds its rate times
+//! sin γ each tick. Both change the curvature that the internode has without load, and are frozen in like growth.
 
 use crate::clock::Tick;
 use crate::plant::standing::Standing;

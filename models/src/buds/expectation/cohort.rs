@@ -18,7 +18,7 @@ use std::rc::Rc;
 /// The most steps of summation: a second or so.
 const MOST_WORK: u64 = 40_000_000;
 
-/// The most sums of growth units that are kept for each order.
+/// The most growth units whose sums are kept for each order.
 const MOST_UNITS: usize = 50_000;
 
 /// A cohort with fewer living axes than this bears nothing that would show in the sum, in double precision.

@@ -13,7 +13,7 @@ use phytomer_sim::Tick;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// The most sums of growth units that are kept.
+/// The most growth units whose sums are kept.
 const MOST_UNITS: usize = 5_000;
 
 /// Axes that are born alike: the place of their order, their state, and 1 where they follow in their set, 0 where they

@@ -56,8 +56,8 @@ fn take_off(order: &mut OrderExpectation, lost: &[f64]) {
 
 /// The probability that one bud and all its descendants are dead after `ticks` ticks, for buds of one type: at each
 /// tick a bud dies with probability `death`, else pauses with probability `pause`, else grows and bears another such
-/// bud with probability `ramification` (k = 1). The limit is the smallest root of q = d + s q [p + g (1 − a + a q)]: q
-/// = min(1, d/(s g a)). Linear in `ticks`.
+/// bud with probability `ramification` (k = 1). The limit is the smallest root of q = d + s q [p + g (1 − a + a q)]:
+/// q = min(1, d/(s g a)). Linear in `ticks`.
 ///
 /// ```
 /// use phytomer_models::buds::expectation::{extinct_by, extinction};

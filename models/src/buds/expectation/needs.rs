@@ -10,7 +10,7 @@ use crate::buds::compile::{Branching, BudModel, NodeLaws, OrderLaws};
 use crate::law::{CountTable, ProbabilityTable, Variable};
 use phytomer_sim::expectation::Certainty;
 
-/// The variables that are equal for all axes of a cohort; their states are followed beside these.
+/// The variables that are known for the axes of a cohort; their states are followed beside these.
 const KNOWN: &[Variable] = &[Variable::Age, Variable::Dimension, Variable::Cycle, Variable::Rank];
 
 /// The variables of [`KNOWN`] without the rank: the laws of a terminal flower are evaluated at the rank of its bearing
