@@ -26,7 +26,7 @@ pub struct Wood {
     /// Green density, kg/m³; a law of the same variables.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density_kg_m3: Option<Law>,
-    /// What wind finds in leaves and wood; left out: nothing.
+    /// The drag of leaves and wood in the wind; left out: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drag: Option<DragLaw>,
     /// How internodes gain diameter; left out: by the law `internode.thickening_mm` of their order.
