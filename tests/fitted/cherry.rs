@@ -1,6 +1,6 @@
 //! Nodes per growth unit of wild cherry (Fournier), order by order, against the shipped species.
 //!
-//! Shoots in their first year and later ones are compared apart. Absent: branching.
+//! The first and the second growth units of shoots of order 3 are compared apart. Absent: branching.
 
 use crate::chi2::homogeneity;
 use crate::measured::{Table, counted};

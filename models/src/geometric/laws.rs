@@ -46,8 +46,8 @@ fn stated(tree: &Gmt1) -> [(&'static str, &Variate, ValueRange); PARAMETERS] {
 }
 
 impl Laws {
-    /// The laws of a tree whose parameters stand at `path`. A law that fails adds its faults and is replaced by a
-    /// harmless one.
+    /// The laws of a tree whose parameters stand at `path`. A law that fails adds its faults; its table is then NaN, in
+    /// which the other checks find no fault.
     pub fn compile(tree: &Gmt1, path: &Path, faults: &mut Vec<Fault>) -> Self {
         let tables = stated(tree).map(|(key, law, range)| {
             law.compile(&Domain::ONCE, &path.key(key), range).unwrap_or_else(|mut found| {
