@@ -1,6 +1,7 @@
-//! A plot of a thousand coffee trees, grown tick by tick as one that shares a site must be: by one thread, and by two.
+//! A plot of a thousand coffee trees, grown tick by tick, as plants of a plot that interact through their site must be:
+//! by one thread, and by two.
 //!
-//! Absent: what a site costs; the ground is open.
+//! Absent: the cost of a site with effects; the ground is open.
 
 use criterion::{BatchSize, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use phytomer::config::{Resolved, validate};

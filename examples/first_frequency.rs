@@ -1,5 +1,5 @@
 //! The first frequency of simulated poplars beside that of real broadleaves, 0.148 + 0.453 DBH / H² Hz (DBH in cm, H in
-//! m): an order of magnitude against nature, told and not asserted.
+//! m). The comparison shows the order of magnitude; it is printed and not asserted.
 //!
 //! cargo run --release --example first_frequency
 //!
@@ -15,7 +15,7 @@ use phytomer_sim::{Plot, RecordError, Recorder, Tick, grow};
 
 const UNTIL: Tick = 30;
 
-/// Prints a row for each age that is asked for.
+/// Prints a row for each requested age.
 struct Rows;
 
 impl Recorder for Rows {

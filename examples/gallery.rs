@@ -1,9 +1,9 @@
-//! The gallery: every species that ships, drawn in its prime, every plot that ships, and one life as a strip.
+//! The gallery: every species that ships, drawn in its prime, every plot that ships, and the life of a tree as a strip.
 //!
 //! `cargo run --release --example gallery [FOLDER]` writes `gallery.md`, its pictures below `gallery/` and `life.png`
 //! into a folder, `docs` if none is given. A species is grown by the shipped scenario of its name if there is one, else
 //! by itself, and drawn at the age that `phytomer picture` chooses; a scenario with members is drawn as
-//! `phytomer picture --plot` draws it. Nothing is listed here: what ships is what is drawn.
+//! `phytomer picture --plot` draws it. This file lists no names: every shipped species and plot is drawn.
 
 use anyhow::{Context, Result, anyhow};
 use phytomer::config::{Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, presets, validate, validate_species};
@@ -22,7 +22,7 @@ const SIZE: [u32; 2] = [360, 480];
 const STRIP: [u32; 2] = [1600, 460];
 /// The size of a picture of a plot.
 const PLOT_SIZE: [u32; 2] = [960, 640];
-/// Whose life is told, and when it is looked at: robusta coffee, in months.
+/// The species and the ages, in months, of the strip: robusta coffee.
 const LIFE_OF: &str = "coffee";
 const LIFE: [Tick; 9] = [4, 9, 16, 26, 40, 56, 76, 96, 106];
 
@@ -59,7 +59,7 @@ fn main() -> Result<()> {
     strip(&folder.join("life.png"))
 }
 
-/// Draws one species and says what is seen.
+/// Draws one species and returns its caption.
 fn sit(name: &str, folder: &Path) -> Result<String> {
     let sitter = Sitter::of(name)?;
     let regrowth = sitter.regrowth();
@@ -76,7 +76,7 @@ fn sit(name: &str, folder: &Path) -> Result<String> {
     Ok(format!("![{called}]({file} \"{name}: {called}{latin}{model}, age {age}\")\n"))
 }
 
-/// Draws the first plot of a scenario, if it has several members, and says what is seen.
+/// Draws the first plot of a scenario, if it has several members, and returns its caption.
 fn plot(name: &str, folder: &Path) -> Result<String> {
     let found = validate(name).map_err(|report| anyhow!(report.render(false)))?;
     if found.scenario.member.is_empty() {

@@ -1,9 +1,9 @@
-//! The 23 architectural models of Hallé, Oldeman & Tomlinson 1978: each shipped one grows plants of its model and of no
-//! other, and the qualifiers see what a plant lacks.
+//! The 23 architectural models of Hallé, Oldeman & Tomlinson 1978: each shipped species of a model grows plants of its
+//! model and of no other, and the qualifiers see which characters a plant lacks.
 //!
-//! The confusion matrix has a row a shipped model, several plants each, and a column a qualifier. Pairs that are not
-//! told apart are listed with their reasons, and `docs/architecture-models.md` shows the matrix (`UPDATE_EXPECTED=1`
-//! writes it).
+//! The confusion matrix has a row for each shipped model, several plants each, and a column for each qualifier. Pairs
+//! that cannot be distinguished are listed with their reasons, and `docs/architecture-models.md` shows the matrix
+//! (`UPDATE_EXPECTED=1` writes it).
 
 mod program;
 
@@ -21,7 +21,7 @@ use std::path::Path;
 /// Plants of each model, each from a seed of its own.
 const PLANTS: u32 = 6;
 
-/// Pairs of which plants of the first also qualify for the second, with the reason.
+/// Pairs of models: plants of the first also qualify for the second, for the given reason.
 const COMPATIBLE: [(&str, &str, &str); 0] = [];
 
 fn shipped(name: &str) -> Resolved {
@@ -64,7 +64,7 @@ fn each_model_is_itself_and_no_other() {
     shown_in_the_docs(&matrix);
 }
 
-/// The matrix of the docs is this one.
+/// The matrix of the docs is the tested matrix.
 fn shown_in_the_docs(matrix: &[(&str, Vec<usize>)]) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/architecture-models.md");
     let heads: Vec<&str> = ARCHITECTURES.iter().map(|model| &model.name[..model.name.len().min(5)]).collect();
@@ -142,7 +142,7 @@ fn exactly_one_sibling_at_a_fork_of_koriba_becomes_the_trunk() {
         forks.entry((relay.bearing_axis_id, relay.birth_age)).or_default().push(trends(relay.axis_id));
     }
     let upright = |trends: &Vec<f32>| trends[0] == 0.0;
-    // Two growth units show what a module has become.
+    // Two growth units show which kind of axis a module has become.
     let differentiated = |fork: &&Vec<Vec<f32>>| fork.iter().all(|trends| trends.len() >= 16 && upright(trends));
     let mut seen = 0;
     for fork in forks.values().filter(differentiated) {
@@ -160,8 +160,8 @@ fn grown(resolved: &Resolved) -> Plot<'_> {
     plot
 }
 
-/// What each qualifier is there for: a shipped model with one law changed lacks the character that the law makes. The
-/// first entry is the model, the second what the species file says instead, the third words of what is then lacking.
+/// The purpose of each qualifier: a shipped model with one law changed lacks the character that the law makes. The
+/// first entry is the model, the second the changed text of the species file, the third words of the missing character.
 const CRIPPLED: [(&str, &str, &str); 23] = [
     ("holttum", "[[order]]\nflower = { terminal = 0 }", "ends in a flower"),
     ("corner", "[[order]]\nflower = { lateral = 0 }", "flowers are lateral"),
@@ -234,7 +234,7 @@ fn a_species_by_itself_is_one_plant_at_the_age_at_which_it_is_shown() {
     program(folder.path(), &["grow", "mine/species.toml", "--quiet"]).ending(0);
 }
 
-/// `validate` grows a sample of a species that names its architectural model; `grow` asks no such thing.
+/// `validate` grows a sample of a species that names its architectural model; `grow` does not.
 #[test]
 fn a_species_must_be_of_the_architectural_model_that_it_names() {
     let folder = tempfile::tempdir().unwrap();

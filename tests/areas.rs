@@ -1,9 +1,8 @@
-//! What is drawn is what the tables say: over every shipped species the triangles of each kind of organ have the area
-//! of its
-//! `area_m2`, and the tubes of internodes hold their `wood_volume_m3`, to 1 %.
+//! Meshes have the areas and volumes of the tables: over every shipped species the triangles of each kind of organ have
+//! the area of its `area_m2`, and the tubes of internodes hold their `wood_volume_m3`, to 1 %.
 //!
 //! The areas are those of one side: of closed forms half the surface. Tables and meshes are read from the files of one
-//! run. Absent: blades and internodes of other forms, which are drawn as sheets and hold nothing.
+//! run. Absent: blades and internodes of other forms, which are drawn as sheets without volume.
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Int8Type, Int32Type};
@@ -17,17 +16,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// Of larger plants an earlier age is looked at.
+/// Larger plants are measured at an earlier age, at which they have at most so many components.
 const MOST_COMPONENTS: u32 = 6_000;
 
-/// Bytes of a vertex and of a triangle in a file, and where the vertex tells its component.
+/// Bytes of a vertex and of a triangle in a file, and the offset of the component's number in a vertex.
 const VERTEX: usize = 49;
 const FACE: usize = 13;
 const COMPONENT: usize = 44;
 
 type Point = [f64; 3];
 
-/// What the table states of a component.
+/// The values that the table states of a component.
 struct Stated {
     kind: String,
     area: Option<f64>,
@@ -148,7 +147,7 @@ fn volume(triangles: &[[Point; 3]]) -> f64 {
     triangles.iter().map(cone).sum()
 }
 
-/// By kind of component: what is drawn and what is stated.
+/// The drawn and the stated measures, by kind of component.
 #[derive(Default)]
 struct Sums {
     areas: BTreeMap<String, [f64; 2]>,

@@ -1,8 +1,8 @@
-//! Bad input ends with exit code 3 and leaves nothing, and whatever somebody types the program never panics.
+//! Bad input ends with exit code 3 and leaves no file, and the program panics on no input.
 //!
-//! The files are those beside whose reports the configuration is tested; then two good scenarios, broken in two hundred
-//! drawn ways: those that the program must tell apart by exit code and stderr. `tests/mutations.rs` has ten thousand,
-//! in process. A failure names its number and shows its text.
+//! The files are the bad files of the tests of `config`; then two good scenarios, broken in two hundred drawn ways: the
+//! program must tell good from bad ones by exit code and stderr. `tests/mutations.rs` has ten thousand, in process. A
+//! failure names its number and shows its text.
 
 #[path = "../config/tests/mutate/mod.rs"]
 mod mutate;
@@ -15,7 +15,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 const MUTATIONS: u64 = 200;
-/// A mutant that is right is grown only up to so many components and records; else its forecast must do.
+/// A mutant without faults is grown only up to so many components and records; a larger one is only forecast.
 const SMALL: f64 = 100_000.0;
 
 /// Two good scenarios; the first names a species beside it.
@@ -54,7 +54,7 @@ fn grow(home: &Path, scenario: &str) -> Said {
     phytomer(home, &["grow", "--quiet", "--out", "out/run", scenario])
 }
 
-/// The scenario by which a bad file comes before the program: itself, or one that names it as its species.
+/// The scenario by which the program reads a bad file: the file itself, or a scenario that names it as its species.
 fn scenario_of(file: &Path, home: &Path) -> String {
     let path = file.to_str().unwrap();
     if kind_of(path) == Kind::Scenario {
@@ -114,6 +114,6 @@ fn broken_scenarios_are_refused_or_grown() {
             fs::remove_dir_all(&out).unwrap();
         }
     }
-    // If all were refused, or none, this would test nothing.
+    // If all mutants were refused, or none, this test would show nothing.
     assert!(grown >= MUTATIONS / 20 && refused >= MUTATIONS / 4, "{grown} grown, {refused} refused");
 }

@@ -1,10 +1,10 @@
-//! No two neighbours in a folder of source use each other, directly or by way of others.
+//! No two neighbours in a folder of source use each other, directly or through other modules: files of a circle can
+//! only be read, tested and taken away together.
 //!
-//! Neighbours are the files of a folder, and its folders, each with all that is in it. What one of them uses is read
-//! from the text: `use` lines and paths that begin with `crate` or `super`, followed through the names that a folder
-//! passes on with `pub use`. Files of a circle can only be read, tested and taken away together.
-//! Absent: tests, what a folder's own file and the files in it ask of each other, `use super::*`, and methods of a type
-//! that are written in several files.
+//! Neighbours are the files of a folder, and its folders with all their files. Uses are read from the text: `use` lines
+//! and paths that begin with `crate` or `super`, followed through the names that a folder exports with `pub use`.
+//! Absent: tests, uses between a folder's own file and the files in it, `use super::*`, and methods of a type that are
+//! written in several files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -13,11 +13,11 @@ use std::path::{Path, PathBuf};
 /// The names from the root of a crate to a module.
 type Place = Vec<String>;
 
-/// What is read of the text of a module.
+/// The facts read from the text of a module.
 #[derive(Default)]
 struct Module {
     uses: BTreeSet<Place>,
-    /// What a name that the module passes on with `pub use` stands for.
+    /// The path behind each name that the module exports with `pub use`.
     passes_on: BTreeMap<String, Place>,
 }
 
@@ -65,7 +65,7 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// What is in a folder, by name.
+/// The entries of a folder, by name.
 fn entries(folder: &Path) -> BTreeMap<String, PathBuf> {
     let read = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     read.flatten().map(|entry| (entry.file_name().to_string_lossy().into_owned(), entry.path())).collect()
@@ -112,7 +112,7 @@ fn module(text: &str) -> Module {
     module
 }
 
-/// What a statement uses, where it is a `use`, and whether it passes that on.
+/// The paths of a statement, where it is a `use`, and whether it exports them.
 fn used(statement: &str) -> Option<(bool, &str)> {
     let (before, tree) = statement.rsplit_once("use ")?;
     let before = before.lines().last().unwrap_or_default().trim();
@@ -185,7 +185,7 @@ fn circles(modules: &Modules) -> Vec<String> {
     circles.into_iter().collect()
 }
 
-/// What is used from `name` on, directly or by way of others.
+/// The modules used from `name` on, directly or through others.
 fn reached<'a>(uses: &'a BTreeMap<&str, BTreeSet<String>>, name: &str) -> BTreeSet<&'a str> {
     let mut reached = BTreeSet::new();
     let mut next: Vec<&str> = uses.get(name).into_iter().flatten().map(String::as_str).collect();

@@ -1,4 +1,6 @@
 //! The program as people and scripts use it: every verb, every exit code, the two streams, the examples of `--help`.
+//!
+//! Only files, streams and exit codes are tested. Absent: damaged folders (`trouble`) and destinations (`written`).
 
 mod program;
 
@@ -9,7 +11,7 @@ use tempfile::tempdir;
 
 const VERBS: [&str; 9] = ["init", "grow", "validate", "verify", "describe", "list", "schema", "mesh", "picture"];
 
-/// A scenario of one fast plant with further lines.
+/// A scenario of one fast plant, with these lines added.
 fn scenario(folder: &Path, lines: &str) {
     let species = data("bush.toml");
     write(
@@ -205,7 +207,7 @@ fn a_mesh_is_that_of_the_run() {
     let (alone, of_run) =
         (folder.path().join("seven.ply"), folder.path().join("runs/small/meshes/plant-00007_age-0012.ply"));
     assert_eq!(program::sha256(&alone), program::sha256(&of_run));
-    // Of a plant that bends: the last of its part, in the memory of those before it.
+    // For a plant that bends: the last plant of its part, grown in the memory of the plants before it.
     run(folder.path(), &["grow", &data("bending.toml"), "--quiet"]).ending(0);
     run(folder.path(), &["mesh", "runs/bending", "--plant", "11", "--out", "eleven.ply"]).ending(0);
     let of_run = folder.path().join("runs/bending/meshes/plant-00011_age-0020.ply");
@@ -349,7 +351,7 @@ fn examples(help: &str) -> Vec<Vec<&str>> {
     commands.map(|line| line.split("   ").next().unwrap_or(line).split_whitespace().collect()).collect()
 }
 
-/// Every example as it stands, but that `grow` is told to grow few plants, so that the tests stay short.
+/// Every example as it stands, but with fewer plants for `grow`, so that the tests stay short.
 #[test]
 fn every_example_of_help_runs() {
     let folder = tempdir().unwrap();

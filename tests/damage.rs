@@ -1,8 +1,8 @@
 //! Two hundred damaged copies of a run: a flipped bit, a cut, a missing and a foreign file, a damaged line of the
 //! journal, at places drawn from a fixed seed.
 //!
-//! `verify`, `describe` and `--resume` must say the same of each, and `--resume` must end with the files of the run
-//! that was not damaged. All copies go through the library; some of them through the program too.
+//! `verify`, `describe` and `--resume` must report the same for each copy, and `--resume` must end with the files of
+//! the undamaged run. All copies go through the library; some of them through the program too.
 
 mod program;
 
@@ -17,14 +17,14 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 const COPIES: u64 = 200;
-/// One copy in so many goes through the program.
+/// One copy in this number goes through the program.
 const THROUGH_PROGRAM: u64 = 10;
 const SHARDS: u32 = 6;
 const SCENARIO: &str = "damage.toml";
 /// Five tables of each shard, three meshes, and the three documents that `run.json` names.
 const NAMED: usize = 5 * SHARDS as usize + 3 + 3;
 
-/// Draws of SplitMix64 (Steele, Lea & Flood 2014): neighbouring seeds have nothing in common.
+/// Draws of SplitMix64 (Steele, Lea & Flood 2014): the draws of neighbouring seeds are unrelated.
 struct Draw(u64);
 
 impl Draw {
@@ -57,7 +57,7 @@ fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-/// The same, with the timings taken out of `run.json` and therefore its check.
+/// The files of [`contents`], with the timings and therefore the check of `run.json` removed.
 fn compared(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut files = contents(folder);
     let mut json: serde_json::Value = serde_json::from_slice(&files["run.json"]).unwrap();
@@ -67,12 +67,12 @@ fn compared(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-/// What was done to a copy.
+/// The damage done to a copy.
 struct Damage {
     path: String,
-    /// A file of somebody else was put there.
+    /// A file of another program was added.
     foreign: bool,
-    /// The shards that must be grown again, where the damage tells them.
+    /// The shards that must be grown again, where the damage determines them.
     shards: Option<Vec<u32>>,
 }
 
@@ -102,7 +102,7 @@ fn write(folder: &Path, path: &str, bytes: &[u8]) -> Damage {
     damaged(path.to_owned())
 }
 
-/// A part or a mesh costs the shard that has it.
+/// For a damaged part or mesh the shard that has it must be grown again.
 fn damaged(path: String) -> Damage {
     let shards = match path.as_str() {
         "run.json" | "datapackage.json" | "views.sql" => Some(vec![]),
@@ -149,7 +149,7 @@ fn same(one: &Checkup, other: &Checkup) {
     assert_eq!((one.state, &one.findings, &one.to_grow), (other.state, &other.findings, &other.to_grow));
 }
 
-/// What a check must say of the damage.
+/// The words that a check must report for the damage.
 fn assert_found(found: &Checkup, done: &Damage) {
     let paths: Vec<&str> = found.findings.iter().map(|finding| finding.path.as_str()).collect();
     assert_eq!(paths, [done.path.as_str()]);
@@ -163,7 +163,7 @@ fn assert_found(found: &Checkup, done: &Damage) {
     assert_eq!(found.files, if done.path == "run.json" { NAMED - 3 } else { NAMED });
 }
 
-/// What the program says of a damaged copy: the code of `verify`, and the same words by each verb.
+/// The program's report of a damaged copy: the code of `verify`, and the same words by each verb.
 fn assert_told(home: &Path, folder: &Path, found: &Checkup) {
     let name = folder.display().to_string();
     let verified = phytomer(home, &["verify", &name, "--json"]).ending(1).json();
@@ -248,8 +248,9 @@ fn two_hundred_damaged_copies_are_told_alike_and_mended() {
     assert!((10..40).contains(&foreign), "{foreign} foreign files");
 }
 
-/// The sum of a function of the numbers below `end`. Threads of the system and not of a pool: a run has a pool of its
-/// own, and a worker of one pool that waits for another begins with the next number meanwhile, on the same stack.
+/// The sum of a function of the numbers below `end`, over threads of the system and not of a pool: a run has a pool of
+/// its own, and a worker of one pool that waits for another would begin with the next number meanwhile, on the same
+/// stack.
 fn on_all_threads(end: u64, of: &(impl Fn(u64) -> u64 + Sync)) -> u64 {
     let threads = std::thread::available_parallelism().map_or(2, usize::from);
     let (next, sum) = (AtomicU64::new(0), AtomicU64::new(0));
@@ -269,7 +270,7 @@ fn on_all_threads(end: u64, of: &(impl Fn(u64) -> u64 + Sync)) -> u64 {
     sum.into_inner()
 }
 
-/// Every byte of the small documents, not only those that chance has found.
+/// Every byte of the small documents is damaged once.
 #[test]
 fn every_byte_of_the_documents_is_checked() {
     let home = tempfile::tempdir().unwrap();
@@ -284,7 +285,7 @@ fn every_byte_of_the_documents_is_checked() {
             bytes[at] ^= 0x20;
             fs::write(folder.join(path), &bytes).unwrap();
             let found = check(&folder, Depth::Lengths, &Checking::default()).unwrap();
-            // Lengths alone show damage to what has a check of its own.
+            // A changed length shows damage to documents that have a check of their own.
             let own = path == "run.json" || path == "journal.jsonl";
             assert_eq!(found.state == State::Damaged, own, "byte {at} of {path}");
         }
@@ -292,7 +293,7 @@ fn every_byte_of_the_documents_is_checked() {
     }
 }
 
-/// A part that is missing or damaged in two places of the run is told and mended in one go.
+/// A part that is missing or damaged in two places of the run is reported and mended in one run.
 #[test]
 fn several_kinds_of_damage_at_once() {
     let home = tempfile::tempdir().unwrap();
@@ -325,7 +326,7 @@ fn several_kinds_of_damage_at_once() {
     assert!(compared(&folder) == expected);
 }
 
-/// What a part says of the types of its columns may be damaged in any way: the rows are refused, and nothing panics.
+/// The column types that a part states may be damaged in any way: the rows are refused, and nothing panics.
 #[test]
 fn damaged_types_of_columns_are_errors() {
     let home = tempfile::tempdir().unwrap();

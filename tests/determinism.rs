@@ -1,8 +1,8 @@
 //! The same scenario gives the same bytes in every table and mesh: on any number of threads, and in debug and release.
 //!
 //! Both profiles run this file against the same hashes (`tests/data/*.sha256`): of a bush in its pose at rest, and of
-//! trees that bend in a wind, with the columns of mechanics. Where a change of the growth or of a
-//! format is meant, `PHYTOMER_BLESS=1 cargo test --test determinism` writes them anew.
+//! trees that bend in a wind, with the columns of mechanics. Where a change of growth or of a format is intended,
+//! `PHYTOMER_BLESS=1 cargo test --test determinism` writes new hashes.
 
 mod program;
 
@@ -50,7 +50,7 @@ fn parametric_trees_are_the_same_on_any_number_of_threads() {
     assert_eq!(grown[0], grown[2]);
 }
 
-/// One plant, of which so many axes wait that threads without a part of their own help to grow it.
+/// One plant, with so many waiting axes that threads without a part of their own help to grow it.
 #[test]
 fn a_single_plant_is_the_same_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
@@ -64,7 +64,7 @@ fn a_single_plant_is_the_same_on_any_number_of_threads() {
     assert_eq!(grown[0], grown[2]);
 }
 
-/// The most axes of one order of the first plant of a scenario: where order is borne by order, they wait at once.
+/// The most axes of one order of the first plant of a scenario. Where each order bears the next, these wait at once.
 fn most_waiting(name: &str) -> usize {
     let Resolved { scenario, model, .. } =
         validate(&data(name)).unwrap_or_else(|report| panic!("{}", report.render(false)));
@@ -78,7 +78,7 @@ fn most_waiting(name: &str) -> usize {
 fn shipped(folder: &Path, name: &str, plants: &str) -> BTreeMap<String, String> {
     let (_, text) = presets(Kind::Scenario).iter().find(|(known, _)| *known == name).unwrap();
     let text = text.split_once("[output]").map_or(*text, |(before, _)| before);
-    // A file called `coffee.toml` would be taken for the species of that name.
+    // A scenario file called `coffee.toml` would be read as the species of that name.
     let file = folder.join(format!("{name}_in_parts.toml"));
     std::fs::write(&file, format!("{text}\n[output]\nplants_per_part = 2\n")).unwrap();
     let file = file.to_str().unwrap();
@@ -127,7 +127,7 @@ fn debug_and_release_bend_alike() {
 fn writes_the_known_bytes(name: &str) {
     let folder = tempfile::tempdir().unwrap();
     let resolved = validate(&data(&format!("{name}.toml"))).unwrap_or_else(|report| panic!("{}", report.render(false)));
-    // The files name their maker; a fixed name keeps the hashes from changing with every commit.
+    // The files name the program and its version; a fixed name keeps the hashes from changing with every commit.
     let maker = Program { version: "0".into(), git_hash: "0".into() };
     let settings = Settings { program: maker, threads: 2, ..Settings::in_folder(folder.path().join("run")) };
     run::run(&resolved, &settings, &Progress::default()).unwrap();

@@ -1,9 +1,10 @@
-//! Independent readers of what a run leaves: pyarrow, DuckDB and Polars for the tables, plyfile, trimesh, Open3D,
+//! Independent readers of the files of a run: pyarrow, DuckDB and Polars for the tables, plyfile, trimesh, Open3D,
 //! meshio and PyVista for the meshes; Pillow for pictures; jsonschema for the schemas of species and scenarios, and
 //! taplo, which editors use for TOML, for the line by which a file names its schema.
 //!
-//! They live in `.venv`, which `.ci/run` fills from `tests/readers/requirements.txt`; where they are missing the tests
-//! skip and say so, but never in CI. `PHYTOMER_RUN` names a run folder to read beside the small one grown here.
+//! They are installed in `.venv`, which `.ci/run` fills from `tests/readers/requirements.txt`; where they are missing
+//! the tests skip and say so, but never in CI. `PHYTOMER_RUN` names a run folder to read beside the small one grown
+//! here.
 
 #[path = "program/absent.rs"]
 mod absent;
@@ -24,7 +25,7 @@ ages = { until = 10, record = "all" }
 meshes = { ages = [4, 10], plants = 1, sides = 8 }
 "#;
 
-/// The Python that has the readers; `None`, with the reason printed, where there is none.
+/// The path of the Python with the readers; `None`, with the reason printed, where there is none.
 fn python() -> Option<PathBuf> {
     let python = Path::new(ROOT).join(".venv/bin/python");
     let found = Command::new(&python)
@@ -41,7 +42,7 @@ fn python() -> Option<PathBuf> {
     None
 }
 
-/// Mistakes in the files of `init`: the file, what stands there, and what somebody types instead.
+/// Mistakes in the files of `init`: the file, its right text, and the wrong text instead.
 const MISTAKES: [(&str, &str, &str); 8] = [
     ("species.toml", "\npause = ", "\npauze = "),
     ("species.toml", "model = \"buds\"", "model = \"buts\""),
@@ -53,7 +54,7 @@ const MISTAKES: [(&str, &str, &str); 8] = [
     ("scenario.toml", "until = 48", "until = 65_536"),
 ];
 
-/// Mistakes in numbers that may have a source: the good species, what stands there, and what somebody types instead.
+/// Mistakes in numbers that may have a source: the good species, its right text, and the wrong text instead.
 const SOURCED: [(&str, &str, &str); 7] = [
     ("gmt1_drawn", "diameter_ratio = { value = 0.7,", "diameter_ratio = { valeu = 0.7,"),
     ("gmt1_drawn", "h2_deg = { uniform = { min = -60, max = -45 }, assumed = true }", "h2_deg = -181"),
@@ -68,21 +69,21 @@ const SOURCED: [(&str, &str, &str); 7] = [
     ("sourced", "{ named = \"distichous\", assumed = true }", "{ nammed = \"distichous\", assumed = true }"),
 ];
 
-/// Grows a scenario into the folder; the run's path.
+/// Grows a scenario into the folder. Returns the path of the run.
 fn grow(folder: &Path, scenario: &str) -> String {
     let run = folder.join("run").to_str().expect("a path in UTF-8").to_owned();
     phytomer(&["grow", "--quiet", "--out", &run, scenario]);
     run
 }
 
-/// What the program says on stdout.
+/// The stdout of the program.
 fn phytomer(words: &[&str]) -> Vec<u8> {
     let done = Command::new(env!("CARGO_BIN_EXE_phytomer")).args(words).output().expect("phytomer runs");
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     done.stdout
 }
 
-/// What taplo finds wrong with a TOML file; `None` where it passes.
+/// The report of taplo on a TOML file; `None` where the file passes.
 fn taplo(python: &Path, file: &Path) -> Option<String> {
     let done = Command::new(python.with_file_name("taplo"))
         .args(["check", "--no-auto-config", "--colors", "never"])
@@ -207,8 +208,8 @@ fn an_independent_validator_accepts_every_shipped_file() {
     read(&python, "schemas.py", &[&species, &scenario, &presets]);
 }
 
-/// Each mistake is found where the file's first line names the schema, and passes where that line is gone: nothing but
-/// the line can have told of it.
+/// Each mistake is reported where the file's first line names the schema, and passes without that line: so the schema
+/// was found by the line alone.
 #[test]
 fn an_independent_editor_obeys_the_schema_line_of_init() {
     let Some(python) = python() else {
@@ -234,7 +235,7 @@ fn an_independent_editor_obeys_the_schema_line_of_init() {
     }
 }
 
-/// Numbers with their source, as assumed or drawn, pass in every model; what cannot stand there does not.
+/// Numbers with their source, assumed or drawn, pass in every model; wrong values do not.
 #[test]
 fn an_independent_editor_knows_numbers_with_their_source() {
     let Some(python) = python() else {

@@ -1,6 +1,6 @@
 //! A run in memory against the same run in files: the same rows and the same schema, batch against batch.
 //!
-//! The files are read back by the Parquet reader, which knows nothing of how batches are kept in memory.
+//! The files are read back by the Parquet reader, which does not share code with the batches in memory.
 
 use arrow_array::RecordBatch;
 use phytomer::outputs::Table;
@@ -18,7 +18,7 @@ fn scenario(species: &str, more: &str) -> Resolved {
     validate_texts("trial", &[("trial", &text)]).unwrap_or_else(|report| panic!("{}", report.render(false)))
 }
 
-/// Holds two lists of batches against each other, however each is cut.
+/// Compares two lists of batches, however each is cut.
 fn assert_same_rows(table: Table, memory: &[RecordBatch], files: &[RecordBatch]) -> usize {
     let rows = |batches: &[RecordBatch]| batches.iter().map(RecordBatch::num_rows).sum::<usize>();
     assert_eq!(rows(memory), rows(files), "rows of {}", table.name());

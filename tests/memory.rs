@@ -1,10 +1,10 @@
-//! What plants take in memory, as the allocator counts it; nothing here knows a column.
+//! The memory of plants, as the allocator counts it; nothing here depends on the columns.
 //!
 //! A component takes at most 96 bytes for topology, fates and pose together, and the peak of a population does not
-//! depend on its size. A pass over a tick of a plot takes what its largest plant takes. The clone of a plant has no
-//! room to spare, so what it allocates is what its columns hold; the plant itself also has what its vectors keep spare.
-//! Absent: the optional log of events, the memory of a mesh, and what the system's allocator keeps of what was given
-//! back.
+//! depend on its size. A pass over a tick of a plot takes the memory of its largest plant. The clone of a plant has no
+//! spare capacity, so its allocation is the size of its columns; the plant itself also has the spare capacity of its
+//! vectors. Absent: the optional log of events, the memory of a mesh, and freed memory that the system's allocator
+//! keeps.
 
 use peak_alloc::PeakAlloc;
 use phytomer::config::scenario::{BYTES_A_COMPONENT, Every, Record};
@@ -21,11 +21,11 @@ use std::sync::{Mutex, PoisonError};
 #[global_allocator]
 static ALLOCATED: PeakAlloc = PeakAlloc;
 
-/// One test at a time: what another allocates meanwhile would count too.
+/// Only one test at a time allocates: the allocations of another test would count too.
 static ALONE: Mutex<()> = Mutex::new(());
 
 /// A plant of a shipped scenario, grown to an age, shed, thickened and posed, without a log of events; its living buds,
-/// and the bytes that it has allocated.
+/// and the number of bytes that it has allocated.
 fn grown(scenario: &str, until: Option<Tick>) -> (Plant, usize, usize) {
     let resolved = validate(scenario).unwrap_or_else(|report| panic!("{}", report.render(false)));
     let until = until.unwrap_or(resolved.scenario.ages.until);
@@ -39,7 +39,7 @@ fn grown(scenario: &str, until: Option<Tick>) -> (Plant, usize, usize) {
     (plot.plants.remove(0), living, allocated)
 }
 
-/// The bytes that a plant's columns hold, without what its vectors keep spare.
+/// The bytes of a plant's columns, without the spare capacity of its vectors.
 fn held(plant: &Plant) -> usize {
     let before = ALLOCATED.current_usage();
     let copy = plant.clone();
@@ -74,8 +74,8 @@ fn a_component_takes_at_most_96_bytes() {
     }
 }
 
-/// The most bytes that a run of so many coffee plants has allocated at once, in one thread, so that no coincidence of
-/// threads is measured. Parts have one size: those of a small run are smaller by themselves, and take less.
+/// The most bytes that a run of `plants` coffee plants has allocated at once, in one thread, so that no coincidence of
+/// threads is measured. Parts have one size, since the smaller parts of a small run would take less.
 fn peak_of(plants: u32) -> usize {
     let mut resolved = validate("coffee").unwrap_or_else(|report| panic!("{}", report.render(false)));
     let scenario = &mut resolved.scenario;
@@ -103,8 +103,8 @@ fn the_peak_of_a_population_does_not_depend_on_its_size() {
     assert!(many as f64 <= few as f64 * 1.25, "{few} bytes for 200 plants, {many} for 2,000");
 }
 
-/// The most bytes that a table allocates for its pass over the last tick of a plot of such coffee plants, and the
-/// components of the largest of them. The summary is the table: of its rows nothing but a few numbers is kept.
+/// The most bytes that a table allocates for its pass over the last tick of a plot of these coffee plants, and the
+/// number of components of the largest plant. The table is the summary: it keeps only a few numbers of its rows.
 fn pass_over(plants: Range<u32>) -> (usize, u32) {
     const UNTIL: Tick = 48;
     let resolved = validate("coffee").unwrap_or_else(|report| panic!("{}", report.render(false)));
@@ -141,8 +141,8 @@ fn a_pass_over_a_plot_takes_the_memory_of_its_largest_plant() {
     assert!(together <= most, "{together} bytes for {PLANTS} plants, {alone} for one");
 }
 
-/// What a plant keeps of bending from tick to tick; the scratch of a tick is its worker's and does not grow with the
-/// number of plants. It is told, not held.
+/// The memory that a plant keeps for bending from tick to tick; the scratch of a tick belongs to a worker and does not
+/// grow with the number of plants. The number is printed and not asserted.
 #[test]
 fn bending_keeps_at_most_24_bytes_an_internode() {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,11 +1,11 @@
-//! Ten thousand mutations of files that are right, each taken the whole way from its text to a run folder: what comes
-//! of it is a list of faults and no folder at all, or a whole run; never a panic, never a part of a run.
+//! Ten thousand mutations of good files, each taken from its text to a run folder: the result is a list of faults and
+//! no folder at all, or a whole run; never a panic, never a part of a run.
 //!
-//! It is the way of `phytomer grow`: `config::validate`, then `run::run`. A panic anywhere fails the test, and shows
-//! the mutation. The files are the good fixtures and everything that ships. A broken species grows under a small
-//! scenario that is not broken. A broken scenario that is right may still ask for a long run: then plants, ages and
-//! components are made few in the checked scenario, as `--plants` does it, and what is so made is checked again before
-//! it grows.
+//! The way is that of `phytomer grow`: `config::validate`, then `run::run`. A panic anywhere fails the test and shows
+//! the mutation. The files are the good fixtures and all shipped files. A broken species grows under a small sound
+//! scenario. A broken scenario without faults may still ask for a long run: then the numbers of plants, ages and
+//! components are lowered in the checked scenario, as `--plants` does it, and the result is checked again before it
+//! grows.
 
 #[path = "../config/tests/mutate/mod.rs"]
 mod mutate;
@@ -26,10 +26,10 @@ use std::time::{Duration, Instant};
 use tried::{SCENARIO, assert_tells, cap, grown};
 
 const MUTATIONS: u64 = 10_000;
-/// No answer may be waited for longer than this, in the slowest build on a busy machine.
+/// The longest time of one mutation, in the slowest build on a busy machine.
 const LONGEST: Duration = Duration::from_secs(20);
 
-/// How often what came of a mutation.
+/// How often mutations had each result.
 #[derive(Default)]
 struct Counts {
     refused: AtomicU64,
@@ -38,7 +38,7 @@ struct Counts {
     overgrown: AtomicU64,
 }
 
-/// Tells of the mutation at which its thread panics.
+/// Prints the mutation at which its thread panics.
 struct Shown<'a>(u64, &'a str, &'a [u8]);
 
 impl Drop for Shown<'_> {
@@ -71,19 +71,19 @@ fn a_mutation_is_refused_or_leaves_a_whole_run() {
         [&counts.refused, &counts.grown, &counts.capped, &counts.overgrown].map(|count| count.load(Relaxed));
     println!("{refused} refused, {grown} grown; of these {capped} capped, {overgrown} came to their limit");
     assert_eq!(refused + grown, MUTATIONS);
-    // If nearly all were refused, or none, or all came to their limits, this would test little.
+    // If nearly all mutants were refused, or none, or all reached their limits, this test would show little.
     assert!(refused > MUTATIONS / 4 && grown > MUTATIONS / 8, "{refused} refused, {grown} grown");
     assert!(overgrown < grown / 2, "{overgrown} of {grown} came to their limit");
 }
 
-/// A folder in memory where there is some: a run syncs every file, and a disk would be waited for.
+/// A folder in memory where the system has one: a run syncs every file, which is slow on a disk.
 fn memory_backed() -> tempfile::TempDir {
     let memory = Path::new("/dev/shm");
     let folder = if memory.is_dir() { tempfile::tempdir_in(memory) } else { tempfile::tempdir() };
     folder.expect("a temporary folder")
 }
 
-/// Where one thread tries mutations, one after another.
+/// The folder in which one thread tries mutations, one after another.
 struct Bench {
     mutant: PathBuf,
     scenario: PathBuf,
@@ -112,7 +112,7 @@ impl Bench {
         assert!(spent < LONGEST, "{spent:?}");
     }
 
-    /// What `phytomer grow` does, in one thread.
+    /// The steps of `phytomer grow`, in one thread.
     fn grow(&self, scenario: &Path, counts: &Counts) {
         let folder = self.out.join("run");
         let mut resolved = match validate(&scenario.to_string_lossy()) {
@@ -133,7 +133,7 @@ impl Bench {
     }
 }
 
-/// Whether a folder holds a run to its end, and nothing else.
+/// Whether a folder holds a finished run, and nothing else.
 fn assert_whole(folder: &Path, resolved: &Resolved, outcome: &Outcome) {
     let run = Run::open(folder).expect("run.json");
     assert!(run.is_complete() && !outcome.is_interrupted(), "{}", run.json());

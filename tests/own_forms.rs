@@ -1,5 +1,7 @@
-//! A mesh of the user's as the form of a leaf, from its file to the plant's mesh: beside the species file, checked
-//! before the first tick, hashed among the inputs of the run, and held against that hash when the run is drawn again.
+//! A user's mesh as the form of a leaf, from its file to the plant's mesh: it is found beside the species file, checked
+//! before the first tick, hashed among the inputs of the run, and compared with that hash when the run is drawn again.
+//!
+//! Absent: forms of the library (`areas`).
 
 mod program;
 
@@ -46,7 +48,7 @@ fn leaves_are_drawn_with_the_mesh_and_a_run_knows_it_again() {
     assert!(
         inputs.iter().any(|input| input["path"] == "forms/kite.obj" && input["sha256"].as_str().unwrap().len() == 64)
     );
-    // The kite fills half of its box, which the species leaves to the mesh.
+    // The kite fills half of its box; the species states no share of its own.
     assert_eq!(report["resolved_scenario"]["species"]["order"][0]["leaf"]["area_share"], 0.5);
     here(&["mesh", "runs/kite", "--out", "again.ply"]).ending(0);
     let drawn = fs::read(folder.path().join("runs/kite/meshes/plant-00000_age-0003.ply")).unwrap();

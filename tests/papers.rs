@@ -1,9 +1,10 @@
-//! `docs/papers.md` and `CONTRIBUTING.md` name only what is there: every path exists, every `file.rs::name` is declared
-//! in that file, every proof of that form is a test, and no figure, photo, table or numbered section lacks its row.
+//! `docs/papers.md` and `CONTRIBUTING.md` name only existing things: every path exists, every `file.rs::name` is
+//! declared in that file, every proof of that form is a test, and no figure, photo, table or numbered section lacks its
+//! row.
 //!
-//! The pages are read as text: what stands in backticks, outside of fenced code, is a path where it has no space and
-//! has a slash or ends in `.rs`, `.toml` or `.md`. `NAME` stands for a name of the reader's.
-//! Absent: whether a file does what the page says.
+//! The pages are read as text: words in backticks, outside of fenced code, are a path where they have no space and have
+//! a slash or end in `.rs`, `.toml` or `.md`. `NAME` stands for a name that the reader chooses. Absent: whether a file
+//! does what the page says.
 
 use std::fs;
 use std::path::Path;
@@ -11,10 +12,10 @@ use std::path::Path;
 const PAPERS: &str = "docs/papers.md";
 const PAGES: [&str; 2] = [PAPERS, "CONTRIBUTING.md"];
 
-/// What the first cell of a row begins with, and the numbers that follow it.
+/// The first words of a row's first cell, and the numbers that follow them.
 type Part = (&'static str, &'static [u32]);
 
-/// The heading of each paper's table, with what must have a row there.
+/// The heading of each paper's table, with the figures, photos, tables and sections that must have a row there.
 const PARTS: [(&str, &[Part]); 5] = [
     (
         "De Reffye",

@@ -1,4 +1,4 @@
-//! The table of `docs/performance.md` is read from where criterion has written.
+//! The table of `docs/performance.md` is read from the folder into which criterion has written.
 //!
 //! Absent: the numbers, which depend on the machine.
 

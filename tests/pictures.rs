@@ -1,7 +1,7 @@
-//! `picture` as people use it: shipped names, files, runs and species; the same bytes on any number of threads; what is
-//! refused, and with which words.
+//! `picture` as people use it: shipped names, files, runs and species; the same bytes on any number of threads; the
+//! inputs that are refused, and the messages.
 //!
-//! What a picture shows is tested beside the drawing, in closed forms; that others can read it, in `external_readers`.
+//! The content of pictures is tested beside the drawing, in closed forms; their format in `external_readers`.
 
 mod program;
 

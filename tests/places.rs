@@ -1,8 +1,9 @@
-//! A plant is told from its own seed and its place once, in double precision: one that draws nothing is the same to the
-//! bit wherever it stands, in its records, its measures and its mesh, and the place adds up with them.
+//! A plant is computed relative to its own seed, and its place is added once, in double precision: a plant without
+//! draws is the same to the bit at every place, in its records, its measures and its mesh, and the place adds up with
+//! them.
 //!
-//! Single precision has steps of 8 mm 100 km from the origin and of 60 mm 1,000 km from it, which is where the last of
-//! ten thousand, and of a million, plants stand that are a kilometre apart.
+//! Single precision has steps of 8 mm 100 km from the origin and of 60 mm 1,000 km from it. These are the distances of
+//! the last of ten thousand, and of a million, plants that stand a kilometre apart.
 
 mod program;
 mod read;
@@ -13,13 +14,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// What single precision can tell apart in a plant of half a metre, with a few roundings on the way, metres.
+/// The resolution of single precision in a plant of half a metre, with a few roundings on the way, metres.
 const FLOAT: f64 = 5e-7;
 
-/// Numbers of the tables that tell one plant from another.
+/// Columns of the tables that identify a plant.
 const OWN: [&str; 2] = ["plot_id", "plant_id"];
 
-/// A scenario of a species by its path or name, its plants a kilometre apart, in a wind where they feel it.
+/// A scenario of a species by its path or name, its plants a kilometre apart, with a wind where the species bends.
 fn scenario(folder: &Path, species: &str, plants: u32, more: &str) {
     let text = format!(
         "name = \"far\"\nspecies = \"{species}\"\nplants = {plants}\nspacing_m = 1000\n\
@@ -101,7 +102,7 @@ fn ten_thousand_plants_a_kilometre_apart_are_one_plant() {
     assert!(plants.words("species").iter().all(|species| species == "still"));
 }
 
-/// A plant without chance of three models of pose: bent, at rest, and with stated headings.
+/// A plant without draws, for each of three models of pose: bent, at rest, and with stated headings.
 #[test]
 fn records_and_meshes_are_the_same_wherever_a_plant_stands() {
     const PLANTS: u32 = 12;
@@ -166,7 +167,7 @@ fn rounded_places_hold_their_precision_however_far_the_plant() {
     }
 }
 
-/// `plants` goes with any other table, and may be asked for alone.
+/// `plants` can be written beside any other table, and alone.
 #[test]
 fn places_go_with_every_table() {
     let folder = tempfile::tempdir().unwrap();

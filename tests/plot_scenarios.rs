@@ -1,8 +1,8 @@
 //! Plots of several plants: the same bytes on any number of threads, planes that kill buds, plants that are sown later,
 //! and all of a plot in one mesh and one picture.
 //!
-//! A plant of a plot is the same plant wherever it is grown again: by itself, or with its whole plot where something
-//! feeds back. What is held against what here are files that were written along different ways.
+//! A plant of a plot is the same plant whenever it is grown again: by itself, or with its whole plot where the site has
+//! feedback. The tests compare files that were written in different ways.
 
 mod program;
 
@@ -91,8 +91,8 @@ fn buds_die_where_they_reach_the_roof() {
     assert!(killed[0] > 20 && killed[1] > 20, "{killed:?}");
 }
 
-/// The mesh of a plant that is asked for by its number is its part of the plot's mesh, moved to its place there: where
-/// the site feeds back and where it does not.
+/// The mesh of a plant that is requested by its number is its own part of the plot's mesh, moved to its place there:
+/// where the site has feedback and where it has none.
 #[test]
 fn a_plant_by_itself_is_its_part_of_the_mesh_of_its_plot() {
     let folder = tempfile::tempdir().unwrap();
@@ -130,7 +130,7 @@ fn a_plant_by_itself_is_its_part_of_the_mesh_of_its_plot() {
     }
 }
 
-/// Draws are keyed by run seed and plant, and lives by the plant's age: sown three ticks later it is the same plant.
+/// Draws are keyed by run seed and plant, and laws use the plant's age: sown three ticks later it is the same plant.
 #[test]
 fn a_plant_that_is_sown_later_is_the_same_plant_later() {
     let folder = tempfile::tempdir().unwrap();
@@ -155,8 +155,8 @@ fn pictured(resolved: &Resolved, tick: Tick, apart: bool) -> Pictured {
     pictured_plot(&Regrowth::of(resolved), &resolved.all_species(), (0, &[tick]), apart).unwrap()
 }
 
-/// Plants without draws that are sown together are one plant in memory, and the picture shows no difference. Those of
-/// another age, and plants with draws, are plants of their own.
+/// Plants without draws that are sown together are one plant in memory, and the picture is the same. Plants of another
+/// age, and plants with draws, are kept apart.
 #[test]
 fn equal_plants_share_one_mesh_and_the_picture_is_the_same() {
     let member = |k: u32| format!("{{ at_m = [{}, {}], sown = {} }}, ", k % 10, k / 10, if k < 90 { 0 } else { 1 });
@@ -176,7 +176,7 @@ fn equal_plants_share_one_mesh_and_the_picture_is_the_same() {
     assert_eq!(pictured(&coffee, 9, false).stands[0].plants.len(), 2, "draws tell plants apart");
 }
 
-/// Before it is sown a member is not drawn, and the title has the species that are.
+/// A member is not drawn before it is sown, and the title names only the drawn species.
 #[test]
 fn members_that_are_not_sown_are_not_drawn() {
     let text = "name = \"a\"\nspecies = \"coffee\"\nplants = 2\nages = { until = 9 }\n\
@@ -191,7 +191,7 @@ fn members_that_are_not_sown_are_not_drawn() {
 }
 
 /// The scenes after Photos 14 and 15 of de Reffye 1988: more plants than can stand side by side, trees over herbs. In
-/// the second the poplars are yellow, which nothing in the first is.
+/// the second the poplars are yellow, and no part of the first picture is yellow.
 #[test]
 fn herbs_and_trees_stand_in_one_picture() {
     for (name, herb, yellow) in
@@ -210,7 +210,7 @@ fn herbs_and_trees_stand_in_one_picture() {
     }
 }
 
-/// A run of plots tells both species wherever it tells of species, and its plants can be grown again from its folder.
+/// A run of plots reports both species wherever it reports species, and its plants can be grown again from its folder.
 #[test]
 fn a_run_folder_keeps_all_species() {
     let folder = tempfile::tempdir().unwrap();

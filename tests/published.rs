@@ -1,7 +1,7 @@
-//! What was published of the shipped species holds of grown plants, and `validate` tells where it does not.
+//! Published measures of the shipped species hold for grown plants, and `validate` reports where they do not.
 //!
 //! The sample is that of `phytomer::sample`: the default seed, means over the living plants. Absent: laws, whose fit to
-//! measured counts is tested apart, and how a plant looks.
+//! measured counts is tested apart, and the look of plants.
 
 mod program;
 
@@ -35,7 +35,7 @@ fn grown_plants_of_every_shipped_species_lie_in_the_published_ranges() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// A stem of one internode of 10 cm a tick, which a test can measure in its head.
+/// A stem of one internode of 10 cm a tick, whose height is easily computed by hand.
 fn stem(published: &str) -> String {
     format!(
         "name = \"stem\"\nmodel = \"buds\"\ntick = \"one year\"\n{published}\n[[order]]\ninternode = {{ length_cm = 10 }}\n"
@@ -69,8 +69,7 @@ fn a_law_that_does_not_reach_the_published_age_is_a_fault_of_the_law() {
     assert!(told.contains("death"), "{told}");
 }
 
-/// The trunks alone, as they die by laws of their own: half of them within the range of years that is told of such
-/// stems.
+/// The trunks alone, as they die by laws of their own: half of them die within the published range of years.
 #[test]
 fn stems_die_at_the_ages_that_are_told() {
     let told = [

@@ -1,17 +1,17 @@
 //! A growth model is its folder, one line in `models` and one line in `config`; no other line of the program names it.
 //!
-//! The rule, held for `models/src/parametric`: of every Rust file of the project outside that folder, but for tests
+//! The rule is tested for `models/src/parametric`. Of every Rust file of the project outside that folder, except tests
 //! (folders and files that are called `tests`, or begin with `tests_`) and this file, each line is read up to its
-//! comment; none but two may have the name of the model in it, in small letters or capitals, or that of the paper's
-//! authors by which its presets are called. Absent: documentation and presets, which name models as they like.
+//! comment; only two lines may contain the name of the model, in small letters or capitals, or the name of the paper's
+//! authors by which its presets are called. Absent: documentation and presets, which may name models.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What names the model, in small letters.
+/// The words that name the model, in small letters.
 const NAMES: [&str; 2] = ["parametric", "weber"];
 const OWN: &str = "models/src/parametric";
-/// Where it is named.
+/// The two lines that name it.
 const NAMED: [&str; 2] =
     ["config/src/models.rs: Parametric: phytomer_models::parametric::Tree,", "models/src/lib.rs: pub mod parametric;"];
 

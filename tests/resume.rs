@@ -1,4 +1,4 @@
-//! A run that is killed at any moment and resumed ends with the bytes of one that never stopped.
+//! A run that is killed at any moment and resumed ends with the bytes of a run that was not interrupted.
 //!
 //! SIGKILL at moments drawn from a fixed seed, over the time that an undisturbed run takes. At each of them every file
 //! under its final name must already be whole.
@@ -15,10 +15,10 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 const KILLS: u32 = 20;
-/// Of the scenario whose plants bend.
+/// The number of kills for the scenario whose plants bend.
 const KILLS_OF_BENDING: u32 = 6;
 
-/// What an undisturbed run writes, and how long it takes.
+/// The files of an undisturbed run, and the time that it takes.
 fn undisturbed(folder: &Path, scenario: &str) -> (BTreeMap<String, String>, Duration) {
     let start = Instant::now();
     run(folder, &["grow", &data(scenario), "--name", "undisturbed", "--quiet"]).ending(0);
@@ -86,7 +86,7 @@ fn ctrl_c_stops_cleanly_and_tells_how_to_go_on() {
     assert_eq!(hashes(&folder.path().join("runs/stopped")), whole);
 }
 
-/// Files of shards that were given up.
+/// Files of shards that were not finished.
 fn leftovers(run: &Path) -> Vec<String> {
     let folders = ["components", "records", "events", "summary", "meshes"].map(|name| run.join(name));
     let files = folders.iter().flat_map(|folder| std::fs::read_dir(folder).into_iter().flatten().flatten());

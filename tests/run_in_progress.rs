@@ -1,7 +1,7 @@
 //! Two processes and one run folder, and one process and a disk that fills up.
 //!
-//! The second process is refused by the name of the first and touches nothing, whatever it was told to do; a process
-//! that is killed leaves no lock. The disk is played by its free space.
+//! The second process is refused with a message that names the first, and touches nothing, whatever its command; a
+//! process that is killed leaves no lock. The disk is simulated by its free space.
 
 mod program;
 
@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// As many as keep a process busy for longer than a test needs to look.
+/// Enough plants to keep a process busy for longer than the test runs.
 const PLANTS: &str = "240";
 
 /// A process that grows many plants into the folder `run`.
@@ -45,7 +45,7 @@ fn a_run_in_progress_is_not_touched() {
     let first = growing(home.path(), &["--seed", "1"]);
     sleep(Duration::from_millis(20));
     let early = said(growing(home.path(), &["--seed", "2", "--overwrite"]).wait_with_output().unwrap());
-    // Twenty milliseconds may be too soon for the first: then it is the second that has the folder.
+    // Twenty milliseconds may be too short for the first process: then the second has the folder.
     let first = match early.code {
         Some(0) => {
             said(first.wait_with_output().unwrap()).ending(1);
@@ -104,7 +104,7 @@ fn of_two_that_resume_one_goes_on() {
     tell(home.path(), &["verify", "run"]).ending(0);
 }
 
-/// Whether a disk without room is a cause of a failure.
+/// Whether a disk without room is among the causes of a failure.
 fn is_full(error: &RunError) -> bool {
     let mut cause: Option<&dyn Error> = Some(error);
     while let Some(now) = cause {
@@ -116,7 +116,7 @@ fn is_full(error: &RunError) -> bool {
     false
 }
 
-/// A disk that has room for so many looks.
+/// A disk that has room for the given number of queries.
 #[derive(Debug)]
 struct Filling(AtomicU64);
 
@@ -143,7 +143,7 @@ fn a_run_that_cannot_fit_is_refused_and_one_that_fills_the_disk_can_be_resumed()
     let RunError::TooSmall(too_small) = refused else { panic!("a forecast above the free space: {told}") };
     assert!(too_small.free.0 == 1_000_000 && told.contains("--ignore-disk"), "{told}");
     assert!(!folder.exists());
-    // So many looks are enough for the first part with its mesh, and too few for the last.
+    // This number of queries is enough for the first part with its mesh, and too small for the last.
     let full = run(&on(9, Mode::New, true)).unwrap_err();
     assert!(is_full(&full), "{full:?}");
     let left = check(&folder, Depth::Bytes, &Checking::default()).unwrap();

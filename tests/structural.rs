@@ -1,5 +1,7 @@
 //! Structures beyond trees: herbs on a rhizome, an inflorescence, a flower and a date palm (de Reffye 1988 §5, Fig.
-//! 16), and a bamboo, grown like any plant and told apart by the kinds of their components.
+//! 16), and a bamboo, grown like any plant and distinguished by the kinds of their components.
+//!
+//! Absent: the look of these plants (`docs/gallery.md`).
 
 use phytomer_sim::plant::{ApexFate, AxisId, Class, Kind, NodeId, Origin, Plant, Seed};
 use phytomer_sim::{Plot, Tick};
@@ -16,7 +18,7 @@ fn grown(name: &str, number: u32, age: Tick) -> Plant {
     plot.plants.remove(0)
 }
 
-/// How many components of each kind stand.
+/// The number of standing components of each kind.
 fn standing(plant: &Plant, age: Tick) -> BTreeMap<Kind, usize> {
     let mut kinds = BTreeMap::new();
     for node in stems(plant, age) {

@@ -1,8 +1,9 @@
-//! `summary`, `records` and `components` tell the same of a plant: what lives, what stands, since when and how large.
+//! `summary`, `records` and `components` agree on a plant: on its living and standing parts, their ages and their
+//! sizes.
 //!
 //! Every column of `summary` is recomputed from the rows of the other two, read back from Parquet, for every shipped
-//! species and every fixture at all recorded ages; and the rows of `records` at an age are those that `components` says
-//! stand then, living or dead as it says. Counts, ages and places agree exactly. Areas and volumes agree to the
+//! species and every fixture at all recorded ages; and the rows of `records` at an age are the components that stand
+//! then by `components`, living or dead alike. Counts, ages and places agree exactly. Areas and volumes agree to the
 //! rounding of single precision, in which `records` holds each of them and `summary` does not.
 
 mod read;
@@ -14,10 +15,10 @@ use read::Columns;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// A plant is looked at up to the last age at which it is expected to have so many components.
+/// The most components that a plant is expected to have at the last tested age.
 const COMPONENTS: f64 = 1500.0;
 
-/// The last age of plants of which nothing can be expected.
+/// The last age of plants without an expectation.
 const UNFORESEEN: u32 = 24;
 
 /// Ages recorded of one plant, about.
@@ -26,13 +27,13 @@ const AGES: u32 = 24;
 /// Sums of numbers that were rounded to single precision, a few roundings each, over the sum of the exact ones.
 const ROUNDING: f64 = 1e-6;
 
-/// One plant at one age, as rows of the other tables tell it.
+/// One plant at one age, computed from the rows of the other tables.
 #[derive(Debug, Default)]
 struct Told {
     counts: BTreeMap<&'static str, f64>,
     axes: BTreeSet<u32>,
     max_order: f64,
-    /// The least and the greatest tips of living internodes, in single precision as the rows are.
+    /// The least and the greatest coordinates of the tips of living internodes, in single precision as in the rows.
     low: [f32; 3],
     high: [f32; 3],
     leaf_area: f64,
@@ -44,7 +45,7 @@ struct Told {
 /// Plants by number and age.
 type Plants = BTreeMap<(u32, u32), Told>;
 
-/// Of every shipped scenario its plants, of every other species and of the fixtures one plant alone.
+/// Tests all plants of every shipped scenario, and one plant of every other species and fixture.
 fn all() -> Vec<Resolved> {
     let report = |name: &str, report: config::Report| -> Resolved { panic!("{name}: {}", report.render(false)) };
     let scenario = |name: &str| validate(name).unwrap_or_else(|told| report(name, told));
@@ -71,7 +72,7 @@ fn all() -> Vec<Resolved> {
     all
 }
 
-/// The same, two plants of it and as old as is quickly looked at, with all tables and the columns of mechanics.
+/// The scenario with two plants, at an age that is quickly tested, with all tables and the columns of mechanics.
 fn small(mut resolved: Resolved) -> Resolved {
     let scenario = &mut resolved.scenario;
     let until = scenario.ages.until;
@@ -96,7 +97,7 @@ fn compared_tables() -> BTreeSet<config::scenario::Table> {
     BTreeSet::from([Table::Components, Table::Records, Table::Summary])
 }
 
-/// What `records` tells.
+/// The plants by `records`.
 fn by_records(records: &Columns) -> Plants {
     let number = |name: &str| records.numbers(name);
     let (plant, age, component, axis) = (number("plant_id"), number("age"), number("component_id"), number("axis_id"));
@@ -142,14 +143,14 @@ fn by_records(records: &Columns) -> Plants {
     plants
 }
 
-/// Which components stand at an age, living or dead, and the age at which the last of them died, as `components` tells.
+/// By `components`: the components that stand at an age, living or dead, and the age at which the last of them died.
 fn by_components(components: &Columns, plant: u32, age: u32) -> (BTreeMap<u32, bool>, f64) {
     let number = |name: &str| components.numbers(name);
     let (of, component, birth) = (number("plant_id"), number("component_id"), number("birth_age"));
     let (death, shed) = (number("death_age"), number("shed_age"));
     let (mut standing, mut last) = (BTreeMap::new(), f64::NAN);
     let age = f64::from(age);
-    // Null is NaN, before which everything is not.
+    // Null is NaN and stands for a tick that never comes.
     let before = |tick: f64| tick.is_nan() || age < tick;
     for row in (0..of.len()).filter(|row| of[*row] == f64::from(plant) && birth[*row] <= age) {
         assert!(shed[row].is_nan() || shed[row] >= death[row], "nothing falls before its death: component {row}");
@@ -163,7 +164,7 @@ fn by_components(components: &Columns, plant: u32, age: u32) -> (BTreeMap<u32, b
     (standing, last)
 }
 
-/// The columns of one row of `summary` against what the other tables tell.
+/// Compares the columns of one row of `summary` with the other tables.
 fn check(summary: &Columns, row: usize, told: &Told, last_death: f64) {
     let number = |name: &str| summary.numbers(name)[row];
     for column in ["internodes", "leaves", "flowers", "fruits", "buds", "dead_internodes"] {
@@ -188,7 +189,7 @@ fn check(summary: &Columns, row: usize, told: &Told, last_death: f64) {
     }
 }
 
-/// Rows compared, and those of plants that live without a bud.
+/// The number of rows compared, and of rows of plants that live without a bud.
 fn compare(resolved: Resolved) -> [u32; 2] {
     let name = resolved.scenario.name.clone();
     let folder = tempfile::tempdir().expect("a temporary folder");

@@ -1,4 +1,6 @@
-//! What the program says where a run folder is damaged or the system refuses: each file, each cause, once.
+//! The messages of the program where a run folder is damaged or the system refuses: each file, each cause, once.
+//!
+//! Absent: how damage is found and mended (`damage`).
 
 mod program;
 
@@ -33,7 +35,7 @@ fn verify_tells_of_each_file_and_resume_mends() {
     assert!(none.contains("there is no run `smal`"), "{none}");
 }
 
-/// The system's answer stands once in a message, however many layers have passed it on.
+/// The system's error text stands once in a message, however many layers have passed it on.
 #[test]
 fn each_cause_is_told_once() {
     let folder = grown();

@@ -1,7 +1,7 @@
-//! Lines and files stay as long as the house has them: lines of 120 columns and files of 400 lines at most.
+//! Lines and files keep to the project's limits: lines of 120 columns and files of 400 lines at most.
 //!
-//! `cargo fmt` neither wraps comments, which is an option of nightly alone, nor looks into macros. Only a line with a
-//! part of a text in quotes may be wider, since a message or a table of letters is not broken for its width. Absent:
+//! `cargo fmt` neither wraps comments, which is an option of nightly alone, nor formats macros. Only a line with a part
+//! of a text in quotes may be wider, since a message or a table of letters is not broken for its width. Absent:
 //! nesting, the length of functions, and files of data.
 
 use std::fs;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 const WIDEST: usize = 120;
 const LONGEST: usize = 400;
 
-/// Where a place of a source file is.
+/// The kind of text at a place of a source file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Within {
     Code,

@@ -1,6 +1,8 @@
-//! Wood at the scale of whole plants: what hangs, hangs by its weight, and no trunk is too slender for its height.
+//! Wood at the scale of whole plants: hanging branches hang by their weight, and no trunk is too slender for its
+//! height.
 //!
-//! The equations themselves are held against closed forms in the crate of mechanics. Absent: how it looks.
+//! The equations themselves are compared with closed forms in the tests of `sim::mechanics`. Absent: the look of
+//! plants.
 
 use phytomer_config::{Kind, Model, presets, validate_species};
 use phytomer_models::buds::params::{Buds, Wood};
@@ -62,7 +64,7 @@ fn last_age(species: &str) -> Tick {
 fn the_trunk_of_every_shipped_species_stands_at_every_age() {
     for (name, _) in presets(Kind::Species) {
         let Some(mut buds) = buds(name) else { continue };
-        // Those that state no wood are given that of a birch.
+        // Species that state no wood are given that of a birch.
         let wood = buds.wood.get_or_insert_with(Wood::default);
         wood.bends = true;
         wood.modulus_gpa.get_or_insert_with(|| 9.9.into());

@@ -1,7 +1,7 @@
-//! Where `--out` of `mesh` and `picture` leads: files, links, pipes, devices, folders and stdout; names of other
-//! formats; and what `--seed` and `--plants` of `grow` take.
+//! The destinations of `--out` of `mesh` and `picture`: files, links, pipes, devices, folders and stdout; names of
+//! other formats; and the values of `--seed` and `--plants` of `grow`.
 //!
-//! The writing itself is tested beside it, in `phytomer_outputs::destination`.
+//! The writing itself is tested in `phytomer_outputs::destination`.
 
 mod program;
 
@@ -120,7 +120,7 @@ fn a_reader_that_leaves_early_is_no_error() {
     said(child.wait_with_output().unwrap()).ending(0);
 }
 
-/// Every seed that the command line takes can be stated by a scenario, and is written down as it is.
+/// Every seed that the command line accepts can be stated by a scenario, and is recorded unchanged.
 #[test]
 fn seeds_have_one_range() {
     let folder = tempdir().unwrap();
@@ -148,7 +148,7 @@ fn seeds_have_one_range() {
     assert!(!folder.path().join("other").exists());
 }
 
-/// Fewer plants are those of the full run: each with its mesh, if the scenario draws it, and with its bytes.
+/// With fewer plants each plant is that of the full run: with its mesh, if the scenario draws it, and with its bytes.
 #[test]
 fn fewer_plants_leave_out_their_meshes() {
     let folder = tempdir().unwrap();

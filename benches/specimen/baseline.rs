@@ -1,4 +1,4 @@
-//! Baselines: the same bytes and the same batches, without anything of ours.
+//! Baselines: the same bytes and the same batches, written without any code of this project.
 //!
 //! The parquet crate gets ready batches, the same settings and the same threads; a mesh's baseline is a write of its
 //! bytes in blocks. The columns of a plant are in `columns`.
@@ -26,7 +26,7 @@ pub fn write_blocks(path: &Path, bytes: &[u8]) {
     }
 }
 
-/// Writes so many bytes into a chunk that is filled again and again, from another that lies ready.
+/// Writes the given number of bytes into a chunk that is filled again and again, from another chunk.
 pub fn write_chunks(ready: &[u8], chunk: &mut [u8], mut bytes: usize) {
     while bytes > 0 {
         let block = bytes.min(chunk.len());

@@ -1,6 +1,7 @@
-//! Bending: what a step and a converged tick cost beside the pose at rest, and a whole life with bending at every tick.
+//! Bending: the cost of a step and of a converged tick beside the pose at rest, and a whole life with bending at every
+//! tick.
 //!
-//! A specimen without wood of its own is given that of a birch. Absent: whether it bends rightly.
+//! A specimen without wood of its own is given that of a birch. Absent: whether the bending is correct.
 
 use super::{Specimen, grow_alone};
 use criterion::{BatchSize, Criterion, Throughput};
@@ -16,7 +17,7 @@ use phytomer::sim::{Plot, RecordError, Recorder, Tick, grow};
 use std::cell::RefCell;
 use std::hint::black_box;
 
-/// Keeps what bending had left before the last tick.
+/// The state of bending before the last tick.
 #[derive(Default)]
 struct Before {
     strain: Strain,
@@ -45,8 +46,8 @@ impl Specimen {
         buds.compile(self.until(), &Path::root()).expect("sound laws")
     }
 
-    /// The last tick of a life: one step of the plant when it is in equilibrium, and the tick that brought it there,
-    /// against the pose at rest. Both find what stands and freeze the curvature first.
+    /// The last tick of a life: one step of the plant in equilibrium, and the whole tick that brought it there, against
+    /// the pose at rest. Both bending benches first find the standing parts and freeze the curvature.
     pub fn bending(&self, criterion: &mut Criterion) {
         let model = self.wooden();
         let until = self.until();

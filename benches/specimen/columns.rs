@@ -1,8 +1,8 @@
-//! The columns of a plant, written again into memory that is there: what growth and pose would cost if nothing had to
-//! be found out.
+//! The columns of a plant, written again into memory that is already allocated: the cost of growth and pose if nothing
+//! had to be computed.
 //!
-//! Each copy names every column, so that one more cannot be forgotten. Absent: the living buds and the tips of axes,
-//! which are few, and the log of events, which a run may do without.
+//! Each copy names every column, so that a new column cannot be forgotten. Absent: the living buds and the tips of
+//! axes, which are few, and the log of events, which a run may leave out.
 
 use phytomer::sim::plant::{Axes, Nodes, Organs, Plant};
 use phytomer::sim::pose::Frames;

@@ -1,7 +1,7 @@
-//! What the benches have in common: a shipped scenario as a specimen, its plant, and the baselines beside it.
+//! The parts common to all benches: a shipped scenario as a specimen, its plant, and the baselines beside it.
 //!
-//! A baseline does the same work with everything left out that is ours: the same columns or vertices written to memory,
-//! the parquet crate fed with ready batches, a plain write of the same bytes. Rates are elements a second: internodes,
+//! A baseline does the same work without the code of this project: the same columns or vertices written to memory, the
+//! parquet crate fed with ready batches, a plain write of the same bytes. Rates are elements a second: internodes,
 //! vertices, rows or bytes, as the group says.
 
 #![allow(dead_code)]
@@ -25,7 +25,7 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// The name of the baseline of what works in memory.
+/// The name of the baseline of benches that work in memory.
 pub const PLAIN_WRITE: &str = "plain memory write of the same columns (baseline)";
 
 /// A shipped scenario, and the first of its plants.
@@ -61,7 +61,7 @@ impl Specimen {
         plot
     }
 
-    /// A group of benches of this specimen, whose rates count `elements` of something.
+    /// A group of benches of this specimen, whose rates count `elements` elements.
     pub fn group<'a>(
         &self,
         criterion: &'a mut Criterion,
@@ -75,7 +75,7 @@ impl Specimen {
     }
 
     /// Growth from the seed to the last age, axis by axis and tick by tick, in internodes a second, against a plain
-    /// write of the columns that it makes.
+    /// write of the columns that growth makes.
     pub fn growth(&self, criterion: &mut Criterion, by_the_clock: bool) {
         let grown = self.grown();
         let internodes = grown.plants[0].nodes.len() as u64;
@@ -165,8 +165,8 @@ impl Specimen {
     }
 
     /// The whole `grow` of a scenario into its run folder, against the parquet crate alone on ready batches of the same
-    /// rows, with the same settings and threads. Either finds its folder empty: removing the files of the last time,
-    /// and the disk's work with that, is no part of it.
+    /// rows, with the same settings and threads. Both write into an empty folder: the removal of earlier files is not
+    /// measured.
     pub fn records(&self, criterion: &mut Criterion) {
         let home = tempfile::tempdir().expect("a folder");
         let (ours, theirs) = (home.path().join("run"), home.path().join("alone"));
@@ -193,7 +193,7 @@ impl Specimen {
     }
 }
 
-/// Grows the one plant of a plot to an age and nothing more: what is dead is not shed.
+/// Grows the one plant of a plot to an age; dead parts are not shed.
 pub fn grow_alone(plot: &mut Plot<'_>, age: Tick) {
     let Plot { species, plants, lives, site, .. } = plot;
     species[0].grow_to(age, &mut plants[0], &mut lives[0], &View::of(site)).expect("room to grow");

@@ -1,4 +1,4 @@
-//! A picture of a million triangles: drawing it, beside the meshing that it goes through again and again, and beside a
+//! A picture of a million triangles: the time of drawing, beside the meshing that is repeated for it, and beside a
 //! plain encoding of the finished pixels.
 //!
 //! The plant is the specimen's at the first age at which its mesh has a million triangles.
@@ -15,7 +15,7 @@ use std::hint::black_box;
 
 const TRIANGLES: u64 = 1_000_000;
 
-/// The first of a specimen's plants, at the first age at which it is large enough.
+/// The first plant of a specimen, at the first age at which it is large enough.
 fn large(specimen: &Specimen) -> (Plant, Tick) {
     let resolved = &specimen.resolved;
     let regrowth = Regrowth::of(resolved);

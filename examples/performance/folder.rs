@@ -1,14 +1,14 @@
-//! Where criterion keeps what it has measured, found as criterion finds it.
+//! The folder of criterion's measurements, found by criterion's own rules.
 //!
 //! In this order: the folder that `CRITERION_HOME` names; `criterion` below that of `CARGO_TARGET_DIR`, below the
-//! target folder that cargo tells of, below `target`. Benches run in the folder of the package, so names without a root
-//! begin there.
+//! target folder that cargo reports, below `target`. Benches run in the folder of the package, so relative names begin
+//! there.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The folder of the benches of a package, in an environment of such variables.
+/// The folder of the benches of a package, where the environment has these variables.
 pub fn of_benches(package: &Path, variable: impl Fn(&str) -> Option<OsString>) -> PathBuf {
     if let Some(home) = variable("CRITERION_HOME") {
         return package.join(home);
@@ -19,7 +19,7 @@ pub fn of_benches(package: &Path, variable: impl Fn(&str) -> Option<OsString>) -
     package.join(target).join("criterion")
 }
 
-/// The target folder by cargo's own word, which knows its configuration files.
+/// The target folder as cargo reports it, which includes its configuration files.
 fn told_by_cargo(package: &Path, cargo: Option<OsString>) -> Option<PathBuf> {
     let mut command = Command::new(cargo.unwrap_or_else(|| OsString::from("cargo")));
     command.current_dir(package).env_remove("CARGO_TARGET_DIR").args([

@@ -1,11 +1,11 @@
-//! The table of `docs/performance.md`, from what `cargo bench` has measured on this machine:
+//! The table of `docs/performance.md`, from the measurements of `cargo bench` on this machine:
 //!
 //! ```sh
 //! cargo bench && cargo run --release --example performance
 //! ```
 //!
-//! Criterion keeps its estimates in a folder of its own (`folder`); the one bench of a group that is called a baseline
-//! is what the others are compared with.
+//! Criterion keeps its estimates in a folder of its own (`folder`). In each group the bench that is called a baseline
+//! is the measure for the others.
 
 mod folder;
 
@@ -14,7 +14,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// One bench as criterion has kept it.
+/// One bench with its estimate as criterion has stored it.
 struct Bench {
     group: String,
     name: String,
@@ -49,7 +49,7 @@ impl Bench {
         self.name.ends_with("(baseline)")
     }
 
-    /// A bench from its folder, where the folder is one.
+    /// A bench from its folder, where the folder holds a bench.
     fn read(folder: &Path) -> Result<Option<Self>> {
         let file = folder.join("new/benchmark.json");
         if !file.is_file() {

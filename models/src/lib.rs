@@ -1,8 +1,9 @@
 //! Growth models, peers of one another: each its documented parameter struct, then its formulas.
 //!
-//! A model reads no file and draws no triangle; it grows plants of `phytomer_sim` and tells its faults by paths. A new
-//! one is a folder here, a line here, and a variant in `config`. What a number of a file may be, bare, with its source
-//! or drawn, is the same for all models and has a crate of its own, `phytomer_law`, which is [`law`] here.
+//! A model reads no file and draws no triangle; it grows plants of `phytomer_sim` and returns faults with the paths of
+//! the parameters. A new model is a folder here, a line here, and a variant in `config`. The numbers that a file may
+//! hold (bare, with a source, or drawn) are the same for all models and have a crate of their own, `phytomer_law`,
+//! which is [`law`] here.
 
 pub mod buds;
 pub mod contract;

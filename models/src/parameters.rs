@@ -1,16 +1,16 @@
-//! What a growth model offers to everything above it: a word, a sentence, the shape of its keys in a species file, and
-//! what can be asked of its parameters.
+//! The interface of a growth model's parameters: a name, a sentence, the roles of its keys in a species file, and the
+//! operations on its parameters.
 //!
 //! A model implements [`Parameters`] for its parameter struct, in its own folder. Reading files, inheritance, faults
-//! with their places, lists and descriptions ask the [`Card`] and never which model it is. Absent: files and schemas
-//! (`config`).
+//! with their places, lists and descriptions use the [`Card`], and have no code for a single model. Absent: files and
+//! schemas (`config`).
 
 use crate::fault::{Fault, Path};
 use phytomer_sim::Tick;
 use phytomer_sim::model::GrowthModel;
 use std::sync::Arc;
 
-/// What a model is called, and how its keys stand in a species file.
+/// The name of a model, a sentence about it, and the roles of its keys in a species file.
 #[derive(Debug)]
 pub struct Card {
     /// The word of the key `model` of a species file.
@@ -26,12 +26,13 @@ pub struct Card {
 pub struct Keys {
     /// The list of tables that merge by their place between a species and the one that it inherits from.
     pub by_place: Option<ByPlace>,
-    /// Keys to which others refer: where one is refused, what is left would look wrong and is not judged.
+    /// Keys to which other keys refer: where such a key is refused, the keys that refer to it would look wrong and are
+    /// not checked.
     pub referred_to: &'static [&'static str],
-    /// The table of the species' wood, which may also stand in each table by place; `like` in it takes from the shipped
-    /// woods.
+    /// The table of the species' wood, which may also stand in each table by place; its key `like` names a wood of the
+    /// shipped table.
     pub wood: Option<Together>,
-    /// The parts of each table by place that may have a form of the user's.
+    /// The parts of each table by place that may be drawn with a user's mesh.
     pub formed: &'static [&'static str],
 }
 
@@ -44,50 +45,52 @@ pub struct ByPlace {
     pub every: &'static str,
 }
 
-/// A table whose values are judged together: where one is refused the rest is not judged without it.
+/// A table whose values are checked together: where some value is refused, the rest of the table is not checked without
+/// it.
 #[derive(Debug)]
 pub struct Together {
     /// Its key.
     pub table: &'static str,
-    /// The keys in it that can be left out by themselves.
+    /// The keys in the table that can be refused alone.
     pub apart: &'static [&'static str],
 }
 
 impl Keys {
-    /// Keys of which none has a role.
+    /// No key has a role.
     pub const PLAIN: Self = Self { by_place: None, referred_to: &[], wood: None, formed: &[] };
 }
 
 /// The parameters of a growth model, as people state them.
 pub trait Parameters {
-    /// What the model is called, and how its keys stand.
+    /// The name of the model, and the roles of its keys.
     fn card(&self) -> &'static Card;
 
     /// The model compiled for all ages up to `until`, every law checked over its whole range.
     ///
     /// # Errors
-    /// Every fault that there is, each with its path below `top`.
+    /// Every fault found, each with its path below `top`.
     fn model(&self, until: Tick, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>>;
 
-    /// The files of the meshes that the species names as forms, each once, in the order of their numbers, with the
-    /// place of the first mention.
+    /// The files of the meshes that the species names as forms, each once, in the order of their numbers, with the path
+    /// of the first mention. Empty unless the model has own forms.
     fn own_forms(&self) -> Vec<(Path, &str)> {
         Vec::new()
     }
 
-    /// States the area share of leaves that are drawn with a mesh of the user's and state none, as `share` tells it by
-    /// the mesh's number. Whether there is any such leaf; the model is then to be compiled again.
+    /// Sets the area share of each leaf that is drawn with a user's mesh and states no area share. `share` takes the
+    /// number of a mesh and gives its share, or `None`. Returns whether any leaf was changed; the model is then to be
+    /// compiled again.
     fn state_area_shares(&mut self, share: &dyn Fn(usize) -> Option<f64>) -> bool {
         let _ = share;
         false
     }
 
-    /// The ticks of a year that the parameters state, with the place.
+    /// The ticks of a year that the parameters state, with the path; `None` where they state no year.
     fn year(&self) -> Option<(Path, u32)> {
         None
     }
 
-    /// The age from which nothing more grows, where the parameters say it.
+    /// The age from which nothing more grows, where the parameters determine it.
     fn full_grown_at(&self) -> Option<Tick> {
         None
     }

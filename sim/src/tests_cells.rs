@@ -1,5 +1,7 @@
-//! Plants that grow into cells of space, through the loop: two tips that want one cell never both get it, and no result
-//! depends on the threads.
+//! Plants that grow into cells of space, through the loop: of two tips that claim one cell at most one gets it, and no
+//! result depends on the threads.
+//!
+//! Absent: the claims by themselves (`cells`).
 
 use crate::cells::{Cell, Claims};
 use crate::clock::Tick;
@@ -9,8 +11,8 @@ use crate::plot::{Plot, Sowing};
 use crate::site::View;
 use std::sync::Arc;
 
-/// A plant that is a list of cells on a line: at each tick its tip wants the next cell to the right, and stays where it
-/// is refused.
+/// A plant that is a list of cells on a line: at each tick its tip claims the next cell to the right, and stays in
+/// place where the claim is refused.
 struct Creeper;
 
 impl Grow for Creeper {

@@ -1,8 +1,8 @@
 //! Fates of axillary buds along the first annual shoot of apple trunks (Costes), against the first shoot of the shipped
 //! species, and the same law for the other six cultivars.
 //!
-//! A zone six nodes wide has its own share of latent buds and of each fate; so within the zones the law says that fates
-//! do not depend on rank, and that neighbours are independent. Half zones test the first.
+//! In the data a zone six nodes wide has its own share of latent buds and of each fate; so the law states that fates do
+//! not depend on rank within a zone, and that neighbours are independent. Half zones test the first statement.
 
 use crate::chi2::homogeneity;
 use crate::measured::{Row, Table, add};
@@ -13,7 +13,7 @@ use phytomer_models::law::{Binomial, Count, CountForm, Law};
 use phytomer_sim::plant::{AxisId, Plant};
 use std::collections::BTreeMap;
 
-/// In the order of the data's codes from 1; 0 is latent.
+/// The fates in the order of the data's codes from 1; code 0 is latent.
 const FATES: [&str; 4] = ["short", "long", "floral", "sylleptic"];
 
 /// Nodes of a zone.
@@ -22,7 +22,7 @@ const ZONE: u32 = 6;
 /// The tick of the first annual shoot.
 const FIRST: u32 = 4;
 
-/// Buds by rank from the tip, and of each the number of each fate.
+/// The number of buds of each fate, by rank from the tip.
 #[derive(Default)]
 struct Fates(Vec<[f64; 5]>);
 

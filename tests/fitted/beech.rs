@@ -1,5 +1,7 @@
 //! Nodes per growth unit of beech and leaves per bud and shoot of Nothofagus antarctica (Puntieri 2002): laws that no
-//! shipped species has, drawn as one would have them.
+//! shipped species has, drawn as a species would draw them.
+//!
+//! Absent: grown plants of these species.
 
 use crate::chi2::homogeneity;
 use crate::measured::{Table, counted};
@@ -18,13 +20,14 @@ fn growth_units_of_beech() {
     outcome.assert_fits("beech, B(10, .775)");
 }
 
-/// The published B(12, .74) does not fit: no bud had fewer than 8 nodes, and the law expects a sixth of them to.
+/// The published B(12, .74) does not fit: no bud had fewer than 8 nodes, and the law expects fewer in a sixth of the
+/// buds.
 #[test]
 fn buds_of_nothofagus() {
     let Some(table) = Table::read("nodes_per_growth_unit_histograms.csv") else { return };
     let measured = table.histogram("nothofagus_antarctica_bud_2");
     homogeneity(&measured, &counted(drawn(binomial(12.0, 0.74))), 1).assert_misfit("Nothofagus, buds, B(12, .74)");
-    // From 8 nodes on a Poisson number is added.
+    // A Poisson number is added to 8 nodes.
     let poisson = Some(Poisson { mean: Law::from(0.84) });
     let shifted = Count::from(CountForm { poisson, shift: 8, ..CountForm::default() });
     homogeneity(&measured, &counted(drawn(shifted)), 1).assert_fits("Nothofagus, buds, 8 + Poisson(.84)");

@@ -1,10 +1,12 @@
 //! Nodes per growth unit of wild cherry (Fournier), order by order, against the shipped species.
+//!
+//! The first and the second growth units of shoots of order 3 are compared apart. Absent: branching.
 
 use crate::chi2::homogeneity;
 use crate::measured::{Table, counted};
 use crate::simulated::{Unit, grown, shipped, units};
 
-/// In the species' list of states.
+/// The place of the state in the species' list of states.
 const LONG: u8 = 0;
 const SHORT: u8 = 1;
 

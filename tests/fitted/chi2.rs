@@ -1,19 +1,19 @@
 //! The χ² test: whether simulated counts are as the measured ones, and the tail of the χ² distribution.
 //!
-//! Two rows of counts are held against each other cell by cell (Pearson's test of homogeneity); neighbouring cells are
-//! pooled until 5 of the measured are expected in each. The parameters that were fitted to the measured counts cost a
-//! degree of freedom each. The tail is the regularised incomplete gamma function Q(df/2, χ²/2), by its series or its
-//! continued fraction (Abramowitz & Stegun 1964, 6.5.29 and 6.5.31).
+//! Two rows of counts are compared cell by cell (Pearson's test of homogeneity); neighbouring cells are pooled until 5
+//! of the measured counts are expected in each. The parameters that were fitted to the measured counts cost a degree of
+//! freedom each. The tail is the regularised incomplete gamma function Q(df/2, χ²/2), by its series or its continued
+//! fraction (Abramowitz & Stegun 1964, 6.5.29 and 6.5.31).
 
 use phytomer_sim::math;
 
-/// Fewer are not expected in a cell.
+/// The smallest expected count of a cell.
 const LEAST_EXPECTED: f64 = 5.0;
 
-/// A law fits that would be this far off in more than one sample of a hundred.
+/// The level of the test: a law fits if a difference of this size occurs in more than one sample of a hundred.
 const LEVEL: f64 = 0.01;
 
-/// What came of a test.
+/// The result of a test.
 #[derive(Debug, Clone, Copy)]
 pub struct Outcome {
     pub statistic: f64,
@@ -49,8 +49,8 @@ fn fraction(a: f64, x: f64) -> f64 {
     1.0 / (x + 1.0 - a - inner)
 }
 
-/// Measured against simulated counts of the same cells, in their order; `fitted` parameters come from the measured
-/// ones.
+/// Compares measured with simulated counts of the same cells, in their order; `fitted` parameters were estimated from
+/// the measured counts.
 pub fn homogeneity(measured: &[f64], simulated: &[f64], fitted: usize) -> Outcome {
     let cells = pooled(measured, simulated);
     let sums = cells.iter().fold((0.0, 0.0), |(m, s), cell| (m + cell.0, s + cell.1));
@@ -66,7 +66,8 @@ pub fn homogeneity(measured: &[f64], simulated: &[f64], fitted: usize) -> Outcom
     Outcome { statistic, df, p: tail(statistic, df) }
 }
 
-/// Neighbouring cells joined until enough of the measured are expected in each; what is left joins the last.
+/// Joins neighbouring cells until enough of the measured counts are expected in each; the remaining cells join the
+/// last.
 fn pooled(measured: &[f64], simulated: &[f64]) -> Vec<(f64, f64)> {
     let longest = measured.len().max(simulated.len());
     let at = |row: &[f64], cell: usize| row.get(cell).copied().unwrap_or(0.0);
@@ -85,14 +86,14 @@ fn pooled(measured: &[f64], simulated: &[f64]) -> Vec<(f64, f64)> {
 }
 
 impl Outcome {
-    /// Tells the row of `docs/fitted-laws.md`, and fails where the law does not reproduce its data.
+    /// Prints the row of `docs/fitted-laws.md`, and fails where the law does not reproduce its data.
     #[track_caller]
     pub fn assert_fits(self, what: &str) {
         self.tell(what);
         assert!(self.p >= LEVEL, "{what}: {self:?}");
     }
 
-    /// Tells the row, and fails where the law does reproduce its data: the misfit that the document shows is gone.
+    /// Prints the row, and fails where the law reproduces its data: then the misfit that the document shows is gone.
     #[track_caller]
     pub fn assert_misfit(self, what: &str) {
         self.tell(what);

@@ -10,7 +10,7 @@ use crate::simulated::{grown, shipped};
 
 const PLANTS: f64 = 50.0;
 
-/// Mean and variance at each date.
+/// The mean and the variance of the number of nodes at each date.
 fn dates() -> Option<Vec<(f64, f64)>> {
     let table = Table::read("greenlab_published_tables.csv")?;
     let of_cotton = table.rows().filter(|row| row.text("table") == "cotton_main_stem");
@@ -26,8 +26,8 @@ fn the_activity_is_the_slope_of_variance_on_mean() {
     assert!((b - 0.82).abs() < 0.02, "{b}");
 }
 
-/// The younger plants of two dates, with 4 and 7 nodes, are more alike than the law has them; at the other four it
-/// holds.
+/// The younger plants of two dates, with 4 and 7 nodes, are more alike than the law states; at the other four dates the
+/// law holds.
 #[test]
 fn the_main_stem_spreads_as_measured() {
     let Some(dates) = dates() else { return };

@@ -1,7 +1,7 @@
 //! The measured counts, as tables.
 //!
-//! Nothing of them is copied: [`absent`] tells where they are sought, and what becomes of a test without them. Absent:
-//! what the numbers mean.
+//! The project has no copy of them: [`absent`] finds their folder, and skips or fails a test without them. Absent: the
+//! meaning of the numbers.
 
 use crate::absent;
 
@@ -19,7 +19,7 @@ pub struct Row<'a> {
 }
 
 impl Table {
-    /// A file of the measured plants; `None`, with the reason said, where the test is to be skipped.
+    /// A file of the measured plants; `None`, with the reason printed, where the test is to be skipped.
     pub fn read(file: &str) -> Option<Self> {
         let text = absent::measured(file)?;
         let split = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
@@ -59,7 +59,7 @@ impl<'a> Row<'a> {
     }
 }
 
-/// Adds to the cell of a number.
+/// Adds to the cell of a number, making cells up to it.
 pub fn add(counts: &mut Vec<f64>, number: usize, count: f64) {
     if counts.len() <= number {
         counts.resize(number + 1, 0.0);

@@ -1,6 +1,6 @@
 //! Annual shoots of sessile oak (Heuret): three years of 46 trees. The published means and F, and polycyclism as a law.
 //!
-//! No shipped species has these laws: the number of growth units of a year is drawn as one would have it.
+//! No shipped species has these laws: the number of growth units of a year is drawn as a species would draw it.
 
 use crate::chi2::homogeneity;
 use crate::measured::{Table, add, counted};
@@ -31,7 +31,7 @@ fn means_and_the_analysis_of_variance_are_those_published() {
     assert!((f - 40.1219).abs() < 5e-5, "{f}");
 }
 
-/// One growth unit a year, or two, seldom more: by the year that it was. The three years side by side, since in 1995
+/// One growth unit a year, or two, seldom more: a law for each year. The three years are compared apart, since in 1995
 /// all but five trees had two.
 #[test]
 fn growth_units_of_a_year() {

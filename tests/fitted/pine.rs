@@ -1,5 +1,7 @@
 //! Annual shoots of Corsican pine (Meredieu & Caraglio): branches of each tier, double cycles and the drift of length
 //! with age, against the trunk of the shipped species.
+//!
+//! Absent: the branches themselves.
 
 use crate::chi2::homogeneity;
 use crate::measured::{Row, Table, add, counted, moments};
@@ -8,7 +10,7 @@ use phytomer_models::law::Count;
 use phytomer_sim::plant::{AxisId, Plant};
 use std::collections::BTreeMap;
 
-/// The years that the young trees were followed for at most.
+/// The most years for which the young trees were followed.
 const YEARS: u32 = 21;
 
 /// The rows of the young trees, each with the age of its shoot in years from 1.
@@ -41,7 +43,7 @@ fn branches_of_a_tier_by_age() {
     let Some(table) = Table::read("corsican_pine_annual_shoots.csv") else { return };
     let measured = shoots(&table);
     let mut pine = shipped("corsican_pine", 2);
-    // Of the branches their number is wanted, not their growth.
+    // Only the number of branches is needed, not their growth.
     pine.order[1].growth_unit.nodes = Count::from(0);
     let simulated: Vec<Vec<usize>> = grown(&pine, 1000, YEARS).iter().map(tiers).collect();
     for (first, last) in [(1, 1), (2, 2), (3, 4), (5, 8), (9, 12), (13, 16), (17, 21)] {
@@ -66,7 +68,7 @@ fn years_with_two_growth_units() {
         years.into_iter().for_each(|units| add(&mut simulated, units, 1.0));
     }
     assert!(units(&grown(&pine, 1, YEARS)[0]).len() >= YEARS as usize);
-    // One parameter for two cells: nothing is left to test but that the estimate is in the file.
+    // One parameter for two cells leaves no degree of freedom: the test is whether the estimate is in the file.
     homogeneity(&measured, &simulated, 0).assert_fits("Corsican pine, years of two growth units");
 }
 

@@ -1,5 +1,7 @@
 //! Nodes per growth unit of poplar (Caraglio & Rey) against the shipped Lombardy poplar, and the single negative
 //! binomials that were published for orders 2 to 4.
+//!
+//! Absent: short shoots, which the data do not have.
 
 use crate::chi2::homogeneity;
 use crate::measured::{Table, counted};
@@ -11,7 +13,7 @@ const SPECIES: &str = "poplar";
 #[test]
 fn growth_units_of_orders_two_to_five() {
     let Some(table) = Table::read("nodes_per_growth_unit_histograms.csv") else { return };
-    // Short shoots are no part of the data: axes that started long, or units longer than any rosette.
+    // The data have no short shoots: axes that started long are compared, or units longer than any rosette.
     let plants = grown(&shipped(SPECIES, 2), 20, 12);
     let order_two = counted(plants.iter().flat_map(units).filter(|unit| unit.order == 2).map(|unit| unit.nodes));
     homogeneity(&table.histogram("peup1"), &order_two, 4).assert_fits("poplar, order 2");
@@ -22,7 +24,8 @@ fn growth_units_of_orders_two_to_five() {
     }
 }
 
-/// r and p as published for the data: they hold at 1 %, those of orders 3 and 4 not at 5 %; the mixtures shipped do.
+/// r and p as published: they fit at 1 %, but those of orders 3 and 4 not at 5 %; the mixtures of the shipped species
+/// do.
 #[test]
 fn the_published_negative_binomials() {
     let Some(table) = Table::read("nodes_per_growth_unit_histograms.csv") else { return };
@@ -36,7 +39,7 @@ fn the_published_negative_binomials() {
     outcome("peup3", 8.04, 0.368).assert_fits("poplar, order 4, NB(8.04, .368)");
 }
 
-/// Two more samples of order 3, that belong to no shipped species: mixtures of two binomials.
+/// Two more samples of order 3, to which no shipped species belongs: mixtures of two binomials.
 #[test]
 fn other_shoots_of_order_three() {
     let Some(table) = Table::read("nodes_per_growth_unit_histograms.csv") else { return };

@@ -1,6 +1,6 @@
-//! Plants of the shipped species, or of a law alone, and the growth units that they make.
+//! Plants of the shipped species, or draws of a law alone, and the growth units that they make.
 //!
-//! Seeds are fixed. Orders that a data set does not need are cut off, as no axis depends on those that it bears.
+//! Seeds are fixed. Orders that a data set does not need are cut off, since no axis depends on the axes that it bears.
 
 use phytomer_config::{Model, validate_species};
 use phytomer_models::buds::params::GrowthUnit;
@@ -10,7 +10,7 @@ use phytomer_models::law::Count;
 use phytomer_sim::plant::{Plant, Seed};
 use phytomer_sim::{Plot, Tick};
 
-/// A shipped species with its first orders alone.
+/// A shipped species with only its first orders.
 pub fn shipped(name: &str, orders: usize) -> Buds {
     let species = validate_species(name, 1).unwrap_or_else(|report| panic!("{}", report.render(false))).species;
     let Model::Buds(mut buds) = species.model else { panic!("{name} is not of the bud model") };
@@ -30,7 +30,7 @@ pub fn grown(buds: &Buds, plants: u32, until: Tick) -> Vec<Plant> {
     (0..plants).map(grow).collect()
 }
 
-/// A growth unit: the order of its axis, which of the axis's units it is from 1, and how many nodes it has.
+/// A growth unit: the order of its axis, its number on the axis from 1, and its number of nodes.
 #[derive(Debug, Clone, Copy)]
 pub struct Unit {
     pub order: u8,

@@ -1,12 +1,12 @@
-//! What becomes of these tests where the measured counts are absent: they fail in CI unless they are to be left out,
-//! and are skipped elsewhere, which is said.
+//! The behaviour of these tests where the measured counts are absent: they fail in CI unless the environment leaves
+//! them out, and are skipped elsewhere with a message.
 //!
 //! A test of this program is run again by itself, in an environment of its own.
 
 use crate::absent::{DATA, NONE};
 use std::process::Command;
 
-/// Whether one of these tests passes, and what its program says on stderr.
+/// Whether one of these tests passes, and the stderr of its program.
 fn coffee(variables: &[(&str, &str)]) -> (bool, String) {
     let test = "coffee::branches_of_the_shipped_species_die_as_measured";
     let mut command = Command::new(std::env::current_exe().expect("this program"));

@@ -1,5 +1,7 @@
 //! De Reffye 1988 §3, Examples 1–4, as shipped species. A lateral's first tick is the one after its node's, as in the
 //! pseudo-code of §4.
+//!
+//! Absent: means in closed form for other laws (`expectation`).
 
 use crate::grown::{PLANTS, Sample, plant, shipped, units_by_order};
 use phytomer_sim::GrowthModel as _;

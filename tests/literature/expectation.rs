@@ -33,7 +33,7 @@ fn random_laws(seed: u64) -> [Constant; 3] {
     })
 }
 
-/// The recursion, as it stands in the module's documentation; orders from 0.
+/// The recursion, as in the documentation of `BudModel::expectation_from`; orders from 0.
 fn recursion(laws: &[Constant; 3], order: usize, counted: usize, ticks: u32) -> f64 {
     if order > 2 || ticks == 0 {
         return 0.0;
@@ -85,8 +85,8 @@ fn cohorts_equal_the_recursion_and_plants_follow_both() {
     }
 }
 
-/// Ages, ranks, speeds, relays, traumatic reiteration, random nodes and delays: beyond the recursion, within the
-/// cohorts.
+/// Ages, ranks, speeds, relays, traumatic reiteration, random nodes and delays: the recursion does not cover these
+/// laws, the cohorts do.
 #[test]
 fn cohorts_follow_laws_of_age_and_random_counts() {
     let trunk = Order {
@@ -145,8 +145,8 @@ fn cohorts_follow_laws_of_age_and_random_counts() {
     }
 }
 
-/// Passages that are relayed, of the leaders of sets or of the others, and apices that divide: cohorts split by who
-/// leads.
+/// Passages that are relayed, of the leaders of sets or of the others, and apices that divide: cohorts of leaders and
+/// of other axes are followed apart.
 #[test]
 fn cohorts_follow_leaders_passages_and_forks() {
     let until = 9;

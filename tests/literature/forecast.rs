@@ -1,9 +1,9 @@
-//! What `--dry-run` foretells of every shipped species and scenario, against the mean of plants grown from fixed seeds:
-//! by order, of axes, growth units, nodes and organs, at three ages.
+//! The forecast of `--dry-run` for every shipped species and scenario, against the mean of plants grown from fixed
+//! seeds: by order, of axes, growth units, nodes and organs, at three ages.
 //!
-//! A figure that is told as exact lies within 4 standard errors of the sample's mean, one that is told as "at most" not
-//! below it. Plants are as many as their size allows; a species whose plants become large is looked at while they are
-//! smaller. Absent: species that are made to be hard (`organs`).
+//! An exact figure lies within 4 standard errors of the sample's mean, an upper bound ("at most") not below it. The
+//! number of plants follows from their size; a species with large plants is sampled at younger ages. Absent: species
+//! that are made to be hard (`organs`).
 
 use crate::grown::Sample;
 use phytomer_config::{Kind, SPECIES_ALONE_UNTIL, presets, validate, validate_species};
@@ -12,19 +12,19 @@ use phytomer_sim::plant::{EventKind, Seed};
 use phytomer_sim::{GrowthModel, Plant, Plot, Tick};
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
-/// A plant that is expected to have more components is looked at while it is younger.
+/// A plant that is expected to have more components is counted at a younger age.
 const LARGE: f64 = 10_000.0;
-/// About so many components are grown of a species.
+/// The approximate number of components that are grown of a species.
 const COMPONENTS: f64 = 400_000.0;
 const PLANTS: std::ops::RangeInclusive<f64> = 50.0..=2_000.0;
 
-/// What is counted of the plants of one order.
+/// The counts of the plants of one order.
 const COUNTED: [&str; 4] = ["axes", "growth units", "nodes", "organs"];
 
-/// How many of each have appeared on one plant by each of some ages: by order, by age, by what is counted.
+/// The numbers that have appeared on one plant: by order, by age, by kind of count.
 type Counts = Vec<Vec<[f64; 4]>>;
 
-/// Compares what is foretold of the plants of a model with plants that are grown; what differs, in words.
+/// Compares the forecast for the plants of a model with grown plants. Returns the differences in words.
 pub fn differences(name: &str, model: &dyn GrowthModel, until: Tick, components: f64) -> Vec<String> {
     let expected = model.expectation(until).unwrap_or_else(|| panic!("{name} has no forecast"));
     let last = (1..=until).rev().find(|&age| expected.components(age) <= LARGE).unwrap_or(1);
@@ -56,7 +56,7 @@ fn figure(figures: &OrderExpectation, counted: usize, age: Tick) -> f64 {
     [&figures.axes, &figures.units, &figures.nodes, &figures.organs][counted][age as usize]
 }
 
-/// Where the mean of a sample does not bear out what was foretold.
+/// The figures that the mean of a sample contradicts.
 fn misses(sample: &Sample, foretold: f64, certainty: Certainty) -> Option<String> {
     let (found, error) = (sample.mean(), standard_error(sample, foretold));
     let bound = 4.0 * error + unseen(sample, foretold) + 1e-9 * foretold.max(1.0);
@@ -69,17 +69,17 @@ fn misses(sample: &Sample, foretold: f64, certainty: Certainty) -> Option<String
     (!holds).then(|| format!("{certainty:?} {foretold:.4} foretold, {mean}, standard error {error:.4}"))
 }
 
-/// That of the mean of the sample. Of what is so rare that few plants of the sample have any, the variance is at least
-/// that of a Poisson number.
+/// The standard error of the sample's mean. For a count so rare that few plants of the sample have any, the variance is
+/// at least that of a Poisson number.
 fn standard_error(sample: &Sample, foretold: f64) -> f64 {
     let is_rare = foretold * sample.n() < 25.0;
     let variance = if is_rare { sample.variance().max(foretold) } else { sample.variance() };
     (variance / sample.n()).sqrt()
 }
 
-/// What a mean may be off where all plants of a sample have the same number. An event that none of n plants has shown
-/// is at 4 standard errors less probable than 10/n, since (1 − 10/n)ⁿ is below 6e-5; at most it takes or adds the whole
-/// number.
+/// The possible error of the mean where all plants of a sample have the same number. An event that none of n plants has
+/// shown is at 4 standard errors less probable than 10/n, since (1 − 10/n)ⁿ is below 6e-5; at most it takes or adds the
+/// whole number.
 fn unseen(sample: &Sample, foretold: f64) -> f64 {
     if sample.variance() > 0.0 { 0.0 } else { 10.0 / sample.n() * foretold.max(sample.mean()).min(LARGE) }
 }
@@ -104,13 +104,13 @@ fn counted(plant: &Plant, ages: &[Tick], orders: usize) -> Counts {
     let nodes = &plant.nodes;
     (0..nodes.len()).for_each(|node| count(nodes.axis[node].index(), 2, nodes.birth[node]));
     let organs = &plant.organs;
-    // An organ planned for a branch that died before it appeared never did.
+    // An organ planned for a branch that died before the organ appeared is not counted.
     let appeared = (0..organs.len()).filter(|&organ| organs.birth[organ] < organs.death[organ]);
     appeared.for_each(|organ| count(nodes.axis[organs.node[organ].index()].index(), 3, organs.birth[organ]));
     counts
 }
 
-/// Of a model that makes its plant anew at each age growth units are its nodes.
+/// In a model that makes its plant anew at each age growth units are its nodes.
 fn differences_of(name: &str, model: &dyn GrowthModel, until: Tick) -> Vec<String> {
     let mut differences = differences(name, model, until, COMPONENTS);
     if !model.growth().keeps_its_past() {
@@ -141,7 +141,7 @@ fn every_shipped_scenario_grows_as_foretold() {
     assert!(differences.is_empty(), "{}", differences.join("\n"));
 }
 
-/// Every shipped species has its expectation in closed form: none is told as "about" or "at most".
+/// Every shipped species has its expectation in closed form: no figure is an estimate or a bound.
 #[test]
 fn the_forecast_of_every_shipped_species_is_exact() {
     let told = presets(Kind::Species).into_par_iter().filter_map(|(name, _)| {
@@ -153,7 +153,7 @@ fn the_forecast_of_every_shipped_species_is_exact() {
     assert_eq!(told.collect::<Vec<_>>(), Vec::<String>::new());
 }
 
-/// Flowers that open after the last age are no components: neither foretold, nor counted against the limit.
+/// Flowers that open after the last age are no components: they are neither forecast nor counted against the limit.
 #[test]
 fn flowers_that_open_after_the_last_age_are_neither_foretold_nor_limited() {
     let folder = tempfile::tempdir().unwrap();

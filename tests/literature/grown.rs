@@ -1,7 +1,6 @@
 //! Plants for the literature tests: grown, counted, averaged.
 //!
-//! A bound is 4 standard errors of the sample that is tested, never a guess. Absent: the claims, which the other files
-//! hold.
+//! A bound is 4 standard errors of the tested sample, never a guess. Absent: the claims, which are in the other files.
 
 use phytomer_models::buds::{BudModel, Buds};
 use phytomer_models::fault::Path;

@@ -1,4 +1,7 @@
 //! One axis under constant death and pause, and the extinction of one type of bud, against their closed forms.
+//!
+//! Means, variances and probabilities are compared with samples of grown plants. Absent: several orders
+//! (`expectation`).
 
 use crate::grown::{PLANTS, Sample, compiled, plant};
 use phytomer_models::buds::expectation::{extinct_by, extinction};

@@ -1,5 +1,5 @@
 //! The expectation of organs that wait: flowers and fruits that never appear because their branch dies first, on
-//! species made to be hard for the closed form; and what is foretold where there is none.
+//! species made to be hard for the closed form; and the forecast where there is no closed form.
 //!
 //! Absent: the shipped species (`forecast`).
 
@@ -100,7 +100,7 @@ flower = { lateral = 0.6, delay = { empirical = [1, 1, 1, 1] }, life = 1, fruit_
     );
 }
 
-/// The delay of a lateral is asked at the rank of its node.
+/// The delay of a lateral is evaluated at the rank of its node.
 #[test]
 fn laterals_appear_after_the_delay_of_their_rank() {
     assert_exact(
@@ -114,8 +114,8 @@ death = 0.1
     );
 }
 
-/// Released dormant buds and drawn zones are not independent of one another: organs are told as "at most", the rest
-/// exactly, and plants stay below.
+/// Branches of released dormant buds and drawn zones are not independent of one another: the forecast of organs is a
+/// bound from above, the other figures are exact, and plants have fewer organs.
 #[test]
 fn organs_without_a_closed_form_are_bounded() {
     let released = "[[order]]
@@ -143,7 +143,8 @@ flower = { lateral = 1, per_node = 8, delay = 6 }
     }
 }
 
-/// A limit below an upper bound, but above what is known of the plant, refuses no run; one below what is known does.
+/// A limit between the known number of components and an upper bound refuses no run; a limit below the known number
+/// does.
 #[test]
 fn a_run_is_refused_on_what_is_known_and_not_on_a_bound() {
     let folder = tempfile::tempdir().unwrap();

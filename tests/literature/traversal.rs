@@ -9,7 +9,7 @@ use phytomer_sim::plant::{AxisId, EventKind, LineageKey, NodeId, OrganId, Seed, 
 use phytomer_sim::{GrowthModel, Plant, Plot, Tick};
 use std::collections::BTreeMap;
 
-/// What is compared of a component: everything but its place in the columns.
+/// The values of a component that are compared: everything but its place in the columns.
 type Facts = (Option<LineageKey>, Vec<u32>);
 
 fn seed() -> Seed {
@@ -50,7 +50,7 @@ fn by_the_clock(model: &BudModel, until: Tick) -> Plant {
     plot.plants.remove(0)
 }
 
-/// Ahead, its axes shared out among three threads wherever two of them wait.
+/// Growth ahead, with axes shared out among three threads wherever two axes wait.
 fn ahead(model: &BudModel, until: Tick) -> Plant {
     let mut plot = Plot::of_one(model, &seed());
     plot.plants[0].budget = ThreadBudget { threads: 3, least_axes: 2 };
@@ -94,7 +94,7 @@ fn facts(plant: &Plant) -> BTreeMap<LineageKey, Facts> {
     facts
 }
 
-/// What became of the buds, in an order that does not depend on that of growth.
+/// The fates of the buds, in an order that does not depend on that of growth.
 fn events(plant: &Plant) -> Vec<(Tick, LineageKey, EventKind, u32)> {
     let events = plant.events.as_ref().expect("events are kept");
     let mut told: Vec<_> =
@@ -117,7 +117,7 @@ fn assert_one_plant(name: &str, model: &BudModel, until: Tick) {
     }
 }
 
-/// What an axis, a unit, a set of relays or a leaf draws once is drawn alike in whatever order the axes grow.
+/// The draws of an axis, a unit, a set of relays or a leaf are the same in whatever order the axes grow.
 #[test]
 fn clocked_traversed_and_grown_ahead_are_one_plant_where_every_number_is_drawn() {
     let (name, until) = ("config/tests/good/drawn.toml", 30);

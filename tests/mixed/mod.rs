@@ -1,4 +1,4 @@
-//! A run of plots of several plants, written by the library in the way of a run: bushes of the bud model, and trunks of
+//! A run of plots of several plants, written by the library as a run writes it: bushes of the bud model, and trunks of
 //! a D0L-system that is rewritten in mid-axis (F → F F), so that columns are in another order than component numbers.
 //!
 //! The plants of a plot are sown at three ticks, and their numbers are in another order than their places in the plot.
@@ -36,7 +36,7 @@ fn resolved(species: &str) -> Resolved {
     validate_texts("mixed", &texts).unwrap_or_else(|report| panic!("{}", report.render(false)))
 }
 
-/// A plot with its number, of such models.
+/// A plot with its number, of these models.
 fn sown<'m>(id: u32, models: [&'m dyn GrowthModel; 2]) -> Plot<'m> {
     let sowings = MEMBERS.map(|(species, in_plot, sown)| {
         let plant = id * MEMBERS.len() as u32 + in_plot;

@@ -1,11 +1,11 @@
-//! What a test needs and a machine may lack: the measured data, which stand outside the project, and independent
-//! readers.
+//! The things that a test needs and a machine may lack: the measured data, which are outside the project, and
+//! independent readers.
 //!
 //! Measured data are sought in the folder that `PHYTOMER_DATA` names, else in `../shared/data` beside the project. In
-//! CI (`CI` is set, and neither empty nor `false`) their absence fails the test, unless `PHYTOMER_DATA=none` says that
-//! they are to be left out; elsewhere the test says that it was skipped, and how many were so far. The lines go to
-//! stderr past the harness, which would keep those of a test that passes. Any crate of the workspace includes this file
-//! by its path.
+//! CI (`CI` is set, and neither empty nor `false`) their absence fails the test, unless `PHYTOMER_DATA=none` leaves
+//! them out; elsewhere the test is skipped with a message that counts the skipped tests. The messages go to stderr
+//! directly, since the harness hides the output of a test that passes. Any crate of the workspace includes this file by
+//! its path.
 
 #![allow(dead_code, reason = "each test program uses a part of it")]
 
@@ -16,15 +16,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The variable that names the folder of measured data.
 pub const DATA: &str = "PHYTOMER_DATA";
-/// Its value where there are to be none.
+/// The value of the variable that leaves the data out.
 pub const NONE: &str = "none";
 
-/// Whether this is a run that must leave nothing out.
+/// Whether this is a run in CI, which must not skip tests.
 pub fn in_ci() -> bool {
     env::var_os("CI").is_some_and(|value| !value.is_empty() && value != "false")
 }
 
-/// Says that the test that runs on this thread is skipped, and how many of this program were so far.
+/// Prints that the test of this thread is skipped, and how many tests of this program were skipped so far.
 pub fn skip(reason: &str) {
     static SKIPPED: AtomicUsize = AtomicUsize::new(0);
     let number = SKIPPED.fetch_add(1, Ordering::Relaxed) + 1;
@@ -33,10 +33,10 @@ pub fn skip(reason: &str) {
     let _ = io::stderr().lock().write_all(format!("skipped ({number} so far): {test}: {reason}\n").as_bytes());
 }
 
-/// The text of a file of measured data; `None` where the test is to be skipped, which is then said.
+/// The text of a file of measured data; `None`, with a message, where the test is to be skipped.
 ///
 /// # Panics
-/// In CI where the file is absent, unless there are to be no data.
+/// In CI where the file is absent, unless the data are left out.
 #[track_caller]
 pub fn measured(file: &str) -> Option<String> {
     let Some(folder) = folder() else {
@@ -57,7 +57,7 @@ pub fn measured(file: &str) -> Option<String> {
     None
 }
 
-/// The folder of measured data; `None` where there are to be none.
+/// The folder of measured data; `None` where the data are left out.
 fn folder() -> Option<PathBuf> {
     match env::var_os(DATA).filter(|value| !value.is_empty()) {
         Some(value) if value == NONE => None,

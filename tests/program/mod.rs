@@ -1,6 +1,6 @@
 //! The built program as a test uses it: run it in a folder, and hash what it has written.
 //!
-//! Absent: anything that knows growth. These tests see files, streams and exit codes.
+//! Absent: anything that depends on growth. These tests read files, streams and exit codes.
 
 #![allow(dead_code, reason = "each test program uses a part of it")]
 
@@ -18,7 +18,7 @@ pub fn program(folder: &Path, words: &[&str]) -> Command {
     command
 }
 
-/// What came of a run of the program.
+/// The result of a run of the program.
 pub struct Said {
     pub code: Option<i32>,
     pub stdout: String,
@@ -30,14 +30,14 @@ pub fn run(folder: &Path, words: &[&str]) -> Said {
     said(program(folder, words).output().expect("the program starts"))
 }
 
-/// What an output says.
+/// The text of an output.
 pub fn said(output: Output) -> Said {
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
     Said { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
 }
 
 impl Said {
-    /// The same, having ended with this exit code.
+    /// The result itself, after a check of its exit code.
     #[track_caller]
     pub fn ending(self, code: i32) -> Self {
         assert_eq!(self.code, Some(code), "stdout:\n{}\nstderr:\n{}", self.stdout, self.stderr);

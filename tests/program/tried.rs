@@ -1,9 +1,8 @@
-//! A file that somebody may have broken, taken the way of `phytomer grow`: by the test of mutations and by the fuzz
-//! targets.
+//! A file that may be broken, taken the way of `phytomer grow`: by the test of mutations and by the fuzz targets.
 //!
-//! A broken species grows under a small scenario that is not broken. A broken scenario that is right may still ask for
-//! a long run: then plants, ages and components are made few in the checked scenario, as `--plants` does it. Absent:
-//! what is broken, and how.
+//! A broken species grows under a small sound scenario. A broken scenario without faults may still ask for a long run:
+//! then the numbers of plants, ages and components are lowered in the checked scenario, as `--plants` does it. Absent:
+//! how files are broken.
 
 #![allow(dead_code, reason = "each program uses a part of it")]
 
@@ -12,7 +11,7 @@ use phytomer::config::{Report, Resolved};
 use phytomer::run::{self, Outcome, Progress, Settings};
 use std::path::Path;
 
-/// What a mutant that is right may take of each; more is capped.
+/// The most plants, ages and components of a mutant without faults; larger numbers are lowered.
 const MOST_PLANTS: u32 = 2;
 const MOST_AGES: u32 = 12;
 const MOST_COMPONENTS: u32 = 2_000;
@@ -26,14 +25,14 @@ ages = { until = 8, record = { every = 4 } }
 meshes = { sides = 3 }
 "#;
 
-/// A report tells at least one fault, and as many in each of its forms.
+/// A report has at least one fault, and as many in each of its forms.
 pub fn assert_tells(report: &Report) {
     assert!(!report.faults.is_empty(), "a report without faults");
     assert_eq!(report.records().len(), report.faults.len());
     assert!(report.render(false).ends_with(&format!("{}\n", report.summary())));
 }
 
-/// Makes a long run short, and stops a large plant soon; whether plants or ages were too many.
+/// Shortens a long run, and stops a large plant soon. Returns whether plants or ages were too many.
 pub fn cap(resolved: &mut Resolved) -> bool {
     let scenario = &mut resolved.scenario;
     let asked_for = (scenario.plants, scenario.ages.until);
@@ -41,7 +40,7 @@ pub fn cap(resolved: &mut Resolved) -> bool {
     scenario.ages.until = scenario.ages.until.min(MOST_AGES);
     scenario.limits.max_components = scenario.limits.max_components.min(MOST_COMPONENTS);
     if !scenario.faults().is_empty() {
-        // It names plants or ages that are no more.
+        // The scenario names plants or ages that have been removed.
         scenario.ages.record = Record::All(All::All);
         if let Some(meshes) = &mut scenario.meshes {
             (meshes.ages, meshes.plants) = (MeshAges::default(), MeshPlants::default());
@@ -51,7 +50,7 @@ pub fn cap(resolved: &mut Resolved) -> bool {
     (scenario.plants, scenario.ages.until) != asked_for
 }
 
-/// Grows a scenario that is right, in one thread.
+/// Grows a scenario without faults, in one thread.
 pub fn grown(resolved: &Resolved, folder: &Path) -> Outcome {
     let settings = Settings { threads: 1, ..Settings::in_folder(folder) };
     run::run(resolved, &settings, &Progress::default()).expect("a scenario that is right grows")

@@ -1,7 +1,7 @@
 //! Tables of a run folder as a test reads them: by the parquet crate alone, whole columns in double precision.
 //!
-//! Nothing here knows a column of this program, so that what a test recomputes from tables owes nothing to who wrote
-//! them.
+//! Nothing here depends on the columns of this program, so that tests which recompute numbers from tables are
+//! independent of the code that wrote them.
 
 #![allow(dead_code, reason = "each test program uses a part of it")]
 
@@ -52,13 +52,13 @@ impl Columns {
         }
     }
 
-    /// A column of numbers, null as NaN, truths as 0 and 1.
+    /// A column of numbers; null is NaN, and truth values are 0 and 1.
     #[track_caller]
     pub fn numbers(&self, name: &str) -> &[f64] {
         self.numbers.get(name).unwrap_or_else(|| panic!("no column {name}"))
     }
 
-    /// A column of words, null as the empty one.
+    /// A column of words; null is the empty word.
     #[track_caller]
     pub fn words(&self, name: &str) -> &[String] {
         self.words.get(name).unwrap_or_else(|| panic!("no column {name}"))

@@ -42,7 +42,7 @@ impl Bare for u32 {
     }
 }
 
-/// What was read.
+/// A value as it was read: a bare number, or a table.
 pub(super) enum BareOr<N, T> {
     Bare(N),
     Table(T),

@@ -1,7 +1,7 @@
 //! A real number that is not drawn, as it is written: bare, or as a table that says where it comes from.
 //!
-//! For what is one number for a whole species and its unit is in the key: the mass of a leaf, the drag of a crown.
-//! Absent on purpose: distributions and laws, which [`Variate`](super::Variate) and [`Law`](super::Law) have.
+//! Such a number holds for a whole species, and its key names its unit: the mass of a leaf, the drag of a crown. Absent
+//! on purpose: distributions and laws, which [`Variate`](super::Variate) and [`Law`](super::Law) have.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -46,10 +46,10 @@ impl Constant {
         }
     }
 
-    /// The number, where it is within `range`.
+    /// The number, checked to be within `range`.
     ///
     /// # Errors
-    /// Where it is not: the fault, at the number itself.
+    /// A fault at the path of the number itself where it is outside `range`.
     pub fn within(&self, path: &Path, range: ValueRange) -> Result<f64, Fault> {
         let value = self.value();
         if range.holds(value) {

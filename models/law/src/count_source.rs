@@ -1,4 +1,4 @@
-//! The distributions of a count before they are tables: each its kind, and its parameters as laws.
+//! The distributions of a count before they are compiled to tables: each has a kind, and parameters that are laws.
 //!
 //! A count is one distribution or a mixture of several, each with a weight. Absent: thresholds and cells
 //! (`count_table`), and the probabilities of each kind (`mass`).
@@ -25,7 +25,7 @@ enum Kind {
     Empirical(Mass),
 }
 
-/// One distribution made ready: its parameters are laws.
+/// A distribution that is ready for evaluation: its parameters are laws.
 pub(super) struct Source<'a> {
     /// Its share in a mixture.
     pub weight: f64,
@@ -36,7 +36,7 @@ pub(super) struct Source<'a> {
     path: Path,
 }
 
-/// The distributions of which a count is made: one, or those of its mixture; every fault found.
+/// The distributions of a count: a single one, or the components of its mixture. Fails with every fault found.
 pub(super) fn sources<'a>(form: &CountForm, domain: &'a Domain, path: &Path) -> Result<Vec<Source<'a>>, Vec<Fault>> {
     form.simple().check_kind(Some(form.mixture.is_some()), path).map_err(|fault| vec![fault])?;
     let Some(components) = &form.mixture else {
@@ -76,7 +76,7 @@ fn check_weights(weights: &[f64], path: &Path, key: Option<&str>) -> Result<f64,
     if faults.is_empty() { Ok(total) } else { Err(faults) }
 }
 
-/// The count, where a table can hold it.
+/// `count` as a 32-bit number, or a fault where it is above [`MAX_COUNT`], the largest that a table holds.
 pub(super) fn check_count(count: u64, path: &Path) -> Result<u32, Fault> {
     match u32::try_from(count) {
         Ok(count) if count <= MAX_COUNT => Ok(count),
@@ -98,7 +98,7 @@ impl<'a> Source<'a> {
         Ok(Self { weight: 1.0, kind, parameters: Vec::new(), shift: 0, path: path.clone() })
     }
 
-    /// `outer` is the shift of the mixture that it stands in.
+    /// The distribution that `simple` states; `outer` is the shift of the mixture of which it is a component.
     fn new(
         weight: f64,
         simple: &Simple,
@@ -136,7 +136,8 @@ impl<'a> Source<'a> {
         if faults.is_empty() { Ok(Self { weight, kind, parameters, shift, path }) } else { Err(faults) }
     }
 
-    /// The end of the values of the parameter at `place` at which counts are largest, within what it may be.
+    /// Of the lowest and the highest value of the parameter at `place`, the value with the largest counts; it is
+    /// clamped to the range that the parameter may have.
     pub fn end(&self, place: usize, (low, high): (f64, f64)) -> f64 {
         let probability = |p: f64| p.clamp(SUCCESS.min, SUCCESS.max);
         match (&self.kind, place) {
@@ -146,7 +147,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Its probabilities, given its parameters.
+    /// The probabilities of the distribution with the given values of its parameters.
     pub fn mass(&self, parameters: &[f64]) -> Result<Mass, Fault> {
         let mass = match (&self.kind, parameters) {
             (Kind::Constant, &[value]) => Some(Mass::point(value as u32)),
@@ -156,7 +157,7 @@ impl<'a> Source<'a> {
             (Kind::Empirical(mass), _) => Some(mass.clone()),
             _ => None,
         };
-        let limit = || Fault::new(&self.path, "the counts go too far", format!("counts of at most {MAX_COUNT}"));
+        let limit = || Fault::new(&self.path, "the counts are too large", format!("counts of at most {MAX_COUNT}"));
         let mut mass = mass.ok_or_else(limit)?;
         check_count(mass.first.into(), &self.path)?;
         mass.first += self.shift;

@@ -35,17 +35,18 @@ pub struct CountTable {
     cells: Vec<u32>,
     distributions: Vec<Distribution>,
     thresholds: Vec<u32>,
-    /// The largest count that can be drawn in a run of any length, where its parameters can be others in a longer run.
+    /// The largest count that can be drawn in a run of any length; `None` where a longer run has the same parameters.
     goes_on_to: Option<u32>,
 }
 
 impl Count {
-    /// Compiles a count over a domain, or tells every fault found.
+    /// Compiles a count over a domain, or fails with every fault found.
     pub fn compile(&self, domain: &Domain, path: &Path) -> Result<CountTable, Vec<Fault>> {
         self.compile_and(false, domain, path)
     }
 
-    /// The same, and looks for the largest count in a run of any length: of what has a place each in a stream of words.
+    /// As [`Count::compile`], and also finds the largest count in a run of any length. For things that each need a
+    /// place in a stream of words, since the places must not depend on the length of the run.
     pub fn compile_places(&self, domain: &Domain, path: &Path) -> Result<CountTable, Vec<Fault>> {
         self.compile_and(true, domain, path)
     }
@@ -103,7 +104,8 @@ impl CountTable {
         Self { grid, cells: Vec::new(), distributions: Vec::new(), thresholds: Vec::new(), goes_on_to: None }
     }
 
-    /// Adds the distribution of all sources together, given their parameters; the number of steps that it took.
+    /// Adds the joint distribution of all sources with the given parameters. Returns the number of steps that this
+    /// took.
     fn add(&mut self, sources: &[Source], parameters: &[f64], path: &Path) -> Result<u64, Fault> {
         let mut rest = parameters;
         let mut parts = Vec::with_capacity(sources.len());
@@ -124,7 +126,8 @@ impl CountTable {
         Ok(work)
     }
 
-    /// Adds the cumulative thresholds, without those that no word is below or above; the smallest count.
+    /// Adds the cumulative thresholds, leaving out thresholds that every word or no word reaches. Returns the smallest
+    /// count.
     fn push_thresholds(&mut self, mass: &Mass, start: usize) -> u32 {
         let (mut first, mut cumulative) = (mass.first, 0.0);
         let counts = mass.last() - u64::from(mass.first);
@@ -162,7 +165,7 @@ impl CountTable {
         (distribution, &self.thresholds[start..start + distribution.len as usize])
     }
 
-    /// The count at a point, drawn with one uniform 32-bit word.
+    /// The count at a point, drawn with one uniform 32-bit word: a binary search among the thresholds.
     #[inline]
     pub fn sample(&self, word: u32, at: At) -> u32 {
         let (distribution, thresholds) = self.at(at);
@@ -187,7 +190,7 @@ impl CountTable {
         self.grid.is_rankless()
     }
 
-    /// Whether it names a variable that moves only when the bud makes a growth unit.
+    /// Whether the distribution depends on a variable that moves only when the bud makes a growth unit.
     pub fn asks_the_bud(&self) -> bool {
         self.grid.asks_the_bud()
     }
@@ -204,33 +207,35 @@ impl CountTable {
         self.at(at).0.variance
     }
 
-    /// The largest count that can be drawn at any point.
+    /// The largest count that can be drawn at any point of the domain. Looks at every distribution.
     pub fn max(&self) -> u32 {
         self.distributions.iter().map(|distribution| distribution.first + distribution.len).max().unwrap_or(0)
     }
 
-    /// The largest count that can be drawn in a run of any length, or `MAX_COUNT` where nothing has looked for it or
-    /// that would take too long: for so many there is a place in a stream of words.
+    /// The largest count that can be drawn in a run of any length, which is the number of places that are kept for it
+    /// in a stream of words. Where a longer run has other parameters it is `MAX_COUNT`, unless
+    /// [`Count::compile_places`] found a smaller number in the time that it may take.
     pub fn max_in_any_run(&self) -> u32 {
         self.goes_on_to.unwrap_or_else(|| self.max())
     }
 
-    /// The same count where more than `most` are refused, in whatever run.
+    /// The same count with `most` as the limit of [`Self::max_in_any_run`]: larger counts are refused by the caller in
+    /// every run.
     pub fn at_most(self, most: u32) -> Self {
         Self { goes_on_to: self.goes_on_to.map(|ever| ever.min(most)), ..self }
     }
 
-    /// Whether its distribution can be another one in a longer run.
+    /// Whether a longer run can have other distributions.
     pub fn goes_on(&self) -> bool {
         self.goes_on_to.is_some()
     }
 
-    /// The smallest count that can be drawn at any point.
+    /// The smallest count that can be drawn at any point of the domain. Looks at every distribution.
     pub fn min(&self) -> u32 {
         self.distributions.iter().map(|distribution| distribution.first).min().unwrap_or(0)
     }
 
-    /// The probabilities of 0, 1, 2 … at a point, as they are drawn.
+    /// The probabilities of 0, 1, 2 … up to the largest count at a point, as they are drawn.
     pub fn pmf(&self, at: At) -> Vec<f64> {
         let (distribution, thresholds) = self.at(at);
         let mut pmf = vec![0.0; distribution.first as usize];
@@ -243,9 +248,9 @@ impl CountTable {
     }
 }
 
-/// The largest count that sources can draw together in a run of any length: that of their distributions where each
-/// parameter stands at the end that makes counts larger, since each kind grows with its parameters, but the negative
-/// binomial with a smaller p. `MAX_COUNT` where a law has too many points to look at.
+/// The largest count that sources can draw together in a run of any length. Counts of each kind grow with its
+/// parameters, but fall with the p of the negative binomial; so each parameter is set to its highest or lowest value
+/// accordingly. `MAX_COUNT` where a law has too many points to look at.
 fn most_in_any_run(sources: &[Source], path: &Path) -> u32 {
     let ends = |source: &Source| -> Option<Vec<f64>> {
         let parameters = source.parameters.iter().enumerate();

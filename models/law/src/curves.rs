@@ -16,11 +16,11 @@ use crate::fault::{Fault, Path};
 
 /// A curve of one variable.
 pub(super) trait Curve {
-    /// The variable that it is a function of.
+    /// The variable of which the curve is a function.
     fn over(&self) -> Variable;
-    /// Its value at `x`.
+    /// The value of the curve where the variable is `x`.
     fn at(&self, x: u32) -> f64;
-    /// What is wrong with its parameters.
+    /// Adds a fault for each parameter that is wrong.
     fn check(&self, domain: &Domain, path: &Path, faults: &mut Vec<Fault>);
 }
 

@@ -1,14 +1,14 @@
-//! Where a law is asked: the ranges of the variables that it may depend on, and the grid of a compiled table.
+//! Where a law is evaluated: the ranges of the variables that it may depend on, and the grid of a compiled table.
 //!
 //! A variable that a law does not use has stride 0, so a constant is one cell. Points outside the range are clamped.
 //! An axis is never older than its plant, so a point with dimension > age cannot occur; it is read as dimension = age.
-//! Absent: what the variables mean and which laws may ask for them (`variable`).
+//! Absent: what the variables mean and which laws may depend on them (`variable`).
 
 use super::MAX_CELLS;
 use super::variable::{Asked, Variable};
 use phytomer_sim::clock::LAST_TICK;
 
-/// The point at which a law is asked, as of the moment of the draw.
+/// The point at which a law is evaluated, as of the moment of the draw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct At {
     /// Age of the plant: ticks since the seed, from 1.
@@ -21,7 +21,7 @@ pub struct At {
     pub rank: u32,
     /// The tick at which the apical bud came to be.
     pub bud_birth: u32,
-    /// The same in ticks since the birth of the axis.
+    /// The tick at which the apical bud came to be, in ticks since the birth of the axis.
     pub bud_dimension: u32,
     /// The growth units that the axis has made.
     pub unit: u32,
@@ -29,10 +29,10 @@ pub struct At {
     pub state: u8,
 }
 
-/// The points at which a law can be asked: the order and the range of each variable.
+/// The points at which a law can be evaluated: the order and the range of each variable.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Domain {
-    /// Order of the axis, trunk = 1; 0 where the law is of no axis, as of what a plant draws once: no variable applies.
+    /// Order of the axis, trunk = 1; 0 where the law belongs to no axis, as a quantity that a plant draws once.
     pub order: u8,
     /// Last tick: age runs over 1..=until, dimension over 0..=until.
     pub until: u32,
@@ -44,14 +44,14 @@ pub struct Domain {
     pub max_rank: u32,
     /// Names of the physiological states; empty means one unnamed state.
     pub states: Vec<String>,
-    /// What laws are asked for there, and so which variables they can know.
+    /// The purpose for which laws are evaluated, which decides the variables that they may depend on.
     pub asked: Asked,
     /// The longest run that there can be.
     pub longest: Longest,
 }
 
-/// How far variables go in the longest run that there can be. What a stream of words has a place for must not depend on
-/// how long the run at hand lasts, or a plant would.
+/// How far variables go in the longest run that there can be. The places in a stream of words follow these limits and
+/// not the length of the run at hand: otherwise the same plant would grow differently in a longer run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Longest {
     /// The most steps of an axis's own clock.
@@ -110,7 +110,8 @@ impl At {
         [self.age, self.dimension, self.cycle, self.rank, bud_birth, bud_dimension, self.unit, u32::from(self.state)]
     }
 
-    /// "age 3, dimension 27, state adult": the variables in `uses` only; empty where there is none.
+    /// The variables in `uses` with their values, such as "age 3, dimension 27, state adult"; empty where there are
+    /// none.
     pub(super) fn describe(&self, uses: Uses, domain: &Domain) -> String {
         let mut words: Vec<String> =
             uses.variables().map(|variable| format!("{} {}", variable.name(), self.get(variable))).collect();
@@ -122,7 +123,7 @@ impl At {
 }
 
 impl Domain {
-    /// Where a law of no axis is asked: once, and of no variable.
+    /// The domain of a law that belongs to no axis: it is evaluated once and depends on no variable.
     pub const ONCE: Self = Self {
         order: 0,
         until: 0,
@@ -134,7 +135,7 @@ impl Domain {
         longest: Longest { max_cycle: 0, max_unit: 0, max_rank: 0, ranks_go_on: false },
     };
 
-    /// Where a thing of an axis of `order` is asked that knows its own age alone, from 0 to `until` ticks.
+    /// The domain of a thing of an axis of `order` whose laws depend on its own age alone, from 0 to `until` ticks.
     pub fn of_own_age(order: u8, until: u32) -> Self {
         Self { order, until, max_cycle: until, asked: Asked::OwnAge, ..Self::default() }
     }
@@ -162,7 +163,7 @@ impl Domain {
         }
     }
 
-    /// Whether a law of such variables can have other values in a longer run.
+    /// Whether a law of the variables in `uses` can have other values in a longer run.
     pub(super) fn goes_on(&self, uses: Uses) -> bool {
         uses.variables().any(|variable| variable.goes_on_with_time() || self.longest.ranks_go_on)
     }
@@ -175,7 +176,7 @@ pub(super) struct Grid {
     span: [u32; AXES],
     stride: [u32; AXES],
     len: u32,
-    /// Whether one of its variables is of the bud.
+    /// Whether one of its variables moves only when the bud makes a growth unit.
     asks_the_bud: bool,
 }
 
@@ -222,7 +223,7 @@ impl Grid {
         self.stride[Variable::Rank as usize] == 0
     }
 
-    /// Whether nothing but the state and the variables `known` matters.
+    /// Whether the cells differ by the state and the variables `known` at most.
     pub fn asks_only(&self, known: &[Variable]) -> bool {
         let is_known = |axis: usize| axis == STATE || known.iter().any(|&variable| variable as usize == axis);
         (0..AXES).all(|axis| self.stride[axis] == 0 || is_known(axis))
@@ -250,8 +251,8 @@ impl Grid {
         cell as usize
     }
 
-    /// The point of a cell. Unused variables stand at 0. What cannot be together is brought to what can: an axis and
-    /// its bud are not older than the plant, nor the bud than its axis.
+    /// The point of a cell. Unused variables are 0. A point that cannot occur is moved to one that can: an axis and its
+    /// bud are not older than the plant, nor the bud than its axis.
     pub fn point(&self, cell: usize) -> At {
         let cell = u32::try_from(cell).unwrap_or(u32::MAX);
         let value = |axis: usize| match self.stride[axis] {

@@ -1,8 +1,8 @@
-//! Free expressions, for the "arbitrary, strange" laws of de Reffye et al. 1988 §4: what a parsed one is, and its
-//! value.
+//! Free expressions, for the "arbitrary, strange" laws of de Reffye et al. 1988 §4: the parsed form and its evaluation.
 //!
-//! The parser emits postfix code, so evaluation and dropping need no recursion and no code is executed but these
-//! operations. A NaN is handed on by min and max, so that a logarithm of a negative number is found at the check.
+//! The parser emits postfix code, so evaluation and dropping need no recursion, and an expression can do nothing but
+//! these operations. min and max return NaN where an operand is NaN, so that a logarithm of a negative number is found
+//! at the check.
 
 use phytomer_sim::math;
 
@@ -29,12 +29,13 @@ pub(super) struct Expression {
 }
 
 impl Expression {
-    /// Whether it asks for the order of its axis.
+    /// Whether the expression depends on the order of its axis.
     pub fn names_order(&self) -> bool {
         self.code.iter().any(|op| matches!(op, Op::Order))
     }
 
-    /// The value at a point of an axis of `order`; NaN where it has none. `stack` is scratch.
+    /// The value at a point of an axis of `order`; NaN where the expression is undefined. `stack` is scratch memory.
+    /// Linear in the steps of the code.
     pub fn value(&self, order: u8, at: At, stack: &mut Vec<f64>) -> f64 {
         stack.clear();
         for &op in &self.code {
@@ -101,7 +102,7 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> + Clone {
 /// The name of the order.
 const ORDER: &str = "order";
 
-/// The step that loads what has this name.
+/// The step that loads the variable, or the order, of this name.
 pub(super) fn named(name: &str) -> Option<Op> {
     let variable = Variable::ALL.into_iter().find(|variable| variable.name() == name).map(Op::Load);
     if name == ORDER { Some(Op::Order) } else { variable }

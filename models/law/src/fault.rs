@@ -1,7 +1,7 @@
 //! What is wrong with a parameter: where it stands in its file's tree, what was found, what was expected.
 //!
-//! Models find faults of meaning (a law that leaves [0, 1], a table too short) and know nothing of files; `config`
-//! turns the path into a file, a line and a column.
+//! Models find faults of meaning (a law that leaves [0, 1], a table too short) without access to files; `config` turns
+//! the path into a file, a line and a column.
 
 use std::fmt;
 
@@ -58,7 +58,7 @@ impl fmt::Display for Path {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{path}: {problem}; expected {expected}")]
 pub struct Fault {
-    /// Where it stands.
+    /// Where the parameter stands.
     pub path: Path,
     /// What is wrong, with the values, in a sentence without a full stop.
     pub problem: String,
@@ -66,8 +66,8 @@ pub struct Fault {
     pub expected: String,
 }
 
-/// Adds what was found wrong with a key that is asked in several domains, such as at the nodes of each order: what
-/// another domain has told already is not told again.
+/// Adds to `told` each fault of `found` that it does not hold yet: a key that is checked in several domains, such as at
+/// the nodes of each order, has the same fault in each of them.
 pub fn tell_once(told: &mut Vec<Fault>, found: Vec<Fault>) {
     for fault in found {
         if !told.contains(&fault) {

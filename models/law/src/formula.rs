@@ -14,7 +14,7 @@ use super::variable::Variable;
 use super::{MAX_CELLS, MAX_WORK, parser, spelling};
 use crate::fault::{Fault, Path};
 
-/// The most steps of evaluation by which a law is looked at beyond the run at hand: a few milliseconds.
+/// The most steps of evaluation spent on a law's values beyond the run at hand: a few milliseconds.
 const MOST_LOOKING_AHEAD: u64 = 1 << 23;
 
 /// What gives a law's value at a point of one state.
@@ -37,7 +37,7 @@ impl Term {
         }
     }
 
-    /// What it names that cannot be known where it is asked.
+    /// The name of a variable, or the order, that the term depends on and that is not known in this domain.
     fn unknown(&self, domain: &Domain) -> Option<&'static str> {
         let has_ranks = domain.max_rank > 0;
         let variable = self.uses().variables().find(|variable| !domain.asked.knows(*variable, has_ranks));
@@ -55,7 +55,7 @@ struct Part {
 pub(super) struct Formula<'a> {
     parts: Vec<Part>,
     domain: &'a Domain,
-    /// The variables that it depends on.
+    /// The variables that the law depends on.
     pub uses: Uses,
 }
 
@@ -150,7 +150,7 @@ impl<'a> Formula<'a> {
         None
     }
 
-    /// The value at a point; `stack` is scratch.
+    /// The value at a point; `stack` is scratch memory.
     pub fn value(&self, at: At, stack: &mut Vec<f64>) -> f64 {
         let Some(part) = self.part(at) else { return f64::NAN };
         match &part.term {
@@ -203,18 +203,18 @@ impl<'a> Formula<'a> {
         self.parts.get(self.state(at))
     }
 
-    /// Which of the parts holds at a point.
+    /// The index of the part that holds at a point.
     fn state(&self, at: At) -> usize {
         usize::from(at.state).min(self.parts.len().saturating_sub(1))
     }
 
-    /// Whether it can have other values in a longer run.
+    /// Whether the law can have other values in a longer run.
     pub fn goes_on(&self) -> bool {
         self.domain.goes_on(self.uses)
     }
 
     /// The least and the largest value in the longest run that there can be; `None` where there are too many points to
-    /// look at. Points without a value do not count.
+    /// look at. Points without a value are passed over.
     pub fn extremes_in_any_run(&self) -> Option<(f64, f64)> {
         let grid = Grid::over(self.uses, &self.domain.in_the_longest_run()).ok()?;
         if self.steps().saturating_mul(grid.len() as u64) > MOST_LOOKING_AHEAD {

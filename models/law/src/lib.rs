@@ -1,12 +1,12 @@
 //! Laws and distributions, the numbers that models are stated in: what a bud's fate, a growth unit's nodes and an
 //! internode's shape depend on (de Reffye et al. 1988 §§3–4), or what a plant draws once.
 //!
-//! A [`Law`] gives a number at each point (the [`Variable`]s and the state) of an order; a [`Count`] and a
-//! [`Variate`] are random variables whose parameters are laws; [`Speeds`] are exact ratios, a [`Quantity`] is a whole
-//! number and a [`Constant`] a real one that is not drawn. All are written in TOML, checked over their whole
-//! [`Domain`] and compiled to tables before the first tick; during growth a draw is one look-up and one comparison.
-//! What is wrong with a parameter is a [`fault`], told by its path. Absent on purpose: any model, files, spans and the
-//! draws themselves (a table is handed one 32-bit word).
+//! A [`Law`] gives a number at each point (the [`Variable`]s and the state) of an order; a [`Count`] and a [`Variate`]
+//! are random variables whose parameters are laws; [`Speeds`] are exact ratios, a [`Quantity`] is a whole number and a
+//! [`Constant`] a real number that is not drawn. All are written in TOML, checked over their whole [`Domain`] and
+//! compiled to tables before the first tick; during growth a draw is one look-up and one comparison. What is wrong with
+//! a parameter is a [`fault`] with the parameter's path. Absent on purpose: any model, files, spans and the random
+//! words (a draw takes one 32-bit word from its caller).
 
 mod bare;
 mod constant;

@@ -38,12 +38,12 @@ impl Mass {
         Self::around(mode, 0.0, |k| (trials - k) / (k + 1.0) * odds)
     }
 
-    /// Poisson(mean); none where it exceeds [`MAX_COUNT`].
+    /// Poisson(mean); `None` where counts exceed [`MAX_COUNT`].
     pub fn poisson(mean: f64) -> Option<Self> {
         Self::around(mean.floor(), 0.0, |k| mean / (k + 1.0))
     }
 
-    /// Failures before the r-th success of probability p; none where it exceeds [`MAX_COUNT`].
+    /// Failures before the r-th success of probability p; `None` where counts exceed [`MAX_COUNT`].
     pub fn negative_binomial(r: f64, p: f64) -> Option<Self> {
         let q = 1.0 - p;
         let mode = if r > 1.0 { ((r - 1.0) * q / p).floor() } else { 0.0 };

@@ -1,9 +1,8 @@
 //! Laws of a thing's own age, as tables: how an organ expands and turns, how stiff and how heavy wood is.
 //!
-//! Such a thing knows how many ticks old it is, which a law names `dimension` or `cycle`, and the order of its axis. It
-//! knows neither the age of its plant nor a rank nor a state, so a law that names one of these is a fault: a table of
-//! one row could hold it for one age of the plant alone. Absent: thickening, which an internode asks at each age of the
-//! plant.
+//! Such a law depends on the age of the thing in ticks, which it names `dimension` or `cycle`, and on the order of its
+//! axis. A law that names the age of the plant, a rank or a state is a fault: the table has one row, which could hold
+//! such a law for a single age of the plant alone. Absent: thickening, whose law may depend on the age of the plant.
 
 use super::domain::{At, Domain};
 use super::form::Law;
@@ -11,11 +10,11 @@ use super::range::ValueRange;
 use crate::fault::{Fault, Path};
 
 impl Law {
-    /// Its values by the own age of a thing of an axis of `order`, from 0 to `until` ticks; ages past the last are as
-    /// the last.
+    /// The values of the law by the own age of a thing of an axis of `order`, for ages from 0 to `until` ticks: entry i
+    /// is the value at age i, and ages past the last entry have the value of the last. At least one entry.
     ///
     /// # Errors
-    /// Every fault of the law: a value outside `range`, and a variable that the thing does not know.
+    /// Every fault of the law: a value outside `range`, and a variable other than the own age.
     pub fn by_own_age(&self, order: u8, until: u32, path: &Path, range: ValueRange) -> Result<Vec<f32>, Vec<Fault>> {
         let table = self.compile_value(&Domain::of_own_age(order, until), path, range)?;
         let at = |own| At { dimension: own, cycle: own, ..At::default() };

@@ -1,9 +1,9 @@
-//! The normal distribution: its quantile, its distribution function and its density; and the fraction for which a word
-//! stands, of which the quantile is taken.
+//! The normal distribution: its quantile, its distribution function and its density; and the fraction in (0, 1) for
+//! which a 32-bit word stands.
 //!
-//! The quantile is Wichura's AS 241 (Applied Statistics 37, 1988), PPND16, to 1e-16; the coefficients stand with all
-//! the digits of the printed ones. Its farthest branch is left out: no 32-bit word reaches it. Draws take the middle 97
-//! % of the words from a table of it.
+//! The quantile is Wichura's AS 241 (Applied Statistics 37, 1988), PPND16, to 1e-16; the coefficients have all the
+//! digits of the printed ones. Its branch for the far tail is left out: no 32-bit word reaches it. Draws interpolate a
+//! table of the quantile for the middle 97 % of the words.
 
 #![allow(clippy::excessive_precision)]
 

@@ -1,7 +1,7 @@
 //! A whole number that is not drawn, as it is written: bare, or as a table that says where it comes from.
 //!
-//! For what is one thing for a whole species: the ticks of a year, the order of a reiteration. Absent on purpose:
-//! distributions and laws, which [`Count`](super::Count) has; and bounds, which its user checks.
+//! Such a number holds for a whole species: the ticks of a year, the order of a reiteration. Absent on purpose:
+//! distributions and laws, which [`Count`](super::Count) has; and bounds, which the user of the number checks.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};

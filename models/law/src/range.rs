@@ -1,8 +1,8 @@
 //! The range that a law's values must keep to, and how a value outside it is shown.
 //!
-//! Absent on purpose: units; the caller names them in `what`.
+//! Absent on purpose: units; `what` names them.
 
-/// What a law's values must be: "an internode length in metres" in [min, max], both ends included.
+/// The interval [min, max] of a law's values, both ends included, and what the values are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueRange {
     /// Smallest value allowed; [`f64::MIN_POSITIVE`] for anything above 0.

@@ -1,5 +1,5 @@
-//! The growth speed of an order as it is written, and compiled: an exact ratio, or several of which each axis draws one
-//! (de Reffye et al. 1988 §3, Fig. 14).
+//! The growth speed of an order as it is written, and compiled: an exact ratio, or several ratios of which each axis
+//! draws one (de Reffye et al. 1988 §3, Fig. 14).
 //!
 //! A drawn speed is one of the ratios that are listed, so that the clock of each axis stays exactly rational. Absent on
 //! purpose: continuous distributions of speeds, whose draws would be no ratios; and the clock itself (`sim::clock`).
@@ -14,7 +14,7 @@ use crate::fault::{Fault, Path};
 
 /// The most clock steps that an axis may make a tick.
 const FASTEST: f64 = 64.0;
-/// The most ratios of which one is drawn.
+/// The most ratios that may be listed.
 const MOST_RATIOS: usize = 64;
 
 /// A growth speed, clock steps per tick. Written bare as a whole number, a decimal number or a ratio in quotes such as
@@ -90,12 +90,12 @@ impl From<SpeedForm> for Speeds {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpeedTable {
     speeds: Vec<Speed>,
-    /// The place of the drawn one.
+    /// The place in `speeds` that an axis draws.
     pick: CountTable,
 }
 
 impl Speeds {
-    /// Reads every ratio exactly, or tells every fault found.
+    /// Reads every ratio exactly and compiles the draw, or fails with every fault found.
     pub fn compile(&self, path: &Path) -> Result<SpeedTable, Vec<Fault>> {
         let form = match self {
             Self::Text(text) => return Ok(SpeedTable::always(exact(text, path).map_err(|fault| vec![fault])?)),
@@ -112,7 +112,7 @@ impl Speeds {
 }
 
 impl SpeedForm {
-    /// A fault unless each of the ratios has its weight.
+    /// A fault unless the number of weights is the number of ratios.
     fn check_weights(&self, path: &Path) -> Result<(), Vec<Fault>> {
         let ratios = self.empirical.as_ref().map_or(0, Vec::len);
         let fault = |key, problem: String, expected: String| Err(vec![Fault::new(&path.key(key), problem, expected)]);
@@ -133,7 +133,8 @@ impl SpeedForm {
         }
     }
 
-    /// Equal ratios are one, with the sum of their weights; one that is never drawn is left out.
+    /// The table of the ratios in `texts`. Equal ratios are merged and their weights added; a ratio of weight 0 is left
+    /// out.
     fn table(&self, texts: &[SpeedText], path: &Path) -> Result<SpeedTable, Vec<Fault>> {
         let mut faults = Vec::new();
         let equal = vec![1.0; texts.len()];
@@ -166,7 +167,7 @@ impl SpeedTable {
         Self { speeds: vec![speed], pick: CountTable::always(0) }
     }
 
-    /// The speeds, and the table of the place of the one that an axis draws.
+    /// The speeds, and the count that draws a place among them for an axis.
     pub fn into_parts(self) -> (Vec<Speed>, CountTable) {
         (self.speeds, self.pick)
     }
@@ -193,7 +194,7 @@ fn in_words(text: &SpeedText) -> String {
     }
 }
 
-/// A decimal number is taken as the decimal fraction that was typed.
+/// The speed as an exact ratio; a decimal number is read as the decimal fraction that was typed.
 fn parse(text: &SpeedText) -> Option<Speed> {
     match text {
         SpeedText::Whole(steps) => Speed::new(*steps, 1),

@@ -2,15 +2,16 @@
 //!
 //! Damerau–Levenshtein distance (a swap of neighbours counts once), with a cut-off of a third of the letters: beyond
 //! that a guess is noise. A missing or wrong unit (`insertion` for `insertion_deg`), or a word half written, is always
-//! near. The rule is one for the keys of files, the names of presets, and the variables, functions and states that laws
-//! name. Absent: any dictionary; candidates are the names that would be right at that place.
+//! near. The same rule serves the keys of files, the names of presets, and the variables, functions and states that
+//! laws name. Absent: any dictionary; candidates are the names that would be right at that place.
 
 use std::cmp::Reverse;
 
-/// The candidate nearest to `typed`, if one is near enough; of equals the one that begins most alike, then the first in
-/// alphabetical order.
+/// The candidate nearest to `typed`, if any is near enough. Of candidates at equal distance, the one that shares the
+/// longest beginning with `typed`, then the first in alphabetical order. Cost: quadratic in the length of `typed`, for
+/// each candidate.
 pub fn nearest<'c>(typed: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
-    // A longer word is no slip of the hand, and distance is quadratic in its length.
+    // A longer word is no typing error, and the cost is quadratic in its length.
     const LONGEST: usize = 64;
     if typed.is_empty() || typed.len() > LONGEST {
         return None;
@@ -29,7 +30,7 @@ pub fn nearest<'c>(typed: &str, candidates: impl IntoIterator<Item = &'c str>) -
         .map(|(_, _, candidate)| candidate)
 }
 
-/// Case, hyphens and spaces are no difference that a person sees.
+/// `word` without differences that people overlook: case, hyphens and spaces.
 fn fold(word: &str) -> String {
     word.trim().to_lowercase().replace(['-', ' '], "_")
 }

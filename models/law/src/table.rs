@@ -21,7 +21,7 @@ pub struct ProbabilityTable {
     grid: Grid,
     thresholds: Vec<u32>,
     constant: Option<f64>,
-    /// Whether it can be another one in a longer run.
+    /// Whether a longer run can have other probabilities.
     goes_on: bool,
 }
 
@@ -33,7 +33,8 @@ pub struct ValueTable {
 }
 
 impl Law {
-    /// Compiles a law of probability over a domain, or tells every fault: for each state the first point in error.
+    /// Compiles a law of probability over a domain, or fails with the first fault of each state. Evaluates the law at
+    /// every point of its own variables.
     pub fn compile_probability(&self, domain: &Domain, path: &Path) -> Result<ProbabilityTable, Vec<Fault>> {
         let mut constant = None;
         let mut same = true;
@@ -49,7 +50,8 @@ impl Law {
         Ok(ProbabilityTable { grid, thresholds, constant: constant.filter(|_| same), goes_on: formula.goes_on() })
     }
 
-    /// Compiles a law of values over a domain, each within `range`, or tells every fault.
+    /// Compiles a law of values over a domain, each within `range`, or fails with the first fault of each state.
+    /// Evaluates the law at every point of its own variables.
     pub fn compile_value(&self, domain: &Domain, path: &Path, range: ValueRange) -> Result<ValueTable, Vec<Fault>> {
         let (mut grid, mut values) =
             Formula::new(self, domain, path)?.tabulate(path, &range, false, |value| value as f32)?;
@@ -73,7 +75,7 @@ impl ProbabilityTable {
         Self { grid: Grid::single(), thresholds: vec![threshold(p)], constant: Some(p), goes_on: false }
     }
 
-    /// Whether it happens at a point, drawn with one uniform 32-bit word.
+    /// Whether the event happens at a point, drawn with one uniform 32-bit word.
     #[inline]
     pub fn happens(&self, word: u32, at: At) -> bool {
         let threshold = self.thresholds[self.grid.cell(at)];
@@ -100,24 +102,24 @@ impl ProbabilityTable {
         self.grid.asks_only(known)
     }
 
-    /// Whether it happens at no point of a state.
+    /// Whether the event happens at no point of a state.
     pub fn is_never_in(&self, state: u8) -> bool {
         let is_never = |(cell, &threshold): (usize, &u32)| threshold == 0 || !self.grid.is_in(cell, state);
         self.thresholds.iter().enumerate().all(is_never)
     }
 
-    /// Whether it names a variable that moves only when the bud makes a growth unit.
+    /// Whether the law depends on a variable that moves only when the bud makes a growth unit.
     pub fn asks_the_bud(&self) -> bool {
         self.grid.asks_the_bud()
     }
 
-    /// Whether it happens at no point of a run of any length, so that no draw is needed.
+    /// Whether the event happens at no point of a run of any length, so that no draw is needed.
     #[inline]
     pub fn is_never(&self) -> bool {
         self.constant == Some(0.0) && !self.goes_on
     }
 
-    /// Whether it happens at every point of a run of any length, so that no draw is needed.
+    /// Whether the event happens at every point of a run of any length, so that no draw is needed.
     #[inline]
     pub fn is_certain(&self) -> bool {
         self.constant == Some(1.0) && !self.goes_on

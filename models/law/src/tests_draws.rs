@@ -1,4 +1,7 @@
 //! Tests of counts and variates: probabilities, means and variances against closed forms; draws; faults; schemas.
+//!
+//! Draws are counted over a fixed sequence of words. Absent: other implementations of the distributions
+//! (`tests/variates.rs`).
 
 use phytomer_sim::math;
 use schemars::{json_schema, schema_for};
@@ -98,7 +101,7 @@ fn faults_of_counts_are_told() {
     let p = count_faults(read!(Count, { "binomial": { "n": 3, "p": { "expression": "age / 40" } } }));
     assert_eq!(p, ["law.binomial.p: the law is 1.025 at age 41; expected a probability in [0, 1]"]);
     let rare = count_faults(read!(Count, { "negative_binomial": { "r": 1, "p": 1e-4 } }));
-    assert_eq!(rare, ["law.negative_binomial: the counts go too far; expected counts of at most 65535"]);
+    assert_eq!(rare, ["law.negative_binomial: the counts are too large; expected counts of at most 65535"]);
     let none = count_faults(read!(Count, { "negative_binomial": { "r": 0, "p": 0 } }));
     assert_eq!(
         none,

@@ -1,8 +1,8 @@
-//! The variables of laws: each declared once with its name, its meaning and its range, and which of them can be known
-//! where a law is asked.
+//! The variables of laws: each is declared once with its name, its meaning and its range, and the purposes for which a
+//! law that names it can be evaluated.
 //!
 //! In de Reffye et al. 1988 §3 the age of a bud or a node is the tick at which it was born, counted from the seed, and
-//! its dimension the same tick counted from the birth of its axis, so neither moves while the bud pauses. Those are
+//! its dimension the same tick counted from the birth of its axis, so neither moves while the bud pauses. These two are
 //! `bud_birth` and `bud_dimension` here; `age` and `dimension` are read from the clock at the moment of the draw and
 //! move with every tick. For a node that is being made both meanings agree, because it is born at that tick.
 
@@ -26,7 +26,8 @@ pub enum Variable {
     /// The tick at which the apical bud came to be, from 0: de Reffye's age of a bud (1988 §3). A growth unit leaves a
     /// new bud at its tip; before its first, an axis has the bud that it was born with.
     BudBirth,
-    /// The same in ticks since the birth of the axis, from 0: de Reffye's dimension of a bud.
+    /// The tick at which the apical bud came to be, counted from the birth of the axis, from 0: de Reffye's dimension
+    /// of a bud.
     BudDimension,
     /// The growth units that the axis has made before the one that is being made, from 0.
     Unit,
@@ -63,17 +64,20 @@ impl Variable {
                 "the tick at which the apical bud came to be, with the last growth unit of its axis or at the birth of the \
                  axis: the age of a bud in de Reffye 1988 §3"
             }
-            Self::BudDimension => "the same counted from the birth of the axis, from 0: his dimension of a bud",
+            Self::BudDimension => {
+                "the tick at which the apical bud came to be, counted from the birth of the axis, from 0: the dimension of \
+                 a bud in de Reffye 1988 §3"
+            }
             Self::Unit => "growth units that the axis has made before this one, from 0",
         }
     }
 
-    /// Whether it is one that moves only when the bud makes a growth unit.
+    /// Whether the variable moves only when the bud makes a growth unit.
     pub const fn is_of_the_bud(self) -> bool {
         matches!(self, Self::BudBirth | Self::BudDimension | Self::Unit)
     }
 
-    /// Whether its range is longer in a longer run.
+    /// Whether the range of the variable is longer in a longer run.
     pub const fn goes_on_with_time(self) -> bool {
         !matches!(self, Self::Rank)
     }
@@ -94,26 +98,27 @@ impl JsonSchema for Variable {
     }
 }
 
-/// What a law is asked for, and so what can be known where it is asked.
+/// The purpose for which a law is evaluated, which decides the variables that it may depend on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Asked {
-    /// An apical bud at a step of its clock, or a node that it makes: every variable, and the rank where there is a
+    /// For an apical bud at a step of its clock, or a node that it makes: every variable, and the rank where there is a
     /// node.
     #[default]
     Bud,
-    /// An axis at its birth, for what it draws once: the age of the plant and the state of the axis.
+    /// For an axis at its birth, for quantities that it draws once: the age of the plant and the state of the axis.
     Birth,
-    /// An internode that thickens: the age of the plant, its own age as `dimension` and `cycle`, and the state in which
-    /// its axis started.
+    /// For an internode that thickens: the age of the plant, its own age as `dimension` and `cycle`, and the state in
+    /// which its axis started.
     Internode,
-    /// A thing that knows its own age alone, as `dimension` and `cycle`: how an organ expands and turns, what wood is.
+    /// For a thing whose laws depend on its own age alone, as `dimension` and `cycle`: how an organ expands and turns,
+    /// the stiffness and density of wood.
     OwnAge,
-    /// A plant, for what it draws once: nothing.
+    /// For a plant, for quantities that it draws once: no variable.
     Once,
 }
 
 impl Asked {
-    /// Whether the variable is known there, in a growth unit with ranks or not.
+    /// Whether a law for this purpose may depend on `variable`; `has_ranks` tells whether nodes have ranks there.
     pub(super) fn knows(self, variable: Variable, has_ranks: bool) -> bool {
         use Variable::{Age, Cycle, Dimension, Rank};
         match self {
@@ -125,17 +130,17 @@ impl Asked {
         }
     }
 
-    /// Whether the state of the axis is known there.
+    /// Whether a law for this purpose may depend on the state of the axis.
     pub(super) fn knows_state(self) -> bool {
         matches!(self, Self::Bud | Self::Birth | Self::Internode)
     }
 
-    /// Whether the order of the axis is known there.
+    /// Whether a law for this purpose may depend on the order of the axis.
     pub(super) fn knows_order(self) -> bool {
         self != Self::Once
     }
 
-    /// The fault of a law that names `what`, which is not known there.
+    /// The fault of a law that names `what` and may not depend on it for this purpose.
     pub(super) fn fault(self, what: &str, path: &Path) -> Fault {
         let (why, expected) = match self {
             Self::Bud => ("which does not apply here", "a law of age, dimension or cycle"),
@@ -143,7 +148,9 @@ impl Asked {
                 "which is not counted yet where this is drawn, once at the birth of the axis",
                 "`age`, that of the plant at the birth of the axis",
             ),
-            Self::Internode => ("which an internode does not know", "`dimension`, its own age, or `age`, the plant's"),
+            Self::Internode => {
+                ("which is not known of an internode", "`dimension`, its own age, or `age`, the plant's")
+            }
             Self::OwnAge if what == Variable::Age.name() => {
                 ("which is the plant's age and not known here", "`dimension`, its own age in ticks")
             }

@@ -19,7 +19,7 @@ enum Kind {
     Value,
     Normal,
     Uniform,
-    /// Parameters are those of the logarithm.
+    /// The parameters are the mean and the standard deviation of the logarithm.
     Lognormal,
     Empirical(Vec<f64>),
 }
@@ -33,13 +33,13 @@ pub struct VariateTable {
     cells: Vec<[f64; 2]>,
     low: f64,
     high: f64,
-    /// Whether its parameters can be others in a longer run.
+    /// Whether a longer run can have other parameters.
     goes_on: bool,
 }
 
 impl Variate {
-    /// Compiles a random variable over a domain, or tells every fault found. Values, means and bounds must be within
-    /// `range`; draws are clamped to it.
+    /// Compiles a random variable over a domain, or fails with every fault found. Values, means and bounds must be
+    /// within `range`; draws are clamped to it.
     pub fn compile(&self, domain: &Domain, path: &Path, range: ValueRange) -> Result<VariateTable, Vec<Fault>> {
         match self {
             Self::Number(number) if range.holds(*number) => Ok(VariateTable::single(*number)),
@@ -167,12 +167,12 @@ impl VariateTable {
         Self::single(value)
     }
 
-    /// Whether it names a variable that moves only when the bud makes a growth unit.
+    /// Whether a parameter depends on a variable that moves only when the bud makes a growth unit.
     pub fn asks_the_bud(&self) -> bool {
         self.grid.asks_the_bud()
     }
 
-    /// Whether a draw at one point can differ from another there, in a run of some length.
+    /// Whether two draws at the same point can differ, in a run of some length.
     pub fn is_random(&self) -> bool {
         let spread = |&[a, b]: &[f64; 2]| match &self.kind {
             Kind::Value => false,
@@ -190,7 +190,7 @@ impl VariateTable {
         self.draw_f64(word, at) as f32
     }
 
-    /// The same before it is rounded to single precision.
+    /// The draw of [`Self::sample`] before it is rounded to single precision.
     #[inline]
     pub fn draw_f64(&self, word: u32, at: At) -> f64 {
         self.draw_in(self.grid.cell(at), word)
@@ -214,7 +214,7 @@ impl VariateTable {
         self.exact().map(|value| value as f32)
     }
 
-    /// The same before it is rounded to single precision.
+    /// The value of [`Self::constant`] before it is rounded to single precision.
     pub fn exact(&self) -> Option<f64> {
         let certain = match (&self.kind, self.cells.as_slice()) {
             _ if self.low == self.high => true,
@@ -250,7 +250,8 @@ impl VariateTable {
         }
     }
 
-    /// Whether a word draws `value` in a cell: draws rise with the word, so the first that is not below it tells.
+    /// Whether some word draws `value` in a cell. Draws rise with the word, so a binary search finds the first draw not
+    /// below `value`.
     fn meets(&self, cell: usize, value: f64) -> bool {
         let (mut low, mut high) = (0, u32::MAX);
         while low < high {

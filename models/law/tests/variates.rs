@@ -1,10 +1,10 @@
-//! Every distribution that a file may state, held against the same distribution of `rand_distr`: an independent reading
-//! of each name, parametrisation and table.
+//! Every distribution that a file may state, compared with the same distribution of `rand_distr`: an independent
+//! implementation of each name, parametrisation and table.
 //!
-//! Ours draws by inverse transform from the words of a plant's stream, `rand_distr` by its own methods from a generator
-//! of its own; the seeds are fixed. Counts are compared by Pearson's χ² test of homogeneity, real numbers by the
-//! two-sample test of Kolmogorov and Smirnov and, for spread and tails, by χ² over cells that are cut at ranks of both
-//! samples together. A test fails where its statistic lies in the upper tail that a normal variable has beyond 4
+//! This crate draws by inverse transform from the words of a plant's stream, `rand_distr` by its own methods from a
+//! generator of its own; the seeds are fixed. Counts are compared by Pearson's χ² test of homogeneity, real numbers by
+//! the two-sample test of Kolmogorov and Smirnov and, for spread and tails, by χ² over cells that are cut at ranks of
+//! both samples together. A test fails where its statistic lies in the upper tail that a normal variable has beyond 4
 //! standard errors. Absent: closed forms of moments, which the unit tests of `law` have.
 
 use std::fmt::Debug;
@@ -32,11 +32,11 @@ const LEVEL: f64 = 3.167_124e-5;
 /// Tails of both samples together are cut at shares of 2⁻² to 2⁻¹³, where 32 draws of each sample are expected.
 const CUTS: std::ops::RangeInclusive<u32> = 2..=13;
 
-/// Where laws are asked.
+/// The point at which laws are evaluated.
 const HERE: At = At { age: 7, dimension: 5, cycle: 4, rank: 3, bud_birth: 6, bud_dimension: 4, unit: 4, state: 0 };
 const ANY: ValueRange = ValueRange { min: f64::NEG_INFINITY, max: f64::INFINITY, what: "a number" };
 
-/// What `rand_distr` draws.
+/// A distribution of `rand_distr`, as a function of its generator.
 type Drawn<T> = Box<dyn Fn(&mut ChaCha8Rng) -> T>;
 
 fn domain() -> Domain {
@@ -51,7 +51,7 @@ fn compiled<T>(given: &Value, table: Result<T, impl Debug>) -> T {
     table.unwrap_or_else(|faults| panic!("{given}: {faults:?}"))
 }
 
-/// A seed for each distribution, from what a file says of it (FNV-1a): no two are one experiment.
+/// A seed for each distribution, from its text in a file (FNV-1a), so that no two tests draw the same words.
 fn seed(given: &Value) -> u64 {
     let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     given.to_string().bytes().fold(0xcbf2_9ce4_8422_2325, step)
@@ -62,7 +62,7 @@ fn words(given: &Value) -> Stream {
     PlantRandom::new(seed(given), 7).stream(LineageKey(3), Purpose::Node)
 }
 
-/// As many draws of `rand_distr`.
+/// The same number of draws of `rand_distr`.
 fn sample<T>(given: &Value, draw: impl Fn(&mut ChaCha8Rng) -> T) -> Vec<T> {
     let mut random = ChaCha8Rng::seed_from_u64(!seed(given));
     (0..DRAWS).map(|_| draw(&mut random)).collect()
@@ -87,8 +87,8 @@ fn frequencies(counts: &[u32]) -> Vec<f64> {
     frequencies
 }
 
-/// The probability of a χ² so large by chance; 1 where both samples are one and the same number, which leaves no
-/// freedom.
+/// The probability of a χ² at least so large by chance; 1 where both samples hold a single number, which leaves no
+/// degree of freedom.
 fn chance_of_counts(ours: &[u32], theirs: &[u32]) -> f64 {
     match ours.iter().chain(theirs).all(|count| *count == ours[0]) {
         true => 1.0,
@@ -160,7 +160,7 @@ fn weighted(weights: &[f64]) -> Drawn<u32> {
     Box::new(move |random| index.sample(random) as u32)
 }
 
-/// Draws which of several distributions is drawn from.
+/// A mixture: draws which of several distributions the count is drawn from.
 fn mixture(parts: Vec<(f64, Drawn<u32>)>) -> Drawn<u32> {
     let which = weighted(&parts.iter().map(|part| part.0).collect::<Vec<_>>());
     Box::new(move |random| parts[which(random) as usize].1(random))

@@ -1,14 +1,14 @@
 //! The library of forms (de Reffye 1988 §6): the one list of them.
 //!
-//! Everything that is said of a form stands in its row of [`crate::forms!`]: what files call it, what it looks like,
-//! how large its area is, and the function of `phytomer_meshes::forms` that makes its triangles. Its number, which the
-//! plant carries, is its place in the list: a new form is added at the end. Absent: the triangles.
+//! All facts about a form stand in its row of [`crate::forms!`]: its name in files, what it looks like, how large its
+//! area is, and the function of `phytomer_meshes::forms` that makes its triangles. Its number, which the plant carries,
+//! is its place in the list: a new form is added at the end. Absent: the triangles.
 
 use phytomer_sim::plant::Form;
 
-/// The table of forms, a row each, handed to a macro of the caller's. A row has what the form looks like, its name in
-/// the program and in species files, its share of area ([`FormName::area_share`]), and the function that makes its
-/// mesh.
+/// The table of forms, a row each, passed to the caller's macro. A row has a sentence on what the form looks like, its
+/// name in the program and in species files, its share of area ([`FormName::area_share`]), and the function that makes
+/// its mesh.
 #[macro_export]
 macro_rules! forms {
     ($then:ident) => {
@@ -124,8 +124,8 @@ macro_rules! form_name {
             }
 
             /// The area of one side as a share of length × width, of an organ half as wide as long: that of its
-            /// triangles, of a closed form half of it. `phytomer_meshes` holds the triangles, and a test that they have
-            /// these areas.
+            /// triangles; of a closed form half of that. The triangles are in `phytomer_meshes`, where a test checks
+            /// that they have these areas.
             pub const fn area_share(self) -> f32 {
                 match self {
                     $(Self::$form => $share,)*
@@ -144,20 +144,20 @@ impl FormName {
         Form(self as u8)
     }
 
-    /// The form of the library that has a number; `None` for a mesh of the user's.
+    /// The form of the library that has a number; `None` for a user's mesh.
     #[inline]
     pub fn of(form: Form) -> Option<Self> {
         Self::ALL.get(usize::from(form.0)).copied()
     }
 }
 
-/// The number of the mesh of the user's at a place among those that its species names. A place too far has the number
-/// of the last: the species names at most 64.
+/// The number of a user's mesh at a place among the meshes that its species names. A place too far has the number of
+/// the last: a species names at most 64.
 pub const fn own_form(place: u8) -> Form {
     Form((FormName::ALL.len() as u8).saturating_add(place))
 }
 
-/// The place of a mesh of the user's among those that its species names; `None` for a form of the library.
+/// The place of a user's mesh among the meshes that its species names; `None` for a form of the library.
 #[inline]
 pub fn place_of_own(form: Form) -> Option<u8> {
     form.0.checked_sub(FormName::ALL.len() as u8)

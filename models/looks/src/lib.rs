@@ -1,10 +1,10 @@
 //! What the components of a species look like (de Reffye 1988 §6), where models state it and meshes draw it: the table
 //! of forms, and colours.
 //!
-//! The plant itself carries numbers alone: that of a form ([`phytomer_sim::plant::Form`]) and that of a paint among the
-//! [`Paints`] of its species. A model that states colours puts them into the habit, and a mesh takes them out again.
-//! Absent: triangles and the colours of what states none (`phytomer_meshes`), and how a file states all this
-//! (`phytomer_models`).
+//! The plant itself carries numbers alone: the number of a form ([`phytomer_sim::plant::Form`]) and of a paint among
+//! the [`Paints`] of its species. A model that states colours puts the paints into the habit, and a mesh reads them
+//! there. Absent: triangles and the colours of components without a stated colour (`phytomer_meshes`), and how a file
+//! states forms and colours (`phytomer_models`).
 
 mod form;
 mod paint;

@@ -1,8 +1,8 @@
-//! Stated colours, and what else is stated of a look that growth does not ask: by the age of wood, of organs, and of
-//! leaves by season.
+//! Stated colours, and the other parts of a look that growth does not use: by the age of wood, of organs, and of leaves
+//! by season.
 //!
-//! A form and a colour are associated with each tag, and forms may depend on age (de Reffye 1988 §6). What is not
-//! stated is left open here. Absent: the colours that stand in for it (`phytomer_meshes::palette`), and how one colour
+//! A form and a colour are associated with each tag, and forms may depend on age (de Reffye 1988 §6). Here a colour
+//! that is not stated is `None`. Absent: the colours that replace it (`phytomer_meshes::palette`), and how one colour
 //! turns into the next (`phytomer_meshes::colour`).
 
 use phytomer_sim::clock::Tick;
@@ -31,9 +31,9 @@ pub struct Bark {
 /// How the internodes of a look are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct InternodePaint {
-    /// The sides of their tubes; left out: as many as the mesh has.
+    /// The sides of their tubes; `None`: as many as the mesh has by default.
     pub sides: Option<u8>,
-    /// The form that they are drawn with, of their length and their diameter, where they are no tubes.
+    /// The form that is drawn in place of a tube, as long as the internode and as wide as its diameter; `None`: a tube.
     pub form: Option<Form>,
     /// Their stated colours.
     pub bark: Bark,
@@ -56,7 +56,7 @@ pub struct OrganPaint {
     pub turns_in: Tick,
 }
 
-/// What the looks of a species name by number.
+/// The paints of a species, which its looks name by number.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Paints {
     internodes: Vec<InternodePaint>,
@@ -64,19 +64,19 @@ pub struct Paints {
 }
 
 impl Paints {
-    /// Adds how the internodes of a look are drawn. Looks that are drawn alike may name one number.
+    /// Adds how the internodes of a look are drawn. Returns the number of the paint, which several looks may name.
     pub fn add_internode(&mut self, paint: InternodePaint) -> PaintNumber {
         self.internodes.push(paint);
         PaintNumber::nth(self.internodes.len())
     }
 
-    /// Adds the colours of the organs of a look.
+    /// Adds the colours of the organs of a look. Returns the number of the paint, which several looks may name.
     pub fn add_organ(&mut self, paint: OrganPaint) -> PaintNumber {
         self.organs.push(paint);
         PaintNumber::nth(self.organs.len())
     }
 
-    /// How internodes are drawn whose look names a number; a look that names none states nothing.
+    /// How the internodes of a look with this paint number are drawn; for [`PaintNumber::NONE`] nothing is stated.
     #[inline]
     pub fn internode(&self, number: PaintNumber) -> &InternodePaint {
         static SILENT: InternodePaint = InternodePaint {
@@ -87,7 +87,7 @@ impl Paints {
         number.place().and_then(|place| self.internodes.get(place)).unwrap_or(&SILENT)
     }
 
-    /// The colours of organs whose look names a number; a look that names none states nothing.
+    /// The colours of the organs of a look with this paint number; for [`PaintNumber::NONE`] nothing is stated.
     #[inline]
     pub fn organ(&self, number: PaintNumber) -> &OrganPaint {
         static SILENT: OrganPaint =
@@ -95,12 +95,12 @@ impl Paints {
         number.place().and_then(|place| self.organs.get(place)).unwrap_or(&SILENT)
     }
 
-    /// As a habit carries them.
+    /// The paints in the form in which a habit carries them.
     pub fn into_habit(self) -> ForDrawing {
         ForDrawing::new(self)
     }
 
-    /// The paints that a habit carries; none where it states none.
+    /// The paints that a habit carries; an empty set where it carries none.
     pub fn of(habit: &Habit) -> &Self {
         static NONE: Paints = Paints { internodes: Vec::new(), organs: Vec::new() };
         habit.for_drawing.get().unwrap_or(&NONE)

@@ -1,4 +1,4 @@
-//! What the bud model offers to everything above it.
+//! The card of the bud model: its name, its source and the roles of its keys.
 //!
 //! Absent: the parameters themselves (`params`) and what they compile to (`compile`).
 
@@ -9,11 +9,11 @@ use phytomer_sim::Tick;
 use phytomer_sim::model::GrowthModel;
 use std::sync::Arc;
 
-/// What wood can be judged without; stiffness and density it cannot.
+/// The keys of a wood that are checked even where its stiffness is refused; the others depend on it.
 const BESIDE_STIFFNESS: [&str; 5] = ["drag", "thickening", "leaf_kg_m2", "flower_kg_m3", "fruit_kg_m3"];
 
 impl Buds {
-    /// What the model is called, and how its keys stand.
+    /// The card of this model.
     pub const CARD: Card = Card {
         word: "buds",
         about: "every bud dies, pauses, grows and branches by laws (de Reffye et al. 1988)",

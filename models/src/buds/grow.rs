@@ -3,8 +3,8 @@
 //!
 //! A bud that appears at a tick is first tested at the next clock signal, as in the paper's pseudo-code, which walks
 //! the buds alive at the signal: so dimension is 1 at a bud's first test, and a sylleptic lateral is one tick behind
-//! its node. The new axillary buds are those of the growth unit just made, hence none where the apex is dead or pauses
-//! (§3).
+//! its node. The new axillary buds are those of the growth unit just made, so there are none where the apex is dead or
+//! pauses (§3).
 //!
 //! [`Axis::grow`] takes an axis from any age to any later one; whether a plant grows axis by axis to the end or tick by
 //! tick, each axis makes the same draws at the same steps.
@@ -22,7 +22,7 @@ use phytomer_sim::random::{Purpose, Stream};
 pub(super) struct Words {
     bud: Option<Stream>,
     node: Option<Stream>,
-    /// The head record of the bud stream, a step's, a node's, and the end's.
+    /// The head record of the bud stream; then the records of a step, of a node and of the end.
     pub head: Vec<u32>,
     pub step: Vec<u32>,
     pub on_node: Vec<u32>,
@@ -37,7 +37,7 @@ impl Words {
     fn of(&mut self, laws: &OrderLaws) {
         self.bud = None;
         self.node = None;
-        // A quantity without words reads word 0 and does not look at it.
+        // A quantity without words reads word 0 and ignores it.
         self.head.resize(laws.head.width.max(1), 0);
         self.step.resize(laws.step.width.max(1), 0);
         self.on_node.resize(laws.node.width.max(1), 0);
@@ -60,7 +60,7 @@ const TERMINAL: u16 = u16::MAX;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FlowerSite {
     pub node: NodeId,
-    /// Which of the flowers of its node's record, from 0.
+    /// Its place among the flowers in its node's record, from 0.
     pub nth: u32,
     pub birth: Tick,
     pub azimuth: f32,
@@ -79,13 +79,13 @@ pub(super) struct Axis<'a> {
     speed: Speed,
     /// The growth units after which the apex ends.
     last_unit: u32,
-    /// Whether it is the first of its set of relays or forks, or of no set.
+    /// Whether the axis is the first of its set of relays or forks, or belongs to no set.
     leads: bool,
     /// The tick from which dimensions count.
     birth: Tick,
 }
 
-/// The plant has no room left for what a bud would make.
+/// The plant has no room left for a component that a bud would make.
 #[derive(Debug)]
 pub(super) struct Full;
 
@@ -112,7 +112,8 @@ impl<'a> Axis<'a> {
         axis
     }
 
-    /// What the axis has drawn at its birth, as far as its growth needs it: the same whenever it goes on.
+    /// Reads the quantities that the axis has drawn at its birth and that its growth needs. They are the same each
+    /// time.
     fn read_head(&mut self) {
         let laws = &self.laws.head;
         let axis = self.bud.axis.index();
@@ -127,7 +128,8 @@ impl<'a> Axis<'a> {
         laws.trends.draw_ranks(&self.words.head, at, &mut self.words.trends);
     }
 
-    /// Grows the axis to `age`; the bud as it then is, or `None` where the apex has come to its end.
+    /// Grows the axis to `age`. Returns the bud at that age, or `None` where the apex has come to its end. Linear in
+    /// the ticks and in the components made.
     pub fn grow(mut self, age: Tick) -> Result<Option<ApicalBud>, Full> {
         for tick in self.bud.age + 1..=age {
             self.tick = tick;
@@ -142,14 +144,14 @@ impl<'a> Axis<'a> {
         Ok(Some(self.bud))
     }
 
-    /// Kills the bud at `tick`, from outside: what follows the death of an apex follows.
+    /// Kills the bud at `tick` from outside; relays and reiteration follow as after any death of an apex.
     pub fn kill(mut self, tick: Tick) -> Result<(), Full> {
         self.tick = tick;
         self.dimension = tick.saturating_sub(self.birth);
         self.end(ApexFate::Killed, EventKind::Killed, ApexEnd::Death).map(|_| ())
     }
 
-    /// Where laws are asked now, for the node at `rank` of its growth unit; 0 for the bud itself.
+    /// The point at which laws are evaluated now, for the node at `rank` of its growth unit; 0 for the bud itself.
     pub fn at(&self, rank: u32) -> At {
         let ApicalBud { cycle, units: unit, birth: bud_birth, state, .. } = self.bud;
         let bud_dimension = bud_birth.saturating_sub(self.birth);
@@ -176,7 +178,7 @@ impl<'a> Axis<'a> {
         }
         for unit in 0..laws.per_step.draw(&self.words.step, 0, at) {
             self.growth_unit(unit)?;
-            // It leaves a new bud at its tip.
+            // The growth unit has a new bud at its tip.
             self.bud.units += 1;
             self.bud.birth = self.tick;
             if self.bud.units >= self.last_unit {
@@ -231,7 +233,7 @@ impl<'a> Axis<'a> {
         read(stream, 0, self.bud.rank, self.laws.node.width, &mut self.words.on_node);
     }
 
-    /// At most one passage between states, by one word a passage in the order in which they are stated.
+    /// Makes at most one passage between states. Each passage has one word, in the order in which they are stated.
     fn pass_state(&mut self) -> Result<(), Full> {
         let at = self.at(0);
         let (state, leads) = (self.bud.state, self.leads);
@@ -257,12 +259,13 @@ impl<'a> Axis<'a> {
         Ok(false)
     }
 
-    /// The flower that an apex has become, on the last node of its axis; the apex is spent when it and its fruit fall.
+    /// Adds the flower that an apex has become, on the last node of its axis. The apex is spent when the flower and its
+    /// fruit have fallen.
     fn terminal_flower(&mut self) {
         let Some(node) = self.own_last_node() else {
             return;
         };
-        // The record of the node that this bud will never make.
+        // The flower uses the record of the node that this bud will never make.
         self.read_node();
         let at = self.at(self.plant.nodes.unit_rank[node.index()].into());
         let past = self.flower(FlowerSite { node, nth: 0, birth: self.tick, azimuth: 0.0, position: TERMINAL }, at);
@@ -274,9 +277,10 @@ impl<'a> Axis<'a> {
         (self.bud.rank > 0).then_some(self.bud.last_node)
     }
 
-    /// A flower, and the fruit that it may set; the tick at which the last of them falls. A terminal flower stands in
-    /// the direction of its axis, and its laws are asked at the rank of the node that bears it. What would appear after
-    /// the last age of the run is no component: it takes neither memory nor room under the plant's limit.
+    /// Adds a flower, and the fruit that it may set. Returns the tick at which the last of them falls. A terminal
+    /// flower stands in the direction of its axis, and its laws are evaluated at the rank of the node that bears it. An
+    /// organ that would appear after the last age of the run is left out: it takes neither memory nor room under the
+    /// plant's limit.
     pub fn flower(&mut self, site: FlowerSite, at: At) -> Tick {
         let FlowerSite { node, nth, birth, azimuth, position } = site;
         let laws = &self.laws.node;
@@ -315,12 +319,12 @@ impl<'a> Axis<'a> {
     }
 }
 
-/// Where the laws of the head of an axis are asked.
+/// The point at which the laws of the head of an axis are evaluated.
 fn at_birth(birth: Tick, state: u8) -> At {
     At { age: birth, state, ..At::default() }
 }
 
-/// Adds an axis, with what it draws once, at its birth, that is not its growth's alone: the time from its death to its
+/// Adds an axis, with the quantities drawn at its birth that do not concern its growth: the time from its death to its
 /// fall, and the trends of its own.
 pub(super) fn add_axis(model: &BudModel, plant: &mut Plant, new: NewAxis) -> AxisId {
     let laws = &model.laws(new.order).head;

@@ -1,7 +1,7 @@
-//! The bud model as the loop sees it: sowing, growing axis by axis to an age, and the diameters at an age.
+//! The bud model as a [`GrowthModel`]: sowing, growing axis by axis to an age, and the diameters at an age.
 //!
 //! A plant grown ahead takes its axes one after another through all their ticks; a plant grown by the clock takes each
-//! living bud through one. Both call the same step. Absent: the step (`grow`) and the node (`node`).
+//! living bud through one tick. Both call the same step. Absent: the step (`grow`) and the node (`node`).
 
 use super::bud::{ApicalBud, LivingBuds};
 use super::compile::{BudModel, OrderLaws};
@@ -17,7 +17,8 @@ use phytomer_sim::site::{Site, View};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// The ticks of growth that cost as much as the beginning of an axis: measured, and of use only for equal halves.
+/// The ticks of growth that cost as much as the start of an axis, as measured. The number only serves to divide work
+/// equally.
 const BEGINNING: u64 = 12;
 
 impl BudModel {
@@ -31,8 +32,8 @@ impl BudModel {
         self.orders.len()
     }
 
-    /// Whether one of the laws names `bud_birth`, `bud_dimension` or `unit`, which move with growth units alone: sums
-    /// over the ages and the cycles of axes do not know them.
+    /// Whether some law depends on `bud_birth`, `bud_dimension` or `unit`, which move with growth units alone. Sums
+    /// over the ages and the cycles of axes cannot have such laws.
     pub fn asks_the_bud(&self) -> bool {
         self.orders.iter().any(|laws| laws.asks_the_bud)
     }
@@ -46,10 +47,11 @@ impl BudModel {
         &self.orders[usize::from(order) - 1]
     }
 
-    /// Grows one axis of `plant` from `bud` to `age`: the axis's own work alone, not that of the axes that it bears.
+    /// Grows one axis of `plant` from `bud` to `age`, without the axes that it bears. Returns its bud at that age, or
+    /// `None` where the apex has come to its end.
     ///
-    /// This is the step from which both orders of growth are made; a prefix traversal in the manner of de Reffye 1988
-    /// §4 calls it recursively.
+    /// Growth ahead and growth by the clock are both made of this step; a prefix traversal in the manner of de Reffye
+    /// 1988 §4 calls it recursively.
     ///
     /// # Errors
     /// [`Overgrown`] where the plant comes to its limit.
@@ -62,8 +64,8 @@ impl BudModel {
         first_bud(self, plant, axis)
     }
 
-    /// Metres that internodes have added to their diameters when the plant is `age` ticks old: by order and state, then
-    /// by their own age.
+    /// Metres that internodes have added to their diameters when the plant is `age` ticks old: a list for each order
+    /// and state, whose entry i is for internodes of age i.
     fn thickening_at(&self, age: Tick) -> Vec<Vec<f32>> {
         let classes = self.orders.iter().flat_map(|laws| (0..self.states).map(move |state| (laws, state as u8)));
         let by_own_age = |(laws, state): (&OrderLaws, u8)| {
@@ -84,13 +86,13 @@ impl BudModel {
         Axis::new(self, plant, words, bud).grow(age).map_err(|Full| limit)
     }
 
-    /// Every living bud first, then the axes that arise meanwhile, each through all its ticks: parents come before
-    /// their children, and the nodes of an axis grown at once stand together.
+    /// Grows every living bud first, then the axes that arise meanwhile, each through all its ticks: parents come
+    /// before their children, and nodes of an axis that are grown at once are neighbours in the columns.
     fn grow_plant(&self, plant: &mut Plant, living: &mut Vec<ApicalBud>, age: Tick) -> Result<(), Overgrown> {
         let mut words = Words::default();
         let first_new = plant.axes.len();
         if !plant.cuts.all().is_empty() {
-            // The buds of what was cut off since the last tick.
+            // Leaves out the buds of axes that were cut off since the last tick.
             living.retain(|bud| plant.axes.apex_fate[bud.axis.index()] == ApexFate::Alive);
         }
         keep(living, |bud| self.grow_with(plant, bud, age, &mut words))?;
@@ -104,8 +106,8 @@ impl BudModel {
         Ok(())
     }
 
-    /// Kills each bud that has reached something deadly of its site by the end of the last tick, at the tick `age`,
-    /// before it makes its step. The axes that follow its death start as living buds of that tick.
+    /// Kills each bud that by the end of the last tick has reached a plane of the site that kills; the death is at the
+    /// tick `age`, before the bud's step. The axes that follow its death start as living buds of that tick.
     fn kill_reaching(
         &self,
         plant: &mut Plant,
@@ -130,8 +132,8 @@ impl BudModel {
         Ok(())
     }
 
-    /// The living buds of the axes `waiting` after all their ticks. Many axes are grown by several threads, to the same
-    /// plant: those of the second half in a fragment of their own.
+    /// Grows the axes `waiting` through all their ticks and returns their living buds. Many axes are shared out to
+    /// several threads, with the same result: the second half grows in a fragment of its own.
     fn grow_waiting(
         &self,
         plant: &mut Plant,
@@ -151,7 +153,7 @@ impl BudModel {
             || self.grow_waiting(plant, waiting.start..middle, age, first),
             || self.grow_waiting(&mut fragment.plant, rest, age, second),
         );
-        // The limit of a fragment is what the whole has left.
+        // The limit of a fragment is the room that the whole plant has left.
         let (mut living, others) = mine.and_then(|mine| Ok((mine, theirs?))).map_err(|_| limit)?;
         let joint = plant.join(fragment);
         living.extend(others.into_iter().map(|bud| bud.joined(&joint)));
@@ -169,7 +171,7 @@ impl BudModel {
     }
 }
 
-/// Takes each living bud through `step`, and keeps what is left of it.
+/// Takes each living bud through `step`, and keeps the buds that are still alive.
 fn keep(
     living: &mut Vec<ApicalBud>,
     mut step: impl FnMut(ApicalBud) -> Result<Option<ApicalBud>, Overgrown>,
@@ -185,7 +187,7 @@ fn keep(
     Ok(())
 }
 
-/// Where half of the work on the axes `waiting` lies on either side, by their ticks to come; neither side is empty.
+/// The place in `waiting` that divides the work into halves, measured by the ticks to come; neither half is empty.
 fn middle_of(births: &[Tick], waiting: Range<usize>, age: Tick) -> usize {
     let ticks = |axis: usize| BEGINNING + u64::from(age.saturating_sub(births[axis]));
     let half = waiting.clone().map(ticks).sum::<u64>() / 2;

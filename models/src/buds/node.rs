@@ -14,20 +14,20 @@ use phytomer_sim::random::Purpose;
 
 const TURN: f32 = 2.0 * std::f32::consts::PI;
 
-/// Where a bud stands that becomes an axis.
+/// The place of a bud that becomes an axis.
 #[derive(Debug, Clone, Copy)]
 struct BudSite {
     node: NodeId,
     order: u8,
     origin: Origin,
-    /// The number of its place, for the lineage key.
+    /// The number of the place, for the lineage key.
     place: u64,
-    /// Which of the buds of its kind, from 0.
+    /// The number of the bud among the buds of its kind, from 0.
     position: u32,
     azimuth: f32,
     /// Whether another axis of its set of relays or forks came before it.
     follows: bool,
-    /// The state that its zone gives the new axis; `None`: as the branching says.
+    /// The state that the zone gives the new axis; `None`: the state that the branching states.
     state: Option<u8>,
 }
 
@@ -38,7 +38,7 @@ struct AxillaryBuds {
     rank: u32,
     nodes: u32,
     buds: u32,
-    /// Between two positions around the node, radians.
+    /// The angle between two neighbouring positions around the node, radians.
     spacing: f32,
 }
 
@@ -56,7 +56,7 @@ impl Axis<'_> {
         if self.plant.is_overgrown() { Err(Full) } else { Ok(()) }
     }
 
-    /// Leaves, lateral flowers, and buds with the axes that they become.
+    /// Adds leaves, lateral flowers, and the axes that buds become.
     fn dress(&mut self, node: NodeId, rank: u32, nodes: u32, azimuth: f32) {
         let at = self.at(rank);
         let laws = &self.laws.node;
@@ -139,7 +139,7 @@ impl Axis<'_> {
         }
     }
 
-    /// The standard axillary buds: each ramifies by its law, or lies dormant.
+    /// Adds the axes of the axillary buds: each bud ramifies by its law, or lies dormant.
     fn axillary(&mut self, of: AxillaryBuds, azimuth: f32) {
         let AxillaryBuds { node, rank, nodes, buds, spacing } = of;
         let at = self.at(rank);
@@ -187,7 +187,8 @@ impl Axis<'_> {
         }
     }
 
-    /// What follows the end of an apex: relays from the last node or below, and traumatic reiteration where it died.
+    /// Adds the axes that follow the end of an apex: relays from the last node or below, and traumatic reiteration
+    /// where it died.
     pub(super) fn follow_end(&mut self, end: ApexEnd) -> Result<(), Full> {
         let laws = &self.laws.end;
         let relayed = laws.is_relayed(end);
@@ -210,18 +211,18 @@ impl Axis<'_> {
         if self.plant.is_overgrown() { Err(Full) } else { Ok(()) }
     }
 
-    /// The relays of an axis that passes into another state and lives on.
+    /// Adds the relays of an axis that passes into another state and lives on.
     pub(super) fn follow_passage(&mut self) -> Result<(), Full> {
         let laws = &self.laws.end;
         let Some(node) = self.own_last_node() else {
             return Ok(());
         };
-        // The record of the end comes first; then one a clock step.
+        // The record of the end is the first in the stream; then comes one record a clock step.
         self.read_end(self.bud.cycle);
         let (rank, below) = (self.bud.rank, laws.below.draw(&self.words.end, 0, self.at(0)));
         if rank > below {
-            // Named by the node at which the axis passed, since relays of two passages may stand on one node; and by
-            // the passages before at that node, since a step need not make one.
+            // The place in the key names the node at which the axis passed, since relays of two passages may stand on
+            // one node; and the number of earlier passages at that node, since a step need not make a node.
             let before = self.bud.passages;
             let some = self.relays(node, below, |position| Place::Passage(before, position).on(rank));
             self.bud.passages += u32::from(some);
@@ -238,7 +239,7 @@ impl Axis<'_> {
         }
     }
 
-    /// The equal axes into which a completed apex divides.
+    /// Adds the equal axes into which a completed apex divides.
     fn fork(&mut self, node: NodeId) {
         let laws = self.laws;
         let at = self.at(0);
@@ -263,11 +264,11 @@ impl Axis<'_> {
         }
     }
 
-    /// Relays from the node that stands `below` nodes below the last one; whether there are any.
+    /// Adds relays at the node that stands `below` nodes below the last one. Returns whether there are any.
     fn relays(&mut self, last: NodeId, below: u32, place: impl Fn(u16) -> u64) -> bool {
         let laws = self.laws;
         let at = self.at(0);
-        // The first relay stands where the first leaf of the node above would: phyllotaxis goes on.
+        // The first relay stands where the first leaf of the next node would stand: phyllotaxis continues.
         let (mut node, mut first) = (last, self.bud.azimuth);
         for _ in 0..below {
             first = self.plant.nodes.azimuth[node.index()];
@@ -287,7 +288,7 @@ impl Axis<'_> {
         follows
     }
 
-    /// Traumatic reiteration: the dormant axillary buds of the last node, at this axis's order.
+    /// Traumatic reiteration: releases the dormant axillary buds of the last node, at this axis's order.
     fn release(&mut self, node: NodeId) {
         let laws = self.laws;
         let at = self.at(0);

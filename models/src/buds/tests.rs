@@ -1,5 +1,8 @@
-//! The bud model under the contract of growth models: two species that between them use everything that it can do, and
-//! the small promises that no closed form covers.
+//! The bud model under the contract of growth models: two species that between them use every feature of the model, and
+//! small rules that no closed form covers.
+//!
+//! Absent: distributions of drawn numbers (`tests_drawn`), lineage keys (`tests_sets`), variables of laws
+//! (`tests_variables`).
 
 use super::params::{
     Apex, ApexEnd, Axillary, CountedLeaves, DragLaw, Facing, Flower, Fork, Fruit, GrowthUnit, Leaf, OrganTrend,
@@ -179,8 +182,9 @@ fn candelabrum() -> Buds {
     Buds { states: vec!["up".to_owned(), "out".to_owned()], season: None, wood: None, order: vec![trunk, branch] }
 }
 
-/// Of each set of relays one leads, and it alone passes on; a passage is relayed while the apex lives; the branch of a
-/// completed apex lives as long as it persists, and what it divides into is of its order.
+/// In each set of relays one relay leads, and it alone passes into another state; a passage is relayed while the apex
+/// lives; the branch of a completed apex lives as long as it persists, and the axes into which it divides are of its
+/// order.
 #[test]
 fn sets_of_equal_axes_are_told_apart_by_their_leaders() {
     let model = candelabrum().compile(12, &Path::root()).unwrap();
@@ -299,7 +303,7 @@ fn a_released_bud_stands_in_the_axil_of_its_leaf() {
     assert!(count > 4, "{count} buds were released");
 }
 
-/// The laws of a lateral flower are asked at the rank of its node.
+/// The laws of a lateral flower are evaluated at the rank of its node.
 #[test]
 fn a_flower_asks_its_laws_at_the_rank_of_its_node() {
     let order = Order {
@@ -315,7 +319,7 @@ fn a_flower_asks_its_laws_at_the_rank_of_its_node() {
     assert_eq!(ranks, [2; 5]);
 }
 
-/// A law over what does not apply where it stands is a fault, never silently ignored.
+/// A law of a variable that does not apply at its place is a fault, and is never silently ignored.
 #[test]
 fn a_law_of_rank_where_no_rank_applies_is_refused() {
     let ranked = |change: fn(&mut Order, Law)| {

@@ -44,7 +44,7 @@ fn compiled(buds: &Buds, until: u32) -> BudModel {
     buds.compile(until, &Path::root()).unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 
-/// How the numbers of [`species`] are written.
+/// The ways in which the numbers of [`species`] are written.
 struct Numbers {
     count: fn(u32) -> Count,
     measure: fn(f64) -> Variate,
@@ -155,7 +155,7 @@ fn a_constant_is_one_plant_however_it_is_written() {
     }
 }
 
-/// A trunk of one node a tick, each with one branch that draws what a branch can draw.
+/// A trunk of one node a tick. Each node has one branch, which draws everything that a branch can draw.
 fn drawn() -> Buds {
     let axillary = Axillary { buds: Count::from(1), ramification: Law::from(1.0), ..Axillary::default() };
     let trunk = Order { axillary, ..Order::default() };

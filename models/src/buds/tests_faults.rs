@@ -1,7 +1,7 @@
-//! Each key of a species is compiled once, so that a fault is told once, and nothing hides that one is told twice.
+//! Each key of a species is compiled once, so that each fault is reported once and no duplicates need to be hidden.
 //!
-//! A key that several places ask in domains of their own, such as the insertion angle of an order, is told once for
-//! each thing that is wrong with it. Absent: what is a fault, which stands with laws and parameters.
+//! A key that is compiled in several domains, such as the insertion angle of an order, has one report for each kind of
+//! fault. Absent: the faults themselves, which are tested with laws and parameters.
 
 use super::Buds;
 use super::tests::{chimera, hydra};

@@ -1,5 +1,6 @@
-//! Lineage keys and leaders of species made to break them: axes that pass from state to state without a node between,
-//! several sets of relays at one node and tick, relays below, reiterations of every kind, forks, many organs on a node.
+//! Lineage keys and leaders of species made to provoke collisions: axes that pass from state to state without a node
+//! between, several sets of relays at one node and tick, relays below, reiterations of every kind, forks, many organs
+//! on a node.
 //!
 //! Absent: the numbers of places (`sim::plant::key`), and species that were not made for this test (`tests`).
 
@@ -55,7 +56,7 @@ fn twins() -> Order {
     }
 }
 
-/// No two components share a key, so that no two axes that differ draw alike.
+/// No two components share a key, so that no two different axes draw the same words.
 #[test]
 fn axes_that_pass_from_state_to_state_without_a_node_between_differ() {
     let model = compiled(&["a", "b"], vec![twins()], 6);
@@ -70,7 +71,7 @@ fn axes_that_pass_from_state_to_state_without_a_node_between_differ() {
     contract::check(&model, 6, 1);
 }
 
-/// A relay that came with the first passage at a node has the key that it always had, whatever passages follow there.
+/// The key of a relay that came with the first passage at a node does not depend on later passages there.
 #[test]
 fn the_first_passage_at_a_node_keeps_its_key() {
     use phytomer_sim::plant::key::{LineageKey, Place};
@@ -86,7 +87,7 @@ fn the_first_passage_at_a_node_keeps_its_key() {
     assert_eq!(of_trunk, [0, 1, 2].map(|before| LineageKey::SEED.child(Place::Passage(before, 0).on(1))));
 }
 
-/// A numbered species: each digit of the number chooses another way to grow.
+/// A numbered species: each digit of the number chooses another option of growth.
 fn species(number: u32) -> (Vec<Order>, u32) {
     let way = |place: u32, ways: u32| number / 3_u32.pow(place) % ways;
     let speed = ["1", "2", "5/2"][way(0, 3) as usize];
@@ -170,7 +171,7 @@ fn each_set_of_relays_has_one_leader_however_many_come_at_one_node_and_tick() {
     let plant = contract::grown(&model, 6, &contract::seed_of(3, 0));
     let relays = (0..plant.axes.len()).filter(|&axis| plant.axes.origin[axis] == Origin::Relay).count();
     assert_eq!(relays, 3 * 12, "the stem passes at each of its twelve steps");
-    // Those of the last tick have not taken a step yet.
+    // Axes of the last tick have not taken a step yet.
     assert_eq!(sets(&plant, Origin::Relay), [12, 10]);
     contract::check(&model, 6, 3);
 }

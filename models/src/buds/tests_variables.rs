@@ -1,7 +1,7 @@
 //! The variables of de Reffye 1988 §3 against small closed forms: the birth and the dimension of a bud stand still
 //! while it pauses, and so does the number of growth units; the age and the dimension of the clock go on.
 //!
-//! Also what laws are asked for where a variable cannot be known. Absent: the tables (`law`).
+//! Also tested is which laws may depend on a variable. Absent: the tables (`law`).
 
 use super::params::{Apex, Axillary, GrowthUnit, Internode, Leaf, SpeedText, Speeds, Traumatic};
 use super::{BudModel, Buds, Order};
@@ -42,7 +42,8 @@ fn lengths(plant: &Plant) -> Vec<u32> {
     of_trunk.map(|node| (plant.nodes.length[node] * 100.0).round() as u32).collect()
 }
 
-/// A bud that came to be at tick 2 and rests then rests for ever: its age does not move. That of the clock moves on.
+/// A bud that came to be at tick 2 and rests then rests for ever: the age of the bud stays 2, while the age of the
+/// clock increases.
 #[test]
 fn a_bud_that_pauses_by_its_date_of_birth_does_not_wake() {
     let of = |pause: &str| Order { pause: expression(pause), ..Order::default() };
@@ -127,7 +128,7 @@ fn the_wait_of_a_bud_is_geometric_by_its_date_of_birth() {
     let (mut n, mut sum) = (0.0, 0.0);
     for number in 0..40 {
         let plant = grown(&model, 400, number);
-        // Those born near the end may not have woken: a wait of more than 100 has probability 3e-13.
+        // Buds born near the end may not have grown yet: a wait of more than 100 has probability 3e-13.
         for pair in plant.nodes.birth.windows(2).filter(|pair| pair[0] < 300) {
             let wait = f64::from(pair[1] - pair[0]);
             match pair[0] % 2 {
@@ -162,7 +163,7 @@ fn a_table_over_growth_units_reaches_as_far_as_they_do() {
     assert!(of(5, Some(4), 2) && !of(4, Some(4), 2));
 }
 
-/// Points that cannot be are not held against a law: a bud is no older than its axis, nor an axis than its plant.
+/// Points that cannot occur are not checked: a bud is no older than its axis, nor an axis than its plant.
 #[test]
 fn a_law_is_checked_where_its_variables_can_be_together() {
     for text in ["(age - bud_birth) / 20", "(dimension - bud_dimension) / 20", "(bud_birth - bud_dimension) / 20"] {
@@ -197,8 +198,8 @@ fn the_contract_holds_for_laws_of_the_bud_and_the_forecast_knows_them_not() {
     assert!(compiled(vec![Order::default()], 12).expectation(12).is_some());
 }
 
-/// A stream of words has a place for what a longer run could draw: here deaths, leaves and flowers that begin late,
-/// relays that become fewer, and more nodes a growth unit than the young plant makes.
+/// A stream of words has a place for everything that a longer run could draw: here deaths, leaves and flowers that
+/// begin late, relays that become fewer, and more nodes a growth unit than the young plant makes.
 #[test]
 fn what_a_longer_run_could_draw_has_its_words_in_a_shorter_one() {
     let late = |text: &str| Order {
@@ -229,7 +230,8 @@ fn what_a_longer_run_could_draw_has_its_words_in_a_shorter_one() {
     }
 }
 
-/// What an axis draws once, at its birth, knows the age of the plant; nothing has been counted of the axis yet.
+/// The laws of quantities drawn once, at the birth of an axis, may depend on the age of the plant; nothing has been
+/// counted of the axis yet.
 #[test]
 fn what_is_drawn_at_the_birth_of_an_axis_knows_the_age_of_the_plant_alone() {
     let of = |text: &str| Order { shed_after: Some(count(text)), ..Order::default() };

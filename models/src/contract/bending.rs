@@ -1,8 +1,8 @@
-//! The clause of plants whose wood bends: it remembers every age, so each is gone through, and the order in which the
-//! plant was grown must not show.
+//! The clause of plants whose wood bends. Such wood remembers every age, so the plant is bent at each age, and the
+//! result must not depend on whether the plant was grown ahead or by the clock.
 //!
 //! Loads are summed in the order of the plant's columns, which differs between growth ahead and growth by the clock; so
-//! poses agree to [`ALIKE`] and not to the bit. Absent on purpose: what bending does (`sim::mechanics`).
+//! poses agree to [`ALIKE`] and not to the bit. Absent on purpose: bending itself (`sim::mechanics`).
 
 use super::structure::standing;
 use super::{grow, sown};
@@ -11,13 +11,13 @@ use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::{NodeId, Plant, Seed};
 use phytomer_sim::site::Wind;
 
-/// By how much places may differ, metres, and components of unit directions.
+/// The largest difference between places, metres, and between components of unit directions.
 pub const ALIKE: f32 = 1e-5;
 
 /// A plant grown ahead and bent at each age stands as the same plant grown and bent tick by tick, in a light wind.
 ///
 /// # Panics
-/// At the first internode that does not.
+/// At the first internode whose two positions differ by more than [`ALIKE`].
 pub fn bends_alike_ahead_and_by_the_clock(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
     let rule = "a plant bends alike, grown ahead or by the clock";
     let (ahead, by_clock) =
@@ -30,7 +30,7 @@ pub fn bends_alike_ahead_and_by_the_clock(model: &dyn GrowthModel, until: Tick, 
     }
 }
 
-/// A plant bent at each age up to `until`, grown ahead or by the clock.
+/// The plant, bent at each age up to `until`; grown `ahead` or by the clock.
 pub(super) fn bent(model: &dyn GrowthModel, until: Tick, seed: &Seed, ahead: bool) -> Plant {
     let mut plot = sown(model, seed);
     plot.site.wind = Wind { speed: 2.0, towards: 0.5 };

@@ -1,8 +1,8 @@
-//! The clause of cuts: what is above a cut goes and grows no more, and the rest of the plant grows as if nothing had
-//! been cut.
+//! The clause of cuts: the part above a cut is removed and grows no more, and the rest of the plant grows as if nothing
+//! had been cut.
 //!
-//! It holds for models whose plants keep their past and that answer a cut with no growth of their own. Absent on
-//! purpose: what stands after a cut at each age, which holds for any plant (`sim::plant`).
+//! It holds for models whose plants keep their past and that do not respond to a cut by growth. Absent on purpose: the
+//! components that stand after a cut at each age, which are tested for any plant (`sim::plant`).
 
 use super::component::{Component, assert_same, components};
 use super::{grow, grown_by_the_clock, sown};
@@ -10,7 +10,8 @@ use phytomer_sim::clock::Tick;
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::{AxisId, NodeId, Plant, Seed};
 
-/// The trunk cut at half of its nodes, and a lateral taken whole, at half of the age `until`.
+/// Half of the trunk's nodes are cut off, and a whole lateral, at half of the age `until`; the rest grows as without
+/// the cut.
 ///
 /// # Panics
 /// At the first component that grows above a cut, or that grows otherwise beside it.
@@ -34,7 +35,7 @@ pub fn a_cut_takes_what_is_above_it(model: &dyn GrowthModel, until: Tick, seed: 
     }
 }
 
-/// Lays the plant that was cut beside the `whole` one.
+/// Compares the plant that was cut with the `whole` plant.
 fn beside_the_cut(whole: &Plant, cut: &Plant, key: u64, rank: u32, age: Tick) {
     let rule = "what a cut does not take grows as if nothing had been cut";
     let on_axis = |plant: &Plant, i: usize| plant.axes.key[plant.nodes.axis[i].index()].0 == key;
@@ -45,7 +46,7 @@ fn beside_the_cut(whole: &Plant, cut: &Plant, key: u64, rank: u32, age: Tick) {
     assert_same(rule, &left(whole, key, rank), &left(cut, key, rank));
 }
 
-/// The components of a plant that are not above the cut, by what they were born with.
+/// The components of a plant that are not above the cut, with the values that they had at birth.
 fn left(plant: &Plant, key: u64, rank: u32) -> Vec<Component> {
     let nodes = &plant.nodes;
     let mut gone = vec![false; plant.axes.len()];

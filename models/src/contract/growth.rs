@@ -1,8 +1,8 @@
-//! The clauses that two growths of one plant show side by side: ahead or by the clock, alone or among neighbours, in
-//! fresh or in used memory, by one thread or by several, with or without room.
+//! The clauses that compare two growths of one plant: ahead or by the clock, alone or among neighbours, in fresh or in
+//! used memory, by one thread or by several, with or without room.
 //!
-//! All rest on draws that are keyed by lineage and on ticks that are columns (design of `sim::random` and `sim::grow`).
-//! Absent on purpose: what one plant shows by itself (`structure`).
+//! All rest on draws that are keyed by lineage and on ticks that are columns (`sim::random`, `sim::grow`). Absent on
+//! purpose: the clauses for one plant by itself (`structure`).
 
 use super::component::{Component, assert_same, components, events, numbered};
 use super::structure::standing;
@@ -13,7 +13,7 @@ use phytomer_sim::plant::{NodeId, Plant, Seed, ThreadBudget};
 use phytomer_sim::plot::{Plot, Sowing};
 
 /// Growing ahead to `until` equals growing tick by tick, component for component and event for event; a model that
-/// rebuilds numbers its components alike too.
+/// rebuilds its plants also gives each component the same number.
 ///
 /// # Panics
 /// At the first difference.
@@ -32,8 +32,8 @@ pub fn ahead_equals_the_clock(model: &dyn GrowthModel, until: Tick, seed: &Seed)
     }
 }
 
-/// The plant at an age, grown to that age, is the plant read at that age from one grown to `until`: the same components
-/// with the same births; where the model extends its plants, also the same lives so far, measures and diameters.
+/// A plant grown to an age equals, at that age, the plant grown to `until`: the same components with the same births;
+/// where the model extends its plants, also the same lives so far, measures and diameters.
 ///
 /// # Panics
 /// At the first difference.
@@ -56,7 +56,7 @@ pub fn ages_agree(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
     }
 }
 
-/// A component as it can be known at `age`: without what is still to come, and without what a rebuild may change.
+/// A component as far as it is known at `age`: without later events, and without values that a rebuild may change.
 fn at(component: &Component, age: Tick, growth: Growth) -> Option<Component> {
     let past = |tick: Tick| if tick <= age { tick } else { NEVER };
     let mut known = component.clone();
@@ -81,7 +81,8 @@ fn thicknesses(plant: &Plant, age: Tick) -> Vec<(u64, u32, u32)> {
     all
 }
 
-/// Where a model rebuilds, a component has one number at all ages: tables of several ages are joined by it.
+/// Where a model rebuilds its plants, a component has the same number at all ages, since tables of several ages are
+/// joined by it.
 fn numbers_hold(young: &Plant, old: &Plant) {
     let named = |plant: &Plant| {
         let mut all: Vec<_> = numbered(plant).into_iter().map(|(number, c)| (c.key, number)).collect();
@@ -109,8 +110,8 @@ pub fn alone_equals_among_neighbours(model: &dyn GrowthModel, until: Tick, seed:
     }
 }
 
-/// Plants sown at several ticks of a plot are at each tick the plants sown first, so many ticks younger; before it is
-/// sown nothing of a plant is there. Grown tick by tick, and ahead to the last tick.
+/// Plants sown at several ticks of a plot equal the plants sown first at the same age; before the sowing a plant has no
+/// component. Grown tick by tick, and ahead to the last tick.
 ///
 /// # Panics
 /// At the first difference.
@@ -139,7 +140,7 @@ fn sowing(run_seed: u64, number: u32, tick: Tick) -> Sowing {
     Sowing { species: 0, seed: seed_of(run_seed, number), place: [0.0; 3], sown: tick }
 }
 
-/// A plant sown into the memory of another equals one in fresh memory, and so does one taken back to its seed.
+/// A plant sown into the memory of another plant equals one in fresh memory, and so does a plant reset to its seed.
 ///
 /// # Panics
 /// At the first difference.
@@ -155,8 +156,8 @@ pub fn memory_is_forgotten(model: &dyn GrowthModel, until: Tick, seed: u64) {
     same_plant("a plant taken back to its seed grows again as it did", &fresh, &used.plants[0]);
 }
 
-/// A plant whose axes are shared out among several threads, wherever two of them wait, is the one that a single thread
-/// grows, to every place in its columns: at once, in two legs, and where it has no room.
+/// A plant whose axes are shared out among several threads, wherever two axes wait, equals the plant of a single
+/// thread, to every place in its columns: grown at once, in two legs, and where it has no room.
 ///
 /// # Panics
 /// At the first difference.
@@ -192,11 +193,11 @@ fn same_plant(rule: &str, one: &Plant, other: &Plant) {
     assert_same(&format!("{rule}, event for event"), &events(one), &events(other));
 }
 
-/// A plant with room for its last component grows to `until`; with less, the model says that it is overgrown, ahead or
-/// by the clock, and no plant that is said to fit has more components than its limit.
+/// A plant with room for its last component grows to `until`. With less room the model returns [`Overgrown`], ahead or
+/// by the clock; a plant that is not overgrown has at most as many components as its limit.
 ///
 /// # Panics
-/// Where this is not so.
+/// Where a plant is overgrown with enough room, or is not with too little.
 pub fn limit_holds(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
     let needs = grown(model, until, seed).components();
     let first = sown(model, seed).plants[0].components();

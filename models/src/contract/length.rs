@@ -1,9 +1,7 @@
-//! The clause of runs of different lengths: what is recorded of a plant up to an age does not depend on how much longer
-//! the run lasts.
+//! The clause of runs of different lengths: a plant at an age does not depend on how much longer the run lasts.
 //!
-//! A model is compiled for the last age of a run, so two of them are laid side by side: one compiled for the age
-//! itself, one for a longer run. Absent on purpose: growing on past that age, which may not change what was
-//! ([`ages_agree`]).
+//! A model is compiled for the last age of a run, so two models are compared: one compiled for the age itself, one for
+//! a longer run. Absent on purpose: growing on past that age, which may not change the past ([`ages_agree`]).
 //!
 //! [`ages_agree`]: super::ages_agree
 
@@ -17,9 +15,10 @@ use phytomer_sim::plant::{OrganId, Plant, Seed};
 use phytomer_sim::pose::organ_frame;
 use phytomer_sim::site::Site;
 
-/// A plant grown to `age` by a model that was compiled for a run up to `age` is the plant grown to it by the same model
-/// compiled for a longer run: component for component, event for event, and at ages on the way its diameters, the size
-/// of its organs and the frame of each internode and organ, bit for bit; bent, where its wood bends.
+/// A plant grown to `age` by a model that was compiled for a run up to `age` equals the plant grown to `age` by the
+/// same model compiled for a longer run: component for component, event for event, and at ages on the way in its
+/// diameters, the size of its organs and the frame of each internode and organ, bit for bit; bent, where its wood
+/// bends.
 ///
 /// # Panics
 /// At the first difference.

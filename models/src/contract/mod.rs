@@ -1,11 +1,11 @@
-//! The contract: what every growth model keeps, whatever it grows, as a test suite that each model instantiates.
+//! The contract: the rules that every growth model obeys, as a test suite that each model instantiates.
 //!
-//! [`check`] runs all of it that one model can show, and [`the_length_of_the_run_leaves_no_trace`] what takes a second
-//! one, compiled for a longer run; the finer functions hold one clause each. They are for tests: each panics with the
-//! rule that was broken, the model's plant and the component, and returns nothing. The clauses are those of the plant's
-//! columns (`sim::plant`), of the loop (`sim::grow`: growing ahead equals growing by the clock) and of keyed draws (a
-//! plant depends on nothing but its seed).
-//! Absent on purpose: anything that holds for one model alone; counts from papers stand with the literature tests.
+//! [`check`] tests all clauses for one model, and [`the_length_of_the_run_leaves_no_trace`] the clause that takes a
+//! second model, compiled for a longer run; the finer functions test one clause each. They are for tests: each panics
+//! with the broken rule, the plant and the component, and returns nothing. The clauses are those of the plant's columns
+//! (`sim::plant`), of the loop (`sim::grow`: growing ahead equals growing by the clock) and of keyed draws (a plant
+//! depends on nothing but its seed). Absent on purpose: rules of one model alone; counts from papers stand with the
+//! literature tests.
 
 mod bending;
 mod component;
@@ -36,11 +36,11 @@ use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::{MOST_COMPONENTS, Plant, Seed};
 use phytomer_sim::plot::Plot;
 
-/// Holds `model` to every clause of the contract, on plants of the run seed `seed` grown to the age `until` (at least
-/// 1). For tests; it grows the plant some thirty times and once to each age, so a few thousand components are enough.
+/// Tests every clause of the contract for `model`, on plants of the run seed `seed` grown to the age `until` (at least
+/// 1). The plant is grown some thirty times and once to each age, so a few thousand components are enough.
 ///
 /// # Panics
-/// At the first rule that is broken, naming it.
+/// At the first broken rule, with its name.
 pub fn check(model: &dyn GrowthModel, until: Tick, seed: u64) {
     for number in [0, 1, 77] {
         let mut plant = grown(model, until, &seed_of(seed, number));
@@ -64,7 +64,7 @@ pub fn check(model: &dyn GrowthModel, until: Tick, seed: u64) {
     }
 }
 
-/// The seed of plant `number` in the run `run_seed`, without limit, with its events kept.
+/// The seed of plant `number` in the run `run_seed`, without a limit of components; its events are kept.
 pub fn seed_of(run_seed: u64, number: u32) -> Seed {
     Seed { plant: number, run_seed, component_limit: MOST_COMPONENTS, keep_events: true }
 }
@@ -74,20 +74,20 @@ pub fn sown<'m>(model: &'m dyn GrowthModel, seed: &Seed) -> Plot<'m> {
     Plot::of_one(model, seed)
 }
 
-/// A plant grown ahead to `until` at once, and shed.
+/// A plant grown ahead to `until` at once, with its dead parts shed.
 ///
 /// # Panics
-/// Where the model finds the plant overgrown.
+/// Where the model returns that the plant is overgrown.
 pub fn grown(model: &dyn GrowthModel, until: Tick, seed: &Seed) -> Plant {
     let mut plot = sown(model, seed);
     grow(&mut plot, until);
     plot.plants.remove(0)
 }
 
-/// A plant grown tick by tick to `until`, shed at each.
+/// A plant grown tick by tick to `until`, with its dead parts shed at each tick.
 ///
 /// # Panics
-/// Where the model finds the plant overgrown.
+/// Where the model returns that the plant is overgrown.
 pub fn grown_by_the_clock(model: &dyn GrowthModel, until: Tick, seed: &Seed) -> Plant {
     let mut plot = sown(model, seed);
     (1..=until).for_each(|age| grow(&mut plot, age));

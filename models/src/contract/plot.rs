@@ -1,5 +1,5 @@
-//! The clauses of a plot of several species: what its members share shows in the result, what they do not share leaves
-//! no trace, and threads never do.
+//! The clauses of a plot of several species: members interact only through the site that they share, and the number of
+//! threads never changes the result.
 //!
 //! Absent on purpose: clauses of one species (`growth`).
 
@@ -13,9 +13,9 @@ use phytomer_sim::pose::bud_frame;
 use phytomer_sim::shed::cause_of;
 use phytomer_sim::site::Plane;
 
-/// Two species in one plot, sown at several ticks, grow as each does alone where they share nothing; under a plane that
-/// kills the buds that reach it no bud grows beyond it; and on 1, 2 and 7 threads either plot is the same to the last
-/// number. The plane lies level, `height` metres above the ground.
+/// Two species in one plot, sown at several ticks, grow as each does alone where they share nothing. Under a plane that
+/// kills the buds that reach it no bud grows beyond it. On 1, 2 and 7 threads either plot is the same in every number.
+/// The plane lies level, `height` metres above the ground.
 ///
 /// # Panics
 /// At the first difference, and where the threads cannot be started.
@@ -36,13 +36,14 @@ pub fn two_species_share_a_plot(models: [&dyn GrowthModel; 2], until: Tick, seed
     }
 }
 
-/// The sowings of the plot: the two species in turn, three of either, three ticks apart, in a row on rising ground.
+/// The sowings of the plot: the two species in turn, three plants of each, three ticks apart, in a row on rising
+/// ground.
 fn sowing(k: u32, seed: u64) -> Sowing {
     let place = [0.4 * f64::from(k), 0.0, 0.05 * f64::from(k)];
     Sowing { species: k as usize % 2, seed: seed_of(seed, 10 + k), place, sown: 3 * (k / 2) }
 }
 
-/// The plot grown tick by tick on 1, 2 and 7 threads, which must agree; the last of them.
+/// The plot grown tick by tick on 1, 2 and 7 threads, with results that must agree. Returns the last plot.
 fn on_threads<'m>(models: &[&'m dyn GrowthModel; 2], sowings: &[Sowing], until: Tick, planes: &[Plane]) -> Plot<'m> {
     let grown = [1, 2, 7].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
@@ -70,8 +71,8 @@ fn on_threads<'m>(models: &[&'m dyn GrowthModel; 2], sowings: &[Sowing], until: 
     seven
 }
 
-/// Every bud that reached the plane was killed there at the next tick, so that no living bud stands beyond it but those
-/// that reached it in the last tick.
+/// Every bud that reached the plane was killed there at the next tick: the only living buds beyond it are those that
+/// reached it in the last tick.
 fn stays_under(plant: &Plant, height: f64) {
     let mut killed = 0;
     for (k, &fate) in plant.axes.apex_fate.iter().enumerate() {

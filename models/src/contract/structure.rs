@@ -1,7 +1,7 @@
-//! The clauses that one plant shows by itself: topology, ticks, keys, events, diameters and pose.
+//! The clauses that are tested on one plant by itself: topology, ticks, keys, events, diameters and pose.
 //!
-//! They are the invariants of `sim::plant`, each an assertion that names its rule. Absent on purpose: anything that
-//! needs a second plant to compare with (`growth`).
+//! They are the invariants of `sim::plant`, each an assertion that names its rule. Absent on purpose: clauses that
+//! compare two plants (`growth`).
 
 use std::collections::BTreeSet;
 
@@ -54,12 +54,12 @@ fn keys(plant: &Plant) {
     }
 }
 
-/// The first tick at which something of a plant may appear: what a model rewrites is there with the seed.
+/// The first tick at which a component may appear: the axiom of a model that rewrites is there with the seed.
 fn first_tick(growth: Growth) -> Tick {
     if growth == Growth::Rewrites { 0 } else { 1 }
 }
 
-/// An axis comes after its bearing node, in number and in time: a model that rewrites may put nodes below it later.
+/// An axis comes after its bearing node, in number and in time; but a model that rewrites may add nodes below it later.
 fn axis_comes_after(plant: &Plant, i: usize) {
     let (axes, nodes) = (&plant.axes, &plant.nodes);
     if let Some(bearer) = axes.bearer[i].some() {
@@ -119,7 +119,7 @@ fn node(plant: &Plant, i: usize, growth: Growth, until: Tick) {
     assert!(axis < axes.len(), "a node stands on an axis of its plant: node {i}");
     assert!((first..=until).contains(&nodes.birth[i]), "a node appears in {first}..={until}: node {i}");
     assert!(axes.birth[axis] <= nodes.birth[i], "a node appears no sooner than its axis: node {i}");
-    // What a model puts in mid-axis may come after the end of the apex.
+    // A node that a model inserts in mid-axis may appear after the end of the apex.
     let lives = growth == Growth::Rewrites || nodes.birth[i] <= axes.apex_end[axis];
     assert!(lives, "a node appears while its apex lives: node {i}");
     assert!(axes.component[axis] < nodes.component[i], "a bud's number comes before its nodes': node {i}");
@@ -168,7 +168,7 @@ fn ranks(plant: &Plant) {
     }
 }
 
-/// What is stated of rest frames is finite, and a heading a unit vector.
+/// The numbers stated of rest frames are finite, and a heading is a unit vector.
 fn headings(plant: &Plant) {
     for i in 0..plant.nodes.len() {
         let node = NodeId(i as u32);
@@ -179,11 +179,11 @@ fn headings(plant: &Plant) {
     }
 }
 
-/// The events tell of each node and of each axis once: `Grew` counts the nodes of its axis, and an axis appears with an
+/// The events report each node and each axis once: `Grew` counts the nodes of its axis, and an axis appears with an
 /// event of its origin.
 ///
 /// # Panics
-/// Where they do not.
+/// Where the events and the plant disagree.
 pub fn events_tell_the_plant(plant: &Plant, until: Tick) {
     let Some(events) = &plant.events else { return };
     let mut nodes = vec![0; plant.axes.len()];
@@ -203,7 +203,7 @@ pub fn events_tell_the_plant(plant: &Plant, until: Tick) {
             _ => {}
         }
     }
-    // What is there with the seed has no event.
+    // Components that are there with the seed have no event.
     (0..plant.nodes.len()).filter(|&i| plant.nodes.birth[i] == 0).for_each(|i| nodes[plant.nodes.axis[i].index()] += 1);
     for i in 0..plant.axes.len() {
         let last = plant.axes.last_node[i].some().map_or(0, |node| plant.nodes.rank[node.index()]);
@@ -227,7 +227,7 @@ fn appearance_of(origin: Origin) -> Option<EventKind> {
 /// Thickening gives every internode that stands at an age up to `until` finite diameters that are not negative.
 ///
 /// # Panics
-/// Where it does not.
+/// At the first diameter that is negative or not finite.
 pub fn diameters(model: &dyn GrowthModel, plant: &mut Plant, until: Tick) {
     let ages = if model.growth().keeps_its_past() { 1..=until } else { until..=until };
     for age in ages {
@@ -249,7 +249,7 @@ pub(super) fn standing(plant: &Plant, age: Tick) -> impl Iterator<Item = usize> 
 /// The pose gives every internode and organ a finite base point, a unit heading and a unit direction across it.
 ///
 /// # Panics
-/// Where it does not.
+/// At the first frame that is not so.
 pub fn poses(plant: &mut Plant) {
     pose(plant, plant.age);
     let frames = &plant.frames;

@@ -1,4 +1,7 @@
 //! The contract catches models that break it: a sound tree, spoilt in one way each.
+//!
+//! Each test checks that the message names the broken rule. Absent: sound models, which are tested in their own
+//! folders.
 
 use super::*;
 use crate::fault::Path;
@@ -31,7 +34,7 @@ struct Spoilt {
     growth: Growth,
     spoil: fn(Tick, &mut Plant),
     tells_limit: bool,
-    /// The plants that were grown, where each is to depend on how many there were before it.
+    /// The plants grown so far, where each plant is made to depend on the number of plants before it.
     crowd: Option<AtomicU32>,
 }
 
@@ -89,7 +92,7 @@ fn a_sound_model_keeps_it() {
     check(&spoilt(|_, _| ()), 6, 1);
 }
 
-/// A tree that is made anew at each age keeps all but this where it says that it adds to the plant that stands there.
+/// A tree that is made anew at each age obeys every clause but this one if it claims to extend its plants.
 #[test]
 fn growth_above_a_cut_is_caught() {
     breaks(&Spoilt { growth: Growth::Extends, ..spoilt(|_, _| ()) }, "nothing stands above a cut");
@@ -142,7 +145,7 @@ fn a_plant_that_depends_on_the_length_of_the_run_is_caught() {
     }
 }
 
-/// What an overgrown plant must not hide: it stands at the age asked for.
+/// The fault that an overgrown plant must not hide: it stands at the requested age.
 fn regrown(age: Tick, plant: &mut Plant) {
     plant.age = age;
 }

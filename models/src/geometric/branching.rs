@@ -28,8 +28,8 @@ pub fn child(mother: [f64; 3], ratio: f64, angle: f64, deviation: f64) -> [f64; 
 /// The horizontal unit vector on the left of a branch, (−S v, S u, 0).
 ///
 /// S is infinite on a vertical branch. There the rule for the first two children holds: "on the plane parallel to the
-/// direction of gravity". Of all such planes this takes x–z, that of the paper's front views, seen from −y with x to
-/// the right: the left is −x.
+/// direction of gravity". Of all such planes this takes x–z, the plane of the paper's front views, seen from −y with x
+/// to the right: the left is −x.
 pub fn left_of(branch: [f64; 3]) -> [f64; 3] {
     let [u, v, _] = branch;
     let horizontal = (u * u + v * v).sqrt();

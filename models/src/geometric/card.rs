@@ -1,4 +1,4 @@
-//! What GMT1 offers to everything above it.
+//! The card of GMT1: its name, its source and the age at which it is full-grown.
 //!
 //! Absent: its parameters (`gmt1`).
 
@@ -10,7 +10,7 @@ use phytomer_sim::model::GrowthModel;
 use std::sync::Arc;
 
 impl Gmt1 {
-    /// What the model is called, and how its keys stand.
+    /// The card of this model.
     pub const CARD: Card = Card {
         word: "gmt1",
         about: "two branches at every tip, by ratios and angles (Aono & Kunii 1984)",
@@ -27,7 +27,7 @@ impl Parameters for Gmt1 {
         Ok(Arc::new(self.compile(until, top)?))
     }
 
-    /// As in the figures of the paper: growth level 0 is age 1.
+    /// The full growth level is reached at this age: as in the figures of the paper, growth level 0 is age 1.
     fn full_grown_at(&self) -> Option<Tick> {
         Some(self.levels.value() + 1)
     }

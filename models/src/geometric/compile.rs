@@ -1,7 +1,7 @@
-//! From the parameters of GMT1 to the model: every law compiled, every fault of meaning told, before the first tick.
+//! From the parameters of GMT1 to the model: every law compiled and every fault of meaning found before the first tick.
 //!
-//! Angles that cannot both be 0, branches that are not too small, levels that a plant has room for. Absent on purpose:
-//! the parameters (`gmt1`) and what can be drawn of them (`laws`), which know nothing of the model.
+//! Checked are angles that cannot both be 0, branches that are not too small, and levels for which a plant has room.
+//! Absent on purpose: the parameters (`gmt1`) and the draws (`laws`).
 
 use super::gmt1::{Gmt1, MOST_LEVELS};
 use super::laws::Laws;
@@ -21,7 +21,7 @@ impl Gmt1 {
     /// The model, grown at most to the age `until`; the parameters stand at `path` in their file.
     ///
     /// # Errors
-    /// All the faults that [`Gmt1::check`] finds, and an age past the last tick.
+    /// Every fault that [`Gmt1::check`] finds, and an age past the last tick.
     pub fn compile(&self, until: Tick, path: &Path) -> Result<Gmt1Model, Vec<Fault>> {
         let mut faults = Vec::new();
         let laws = self.laws(path, &mut faults);
@@ -31,7 +31,7 @@ impl Gmt1 {
         if faults.is_empty() { Ok(Gmt1Model::new(self, laws)) } else { Err(faults) }
     }
 
-    /// The laws of the parameters, with every fault in what can be drawn of them.
+    /// The laws of the parameters; adds every fault in the values that can be drawn.
     fn laws(&self, path: &Path, faults: &mut Vec<Fault>) -> Laws {
         let laws = Laws::compile(self, path, faults);
         laws.check_angles(path, faults);

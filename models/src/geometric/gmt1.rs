@@ -3,9 +3,9 @@
 //!
 //! Names and units follow Table 1: h1, h2, R1, R2, R_diam, div, g_level. The paper gives no size; the length and the
 //! diameter of the first branch are assumed where a file does not give them. The paper's trees have fixed numbers; here
-//! each real one may also be a random variable, of which a plant draws one value for its whole life.
-//! Absent on purpose: the equations (`branching`), the tree (`tree`, `model`), the draws (`laws`), what is checked
-//! (`compile`) and the name and source of a tree, which every species file has whatever its model.
+//! each real number may also be a random variable, of which a plant draws one value for its whole life. Absent on
+//! purpose: the equations (`branching`), the tree (`tree`, `model`), the draws (`laws`), the checks (`compile`) and the
+//! name and source of a tree, which every species file has whatever its model.
 
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::MOST_COMPONENTS;

@@ -1,9 +1,9 @@
-//! The laws of GMT1's parameters, compiled, and what a plant draws of them, once for its whole life.
+//! The laws of GMT1's parameters, compiled, and their draws: a plant draws each parameter once for its whole life.
 //!
 //! Each parameter has a word of its own in the plant's stream, whether it is drawn or not, so that stating the law of
-//! one moves no other; a tree that is rebuilt at each age reads the same words again. The laws are random variables
-//! without variables: a tree has its parameters before it has an age, an order or a rank.
-//! Absent on purpose: what the parameters do (`tree`).
+//! one parameter changes no other; a tree that is rebuilt at each age reads the same words again. The laws depend on no
+//! variable: a tree has its parameters before it has an age, an order or a rank. Absent on purpose: the use of the
+//! parameters (`tree`).
 
 use super::gmt1::Gmt1;
 use super::tree::Tree;
@@ -12,7 +12,7 @@ use crate::law::{At, Domain, ValueRange, Variate, VariateTable};
 use phytomer_sim::plant::LineageKey;
 use phytomer_sim::random::{PlantRandom, Purpose};
 
-/// The real parameters of GMT1.
+/// The number of real parameters of GMT1.
 const PARAMETERS: usize = 8;
 
 const ANGLE: ValueRange = ValueRange { min: -180.0, max: 180.0, what: "an angle in degrees" };
@@ -24,14 +24,14 @@ const METRES: ValueRange = ValueRange { min: f64::MIN_POSITIVE, max: 1000.0, wha
 /// holds all its digits.
 const SMALLEST_M: f64 = 1e-9;
 
-/// The laws of the parameters, in the order of [`stated`], which is that of their words.
+/// The laws of the parameters, in the order of [`stated`], which is the order of their words.
 #[derive(Debug, Clone)]
 pub(super) struct Laws {
     tables: [VariateTable; PARAMETERS],
     is_random: bool,
 }
 
-/// Each parameter with its key and its range.
+/// The parameters, each with its key and its range.
 fn stated(tree: &Gmt1) -> [(&'static str, &Variate, ValueRange); PARAMETERS] {
     [
         ("h1_deg", &tree.h1_deg, ANGLE),
@@ -46,8 +46,8 @@ fn stated(tree: &Gmt1) -> [(&'static str, &Variate, ValueRange); PARAMETERS] {
 }
 
 impl Laws {
-    /// The laws of a tree whose parameters stand at `path`. A law that fails adds its faults and leaves none for others
-    /// to find in its place.
+    /// The laws of a tree whose parameters stand at `path`. A law that fails adds its faults; its table is then NaN, in
+    /// which the other checks find no fault.
     pub fn compile(tree: &Gmt1, path: &Path, faults: &mut Vec<Fault>) -> Self {
         let tables = stated(tree).map(|(key, law, range)| {
             law.compile(&Domain::ONCE, &path.key(key), range).unwrap_or_else(|mut found| {
@@ -73,7 +73,7 @@ impl Laws {
         Tree::new([h1, h2], [r1, r2], diameter_ratio, divergence_deg, [length_m, diameter_m])
     }
 
-    /// A fault where both branching angles can be 0: the two children would be one.
+    /// Adds a fault where both branching angles can be 0: the two children would coincide.
     pub fn check_angles(&self, path: &Path, faults: &mut Vec<Fault>) {
         let [h1, h2, ..] = &self.tables;
         if h1.can_be(0.0) && h2.can_be(0.0) {
@@ -83,8 +83,8 @@ impl Laws {
         }
     }
 
-    /// The branches of the last level: as short as the smaller ratio makes them, as thin as the ratio of diameters,
-    /// each as small as it can be drawn.
+    /// Adds a fault where branches of the last level can be too small: their length by the smaller ratio of lengths,
+    /// their diameter by the ratio of diameters, each with the smallest values that can be drawn.
     pub fn check_smallest(&self, levels: u32, path: &Path, faults: &mut Vec<Fault>) {
         let [_, _, r1, r2, diameter_ratio, _, length, diameter] = &self.tables;
         let [left, right] = [r1, r2].map(|ratio| ratio.extent()[0]);

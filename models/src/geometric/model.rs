@@ -1,9 +1,9 @@
 //! The tree of GMT1, built level by level (Aono & Kunii 1984, rules 1–4): two children at the tip of every branch of
 //! the level before, all at once.
 //!
-//! A plant draws the numbers of its tree once (`laws`), and counts need none of them. Components are numbered level by
-//! level, the left child first, so that numbers, keys and births hold at every age.
-//! Absent on purpose: branches, axes and their order (`tree`).
+//! A plant draws the numbers of its tree once (`laws`); the number of components does not depend on them. Components
+//! are numbered level by level, the left child first, so that numbers, keys and births hold at every age. Absent on
+//! purpose: branches, axes and their order (`tree`).
 
 use super::gmt1::Gmt1;
 use super::laws::Laws;
@@ -36,7 +36,7 @@ impl Gmt1Model {
         }
     }
 
-    /// The parameters that the model was made from.
+    /// The parameters from which the model was made.
     pub fn parameters(&self) -> &Gmt1 {
         &self.parameters
     }
@@ -59,8 +59,8 @@ impl Gmt1Model {
         Ok(())
     }
 
-    /// Branches and axes by order and age. Of the 2ᵐ branches of growth level m, C(m, k) have order k + 1: k of the m
-    /// branchings that led to them were taken sideways.
+    /// Branches and axes by order and age. Of the 2ᵐ branches of growth level m, C(m, k) have order k + 1: on the way
+    /// to them k of the m branchings were taken sideways.
     fn counts(&self, until: Tick) -> Expectation {
         let last = self.parameters.level_at(until);
         let mut orders: Vec<_> = (0..=last.unwrap_or(0)).map(|_| OrderExpectation::zero(until)).collect();
@@ -101,14 +101,14 @@ impl Grow for Gmt1Model {
         self.rebuild(age, plant)
     }
 
-    /// A branch keeps the diameter that it was made with, and one diameter along its length.
+    /// A branch keeps its first diameter, and has one diameter along its length.
     fn thicken(&self, _age: Tick, plant: &mut Plant) {
         let nodes = &mut plant.nodes;
         nodes.diameter.copy_from_slice(&nodes.primary_diameter);
         nodes.diameter_tip.copy_from_slice(&nodes.primary_diameter);
     }
 
-    /// No count is left to chance: the counts themselves.
+    /// Nothing is random here: these are the numbers themselves.
     fn expectation(&self, until: Tick) -> Option<Expectation> {
         Some(self.counts(until))
     }

@@ -1,5 +1,7 @@
-//! Every row of Table 1 of Aono & Kunii (1984) grown and held against the printed equations, evaluated here once more
-//! from points and by plain recursion; counts, closed forms, axes and outlines.
+//! Every row of Table 1 of Aono & Kunii (1984), grown and compared with the printed equations, which are evaluated here
+//! a second time from points and by plain recursion; counts, closed forms, axes and outlines.
+//!
+//! Absent: drawn parameters (`tests_drawn`) and refused parameters (`tests_parameters`).
 
 use super::{Gmt1, Gmt1Model};
 use crate::contract;

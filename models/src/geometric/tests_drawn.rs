@@ -80,7 +80,8 @@ fn each_parameter_has_the_mean_and_the_variance_that_are_stated() {
     }
 }
 
-/// Words of their own: two parameters are as good as uncorrelated, and stating a third moves neither.
+/// Each parameter has its own word: two parameters are uncorrelated within the bound, and stating a third changes
+/// neither.
 #[test]
 fn parameters_are_drawn_apart() {
     let n = 4_000;
@@ -118,7 +119,7 @@ fn a_plant_keeps_its_parameters_at_each_level_and_another_has_others() {
     assert!(found(&whole).iter().zip(found(&other)).filter(|(a, b)| **a != *b).count() >= 5);
 }
 
-/// Where the smaller angle is a matter of the draw, each plant's own angles say which child carries the axis on.
+/// Where the draw decides which angle is smaller, each plant's own angles decide which child continues the axis.
 #[test]
 fn drawn_angles_decide_which_child_carries_the_axis_on() {
     let mut tree = drawn(2);

@@ -1,4 +1,6 @@
-//! What GMT1 refuses, and what a file gives it.
+//! The faults of GMT1's parameters, and the values that a file gives.
+//!
+//! Each fault is compared with its path and its text. Absent: trees (`tests`).
 
 use super::{Gmt1, MOST_LEVELS};
 use crate::fault::Path;

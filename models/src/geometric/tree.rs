@@ -1,9 +1,9 @@
 //! One tree of GMT1: its branches, each from its mother's vector and diameter (Aono & Kunii 1984, rules 1–4).
 //!
-//! The paper has no axes and no orders. Here the child with the smaller |h| carries its mother's axis on, the left one
-//! where both are equal; the other begins an axis of the next order. That is the paper's own reading of a monopodial
-//! tree (h1 ≈ 0), carried over to all others; in a pure dichotomy it is a convention and nothing to be seen.
-//! Absent on purpose: levels and ages (`model`), and where the numbers of a tree come from (`laws`).
+//! The paper has no axes and no orders. Here the child with the smaller |h| continues its mother's axis, the left child
+//! where both are equal; the other child begins an axis of the next order. That is the paper's own reading of a
+//! monopodial tree (h1 ≈ 0), extended to all other trees; in a pure dichotomy it is a convention that cannot be seen.
+//! Absent on purpose: levels and ages (`model`), and the draws of the numbers of a tree (`laws`).
 
 use super::branching::{child, length};
 use phytomer_sim::clock::{NEVER, Tick};
@@ -22,15 +22,15 @@ pub(super) struct Tree {
     first_m: [f64; 2],
 }
 
-/// How a child stands to its mother.
+/// The way in which a child leaves its mother.
 #[derive(Debug, Clone, Copy)]
 struct Child {
-    /// Its length over hers.
+    /// The child's length over the mother's.
     ratio: f64,
-    /// The angle between them, signed: left is above 0.
+    /// The angle between the child and the mother, signed: left is above 0.
     angle_deg: f64,
     angle: f64,
-    /// Whether it carries her axis on.
+    /// Whether the child continues the mother's axis.
     continues: bool,
 }
 
@@ -47,8 +47,8 @@ pub(super) struct Branch {
 }
 
 impl Tree {
-    /// The tree with these angles between mother and children and these lengths of theirs over hers, left then right;
-    /// and with the length and the diameter of its first branch.
+    /// The tree with these angles between mother and children and these lengths of children over the mother's, left
+    /// then right; and with the length and the diameter of its first branch.
     pub fn new(
         [h1, h2]: [f64; 2],
         [r1, r2]: [f64; 2],
@@ -87,9 +87,9 @@ impl Tree {
         })
     }
 
-    /// How far the branching above the branch of `rank` is turned out of the maximal gradient plane, degrees in
-    /// (−360, 360): by the divergence angle once more with each branching along the axis, the first one of the axis
-    /// not at all (Figs. 4 and 10).
+    /// By how much the branching above the branch of `rank` is turned out of the maximal gradient plane, degrees in
+    /// (−360, 360). Each branching along an axis adds the divergence angle; the first of an axis is not turned (Figs. 4
+    /// and 10).
     fn turn_deg(&self, rank: u32) -> f64 {
         math::fmod(f64::from(rank - 1) * self.divergence_deg, 360.0)
     }
@@ -156,7 +156,7 @@ fn radians(degrees: f64) -> f64 {
     degrees * (PI / 180.0)
 }
 
-/// An angle above −720 degrees as one in [0, 360).
+/// An angle above −720 degrees, reduced to [0, 360).
 fn around(degrees: f64) -> f64 {
     math::fmod(degrees + 720.0, 360.0)
 }

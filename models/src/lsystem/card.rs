@@ -1,4 +1,4 @@
-//! What the L-systems offer to everything above them.
+//! The card of the L-systems: their name and their source.
 //!
 //! Absent: their parameters (`d0l`).
 
@@ -10,7 +10,7 @@ use phytomer_sim::model::GrowthModel;
 use std::sync::Arc;
 
 impl D0l {
-    /// What the model is called, and how its keys stand.
+    /// The card of this model.
     pub const CARD: Card = Card {
         word: "lsystem",
         about: "a string of cells is rewritten at each tick and drawn (Lindenmayer; Aono & Kunii 1984)",

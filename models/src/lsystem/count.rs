@@ -1,8 +1,8 @@
 //! How many cells and branches a system makes by each age: sums over kinds of cells, without a string.
 //!
-//! A kind is a letter on an axis of an order, and whether it is the last cell of its axis, which makes branches behind
-//! it forks (`text`). A system without interaction rewrites all cells of a kind alike, so the numbers are exact.
-//! Absent: components of a plant (`draw`).
+//! A kind is a letter on an axis of an order, and whether the cell is the last of its axis, since the branches behind a
+//! last cell are forks (`text`). A system without interaction rewrites all cells of a kind alike, so the numbers are
+//! exact. Absent: components of a plant (`draw`).
 
 use super::string::Rules;
 use super::text::{Branching, Symbol};
@@ -11,23 +11,23 @@ use phytomer_sim::expectation::{Certainty, Expectation, OrderExpectation};
 
 /// The most orders: those of the columns of a plant.
 const MOST_ORDERS: usize = u8::MAX as usize;
-/// Beyond so many cells no plant of the system grows; later ages are told as having more than can be counted.
+/// No plant of the system grows beyond so many cells; for later ages the numbers are reported as too many to count.
 const COUNTLESS: f64 = 1e15;
 
-/// A cell of a string: its letter, its order above that of the string's own axis, and whether its axis ends with it.
+/// A kind of cells: the letter, the order above that of the string's own axis, and whether the axis ends with the cell.
 struct Kind {
     letter: usize,
     above: usize,
     last: bool,
 }
 
-/// What a string is made of: its cells, and its branches by their order above that of its own axis.
+/// The contents of a string: its cells, and its branches by their order above that of its own axis.
 struct Made {
     cells: Vec<Kind>,
     branches: Vec<usize>,
 }
 
-/// The means of what a plant of the system has made by each age up to `until`: the numbers themselves.
+/// The numbers of components that a plant of the system has made by each age up to `until`, as means without variance.
 pub(super) fn expectation(rules: &Rules, until: Tick) -> Expectation {
     let letters = rules.productions.len();
     let becomes: Vec<[Option<Made>; 2]> = rules
@@ -79,7 +79,8 @@ pub(super) fn expectation(rules: &Rules, until: Tick) -> Expectation {
     Expectation { orders, axes: Certainty::Exact, organs: Certainty::Exact }
 }
 
-/// Cells by order, and in it by kind: first those behind which their axis goes on, by letter, then the others.
+/// Cells by order, and within an order by kind: first, by letter, the cells behind which their axis continues, then the
+/// last cells of axes.
 #[derive(Default)]
 struct Counts(Vec<Vec<f64>>);
 
@@ -96,10 +97,10 @@ fn slot(cell: &Kind, letters: usize) -> usize {
     cell.letter + if cell.last { letters } else { 0 }
 }
 
-/// What a string is made of; `end` tells whether no cell follows behind it on its axis.
+/// The contents of a string; `end` tells whether no cell follows behind it on its axis.
 fn made_of(symbols: &[Symbol], end: bool) -> Made {
     let mut made = Made { cells: Vec::new(), branches: Vec::new() };
-    // Of each axis that is open its order above that of the string, and the place of its last cell so far.
+    // For each open axis: its order above that of the string, and the place of its last cell so far.
     let mut axes: Vec<(usize, Option<usize>)> = vec![(0, None)];
     for symbol in symbols {
         let above = axes.last().map_or(0, |(above, _)| *above);

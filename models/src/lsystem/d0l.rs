@@ -2,8 +2,8 @@
 //! its strings are drawn.
 //!
 //! K = ⟨G, w, P⟩: the symbols G are the cells of the table `cell` with the two parentheses, w is `axiom`, and P the
-//! table
-//! `production`; a cell that has none stays as it is, as d → d does in the paper. Absent: what strings mean (`text`).
+//! table `production`; a cell without a production stays as it is, as d → d does in the paper. Absent: the meaning of
+//! strings (`text`).
 
 use phytomer_sim::clock::{LAST_TICK, Tick};
 use schemars::JsonSchema;
@@ -61,7 +61,7 @@ impl D0l {
     /// The model, grown at most to the age `until`; the parameters stand at `path` in their file.
     ///
     /// # Errors
-    /// Every fault that there is, each with its path below `path`.
+    /// Every fault found, each with its path below `path`.
     pub fn compile(&self, until: Tick, path: &Path) -> Result<D0lModel, Vec<Fault>> {
         let mut faults = Vec::new();
         if until > LAST_TICK {

@@ -1,12 +1,11 @@
 //! The plant of a string, by the drawing rules of Aono & Kunii 1984 ("L-system model").
 //!
-//! Each cell is a straight internode (1), of the length of its kind (3); the first stands upright (2); a pair of
+//! Each cell is a straight internode (rule 1), of the length of its kind (3); the first stands upright (2); a pair of
 //! parentheses is a branch (4). The branches along an axis stand on opposite sides by turns, the first of each axis on
 //! the left (5), also where several stand at one cell (6), at one angle in one plane: x–z, with x to the right. Where
-//! an axis divides its apex ends, and the branches are of its order.
-//!
-//! Internodes stand in the columns in the order of the string, axes in that of their numbers, which a branch never
-//! changes. Absent: rewriting (`string`).
+//! an axis divides its apex ends, and the branches are of its order. Internodes stand in the columns in the order of
+//! the string, axes in the order of their numbers, which never change.
+//! Absent: rewriting (`string`).
 
 use super::string::{Born, Living, Module};
 use phytomer_sim::clock::{NEVER, Tick};
@@ -14,31 +13,31 @@ use phytomer_sim::plant::{ApexFate, AxisId, Event, EventKind, LineageKey, NewAxi
 use std::collections::BTreeMap;
 use std::f32::consts::PI;
 
-/// What the cells of a kind are drawn as, metres.
+/// The length and the diameter of the cells of a kind, metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Size {
     pub length: f32,
     pub diameter: f32,
 }
 
-/// An axis of the string: its bud, what bears it, and where it goes on from.
+/// An axis of the string: its bud, its bearing axis, and the state from which it continues.
 #[derive(Debug, Clone)]
 struct Axis {
     born: Born,
     bearer: NodeId,
-    /// The cells so far.
+    /// The number of cells so far.
     rank: u32,
     last: NodeId,
-    /// The branches so far, and since the last cell.
+    /// The number of branches so far, and since the last cell.
     branches: u16,
     at_last: u16,
     /// The azimuth of its left side.
     left: f32,
     azimuth: f32,
     position: u16,
-    /// Whether it is one of those into which its bearing axis has divided.
+    /// Whether the axis is a fork, which its bearing axis has divided into.
     fork: bool,
-    /// The tick at which it divided.
+    /// The tick at which the axis divided.
     divided: Tick,
     /// The place of the axis that bears it, in the order of the string.
     bearing: usize,
@@ -114,8 +113,9 @@ impl Axis {
         }
     }
 
-    /// The next branch, borne by the last cell; `place` is this axis's. The reference direction of a branch lies on the
-    /// side of the axis that bears it, so that its left is opposite where it stands on the left, and else along it.
+    /// The next branch, borne by the last cell; `place` is the place of this axis. The reference direction of a branch
+    /// lies on the side of its bearing axis, so its left is opposite to that of the bearing axis where the branch
+    /// stands on the left, and along it elsewhere.
     fn branch(&mut self, born: Born, fork: bool, place: usize) -> Self {
         let on_left = self.branches.is_multiple_of(2);
         self.divided = if fork { self.divided.min(born.at) } else { self.divided };
@@ -134,7 +134,7 @@ impl Axis {
     }
 }
 
-/// Adds the axes in the order of their numbers; the handle of each, in the order of the string.
+/// Adds the axes in the order of their numbers. Returns their handles in the order of the string.
 fn place_axes(axes: &[Axis], angle: f32, plant: &mut Plant) -> Vec<AxisId> {
     let mut by_number: Vec<usize> = (0..axes.len()).collect();
     by_number.sort_unstable_by_key(|&place| axes[place].born.number);
@@ -169,8 +169,8 @@ fn place_axes(axes: &[Axis], angle: f32, plant: &mut Plant) -> Vec<AxisId> {
     places
 }
 
-/// Notes among the events of `plant` what is new in it since the age `last`: axes, their nodes, and axes that have
-/// divided; tick by tick, and axis by axis.
+/// Adds to the events of `plant` what is new since the age `last`: axes, their nodes, and axes that have divided; tick
+/// by tick, and axis by axis.
 pub(super) fn note_new(plant: &mut Plant, last: Tick) {
     let Plant { axes, nodes, events: Some(events), .. } = plant else { return };
     let mut new: BTreeMap<(Tick, AxisId, EventKind), u32> = BTreeMap::new();

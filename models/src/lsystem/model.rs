@@ -1,4 +1,4 @@
-//! A D0L-system as the loop sees it: its string rewritten tick by tick, and the plant written anew from it.
+//! A D0L-system as a growth model: its string rewritten tick by tick, and the plant written anew from it.
 //!
 //! Age n has the string of n rewritings; the paper counts growth levels from 1, so that level n is the age n − 1.
 //! Absent: rewriting (`string`) and drawing (`draw`).
@@ -55,7 +55,7 @@ impl Grow for D0lModel {
 
     fn grow_to(&self, age: Tick, plant: &mut Plant, living: &mut Living, _: &View<'_>) -> Result<(), Overgrown> {
         let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
-        // Each component is at least one module, and a branch two.
+        // Each component is at least one module of the string, and a branch two.
         let most = 2 * limit.limit as usize;
         for tick in plant.age + 1..=age {
             if !self.rules.rewrite(living, tick, most, || plant.next_number()) || plant.is_overgrown() {
@@ -70,12 +70,12 @@ impl Grow for D0lModel {
         Ok(())
     }
 
-    /// No count is left to chance: the counts themselves.
+    /// Nothing is random here: these are the numbers themselves.
     fn expectation(&self, until: Tick) -> Option<Expectation> {
         Some(expectation(&self.rules, until))
     }
 
-    /// A cell has one diameter along its length, that of its kind.
+    /// A cell has the diameter of its kind along its length.
     fn thicken(&self, _age: Tick, plant: &mut Plant) {
         let nodes = &mut plant.nodes;
         nodes.diameter.copy_from_slice(&nodes.primary_diameter);

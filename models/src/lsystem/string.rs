@@ -1,10 +1,10 @@
 //! The string of one plant, in which each cell and each branch keeps its number, and its rewriting.
 //!
-//! Rules are applied to all symbols at once (Aono & Kunii 1984, "L-system model"). A cell that is rewritten is the
-//! first cell of what it becomes: it differentiates and keeps its number, and the others are new. So `F → F F` lets the
-//! first internode keep its number, and in `g → d(g)g` the apical cell becomes the internode below the new apex. New
-//! cells and branches are numbered in the order of the string. A branch is a fork, or a lateral one, from its birth on.
-//! Absent: where they stand (`draw`).
+//! Rules are applied to all symbols at once (Aono & Kunii 1984, "L-system model"). A rewritten cell is the first cell
+//! of its production: it differentiates and keeps its number, and the other cells are new. So in `F → F F` the first
+//! internode keeps the number, and in `g → d(g)g` the apical cell becomes the internode below the new apex. New cells
+//! and branches are numbered in the order of the string. A branch is a fork, or lateral, from its birth on. Absent: the
+//! positions of cells in space (`draw`).
 
 use super::text::{Branching, Symbol};
 use phytomer_sim::clock::Tick;
@@ -17,7 +17,7 @@ pub(super) const MOST_CELLS: usize = 64;
 pub(super) struct Rules {
     /// The string at age 0.
     pub axiom: Vec<Symbol>,
-    /// What each cell becomes; `None`: it stays. What it becomes begins with a cell.
+    /// The production of each cell, which begins with a cell; `None`: the cell stays as it is.
     pub productions: Vec<Option<Vec<Symbol>>>,
 }
 
@@ -53,8 +53,8 @@ impl Rules {
         Living { modules }
     }
 
-    /// The string after the tick `at`. The number of modules that it may have is `most`; `false` where it would have
-    /// more, and the string is then part of what it should be.
+    /// Rewrites the string for the tick `at`. Returns `false` where it would have more than `most` modules; the string
+    /// is then incomplete. Linear in the modules of the new string.
     pub fn rewrite(&self, living: &mut Living, at: Tick, most: usize, mut number: impl FnMut() -> u32) -> bool {
         let Living { modules } = living;
         let last = std::mem::take(modules);
@@ -74,7 +74,8 @@ impl Rules {
         true
     }
 
-    /// What a module becomes, if it is a cell that is rewritten: the first symbol and the others, and which cell it is.
+    /// The production of a module, if it is a cell that is rewritten: the first symbol and the others, and the cell's
+    /// number and birth.
     fn production(&self, old: Module) -> Option<(&Symbol, &[Symbol], Born)> {
         let Module::Cell(letter, born) = old else { return None };
         let (first, others) = self.productions[usize::from(letter)].as_ref()?.split_first()?;
@@ -82,10 +83,10 @@ impl Rules {
     }
 }
 
-/// Of each module whether it is the last cell of its axis.
+/// For each module whether it is the last cell of its axis.
 fn ends_of_axes(modules: &[Module]) -> Vec<bool> {
     let mut ends = vec![false; modules.len()];
-    // From the end: of each axis that is open whether a cell of it was met.
+    // From the end: for each open axis whether a cell of it was met.
     let mut axes = vec![false];
     for (module, end) in modules.iter().zip(&mut ends).rev() {
         match module {
@@ -97,7 +98,7 @@ fn ends_of_axes(modules: &[Module]) -> Vec<bool> {
     ends
 }
 
-/// A new module; `end` tells whether the cell that becomes its string is the last of its axis.
+/// A new module; `end` tells whether the rewritten cell is the last of its axis.
 fn module(symbol: Symbol, end: bool, at: Tick, number: &mut impl FnMut() -> u32) -> Module {
     match symbol {
         Symbol::Cell(letter) => Module::Cell(letter, Born { number: number(), at }),

@@ -1,5 +1,7 @@
 //! The systems K1 and K2 of Aono & Kunii 1984 against their printed strings and drawing rules, a system that rewrites
 //! in mid-axis, and strings that are refused.
+//!
+//! Absent: plants of other models, and the contract's own tests (`contract`).
 
 use super::string::Module;
 use super::{Cell, D0l, D0lModel};
@@ -177,8 +179,8 @@ fn a_string_that_explodes_stops_at_the_limit_of_components() {
     assert!(plot.grow_to(20).is_err());
 }
 
-/// The numbers that are foretold are those of the strings, order by order, also where branches behind the last cell of
-/// an axis are a fork and the same branches in mid-axis are not.
+/// The forecast numbers are those of the strings, order by order, also where branches behind the last cell of an axis
+/// are a fork and the same branches in mid-axis are not.
 #[test]
 fn the_forecast_counts_every_string() {
     let cells = [("a", 0.1), ("b", 0.2)];

@@ -1,9 +1,10 @@
 //! Strings as people write them: letters of cells, and branches in parentheses (Aono & Kunii 1984, drawing rules 1 and
-//! 4). White space means nothing.
+//! 4). White space is ignored.
 //!
-//! A branch stands behind a cell of its axis, so that there is something that bears it; it is not empty.
+//! A branch stands behind a cell of its axis, which bears it; a branch is not empty. Absent: the meaning of a string
+//! (`draw`).
 
-/// Stands for a cell whose name is no letter, which is told by itself.
+/// Replaces a cell whose name is no letter; the name has a fault of its own.
 pub(super) const UNREADABLE: char = char::REPLACEMENT_CHARACTER;
 
 /// A symbol of a string.
@@ -17,18 +18,18 @@ pub(super) enum Symbol {
     Close,
 }
 
-/// How a branch stands to its axis, which is settled when it appears.
+/// The kind of a branch, which is settled when it appears.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Branching {
-    /// It is one of the next order.
+    /// A branch of the next order.
     Lateral,
-    /// It is one of two or more into which its axis divides, behind its last cell: of the same order.
+    /// A branch of the same order: one of two or more into which its axis divides, behind its last cell.
     Fork,
-    /// The same, if no cell follows on the axis behind the cell that becomes this string.
+    /// A fork if no cell follows on the axis behind the cell that becomes this string; otherwise lateral.
     ForkAtEnd,
 }
 
-/// The symbols of a text, and where not: what is wrong with it and what was expected.
+/// The symbols of a text; or an error of two parts, the problem and what was expected.
 pub(super) fn parse(text: &str, letters: &[char]) -> Result<Vec<Symbol>, (String, String)> {
     let mut symbols = Vec::new();
     let mut open = 0_usize;
@@ -82,9 +83,9 @@ pub(super) fn parse(text: &str, letters: &[char]) -> Result<Vec<Symbol>, (String
     }
 }
 
-/// Tells the branches that are forks: two or more behind the last cell of an axis.
+/// Marks the branches that are forks: two or more behind the last cell of an axis.
 fn mark_forks(symbols: &mut [Symbol]) {
-    // Of each axis that is open, the places of the branches behind its last cell.
+    // For each open axis, the places of the branches behind its last cell.
     let mut axes: Vec<Vec<usize>> = vec![Vec::new()];
     for place in 0..symbols.len() {
         match symbols[place] {

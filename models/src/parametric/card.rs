@@ -1,4 +1,4 @@
-//! What the parametric trees offer to everything above them.
+//! The card of the parametric trees: their name, their source and the age at which they are full-grown.
 //!
 //! Absent: their parameters (`tree`).
 
@@ -11,7 +11,7 @@ use phytomer_sim::model::GrowthModel;
 use std::sync::Arc;
 
 impl Tree {
-    /// What the model is called, and how its keys stand.
+    /// The card of this model.
     pub const CARD: Card = Card {
         word: "parametric",
         about: "curved stems that split and bear branches, by lengths and angles a level (Weber & Penn 1995)",

@@ -1,7 +1,7 @@
-//! What is checked of the parameters of a parametric tree: each number in its range, variations that leave a length
-//! above 0, a trunk that is longer than its bare part.
+//! The checks of the parameters of a parametric tree: each number in its range, variations that leave a length above 0,
+//! a trunk that is longer than its bare part.
 //!
-//! Absent: their meaning (`equations`).
+//! Absent: the meaning of the parameters (`equations`).
 
 use super::model::TreeModel;
 use super::tree::{Branches, Tree, Trunk};
@@ -22,7 +22,7 @@ const TURN_V: ValueRange = ValueRange { min: 0.0, ..TURN };
 const CURVE: ValueRange = ValueRange { min: -3600.0, max: 3600.0, what: "an angle in degrees" };
 const CURVE_V: ValueRange = ValueRange { min: 0.0, ..CURVE };
 
-/// The greatest numbers of things that are counted.
+/// The largest numbers of levels, of segments, of splits and of branches.
 const MOST_LEVELS: usize = 1;
 const MOST_SEGMENTS: u32 = 100;
 const MOST_SPLITS: u32 = 20;
@@ -35,7 +35,7 @@ impl Tree {
     /// The model, grown at most to the age `until`; the parameters stand at `path` in their file.
     ///
     /// # Errors
-    /// Every fault that there is, each with its path below `path`.
+    /// Every fault found, each with its path below `path`.
     pub fn compile(&self, until: Tick, path: &Path) -> Result<TreeModel, Vec<Fault>> {
         let mut faults = Vec::new();
         if until > LAST_TICK {
@@ -62,7 +62,7 @@ impl Tree {
         if faults.is_empty() { Ok(TreeModel::new(self)) } else { Err(faults) }
     }
 
-    /// The shortest trunk reaches above the bare part.
+    /// Adds a fault unless the shortest trunk reaches above the bare part.
     fn check_room(&self, path: &Path, faults: &mut Vec<Fault>) {
         let (base, shortest) = (self.base_size.value(), self.trunk.length.value() - self.trunk.length_v.value());
         if !self.branches.is_empty() && base >= shortest {
@@ -111,7 +111,7 @@ impl Branches {
     }
 }
 
-/// What the variation of a length may be: at most the length.
+/// The range of the variation of a length: at most the length.
 fn variation_of(key: &'static str, length: &Constant) -> ValueRange {
     let what = match key {
         "scale_m" => "a variation not above `scale_m`,",

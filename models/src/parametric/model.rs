@@ -1,8 +1,8 @@
-//! A parametric tree as the loop sees it: written anew at each age, whole from age 1 on.
+//! A parametric tree as a growth model: written anew at each age, whole from age 1 on.
 //!
 //! A segment of a stem is an internode that states how it is turned in the frame of the one before; a branch states how
 //! far behind the tip of its bearing internode it begins. Clones of the trunk are forks of its order, borne by the tip
-//! of its first segment. Absent: the equations (`equations`) and what a plant draws (`stems`).
+//! of its first segment. Absent: the equations (`equations`) and the draws of a plant (`stems`).
 
 use super::equations::tapered;
 use super::stems::{Drawn, Stem, clones, counts};
@@ -64,7 +64,8 @@ impl TreeModel {
     }
 }
 
-/// Adds a stem to the plant; `parent` is the first internode of the stem that bears it. Its own first internode.
+/// Adds a stem to the plant; `parent` is the first internode of the stem that bears it. Returns the first internode of
+/// the stem.
 fn add(stem: &Stem, parent: Option<NodeId>, plant: &mut Plant) -> Result<NodeId, Overgrown> {
     let (limit, new) = (plant.component_limit(), stem.turns.len() as u64 + u64::from(parent.is_some()));
     if u64::from(plant.components()) + new > u64::from(limit) {
@@ -142,8 +143,8 @@ impl Grow for TreeModel {
         Ok(())
     }
 
-    /// A segment is as thick at its tip as the next one at its base; the last of a stem of n segments, whose base is at
-    /// the share (n − 1)/n of the stem, as the stem's taper has it (§4.4).
+    /// A segment is as thick at its tip as the next segment at its base. The tip of the last of n segments, whose base
+    /// is at the share (n − 1)/n of the stem, follows the stem's taper (§4.4).
     fn thicken(&self, _age: Tick, plant: &mut Plant) {
         let Plant { axes, nodes, .. } = plant;
         nodes.diameter.copy_from_slice(&nodes.primary_diameter);
@@ -159,9 +160,9 @@ impl Grow for TreeModel {
         }
     }
 
-    /// The numbers themselves. But where the length of the trunk is drawn, it is drawn how many branches stand below
-    /// the split, of which clones have no copy: the fewest do on the shortest trunk, whose bare part is its greatest
-    /// share.
+    /// The numbers themselves, where the length of the trunk is not drawn. Where it is drawn, so is the number of
+    /// branches below the split, of which clones have no copy; it is smallest on the shortest trunk, whose bare part is
+    /// its greatest share.
     fn expectation(&self, until: Tick) -> Option<Expectation> {
         let Tree { trunk, base_size, .. } = &self.tree;
         let shortest = trunk.length.value() - trunk.length_v.value();

@@ -1,11 +1,11 @@
-//! The stems of one tree (Weber & Penn 1995 §4.1 to §4.4): what it draws, how long each stem is, where on its parent it
-//! begins, how it is turned segment by segment, and how thick it is.
+//! The stems of one tree (Weber & Penn 1995 §4.1 to §4.4): their draws, their lengths, their places on their parents,
+//! the turns of their segments, and their radii.
 //!
 //! A stem's frame in the paper has z along it, y on its upper side and x = y × z; in the plant's frames these are
 //! heading, upper side and left, so that a turn by a positive angle about the paper's x bends a stem away from its
-//! upper side. A clone has all that its twin has, from the split on (§3): its segments, its thickness, and branches of
-//! its own at the places of those of its twin. Draws are keyed by stem, and each quantity has a place of its own in the
-//! stem's stream. Absent: the equations (`equations`), the plant's columns (`model`).
+//! upper side. A clone equals its twin from the split on (§3): in its segments, its radii, and branches of its own at
+//! the places of its twin's. Draws are keyed by stem, and each quantity has a place of its own in the stem's stream.
+//! Absent: the equations (`equations`), the plant's columns (`model`).
 
 use super::equations::{
     Curve, Place, branch_radius, down_angle_deg, give_back_deg, places, rotate_deg, shape_ratio, split_deg, spread_deg,
@@ -26,16 +26,16 @@ const LEFT: [f64; 3] = [0.0, 1.0, 0.0];
 /// The segment, from 1, at whose end the trunk splits (nBaseSplits, §4.2).
 const SPLITS_AFTER: u32 = 1;
 
-/// One stem, or what a clone has of its own: the segments from the split on.
+/// A stem; of a clone, the segments from the split on.
 #[derive(Debug, Clone)]
 pub(super) struct Stem {
     pub key: LineageKey,
     /// 0 for the trunk and its clones, 1 for branches.
     pub level: u8,
-    /// Which of the clones, or of the branches on its segment, from 0.
+    /// The number among the clones, or among the branches on the bearing segment, from 0.
     pub position: u16,
-    /// Of what bears it: the rank of the segment, from 1, and how far behind the tip of that it begins, metres. The
-    /// trunk has neither.
+    /// The rank of the bearing segment, from 1, and how far behind the tip of that segment the stem begins, metres. For
+    /// the trunk both are 0.
     pub rank: u32,
     pub behind: f64,
     /// How each segment is turned in the frame of the one before, the first in that of the bearing segment.
@@ -44,12 +44,12 @@ pub(super) struct Stem {
     pub segment: f64,
     /// The radius at the base of each segment, metres.
     pub radii: Vec<f64>,
-    /// Around the bearing stem, and between it and this one, radians.
+    /// The azimuth around the bearing stem, and the angle between the bearing stem and this stem, radians.
     pub azimuth: f64,
     pub insertion: f64,
 }
 
-/// A tree of which the size is drawn.
+/// A tree whose size is drawn.
 #[derive(Debug)]
 pub(super) struct Drawn<'a> {
     tree: &'a Tree,
@@ -60,8 +60,8 @@ pub(super) struct Drawn<'a> {
     base: f64,
 }
 
-/// Where the draws of a plant, and of a stem, stand in their streams; those of a segment begin at `SEGMENTS`, with room
-/// for `A_SEGMENT` each.
+/// The places of the draws of a plant, and of a stem, in their streams. The draws of segments begin at `SEGMENTS`, with
+/// `A_SEGMENT` places each.
 mod word {
     pub const SCALE: u64 = 0;
     pub const TRUNK_LENGTH: u64 = 1;
@@ -85,7 +85,7 @@ impl<'a> Drawn<'a> {
         Self { tree, random, length: share * scale, base: tree.base_size.value() / share }
     }
 
-    /// The trunk, and after it its clones.
+    /// The trunk, followed by its clones.
     pub fn trunks(&self) -> Vec<Stem> {
         (0..=clones(&self.tree.trunk)).map(|stem| self.trunk(stem)).collect()
     }
@@ -117,8 +117,8 @@ impl<'a> Drawn<'a> {
     }
 
     /// How each segment of the trunk, or of a clone of it from its twin's base, is turned (§4.2); and the angles in
-    /// degrees by which it is turned about the vertical and away from it at the split. The first segment stands
-    /// upright: its declination is 0, and to turn about the vertical is to turn about its own axis.
+    /// degrees by which the stem is turned about the vertical and away from it at the split. The first segment stands
+    /// upright: its declination is 0, and a turn about the vertical is a turn about its own axis.
     fn split(&self, stem: u32, words: &mut Stream) -> (Vec<Rotation>, f64, f64) {
         let trunk = &self.tree.trunk;
         let (curve, clones) = (curve_of_trunk(trunk), clones(trunk));
@@ -135,8 +135,8 @@ impl<'a> Drawn<'a> {
         (turns.collect(), spread, split)
     }
 
-    /// The branches of the trunk or of one of its clones, from the base to the top (§4.3): all `places` of the whole
-    /// stem that lie on its own segments.
+    /// The branches of the trunk or of one of its clones, from the base to the top (§4.3): of the places of the whole
+    /// stem, those on the clone's own segments.
     pub fn branches(&self, parent: &Stem) -> impl Iterator<Item = Stem> {
         let segments = self.tree.trunk.curve_res.value();
         let before = segments - parent.turns.len() as u32;
@@ -155,7 +155,7 @@ impl<'a> Drawn<'a> {
         })
     }
 
-    /// A branch at a place of its parent, on the segment of this rank, turned by `rotate` degrees about it.
+    /// A branch at a place of its parent, on the segment of rank `rank`, turned by `rotate` degrees about the parent.
     fn branch(
         &self,
         level: &Branches,
@@ -193,12 +193,12 @@ impl<'a> Drawn<'a> {
     }
 }
 
-/// How many clones the trunk has: a trunk of one segment has none to split into.
+/// How many clones the trunk has: 0 where it has one segment, after which nothing could split.
 pub(super) fn clones(trunk: &Trunk) -> u32 {
     if trunk.curve_res.value() > SPLITS_AFTER { trunk.base_splits.value() } else { 0 }
 }
 
-/// What stems there are on a tree whose bare part is the share `base` of the trunk: for each level its axes and its
+/// The numbers of stems on a tree whose bare part is the share `base` of the trunk: for each level its axes and its
 /// internodes.
 pub(super) fn counts(tree: &Tree, base: f64) -> Vec<[u64; 2]> {
     let (clones, segments) = (u64::from(clones(&tree.trunk)), tree.trunk.curve_res.value());
@@ -226,7 +226,7 @@ fn curve([deg, back_deg, v_deg]: [f64; 3], segments: u32) -> Curve {
     Curve { segments, deg, back_deg, v_deg }
 }
 
-/// By how much each segment of a stem, with its number from 1, turns away from the one before, degrees.
+/// For each segment of a stem, with its number from 1, by how many degrees it turns away from the segment before.
 fn bends(curve: &Curve, words: &mut Stream) -> impl Iterator<Item = (u32, f64)> {
     (1..=curve.segments).map(move |nth| {
         let place = word::SEGMENTS + word::A_SEGMENT * u64::from(nth - 1);
@@ -247,8 +247,8 @@ fn bent(deg: f64) -> Rotation {
     Rotation::about(LEFT, radians(deg))
 }
 
-/// The azimuth in [0, 2π) of a stem that is turned about its parent by so many degrees: it leans away from its y-axis,
-/// and azimuths count from where that of its parent points.
+/// The azimuth in [0, 2π) of a stem that is turned about its parent by `rotate` degrees. The stem leans away from its
+/// y-axis, and azimuths count from the direction of the parent's y-axis.
 fn azimuth(rotate: f64) -> f64 {
     let around = math::fmod(rotate + 180.0, 360.0);
     radians(if around < 0.0 { around + 360.0 } else { around })

@@ -1,5 +1,5 @@
 //! The equations against the numbers that Weber & Penn 1995 print: the ends of their ranges, the values of their four
-//! trees, and what each decision of ours comes to where the paper is silent.
+//! trees, and the results of our decisions where the paper is silent.
 //!
 //! Absent: whole plants (`tests_plant`).
 

@@ -16,7 +16,7 @@ use phytomer_sim::site::Site;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// By how much a place may differ, metres.
+/// The tolerance of a place, metres.
 const ALIKE: f64 = 1e-5;
 
 /// A bare trunk of 10 m in twelve segments.
@@ -70,7 +70,7 @@ fn clump(splits: u32) -> Tree {
     tree
 }
 
-/// Everything at once, with every variation.
+/// A tree that uses every feature, with every variation.
 fn varied() -> Tree {
     let mut tree = clump(2);
     (tree.shape, tree.scale_v_m, tree.base_size) = (Crown::TendFlame, 3.0.into(), 0.05.into());
@@ -261,7 +261,7 @@ fn stems_taper_by_their_equation() {
     }
 }
 
-/// The two ways to say where a stem leaves its parent agree: the stated frame, and azimuth with insertion.
+/// The two ways to state where a stem leaves its parent agree: the stated frame, and azimuth with insertion.
 #[test]
 fn stated_frames_are_those_of_azimuth_and_insertion() {
     for (branches, tree) in [(level(40), clump(2)), (level(40), varied())] {
@@ -324,7 +324,7 @@ fn trees_keep_the_contract_of_growth_models() {
     contract::two_species_share_a_plot([&one, &other], 8, 6, 0.5);
 }
 
-/// The numbers that are foretold are those that are made, or no less where the length of the trunk is drawn.
+/// The forecast numbers are the numbers made, or bounds from above where the length of the trunk is drawn.
 #[test]
 fn the_forecast_counts_stems_and_segments() {
     let low = Tree { base_size: 0.0.into(), ..clump(2) };

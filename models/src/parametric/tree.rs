@@ -1,9 +1,9 @@
 //! The parameters of a parametric tree, by the names of Weber & Penn 1995 (appendix), with their variations.
 //!
 //! A key is the paper's name in small letters, with its unit: `nCurveBack` is `curve_back_deg`. The number before a
-//! name says which table it is in: 0 is `trunk`, 1 the first table of `branches`. A parameter with its variation, NAME
-//! ± NAMEV in the paper, is drawn uniformly between NAME − NAMEV and NAME + NAMEV; the paper does not say by which
-//! distribution. Absent: what the parameters do (`equations`), and those of the paper that nothing reads yet.
+//! name tells the table: 0 is `trunk`, 1 the first table of `branches`. A parameter with its variation, NAME ± NAMEV in
+//! the paper, is drawn uniformly between NAME − NAMEV and NAME + NAMEV; the paper does not say by which distribution.
+//! Absent: the use of the parameters (`equations`), and parameters of the paper that are not implemented.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -3,7 +3,7 @@
 //! New wood is laid on the bent shape and is free of stress there, so a tick adds dκ = dM / (E I) with the stiffness of
 //! the tick, never the whole moment over the last stiffness (Ancelin, Fourcaud & Lac 2004). With κ₀ = κ − M / (E I),
 //! taken at the curvature and the moment of the last tick and the stiffness of this one, the equilibrium is M = E I (κ
-//! − κ₀). It is found by Newton steps: moments and answers from the tips down (`loads`), curvatures and pose from the
+//! − κ₀). It is found by Newton steps: moments and turns from the tips down (`loads`), curvatures and pose from the
 //! base up (`turn`).
 
 use super::loads::{Response, Scan};
@@ -20,26 +20,26 @@ use crate::pose::pose;
 use crate::site::Fields;
 use crate::site::Site;
 
-/// A plant is in equilibrium when a step turns no internode by more, rad. The steps converge quadratically, so what is
-/// left then is far less.
+/// A plant is in equilibrium when no internode turns by more in a step, rad. The steps converge quadratically, so the
+/// remaining error is far smaller.
 pub const SETTLED: f64 = 1e-4;
 
-/// The most steps of a tick; a plant that still moves is reported.
+/// The most steps of a tick; a plant that still moves after them is reported.
 pub const MOST_STEPS: u32 = 60;
 
-/// How a tick of bending came out.
+/// The result of a tick of bending.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outcome {
-    /// The steps that it took.
+    /// The number of steps taken.
     pub steps: u32,
-    /// Whether the last step moved nothing any more.
+    /// Whether the last step turned no internode by more than [`SETTLED`].
     pub settled: bool,
-    /// An axis that did not hold what it carries, in the first step that found one: the nearest to the seed.
+    /// The axis nearest to the seed that did not hold its load, in the first step that found any.
     pub yields: Option<AxisId>,
 }
 
-/// Bends `plant` under its weight and the wind of `site`, as it stands at `age`, and poses it. What buckles or does not
-/// settle is noted among its events.
+/// Bends `plant` under its weight and the wind of `site`, as it stands at `age`, and poses it. Buckling and a bending
+/// without equilibrium are added to its events. Cost: at most [`MOST_STEPS`] times two scans of the internodes.
 pub fn bend(plant: &mut Plant, age: Tick, site: &Site, scratch: &mut Scratch) -> Outcome {
     let habit = std::sync::Arc::clone(&plant.habit);
     let Some(wood) = habit.wood.as_ref().filter(|wood| wood.feels(&site.fields(&wood.drag))) else {
@@ -56,7 +56,7 @@ pub fn bend(plant: &mut Plant, age: Tick, site: &Site, scratch: &mut Scratch) ->
 }
 
 impl Scratch {
-    /// Keeps the diameters of the last tick, before the plant thickens, where the righting of axes asks for them.
+    /// Keeps the diameters of the last tick, before the plant thickens, where the righting of axes needs them.
     pub fn remember(&mut self, plant: &Plant) {
         self.before.clear();
         if plant.habit.wood.as_ref().is_some_and(Wood::makes_reaction_wood) {
@@ -73,8 +73,8 @@ impl Scratch {
         self.responses.resize(plant.nodes.len(), Response::default());
     }
 
-    /// Leans a plant that stands bent at `age` into a site where more or less acts on it, and gives back the curvatures
-    /// that it had. Nothing grows meanwhile.
+    /// Bends a plant that stands bent at `age` into the forces of another site, without growth, and returns the
+    /// curvatures that it had before.
     pub(super) fn lean(&mut self, plant: &mut Plant, wood: &Wood, age: Tick, site: &Site) -> Vec<[f32; 2]> {
         self.prepare(plant, age);
         let stood = plant.strain.curvature.clone();
@@ -96,7 +96,7 @@ impl Scratch {
         outcome
     }
 
-    /// Poses the plant with the curvatures that it has.
+    /// Poses the plant with its present curvatures.
     pub(super) fn pose(&mut self, plant: &mut Plant, age: Tick) {
         let curvature = std::mem::take(&mut plant.strain.curvature);
         let along = (&self.standing, &self.laterals);
@@ -104,7 +104,7 @@ impl Scratch {
         plant.strain.curvature = curvature;
     }
 
-    /// Turns each internode as it answered, and poses it so; the largest turn, rad.
+    /// Turns each internode by its response and poses it there. Returns the largest turn, rad.
     fn turn(&mut self, plant: &mut Plant, age: Tick) -> f64 {
         let mut curvature = std::mem::take(&mut plant.strain.curvature);
         let mut turned = Turned::new(&mut curvature, &self.responses, &mut self.turns, plant.axes.len());
@@ -121,8 +121,8 @@ impl Scratch {
         scan.weigh(&self.standing, &self.laterals, &self.organs)
     }
 
-    /// From the moments of the last tick to the curvature without load: κ₀ = κ − M / (E I). The column of the moments
-    /// lends its memory until [`Self::load`] gives it back.
+    /// Replaces the moments of the last tick by the curvature without load: κ₀ = κ − M / (E I). The same memory holds
+    /// both; [`Self::load`] puts moments there again.
     fn freeze(&mut self, plant: &mut Plant, wood: &Wood, age: Tick) {
         self.natural = std::mem::take(&mut plant.strain.moment);
         each_flexural(plant, wood, age, &self.standing, |node, flexural| {
@@ -133,7 +133,7 @@ impl Scratch {
         });
     }
 
-    /// From the curvature without load to the moments of this tick: M = E I (κ − κ₀).
+    /// Replaces the curvature without load by the moments of this tick: M = E I (κ − κ₀).
     fn load(&mut self, plant: &mut Plant, wood: &Wood, age: Tick) {
         each_flexural(plant, wood, age, &self.standing, |node, flexural| {
             let (curvature, natural) = (plant.strain.curvature[node], self.natural[node]);
@@ -144,7 +144,8 @@ impl Scratch {
     }
 }
 
-/// Shows each internode that bends, with its flexural stiffness E I about `up` and about `heading × up`, N·m².
+/// Calls `show` for each internode that bends, with its flexural stiffness E I about `up` and about `heading × up`,
+/// N·m².
 #[inline]
 fn each_flexural(plant: &Plant, wood: &Wood, age: Tick, standing: &Standing, mut show: impl FnMut(usize, [f64; 2])) {
     for run in &standing.runs {

@@ -1,19 +1,12 @@
-//! The reverse scan: what each internode carries, the moment that this makes in its middle, and how the internode
-//! answers.
+//! The reverse scan: the load on each internode, the moment of this load in its middle, and its turn in response.
 //!
 //! With F the sum of all forces beyond the middle x of an internode and N their torque about the origin, the moment
-//! there is M = N − x × F; of weights, sums of mass and of its first moments say as much. Turning all that lies beyond
-//! by small angles Φ about horizontal axes changes M by the sum of G Φ over the internodes beyond, with G = −ℓ·F for a
-//! chord ℓ that carries F: positive where the load stands on top of it. So the equations of a Newton step,
-//!
-//! ```text
-//! E I / L (Φᵢ − Φₚ) = M − E I (κ − κ₀) + Σ G Φ   over the internodes beyond,
-//! ```
-//!
-//! are solved by elimination from the tips: the sum of each branch is an affine function of the turn at its base. The
-//! solution is exact in a vertical plane and nearly so in space, where a second term ℓ (Φ·F) is left out, as is
-//! torsion. The pivot of the elimination is the stiffness that is left under load: where it is not positive the plant
-//! buckles.
+//! there is M = N − x × F. A turn of all that lies beyond by small angles Φ about horizontal axes changes M by the sum
+//! of G Φ over the internodes beyond, with G = −ℓ·F for a chord ℓ that carries F (positive under a load on top). The
+//! equations of a Newton step, E I / L (Φᵢ − Φₚ) = M − E I (κ − κ₀) + Σ G Φ, are solved by elimination from the tips:
+//! the sum of each branch is an affine function of the turn at its base. The solution is exact in a vertical plane and
+//! nearly so in space, where torsion and a second term ℓ (Φ·F) are left out. The pivot is the stiffness left under
+//! load: where it is not positive the plant buckles.
 
 use super::section::Section;
 
@@ -24,46 +17,48 @@ use crate::plant::{AxisId, OrganId, Part, Plant, Wood};
 use crate::site::Fields;
 use crate::vector::Vector;
 
-/// An internode holds while more than this share of its own stiffness is left under load. Where it does not, the step
-/// is taken on that stiffness alone, so that a plant that buckles still moves, away from the shape that it cannot hold.
+/// An internode holds while more than this share of its own stiffness is left under load. Where less is left, the step
+/// uses the whole stiffness of the internode, so that a plant that buckles still moves away from the shape that it
+/// cannot hold.
 const LEFT: f64 = 1e-3;
 
-/// The most that an internode answers with, rad; far beyond what a step may turn.
+/// The largest response of an internode, rad; far more than any internode may turn in a step.
 const MOST_TURN: f64 = 1e3;
 
-/// What lies beyond a point of an axis, as that point feels it.
+/// The load on a point of an axis: the sums over everything beyond the point. For weights the mass and its first
+/// moments are enough to have F and N.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Load {
     /// The mass, kg.
     mass: f64,
     /// Its first moments about the origin along x and y, kg·m; weight acts along z.
     level: [f64; 2],
-    /// By how much the moments of all that lies beyond change for a turn here, N·m/rad.
+    /// The change of the moments of everything beyond for a turn at this point, N·m/rad.
     follows: f64,
-    /// By how much they change for the turns beyond that do not depend on the one here, N·m.
+    /// The change of these moments for the turns beyond that do not depend on the turn at this point, N·m.
     moves: Vector,
-    /// What the wind finds, where there is one.
+    /// The area in the wind; zero where there is no wind.
     sail: Sail,
 }
 
 /// Area in the wind.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sail {
-    /// m².
+    /// The area, m².
     area: f64,
     /// Its first moments about the origin, m³.
     at: Vector,
 }
 
-/// How an internode answers in this step: its turn is `gain` times that of its base, and `turn` about `up` and
-/// `heading × up`.
+/// The response of an internode in this step: it turns by `gain` times the turn of its base, plus `turn`, radians about
+/// `up` and `heading × up`.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Response {
     pub gain: f32,
     pub turn: [f32; 2],
 }
 
-/// What the reverse scan walks over and writes.
+/// The columns that the reverse scan reads and writes.
 pub(super) struct Scan<'a> {
     pub plant: &'a Plant,
     pub wood: &'a Wood,
@@ -117,28 +112,28 @@ impl Sail {
     }
 }
 
-/// An internode in two halves, as loads meet it from its tip.
+/// An internode in two halves, of which the scan passes the outer one first.
 struct Piece {
     length: f64,
     heading: Vector,
     foot: Vector,
-    /// Diameters, of a blade widths, at the base, in the middle and at the tip, m.
+    /// Diameters, or widths of a blade, at the base, in the middle and at the tip, m.
     diameters: [f64; 3],
     section: Section,
     density: f64,
 }
 
-/// What an internode feels.
+/// The load on an internode.
 struct Felt {
     /// The moment in its middle, N·m.
     moment: Vector,
-    /// G of its outer half, and of the whole of it, N·m/rad.
+    /// G of its outer half, and of the whole internode, N·m/rad.
     near: f64,
     whole: f64,
 }
 
 impl Piece {
-    /// Takes up the two halves of an internode.
+    /// Adds the two halves of an internode to the load. Returns the load on the internode.
     #[inline(always)]
     fn pass<const WINDY: bool>(&self, load: &mut Load, fields: &Fields) -> Felt {
         let [base, middle, tip] = self.diameters;
@@ -158,7 +153,7 @@ impl Piece {
         if WINDY { self.pass_sail(&mut load.sail, fields.drag, felt) } else { felt }
     }
 
-    /// The same for the wind, on top of what the weight does.
+    /// Adds the two halves of an internode to the area in the wind. Returns `felt` with the wind's part added.
     #[inline]
     fn pass_sail(&self, sail: &mut Sail, drag: Vector, felt: Felt) -> Felt {
         let [base, middle, tip] = self.diameters;
@@ -179,8 +174,8 @@ impl Piece {
 }
 
 impl Scan<'_> {
-    /// Goes over every internode that stands, from the tips down; the last axis met, nearest to the seed, that does not
-    /// hold what it carries.
+    /// Scans every internode that stands, from the tips down. Returns the axis nearest to the seed that does not hold
+    /// its load, if any.
     pub fn weigh(self, standing: &Standing, laterals: &Borne, organs: &Borne) -> Option<AxisId> {
         let calm = self.fields.drag == Vector::default();
         if calm {
@@ -239,14 +234,14 @@ impl Scan<'_> {
         holds
     }
 
-    /// Whether `axis` begins nearer to the base of the internode of `node` than to its tip, so that the middle of the
-    /// internode does not feel it.
+    /// Whether `axis` begins nearer to the base of the internode of `node` than to its tip, so that it is no load on
+    /// the middle of the internode.
     fn begins_below(&self, node: usize, axis: usize) -> bool {
         let [along, ..] = self.plant.stated.start(Part::Axis(AxisId(axis as u32)));
         along < -0.5 * self.lengths[node]
     }
 
-    /// An organ pulls at its node.
+    /// Adds an organ to the load at its node.
     #[inline]
     fn hang(&self, load: &mut Load, node: usize, organ: usize) {
         let organs = &self.plant.organs;
@@ -275,16 +270,16 @@ impl Scan<'_> {
         }
     }
 
-    /// How an internode of this flexural stiffness about `up` and about `heading × up`, N·m², answers; and whether it
-    /// holds. A blade is far stiffer about `up`; what turns with its base is taken for the other, weaker axis, which
-    /// slows the steps where a blade stands on edge and leaves the equilibrium as it is. Inlined, so that loads stay in
-    /// registers.
+    /// Computes the response of an internode of this flexural stiffness about `up` and about `heading × up`, N·m².
+    /// Returns the load on the base of the internode, and whether the internode holds. A blade is far stiffer about
+    /// `up`; the gain is that of the weaker axis for both, which slows the steps where a blade stands on edge and
+    /// leaves the equilibrium as it is. Inlined, so that loads stay in registers.
     #[inline(always)]
     fn answer(&mut self, mut load: Load, node: usize, felt: &Felt, flexural: [f64; 2], length: f64) -> (Load, bool) {
         let Felt { moment, near, whole } = *felt;
         let stiffness = flexural[1] / length;
         if !(stiffness.is_finite() && stiffness > 0.0) {
-            // No length, or nothing that bends: it goes with its base.
+            // An internode without length or without stiffness turns with its base.
             load.follows += whole;
             self.responses[node] = Response { gain: 1.0, turn: [0.0; 2] };
             return (load, true);

@@ -2,9 +2,9 @@
 //! theory of the strength of materials, with Young's modulus).
 //!
 //! Each tick internodes gain diameter (`secondary`), then loads and shape are brought to equilibrium (`bend`: moments
-//! in one reverse scan in `loads`, curvatures and pose in one forward scan in `turn`). What bending leaves is
-//! frozen in the wood ([`crate::plant::Strain`]). Axes right themselves by reaction wood and as young shoots
-//! (`uprighting`); `sway` moves a plant of one age in the wind. Absent: twisting, creep and breaking.
+//! in one reverse scan in `loads`, curvatures and pose in one forward scan in `turn`). The curvature is frozen in the
+//! wood ([`crate::plant::Strain`]). Axes right themselves by reaction wood and as young shoots (`uprighting`); `sway`
+//! moves a plant of one age in the wind. Absent: twisting, creep and breaking.
 
 mod bend;
 mod loads;

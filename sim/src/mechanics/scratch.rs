@@ -1,7 +1,7 @@
-//! The scratch of mechanics, which thickening and bending fill anew at each tick.
+//! The scratch of mechanics, which thickening and bending overwrite at each tick.
 //!
-//! It belongs to a thread and goes from plant to plant for its memory alone. Absent: what lasts from tick to tick,
-//! which is the plant's ([`crate::plant::Strain`]).
+//! Each thread has one and uses it for plant after plant, so that its memory is allocated once. Absent: the state that
+//! lasts from tick to tick, which is the plant's ([`crate::plant::Strain`]).
 
 use super::loads::{Load, Response};
 use crate::plant::borne::Borne;
@@ -9,7 +9,7 @@ use crate::plant::standing::Standing;
 use crate::pose::bent::Stances;
 use crate::vector::Vector;
 
-/// Scratch of the bending of one plant after another, kept for its memory.
+/// Scratch memory of the bending of one plant after another.
 #[derive(Debug, Clone, Default)]
 pub struct Scratch {
     pub(super) standing: Standing,
@@ -25,7 +25,7 @@ pub struct Scratch {
     pub(super) above: Vec<Above>,
 }
 
-/// What the internodes and leaves above a node amount to.
+/// The sums over the internodes and leaves above a node.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Above {
     pub sum: f64,

@@ -1,14 +1,10 @@
 //! Secondary growth: how internodes gain diameter, in one reverse scan.
 //!
-//! - The law of age is the model's own (de Reffye 1988 §4).
-//! - The pipe model (Shinozaki et al. 1964): each leaf above adds a pipe of one section. Pipes stay in the wood when
-//!   their leaves fall.
-//! - Da Vinci's rule (Prusinkiewicz & Lindenmayer 1990 §2, "da Vinci's postulate"): at a fork d^Δ is the sum of d^Δ
-//!   above.
-//! - Rings: each tick adds a ring of one width, or a section in proportion to the foliage above (Pressler's law), as
-//!   far as its leaves have expanded.
-//!
-//! Fallen branches count on in what lay below them: wood does not vanish. Absent: heartwood, and growth that differs
+//! The law of age is the model's own (de Reffye 1988 §4). In the pipe model (Shinozaki et al. 1964) each leaf above
+//! adds a pipe of one section; pipes stay in the wood when their leaves fall. By da Vinci's rule (Prusinkiewicz &
+//! Lindenmayer 1990 §2, "da Vinci's postulate") at a fork d^Δ is the sum of d^Δ above. Rings: each tick adds a ring of
+//! one width, or a section in proportion to the foliage above (Pressler's law), as far as its leaves have expanded.
+//! Fallen branches still count in the wood below them: wood does not vanish. Absent: heartwood, and growth that differs
 //! around the stem.
 
 use super::scratch::{Above, Scratch};
@@ -17,8 +13,8 @@ use crate::math::pow;
 use crate::plant::{NodeId, OrganId, Plant, Shape, Thickening};
 use std::f64::consts::PI;
 
-/// Gives each internode of `plant` its diameters at `age` by a rule other than the model's law. Called at each tick, in
-/// order: rings stand on the last tick's diameters.
+/// Gives each internode of `plant` its diameters at `age` by a rule other than the model's law. To be called at each
+/// tick, in order: rings are added to the diameters of the last tick. Linear in internodes and leaves.
 pub fn thicken(plant: &mut Plant, age: Tick, rule: Thickening, scratch: &mut Scratch) {
     let above = &mut scratch.above;
     above.clear();
@@ -46,7 +42,8 @@ pub fn thicken(plant: &mut Plant, age: Tick, rule: Thickening, scratch: &mut Scr
     taper(plant, age);
 }
 
-/// Enters what each leaf that has appeared by `age` is worth at its node, by itself and whether it lives.
+/// Adds to each node the leaves that have appeared there by `age`: `worth` is the value of a leaf by its handle and
+/// whether it lives.
 fn count_leaves(plant: &Plant, age: Tick, above: &mut [Above], worth: impl Fn(OrganId, bool) -> f64) {
     let organs = &plant.organs;
     for organ in (0..organs.len()).filter(|&organ| organs.kind[organ].is_foliage() && organs.birth[organ] <= age) {
@@ -54,7 +51,8 @@ fn count_leaves(plant: &Plant, age: Tick, above: &mut [Above], worth: impl Fn(Or
     }
 }
 
-/// From the tips down: each internode takes its diameter from what is above it, and hands that on.
+/// From the tips down: computes the diameter of each internode from the sums above it, and adds the internode to the
+/// sums below.
 fn downwards(plant: &mut Plant, age: Tick, above: &mut [Above], diameter: impl Fn(&Plant, usize, &Above) -> f64) {
     for node in (0..plant.nodes.len()).rev().filter(|&node| plant.nodes.birth[node] <= age) {
         plant.nodes.diameter[node] = diameter(plant, node, &above[node]) as f32;
@@ -83,8 +81,9 @@ fn hand_down(plant: &Plant, node: usize, above: &mut [Above], worth: f64) {
     }
 }
 
-/// The tip of a cone has the diameter of the internode that follows it on its axis, where that is thinner, and the tip
-/// of a blade always; every other tip has that of its base. What has not appeared by `age` is left as it is.
+/// Sets the diameters of tips. The tip of a cone has the diameter of the next internode of its axis where that is
+/// thinner, the tip of a blade always; every other tip has the diameter of its base. Internodes that have not appeared
+/// by `age` keep their values.
 pub fn taper(plant: &mut Plant, age: Tick) {
     let Plant { axes, nodes, appeared, habit, .. } = plant;
     for stretch in appeared.by(age, nodes) {

@@ -25,13 +25,14 @@ impl Section {
         }
     }
 
-    /// That of one node of an axis whose internodes have this: nodes may have looks of their own.
+    /// The cross-section of one node; `self` is the cross-section of its axis, which holds unless the node has a look
+    /// of its own.
     #[inline]
     pub fn at(self, plant: &Plant, node: usize) -> Self {
         if plant.own_looks.is_empty() { self } else { Self::of(plant.look_of_node(NodeId(node as u32))) }
     }
 
-    /// The second moments of area about `up` and about `heading × up`, m⁴, of a diameter or width.
+    /// The second moments of area about `up` and about `heading × up`, m⁴, at a diameter or width `across`, m.
     #[inline]
     pub fn second_moments(self, across: f64) -> [f64; 2] {
         let square = across * across;
@@ -44,7 +45,7 @@ impl Section {
         }
     }
 
-    /// The volume between two diameters or widths, m³: a frustum, or a slab.
+    /// The volume of a length between two diameters or widths, m³: a frustum, or a slab.
     #[inline]
     pub fn volume(self, length: f64, base: f64, tip: f64) -> f64 {
         match self {
@@ -53,7 +54,7 @@ impl Section {
         }
     }
 
-    /// Four times the radius of gyration of its weak axis, √(I / A): of a round stem its diameter.
+    /// Four times the radius of gyration √(I / A) of the weak axis, m: for a round stem its diameter.
     #[inline]
     pub fn gyration(self, across: f64) -> f64 {
         match self {

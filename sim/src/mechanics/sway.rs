@@ -1,11 +1,11 @@
 //! A plant of one age in a gusty wind: a frame at a time, for animation.
 //!
 //! Each axis is an oscillator about the shape that the steady wind gives it, with the first frequency of a clamped
-//! cylinder, f₁ = (β₁² / 8π) d √(E/ρ) / L² = 0.139897 d √(E/ρ) / L² (Euler–Bernoulli, β₁ = 1.8751), where ρ spreads
-//! over its own wood all that the axis carries. A gust that comes every [`GUSTS_S`] seconds knocks each axis, which
-//! then swings freely, e^(−ζωτ) cos(ω√(1−ζ²) τ + φ), with a phase φ of its own from its lineage key; the swings after
-//! all gusts that ever were add up to a geometric series. So the motion repeats with the gusts, and an animation of
-//! that length loops. Absent: leaves that flutter, vortices, and any trace in the growth of the plant.
+//! cylinder, f₁ = (β₁² / 8π) d √(E/ρ) / L² = 0.139897 d √(E/ρ) / L² (Euler–Bernoulli, β₁ = 1.8751); ρ is the mass of
+//! its wood and its load over the volume of its wood. A gust every [`GUSTS_S`] seconds knocks each axis, which then
+//! swings freely, e^(−ζωτ) cos(ω√(1−ζ²) τ + φ), with a phase φ from its lineage key; the swings after all earlier gusts
+//! are a geometric series. So the motion repeats with the gusts, and an animation of that length loops. Absent: leaves
+//! that flutter, vortices, and any effect on the growth of the plant.
 
 use super::scratch::Scratch;
 use super::section::Section;
@@ -40,10 +40,11 @@ pub enum Unmoved {
     NoDrag,
 }
 
-/// Moves a plant that stands bent and posed at `age` to where `wind` has it after `time` seconds. A calm moves nothing.
+/// Moves a plant that stands bent and posed at `age` to its pose in `wind` after `time` seconds. A calm moves nothing.
+/// Cost: one bending and one pose.
 ///
 /// # Errors
-/// Where the species has nothing that wind could move.
+/// [`Unmoved`] where the species has no wood that bends, or none with drag.
 pub fn sway(
     plant: &mut Plant,
     age: Tick,
@@ -78,13 +79,14 @@ pub fn sway(
 /// The wood of plants of this habit, where wind can move it.
 ///
 /// # Errors
-/// Where it cannot.
+/// [`Unmoved`] where the species has no wood that bends, or none with drag.
 pub fn yielding(habit: &Habit) -> Result<&Wood, Unmoved> {
     let wood = habit.wood.as_ref().filter(|wood| wood.bends).ok_or(Unmoved::Stiff)?;
     if wood.drag.coefficient > 0.0 { Ok(wood) } else { Err(Unmoved::NoDrag) }
 }
 
-/// The first frequency of each axis that stands at `age`, Hz; 0 where it has no length or nothing to swing.
+/// The first frequency of each axis at `age`, Hz, one entry an axis; 0 where an axis does not stand, has no length, or
+/// has no stiffness or mass.
 pub fn frequencies(plant: &Plant, wood: &Wood, age: Tick) -> Vec<f64> {
     let mut axes = vec![Beam::default(); plant.axes.len()];
     let stands = |node: usize| plant.stands(NodeId(node as u32), age);
@@ -97,7 +99,7 @@ pub fn frequencies(plant: &Plant, wood: &Wood, age: Tick) -> Vec<f64> {
     for node in (0..plant.nodes.len()).filter(|&node| stands(node)) {
         axes[plant.nodes.axis[node].index()].extend(plant, wood, age, node);
     }
-    // An axis comes after the one that bears it: what it carries is whole when it is handed down.
+    // An axis comes after its bearing axis, so its load is complete when it is added to that of the bearing axis.
     for axis in (0..axes.len()).rev() {
         if let Some(bearer) = plant.axes.bearer[axis].some() {
             let carried = axes[axis].mass;
@@ -107,14 +109,14 @@ pub fn frequencies(plant: &Plant, wood: &Wood, age: Tick) -> Vec<f64> {
     axes.iter().map(Beam::frequency).collect()
 }
 
-/// An axis as a clamped cylinder; of a blade, as the cylinder that bends as it does out of its plane.
+/// An axis as a clamped cylinder; a blade as the cylinder that bends alike out of the blade's plane.
 #[derive(Debug, Clone, Copy, Default)]
 struct Beam {
     length: f64,
     volume: f64,
-    /// Of its wood and all that it carries, kg.
+    /// The mass of its wood and of everything that it carries, kg.
     mass: f64,
-    /// At its base, of a round stem with the radius of gyration of its section, m.
+    /// The diameter at its base, m; of a blade that of a round stem with the same radius of gyration.
     diameter: f64,
     modulus: f64,
 }
@@ -144,7 +146,7 @@ impl Beam {
     }
 }
 
-/// Σ e^(−ζω(τ + kT)) cos(ω_d (τ + kT) + φ) over all gusts k ≥ 0, τ after the last of them.
+/// Σ e^(−ζω(τ + kT)) cos(ω_d (τ + kT) + φ) over all gusts k ≥ 0, with τ the time since the last gust.
 fn swing(frequency: f64, phase: f64, time: f64) -> f64 {
     if frequency <= 0.0 {
         return 0.0;
@@ -162,7 +164,7 @@ fn swing(frequency: f64, phase: f64, time: f64) -> f64 {
     exp(-decay * since) * (c * real + s * imaginary) / norm
 }
 
-/// A phase of the axis's own, radians.
+/// The phase of an axis from its lineage key, radians.
 fn phase(key: LineageKey) -> f64 {
     TAU * (key.0 >> 11) as f64 / (1_u64 << 53) as f64
 }

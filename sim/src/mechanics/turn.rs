@@ -1,18 +1,18 @@
-//! What a Newton step changes: each internode turns as it answered, and its curvature changes by as much.
+//! The changes of a Newton step: each internode turns by its response, and its curvature changes by as much.
 //!
-//! The turn Φ of an internode is that of its base times the gain, plus its own. What it adds across its heading is
-//! curvature; what it would add along the heading is torsion, which internodes do not take. The pose asks for the
-//! curvatures while it goes from the base to the tips, so that turning and posing are one scan.
+//! The turn Φ of an internode is the turn of its base times the gain, plus its own. The part across its heading is
+//! curvature; the part along the heading would be torsion, which is left out. The pose reads the curvatures on its way
+//! from the base to the tips, so that turning and posing are one scan.
 
 use super::loads::Response;
 use crate::pose::bent::Curvature;
 use crate::vector::Vector;
 
-/// The most that any internode turns in one step, rad. Far from rest the step overshoots: a slender branch held out
-/// level would turn by several radians.
+/// The largest turn of an internode in one step, rad. Far from equilibrium the step overshoots: a slender branch held
+/// out level would turn by several radians.
 const MOST: f64 = 0.6;
 
-/// The curvatures as they are.
+/// Curvatures without a change.
 pub(super) struct Kept<'a>(pub &'a [[f32; 2]]);
 
 impl Curvature for Kept<'_> {
@@ -39,7 +39,7 @@ pub(super) struct Turned<'a> {
     largest: f64,
 }
 
-/// What is carried along an axis: the turn so far, and the square of the largest.
+/// The state along an axis: the turn so far, and the square of the largest turn.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Turn {
     turn: Vector,
@@ -47,7 +47,7 @@ pub(super) struct Turn {
 }
 
 impl<'a> Turned<'a> {
-    /// Of so many axes; `turns` is scratch.
+    /// For a plant of `axes` axes; `turns` is scratch memory.
     pub fn new(
         curvature: &'a mut [[f32; 2]],
         responses: &'a [Response],
@@ -107,7 +107,7 @@ impl Curvature for Turned<'_> {
     }
 }
 
-/// The turn after an internode's own, and the latter, so that the former stays within the most.
+/// The turn after an internode's own turn, and its own turn, which is reduced so that the former stays within [`MOST`].
 #[inline]
 fn held(base: Vector, axes: [Vector; 2], own: [f64; 2]) -> (Vector, [f64; 2]) {
     let next = base + axes[0] * own[0] + axes[1] * own[1];

@@ -1,17 +1,17 @@
-//! How axes right themselves: reaction wood in what thickens, and the turning of what is young.
+//! How axes right themselves: reaction wood in internodes that thicken, and the turning of young internodes.
 //!
 //! An axis keeps to a direction t at a stated angle to the vertical, in the vertical plane of its heading h. Reaction
 //! wood shrinks more on one side as it matures, so a ring that adds dR to the radius adds the curvature
 //! dκ = 2 Δε dR / R² (Fournier, Bailleres & Chanson 1994; Alméras & Fournier 2009), here weighted by sin γ, the sine of
 //! the angle between h and t: the response of shoots to their inclination. A young internode adds its rate times
-//! sin γ each tick. Both change the curvature that the internode has without load: it is frozen in like growth.
+//! sin γ each tick. Both change the curvature that the internode has without load, and are frozen in like growth.
 
 use crate::clock::Tick;
 use crate::plant::standing::Standing;
 use crate::plant::{Plant, Shape, Uprighting, Wood};
 use crate::vector::Vector;
 
-/// Adds what this tick's righting changes to the curvatures without load. `before` holds the diameters of the last
+/// Adds the curvature of this tick's righting to the curvatures without load. `before` holds the diameters of the last
 /// tick, where reaction wood is made.
 pub(super) fn straighten(
     plant: &Plant,
@@ -51,7 +51,7 @@ fn gained(plant: &Plant, uprighting: &Uprighting, age: Tick, before: &[f32], nod
     primary + 2.0 * f64::from(uprighting.strain) * rings
 }
 
-/// h × t in the axes of the material: sin γ about the axis that turns the heading towards its direction.
+/// h × t in the axes of the material: the sine of γ about the axis that turns the heading towards its direction t.
 fn towards(plant: &Plant, uprighting: &Uprighting, node: usize) -> [f64; 2] {
     let (heading, up) = (Vector::from(plant.frames.heading[node]), Vector::from(plant.frames.up[node]));
     let side = heading.cross(up);

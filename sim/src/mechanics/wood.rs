@@ -1,4 +1,4 @@
-//! What mechanics asks of the wood of a species: whether it has cause to bend, and the volume of an internode.
+//! The wood of a species in mechanics: whether it bends under the forces of a site, and the volume of an internode.
 //!
 //! The compiled numbers themselves are part of the habit ([`crate::plant::Wood`]).
 
@@ -7,13 +7,14 @@ use crate::plant::{NodeId, Plant, Wood};
 use crate::site::Fields;
 
 impl Wood {
-    /// Whether axes have cause to bend in these fields of force, or right themselves.
+    /// Whether axes bend under these fields of force, or right themselves.
     pub(crate) fn feels(&self, fields: &Fields) -> bool {
         self.bends && (*fields != Fields::NONE || self.tissues.iter().any(|tissue| tissue.uprighting.acts()))
     }
 }
 
-/// The volume of an internode, m³: the frustum of its two diameters, or of a blade its mean width by its thickness.
+/// The volume of an internode, m³: the frustum of its two diameters, or of a blade its mean width by its thickness by
+/// its length.
 #[inline]
 pub fn wood_volume(plant: &Plant, node: NodeId) -> f64 {
     let nodes = &plant.nodes;

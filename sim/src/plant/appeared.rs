@@ -1,7 +1,8 @@
-//! The internodes that have appeared by an age, as stretches of one axis: found once an age for every pass along them.
+//! The internodes that have appeared by an age, as stretches of one axis: computed once for an age and read by every
+//! pass along the internodes.
 //!
-//! A large plant has many axes, and when it is young most of them have not appeared: a pass that looked at each axis
-//! again would spend most of its time on those.
+//! A large plant has many axes, and when it is young most of them have not appeared: a pass over all axes would spend
+//! most of its time on axes without internodes.
 
 use super::{AxisId, Nodes};
 use crate::clock::Tick;
@@ -24,24 +25,24 @@ impl Stretch {
         self.start as usize..self.end as usize
     }
 
-    /// Its first internodes, at most so many; `None` of none.
+    /// Its first `count` internodes; `None` where `count` is 0.
     pub(super) fn first(self, count: usize) -> Option<Self> {
         let count = count.min(self.nodes().len());
         (count > 0).then(|| Self { end: self.start + count as u32, ..self })
     }
 }
 
-/// The stretches of one plant at the age at which they were last asked for.
+/// The stretches of one plant at the last age for which they were computed.
 #[derive(Debug, Clone, Default)]
 pub struct Appeared {
-    /// The age, and the nodes that there were.
+    /// The age, and the number of nodes at the time.
     of: Option<(Tick, usize)>,
     stretches: Vec<Stretch>,
 }
 
 impl Appeared {
-    /// The stretches of the internodes among `nodes` that have appeared by `age`; kept until another age is asked for,
-    /// or a node is added.
+    /// The stretches of the internodes among `nodes` that have appeared by `age`. Computed in time linear in the runs
+    /// of nodes and kept until the age changes or a node is added.
     pub fn by(&mut self, age: Tick, nodes: &Nodes) -> &[Stretch] {
         if !self.knows(age, nodes) {
             self.of = Some((age, nodes.len()));
@@ -51,8 +52,8 @@ impl Appeared {
         &self.stretches
     }
 
-    /// The stretches of a plant that cannot be changed: those of the last call of [`Appeared::by`] where they are of
-    /// this age, else found anew.
+    /// The stretches of [`Appeared::by`] where the plant cannot be changed: borrowed if they are kept, else computed
+    /// anew.
     pub(super) fn read(&self, age: Tick, nodes: &Nodes) -> Cow<'_, [Stretch]> {
         if self.knows(age, nodes) {
             Cow::Borrowed(&self.stretches)
@@ -71,7 +72,7 @@ impl Appeared {
     }
 }
 
-/// The part of each run that has appeared: its older nodes come first.
+/// The part of each run of nodes that has appeared: the older nodes of a run come first.
 fn stretches(age: Tick, nodes: &Nodes) -> impl Iterator<Item = Stretch> {
     let part = move |run: usize| {
         let Range { start, end } = nodes.run(run);

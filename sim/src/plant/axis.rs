@@ -1,7 +1,7 @@
 //! Axes, each the work of one apical bud (de Reffye 1988 §2).
 //!
-//! Orders count from the trunk, 1. Monopodial and sympodial growth are told apart by the origin of an axis. Absent: the
-//! laws by which apices end, what a model remembers of a living bud, and the pose of axes.
+//! Orders count from the trunk, 1. Monopodial and sympodial growth differ in the origin of an axis. Absent: the laws by
+//! which apices end, a model's own data on living buds, and the pose of axes.
 
 use super::columns::columns;
 use super::handle::{AxisId, NodeId};
@@ -9,7 +9,7 @@ use super::joint::Joint;
 use crate::clock::{NEVER, Tick};
 use crate::key::LineageKey;
 
-/// How an axis came to be; monopodial and sympodial growth are told apart by this, never by looks.
+/// How an axis came to be. Monopodial and sympodial growth differ in this, not in their looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Origin {
@@ -44,7 +44,7 @@ impl Origin {
     }
 }
 
-/// What became of an apical bud.
+/// The fate of an apical bud.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum ApexFate {
@@ -56,13 +56,13 @@ pub enum ApexFate {
     Flowered = 2,
     /// It had made all its growth units.
     Completed = 3,
-    /// Something from outside killed it.
+    /// A cause outside the plant killed it.
     Killed = 4,
     /// It was cut off.
     Pruned = 5,
 }
 
-/// What a new axis starts from.
+/// The values of a new axis.
 #[derive(Debug, Clone, Copy)]
 pub struct NewAxis {
     /// The node that bears it; `None` for the axis of the seed.
@@ -75,17 +75,18 @@ pub struct NewAxis {
     pub origin: Origin,
     /// Its position among the buds of its node, from 0.
     pub position: u16,
-    /// Whether it came as one of a set of relays or forks of which another was the first.
+    /// Whether the axis follows another axis of its set of relays or forks: it does not lead the set.
     pub follows: bool,
     /// The named state in which it starts, as the model numbers them.
     pub state: u8,
     /// The tick at which its bud appeared.
     pub appearance: Tick,
-    /// The tick at which its own life began: the appearance and the delay of a proleptic bud. Dimension counts from it.
+    /// The tick at which its own life began: the appearance plus the delay of a proleptic bud. Dimension counts from
+    /// here.
     pub birth: Tick,
-    /// Around the bearing axis, in radians from the bearing node's reference direction.
+    /// The azimuth around the bearing axis, radians from the bearing node's reference direction.
     pub azimuth: f32,
-    /// Between the bearing axis and this one, in radians.
+    /// The angle between the bearing axis and this axis, radians.
     pub insertion: f32,
     /// The ticks from the death of its branch to the fall; [`NEVER`] where dead wood stays.
     pub shed_after: Tick,
@@ -124,8 +125,7 @@ columns! {
         origin: Origin = axis.origin,
         /// The position among the buds of the bearing node.
         position: u16 = axis.position,
-        /// Whether the axis came as one of a set of relays or forks of which another was the first: it does not lead
-        /// its set.
+        /// Whether the axis follows another axis of its set of relays or forks: it does not lead the set.
         follows: bool = axis.follows,
         /// The state in which the axis started.
         state: u8 = axis.state,
@@ -145,7 +145,7 @@ columns! {
         apex_end: Tick = NEVER,
         /// How the apex ended.
         apex_fate: ApexFate = ApexFate::Alive,
-        /// The tick at which what the apex became is past: the end of the apex, or the fall of its terminal flower and
+        /// The tick from which nothing of the apex lives: the end of the apex, or the fall of its terminal flower and
         /// fruit.
         spent: Tick = NEVER,
         /// The tick at which every bud of the branch is dead; written by [`crate::shed`].
@@ -156,7 +156,7 @@ columns! {
 }
 
 impl Axes {
-    /// The last tick of an apex, with what became of it.
+    /// Ends an apex at its last tick, with its fate.
     pub fn end_apex(&mut self, axis: AxisId, tick: Tick, fate: ApexFate) {
         self.apex_end[axis.index()] = tick;
         self.apex_fate[axis.index()] = fate;
@@ -174,7 +174,7 @@ impl Axes {
         self.last_node[axis.index()] = node;
     }
 
-    /// Takes from a fragment what has become of the axes that it was given.
+    /// Copies from a fragment the fates of the axes that were given to it.
     pub(super) fn take_back(&mut self, grown: &Self, joint: &Joint) {
         for (axis, own) in joint.taken.clone().zip(0..) {
             self.last_node[axis] = joint.node(grown.last_node[own]);

@@ -1,22 +1,23 @@
-//! What stands on each node, met in the order of the nodes: axes by their bearing node, organs by theirs.
+//! The axes and organs on each node, visited in the order of the nodes: axes by their bearing node, organs by theirs.
 //!
 //! Models append axes and organs nearly in the order of the nodes that bear them. Where the order is exact, as it is
-//! when growth ran ahead, nothing is stored; else the places are sorted once a tick.
+//! after growth ahead, nothing is stored; otherwise the places are sorted once a tick.
 
 use super::NodeId;
 
 /// Things on nodes, in the order of their nodes.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Borne {
-    /// The places in order of their nodes; unused where the things already stand so.
+    /// The places in the order of their nodes; empty where the things already are in that order.
     sorted: Vec<u32>,
     in_order: bool,
 }
 
 impl Borne {
-    /// Puts the things whose nodes are `bearers` in order; the first things may stand on no node.
+    /// Finds the order of the things whose bearing nodes are `bearers`; a thing without a node comes first. Linear
+    /// where the things are in order already, else n log n.
     pub fn arrange(&mut self, bearers: &[NodeId]) {
-        // NONE is the largest number: counted up by one it becomes 0, and what stands on no node comes first.
+        // NONE is the largest number: plus one it wraps to 0, so that things without a node come first.
         let key = |place: usize| bearers[place].0.wrapping_add(1);
         self.sorted.clear();
         self.in_order = (1..bearers.len()).all(|place| key(place - 1) <= key(place));
@@ -33,7 +34,7 @@ impl Borne {
     }
 }
 
-/// Meets the things node by node from the last node down.
+/// Visits the things node by node from the last node down.
 pub(crate) struct Down<'a> {
     borne: &'a Borne,
     bearers: &'a [NodeId],
@@ -45,7 +46,7 @@ impl<'a> Down<'a> {
         Self { borne, bearers, next: bearers.len() }
     }
 
-    /// The next thing on `node`, of which all later nodes were asked before.
+    /// The next thing on `node`. Calls must go down the nodes.
     #[inline]
     pub fn on(&mut self, node: usize) -> Option<usize> {
         while self.next > 0 {
@@ -63,7 +64,7 @@ impl<'a> Down<'a> {
     }
 }
 
-/// Meets the things node by node from the first node up.
+/// Visits the things node by node from the first node up.
 pub(crate) struct Up<'a> {
     borne: &'a Borne,
     bearers: &'a [NodeId],
@@ -75,7 +76,7 @@ impl<'a> Up<'a> {
         Self { borne, bearers, next: 0 }
     }
 
-    /// The next thing on `node`, of which all earlier nodes were asked before.
+    /// The next thing on `node`. Calls must go up the nodes.
     #[inline]
     pub fn on(&mut self, node: usize) -> Option<usize> {
         while self.next < self.bearers.len() {

@@ -1,9 +1,9 @@
-//! Columns of the plant, each declared once: its name, its type, its value in a new entry, and what becomes of it where
-//! a fragment of the plant is joined to the whole.
+//! Columns of the plant, each declared once: its name, its type, its value in a new entry, and its value where a
+//! fragment of the plant is joined to the whole.
 //!
-//! The structure of arrays, its length, and how entries are added, copied, joined and cleared are all made of that
-//! declaration, so a new column is one line. Absent: columns that most plants leave empty (`rare`), and what the
-//! columns mean, which the files that declare them say.
+//! The structure of arrays, its length, and how entries are added, copied, joined and cleared are all generated from
+//! that declaration, so a new column is one line. Absent: columns that most plants leave empty (`rare`), and the
+//! meaning of the columns, which is in the files that declare them.
 
 use super::joint::Joint;
 use rayon::Scope;
@@ -11,7 +11,7 @@ use std::ops::Range;
 
 /// Columns from which a fragment of a plant can be taken and to which it can be joined.
 pub(super) trait Columns {
-    /// Copies of some of the entries, with nothing beside them.
+    /// Copies of some of the entries alone.
     fn copied(&self, taken: Range<usize>) -> Self;
 
     /// Adds the entries `new` of a fragment, each column on any thread that is free.
@@ -19,10 +19,10 @@ pub(super) trait Columns {
 }
 
 /// Makes a struct of columns from their declarations: `name: Type = value` where entries of a fragment are copied, and
-/// `name: Type = value => joined` where they hold handles or component numbers of the fragment, which the whole plant
-/// numbers anew. The value is made of the new entry and its component number; the joined value of the fragment's
-/// columns at a place, and of the joint. A list `beside` the columns, with entries of its own, is filled and joined by
-/// the file that declares it.
+/// `name: Type = value => joined` where they hold handles or component numbers of the fragment, which change in the
+/// whole plant. `value` is an expression of the new entry and its component number; `joined` is an expression of the
+/// fragment's columns at a place, and of the joint. A list `beside` the columns, with entries of its own, is filled and
+/// joined by the file that declares it.
 macro_rules! columns {
     (@join $column:expr, $old:expr, $new:expr,) => {
         $column.extend_from_slice(&$old[$new])
@@ -42,13 +42,13 @@ macro_rules! columns {
         }
 
         impl $name {
-            /// How many entries there are.
+            /// The number of entries.
             #[inline]
             pub fn len(&self) -> usize {
                 self.component.len()
             }
 
-            /// Whether there is none.
+            /// Whether there are no entries.
             pub fn is_empty(&self) -> bool {
                 self.component.is_empty()
             }

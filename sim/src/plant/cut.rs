@@ -2,10 +2,10 @@
 //! breakage).
 //!
 //! The nodes of the axis up to the rank stay; rank 0 takes the whole axis off its bearer. The apex of the axis ends
-//! with the cut, if it still lived, and so do the apices of all that is taken. What follows does not depend on the
-//! order in which cuts are told: the earliest cut below a node takes it. [`crate::shed`] draws the consequences for
-//! branches and organs, as for any death of buds. Growth from below a cut is the model's. A plant without cuts keeps an
-//! empty list.
+//! with the cut, if it still lived, and so do the apices of all axes that are taken. The result does not depend on the
+//! order in which cuts are made: the earliest cut below a node takes it. [`crate::shed`] computes the deaths and falls
+//! of branches and organs, as for any death of buds. Growth from below a cut is the model's. A plant without cuts keeps
+//! an empty list.
 
 use super::Plant;
 use super::axis::ApexFate;
@@ -13,24 +13,24 @@ use super::event::EventKind;
 use super::handle::AxisId;
 use crate::clock::{NEVER, Tick};
 
-/// What is cut off, and when.
+/// One cut: its axis, its height and its tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cut {
     /// The axis.
     pub axis: AxisId,
-    /// The rank of the last node that stays; 0: none does.
+    /// The rank of the last node that stays; 0: no node stays.
     pub rank: u32,
-    /// The first tick at which what is above does not stand any more.
+    /// The first tick at which the part above does not stand any more.
     pub tick: Tick,
 }
 
 /// The cuts of a plant.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Cuts {
-    /// Sorted.
+    /// Sorted by axis, rank and tick.
     cuts: Vec<Cut>,
-    /// The tick at which each axis was taken as a whole, by a cut of its own or of what bears it; empty without cuts,
-    /// and axes past its end stand.
+    /// For each axis the tick at which it was taken as a whole, by its own cut or with its bearer; [`NEVER`] otherwise,
+    /// and for axes past its end. Empty without cuts.
     off: Vec<Tick>,
 }
 
@@ -41,7 +41,7 @@ impl Cuts {
         self.cuts.is_empty()
     }
 
-    /// Every cut, by axis, rank and tick.
+    /// Every cut, sorted by axis, rank and tick.
     pub fn all(&self) -> &[Cut] {
         &self.cuts
     }
@@ -81,10 +81,10 @@ impl Cuts {
 }
 
 impl Plant {
-    /// Cuts everything of an axis above the node of `rank` off, with all that it bears: at `tick` it does not stand any
-    /// more. To be told before the plant grows past that tick; a model then finds the apices of what was cut ended
-    /// ([`ApexFate::Pruned`]). Not to be told to a fragment, which does not know what bears its axes. Cost: one scan of
-    /// the axes.
+    /// Cuts off everything of an axis above the node of `rank`, with all that it bears: at `tick` it does not stand any
+    /// more. To be called before the plant grows past that tick; a model then finds the apices of the cut axes ended
+    /// ([`ApexFate::Pruned`]). Not to be called on a fragment, which has no nodes below its axes. Cost: one scan of the
+    /// axes.
     pub fn cut(&mut self, axis: AxisId, rank: u32, tick: Tick) {
         let cut = Cut { axis, rank, tick };
         if let Err(place) = self.cuts.cuts.binary_search(&cut) {
@@ -96,7 +96,7 @@ impl Plant {
         }
     }
 
-    /// Ends the apex of every axis that was cut, or was taken with what bears it.
+    /// Ends the apex of every axis that was cut, or was taken with its bearer.
     pub(crate) fn end_cut_apices(&mut self) {
         if self.cuts.is_empty() {
             return;

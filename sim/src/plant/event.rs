@@ -1,24 +1,24 @@
-//! What became of buds and branches, tick by tick.
+//! The fates of buds and branches, tick by tick.
 //!
-//! The log is kept only where a run wants it; growth, death and fall are in the columns anyway. Absent: the falls of
-//! organs, which their own columns tell.
+//! The log is kept only where a run wants it; growth, death and fall are in the columns in any case. Absent: the falls
+//! of organs, which are in their own columns.
 
 use super::handle::AxisId;
 use crate::clock::Tick;
 
-/// The fate of a bud at a tick.
+/// What happened to a bud, or to its branch, at a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum EventKind {
-    /// It grew; `count` is the number of nodes.
+    /// The bud grew; `count` is the number of nodes.
     Grew = 0,
-    /// It made a pause.
+    /// The bud made a pause.
     Paused = 1,
-    /// It died by the mortality test.
+    /// The bud died by the mortality test.
     Died = 2,
-    /// It became a flower.
+    /// The bud became a flower.
     Flowered = 3,
-    /// It had made all its growth units; `count` of them.
+    /// The bud had made all its growth units; `count` is their number.
     Completed = 4,
     /// An axillary axis of the next order appeared.
     Branched = 5,
@@ -26,18 +26,18 @@ pub enum EventKind {
     Relayed = 6,
     /// A reiteration began, traumatic or adaptive.
     Reiterated = 7,
-    /// Something from outside killed it.
+    /// A cause outside the plant killed the bud.
     Killed = 8,
-    /// It was cut off.
+    /// The axis was cut off.
     Pruned = 9,
     /// A dead branch fell, with everything that it bore.
     Shed = 10,
-    /// Its axis, or one that it bears, did not hold what it carried: the nearest to the seed, noted when it
-    /// changes.
+    /// The axis, or an axis that it bears, did not hold its load. It is the axis nearest to the seed, and is noted when
+    /// it changes.
     Buckled = 11,
     /// The bending of the plant found no equilibrium; `count` is the number of steps tried.
     Unsettled = 12,
-    /// An apex divided, and this axis is one of the equal ones of its order that it became.
+    /// An apex divided, and this axis is one of the equal axes of its order into which it divided.
     Forked = 13,
 }
 
@@ -84,12 +84,12 @@ impl EventKind {
 /// One event of one bud.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Event {
-    /// When.
+    /// The tick.
     pub tick: Tick,
     /// The axis whose bud it was; for `Branched`, `Relayed`, `Reiterated` and `Forked` the new axis.
     pub axis: AxisId,
-    /// What.
+    /// What happened.
     pub kind: EventKind,
-    /// How many, where the kind says of what; else 1.
+    /// The number that the kind of event names; else 1.
     pub count: u32,
 }

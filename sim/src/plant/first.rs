@@ -1,7 +1,7 @@
-//! The simplest internode and the simplest organ: what a new part has of which nothing else is said.
+//! The simplest internode and the simplest organ: the default values of a new internode and a new leaf.
 //!
-//! As [`NewAxis::OF_THE_SEED`](super::NewAxis::OF_THE_SEED) does for axes, they let a plant that is made by hand say
-//! what is particular of each part and no more. Absent: growth models, which say everything.
+//! As [`NewAxis::OF_THE_SEED`](super::NewAxis::OF_THE_SEED) does for axes, they let a plant that is made by hand state
+//! only the values that differ. Absent: growth models, which state every value.
 
 use super::{AxisId, Cause, Form, Kind, NewNode, NewOrgan, NodeId};
 use crate::clock::NEVER;

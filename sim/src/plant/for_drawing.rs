@@ -1,14 +1,14 @@
-//! What a species states for drawing alone, carried by its habit unread.
+//! The data that a species states for drawing alone, carried by its habit.
 //!
-//! A model puts it in and a mesh takes it out. Growth, pose and mechanics do not use it, and this crate does not know
-//! its type. Absent: what it is (`phytomer_looks::Paints`).
+//! A model stores them and a mesh reads them. Growth, pose and mechanics do not use them, and this crate does not
+//! contain their type. Absent: the data themselves (`phytomer_looks::Paints`).
 
 use std::any::Any;
 use std::fmt::Debug;
 use std::panic::{RefUnwindSafe, UnwindSafe};
 use std::sync::Arc;
 
-/// What can be carried for drawing: any data that can be shared between threads, shown and compared.
+/// Data that a habit can carry for drawing: any type that can be shared between threads, printed and compared.
 pub trait Carried: Any + Debug + Send + Sync + UnwindSafe + RefUnwindSafe {
     /// Whether `other` is of the same type and equal.
     fn equals(&self, other: &dyn Any) -> bool;
@@ -20,17 +20,17 @@ impl<T: Any + Debug + PartialEq + Send + Sync + UnwindSafe + RefUnwindSafe> Carr
     }
 }
 
-/// What a species states for drawing; nothing by default. A clone shares it.
+/// The data of a species for drawing; empty by default. Clones share them.
 #[derive(Debug, Clone, Default)]
 pub struct ForDrawing(Option<Arc<dyn Carried>>);
 
 impl ForDrawing {
-    /// Carries `stated`.
+    /// Data that a habit carries.
     pub fn new(stated: impl Carried) -> Self {
         Self(Some(Arc::new(stated)))
     }
 
-    /// What is carried, if it is of this type.
+    /// The data, if they are of this type.
     pub fn get<T: Any>(&self) -> Option<&T> {
         let carried: &dyn Any = self.0.as_deref()?;
         carried.downcast_ref()

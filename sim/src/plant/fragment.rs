@@ -1,23 +1,23 @@
 //! Fragments: axes of a plant that have yet to grow, taken apart so that another thread can grow them meanwhile.
 //!
-//! Axes that wait have no nodes, and none needs to know what the others do. A fragment is a plant that starts with
-//! copies of some of them; joined again, the whole is what it would be had they grown after the axes before them: the
-//! numbers of axes, nodes, organs and components follow on. Until then its handles and component numbers are its own,
-//! but for the nodes that bear the axes that it took: they are numbered as in the whole plant, and must not be read in
-//! the fragment.
+//! Axes that wait have no nodes, and grow independently of one another. A fragment is a plant that starts with copies
+//! of some of them; once it is joined, the whole plant is as if they had grown after the axes before them: the numbers
+//! of axes, nodes, organs and components are consecutive. Until then handles and component numbers are the fragment's
+//! own, except for the bearing nodes of the axes that it took: these are numbered as in the whole plant, and must not
+//! be read in the fragment.
 
 use super::columns::Columns;
 use super::{Appeared, Event, Frames, Joint, OwnTrends, Plant, Strain};
 use crate::clock::NEVER;
 use std::ops::Range;
 
-/// How many threads may grow one plant at once; it never changes the result.
+/// Thread budget: the number of threads that may grow one plant at once. It never changes the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ThreadBudget {
     /// The number of threads: more than 1 where other threads would have nothing to do.
     pub threads: usize,
-    /// The fewest axes of which it is worth while to give another thread half. The default's take some 5 ms in a
-    /// poplar, far more than to wake a thread and to join what it has grown.
+    /// The fewest axes of which another thread is given half. Growing the default number takes some 5 ms in a poplar,
+    /// far more than waking a thread and joining the fragment.
     pub least_axes: usize,
 }
 
@@ -28,7 +28,7 @@ impl Default for ThreadBudget {
 }
 
 impl ThreadBudget {
-    /// Whether so many axes are to be shared out.
+    /// Whether this number of axes is to be shared out.
     pub fn share(self, axes: usize) -> bool {
         self.threads > 1 && axes >= self.least_axes.max(2)
     }
@@ -49,7 +49,7 @@ pub struct Fragment {
 }
 
 impl Fragment {
-    /// The axes that are to grow, as the fragment numbers them.
+    /// The axes that are to grow, in the fragment's numbers.
     pub fn waiting(&self) -> Range<usize> {
         0..self.joint.taken.len()
     }
@@ -87,7 +87,8 @@ impl Plant {
         Fragment { plant, joint: Joint { taken, axes: 0, nodes: 0, components: 0 } }
     }
 
-    /// Joins a fragment that has grown, after everything that the plant has; how its handles have become the plant's.
+    /// Joins a fragment that has grown: its parts follow all parts of the plant. Returns the map from the fragment's
+    /// handles to the plant's. Linear in the fragment.
     pub fn join(&mut self, fragment: Fragment) -> Joint {
         let Fragment { mut plant, joint } = fragment;
         let (axes, nodes, components) = (self.axes.len(), self.nodes.len(), self.components);
@@ -107,7 +108,7 @@ impl Plant {
         joint
     }
 
-    /// Adds the axes that arose in a fragment, its nodes and its organs, each column on whatever thread is free.
+    /// Adds the axes that arose in a fragment, its nodes and its organs; columns are copied in parallel.
     fn join_columns(&mut self, grown: &Self, joint: &Joint) {
         let arose = joint.taken.len()..grown.axes.len();
         let Self { axes, nodes, organs, .. } = self;

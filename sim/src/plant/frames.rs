@@ -1,8 +1,8 @@
-//! The columns of the pose, one frame a node, and where each axis goes on from: written by [`crate::pose`] at rest and
-//! by [`crate::mechanics`] where a plant bends.
+//! The columns of the pose, one frame a node, and the state at the end of each axis: written by [`crate::pose`] at rest
+//! and by [`crate::mechanics`] where a plant bends.
 //!
-//! A frame is a base point, a heading along the internode and a reference direction `up` across it. What an axis goes
-//! on from is kept in double precision. Absent: how frames follow from rest geometry, which is the pose's.
+//! A frame is a base point, a heading along the internode and a reference direction `up` across it. The ends of axes
+//! are kept in double precision. Absent: how frames follow from rest geometry, which is the pose's.
 
 use super::handle::NodeId;
 use super::node::Nodes;
@@ -19,15 +19,15 @@ pub struct Frames {
     pub heading: Vec<[f32; 3]>,
     /// Its reference direction, from which azimuths count.
     pub up: Vec<[f32; 3]>,
-    /// Where each axis goes on from, in double precision: one entry an axis.
+    /// The end of each axis, from which it grows on, in double precision: one entry an axis.
     pub(crate) tips: Vec<Tip>,
-    /// The directions with which each axis goes on, where frames are stated; else empty.
+    /// The directions at the end of each axis, where frames are stated; else empty.
     pub(crate) courses: Vec<Stated>,
-    /// The lengths of internodes at the age of the frames; empty where they are those of their birth.
+    /// The lengths of internodes at the age of the frames; empty where they are the lengths in the column.
     pub(crate) lengths: Vec<f32>,
     /// The age of the frames.
     pub(crate) age: Tick,
-    /// The age before which they are made: what appeared earlier has its frame.
+    /// The age before which frames are made: internodes that appeared earlier have their frame.
     pub(crate) posed: Tick,
 }
 
@@ -39,8 +39,8 @@ impl Frames {
         Frame { base: self.base[node], heading: self.heading[node], up: self.up[node] }
     }
 
-    /// Forgets every frame, so that the next pose makes them all. The columns keep their length, so that the memory
-    /// that the next pose writes is not written twice.
+    /// Forgets every frame, so that the next pose makes all of them. The columns keep their length, so that the next
+    /// pose need not fill new memory.
     pub fn clear(&mut self) {
         self.posed = 0;
         self.courses.clear();
@@ -53,8 +53,8 @@ impl Frames {
         if self.lengths.is_empty() { &nodes.length } else { &self.lengths }
     }
 
-    /// Room for the frames of every node and the tip of every axis, to be posed up to `age`; the age before which they
-    /// were.
+    /// Makes room for the frames of every node and the tip of every axis, to be posed up to `age`. Returns the age
+    /// before which frames are already made.
     pub(crate) fn begin(&mut self, nodes: usize, axes: usize, age: Tick) -> Tick {
         self.resize_nodes(nodes);
         self.tips.resize(axes, Tip::default());
@@ -62,7 +62,7 @@ impl Frames {
         std::mem::replace(&mut self.posed, age + 1)
     }
 
-    /// Room for the frames of every node of a plant that stands bent at `age`.
+    /// Makes room for the frames of every node of a plant that stands bent at `age`.
     pub(crate) fn bend(&mut self, nodes: usize, age: Tick) {
         self.resize_nodes(nodes);
         self.age = age;
@@ -71,7 +71,7 @@ impl Frames {
     fn resize_nodes(&mut self, nodes: usize) {
         for column in [&mut self.base, &mut self.heading, &mut self.up] {
             if column.is_empty() {
-                // Zeroed by the system as it comes to be written, instead of twice.
+                // New memory is zeroed by the system when it is first written, instead of twice.
                 *column = vec![[0.0; 3]; nodes];
             }
             column.resize(nodes, [0.0; 3]);
@@ -94,20 +94,20 @@ impl Frame {
     /// The frame that the axis of the seed leaves.
     pub(crate) const GROUND: Self = Self { base: [0.0; 3], heading: [0.0, 0.0, 1.0], up: [1.0, 0.0, 0.0] };
 
-    /// The same directions at `distance` metres along the heading.
+    /// The frame with the same directions at `distance` metres along the heading.
     #[inline]
     pub fn advanced(self, distance: f32) -> Self {
         let along = |k: usize| self.base[k] + distance * self.heading[k];
         Self { base: [along(0), along(1), along(2)], ..self }
     }
 
-    /// What leaves this frame's base at `azimuth` and `insertion`, radians.
+    /// The frame that leaves this frame's base at `azimuth` and `insertion`, radians.
     #[inline]
     pub fn inserted(self, azimuth: f32, insertion: f32) -> Self {
         self.left_at(Leaving { azimuth: sincosf(azimuth), insertion: sincosf(insertion) })
     }
 
-    /// What leaves this frame's base in a direction.
+    /// The frame that leaves this frame's base in a direction.
     #[inline]
     pub(crate) fn left_at(self, leaving: Leaving) -> Self {
         let Leaving { azimuth: (sin_azimuth, cos_azimuth), insertion: (sin, cos) } = leaving;
@@ -129,8 +129,7 @@ pub(crate) struct Leaving {
     pub insertion: (f32, f32),
 }
 
-/// The insertion angle that was asked for last, with its sine and cosine: neighbouring axes of one order mostly share
-/// it.
+/// The last insertion angle, with its sine and cosine: neighbouring axes of one order mostly have the same angle.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LastInsertion {
     angle: f32,
@@ -154,7 +153,7 @@ impl Default for LastInsertion {
     }
 }
 
-/// Where an axis goes on from.
+/// The end of an axis, from which it grows on.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Tip {
     /// The end of its last internode, metres.
@@ -180,7 +179,7 @@ pub(crate) struct Stated {
     pub length: f64,
 }
 
-/// How the directions go on from here.
+/// How the directions continue from the end of an axis.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Along {
     Trended(Trended),
@@ -192,9 +191,9 @@ pub(crate) enum Along {
 pub(crate) struct Plane {
     /// The horizontal direction.
     pub e: [f64; 2],
-    /// Of `up` across the plane, along Z × e.
+    /// The component of `up` across the plane, along Z × e.
     pub across: f64,
-    /// Of `up` in the plane, along z · e − r · Z.
+    /// The component of `up` in the plane, along z · e − r · Z.
     pub within: f64,
 }
 
@@ -203,6 +202,6 @@ pub(crate) struct Plane {
 pub(crate) struct Slope {
     pub z: f64,
     pub r: f64,
-    /// The angle to the upward vertical; NaN while the axis has not turned, for many never do.
+    /// The angle to the upward vertical; NaN while the axis has not turned, since many axes never turn.
     pub angle: f64,
 }

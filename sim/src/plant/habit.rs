@@ -1,4 +1,4 @@
-//! The habit of a species: what pose, shedding and drawing must know of it, shared by all its plants.
+//! The habit of a species: its rules and tables for pose, shedding and drawing, shared by all its plants.
 //!
 //! The development trend is de Reffye's (1988 §4, Fig. 15): an axis leaves its bearing axis at the insertion angle and
 //! turns smoothly towards its trend. Where a trend is a random variable each axis has one of its own ([`OwnTrends`]).
@@ -25,8 +25,8 @@ impl Trend {
     /// An axis that keeps the direction of its insertion.
     pub const STRAIGHT: Self = Self { inclination: 0.0, share: 0.0 };
 
-    /// The angle to the upward vertical that the axis tends to, degrees: 0 orthotropic, 90 plagiotropic. `None` where
-    /// it tends nowhere. To a thousandth of a degree.
+    /// The angle to the upward vertical that the axis tends to, degrees, rounded to a thousandth: 0 orthotropic, 90
+    /// plagiotropic. `None` where the axis keeps its direction.
     pub fn inclination_deg(&self) -> Option<f32> {
         let thousandths = (self.inclination * 180_000.0 / std::f64::consts::PI).round();
         (self.share > 0.0).then_some((thousandths / 1000.0) as f32)
@@ -40,12 +40,12 @@ pub struct OrganTrend {
     /// The angle between the direction tended to and the upward vertical, radians in [0, π].
     pub inclination: f64,
     /// The share of the angle to that direction that an organ has turned from its insertion, in [0, 1], by its own age
-    /// in ticks; ages past the last are as the last.
+    /// in ticks; later ages have the last share.
     pub shares: Vec<f32>,
 }
 
 impl OrganTrend {
-    /// The turn of an organ that is `old` ticks old.
+    /// The share that an organ of the age `old` ticks has turned.
     #[inline]
     pub fn at(&self, old: Tick) -> Trend {
         let share = self.shares.get(old as usize).or(self.shares.last()).copied().unwrap_or(0.0);
@@ -66,16 +66,16 @@ pub struct OrganTrends {
     pub leaves_face_the_sky: bool,
 }
 
-/// The rules of a species that its plants carry with them.
+/// The rules of a species, which its plants share.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Habit {
     /// The development trends; an internode names one by its place here, unless its axis has trends of its own.
     pub trends: Vec<Trend>,
     /// What its components are and look like.
     pub looks: Looks,
-    /// How organs turn, by order from 1; empty where none does.
+    /// How organs turn, by order from 1; empty where no organ turns.
     pub organ_trends: Vec<OrganTrends>,
-    /// What it states for drawing, by the numbers that its looks name.
+    /// The data that the species states for drawing, named by number in its looks.
     pub for_drawing: ForDrawing,
     /// The mechanics of its wood; `None` where diameters follow the model's law and nothing bends.
     pub wood: Option<Wood>,
@@ -106,23 +106,24 @@ impl Habit {
         of.is_some_and(|of| of.leaves_face_the_sky) && kind.class() == Class::Leaf
     }
 
-    /// The shape of the internodes of an axis of `order` that started in `state`; orders past the last are as the last.
+    /// The shape of the internodes of an axis of `order` that started in `state`; orders past the last have the shape
+    /// of the last.
     #[inline]
     pub fn shape(&self, order: u8, state: u8) -> Shape {
         self.looks.internode(order, state).shape
     }
 }
 
-/// The trends of the axes that have drawn theirs, beside those of the habit; empty where no order draws any.
+/// The trends that axes have drawn, beside those of the habit; empty where no order draws any.
 #[derive(Debug, Clone, Default)]
 pub struct OwnTrends {
-    /// Where the trends of each axis stand, up to the last axis that has some.
+    /// The range of each axis's trends in the list, up to the last axis that has its own.
     spans: Vec<Range<u32>>,
     trends: Vec<Trend>,
 }
 
 impl OwnTrends {
-    /// The trends of an axis, from which its internodes name theirs; `None` where they name those of the habit.
+    /// The own trends of an axis, which its internodes name by place; `None` where they name those of the habit.
     #[inline]
     pub fn of(&self, axis: AxisId) -> Option<&[Trend]> {
         let span = self.spans.get(axis.index()).filter(|span| !span.is_empty())?;
@@ -137,7 +138,7 @@ impl OwnTrends {
         self.spans[axis.index()] = start..self.trends.len() as u32;
     }
 
-    /// Adds the trends of the axes of a fragment, by what those axes have become.
+    /// Adds the trends of the axes of a fragment; `axis` gives the handles of those axes in the whole plant.
     pub(super) fn join(&mut self, more: Self, axis: impl Fn(AxisId) -> AxisId) {
         for (place, span) in more.spans.iter().enumerate().filter(|(_, span)| !span.is_empty()) {
             let trends = &more.trends[span.start as usize..span.end as usize];

@@ -1,6 +1,6 @@
 //! Typed handles: the places of axes, nodes and organs in the columns of their plant.
 //!
-//! A handle names a component of one plant at one state of its columns. Absent: component numbers, which last.
+//! A handle names a component of one plant at one state of its columns. Absent: component numbers, which never change.
 
 /// The place of an axis in its plant's columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -22,7 +22,7 @@ impl AxisId {
 pub struct NodeId(pub u32);
 
 impl NodeId {
-    /// No node: what the first axis stands on.
+    /// No node: the bearer of the first axis.
     pub const NONE: Self = Self(u32::MAX);
 
     /// As an index into the columns.

@@ -1,16 +1,16 @@
-//! How the handles and component numbers of a fragment of a plant become those of the whole plant.
+//! The map from the handles and component numbers of a fragment of a plant to those of the whole plant.
 //!
-//! Absent: fragments (`fragment`).
+//! It is made when the fragment is joined. Absent: fragments (`fragment`).
 
 use super::handle::{AxisId, NodeId};
 use std::ops::Range;
 
-/// How the handles of a fragment become those of the whole.
+/// The map from the handles of a fragment to those of the whole plant.
 #[derive(Debug, Clone)]
 pub struct Joint {
     /// The axes of the whole that the fragment starts with.
     pub(super) taken: Range<usize>,
-    /// The axes, nodes and components that the whole has when the fragment is joined to it.
+    /// The numbers of axes, nodes and components of the whole when the fragment is joined to it.
     pub(super) axes: usize,
     pub(super) nodes: usize,
     pub(super) components: u32,
@@ -21,7 +21,7 @@ impl Joint {
         axis.index() < self.taken.len()
     }
 
-    /// An axis of the fragment, as the whole plant numbers it.
+    /// The handle, in the whole plant, of an axis of the fragment.
     pub fn axis(&self, axis: AxisId) -> AxisId {
         let start = if self.is_taken(axis) { self.taken.start } else { self.axes - self.taken.len() };
         AxisId((start + axis.index()) as u32)
@@ -31,8 +31,8 @@ impl Joint {
         node.some().map_or(node, |node| NodeId((self.nodes + node.index()) as u32))
     }
 
-    /// The node on which an axis goes on when it has made so many: the bearers of the axes that were taken are the
-    /// whole's.
+    /// The handle, in the whole plant, of the node below the next node of an axis that has made `made` nodes. The
+    /// bearers of axes that were taken from the whole have its handles already.
     pub fn below(&self, node: NodeId, axis: AxisId, made: u32) -> NodeId {
         if made == 0 && self.is_taken(axis) { node } else { self.node(node) }
     }

@@ -1,16 +1,16 @@
 //! What a component is (the tag of de Reffye's record, 1988 §6), and why it ended.
 //!
 //! The paper's tags are internodes, leaves, flowers and fruits, and, where the simulation is enlarged (§5), rhizome,
-//! palm, petal and sepal internodes. Everything that is said of a kind stands in its row of [`crate::kinds!`], which is
-//! the one list of kinds. Numbers are part of tables, meshes and lineage keys: they never change, and a new kind has
-//! the next one. Absent: the colours of a kind (`phytomer_meshes::palette`).
+//! palm, petal and sepal internodes. All facts about a kind stand in its row of [`crate::kinds!`], which is the one
+//! list of kinds. Numbers are part of tables, meshes and lineage keys: they never change, and a new kind has the next
+//! one. Absent: the colours of a kind (`phytomer_meshes::palette`).
 
-/// The table of kinds, a row each, handed to a macro of the caller's. A row has what the component is, its name,
-/// number, tag, class, the part of the plant that it belongs to, and its Plant Ontology term (Planteome, release 20 and
-/// later). A species file can state the kinds of the first block; those of the second follow from growth.
+/// The table of kinds, a row each, passed to the caller's macro. A row has a sentence on what the component is, its
+/// name, number, tag, class, the part of the plant that it belongs to, and its Plant Ontology term (Planteome, release
+/// 20 and later). A species file can state the kinds of the first block; those of the second follow from growth.
 ///
-/// The ontology tells neither short from long internodes, nor apical buds from buds, nor a part from the internodes
-/// that it is grown of.
+/// The ontology has no terms of its own for short internodes, for apical buds, or for the internodes of which a leaf or
+/// a part of a flower is grown.
 #[macro_export]
 macro_rules! kinds {
     ($then:ident) => {
@@ -24,29 +24,29 @@ macro_rules! kinds {
                 Flower = 3, "flower", Flower, Flower, "PO:0009046";
                 /// A fruit.
                 Fruit = 4, "fruit", Fruit, Flower, "PO:0009001";
-                /// Of a shoot that creeps below ground.
+                /// An internode of a shoot that creeps below ground.
                 RhizomeInternode = 6, "rhizome_internode", Internode, Shoot, "PO:0025204";
-                /// Of the jointed stem of a grass or a bamboo.
+                /// An internode of the jointed stem of a grass or a bamboo.
                 CulmInternode = 7, "culm_internode", Internode, Shoot, "PO:0020142";
-                /// Of a shoot of a grass that rises from the axil of a leaf at the ground.
+                /// An internode of a shoot of a grass that rises from the axil of a leaf at the ground.
                 TillerInternode = 8, "tiller_internode", Internode, Shoot, "PO:0005005";
-                /// Of the rachis of a palm or of another leaf that is drawn as an axis with its leaflets.
+                /// An internode of the rachis of a palm or of another leaf that is drawn as an axis with its leaflets.
                 PalmInternode = 9, "palm_internode", Internode, Leaf, "PO:0020055";
-                /// Of a leaflet that is drawn as an axis.
+                /// An internode of a leaflet that is drawn as an axis.
                 LeafletInternode = 10, "leaflet_internode", Internode, Leaf, "PO:0020049";
-                /// Of the axis or a branch of an inflorescence or a bunch of fruits.
+                /// An internode of the axis or a branch of an inflorescence or a bunch of fruits.
                 InflorescenceInternode = 11, "inflorescence_internode", Internode, Flower, "PO:0020122";
-                /// Of the stalk of one flower.
+                /// An internode of the stalk of one flower.
                 PedicelInternode = 12, "pedicel_internode", Internode, Flower, "PO:0030112";
-                /// Of the end of the stalk that bears the parts of a flower.
+                /// An internode of the end of the stalk that bears the parts of a flower.
                 ReceptacleInternode = 13, "receptacle_internode", Internode, Flower, "PO:0009064";
-                /// Of a sepal that is drawn as a growth unit.
+                /// An internode of a sepal that is drawn as a growth unit.
                 SepalInternode = 14, "sepal_internode", Internode, Flower, "PO:0009031";
-                /// Of a petal that is drawn as a growth unit.
+                /// An internode of a petal that is drawn as a growth unit.
                 PetalInternode = 15, "petal_internode", Internode, Flower, "PO:0009032";
-                /// Of a stamen that is drawn as a growth unit.
+                /// An internode of a stamen that is drawn as a growth unit.
                 StamenInternode = 16, "stamen_internode", Internode, Flower, "PO:0009029";
-                /// Of a style with its stigma that is drawn as a growth unit.
+                /// An internode of a style with its stigma that is drawn as a growth unit.
                 StigmaInternode = 17, "stigma_internode", Internode, Flower, "PO:0009073";
                 /// A leaflet of a leaf that is drawn as an axis.
                 Leaflet = 18, "leaflet", Leaf, Leaf, "PO:0020049";
@@ -90,11 +90,11 @@ macro_rules! kinds {
 pub enum Class {
     /// Internodes, whatever they are a part of; their tags end in `internode`.
     Internode,
-    /// What a node bears as a leaf: leaves and leaflets, bracts and scales, the parts of a flower.
+    /// Components that a node bears as leaves: leaves and leaflets, bracts and scales, the parts of a flower.
     Leaf,
-    /// What opens as a flower: flowers and inflorescences drawn as one.
+    /// Components that open as flowers: flowers and inflorescences drawn as one.
     Flower,
-    /// What ripens from a flower.
+    /// Components that ripen from a flower.
     Fruit,
     /// Buds.
     Bud,
@@ -107,7 +107,7 @@ pub enum PartOfPlant {
     Shoot,
     /// Leaves, whole or grown of a rachis with leaflets.
     Leaf,
-    /// Inflorescences and flowers with their parts, and what ripens from them.
+    /// Inflorescences and flowers with their parts, and fruits.
     Flower,
 }
 
@@ -137,21 +137,21 @@ macro_rules! kind {
                 }
             }
 
-            /// Its class.
+            /// The class of the kind.
             pub const fn class(self) -> Class {
                 match self {
                     $(Self::$name => Class::$class,)*
                 }
             }
 
-            /// The part of the plant that it belongs to.
+            /// The part of the plant to which components of the kind belong.
             pub const fn part(self) -> PartOfPlant {
                 match self {
                     $(Self::$name => PartOfPlant::$part,)*
                 }
             }
 
-            /// Its Plant Ontology term.
+            /// The Plant Ontology term of the kind.
             pub const fn ontology_term(self) -> &'static str {
                 match self {
                     $(Self::$name => $term,)*
@@ -164,7 +164,7 @@ macro_rules! kind {
 kinds!(kind);
 
 impl Kind {
-    /// Whether it is a green blade: its area is leaf area, and a pipe of wood leads to it.
+    /// Whether the kind is a green blade: its area is leaf area, and a pipe of wood leads to it.
     pub const fn is_foliage(self) -> bool {
         matches!(self, Self::Leaf | Self::Leaflet)
     }
@@ -174,7 +174,7 @@ impl Kind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Cause {
-    /// It lives.
+    /// The component lives.
     None = 0,
     /// The mortality test of its bud.
     Mortality = 1,
@@ -190,7 +190,7 @@ pub enum Cause {
     Branch = 6,
     /// The flower set fruit.
     FruitSet = 7,
-    /// Something from outside killed it.
+    /// A cause outside the plant killed it.
     Killed = 8,
     /// It was cut off.
     Pruned = 9,

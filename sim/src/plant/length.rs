@@ -1,10 +1,10 @@
-//! The lengths of internodes at an age: of those that go on to grow after they have appeared, and of those of which a
-//! model has rewritten the length.
+//! The lengths of internodes at an age, where internodes go on to grow after they have appeared, or a model has
+//! rewritten their length.
 //!
-//! The length at an age is the last one that was rewritten by then, else that of the column `length`, times the share
-//! that the look of the internode has at its own age ([`super::InternodeLook::expansion`]). A plant of which neither
-//! is stated reads its column and keeps nothing beside it. What stands at the age of the frames has its length there:
-//! [`Plant::posed_lengths`] is what pose, loads, meshes and tables read, node by node without a branch.
+//! The length at an age is the last rewritten one, else that of the column `length`, times the share of the internode's
+//! look at its own age ([`super::InternodeLook::expansion`]). A plant without either reads its column and stores
+//! nothing else. [`Plant::posed_lengths`] has the lengths at the age of the frames; pose, loads, meshes and tables read
+//! these, node by node without a branch.
 
 use super::Plant;
 use super::handle::NodeId;
@@ -48,14 +48,14 @@ impl Rewritten {
 }
 
 impl Plant {
-    /// The length of an internode at `age`, m.
+    /// The length of an internode at `age`, m. Logarithmic in the number of rewritten lengths.
     pub fn length(&self, node: NodeId, age: Tick) -> f32 {
         let full = self.rewritten.at(node, age).unwrap_or(self.nodes.length[node.index()]);
         full * self.look_of_node(node).share(age.saturating_sub(self.nodes.birth[node.index()]))
     }
 
-    /// Rewrites the full length of an internode from `tick` on, m; earlier ages keep theirs. Of two of one tick the
-    /// later call holds.
+    /// Rewrites the full length of an internode from `tick` on, m; at earlier ages it keeps its length. A later call
+    /// replaces an earlier call for the same tick.
     pub fn rewrite_length(&mut self, node: NodeId, tick: Tick, length: f32) {
         let changes = &mut self.rewritten.changes;
         match changes.binary_search_by_key(&(node, tick), |change| (change.node, change.tick)) {
@@ -77,26 +77,26 @@ impl Plant {
         self.frames.lengths(&self.nodes)
     }
 
-    /// Whether an internode may have another length at `one` age than at the `other`.
+    /// Whether an internode may have different lengths at the ages `one` and `other`.
     pub(crate) fn lengths_differ(&self, one: Tick, other: Tick) -> bool {
         let span = one.min(other) + 1..=one.max(other);
         let rewritten = self.rewritten.changes.iter().any(|change| span.contains(&change.tick));
         rewritten || (one != other && self.habit.looks.lengthen())
     }
 
-    /// Whether any internode has another length at some age than in its column.
+    /// Whether the length of any internode differs from its column at some age.
     fn lengths_change(&self) -> bool {
         !self.rewritten.changes.is_empty() || self.habit.looks.lengthen()
     }
 
-    /// Gives the frames the lengths of `age`; none where they are those of the column.
+    /// Stores the lengths at `age` in the frames; none where they are the lengths in the column.
     pub(crate) fn measure(&mut self, age: Tick) {
         let mut lengths = std::mem::take(&mut self.frames.lengths);
         lengths.clear();
         if self.lengths_change() {
             lengths.extend_from_slice(&self.nodes.length);
             for stretch in self.stretches(age).iter() {
-                // A stretch of which nothing grows keeps its part of the column.
+                // The lengths of a stretch without growth are those of the column.
                 if self.own_looks.is_empty() && self.look_of(stretch.axis).expansion.is_empty() {
                     continue;
                 }

@@ -1,13 +1,13 @@
-//! What the components of a species are, as growth, pose and mechanics ask it (de Reffye 1988 §6): kinds and shapes by
-//! order and state, and how internodes and organs grow to their size.
+//! The looks of the components of a species, as far as growth, pose and mechanics use them (de Reffye 1988 §6): kinds
+//! and shapes by order and state, and how internodes and organs expand to their size.
 //!
-//! How a look is drawn is a number here, a place among what drawing keeps in the habit. Absent: colours, forms and
-//! triangles (`phytomer_looks`, `phytomer_meshes`).
+//! A look names how it is drawn by a number, the place among the data for drawing in the habit. Absent: colours, forms
+//! and triangles (`phytomer_looks`, `phytomer_meshes`).
 
 use super::kind::{Class, Kind};
 use crate::clock::Tick;
 
-/// The number by which a look names how it is drawn; growth does not ask it.
+/// The number by which a look names how it is drawn; growth does not use it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct PaintNumber(u32);
 
@@ -15,12 +15,12 @@ impl PaintNumber {
     /// The number of a look of which nothing is stated for drawing.
     pub const NONE: Self = Self(0);
 
-    /// The number of what is the nth of its list, counted from 1.
+    /// The number of the nth entry of its list, counted from 1; [`PaintNumber::NONE`] for 0.
     pub fn nth(nth: usize) -> Self {
         Self(u32::try_from(nth).unwrap_or(0))
     }
 
-    /// The place in that list, from 0.
+    /// The place in the list, from 0; `None` for [`PaintNumber::NONE`].
     #[inline]
     pub fn place(self) -> Option<usize> {
         (self.0 as usize).checked_sub(1)
@@ -44,9 +44,9 @@ pub enum Shape {
 pub struct Looks {
     /// How many states axes can be in; 0 counts as 1.
     pub states: usize,
-    /// Of internodes: by order from 1, and within it by the state in which the axis started.
+    /// The looks of internodes: by order from 1, and within it by the state in which the axis started.
     pub internodes: Vec<InternodeLook>,
-    /// Of organs, by order from 1.
+    /// The looks of organs, by order from 1.
     pub organs: Vec<OrganLooks>,
     /// Looks that single nodes name, whatever their order and state.
     pub apart: Vec<InternodeLook>,
@@ -54,29 +54,30 @@ pub struct Looks {
     pub organs_apart: Vec<OrganLook>,
 }
 
-/// What the internodes of an axis are and look like.
+/// The look of the internodes of an axis: what they are and how they are drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InternodeLook {
     /// Their kind; those of short growth units are [`Kind::ShortInternode`] where this is [`Kind::Internode`].
     pub kind: Kind,
     /// Their shape.
     pub shape: Shape,
-    /// The thickness of those that are blades, m.
+    /// The thickness of internodes that are blades, m.
     pub thickness: f32,
     /// How they are drawn.
     pub paint: PaintNumber,
-    /// The share of their full length, by their own age in ticks, the last one for ever; empty: full at birth.
+    /// The share of their full length by their own age in ticks; later ages have the last share. Empty: full length at
+    /// birth.
     pub expansion: Vec<f32>,
 }
 
 /// What the organs of an order look like.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OrganLooks {
-    /// What stands as a leaf.
+    /// The look of organs that stand as leaves.
     pub leaf: OrganLook,
-    /// What stands as a flower.
+    /// The look of organs that stand as flowers.
     pub flower: OrganLook,
-    /// What stands as a fruit.
+    /// The look of organs that stand as fruits.
     pub fruit: OrganLook,
 }
 
@@ -85,12 +86,13 @@ pub struct OrganLooks {
 pub struct OrganLook {
     /// How it is drawn.
     pub paint: PaintNumber,
-    /// The share of its full length and width, by its own age in ticks, the last one for ever; empty: full at birth.
+    /// The share of its full length and width by its own age in ticks; later ages have the last share. Empty: full size
+    /// at birth.
     pub expansion: Vec<f32>,
 }
 
 impl InternodeLook {
-    /// The thickness of blades of which none is stated, m; assumed: petals and laminae are of 0.1 to 0.5 mm.
+    /// The thickness of blades for which none is stated, m. Assumed: petals and laminae have 0.1 to 0.5 mm.
     pub const BLADE_THICKNESS: f32 = 0.0003;
 
     /// A tube of a shape, and nothing else stated.
@@ -104,13 +106,13 @@ impl InternodeLook {
         }
     }
 
-    /// The share of its full length that one of them has at its own age.
+    /// The share of its full length that an internode has at its own age.
     #[inline]
     pub fn share(&self, own_age: Tick) -> f32 {
         share(&self.expansion, own_age)
     }
 
-    /// The kind of one of them.
+    /// The kind of an internode of a long or a short growth unit.
     #[inline]
     pub fn kind(&self, short: bool) -> Kind {
         if short && self.kind == Kind::Internode { Kind::ShortInternode } else { self.kind }
@@ -118,13 +120,13 @@ impl InternodeLook {
 }
 
 impl Looks {
-    /// Those of a species whose internodes are all of one shape.
+    /// The looks of a species whose internodes are all of one shape.
     pub fn of_shape(shape: Shape) -> Self {
         Self { states: 1, internodes: vec![InternodeLook::of_shape(shape)], ..Self::default() }
     }
 
-    /// The place in [`Looks::internodes`] of an axis of `order` that started in `state`; orders past the last are as
-    /// the last. `None` where there is none.
+    /// The place in [`Looks::internodes`] of an axis of `order` that started in `state`; orders past the last have the
+    /// place of the last. `None` where no looks are stated.
     #[inline]
     pub fn place(&self, order: u8, state: u8) -> Option<usize> {
         let states = self.states.max(1);
@@ -132,7 +134,7 @@ impl Looks {
         Some(usize::from(order).saturating_sub(1).min(last) * states + usize::from(state).min(states - 1))
     }
 
-    /// Whether any internodes go on to grow in length after they have appeared.
+    /// Whether any internodes still grow in length after they have appeared.
     pub fn lengthen(&self) -> bool {
         self.internodes.iter().chain(&self.apart).any(|look| !look.expansion.is_empty())
     }
@@ -166,7 +168,7 @@ impl OrganLook {
     }
 }
 
-/// The entry of a table at an own age: past its end the last one, of an empty table 1.
+/// The entry of a table at an own age: past the end the last entry, and 1 for an empty table.
 #[inline]
 fn share(table: &[f32], own_age: Tick) -> f32 {
     match table.len() {

@@ -1,10 +1,11 @@
 //! The plant as columns: axes, nodes and organs in structures of arrays with typed handles.
 //!
-//! Invariants: a parent's index is smaller than its child's in each column, and its component number too but for models
-//! that rewrite in mid-axis; death is a tick in a column, and a model that extends its plants removes nothing. So poses
-//! are one forward scan, loads one reverse scan, and nothing recurses. One writer a column: models write topology, rest
-//! geometry and the fates of buds and organs; [`crate::shed`] alone writes the death and the fall of branches, the
-//! model's `thicken` or secondary growth the diameters, [`crate::mechanics`] the curvature, [`crate::pose`] the frames.
+//! Invariants: a parent's index is smaller than its child's in each column, and its component number too, except in
+//! models that rewrite in mid-axis; death is a tick in a column, and a model that extends its plants removes nothing.
+//! So poses are one forward scan, loads one reverse scan, and nothing recurses. Each column has one writer: models
+//! write topology, rest geometry and the fates of buds and organs; [`crate::shed`] the death and the fall of branches,
+//! the model's `thicken` or secondary growth the diameters, [`crate::mechanics`] the curvature, [`crate::pose`] the
+//! frames.
 
 mod appeared;
 mod axis;
@@ -72,43 +73,43 @@ pub struct Plant {
     pub id: u32,
     /// The age up to which it has grown, in ticks.
     pub age: Tick,
-    /// The tick from which nothing of it lives: every apex has ended and is spent; [`NEVER`] before. Written by
+    /// The tick from which nothing of the plant lives: every apex has ended and is spent; [`NEVER`] before. Written by
     /// [`crate::shed`].
     pub death: Tick,
     /// Its axes; the first one grew out of the seed.
     pub axes: Axes,
     /// Its internodes with their nodes.
     pub nodes: Nodes,
-    /// The internodes that have appeared by the age that is looked at.
+    /// The internodes that have appeared by the age of the last pass along them.
     pub appeared: Appeared,
     /// Its leaves, flowers and fruits.
     pub organs: Organs,
-    /// Where each internode stands, written by the pose.
+    /// The frame of each internode, written by the pose.
     pub frames: Frames,
-    /// What bending has left in each internode, written by mechanics; empty where the plant does not bend.
+    /// The curvature and the moment of each internode, written by mechanics; empty where the plant does not bend.
     pub strain: Strain,
-    /// What became of its buds, where a run records it.
+    /// The events of its buds, where a run records them.
     pub events: Option<Vec<Event>>,
-    /// The rules of its species that pose, shedding and drawing need.
+    /// The rules of its species for pose, shedding and drawing.
     pub habit: Arc<Habit>,
-    /// The trends of the axes that have drawn theirs.
+    /// The trends of axes that have drawn their own.
     pub own_trends: OwnTrends,
-    /// The source of its draws.
+    /// The source of its random words.
     pub random: PlantRandom,
-    /// Where its seed lies in the plot, metres. Nothing else of a plant is told from there: its pose and all that
-    /// follows from it are told from the seed, so that a plant is the same to the bit wherever it stands.
+    /// The place of its seed in the plot, metres. All other positions of a plant are relative to its seed, so that a
+    /// plant is the same to the bit at every place.
     pub place: [f64; 3],
-    /// The rest frames that a model or an event has stated; empty where insertion, phyllotaxis and trend make them.
+    /// The rest frames that a model or an event has stated; empty where insertion, phyllotaxis and trend determine all.
     pub stated: StatedFrames,
-    /// What single organs state of their frames and outlines.
+    /// The frames and outlines that single organs state.
     pub stated_organs: StatedOrgans,
     /// The lengths that a model has rewritten.
     pub rewritten: Rewritten,
-    /// The looks that single nodes and organs have of their own.
+    /// The looks that single nodes and organs have instead of those of their order.
     pub own_looks: OwnLooks,
-    /// What was cut off.
+    /// The cuts.
     pub cuts: Cuts,
-    /// The threads that may grow it at once; they never change the result.
+    /// Thread budget of its growth; never changes the result.
     pub budget: ThreadBudget,
     components: u32,
     component_limit: u32,
@@ -116,7 +117,7 @@ pub struct Plant {
     named_by_number: bool,
 }
 
-/// What a plant starts from.
+/// The values of a new plant.
 #[derive(Debug, Clone)]
 pub struct Seed {
     /// The plant's number in the run, from 0.
@@ -125,7 +126,7 @@ pub struct Seed {
     pub run_seed: u64,
     /// The most components that it may have.
     pub component_limit: u32,
-    /// Whether what becomes of its buds is kept.
+    /// Whether the events of its buds are kept.
     pub keep_events: bool,
 }
 
@@ -159,7 +160,7 @@ impl Plant {
         }
     }
 
-    /// Makes this the plant of another seed, keeping the memory of its columns.
+    /// Makes this the plant of another seed and keeps the memory of its columns.
     pub fn resow(&mut self, seed: &Seed) {
         self.clear();
         self.id = seed.plant;
@@ -168,7 +169,7 @@ impl Plant {
         self.events = seed.keep_events.then(|| self.events.take().unwrap_or_default());
     }
 
-    /// Takes everything off the plant, for a model that rebuilds it.
+    /// Removes all components, for a model that rebuilds the plant.
     pub fn clear(&mut self) {
         self.begin_rewriting();
         self.age = 0;
@@ -178,7 +179,7 @@ impl Plant {
         }
     }
 
-    /// Takes the columns off the plant, for a model that writes them anew: component numbers and events go on.
+    /// Empties the columns, for a model that writes them anew; component numbers and events continue.
     pub fn begin_rewriting(&mut self) {
         self.death = NEVER;
         self.axes.clear();
@@ -201,7 +202,7 @@ impl Plant {
         self.components.saturating_add(more) <= self.component_limit
     }
 
-    /// Whether the plant has more components than it may have: its model stops growing it and returns the limit.
+    /// Whether the plant has more components than its limit: its model then stops and returns the limit.
     #[inline]
     pub fn is_overgrown(&self) -> bool {
         self.components > self.component_limit
@@ -212,12 +213,13 @@ impl Plant {
         self.component_limit
     }
 
-    /// The components that ever were: internodes, organs and apical buds.
+    /// The number of components that ever were: internodes, organs and apical buds.
     pub fn components(&self) -> u32 {
         self.components
     }
 
-    /// How many components have lived by `age`. A flower planned for a branch that died before it opened never did.
+    /// The number of components that have lived by `age`. A flower planned for a branch that died before it opened is
+    /// not counted. Linear in the components.
     pub fn lived_by(&self, age: Tick) -> u64 {
         let by = |births: &[Tick]| births.iter().filter(|&&birth| birth <= age).count() as u64;
         let organs = self.organs.birth.iter().zip(&self.organs.death);
@@ -248,30 +250,30 @@ impl Plant {
         self.organs.push(organ, component)
     }
 
-    /// The components of this plant are named by their numbers: what a model rewrites in mid-axis changes its rank, but
-    /// not its number.
+    /// Names the components of this plant by their numbers from now on: a node that a model inserts in mid-axis changes
+    /// the ranks of others, but not their numbers.
     pub fn name_by_number(&mut self) {
         self.named_by_number = true;
     }
 
-    /// A component number that no component of the plant has yet.
+    /// A new component number.
     pub fn next_number(&mut self) -> u32 {
         self.number()
     }
 
-    /// Adds an axis as the component of a number that was given before; its key follows from the number.
+    /// Adds an axis with a component number that was given before; its key follows from the number.
     pub fn place_axis(&mut self, axis: NewAxis, component: u32) -> AxisId {
         self.axes.push(NewAxis { key: numbered(component), ..axis }, component)
     }
 
-    /// Adds an internode with its node at the tip of its axis, as the component of a number that was given before.
+    /// Adds an internode with its node at the tip of its axis, with a component number that was given before.
     pub fn place_node(&mut self, node: NewNode, component: u32) -> NodeId {
         let id = self.nodes.push(node, component);
         self.axes.grown(node.axis, id);
         id
     }
 
-    /// Notes an event, where the run keeps them.
+    /// Adds an event, where the run keeps events.
     #[inline]
     pub fn note(&mut self, tick: Tick, axis: AxisId, kind: EventKind, count: u32) {
         if let Some(events) = &mut self.events {
@@ -298,19 +300,19 @@ impl Plant {
         self.axes.key[axis.index()].child(place.on(self.nodes.rank[node.index()]))
     }
 
-    /// The trends from which the internodes of an axis name theirs.
+    /// The trends that the internodes of an axis name by place.
     #[inline]
     pub fn trends_of(&self, axis: AxisId) -> &[Trend] {
         self.own_trends.of(axis).unwrap_or(&self.habit.trends)
     }
 
-    /// What the internodes of an axis look like.
+    /// The look of the internodes of an axis.
     #[inline]
     pub fn look_of(&self, axis: AxisId) -> &InternodeLook {
         self.habit.looks.internode(self.axes.order[axis.index()], self.axes.state[axis.index()])
     }
 
-    /// What one internode looks like: its own look, or that of its axis.
+    /// The look of one internode: its own look, or that of its axis.
     #[inline]
     pub fn look_of_node(&self, node: NodeId) -> &InternodeLook {
         let own = self.own_looks.of_node(node).and_then(|place| self.habit.looks.apart.get(place));
@@ -323,8 +325,7 @@ impl Plant {
         self.look_of_node(node).kind(self.nodes.formation[node.index()].is_short())
     }
 
-    /// What the species says of the look of an organ, if it says anything: its own look, or that of its class and
-    /// order.
+    /// The look of an organ: its own look, or that of its class and order; `None` where none is stated.
     #[inline]
     pub fn look_of_organ(&self, organ: OrganId) -> Option<&OrganLook> {
         let own = self.own_looks.of_organ(organ).and_then(|place| self.habit.looks.organs_apart.get(place));
@@ -343,8 +344,8 @@ impl Plant {
     }
 
     /// The area of one side of an organ at `age`, m²: its full area times the square of the share to which it has
-    /// expanded. In double precision for sums, in single precision for tables. Nothing else reads the column `area` for
-    /// what stands at an age.
+    /// expanded. In double precision for sums, in single precision for tables. Every use of the area at an age calls
+    /// this instead of reading the column `area`.
     #[inline]
     pub fn organ_area<T: From<f32> + Copy + Mul<Output = T>>(&self, organ: OrganId, age: Tick) -> T {
         let share = T::from(self.expanded(organ, age));

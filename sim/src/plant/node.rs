@@ -1,7 +1,7 @@
 //! Internodes, each with the node at its tip: the phytomers without their organs.
 //!
 //! A node stands at the tip of its internode and bears leaves and buds; its rank counts along the axis from 1. Absent:
-//! the curvature that mechanics will write.
+//! curvature (`strain`), and frames (`frames`).
 
 use super::columns::columns;
 use super::handle::{AxisId, NodeId};
@@ -9,7 +9,7 @@ use super::joint::Joint;
 use crate::clock::Tick;
 use std::ops::Range;
 
-/// What a new internode starts from.
+/// The values of a new internode.
 #[derive(Debug, Clone, Copy)]
 pub struct NewNode {
     /// The node at its base; [`NodeId::NONE`] for the first internode of the trunk.
@@ -26,13 +26,13 @@ pub struct NewNode {
     pub short: bool,
     /// Whether it was made after bud break, not laid down in the resting bud.
     pub neoformed: bool,
-    /// The trend that it follows, as a place in the habit's.
+    /// Its trend, as a place among the habit's trends, or its axis's own.
     pub trend: u8,
     /// Length, metres.
     pub length: f32,
     /// Diameter at birth, metres.
     pub diameter: f32,
-    /// Of its first leaf around the axis, radians from the axis's reference direction.
+    /// Azimuth of its first leaf around the axis, radians from the axis's reference direction.
     pub azimuth: f32,
 }
 
@@ -53,7 +53,7 @@ columns! {
         unit_rank: u16 = node.unit_rank,
         /// Short type and neoformation, one bit each.
         formation: Formation = Formation::of(&node),
-        /// The trend, as a place in the habit's.
+        /// The trend, as a place among the habit's trends, or the axis's own.
         trend: u8 = node.trend,
         /// Length, metres.
         length: f32 = node.length,
@@ -67,8 +67,9 @@ columns! {
         azimuth: f32 = node.azimuth,
     }
     beside
-    /// The first node of each run: of nodes that follow one another on one axis. An axis grown at once is one run, one
-    /// that grew by the clock, between others, is several. Within a run the node before is the parent.
+    /// The first node of each run. A run is a sequence of nodes that follow one another on one axis: an axis grown at
+    /// once is one run, an axis that grew by the clock, between others, is several. Within a run the node before is the
+    /// parent.
     runs: NodeId
 }
 
@@ -81,12 +82,12 @@ impl Formation {
         Self(u8::from(node.short) | u8::from(node.neoformed) << 1)
     }
 
-    /// Of a growth unit of the short type?
+    /// Whether the growth unit is of the short type.
     pub fn is_short(self) -> bool {
         self.0 & 1 != 0
     }
 
-    /// Made after bud break?
+    /// Whether the internode was made after bud break.
     pub fn is_neoformed(self) -> bool {
         self.0 & 2 != 0
     }
@@ -109,7 +110,7 @@ impl Nodes {
         id
     }
 
-    /// Notes where the runs of a fragment stand among the nodes of the whole.
+    /// Adds the runs of a fragment, with the places of their nodes in the whole plant.
     pub(super) fn join_runs(&mut self, more: &Self, joint: &Joint) {
         self.runs.extend(more.runs.iter().map(|&first| joint.node(first)));
     }

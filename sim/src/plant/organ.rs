@@ -9,32 +9,32 @@ use super::handle::{NodeId, OrganId};
 use super::kind::{Cause, Kind};
 use crate::clock::Tick;
 
-/// What a new organ starts from.
+/// The values of a new organ.
 #[derive(Debug, Clone, Copy)]
 pub struct NewOrgan {
-    /// The node that bears it.
+    /// The bearing node.
     pub node: NodeId,
-    /// What it is: a kind of leaf, flower or fruit.
+    /// Its kind: a kind of leaf, flower or fruit.
     pub kind: Kind,
     /// Its position among the organs of its kind on the node, from 0.
     pub position: u16,
-    /// The tick at which it appears; may lie ahead of the plant's age (a fruit, when its flower opens).
+    /// The tick at which it appears; may be after the plant's age (a fruit's, when its flower opens).
     pub birth: Tick,
-    /// The tick at which it falls if its branch lives so long; `NEVER` if it stays as long as its branch.
+    /// The tick at which it falls if its branch lives that long; `NEVER` if it stays as long as its branch.
     pub death: Tick,
-    /// Why it falls then.
+    /// The cause of that fall.
     pub cause: Cause,
     /// The form that it is drawn with.
     pub form: Form,
     /// Length along its own axis when it is full-grown, metres.
     pub length: f32,
-    /// Width across, likewise.
+    /// Width across when it is full-grown, metres.
     pub width: f32,
-    /// Area of one side, likewise, square metres; 0 where area means nothing.
+    /// Area of one side when it is full-grown, square metres; 0 for organs that have no area.
     pub area: f32,
-    /// Around the axis, radians from the axis's reference direction.
+    /// Azimuth around the axis, radians from the axis's reference direction.
     pub azimuth: f32,
-    /// Between the axis and the organ, radians.
+    /// Angle between the axis and the organ, radians.
     pub insertion: f32,
 }
 
@@ -53,15 +53,15 @@ columns! {
         birth: Tick = organ.birth,
         /// The tick of its fall, planned or past; [`crate::shed`] brings it forward to the death of the branch.
         death: Tick = organ.death,
-        /// Why it falls.
+        /// The cause of its fall.
         cause: Cause = organ.cause,
         /// The form that it is drawn with.
         form: Form = organ.form,
         /// Length when full-grown, metres.
         length: f32 = organ.length,
-        /// Width, likewise.
+        /// Width when full-grown, metres.
         width: f32 = organ.width,
-        /// Area of one side, likewise, square metres.
+        /// Area of one side when full-grown, square metres.
         area: f32 = organ.area,
         /// Azimuth, radians.
         azimuth: f32 = organ.azimuth,

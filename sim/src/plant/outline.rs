@@ -1,10 +1,11 @@
-//! What single organs state of themselves: their frame in that of their node, and the polygon that they fill.
+//! The frame and the outline that single organs state: a frame relative to that of the node, and the polygon that the
+//! organ fills.
 //!
-//! An organ that states its frame keeps it: neither insertion nor trends turn it, and it begins where it says, not on
-//! the surface of its stem. An outline is a list of corners in the organ's frame, x along it, y to its left, z to its
-//! upper side, in metres when it is full-grown; the area of the organ is then that of the polygon. The corners of all
-//! organs share one list. A plant whose organs state nothing has empty columns.
-//! Absent: triangles, which a mesh makes of an outline.
+//! An organ that states its frame keeps it: neither insertion nor trends turn it, and it begins at the stated offset,
+//! not on the surface of its stem. An outline is a list of corners in the organ's frame, x along it, y to its left, z
+//! to its upper side, in metres when it is full-grown; the area of the organ is then that of the polygon. The corners
+//! of all organs share one list. A plant whose organs state nothing has empty columns. Absent: triangles, which a mesh
+//! makes of an outline.
 
 use super::Plant;
 use super::handle::OrganId;
@@ -12,7 +13,7 @@ use super::rare::Rare;
 use crate::rotation::Rotation;
 use crate::vector::Vector;
 
-/// Everything that organs of one plant state of themselves.
+/// All frames and outlines that organs of one plant state.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StatedOrgans {
     /// Unit quaternions; all 0 where an organ follows insertion and trend.
@@ -43,7 +44,7 @@ impl StatedOrgans {
         (turn != [0.0; 4]).then(|| (Rotation::of_parts(turn), self.starts.at(organ.index())))
     }
 
-    /// Takes over what the organs of a fragment state, of which the first becomes the organ `first`.
+    /// Adds the frames and outlines of a fragment, whose first organ becomes the organ `first`.
     pub(super) fn join(&mut self, more: &Self, first: usize) {
         self.turns.join(&more.turns, |organ| first + organ);
         self.starts.join(&more.starts, |organ| first + organ);
@@ -73,7 +74,7 @@ impl Plant {
         }
     }
 
-    /// Gives an organ the polygon that it fills, and the area of it; of fewer than three corners none.
+    /// Gives an organ its outline, and the area of the polygon; fewer than three corners are no outline.
     pub fn state_outline(&mut self, organ: OrganId, corners: &[[f32; 3]]) {
         let of = &mut self.stated_organs;
         let count = if corners.len() < 3 { 0 } else { corners.len() };
@@ -91,8 +92,8 @@ impl Plant {
     }
 }
 
-/// The area of a plane polygon by Newell's sum over its edges, m²; of one that is not plane that of its shadow along
-/// its mean normal.
+/// The area of a plane polygon by Newell's sum over its edges, m²; for a polygon that is not plane, the area of its
+/// projection along its mean normal.
 fn area(corners: &[[f32; 3]]) -> f64 {
     let Some(&first) = corners.first() else { return 0.0 };
     let from = |corner: &[f32; 3]| Vector::from(*corner) - Vector::from(first);

@@ -1,42 +1,42 @@
-//! Looks that single nodes and organs have of their own, instead of those that follow from order and starting state:
-//! what a turtle, a lobe or a flower made of parts needs.
+//! Looks that single nodes and organs have instead of those of their order and starting state, as a turtle, a lobe or a
+//! flower made of parts needs.
 //!
-//! A look is named by its place among [`super::Looks::apart`] or [`super::Looks::organs_apart`]. A place where no look
-//! stands names none. A plant without looks of their own has empty columns.
+//! A look is named by its place among [`super::Looks::apart`] or [`super::Looks::organs_apart`]. A place past their end
+//! names no look. A plant without own looks has empty columns.
 
 use super::Plant;
 use super::handle::{NodeId, OrganId};
 use super::rare::Rare;
 
-/// Which nodes and organs have which looks of their own.
+/// The own looks of nodes and organs.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct OwnLooks {
-    /// The place counted from 1; 0 where a node has none.
+    /// For each node the place of its look, counted from 1; 0 for none.
     nodes: Rare<u16>,
-    /// Likewise.
+    /// For each organ the place of its look, counted from 1; 0 for none.
     organs: Rare<u16>,
 }
 
 impl OwnLooks {
-    /// Whether no node and no organ has one.
+    /// Whether no node and no organ has an own look.
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty() && self.organs.is_empty()
     }
 
-    /// The place of the look of a node among those apart.
+    /// The place of the own look of a node among [`super::Looks::apart`]; `None` where it has none.
     #[inline]
     pub fn of_node(&self, node: NodeId) -> Option<usize> {
         usize::from(self.nodes.at(node.index())).checked_sub(1)
     }
 
-    /// The place of the look of an organ among those apart.
+    /// The place of the own look of an organ among [`super::Looks::organs_apart`]; `None` where it has none.
     #[inline]
     pub fn of_organ(&self, organ: OrganId) -> Option<usize> {
         usize::from(self.organs.at(organ.index())).checked_sub(1)
     }
 
-    /// Takes over those of a fragment, of which the first node and organ become these.
+    /// Adds the own looks of a fragment, whose first node and organ become `node` and `organ`.
     pub(super) fn join(&mut self, more: &Self, [node, organ]: [usize; 2]) {
         self.nodes.join(&more.nodes, |at| node + at);
         self.organs.join(&more.organs, |at| organ + at);
@@ -49,12 +49,12 @@ impl OwnLooks {
 }
 
 impl Plant {
-    /// Gives a node the look at a place among those apart, below 65,535.
+    /// Gives a node the look at a place of [`super::Looks::apart`], below 65,535.
     pub fn give_look(&mut self, node: NodeId, place: u16) {
         self.own_looks.nodes.set(node.index(), place.saturating_add(1));
     }
 
-    /// Gives an organ the look at a place among those of organs apart, below 65,535.
+    /// Gives an organ the look at a place of [`super::Looks::organs_apart`], below 65,535.
     pub fn give_organ_look(&mut self, organ: OrganId, place: u16) {
         self.own_looks.organs.set(organ.index(), place.saturating_add(1));
     }

@@ -1,7 +1,7 @@
-//! A column that most plants leave empty: what is stated of some nodes, axes or organs, beside the columns that all
-//! have.
+//! A column that most plants leave empty: values of some nodes, axes or organs, beside the columns in which each has an
+//! entry.
 //!
-//! It is as long as the last entry that states something; past its end, and between, stands the default. A plant that
+//! The column is as long as the last stated entry; entries between and past its end have the default. A plant that
 //! states nothing has an empty column, and reading it costs one comparison with its length.
 
 /// A column of values of which most are the default.
@@ -31,7 +31,7 @@ impl<T: Copy + Default> Rare<T> {
         self.values[place] = value;
     }
 
-    /// Takes over what another column states, each entry at the place that `place` gives it.
+    /// Adds the entries of another column, each at the place that `place` returns for it.
     pub fn join(&mut self, more: &Self, place: impl Fn(usize) -> usize) {
         for (at, &value) in more.values.iter().enumerate() {
             self.set(place(at), value);

@@ -1,8 +1,8 @@
-//! What stands of a plant at an age: the one place that knows.
+//! The components of a plant that stand at an age: the one definition that pose, mechanics, meshes and tables share.
 //!
 //! An internode stands from its birth until its branch falls or a cut takes it, an organ from its birth until its own
 //! fall or that of its branch, a bud until its apex ends. Pose and mechanics walk along the standing internodes as runs
-//! of one axis: runs forward meet a parent before its child, runs backward a child before its parent. Births and deaths
+//! of one axis: forward a parent comes before its child, backward a child before its parent. Births and deaths
 //! themselves are columns, written by models and by [`crate::shed`].
 
 use super::{AxisId, Cause, NodeId, Nodes, OrganId, Plant, Stretch};
@@ -39,6 +39,7 @@ pub(crate) struct Standing {
 
 impl Standing {
     /// Finds the runs of the internodes of `plant` that appeared by `age` and have neither been shed nor cut off.
+    /// Linear in the stretches that have appeared.
     pub fn find(&mut self, plant: &Plant, age: Tick) {
         self.runs.clear();
         plant.each_standing(age, |stretch| {
@@ -61,7 +62,7 @@ impl Plant {
         self.appeared.read(age, &self.nodes)
     }
 
-    /// Shows the internodes that stand at `age`, along their axes.
+    /// Calls `show` for each stretch of internodes that stands at `age`, along their axes.
     #[inline]
     pub fn each_standing(&self, age: Tick, mut show: impl FnMut(Stretch)) {
         for &stretch in self.stretches(age).iter() {
@@ -76,7 +77,7 @@ impl Plant {
         }
     }
 
-    /// What cuts have left of a stretch.
+    /// The part of a stretch that cuts have left.
     fn left_of(&self, stretch: Stretch, age: Tick) -> Option<Stretch> {
         let first = self.nodes.rank[stretch.nodes().start];
         let highest = self.cuts.highest(stretch.axis, age);
@@ -97,14 +98,14 @@ impl Plant {
         if self.cuts.is_empty() { shed } else { shed.min(self.cut_of(node)) }
     }
 
-    /// Why an internode, and what it bears, dies when it does: with its branch, or because it is cut off.
+    /// Why an internode, with its organs, dies: with its branch, or because it is cut off.
     #[inline]
     pub fn cause_of_death(&self, node: NodeId) -> Cause {
         let cut = self.cut_of(node);
         if cut != NEVER && cut <= self.death_of(node) { Cause::Pruned } else { Cause::Branch }
     }
 
-    /// The tick at which a cut took an internode; never, mostly.
+    /// The tick at which a cut took an internode; mostly [`NEVER`].
     fn cut_of(&self, node: NodeId) -> Tick {
         self.cuts.of(self.nodes.axis[node.index()], self.nodes.rank[node.index()])
     }
@@ -115,13 +116,13 @@ impl Plant {
         self.nodes.birth[node.index()] <= age && age < self.shed_of(node)
     }
 
-    /// Whether an organ is on the plant at `age`; the plant is shed.
+    /// Whether an organ is on the plant at `age`; valid after [`crate::shed`].
     #[inline]
     pub fn organ_stands(&self, organ: OrganId, age: Tick) -> bool {
         self.organs.birth[organ.index()] <= age && age < self.organs.death[organ.index()]
     }
 
-    /// The tick at which an organ is gone: its own fall, or that of its branch if it should come first.
+    /// The tick at which an organ is gone: at its own fall or that of its branch, whichever comes first.
     #[inline]
     pub fn organ_end(&self, organ: OrganId) -> Tick {
         self.organs.death[organ.index()].min(self.shed_of(self.organs.node[organ.index()]))
@@ -132,14 +133,14 @@ impl Plant {
         self.axes.appearance[axis.index()] <= age && age < self.bud_end(axis)
     }
 
-    /// The tick at which an apical bud is gone: it ends as a bud when its apex ends, whatever the apex becomes, or it
-    /// falls with its branch.
+    /// The tick at which an apical bud is gone: when its apex ends, whatever the apex becomes, or when it falls with
+    /// its branch.
     #[inline]
     pub fn bud_end(&self, axis: AxisId) -> Tick {
         self.axes.apex_end[axis.index()].min(self.axes.shed[axis.index()])
     }
 
-    /// Whether the plant lives at `age`, which is when any of its components does: a bud, or an internode on whose
+    /// Whether the plant lives at `age`, which is so while any of its components lives: a bud, or an internode on whose
     /// branch an apex that has become a flower or has completed its growth is not yet spent. A plant may live on
     /// without a bud.
     #[inline]

@@ -1,13 +1,12 @@
 //! Rest frames that a model, or an event, states: of nodes and axes, instead of insertion, phyllotaxis and trend.
 //!
-//! A node states how it is turned in the frame of its parent node, and the first node of an axis, or the bud that the
-//! axis still is, in the frame of its bearing node; an axis without a bearer in the frame of the ground, whose heading
-//! is the upward vertical and whose upper side faces along X. A frame stands at the tip of its internode; what begins
-//! elsewhere states its start, as an offset in the coordinates of that frame ([`crate::rotation`] has them). What is
-//! said of the first node of an axis is said of the axis: both are one entry.
-//! A change holds from its tick on, earlier ages keep what was there before. What states nothing follows insertion and
-//! trend, also in a plant in which others state; a plant that states nothing has empty columns.
-//! Absent: what follows from the frames, which is the work of [`crate::pose`] and [`crate::mechanics`].
+//! A node states how it is turned in the frame of its parent node; the first node of an axis, or its bud before that,
+//! in the frame of the bearing node; an axis without a bearer in the frame of the ground, whose heading is the upward
+//! vertical and whose upper side faces along X. A frame stands at the tip of its internode; a start elsewhere is an
+//! offset in the coordinates of that frame ([`crate::rotation`]). An axis and its first node share one entry. A change
+//! holds from its tick on. Nodes without a statement follow insertion and trend, also in a plant in which others state;
+//! a plant that states nothing has empty columns. Absent: the pose, which is the work of [`crate::pose`] and
+//! [`crate::mechanics`].
 
 use super::Plant;
 use super::handle::{AxisId, NodeId};
@@ -17,20 +16,20 @@ use super::rare::Rare;
 use crate::clock::Tick;
 use crate::rotation::Rotation;
 
-/// What is said of the rest frame of a node or of an axis.
+/// The statement of the rest frame of a node or of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Rest {
-    /// Nothing: it follows insertion, phyllotaxis and trend.
+    /// No statement: the frame follows insertion, phyllotaxis and trend.
     #[default]
     Follows,
-    /// How it is turned in the frame of what bears it.
+    /// The rotation in the frame of the bearer.
     Turned(Rotation),
-    /// Its heading in the frame of the plant. Its upper side is that of what bears it, turned no more than the heading
-    /// is. A heading without a direction is that of what bears it.
+    /// The heading in the frame of the plant. The upper side is that of the bearer, turned no more than the heading is.
+    /// A heading of length 0 is that of the bearer.
     Heading([f32; 3]),
 }
 
-/// What has a rest frame.
+/// A part of a plant that has a rest frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Part {
     /// An axis, from its bud on: the frame of its first node.
@@ -59,7 +58,7 @@ struct Change {
     rest: Rest,
 }
 
-/// Everything that is stated of the rest frames of one plant.
+/// All statements of rest frames of one plant.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StatedFrames {
     axes: Column,
@@ -68,7 +67,7 @@ pub struct StatedFrames {
     changes: Vec<Change>,
 }
 
-/// What axes, or nodes, state at their birth.
+/// The statements of axes, or of nodes, that hold from their birth on.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Column {
     /// Unit quaternions; all 0 where none is stated.
@@ -128,7 +127,7 @@ impl StatedFrames {
         self.axes.is_empty() && self.nodes.is_empty() && self.changes.is_empty()
     }
 
-    /// What an axis, or a node that is not the first of its axis, states at `age`.
+    /// The statement of an axis, or of a node that is not the first of its axis, at `age`.
     #[inline]
     pub(crate) fn rest(&self, part: Part, age: Tick) -> Rest {
         if let Some(rest) = self.changed(part, age) {
@@ -150,7 +149,7 @@ impl StatedFrames {
         (last.part == part).then_some(last.rest)
     }
 
-    /// Where it begins, in the frame of what bears it, from the tip of that.
+    /// The start of a part: an offset from the tip of the bearer, in the bearer's frame.
     #[inline]
     pub(crate) fn start(&self, part: Part) -> [f32; 3] {
         match part {
@@ -165,7 +164,7 @@ impl StatedFrames {
         !self.axes.starts.is_empty()
     }
 
-    /// Whether a rest frame of `one` age is another at the `other`.
+    /// Whether any rest frame differs between the ages `one` and `other`.
     pub(crate) fn differ(&self, one: Tick, other: Tick) -> bool {
         let span = one.min(other) + 1..=one.max(other);
         self.changes.iter().any(|change| span.contains(&change.tick))
@@ -194,7 +193,7 @@ impl StatedFrames {
     }
 }
 
-/// What is said of the first node of an axis is said of the axis.
+/// The part under which statements are kept: for the first node of an axis the axis.
 fn one_entry(nodes: &Nodes, part: Part) -> Part {
     match part {
         Part::Node(node) if nodes.rank[node.index()] == 1 => Part::Axis(nodes.axis[node.index()]),
@@ -214,7 +213,7 @@ impl Plant {
         self.pose_again(part);
     }
 
-    /// Forgets the frames where that of `part` may be among them.
+    /// Forgets all frames if the frame of `part` may have been made.
     fn pose_again(&mut self, part: Part) {
         let appeared = match part {
             Part::Axis(axis) => self.axes.appearance[axis.index()],
@@ -225,9 +224,9 @@ impl Plant {
         }
     }
 
-    /// States where a node or an axis begins, for all ages: an offset from the tip of what bears it, metres, along its
-    /// heading, to its left and to its upper side. A child in the middle of its bearer begins half of that one's length
-    /// behind its tip.
+    /// States where a node or an axis begins, for all ages: an offset from the tip of its bearer, metres, along the
+    /// bearer's heading, to its left and to its upper side. A child in the middle of its bearer begins half of the
+    /// bearer's length behind its tip.
     pub fn state_start(&mut self, part: impl Into<Part>, offset: [f32; 3]) {
         let part = one_entry(&self.nodes, part.into());
         let (column, place) = match part {
@@ -240,8 +239,8 @@ impl Plant {
         self.pose_again(part);
     }
 
-    /// Changes a rest frame from `tick` on; the ages before keep theirs. Of two changes of one tick the later call
-    /// holds.
+    /// Changes a rest frame from `tick` on; earlier ages keep theirs. A later call replaces an earlier call for the
+    /// same tick.
     pub fn change_rest(&mut self, part: impl Into<Part>, tick: Tick, rest: Rest) {
         let part = one_entry(&self.nodes, part.into());
         let changes = &mut self.stated.changes;
@@ -252,12 +251,12 @@ impl Plant {
         self.frames.clear();
     }
 
-    /// What is stated of the rest frame of a node at `age`; of the first node of an axis that of the axis.
+    /// The statement of the rest frame of a node or an axis at `age`; for the first node of an axis that of the axis.
     pub fn rest_of(&self, part: impl Into<Part>, age: Tick) -> Rest {
         self.stated.rest(one_entry(&self.nodes, part.into()), age)
     }
 
-    /// Where a node or an axis begins, as [`Plant::state_start`] has it.
+    /// The start of a node or an axis, as given to [`Plant::state_start`]; zero where none is stated.
     pub fn start_of(&self, part: impl Into<Part>) -> [f32; 3] {
         self.stated.start(one_entry(&self.nodes, part.into()))
     }

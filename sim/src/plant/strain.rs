@@ -1,7 +1,8 @@
-//! What bending has left in each internode: the columns that mechanics alone writes.
+//! The curvature and the bending moment of each internode: the columns that mechanics alone writes.
 //!
-//! Both are taken in the axes of the material, along `up` and along `heading × up` of the internode, so that they keep
-//! their meaning while the branch turns. There is no component along the heading: internodes bend and do not twist.
+//! Both are vectors in the axes of the material, along `up` and along `heading × up` of the internode, so that they
+//! keep their meaning while the branch turns. There is no component along the heading: internodes bend and do not
+//! twist.
 
 use super::AxisId;
 
@@ -12,7 +13,7 @@ pub struct Strain {
     pub curvature: Vec<[f32; 2]>,
     /// The bending moment at the middle of the internode, N·m, about the two axes.
     pub moment: Vec<[f32; 2]>,
-    /// The axis nearest to the seed that did not hold what it carries, at the last tick.
+    /// The axis nearest to the seed that did not hold its load, at the last tick.
     pub yields: Option<AxisId>,
 }
 
@@ -24,18 +25,18 @@ impl Strain {
         self.yields = None;
     }
 
-    /// Room for `nodes` internodes; new ones are straight and free of load.
+    /// Makes room for `nodes` internodes; new ones are straight and free of load.
     pub(crate) fn resize(&mut self, nodes: usize) {
         self.curvature.resize(nodes, [0.0; 2]);
         self.moment.resize(nodes, [0.0; 2]);
     }
 
-    /// The size of the curvature of internode `node`, rad/m; 0 where the plant does not bend.
+    /// The magnitude of the curvature of internode `node`, rad/m; 0 where the plant does not bend.
     pub fn curvature_of(&self, node: usize) -> f32 {
         size(self.curvature.get(node))
     }
 
-    /// The size of the bending moment in internode `node`, N·m; 0 where the plant does not bend.
+    /// The magnitude of the bending moment in internode `node`, N·m; 0 where the plant does not bend.
     pub fn moment_of(&self, node: usize) -> f32 {
         size(self.moment.get(node))
     }

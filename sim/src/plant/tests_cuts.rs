@@ -1,5 +1,7 @@
-//! Cuts: what is left is what can be reached from the ground, by a walk written apart from the code that it tests;
-//! every component stands or is gone; and the order in which cuts are told does not matter.
+//! Cuts: the remaining part is the part that can be reached from the ground, by a walk written apart from the tested
+//! code; every component stands or is gone; and the order in which cuts are made does not matter.
+//!
+//! Absent: growth after a cut, which the contract of models tests.
 
 use super::*;
 use crate::mechanics::{Scratch, Tissue, Uprighting, Wood, bend};

@@ -1,5 +1,7 @@
-//! What plants may state beside their columns: lengths that change, looks of single nodes and organs, frames and
+//! The statements of plants beside their columns: lengths that change, looks of single nodes and organs, frames and
 //! outlines of organs.
+//!
+//! Absent: rest frames of nodes and axes (`pose::tests_stated`).
 
 use super::*;
 use crate::mechanics::wood_volume;
@@ -66,7 +68,7 @@ fn a_length_that_is_rewritten_holds_from_its_tick_on() {
     assert_eq!(plant.rewritten, Rewritten::default());
 }
 
-/// A plant of which nothing changes keeps no column beside its own.
+/// A plant without changing lengths stores no lengths beside its column.
 #[test]
 fn lengths_that_do_not_change_are_read_from_their_column() {
     let mut plant = with_looks(&[Branch::trunk(4, 0.5)], |_| {});
@@ -136,7 +138,7 @@ fn the_area_of_an_outlined_organ_is_that_of_its_polygon() {
     assert!(plant.outline_of(one).is_empty() && plant.organs.area[0] == 0.0);
 }
 
-/// What a fragment states is the whole's after they are joined, by the numbers that its nodes and organs then have.
+/// Statements of a fragment are the whole plant's after joining, under the numbers that its nodes and organs then have.
 #[test]
 fn a_fragment_brings_what_it_states() {
     let add = |plant: &mut Plant, axis: AxisId| {
@@ -169,7 +171,7 @@ fn a_fragment_brings_what_it_states() {
     let (mut parted, axes) = start();
     work(&mut parted, axes[0]);
     let mut fragment = parted.fragment(2..4);
-    // The outline tells the axes of the whole apart.
+    // The outlines identify the axes of the whole.
     for (own, of_whole) in [(AxisId(0), axes[1]), (AxisId(1), axes[2])] {
         work(&mut fragment.plant, own);
         let last = OrganId(fragment.plant.organs.len() as u32 - 1);

@@ -1,8 +1,7 @@
-//! What wood, leaves and fruits are made of, as mechanics needs it: stiffness, weight, drag, and how axes right
-//! themselves.
+//! The mechanical properties of wood, leaves and fruits: stiffness, weight, drag, and how axes right themselves.
 //!
-//! All of it is compiled: laws of age are tables, angles are cosines. Absent: where the numbers come from, which is in
-//! the species file, and the equations that use them.
+//! All numbers are compiled: laws of age are tables, angles are sines and cosines. Absent: the sources of the numbers,
+//! which are in the species file, and the equations that use them.
 
 use super::Plant;
 use super::handle::OrganId;
@@ -12,7 +11,7 @@ use crate::clock::Tick;
 /// The mechanical side of a species.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Wood {
-    /// The wood of each order, from 1; orders past the last are as the last.
+    /// The wood of each order, from 1; orders past the last have the wood of the last.
     pub tissues: Vec<Tissue>,
     /// How internodes gain diameter.
     pub thickening: Thickening,
@@ -20,11 +19,11 @@ pub struct Wood {
     pub bends: bool,
     /// The fresh mass of organs.
     pub organs: OrganMass,
-    /// What wind finds in leaves and wood.
+    /// The drag of leaves and wood in the wind.
     pub drag: Drag,
 }
 
-/// The wood of one order, by the age of the internode in ticks; ages past a table's last are as its last.
+/// The wood of one order, by the age of the internode in ticks; later ages have the last entry of a table.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tissue {
     /// Young's modulus, Pa.
@@ -35,7 +34,7 @@ pub struct Tissue {
     pub uprighting: Uprighting,
 }
 
-/// Gravitropic righting: the direction that an axis keeps to, and by what.
+/// Gravitropic righting: the direction that an axis keeps to, and the causes that turn it there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Uprighting {
     /// Cosine of the angle between the direction kept to and the upward vertical.
@@ -44,7 +43,8 @@ pub struct Uprighting {
     pub sin_inclination: f32,
     /// The difference of maturation strain between the two sides of new wood, Δε.
     pub strain: f32,
-    /// The curvature that a young internode gains in a tick, square to the direction kept to, rad/m.
+    /// The curvature that a young internode gains in a tick, where it stands at a right angle to the direction kept to,
+    /// rad/m.
     pub rate: f32,
     /// For how many ticks an internode is young.
     pub young: u32,
@@ -57,7 +57,7 @@ impl Default for Uprighting {
 }
 
 impl Uprighting {
-    /// Whether the axes do right themselves.
+    /// Whether the axes right themselves at all.
     pub fn acts(&self) -> bool {
         self.strain != 0.0 || (self.rate != 0.0 && self.young > 0)
     }
@@ -66,38 +66,38 @@ impl Uprighting {
 /// Fresh mass of organs.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OrganMass {
-    /// Of a leaf, a square metre of one side, kg/m².
+    /// The mass of a square metre of leaf, one side, kg/m².
     pub leaf: f32,
-    /// Of a flower, as the ellipsoid of its length and width, kg/m³.
+    /// The density of a flower as the ellipsoid of its length and width, kg/m³.
     pub flower: f32,
-    /// Of a fruit, likewise, kg/m³.
+    /// The density of a fruit as the ellipsoid of its length and width, kg/m³.
     pub fruit: f32,
 }
 
 /// Drag that falls with the speed of the wind, as crowns give way: F = ½ ρ C_d A U² with C_d = c U⁻ⁿ.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Drag {
-    /// c, for U in m/s.
+    /// c of the drag law, for U in m/s.
     pub coefficient: f32,
-    /// n.
+    /// n of the drag law.
     pub exponent: f32,
 }
 
 impl Wood {
-    /// The tissue of an order.
+    /// The tissue of an order; orders past the last have the tissue of the last.
     #[inline]
     pub fn tissue(&self, order: u8) -> &Tissue {
         let place = usize::from(order).saturating_sub(1).min(self.tissues.len() - 1);
         &self.tissues[place]
     }
 
-    /// Whether what stands at an age depends on the ages before: on frozen curvature, on rings, on pipes of fallen
-    /// leaves.
+    /// Whether diameters and pose at an age depend on the ages before: through frozen curvature, rings, or pipes of
+    /// fallen leaves.
     pub(crate) fn remembers(&self) -> bool {
         self.bends || self.thickening != Thickening::Law
     }
 
-    /// Whether any order rights itself by reaction wood, which needs to know what each internode gained.
+    /// Whether any order rights itself by reaction wood, for which the growth in diameter of each internode is needed.
     pub fn makes_reaction_wood(&self) -> bool {
         self.tissues.iter().any(|tissue| tissue.uprighting.strain != 0.0)
     }
@@ -148,15 +148,15 @@ pub enum Thickening {
     /// By the model's law of age.
     #[default]
     Law,
-    /// The section at birth and `per_leaf` m² for each leaf above: for each that lives, or for each that ever was.
+    /// Pipe model: the section at birth, and `per_leaf` m² for each leaf above, living or not.
     Pipe {
         /// The section of one pipe, m².
         per_leaf: f64,
-        /// Whether only living leaves count; the pipes of fallen ones stay in the wood.
+        /// Whether only living leaves count; the pipes of fallen leaves stay in the wood.
         living: bool,
     },
-    /// d^Δ of an internode is the sum of d^Δ of the internodes on its node; where one stands there, the internode is at
-    /// least as thick as it was born.
+    /// Da Vinci's rule: d^Δ of an internode is the sum of d^Δ of the internodes on its node; where there is only one,
+    /// the internode is at least as thick as at its birth.
     DaVinci {
         /// Δ.
         exponent: f64,

@@ -1,11 +1,10 @@
-//! The forward scan of a plant that bends: the pose at rest, turned internode by internode by the curvature that
-//! mechanics states.
+//! The forward scan of a plant that bends: the pose at rest, turned internode by internode by its curvature.
 //!
-//! Curvature is stated in the axes of the material at rest. With R the rotation that all internodes before have made
-//! and w = L (κ₁ up + κ₂ heading × up) the turn of this one, all at rest, its chord stands where half of w has turned
-//! it, R exp(w/2), and what it bears stands on R exp(w): second order in the length of internodes. From chord to chord
-//! half of one turn and half of the next are taken as one, exp((w + w')/2): the two axes nearly agree. The axes of the
-//! plant at rest are followed as they would stand without load, so trends are felt at rest and carried along.
+//! Curvature is stated in the axes of the material at rest. With R the rotation by all internodes before and w = L (κ₁
+//! up + κ₂ heading × up) the turn of this internode, all at rest, its chord stands at R exp(w/2) and the frame at its
+//! tip at R exp(w): second order in the length of internodes. From chord to chord half of one turn and half of the next
+//! are combined as exp((w + w')/2), since the two axes nearly agree. The axes at rest are followed as they would stand
+//! without load, so trends act at rest and are turned along.
 
 use super::rest::{Course, Way};
 use crate::clock::Tick;
@@ -16,16 +15,17 @@ use crate::plant::{Axes, Plant};
 use crate::rotation::Rotation;
 use crate::vector::Vector;
 
-/// The source of the curvature, asked while the scan goes from the base to the tips. Its state along an axis is passed
+/// The source of the curvature, called while the scan goes from the base to the tips. Its state along an axis is passed
 /// and returned by value, so that it stays in registers.
 pub(crate) trait Curvature {
-    /// What is carried along a run.
+    /// The state along a run.
     type Carried: Copy;
 
-    /// The scan comes to a run of `axis`, which was borne, or left, before.
+    /// Starts a run of `axis`; [`Curvature::leave`] was called for the axis before, at its bearer or at the end of its
+    /// last run.
     fn enter(&mut self, axis: usize) -> Self::Carried;
 
-    /// The curvature of the next internode of that run, rad/m, which was of this length, heading and `up` before.
+    /// The curvature of the next internode of the run, rad/m. `node` had this length, heading and `up` before the step.
     fn next(
         &mut self,
         carried: Self::Carried,
@@ -35,18 +35,18 @@ pub(crate) trait Curvature {
         up: [f32; 3],
     ) -> (Self::Carried, [f32; 2]);
 
-    /// The internode just asked for bears `axis`, or the run of `axis` is at its end.
+    /// The last internode bears `axis`, or the run of `axis` is at its end.
     fn leave(&mut self, carried: Self::Carried, axis: usize);
 }
 
-/// Where an axis goes on from: at rest, and as it stands.
+/// The end of an axis, from which it continues: at rest, and as it stands.
 #[derive(Debug, Clone, Copy)]
 struct Stance<C> {
     course: C,
     tip: Tip,
 }
 
-/// Scratch of the scan, one entry an axis, kept for its memory; of either course the plants that take it fill theirs.
+/// Scratch of the scan, one entry an axis; a plant fills the list of its own kind of course.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Stances {
     trended: Vec<Stance<Trended>>,
@@ -57,9 +57,9 @@ pub(crate) struct Stances {
 #[derive(Debug, Clone, Copy)]
 struct Tip {
     base: Vector,
-    /// At the middle of the internode that it has come to.
+    /// The rotation at the middle of the last internode.
     turned: Rotation,
-    /// The other half of that internode's turn, at rest.
+    /// The turn of the other half of that internode, at rest.
     half: Vector,
 }
 
@@ -71,7 +71,8 @@ struct Columns<'a> {
     up: &'a mut [[f32; 3]],
 }
 
-/// Poses every internode that stands at `age`, bent by the curvature that is stated on the way.
+/// Poses every internode that stands at `age`, bent by the curvature that `curvature` returns on the way. Linear in the
+/// internodes.
 pub(crate) fn follow_bends(
     plant: &mut Plant,
     age: Tick,
@@ -97,7 +98,7 @@ fn follow<C: Course>(
     let Plant { axes, nodes, frames, habit, own_trends, stated, .. } = plant;
     stances.clear();
     if !axes.is_empty() {
-        // Each is written by its bearer, or below, before it is read.
+        // Each entry is written before it is read: by the axis's bearer, or below for an axis without a bearer.
         stances.resize(axes.len(), ground_left(axes, 0));
     }
     let (mut borne, mut insertion) = (Up::new(laterals, &axes.bearer), LastInsertion::default());
@@ -155,7 +156,7 @@ fn follow_run<C: Course>(
     curvature.leave(carried, axis);
 }
 
-/// Where an axis starts that nothing bears.
+/// The start of an axis without a bearer.
 fn ground_left<C: Course>(axes: &Axes, axis: usize) -> Stance<C> {
     let tip = Tip { base: Vector::default(), turned: Rotation::NONE, half: Vector::default() };
     let (plane, slope) = Plane::of(&Frame::GROUND);
@@ -164,7 +165,7 @@ fn ground_left<C: Course>(axes: &Axes, axis: usize) -> Stance<C> {
 }
 
 impl<C: Course> Stance<C> {
-    /// Where `axis` starts, which leaves the internode that this stance has come to.
+    /// The start of `axis`, which leaves the last internode of this stance.
     #[inline]
     fn leaving(self, length: f64, axes: &Axes, axis: usize, insertion: &mut LastInsertion) -> Self {
         let leaving = || insertion.leaving(axes.azimuth[axis], axes.insertion[axis]);
@@ -175,15 +176,15 @@ impl<C: Course> Stance<C> {
 }
 
 impl Tip {
-    /// At the end of its internode, with the whole of that one's turn.
+    /// The start at the end of the last internode, with the whole turn of that internode.
     #[inline]
     fn ended(self) -> Self {
         let turned = self.turned.by(self.half).normalized();
         Self { turned, half: Vector::default(), ..self }
     }
 
-    /// Beside the end of its internode, of these directions at rest and of this length, at an offset in its frame. What
-    /// begins on the internode itself lies on its chord, turned as far as the internode has turned there.
+    /// The start beside the end of the last internode, with these directions at rest and this length, at an offset in
+    /// its frame. A start on the internode itself lies on its chord, turned as far as the internode has turned there.
     fn beside(self, [heading, up]: Directions, length: f64, [x, y, z]: [f64; 3]) -> Self {
         let share = if length > 0.0 { (1.0 + x / length).clamp(0.0, 1.0) } else { 1.0 };
         let turned = self.turned.by(self.half * (2.0 * share - 1.0)).normalized();
@@ -192,7 +193,8 @@ impl Tip {
         Self { base: self.base + along * x + across, turned, half: Vector::default() }
     }
 
-    /// At the tip of the next internode, whose heading and `up` at rest are given, and that internode's frame.
+    /// Continues to the tip of the next internode, whose heading and `up` at rest are given. Returns the internode's
+    /// frame as well.
     #[inline]
     fn extended(self, [heading, up]: Directions, length: f64, curvature: [f32; 2]) -> (Self, Frame) {
         let curvature = |k: usize| 0.5 * f64::from(curvature[k]) * length;

@@ -13,17 +13,17 @@ use crate::plant::Trend;
 use crate::plant::frames::{Frame, Plane, Slope};
 use crate::vector::Vector;
 
-/// Below this sine of the angle to the vertical a heading has no horizontal direction of its own; that of `up` serves.
+/// Below this sine of the angle to the vertical a heading has no horizontal direction of its own; that of `up` is used.
 const VERTICAL: f64 = 1e-6;
 
-/// What stands in `frame`, turned once.
+/// `frame`, turned once towards a trend.
 pub(super) fn turned(frame: Frame, trend: &Trend) -> Frame {
     let (plane, slope) = Plane::of(&frame);
     let slope = slope.turned(trend);
     Frame { base: frame.base, heading: plane.heading(slope).single(), up: plane.up(slope).single() }
 }
 
-/// What stands in `frame`, twisted about its heading until its upper side faces the sky; a vertical one stays.
+/// `frame`, twisted about its heading until its upper side faces the sky; a vertical frame stays as it is.
 pub(super) fn facing_the_sky(frame: Frame) -> Frame {
     const UPRIGHT: f32 = 1e-3;
     let [x, y, z] = frame.heading;
@@ -41,7 +41,7 @@ impl Plane {
         Self::through(Vector::from(frame.heading), Vector::from(frame.up))
     }
 
-    /// The same of directions in double precision.
+    /// The plane and the first slope of an axis with these directions in double precision.
     pub fn through(heading: Vector, up: Vector) -> (Self, Slope) {
         let level = (heading.x * heading.x + heading.y * heading.y).sqrt();
         let slope = Slope { z: heading.z, r: level, angle: f64::NAN };
@@ -90,7 +90,7 @@ impl Slope {
         Self { z, r, angle }
     }
 
-    /// As a unit vector; upright where there is no direction.
+    /// The slope as a unit vector; upright where its length is 0.
     #[inline]
     fn normalized(self) -> Self {
         let square = self.z * self.z + self.r * self.r;

@@ -1,14 +1,11 @@
-//! Where each component stands: frames from rest geometry in one forward scan (de Reffye 1988 §4, Fig. 15).
+//! The frame of each component: computed from rest geometry in one forward scan (de Reffye 1988 §4, Fig. 15).
 //!
 //! A frame is a base point, a heading along the internode and a reference direction `up` across it. The direction at
 //! azimuth φ is cos φ · up + sin φ · (heading × up). An axis that leaves at azimuth φ and insertion angle β from a
-//! heading h with the direction d at φ has the heading cos β · h + sin β · d and the upper side sin β · h − cos β · d.
-//! The first internode of an axis keeps that direction; each one after it turns its share of the angle to the axis's
-//! trend, in the vertical plane of its heading (`course` has the formula). Other models state rest frames instead
-//! (`rest`): both ways go through the same scans. The axis of the seed leaves the upward vertical, whose `up` is
-//! the X axis. The seed is the origin of all frames: a plant far away in its plot keeps the precision of one at home.
-//! Absent: the columns of the pose, which are the plant's; bending, which is the work of mechanics; the plant's place,
-//! which nothing here asks.
+//! heading h with the direction d at φ has the heading cos β · h + sin β · d and the upper side sin β · h − cos β · d;
+//! its internodes then turn towards its trend (`course`). Other models state rest frames (`rest`); the same scans
+//! follow both. The seed is the origin of all frames, so that precision does not depend on the place in a plot. Absent:
+//! the columns of the pose, which are the plant's; bending, which is the work of mechanics.
 
 pub(crate) mod bent;
 mod course;
@@ -23,10 +20,10 @@ use crate::vector::Vector;
 
 pub use crate::plant::frames::{Frame, Frames};
 
-/// Poses every internode of `plant` that appeared by `age` and has no frame yet. The frames of the others stay: the
-/// pose at rest of a node depends on the nodes before it alone, and to the last bit neither on the order in which the
-/// axes grew nor on how often the plant was posed. Where a rest frame or a length has changed since the age of the
-/// frames, all are made anew.
+/// Poses every internode of `plant` that appeared by `age` and has no frame yet. Other frames stay: the pose at rest of
+/// a node depends on the nodes before it alone, and to the last bit neither on the order in which the axes grew nor on
+/// how often the plant was posed. Where a rest frame or a length has changed since the age of the frames, all frames
+/// are made anew. Linear in the internodes posed.
 pub fn pose(plant: &mut Plant, age: Tick) {
     if plant.frames.posed > 0 && is_stale(plant, age) {
         plant.frames.clear();
@@ -42,17 +39,17 @@ pub fn pose(plant: &mut Plant, age: Tick) {
     }
 }
 
-/// Whether frames that are there are not those of `age`: a rest frame or a length is another, or the first frame was
-/// stated after they were made.
+/// Whether the frames are not those of `age`: a rest frame or a length differs, or the first frame was stated after
+/// they were made.
 fn is_stale(plant: &Plant, age: Tick) -> bool {
     let Plant { stated, frames, .. } = plant;
     let newly = !stated.is_empty() && frames.courses.is_empty();
     newly || stated.differ(frames.age, age) || plant.lengths_differ(frames.age, age)
 }
 
-/// The pose at `age` of an organ on its node, whose frame must be there: its insertion, turned as far as the habit's
-/// trend for its kind has turned it in the ticks since its birth, and twisted to face the sky where leaves do. The base
-/// lies on the line of the axis, at the node; a mesh moves it out to the surface of the stem.
+/// The pose at `age` of an organ on its node, which must have a frame: its insertion, turned by the habit's trend for
+/// its kind as far as the ticks since its birth go, and twisted to face the sky where leaves do. The base lies on the
+/// line of the axis, at the node; a mesh moves it to the surface of the stem.
 #[inline]
 pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
     let Plant { organs, nodes, axes, habit, .. } = plant;
@@ -74,7 +71,7 @@ pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
     if habit.faces_the_sky(order, kind) { course::facing_the_sky(turned) } else { turned }
 }
 
-/// The frame of an organ that states it: for all ages, and at its own start.
+/// The frame that an organ states: the same at all ages, at its own start.
 #[inline]
 pub fn stated_organ_frame(plant: &Plant, organ: OrganId) -> Option<Frame> {
     if plant.stated_organs.keep_insertion() {
@@ -94,8 +91,8 @@ pub fn node_frame(plant: &Plant, node: NodeId) -> Frame {
     plant.frames.at(node).advanced(plant.posed_length(node))
 }
 
-/// The pose of the bud that an axis starts as: on its bearing node, in the direction of its insertion, or as its rest
-/// frame is stated. Of a plant that is bent the bearer counts as straight.
+/// The pose of the bud of an axis before its first node: on its bearing node, in the direction of its insertion, or as
+/// its rest frame is stated. In a plant that is bent the bearer counts as straight.
 pub fn start_frame(plant: &Plant, axis: AxisId) -> Frame {
     let bearing = bearing_frame(plant, axis);
     if plant.stated.is_empty() {
@@ -113,14 +110,14 @@ pub fn start_frame(plant: &Plant, axis: AxisId) -> Frame {
     }
 }
 
-/// What an axis is that leaves `bearing` at its insertion and azimuth.
+/// The frame of an axis that leaves `bearing` at its insertion and azimuth.
 #[inline]
 fn inserted(plant: &Plant, bearing: Frame, axis: AxisId) -> Frame {
     bearing.inserted(plant.axes.azimuth[axis.index()], plant.axes.insertion[axis.index()])
 }
 
-/// The pose of the apical bud of an axis: at the tip of the last node that it has made so far, or where it starts. For
-/// the bud at an earlier age take [`node_frame`] of the last node that was there, or [`start_frame`].
+/// The pose of the apical bud of an axis: at the tip of its last node, or at its start. For the bud at an earlier age
+/// use [`node_frame`] of the last node of that age, or [`start_frame`].
 pub fn bud_frame(plant: &Plant, axis: AxisId) -> Frame {
     match plant.axes.last_node[axis.index()].some() {
         Some(node) => node_frame(plant, node),
@@ -128,7 +125,7 @@ pub fn bud_frame(plant: &Plant, axis: AxisId) -> Frame {
     }
 }
 
-/// The frame that an axis leaves: that of its bearing node, or the upward vertical at the seed.
+/// The frame of the bearer of an axis: its bearing node, or the upward vertical at the seed.
 fn bearing_frame(plant: &Plant, axis: AxisId) -> Frame {
     match plant.axes.bearer[axis.index()].some() {
         Some(bearer) => node_frame(plant, bearer),

@@ -1,8 +1,8 @@
-//! The directions of an axis at rest, internode by internode: the one thing that the two ways to state rest geometry do
-//! apart. The scans of the pose (`scan`, `bent`) are written once over both.
+//! The directions of an axis at rest, internode by internode: the only part that differs between the two ways to state
+//! rest geometry. The scans of the pose (`scan`, `bent`) are generic over both.
 //!
-//! [`Trended`] is the course of plants of which insertion, phyllotaxis and trend make the directions. [`Stated`] is
-//! that of plants in which some frames are stated: each node, and each axis, by what it states or by insertion and
+//! [`Trended`] is the course of plants whose directions follow from insertion, phyllotaxis and trend. [`Stated`] is the
+//! course of plants in which some frames are stated: each node, and each axis, by its statement or by insertion and
 //! trend. Heading and upper side are carried in double precision, so that a stated axis of many nodes does not drift.
 
 use crate::clock::Tick;
@@ -15,11 +15,11 @@ use crate::vector::Vector;
 /// Below this square of its length a vector has no direction.
 const NOTHING: f64 = 1e-12;
 
-/// What a course reads on its way along one axis.
+/// The inputs of a course on its way along one axis.
 pub(crate) struct Way<'a> {
     pub axes: &'a Axes,
     pub axis: AxisId,
-    /// The trends from which its internodes name theirs.
+    /// The trends that its internodes name by place.
     pub trends: &'a [Trend],
     pub stated: &'a StatedFrames,
     /// The lengths of the internodes of the plant at the age.
@@ -27,33 +27,34 @@ pub(crate) struct Way<'a> {
     pub age: Tick,
 }
 
-/// The directions at rest of one axis, as far as a scan has come.
+/// The directions at rest of one axis, at the node that a scan has reached.
 pub(crate) trait Course: Copy {
-    /// Whether what an axis leaves is found with its first node, and nodes may begin beside their bearer.
+    /// Whether the directions at the start of an axis are computed with its first node, and nodes may begin beside
+    /// their bearer.
     const STATED: bool;
 
-    /// The course of an axis, which leaves an internode of these directions and this length; `leaving` is asked where
-    /// it leaves by insertion.
+    /// The course of an axis, which leaves an internode of these directions and this length. `leaving` computes the
+    /// direction of insertion and is called only where it is needed.
     fn leaving(bearing: Directions, length: f64, leaving: impl FnOnce() -> Leaving) -> Self;
 
-    /// Where the next node begins: an offset in the frame that the course has come to, where one is stated.
-    /// `begins`: it is the first of its axis.
+    /// The start of the next node: an offset in the frame that the course has reached, where one is stated. `begins`
+    /// tells whether the node is the first of its axis.
     fn start(&self, way: &Way<'_>, node: usize, begins: bool) -> Option<[f64; 3]>;
 
-    /// Goes on to `node`, which names `trend`; whether the directions have changed. The first node of an axis, and one
-    /// whose trend is not among those of the way, goes straight on.
+    /// Continues to `node`, which names `trend`. Returns whether the directions have changed. The first node of an
+    /// axis, and a node whose trend is not among those of the way, continues straight on.
     fn next(&mut self, way: &Way<'_>, node: usize, trend: u8, begins: bool) -> bool;
 
-    /// The directions that it has come to.
+    /// The directions that the course has reached.
     fn directions(&self) -> Directions;
 
-    /// The length of the internode that it has come to; asked where it is [`Course::STATED`].
+    /// The length of the internode that the course has reached; called only where it is [`Course::STATED`].
     fn length(&self) -> f64;
 
-    /// The course of an axis that goes on, which left with the course `left`.
+    /// The course of an axis that grows on; `left` is the course at its start.
     fn resumed(frames: &Frames, axis: usize, left: Self) -> Self;
 
-    /// Leaves the course for [`Course::resumed`].
+    /// Stores the course for [`Course::resumed`].
     fn keep(self, frames: &mut Frames, axis: usize);
 }
 
@@ -110,7 +111,7 @@ impl Course for Trended {
 }
 
 impl Stated {
-    /// The first internode of an axis that leaves these directions.
+    /// The first internode of an axis that leaves a bearer of these directions.
     fn begun(bearing: Directions, way: &Way<'_>) -> Along {
         match way.stated.rest(Part::Axis(way.axis), way.age) {
             Rest::Follows => {
@@ -122,7 +123,7 @@ impl Stated {
         }
     }
 
-    /// Directions that turn to a trend, whatever made them.
+    /// A course that turns these directions towards a trend.
     fn tending(&self) -> Trended {
         match self.along {
             Along::Trended(trended) => trended,
@@ -192,13 +193,13 @@ impl Course for Stated {
     }
 }
 
-/// The directions of what states its rest frame on a bearer of the directions `bearing`.
+/// The directions of a part with the statement `rest` on a bearer of the directions `bearing`.
 pub(super) fn turned(bearing: Directions, rest: Rest) -> Directions {
     match rest {
         Rest::Follows => bearing,
         Rest::Turned(rotation) => within(bearing, rotation),
         Rest::Heading(heading) => {
-            // From what is stored of the bearer, in single precision.
+            // Computed from the bearer's stored directions, in single precision.
             let [was, up] = bearing.map(|direction| Vector::from(direction.single()));
             let heading = direction_of(heading).unwrap_or(was);
             [heading, carried(up, was, heading)]
@@ -217,15 +218,15 @@ pub(crate) fn placed([heading, up]: Directions, [x, y, z]: [f64; 3]) -> Vector {
     heading * x + up.cross(heading) * y + up * z
 }
 
-/// A stated heading, where it is a direction.
+/// A stated heading as a unit vector, where it is not 0.
 fn direction_of(heading: [f32; 3]) -> Option<Vector> {
     let heading = Vector::from(heading);
     let square = heading.dot(heading);
     (square > NOTHING && square.is_finite()).then(|| heading * (1.0 / square.sqrt()))
 }
 
-/// `up` of a bearer with heading `was`, carried to a child with `heading` by projection, so that it turns no more than
-/// the heading does. Where the heading turns into `up` itself, the bearer's own direction takes its place.
+/// The `up` of a bearer with heading `was`, carried to a child with `heading` by projection, so that it turns no more
+/// than the heading does. Where the heading turns into `up` itself, the result is made of the bearer's heading instead.
 fn carried(up: Vector, was: Vector, heading: Vector) -> Vector {
     let along = up.dot(heading);
     let across = up - heading * along;

@@ -1,9 +1,10 @@
 //! The forward scan of a plant at rest, whichever way its rest geometry is stated ([`super::rest`]).
 //!
-//! Runs of nodes that follow one another on one axis are the unit of work: base and directions stay in registers as f64
-//! and are rounded to f32 only where they are stored. Where an axis goes on later, it goes on from its
+//! The unit of work is a run, the nodes that follow one another on one axis: base and directions stay in registers as
+//! f64 and are rounded to f32 only where they are stored. An axis that grows on later continues from its
 //! [`crate::plant::frames::Tip`], so that the frames are the same bits whether axes were grown one by one or tick by
-//! tick. An axis starts from the stored f32 frame of its bearing node: 40 m from the seed that is 2 µm, once an order.
+//! tick. An axis starts from the stored f32 frame of its bearing node: 40 m from the seed the rounding is 2 µm, once an
+//! order.
 
 use super::bearing_frame;
 use super::rest::{Course, Way, placed};

@@ -1,5 +1,7 @@
 //! Plants for the tests of the pose, stated axis by axis and built in either order of growth: one axis after another,
 //! as growth runs ahead, or a node of each axis in turn, as growth follows the clock.
+//!
+//! Absent: plants with stated frames (`tests_stated`).
 
 use crate::clock::Tick;
 use crate::plant::*;
@@ -37,10 +39,10 @@ pub enum Growth {
     TickByTick,
 }
 
-/// An age at which every node of a specimen is there.
+/// An age at which every node of a specimen has appeared.
 pub const LAST: Tick = 1_000_000;
 
-/// A specimen under construction; `node_at[axis][rank - 1]` is where a node came to stand.
+/// A specimen under construction; `node_at[axis][rank - 1]` is the handle of a node.
 pub struct Specimen {
     pub plant: Plant,
     pub node_at: Vec<Vec<NodeId>>,
@@ -68,7 +70,7 @@ impl Specimen {
         specimen
     }
 
-    /// A node more on every axis whose bearing node is there; whether any was added.
+    /// Adds a node to every axis whose bearing node exists. Returns whether any was added.
     pub fn tick(&mut self) -> bool {
         self.plant.age += 1;
         (0..self.branches.len()).fold(false, |grew, axis| self.add_node(axis) | grew)

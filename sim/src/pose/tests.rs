@@ -1,5 +1,7 @@
-//! What the pose promises: the directions of insertion, the way to the trend, unit and orthogonal frames whatever the
+//! The properties of the pose: the directions of insertion, the way to the trend, unit and orthogonal frames at all
 //! angles, and the same bits in either order of growth.
+//!
+//! Absent: precision (`tests_precision`) and stated frames (`tests_stated`).
 
 use super::specimen::{Branch, Growth, LAST, Specimen};
 use super::*;
@@ -81,7 +83,7 @@ fn an_axis_turns_to_its_trend_without_ever_turning_back() {
     }
 }
 
-/// An upright axis that tends to hang turns by the share that it is told, as any other does.
+/// An upright axis that tends to hang turns by its share, as any other axis does.
 #[test]
 fn an_upright_axis_that_tends_to_hang_keeps_its_share_of_the_angle() {
     for share in [0.1, 0.3, 0.5, 0.51] {

@@ -1,5 +1,8 @@
-//! A plant whose rest frames are stated stands as the same plant made by insertion and trend: at rest and bent, to
-//! 10⁻⁵ m; and what only stated frames can say: starts beside the bearer, stems out of the ground, frames that change.
+//! A plant whose rest frames are stated stands as the same plant made by insertion and trend: at rest and bent, to 10⁻⁵
+//! m. Also tested are the features of stated frames alone: starts beside the bearer, stems out of the ground, frames
+//! that change.
+//!
+//! Absent: frames of organs (`plant::tests_states`).
 
 use super::specimen::{Branch, Growth, LAST, Specimen};
 use super::*;
@@ -10,7 +13,7 @@ use crate::site::{Site, Wind};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// By how much a place may differ, metres, and a part of a unit direction.
+/// The tolerance of a place, metres, and of a component of a unit direction.
 const ALIKE: f64 = 1e-5;
 
 fn trends() -> Vec<Trend> {
@@ -79,14 +82,14 @@ fn within(bearer: &Frame, frame: &Frame) -> Rotation {
     Rotation::to(local(frame.heading), local(frame.up))
 }
 
-/// The same plant with the frames of `posed` stated for the nodes that `chosen` says.
+/// The same plant, with the frames of `posed` stated for the nodes for which `chosen` returns true.
 fn stating(plant: &Plant, posed: &Plant, chosen: impl Fn(usize) -> bool) -> Plant {
     let mut stating = plant.clone();
     for node in (0..plant.nodes.len()).filter(|&node| chosen(node)) {
         let rotation = within(&bearer_of(posed, node), &posed.frames.at(NodeId(node as u32)));
         stating.state_rest(NodeId(node as u32), Rest::Turned(rotation));
         let axis = plant.nodes.axis[node].index();
-        // What is not read any more must not matter.
+        // Columns that are not read any more must have no effect.
         if plant.axes.last_node.iter().all(|last| last.index() != node) {
             stating.nodes.trend[node] = 3;
         }
@@ -297,7 +300,7 @@ fn a_frame_changes_at_its_tick_and_earlier_ages_keep_the_old_one() {
     assert_eq!(plant.axes.origin[0], Origin::Axillary);
 }
 
-/// Frames may be stated after a plant was posed, of what stands and of what is still to come.
+/// Frames may be stated after a plant was posed, of parts that stand and of later parts.
 #[test]
 fn frames_that_are_stated_late_are_those_that_were_stated_at_once() {
     let plant = Specimen::grown(&tree()[..2], &trends(), Growth::TickByTick).plant;

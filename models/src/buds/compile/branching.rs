@@ -1,8 +1,9 @@
 //! How buds that stand at one place become axes: how many there are, whether each grows out, when, at what angle and in
 //! which state.
 //!
-//! A node asks it for its axillary and reiteration buds, the end of an apex for relays, forks and released buds (de
-//! Reffye 1988 §§2–3). Absent: which parameters state it (`node`, `relay`), and the axes, which `buds::node` adds.
+//! A node has such laws for its axillary and its reiteration buds, the end of an apex for relays, forks and released
+//! buds (de Reffye 1988 §§2–3). Absent: the parameters that state them (`node`, `relay`), and the axes, which
+//! `buds::node` adds.
 
 use super::geometry::DEGREE;
 use super::words::{Chance, Layout, Measure, Number};
@@ -19,12 +20,12 @@ pub struct Branching {
     pub delay: Number,
     /// The insertion angle of the new axis.
     pub insertion: Measure,
-    /// The state of the new axis; `None`: that of the bearing one.
+    /// The state of the new axis; `None`: the state of the bearing axis.
     pub state: Option<u8>,
 }
 
 impl Branching {
-    /// Gives each quantity its words.
+    /// Gives each quantity its slots in the record of words.
     pub fn new(
         words: &mut Layout,
         count: CountTable,

@@ -1,8 +1,8 @@
-//! The compiler of one order: compiles laws where they stand, collects every fault and goes on.
+//! The compiler of one order: compiles laws where they stand, collects every fault and continues after each.
 //!
 //! Laws are compiled over the domain of their order: all ages, dimensions, cycles, ranks and states that can occur. A
-//! law that fails leaves a harmless table in its place, so that the faults of the others are found too. Absent: what
-//! the laws are for, which `step`, `node` and `relay` know.
+//! law that fails leaves a harmless table in its place, so that the faults of the others are found too. Absent: the
+//! purposes of the laws, which are in `step`, `node` and `relay`.
 
 use super::domain;
 use super::look::form_of;
@@ -24,7 +24,7 @@ const ANGLE: ValueRange = ValueRange { min: -360.0, max: 360.0, what: "an angle 
 pub const LONGEST: u32 = 65_535;
 /// The last rank that can be named.
 const LAST_RANK: u32 = 65_535;
-/// A part of a whole.
+/// A share, of a whole that is 1.
 const SHARE: ValueRange = ValueRange { min: 0.0, max: 1.0, what: "a share" };
 
 /// The most nodes that a growth unit can have.
@@ -48,12 +48,11 @@ pub struct Compiler<'a> {
     orders_path: Path,
     /// The clocks of the order's axes.
     pub speeds: SpeedTable,
-    /// Whether a law that depends on more than the clock was compiled: on a variable that moves with growth units
-    /// alone.
+    /// Whether some compiled law depends on a variable that moves with growth units alone, and not with the clock.
     pub asks_the_bud: bool,
-    /// What was wrong so far.
+    /// The faults found so far.
     pub faults: Vec<Fault>,
-    /// What was wrong with keys that are asked in several domains, in each of them: other orders may find the same.
+    /// The faults of keys that are compiled in several domains, for each domain: other orders may find the same faults.
     pub asked_again: Vec<Fault>,
 }
 
@@ -97,34 +96,34 @@ impl<'a> Compiler<'a> {
         &self.buds.states
     }
 
-    /// From now on laws are asked for this.
+    /// Sets the purpose of the laws that are compiled from now on.
     pub fn ask(&mut self, asked: Asked) {
         self.domain.asked = asked;
     }
 
-    /// From now on an axis makes at most so many growth units a step, and at most `last` in all, in the run at hand and
-    /// in a run of any length.
+    /// Sets the number of growth units of the laws compiled from now on: an axis makes at most `now` a step in the run
+    /// at hand, `ever` in a run of any length, and in all at most `last`, in the same order.
     pub fn set_units(&mut self, [now, ever]: [u32; 2], last: [u32; 2]) {
         let domain = &mut self.domain;
         domain.max_unit = domain.max_cycle.saturating_mul(now).min(last[0]);
         domain.longest.max_unit = domain.longest.max_cycle.saturating_mul(ever).min(last[1]);
     }
 
-    /// From now on laws may depend on ranks, of which the numbers of nodes that a growth unit can have are the last.
+    /// Lets the laws compiled from now on depend on ranks: up to the number of nodes that a growth unit can have.
     pub fn set_ranks(&mut self, nodes: Ranks) {
         self.domain.max_rank = nodes.now.max(1);
         self.domain.longest.max_rank = nodes.ever.max(1);
         self.domain.longest.ranks_go_on = nodes.go_on;
     }
 
-    /// From now on laws depend on no rank.
+    /// Lets the laws compiled from now on depend on no rank.
     pub fn unset_ranks(&mut self) {
         self.domain.max_rank = 0;
         self.domain.longest.max_rank = 0;
         self.domain.longest.ranks_go_on = false;
     }
 
-    /// Notes a fault at a dotted path below the order.
+    /// Adds a fault at a dotted path below the order.
     pub fn fault(&mut self, keys: &str, problem: String, expected: &str) {
         let path = self.at(keys);
         self.faults.push(Fault::new(&path, problem, expected));
@@ -138,7 +137,7 @@ impl<'a> Compiler<'a> {
         })
     }
 
-    /// A law as a probability.
+    /// Compiles a law of probability.
     pub fn probability(&mut self, law: &Law, keys: &str) -> ProbabilityTable {
         let compiled = law.compile_probability(&self.domain, &self.at(keys));
         let table = self.accept(compiled).unwrap_or_else(|| ProbabilityTable::certain_or_never(false));
@@ -146,18 +145,18 @@ impl<'a> Compiler<'a> {
         table
     }
 
-    /// A number of things, of which more than `most` is a fault.
+    /// Compiles a number of things; more than `most` is a fault.
     pub fn count(&mut self, count: &Count, keys: &str, most: u32) -> CountTable {
         self.count_from(0, count, keys, most)
     }
 
-    /// The same for things that have a place each in a stream of words.
+    /// Compiles a number of things that each have a place in a stream of words; more than `most` is a fault.
     pub fn places(&mut self, count: &Count, keys: &str, most: u32) -> CountTable {
         let compiled = count.compile_places(&self.domain, &self.at(keys));
         self.accept_count(compiled, keys, 0..=most)
     }
 
-    /// A rank, from 1: anything else that can be drawn is a fault.
+    /// Compiles a rank, from 1: any other number that can be drawn is a fault.
     pub fn rank(&mut self, count: &Count, keys: &str) -> CountTable {
         self.count_from(1, count, keys, LAST_RANK)
     }
@@ -181,12 +180,12 @@ impl<'a> Compiler<'a> {
             (_, true) => (table.max(), format!("at most {most}")),
             _ => return table.at_most(most),
         };
-        self.fault(keys, format!("it can be {outside}"), &expected);
+        self.fault(keys, format!("the number can be {outside}"), &expected);
         CountTable::always(least)
     }
 
-    /// The tick of the year at which leaves fall, in a year of `year` ticks: stated for the species, asked at the nodes
-    /// of this order.
+    /// Compiles the tick of the year at which leaves fall, in a year of `year` ticks. It is stated for the species and
+    /// compiled for the nodes of each order.
     pub fn fall_within(&mut self, season: &Season, year: u32) -> CountTable {
         let path = self.species_path.key("season").key("leaf_fall");
         let compiled = season.leaf_fall.compile(&self.domain, &path);
@@ -200,18 +199,18 @@ impl<'a> Compiler<'a> {
         table
     }
 
-    /// A measure in the unit of its key.
+    /// Compiles a length or a diameter in the unit of its key.
     pub fn measure(&mut self, variate: &Variate, keys: &str) -> VariateTable {
         self.variate(variate, keys, MEASURE)
     }
 
-    /// An angle in degrees.
+    /// Compiles an angle in degrees.
     pub fn angle(&mut self, variate: &Variate, keys: &str) -> VariateTable {
         self.variate(variate, keys, ANGLE)
     }
 
-    /// The insertion angle of the axes that the axillary buds of this order make, degrees: stated with the next order,
-    /// asked at the bearing node.
+    /// Compiles the insertion angle, in degrees, of the axes that the axillary buds of this order make. It is stated
+    /// with the next order and drawn at the bearing node.
     pub fn insertion_of_next_order(&mut self) -> VariateTable {
         let next = usize::from(self.domain.order);
         let Some(order) = self.buds.order.get(next) else {
@@ -223,7 +222,8 @@ impl<'a> Compiler<'a> {
         self.accept_variate_again(compiled)
     }
 
-    /// The same angle, stated with this order, for relays that have none of their own: asked where an axis ends.
+    /// Compiles the insertion angle, in degrees, of this order for relays that have none of their own: it is drawn
+    /// where an axis ends.
     pub fn insertion_of_relays(&mut self, insertion_deg: &Variate) -> VariateTable {
         let compiled = insertion_deg.compile(&self.domain, &self.at("insertion_deg"), ANGLE);
         self.accept_variate_again(compiled)
@@ -235,12 +235,12 @@ impl<'a> Compiler<'a> {
         table
     }
 
-    /// A share, in [0, 1].
+    /// Compiles a share, in [0, 1].
     pub fn share(&mut self, variate: &Variate, keys: &str) -> VariateTable {
         self.variate(variate, keys, SHARE)
     }
 
-    /// A real number in the unit of its key, within `range`.
+    /// Compiles a real number in the unit of its key, within `range`.
     pub fn variate(&mut self, variate: &Variate, keys: &str, range: ValueRange) -> VariateTable {
         let compiled = variate.compile(&self.domain, &self.at(keys), range);
         self.accept_variate(compiled)
@@ -252,7 +252,7 @@ impl<'a> Compiler<'a> {
         table
     }
 
-    /// The thickening of internodes, mm.
+    /// Compiles the thickening of internodes, mm.
     pub fn thickening(&mut self, law: &Law) -> ValueTable {
         let max_cycle = self.domain.until;
         let domain = Domain { max_cycle, max_rank: 0, asked: Asked::Internode, ..self.domain.clone() };
@@ -260,13 +260,13 @@ impl<'a> Compiler<'a> {
         self.accept(compiled).unwrap_or_else(|| ValueTable::always(0.0))
     }
 
-    /// A share by the own age of a thing, from 0; ages past the last are as the last.
+    /// Compiles a share by the own age of a thing: entry i is the share at age i, and later ages have the last.
     pub fn share_by_own_age(&mut self, law: &Law, keys: &str) -> Vec<f32> {
         let compiled = law.by_own_age(self.domain.order, self.domain.until, &self.at(keys), SHARE);
         self.accept(compiled).unwrap_or_else(|| vec![0.0])
     }
 
-    /// A number that is not drawn.
+    /// Reads a number that is not drawn.
     pub fn constant(&mut self, number: &Constant, keys: &str, range: ValueRange) -> f64 {
         number.within(&self.at(keys), range).unwrap_or_else(|fault| {
             self.faults.push(fault);
@@ -274,7 +274,8 @@ impl<'a> Compiler<'a> {
         })
     }
 
-    /// A whole number of a species, from 1 to `most`, which `what` names with an article.
+    /// Reads a whole number of a species, from 1 to `most`. `what` is its name in messages: for the value found, and
+    /// for the value expected.
     pub fn quantity(&mut self, quantity: &Quantity, keys: &str, most: u32, what: (&str, &str)) -> u32 {
         let value = quantity.value();
         if (1..=most).contains(&value) {
@@ -301,7 +302,7 @@ impl<'a> Compiler<'a> {
         place.and_then(|place| u8::try_from(place).ok()).unwrap_or(0)
     }
 
-    /// The number of a form.
+    /// The number of a form: its place in the library, or among the species' own meshes.
     pub fn form(&self, choice: &FormChoice) -> Form {
         form_of(self.buds, choice)
     }
@@ -310,7 +311,7 @@ impl<'a> Compiler<'a> {
         compiled.map_err(|mut faults| self.faults.append(&mut faults)).ok()
     }
 
-    /// As [`Compiler::accept`], of a key that is asked in several domains.
+    /// As [`Compiler::accept`], for a key that is compiled in several domains.
     fn accept_again<T>(&mut self, compiled: Result<T, Vec<Fault>>) -> Option<T> {
         compiled.map_err(|mut faults| self.asked_again.append(&mut faults)).ok()
     }

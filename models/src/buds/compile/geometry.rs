@@ -26,7 +26,7 @@ impl From<ShapeName> for Shape {
     }
 }
 
-/// The divergence from node to node, degrees; a node bears at most so many leaves or axillary buds.
+/// The divergence from node to node, degrees, where a node bears at most `most_borne` leaves or axillary buds.
 pub fn divergence(order: &Order, most_borne: u32, compiler: &mut Compiler) -> VariateTable {
     match &order.phyllotaxis {
         Phyllotaxis::Degrees(degrees) => compiler.angle(degrees, "phyllotaxis"),

@@ -1,8 +1,8 @@
-//! The laws of what an axis draws once, at its birth: speed, trend, the azimuth of its first leaf, the number of its
-//! growth units, the time from its death to its fall.
+//! The laws of the quantities that an axis draws once, at its birth: speed, trend, the azimuth of its first leaf, the
+//! number of its growth units, the time from its death to its fall.
 //!
-//! They are asked at the plant's age and the axis's state at its birth, and stand in one record of words at the head of
-//! the axis's bud stream. Absent: the insertion of axes out of buds, which the bearing node or the ended axis draws.
+//! They are evaluated at the plant's age and the axis's state at its birth. Their words stand in one record at the head
+//! of the axis's bud stream. Absent: the insertion of axes out of buds, which the bearing node or the ended axis draws.
 
 use super::compiler::{Compiler, LONGEST};
 use super::geometry::{DEGREE, first_azimuth};
@@ -18,11 +18,11 @@ use phytomer_sim::random::{PlantRandom, Purpose};
 /// The laws of the head of an axis.
 #[derive(Debug, Clone)]
 pub struct HeadLaws {
-    /// The words of the record, one an axis, at the head of the bud stream.
+    /// The number of words of the record; each axis has one record, at the head of its bud stream.
     pub width: usize,
-    /// Whether growth needs one of the words again, wherever the axis goes on.
+    /// Whether growth uses a word of the record, which is then read each time the axis grows on.
     pub guides_growth: bool,
-    /// Whether the birth of an axis needs one of the words.
+    /// Whether some word of the record is used at the birth of an axis.
     pub marks_birth: bool,
     /// The growth units after which the apex ends.
     pub units: Option<Number>,
@@ -74,14 +74,15 @@ impl HeadLaws {
         }
     }
 
-    /// The most growth units that an axis can make, in the run at hand and in a run of any length; an axis that is to
-    /// make none ends with its first.
+    /// The most growth units that an axis can make, in the run at hand and in a run of any length. An axis that draws 0
+    /// ends with its first growth unit.
     pub fn most_units(&self) -> [u32; 2] {
         let most = |units: &Number| [units.table.max(), units.table.max_in_any_run()].map(|most| most.max(1));
         self.units.as_ref().map_or([u32::MAX; 2], most)
     }
 
-    /// The record of the axis with lineage key `key`. A quantity without words reads word 0 and does not look at it.
+    /// The record of the axis with lineage key `key`. It has at least one word, since a quantity without words still
+    /// reads word 0 and ignores it.
     pub fn words(&self, random: &PlantRandom, key: LineageKey) -> Vec<u32> {
         let mut words = vec![0; self.width.max(1)];
         if self.width > 0 {
@@ -98,7 +99,7 @@ impl SpeedLaws {
         self.speeds[self.pick.draw(words, 0, At::default()) as usize]
     }
 
-    /// Each speed with the share of the axes that have it.
+    /// Each speed, with the share of the axes that grow at it.
     pub fn shares(&self) -> impl Iterator<Item = (Speed, f64)> {
         self.speeds.iter().copied().zip(self.pick.table.pmf(At::default()))
     }

@@ -1,8 +1,8 @@
-//! Kinds, forms and stated colours, compiled: what each order's components are and look like (de Reffye 1988 §6). What
-//! growth asks goes into looks, what drawing alone asks into paints.
+//! Kinds, forms and stated colours, compiled: what each order's components are and look like (de Reffye 1988 §6). The
+//! parts that growth uses go into looks, the parts for drawing alone into paints.
 //!
-//! What may differ by state is spread over the states; names become numbers, colours bytes, and the law of an organ's
-//! expansion a table by its own age. Absent: what is drawn where nothing is stated.
+//! A value that may differ by state is spread over the states; names become numbers, colours bytes, and the law of an
+//! organ's expansion a table by its own age. Absent: the defaults where nothing is stated for drawing.
 
 use super::order_of;
 use crate::buds::params::{
@@ -51,8 +51,8 @@ pub fn form_of(buds: &Buds, choice: &FormChoice) -> Form {
 }
 
 impl Buds {
-    /// The meshes of its own that the species names, each once, in the order of their numbers, with the place of the
-    /// first mention from the top of the species file.
+    /// The meshes that the species names as forms, each once, in the order of their numbers, with the path of the first
+    /// mention from the top of the species file.
     pub(crate) fn meshes_of_its_own(&self) -> Vec<(Path, &str)> {
         let mut meshes: Vec<(Path, &str)> = Vec::new();
         for (index, order) in self.order.iter().enumerate() {
@@ -73,8 +73,8 @@ impl Buds {
 }
 
 impl Buds {
-    /// States the area share of leaves that are drawn with a mesh of the user's and state none: that of the mesh, which
-    /// `share` tells by the mesh's number, to a millionth. Whether there is any such leaf.
+    /// Sets the area share of each leaf that is drawn with a user's mesh and states no area share: to the share of the
+    /// mesh, rounded to a millionth. `share` takes the number of a mesh. Returns whether any leaf was changed.
     pub(crate) fn state_shares_of_meshes(&mut self, share: &dyn Fn(usize) -> Option<f64>) -> bool {
         let meshes: Vec<String> = self.meshes_of_its_own().into_iter().map(|(_, mesh)| mesh.to_owned()).collect();
         let mut stated = false;
@@ -101,7 +101,7 @@ struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// One look a state.
+    /// The look of the internodes in each state.
     fn internodes(&mut self) -> Vec<InternodeLook> {
         let buds = self.buds;
         let internode = &buds.order[self.index].internode;
@@ -128,7 +128,7 @@ impl Place<'_> {
         looks
     }
 
-    /// One paint a state, with the forms and the colours that are stated.
+    /// The paint of the internodes in each state, with the forms and the colours that are stated.
     fn internode_forms_and_barks(&mut self, path: &Path) -> Vec<InternodePaint> {
         let buds = self.buds;
         let internode = &buds.order[self.index].internode;
@@ -146,7 +146,7 @@ impl Place<'_> {
         paints
     }
 
-    /// One thing a state, each with the place where it is stated; fewer, with faults, where some is missing.
+    /// The value for each state, with its path; fewer values, and faults, where the value of a state is missing.
     fn spread<'b, T>(&mut self, stated: &'b ByState<T>, path: &Path) -> Vec<(&'b T, Path)> {
         let states = &self.buds.states;
         let each = match stated {
@@ -155,7 +155,7 @@ impl Place<'_> {
         };
         let path = path.key("by_state");
         if states.is_empty() {
-            self.faults.push(Fault::new(&path, "the species has no states", "one for all, without by_state"));
+            self.faults.push(Fault::new(&path, "the species has no states", "a single value, without by_state"));
             return Vec::new();
         }
         for name in each.keys().filter(|name| !states.contains(name)) {
@@ -164,7 +164,7 @@ impl Place<'_> {
         }
         let missing = states.iter().filter(|state| !each.contains_key(*state));
         self.faults.extend(missing.map(|state| {
-            Fault::new(&path, format!("nothing is stated for the state `{state}`"), "one for each state")
+            Fault::new(&path, format!("nothing is stated for the state `{state}`"), "a value for each state")
         }));
         states.iter().filter_map(|state| Some((each.get(state)?, path.key(state)))).collect()
     }
@@ -178,7 +178,7 @@ impl Place<'_> {
         value.clamp(*SIDES.start(), *SIDES.end()) as u8
     }
 
-    /// A kind that can stand in a place of this class.
+    /// The kind of this name; a fault where it is not of the class that can stand at this path.
     fn kind(&mut self, name: KindName, class: Class, path: &Path) -> Kind {
         let kind = Kind::from(name);
         if kind.class() != class {
@@ -215,7 +215,7 @@ impl Place<'_> {
         }
     }
 
-    /// The share of the full size by the organ's own age; empty where it is full-grown at birth.
+    /// The share of the full size by the organ's own age; empty where the organ is full-grown at birth.
     fn expansion(&mut self, law: &Option<Law>, key: &str) -> Vec<f32> {
         let Some(law) = law else { return Vec::new() };
         let path = self.path.key(key).key("expansion");
@@ -314,8 +314,8 @@ impl Place<'_> {
     }
 }
 
-/// The ticks over which leaves turn before they fall together, in a year of so many ticks: a sixth of it, rounded; none
-/// where a tick is half a year or more, for then a leaf's last tick is its summer.
+/// The ticks over which leaves turn before they fall together, in a year of `year` ticks: a sixth of the year, rounded.
+/// 0 where a tick is half a year or more: then the last tick of a leaf is its summer.
 fn turning_of(year: u32) -> u32 {
     if year > 2 { (year + 3) / 6 } else { 0 }
 }

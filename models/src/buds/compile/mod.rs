@@ -44,7 +44,8 @@ pub struct BudModel {
     pub(super) states: usize,
     pub(super) until: u32,
     pub(super) habit: Arc<Habit>,
-    /// The expectation up to the last age, once it has been asked for: several ask before the first tick.
+    /// The expectation up to the last age, computed at its first use, since there are several uses before the first
+    /// tick.
     pub(super) expected: OnceLock<Option<Expectation>>,
 }
 
@@ -56,9 +57,9 @@ pub(super) struct OrderLaws {
     pub step: StepLaws,
     pub node: NodeLaws,
     pub end: EndLaws,
-    /// Whether one of the laws names a variable that moves with growth units alone.
+    /// Whether some law depends on a variable that moves with growth units alone.
     pub asks_the_bud: bool,
-    /// Metres added to a diameter; asked at the plant's age and the internode's own.
+    /// Metres added to a diameter; a law of the plant's age and the internode's own.
     pub thickening: ValueTable,
 }
 
@@ -66,7 +67,7 @@ impl Buds {
     /// Compiles the species for all ages up to `until`, and checks every law over its whole range.
     ///
     /// # Errors
-    /// Every fault that there is, each with its path below `path`.
+    /// Every fault found, each with its path below `path`.
     pub fn compile(&self, until: u32, path: &Path) -> Result<BudModel, Vec<Fault>> {
         let mut faults = self.check(until, path);
         let mut orders = Vec::new();
@@ -119,7 +120,7 @@ impl Buds {
             && !(1..=LAST_TICK).contains(&year)
         {
             let path = path.key("season").key("ticks_per_year");
-            fault(&path, format!("the year is of {year} ticks"), format!("from 1 to {LAST_TICK} ticks"));
+            fault(&path, format!("the year has {year} ticks"), format!("from 1 to {LAST_TICK} ticks"));
         }
         faults
     }

@@ -1,7 +1,7 @@
-//! The laws of a node: the geometry of its internode, what it bears and how much of it.
+//! The laws of a node: the geometry of its internode, its organs and buds, and their numbers and sizes.
 //!
 //! Every random quantity of a node has its slot in the node's record of words. Absent: the growing of a node
-//! (`buds::node`), and what happens at a clock step (`step`).
+//! (`buds::node`), and the laws of a clock step (`step`).
 
 use super::branching::{Branching, MOST_BUDS};
 use super::compiler::{Compiler, LONGEST};
@@ -17,8 +17,8 @@ use phytomer_sim::plant::{Form, Kind};
 const CM: f32 = 0.01;
 const MM: f32 = 0.001;
 
-/// The area of one side of a leaf as a share of length × width: a tuft of needles has several times that of its
-/// outline.
+/// The area of one side of a leaf as a share of length × width; the area of a tuft of needles is several times that of
+/// its outline.
 const AREA_SHARE: ValueRange = ValueRange { min: 0.0, max: 20.0, what: "a share of length × width" };
 
 /// The most organs of one kind on a node.
@@ -55,13 +55,13 @@ pub struct NodeLaws {
     pub fruit: OrganLaws,
 }
 
-/// The size and the stand of an organ.
+/// The size and the direction of an organ.
 #[derive(Debug, Clone)]
 pub struct OrganLaws {
     pub length: Measure,
     pub width: Measure,
     pub insertion: Measure,
-    /// Area of one side as a share of length × width; 0 where area means nothing.
+    /// Area of one side as a share of length × width; 0 for organs that have no area.
     pub area_share: Measure,
     pub form: Form,
     pub kind: Kind,
@@ -122,8 +122,8 @@ impl NodeLaws {
         }
     }
 
-    /// The law of ramification of the node at `rank` of a growth unit of `nodes`; `None` where it does not ramify.
-    /// `drawn` are the ranks of zones that the unit has drawn, if any.
+    /// How the node at `rank` of a growth unit of `nodes` ramifies; `None` where it does not. `drawn` are the ranks of
+    /// zones that the unit has drawn, if any.
     #[inline]
     pub fn ramification(&self, rank: u32, nodes: u32, drawn: &[Ranks]) -> Option<Ramification<'_>> {
         match &self.zones {
@@ -133,7 +133,8 @@ impl NodeLaws {
     }
 }
 
-/// The lateral flowers of a node, none where none can open, so that they take no words; and whether each opens.
+/// The number of lateral flowers of a node, and the probability that each opens. The number is 0 where no flower can
+/// open, so that flowers take no words.
 fn lateral_flowers(order: &Order, compiler: &mut Compiler) -> (CountTable, ProbabilityTable) {
     let flowers = compiler.places(&order.flower.per_node, "flower.per_node", MOST_ORGANS);
     let opens = compiler.probability(&order.flower.lateral, "flower.lateral");
@@ -163,7 +164,7 @@ fn leaf(order: &Order, compiler: &mut Compiler, words: &mut Layout, leaves: u32)
     }
 }
 
-/// The ticks of a year and the fall, which must be within it.
+/// The ticks of a year, and the tick of the year at which a leaf falls, which must be within the year.
 fn leaf_fall(season: &Season, compiler: &mut Compiler, words: &mut Layout, leaves: u32) -> (u32, Number) {
     let year = season.ticks_per_year.value();
     let fall = compiler.fall_within(season, year);
@@ -182,7 +183,7 @@ fn flower(order: &Order, angle: VariateTable, compiler: &mut Compiler, words: &m
     }
 }
 
-/// A fruit hangs where its flower stood.
+/// The laws of a fruit, which hangs where its flower stood.
 fn fruit(order: &Order, angle: VariateTable, compiler: &mut Compiler, words: &mut Layout, flowers: u32) -> OrganLaws {
     OrganLaws {
         length: words.measure(compiler.measure(&order.fruit.length_cm, "fruit.length_cm"), CM, flowers),

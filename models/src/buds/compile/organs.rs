@@ -1,7 +1,6 @@
 //! How organs turn with their age, compiled: a share for each tick of an organ's life.
 //!
-//! A trend is a law of the organ's own age: an organ knows how old it is, not how old its plant is. Absent: the turning
-//! itself, which is the pose's.
+//! A trend is a law of the organ's own age, not of the plant's. Absent: the turning itself, which is the pose's.
 
 use super::compiler::Compiler;
 use crate::buds::params::{Facing, Order, OrganTrend as Stated};

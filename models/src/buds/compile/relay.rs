@@ -1,7 +1,7 @@
-//! The laws of what follows the end of an apex: relays, forks and traumatic reiteration.
+//! The laws of the end of an apex: relays, forks and traumatic reiteration.
 //!
-//! De Reffye 1988 §2: sympodial growth and traumatic reiteration. These laws are asked at the end of an axis, where no
-//! rank applies. Absent: the axes themselves, which `buds::node` adds.
+//! De Reffye 1988 §2: sympodial growth and traumatic reiteration. These laws are evaluated at the end of an axis, where
+//! there is no rank. Absent: the axes themselves, which `buds::node` adds.
 
 use super::branching::{Branching, MOST_BUDS};
 use super::compiler::{Compiler, LONGEST};
@@ -9,25 +9,25 @@ use super::words::{Layout, Number};
 use crate::buds::params::{ApexEnd, Fork, Order};
 use crate::law::{CountTable, ProbabilityTable, VariateTable};
 
-/// What follows the end of an apex of an order.
+/// The laws of the end of an apex of an order.
 #[derive(Debug, Clone)]
 pub struct EndLaws {
-    /// The words of the record, one an axis, in the relay stream.
+    /// The number of words of a record in the relay stream.
     pub width: usize,
     relayed: [bool; 3],
-    /// How many nodes below the last one the relays stand, once for all of them.
+    /// How many nodes below the last one the relays stand; drawn once for all of them.
     pub below: Number,
     pub relay: Branching,
     pub traumatic: Branching,
-    /// The axes into which a completed apex divides; `None`: it does not.
+    /// The axes into which a completed apex divides; `None`: it does not divide.
     pub fork: Option<Branching>,
     /// The ticks for which the branch of a completed apex lives on.
     pub persists: Option<Number>,
 }
 
 impl EndLaws {
-    /// Compiles the laws of the ends of an order, whose nodes have at most so many axillary buds and whose trunk leaves
-    /// the seed at this angle.
+    /// Compiles the laws of the ends of an order. Its nodes have at most `most_buds` axillary buds; its relays without
+    /// an angle of their own are inserted as an axis of the order, a trunk at `seed_angle`.
     pub fn compile(order: &Order, most_buds: u32, seed_angle: &VariateTable, compiler: &mut Compiler) -> Self {
         let mut layout = Layout::default();
         let relay = relay(order, seed_angle, compiler, &mut layout);
@@ -48,12 +48,12 @@ impl EndLaws {
         }
     }
 
-    /// Whether an end of an apex is ever relayed.
+    /// Whether an apex is relayed after some kind of end.
     pub fn is_ever_relayed(&self) -> bool {
         self.relayed.contains(&true)
     }
 
-    /// Whether an apex that ended so is relayed.
+    /// Whether an apex with this kind of end is relayed.
     pub fn is_relayed(&self, end: ApexEnd) -> bool {
         self.relayed[end as usize]
     }

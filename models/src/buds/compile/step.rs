@@ -1,7 +1,7 @@
 //! The laws of a clock step: death, pause, flowering, growth units and their nodes, passages between states.
 //!
 //! De Reffye 1988 §4: the mortality test, the break test, then the growth unit. Each has its slot in the step's record
-//! of words. Absent: what a node bears (`node`), and the clock (`buds::grow`).
+//! of words. Absent: the organs and buds of a node (`node`), and the clock (`buds::grow`).
 
 use super::compiler::{Compiler, Ranks};
 use super::words::{Chance, Layout, Number};
@@ -17,21 +17,21 @@ pub const MOST_NODES: u32 = 65_535;
 /// The laws of one clock step of an order.
 #[derive(Debug, Clone)]
 pub struct StepLaws {
-    /// The words of a step's record.
+    /// The number of words of a step's record.
     pub width: usize,
     pub death: Chance,
     pub pause: Chance,
     /// The terminal flower.
     pub flower: Chance,
     pub per_step: Number,
-    /// Whether a growth unit is short, once a unit.
+    /// Whether a growth unit is short; drawn once a unit.
     pub short: Chance,
     pub long_nodes: Number,
     pub short_nodes: Number,
     pub neoformed: Number,
-    /// The passages between states, with a word each.
+    /// The passages between states; each has one word.
     pub transitions: Vec<Passage>,
-    /// The ranks of the zones, once a unit.
+    /// The ranks of the zones; drawn once a unit.
     pub zone_ranks: ZoneRanks,
 }
 
@@ -41,14 +41,14 @@ pub struct Passage {
     pub from: u8,
     pub to: u8,
     pub chance: Chance,
-    /// Which of the relays of a set pass; `None`: each.
+    /// Which relays of a set can make the passage; `None`: all of them.
     pub sibling: Option<Sibling>,
-    /// Whether the axis is then relayed.
+    /// Whether relays follow the passage.
     pub relayed: bool,
 }
 
 impl Passage {
-    /// Whether an axis in `state` may pass that leads its set of relays or does not.
+    /// Whether an axis in `state` can make the passage; `leads` tells whether it leads its set of relays.
     #[inline]
     pub fn concerns(&self, state: u8, leads: bool) -> bool {
         self.from == state && self.sibling.is_none_or(|sibling| (sibling == Sibling::Leader) == leads)
@@ -56,8 +56,8 @@ impl Passage {
 }
 
 impl StepLaws {
-    /// Compiles the laws of a step of an axis that makes at most `last` growth units in all, in the run at hand and in
-    /// a run of any length.
+    /// Compiles the laws of a step. An axis makes at most `last` growth units in all: in the run at hand, and in a run
+    /// of any length.
     pub fn compile(order: &Order, last: [u32; 2], compiler: &mut Compiler) -> Self {
         let mut layout = Layout::default();
         let unit = &order.growth_unit;

@@ -22,27 +22,28 @@ const MOST_PHASES: usize = 64;
 /// The trends of an axis by the rank of the node.
 #[derive(Debug, Clone)]
 pub struct Trends {
-    /// From which rank on, and the place of the trend among the habit's or the axis's own; empty where ranks are drawn.
+    /// The first rank of each phase, and the place of its trend among the habit's or the axis's own; empty where ranks
+    /// are drawn.
     phases: Vec<(u32, u8)>,
-    /// The same where a rank is drawn.
+    /// The law of the first rank of each phase, and the place of its trend; empty where ranks are constant.
     drawn: Vec<(Number, u8)>,
     /// Inclination and share of each phase, where axes draw trends of their own.
     own: Vec<(Measure, Measure)>,
-    /// Whether there is a phase a state, in the order of the states.
+    /// Whether the phases are the states, in their order, instead of ranks.
     by_state: bool,
 }
 
-/// A phase, its laws compiled.
+/// A phase with its compiled laws.
 struct Phase {
     from_rank: CountTable,
-    /// Whether its rank has no fault of its own.
+    /// Whether the law of its first rank is without fault.
     is_ranked: bool,
     inclination: VariateTable,
     share: VariateTable,
 }
 
 impl Trends {
-    /// Compiles the trends of an order, and adds those that are constant to the habit's.
+    /// Compiles the trends of an order. Constant trends are added to the habit's.
     pub fn compile(trend: &Trend, compiler: &mut Compiler, words: &mut Layout, habit: &mut Vec<Tendency>) -> Self {
         let phases = phases(trend, compiler);
         let constant: Option<Vec<Tendency>> = phases.iter().map(Phase::constant).collect();
@@ -66,7 +67,7 @@ impl Trends {
         }
     }
 
-    /// Whether the phases of an axis start from ranks that it draws.
+    /// Whether an axis draws the ranks from which its phases hold.
     pub fn has_drawn_ranks(&self) -> bool {
         !self.drawn.is_empty()
     }
@@ -76,7 +77,8 @@ impl Trends {
         !self.own.is_empty()
     }
 
-    /// The ranks from which the phases of an axis hold, with the places of their trends, where it draws them.
+    /// Adds to `phases` the ranks from which the phases of an axis hold, with the places of their trends, where the
+    /// axis draws them.
     pub fn draw_ranks(&self, words: &[u32], at: At, phases: &mut Vec<(u32, u8)>) {
         phases.clear();
         phases.extend(self.drawn.iter().map(|(rank, place)| (rank.draw(words, 0, at), *place)));
@@ -124,7 +126,7 @@ impl Phase {
         }
     }
 
-    /// Its trend, where that is the same for every axis.
+    /// The trend of the phase, where it is the same for every axis.
     fn constant(&self) -> Option<Tendency> {
         Some(tendency(self.inclination.exact()?, self.share.exact()?))
     }
@@ -151,7 +153,7 @@ fn phases(trend: &Trend, compiler: &mut Compiler) -> Vec<Phase> {
     }
 }
 
-/// A phase a state, in the order of the states.
+/// The phases of a trend by state, in the order of the states.
 fn states(stated: &BTreeMap<String, Tended>, compiler: &mut Compiler) -> Vec<Phase> {
     let names = compiler.state_names().to_vec();
     for name in stated.keys().filter(|name| !names.contains(name)) {
@@ -159,7 +161,7 @@ fn states(stated: &BTreeMap<String, Tended>, compiler: &mut Compiler) -> Vec<Pha
     }
     let missing: Vec<&str> = names.iter().filter(|name| !stated.contains_key(*name)).map(String::as_str).collect();
     if !missing.is_empty() {
-        let found = format!("it has no trend for {}", missing.join(", "));
+        let found = format!("no trend is stated for {}", missing.join(", "));
         compiler.fault("trend.by_state", found, "a trend for each of the species's states");
     }
     let phases = stated_in_order(&names, stated).map(|(name, tended)| {
@@ -194,7 +196,7 @@ fn tendency(inclination_deg: f64, share: f64) -> Tendency {
     Tendency { inclination: inclination_deg.to_radians(), share }
 }
 
-/// The places of some trends among the habit's, which gets those that are new.
+/// The places of `tendencies` among the trends of the habit. New trends are added to the habit.
 fn places(tendencies: Vec<Tendency>, habit: &mut Vec<Tendency>, compiler: &mut Compiler) -> Vec<u8> {
     let place = |tendency| {
         habit.iter().position(|known| *known == tendency).unwrap_or_else(|| {

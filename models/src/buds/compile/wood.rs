@@ -1,7 +1,7 @@
 //! The wood of a species, compiled: tables of stiffness and density by the age of the internode, SI units.
 //!
-//! A law of stiffness or density is one of the internode's own age: wood knows how old it is, not how old its plant is.
-//! Absent: the equations (`phytomer_sim::mechanics`).
+//! A law of stiffness or density depends on the internode's own age, not on the plant's. Absent: the equations
+//! (`phytomer_sim::mechanics`).
 
 use super::order_of;
 use crate::buds::params::{Buds, CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood as WoodParams};
@@ -67,7 +67,7 @@ pub fn compile(buds: &Buds, until: u32, path: &Path, faults: &mut Vec<Fault>) ->
     })
 }
 
-/// Wood of an order that belongs to no wood of the species would do nothing.
+/// Adds a fault for each order that states a wood where the species has none: such a wood would have no effect.
 fn ownerless(buds: &Buds, path: &Path, faults: &mut Vec<Fault>) {
     for (index, _) in buds.order.iter().enumerate().filter(|(_, order)| !order.wood.is_as_the_species()) {
         let path = path.key("order").index(index).key("wood");
@@ -115,7 +115,7 @@ impl Place {
     }
 }
 
-/// Reads the numbers of one table, noting each that is outside its range.
+/// Reads the numbers of one table and adds a fault for each number outside its range.
 struct Numbers<'a> {
     path: Path,
     faults: &'a mut Vec<Fault>,

@@ -1,12 +1,13 @@
-//! Which word of a stream decides what: slots given once per order, in a fixed sequence.
+//! The layout of the words of a stream: each random quantity of an order has fixed slots, in a fixed sequence.
 //!
 //! A stream is read in records of a fixed width: one record an axis and then one a clock step (bud stream), one a node
 //! (node stream), one an axis (relay stream). Quantities that are the same at every point take no word. The layout of a
-//! record does not depend on how long the run lasts: what a longer run could draw has its words in a shorter one too.
+//! record does not depend on how long the run lasts: a quantity that could be drawn in a longer run alone has its words
+//! in a shorter run too.
 
 use crate::law::{At, CountTable, ProbabilityTable, VariateTable};
 
-/// Hands out the slots of one record.
+/// Assigns the slots of one record.
 #[derive(Debug, Default)]
 pub struct Layout {
     width: usize,
@@ -67,12 +68,12 @@ impl Slot {
 pub struct Chance {
     pub table: ProbabilityTable,
     slot: Slot,
-    /// What happens at every point, where that is certain.
+    /// The outcome, where it is the same at every point.
     fixed: Option<bool>,
 }
 
 impl Chance {
-    /// Whether it happens, the `nth` time (from 0) in this record.
+    /// Whether the event happens, the `nth` time (from 0) in this record.
     #[inline]
     pub fn happens(&self, words: &[u32], nth: u32, at: At) -> bool {
         match self.fixed {
@@ -91,13 +92,13 @@ pub struct Number {
 }
 
 impl Number {
-    /// How many, where that is the same at every point and in every draw.
+    /// The number, where it is the same at every point and in every draw.
     #[inline]
     pub fn fixed(&self) -> Option<u32> {
         self.fixed
     }
 
-    /// How many, the `nth` time (from 0) in this record.
+    /// The number drawn, the `nth` time (from 0) in this record.
     #[inline]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> u32 {
         match self.fixed {
@@ -117,7 +118,7 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// The same value at every point and in every draw, where it is so.
+    /// The value, where it is the same at every point and in every draw.
     #[inline]
     pub fn fixed(&self) -> Option<f32> {
         self.fixed

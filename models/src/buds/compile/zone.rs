@@ -1,7 +1,8 @@
 //! Zones of a growth unit: the nodes that ramify in the rhythmic pattern (de Reffye 1988 §2, Fig. 4).
 //!
-//! A node in several zones belongs to the first. The ranks of a zone are constants, or drawn once a growth unit; then
-//! the step's record of words has them ([`ZoneRanks`]) and the node asks what its unit drew. Absent: the test of a bud.
+//! A node in several zones belongs to the first. The ranks of a zone are constants, or drawn once a growth unit; drawn
+//! ranks have slots in the step's record of words ([`ZoneRanks`]), and the nodes of the unit use them. Absent: the test
+//! of a bud.
 
 use super::compiler::Compiler;
 use super::words::{Chance, Layout, Number};
@@ -21,11 +22,11 @@ pub struct Zones(Vec<ZoneLaw>);
 #[derive(Debug, Clone)]
 struct ZoneLaw {
     from: End,
-    /// Where its ranks are constant.
+    /// The ranks, where they are constant.
     ranks: Ranks,
-    /// `None`: that of the order.
+    /// The law of ramification; `None`: that of the order.
     chance: Option<Chance>,
-    /// The states of its axes; `None`: that of the order's axillary buds.
+    /// The states in which its axes start; `None`: the state of the order's axillary buds.
     states: Option<States>,
 }
 
@@ -44,7 +45,7 @@ pub struct Ramification<'a> {
 }
 
 impl<'a> Ramification<'a> {
-    /// By the order's own law, without a zone.
+    /// Ramification by the order's own law, without a zone.
     pub fn of_order(chance: &'a Chance) -> Self {
         Self { chance, states: None }
     }
@@ -55,14 +56,14 @@ impl<'a> Ramification<'a> {
         self.states.and_then(|states| states.of.get(states.which.draw(words, position, at) as usize).copied())
     }
 
-    /// The states that the axes start in, each with its share; `None`: that of the order's axillary buds.
+    /// The states that the axes start in, each with its share; `None`: the state of the order's axillary buds.
     pub fn shares(&self, at: At) -> Vec<(Option<u8>, f64)> {
         let Some(states) = self.states else { return vec![(None, 1.0)] };
         states.of.iter().copied().map(Some).zip(states.which.table.pmf(at)).collect()
     }
 }
 
-/// The ranks of each zone: constants, or laws where one of them is drawn.
+/// The ranks of all zones: constants, or laws where some rank is drawn.
 #[derive(Debug, Clone)]
 pub struct ZoneRanks {
     constant: Vec<Ranks>,
@@ -77,8 +78,8 @@ fn stated(order: &Order) -> Option<&[Zone]> {
 }
 
 impl Zones {
-    /// The zones of an order, their own laws of ramification with words for the axillary buds of a node, at most so
-    /// many; `None`: every node.
+    /// Compiles the zones of an order; `None` where every node may ramify. The zones' own laws of ramification have
+    /// words for as many axillary buds as a node can have.
     pub fn compile(
         order: &Order,
         ranks: &ZoneRanks,
@@ -95,14 +96,14 @@ impl Zones {
             let keys = format!("axillary.pattern.zones.{index}.state");
             let states = zone.state.as_ref().and_then(|state| states(state, &keys, compiler));
             let states = states.map(|(of, which)| States { of, which: words.number(which, most_buds) });
-            // A unit that draws ranks gives those of every zone.
+            // A unit that draws some rank draws the ranks of every zone.
             ZoneLaw { from: zone.from, ranks: ranks.constant.get(index).copied().unwrap_or_default(), chance, states }
         });
         Some(Self(compiled.collect()))
     }
 
-    /// How the node at `rank` of a growth unit of `nodes` ramifies, where the node is in a zone; `order` is the law of
-    /// zones without one of their own, `drawn` the ranks that the unit has drawn, if any.
+    /// How the node at `rank` of a growth unit of `nodes` ramifies; `None` where it is in no zone. `order` is the law
+    /// of zones without a law of their own, `drawn` the ranks that the unit has drawn, if any.
     #[inline]
     pub fn ramification<'a>(
         &'a self,
@@ -119,7 +120,7 @@ impl Zones {
         Some(zone.ramification(order))
     }
 
-    /// Whether how a node ramifies depends on the state of its axis and the variables `known` at most.
+    /// Whether the ramification depends on the state of the axis and the variables `known` at most.
     pub fn ask_only(&self, known: &[Variable]) -> bool {
         self.0.iter().all(|zone| {
             zone.chance.as_ref().is_none_or(|chance| chance.table.asks_only(known))
@@ -127,8 +128,8 @@ impl Zones {
         })
     }
 
-    /// The states, in zones that state them, of the axes that buds of axes in `state` can become; `None` stands for
-    /// that of the order's axillary buds. `order` is the law of zones without one of their own.
+    /// The states that zones state for the axes of buds on an axis in `state`; `None` stands for the state of the
+    /// order's axillary buds. `order` is the law of zones without a law of their own.
     pub fn states_of(&self, state: u8, order: &Chance) -> Vec<Option<u8>> {
         let bearing = self.0.iter().filter(|zone| !zone.ramification(order).chance.table.is_never_in(state));
         bearing
@@ -136,8 +137,8 @@ impl Zones {
             .collect()
     }
 
-    /// How the node at `rank` of `nodes` ramifies over what units draw: by each zone with the probability that it holds
-    /// the node and none before it does. `holding` is [`ZoneRanks::holding`].
+    /// How the node at `rank` of `nodes` ramifies, averaged over the ranks that units draw: for each zone the
+    /// probability that it holds the node and no earlier zone does. `holding` is [`ZoneRanks::holding`].
     pub fn ramifications<'a>(
         &'a self,
         (rank, nodes): Ranks,
@@ -155,7 +156,7 @@ impl Zones {
     }
 }
 
-/// The states of a zone, and the law of which of them an axis draws; nothing where they are at fault.
+/// The states of a zone, and the law that draws one of them for an axis; `None` where they are at fault.
 fn states(state: &ZoneState, keys: &str, compiler: &mut Compiler) -> Option<(Vec<u8>, CountTable)> {
     let shares = match state {
         ZoneState::Named(name) => return Some((vec![compiler.state(name, keys)], CountTable::always(0))),
@@ -173,7 +174,7 @@ fn states(state: &ZoneState, keys: &str, compiler: &mut Compiler) -> Option<(Vec
 }
 
 impl ZoneLaw {
-    /// How a node of the zone ramifies; `order` is the law of zones without one of their own.
+    /// How a node of the zone ramifies; `order` is the law of zones without a law of their own.
     #[inline]
     fn ramification<'a>(&'a self, order: &'a Chance) -> Ramification<'a> {
         Ramification { chance: self.chance.as_ref().unwrap_or(order), states: self.states.as_ref() }
@@ -221,7 +222,8 @@ impl ZoneRanks {
         tables.all(|number| number.table.asks_only(known))
     }
 
-    /// Of each zone the probability that it holds the node of rank 0, 1, 2 … from its end; the last one goes on.
+    /// For each zone the probability that it holds the node of rank 0, 1, 2 … from its end of the unit; later nodes
+    /// have the last probability.
     pub fn holding(&self, at: At) -> Vec<Vec<f64>> {
         let begun = |first: &Number| running(&first.table.pmf(at));
         let holding = |(first, last): &(Number, Option<Number>)| {
@@ -244,7 +246,7 @@ fn running(pmf: &[f64]) -> Vec<f64> {
     pmf.iter().scan(0.0, sum).collect()
 }
 
-/// The ranks of a zone, each at least 1 whatever is drawn, and a last one that can come after the first.
+/// The first and the last rank of a zone, each at least 1. A last rank that is always before the first is a fault.
 fn ranks(zone: &Zone, index: usize, compiler: &mut Compiler) -> (CountTable, Option<CountTable>) {
     let keys = format!("axillary.pattern.zones.{index}");
     let first = compiler.rank(&zone.first, &format!("{keys}.first"));

@@ -1,6 +1,7 @@
-//! Which of age, dimension and cycle the laws of an order's growth units ask, so that equal units are summed once.
+//! Which of age, dimension and cycle the laws of an order's growth units depend on, so that equal units are summed
+//! once.
 //!
-//! Absent: rank, over which a unit is summed, and state, of which each has units of its own.
+//! Absent: rank, over which a unit is summed, and state: units of different states are summed apart.
 
 use crate::buds::compile::OrderLaws;
 use crate::law::{At, Variable};
@@ -10,7 +11,7 @@ pub type Key = (u8, [u32; 3]);
 
 const TIMES: [Variable; 3] = [Variable::Age, Variable::Dimension, Variable::Cycle];
 
-/// Whether age, dimension and cycle are asked.
+/// For age, dimension and cycle, whether the laws depend on it.
 #[derive(Debug, Clone, Copy)]
 pub struct Asked([bool; 3]);
 

@@ -1,7 +1,7 @@
 //! Cohorts: the axes of one order and one speed, born at one tick in one state, followed step by step as shares.
 //!
-//! A cohort's shares live, rest, grow or end by the same compiled laws as a bud; what they bear starts cohorts of its
-//! own, at later ticks. Absent: the deaths of branches, which end no growth (`lost` has what they do to organs).
+//! The shares of a cohort die, rest, end or grow by the same compiled laws as a bud; the axes that they bear are added
+//! to cohorts of later ticks. Absent: the deaths of branches, which end no growth (`lost` has their effect on organs).
 
 use super::asked::{Asked, Key};
 use super::frame::{Completion, Frame};
@@ -18,13 +18,13 @@ use std::rc::Rc;
 /// The most steps of summation: a second or so.
 const MOST_WORK: u64 = 40_000_000;
 
-/// So many summed units of an order are kept for the next time.
+/// The most growth units whose sums are kept for each order.
 const MOST_UNITS: usize = 50_000;
 
-/// A cohort of which less than this is left bears nothing that the sum, in double precision, would show.
+/// A cohort with fewer living axes than this bears nothing that would show in the sum, in double precision.
 pub const NOTHING_LEFT: f64 = 1e-30;
 
-/// Axes born, by order, class and tick; the class is twice the state, and one more where axes do not lead their sets.
+/// Axes born, by order, class and tick. The class is 2 × state, plus 1 for axes that do not lead their sets.
 pub type Births = Vec<Vec<Vec<f64>>>;
 
 /// A share of a cohort.
@@ -47,7 +47,7 @@ impl Flow {
     }
 }
 
-/// A cohort that is followed.
+/// The cohort that is being followed.
 struct Cohort<'a> {
     order: usize,
     laws: &'a OrderLaws,
@@ -61,19 +61,19 @@ struct Cohort<'a> {
 pub struct Cohorts<'a> {
     model: &'a BudModel,
     until: Tick,
-    /// What has been born so far.
+    /// The axes born so far.
     pub births: Births,
-    /// What has been made, at each tick.
+    /// The components made so far, at each tick.
     pub expected: Vec<OrderExpectation>,
-    /// The growth units that have been summed, by order and by what those of the order depend on.
+    /// The growth units summed so far, by order and by the variables that units of the order depend on.
     units: Vec<(Asked, BTreeMap<Key, Rc<Unit>>)>,
     work: u64,
 }
 
 impl<'a> Cohorts<'a> {
-    /// What one axis of `order` and all that it bears make; `None` where the sum would take too long.
+    /// Sums what one axis of `order` and all axes that it bears make; `None` where the sum would take too long.
     ///
-    /// A cohort bears only after its own birth, so cohorts are taken by tick of birth.
+    /// A cohort bears only after its own birth, so cohorts are followed in the order of their ticks of birth.
     pub fn from(model: &'a BudModel, order: u8, until: Tick) -> Option<Self> {
         let ticks = vec![0.0; until as usize + 1];
         let mut sum = Self {
@@ -117,7 +117,7 @@ impl<'a> Cohorts<'a> {
         let mut after = living.clone();
         living[frame.cell(0, 0, state)].apices = born;
         let mut cycle = 0;
-        // What it costs to look through them, beside the work on those that are not empty.
+        // The cost of looking through the cells, in addition to the work on cells that are not empty.
         let cells = frame.cells() as u64 / 16;
         for tick in birth + 1..=self.until {
             let dimension = tick - birth;
@@ -138,7 +138,7 @@ impl<'a> Cohorts<'a> {
         Some(())
     }
 
-    /// One clock step of a cohort: what is still living after it.
+    /// One clock step of a cohort; `after` becomes the share that still lives.
     fn step(&mut self, cohort: &Cohort, living: &[Flow], after: &mut [Flow], at: At) {
         after.fill(Flow::default());
         let frame = cohort.frame;
@@ -173,7 +173,7 @@ impl<'a> Cohorts<'a> {
         Rc::clone(units.entry(asked.key(at)).or_insert_with(sum))
     }
 
-    /// Death, pause and terminal flower; what is left to grow.
+    /// Applies death, pause and terminal flower; returns the share that grows.
     fn fates(&mut self, cohort: &Cohort, flow: Flow, rank: usize, resting: &mut Flow, at: At) -> Flow {
         if flow.apices <= 0.0 {
             return flow;
@@ -194,7 +194,7 @@ impl<'a> Cohorts<'a> {
         active.share(1.0 - flower)
     }
 
-    /// Flowers that apices have become, and their fruits after them.
+    /// Adds the flowers that apices have become, and their fruits.
     fn terminal_flowers(&mut self, cohort: &Cohort, flowers: f64, at: At) {
         let laws = &cohort.laws.node;
         let fruits = flowers * laws.fruit_set.table.probability(at);
@@ -209,8 +209,8 @@ impl<'a> Cohorts<'a> {
         }
     }
 
-    /// The growth units of a step, one after another, then the passages between states; `growing` goes by numbers of
-    /// nodes.
+    /// Makes the growth units of a step, one after another, then the passages between states. `growing` is indexed by
+    /// the number of nodes.
     fn grow(&mut self, cohort: &Cohort, growing: &mut [Flow], made: usize, unit: &Unit, after: &mut [Flow], at: At) {
         let per_step = cohort.laws.step.per_step.table.pmf(at);
         let mut at_least: f64 = per_step.iter().sum();
@@ -229,7 +229,7 @@ impl<'a> Cohorts<'a> {
         }
     }
 
-    /// The ends of apices that have made all their growth units.
+    /// Ends the apices that have made all their growth units.
     fn complete(&mut self, cohort: &Cohort, growing: &mut [Flow], (stage, share): (usize, f64), at: At) {
         let completed = cohort.ends.hazard(stage);
         for (rank, flow) in growing.iter_mut().enumerate().filter(|_| completed > 0.0) {
@@ -238,7 +238,7 @@ impl<'a> Cohorts<'a> {
         }
     }
 
-    /// What `apices` growth units make.
+    /// Adds the components that `apices` growth units make.
     fn unit(&mut self, cohort: &Cohort, apices: f64, unit: &Unit, at: At) {
         if apices <= 0.0 {
             return;
@@ -263,7 +263,7 @@ impl<'a> Cohorts<'a> {
         bear(&unit.reiterations, usize::from(node.reiteration_order) - 1, &node.reiteration);
     }
 
-    /// Passages between states: the first that happens, in the order in which they are stated.
+    /// Passages between states: an axis makes the first passage that happens, in the order in which they are stated.
     fn pass(&mut self, cohort: &Cohort, (stage, rank): (usize, usize), flow: Flow, after: &mut [Flow], at: At) {
         let mut stays = flow;
         let passages = cohort.laws.step.transitions.iter();
@@ -279,7 +279,7 @@ impl<'a> Cohorts<'a> {
         after[cohort.frame.cell(stage, rank, at.state)].add(stays);
     }
 
-    /// What follows the ends of apices: relays, and traumatic reiterations where they died.
+    /// Adds the relays of ended apices, and traumatic reiterations where they died.
     fn end(&mut self, cohort: &Cohort, (rank, ended): (usize, Flow), end: ApexEnd, at: At) {
         let laws = &cohort.laws.end;
         if ended.apices <= 0.0 || rank == 0 {
@@ -298,13 +298,13 @@ impl<'a> Cohorts<'a> {
         }
     }
 
-    /// The relays of apices that have ended or passed into another state.
+    /// Adds the relays of apices that have ended or passed into another state.
     fn relay(&mut self, cohort: &Cohort, (rank, of): (usize, Flow), at: At) {
         let sets = of.apices * cohort.frame.reaches(cohort.laws, rank, at);
         self.bear_set(cohort.order, sets, &cohort.laws.end.relay, at);
     }
 
-    /// Sets of equal axes: in each set with any the first leads.
+    /// Adds sets of equal axes. The first axis of a set leads it.
     fn bear_set(&mut self, order: usize, sets: f64, branching: &Branching, at: At) {
         let chance = branching.chance.table.probability(at);
         let mean = branching.count.table.mean(at) * chance;
@@ -335,7 +335,7 @@ impl<'a> Cohorts<'a> {
     }
 }
 
-/// After a growth unit: axes have more nodes, and other buds lie dormant on the last of them.
+/// Updates shares after a growth unit: axes have more nodes, and other buds lie dormant on the last of them.
 fn grown(frame: &Frame, growing: &mut [Flow], unit: &Unit) {
     let empty = unit.counts[0];
     for rank in (0..growing.len()).rev() {
@@ -345,8 +345,8 @@ fn grown(frame: &Frame, growing: &mut [Flow], unit: &Unit) {
         }
         growing[rank].add(before.share(empty));
         for (more, &share) in unit.counts.iter().enumerate().skip(1).filter(|(_, share)| **share > 0.0) {
-            // Dormant buds are shared out over the numbers of nodes: the death that releases them does not ask for
-            // those.
+            // Dormant buds are shared out over the numbers of nodes: the death that releases them does not depend on
+            // these numbers.
             let dormant = before.apices * unit.dormant * share / (1.0 - empty);
             growing[frame.after(rank, more)].add(Flow { apices: before.apices * share, dormant });
         }

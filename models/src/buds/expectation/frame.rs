@@ -1,19 +1,20 @@
-//! What the axes of one cohort are told apart by while they are followed: growth units made, nodes made and state.
+//! The cells in which the axes of one cohort are counted while they are followed: by growth units made, nodes made and
+//! state.
 //!
-//! Growth units count up to the last one that an apex of the order can be given, nodes as far as relays need them.
-//! Absent: what is followed, means (`cohort`) or the organs that are lost with their branch (`lost`).
+//! Growth units are counted up to the last that an apex of the order can make, nodes as far as relays need them.
+//! Absent: the quantities in the cells, which are means (`cohort`) or the organs lost with their branch (`lost`).
 
 use crate::buds::compile::OrderLaws;
 use crate::law::At;
 
-/// Relays can stand so many nodes below the last one, or else their axes are taken to be long enough for them.
+/// The most nodes below the last one at which relays can stand; beyond it every axis is taken to be long enough.
 const MOST_BELOW: u32 = 64;
 
 /// The cells of a cohort.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame {
     pub stages: usize,
-    /// Numbers of nodes that are told apart: 0, 1, … and the last one or more.
+    /// The number of cells by number of nodes: 0, 1, …, and a last cell for all larger numbers.
     pub ranks: usize,
     pub states: usize,
 }
@@ -31,7 +32,7 @@ impl Frame {
         (stage * self.ranks + rank) * self.states + usize::from(state)
     }
 
-    /// The probability that an axis of so many nodes is long enough for its relays, which stand below its last node.
+    /// The probability that an axis of `rank` nodes is long enough for its relays, which stand below its last node.
     pub fn reaches(&self, laws: &OrderLaws, rank: usize, at: At) -> f64 {
         match rank {
             0 => 0.0,
@@ -40,7 +41,7 @@ impl Frame {
         }
     }
 
-    /// The number of nodes after `more` of them, as far as it is told apart.
+    /// The cell of the number of nodes after `more` further nodes.
     pub fn after(&self, rank: usize, more: usize) -> usize {
         (rank + more).min(self.ranks - 1)
     }
@@ -51,12 +52,12 @@ pub fn is_relayed(laws: &OrderLaws) -> bool {
     laws.end.is_ever_relayed() || laws.step.transitions.iter().any(|passage| passage.relayed)
 }
 
-/// Whether every axis that is too short for its relays is told apart.
+/// Whether every axis that is too short for its relays has a cell of its own.
 pub fn tells_short_axes(laws: &OrderLaws) -> bool {
     laws.end.below.table.max() <= MOST_BELOW || !is_relayed(laws)
 }
 
-/// Numbers of nodes of an axis that matter: none or some, and each too small for relays below the last node.
+/// The number of cells by number of nodes: none and some, and each number too small for relays below the last node.
 pub fn ranks(laws: &OrderLaws) -> usize {
     match tells_short_axes(laws) && is_relayed(laws) {
         true => laws.end.below.table.max() as usize + 2,
@@ -76,7 +77,7 @@ impl Completion {
             return Self { hazards: Vec::new() };
         };
         let mut pmf = units.table.pmf(at);
-        // An apex that is to make none ends with its first.
+        // An apex that draws 0 growth units ends with its first.
         let none = pmf[0];
         pmf.resize(pmf.len().max(2), 0.0);
         pmf[1] += none;

@@ -1,7 +1,7 @@
-//! The probability, by deadline, that what a node, a growth unit or the end of an apex has borne is dead.
+//! The probability, by deadline, that everything borne by a node, a growth unit or the end of an apex is dead.
 //!
-//! A branch is dead when its apex and all branches on it are. A bud that has not begun to grow lives. Absent: the axis
-//! itself, which `lost` follows.
+//! A branch is dead when its apex and all branches on it are dead. A bud that has not begun to grow is alive. Absent:
+//! the axis itself, which `lost` follows.
 
 use super::asked::{Asked, Key};
 use super::frame;
@@ -13,27 +13,27 @@ use phytomer_sim::Tick;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// So many summed units are kept for the next time.
+/// The most growth units whose sums are kept.
 const MOST_UNITS: usize = 5_000;
 
-/// Axes that are born alike: the place of their order, their state, and whether they follow in their set (1) or lead
-/// it.
+/// Axes that are born alike: the place of their order, their state, and 1 where they follow in their set, 0 where they
+/// lead it.
 type Class = (usize, u8, usize);
 
-/// What is known of the branches that are born later.
+/// The deaths of the branches that are born later than the current tick.
 pub struct Gone<'a> {
     model: &'a BudModel,
     until: Tick,
-    /// Probabilities to be dead by class and tick of birth, from the tick of birth on.
+    /// The probability of being dead by each deadline, from the tick of birth on; by class and tick of birth.
     told: BTreeMap<(Class, Tick), Vec<f64>>,
-    /// Growth units by order, tick and what else those of the order depend on.
+    /// Growth units by order, tick and the other variables that units of the order depend on.
     units: BTreeMap<(usize, Tick, Key), Rc<MadeUnit>>,
     asked: Vec<Asked>,
     /// Steps of summation so far.
     pub work: u64,
 }
 
-/// A growth unit, by the numbers of nodes that are told apart.
+/// A growth unit, by the cells of [`Frame`](super::frame::Frame) for the number of nodes.
 pub struct MadeUnit {
     pub by_nodes: Vec<Made>,
 }
@@ -41,11 +41,12 @@ pub struct MadeUnit {
 /// Growth units of some number of nodes.
 #[derive(Clone, Default)]
 pub struct Made {
-    /// How many growth units have so many nodes.
+    /// The share of the growth units with this number of nodes.
     pub share: f64,
-    /// Of those, how many have borne what is dead by the deadline; `None`: they have borne nothing that lives.
+    /// By deadline, the part of `share` whose buds and branches are all dead by then; `None`: they have borne nothing
+    /// that lives.
     pub alone: Option<Vec<f64>>,
-    /// The organs due 0, 1, 2 … ticks from now on them, times the share of which `alone` tells.
+    /// The organs due 0, 1, 2 … ticks from now on the units counted in `alone`.
     pub due: Vec<f64>,
 }
 
@@ -59,7 +60,7 @@ impl<'a> Gone<'a> {
         self.until
     }
 
-    /// Takes note of the axes of a class that are born at a tick: when their branches are dead.
+    /// Records by when the branches of the axes of a class that are born at a tick are dead.
     pub fn tell(&mut self, class: Class, birth: Tick, gone: &[f64]) {
         // A branch can be dead one tick after its birth.
         if gone.last().is_some_and(|gone| *gone > 0.0) {
@@ -67,7 +68,7 @@ impl<'a> Gone<'a> {
         }
     }
 
-    /// A new axis that appears now and is born after its delay.
+    /// The probability, by deadline, that an axis that appears now and is born after its delay is dead.
     fn of_axis(&mut self, class: Class, delay: &CountTable, at: At) -> Vec<f64> {
         let mut dead = vec![0.0; self.until as usize + 1];
         for (delay, share) in delay.pmf(at).into_iter().enumerate().filter(|(_, share)| *share > 0.0) {
@@ -83,7 +84,7 @@ impl<'a> Gone<'a> {
         dead
     }
 
-    /// A set of equal axes, of which the first leads.
+    /// The probability, by deadline, that a set of equal axes, of which the first leads, is dead.
     ///
     /// Of n buds that become axes with probability c each, with q and r the probabilities that the leader and that
     /// another axis is dead: N₀ = 1, L₀ = 0; Nₙ₊₁ = (1 − c) Nₙ, none has become an axis; Lₙ₊₁ = (1 − c + c r) Lₙ + c q
@@ -107,7 +108,8 @@ impl<'a> Gone<'a> {
         leader.iter().zip(&other).map(of_deadline).collect()
     }
 
-    /// What an apex that has a node becomes at its end, by the tick at which that is past; `None`: at once.
+    /// The probability, by deadline, that an apex that ends now is past the life of its flower and fruit, or of its
+    /// completed branch; `None`: at once.
     pub fn of_apex(&mut self, laws: &OrderLaws, end: ApexEnd, at: At) -> Option<Vec<f64>> {
         let lives = match end {
             ApexEnd::Death => return None,
@@ -123,7 +125,8 @@ impl<'a> Gone<'a> {
         Some(past)
     }
 
-    /// A growth unit made now. All that it may bear is born later than any axis that makes it, and so has been told of.
+    /// A growth unit made now. The axes that it bears are born later than any axis that makes it, so their deaths have
+    /// been recorded.
     pub fn unit(&mut self, order: usize, at: At) -> Rc<MadeUnit> {
         let key = (order, at.age, self.asked[order].key(at));
         if let Some(known) = self.units.get(&key) {
@@ -171,7 +174,8 @@ impl<'a> Gone<'a> {
         }
     }
 
-    /// What the node at a rank of a growth unit of so many nodes bears; `None`: nothing.
+    /// The probability, by deadline, that all that the node at `rank` of a growth unit of `nodes` bears is dead;
+    /// `None`: it bears nothing.
     fn of_node(&mut self, order: usize, (rank, nodes): (usize, usize), at: At) -> Option<Vec<f64>> {
         let laws = &self.model.orders[order];
         let (axillary, reiteration) = (&laws.node.axillary, &laws.node.reiteration);
@@ -193,7 +197,8 @@ impl<'a> Gone<'a> {
         dead
     }
 
-    /// Buds of which each becomes an axis with a probability, that starts in one of some ways.
+    /// The probability, by deadline, that the axes of `buds` are dead. Each bud becomes an axis with probability
+    /// `chance`; `starts` are the classes in which the axes start, with their shares.
     fn of_buds(&mut self, (buds, chance): (&Branching, f64), starts: Vec<(Class, f64)>, at: At) -> Vec<f64> {
         let mut bud = vec![1.0 - chance; self.until as usize + 1];
         for (class, share) in starts {
@@ -208,7 +213,7 @@ impl<'a> Gone<'a> {
 }
 
 impl Made {
-    /// Adds growth units with the organs due on each.
+    /// Adds a share of growth units, and the organs due on each of them.
     fn add(&mut self, share: f64, organs: &[f64], dead: Option<&[f64]>, at: At) {
         if let (None, Some(dead)) = (&self.alone, dead) {
             self.alone = Some(vec![self.share; dead.len()]);
@@ -246,7 +251,7 @@ fn terminal_life(laws: &OrderLaws, at: At) -> Vec<f64> {
     lives
 }
 
-/// Lives of no tick are of one.
+/// The distribution in which a life of 0 ticks counts as 1 tick.
 fn at_least_one(mut pmf: Vec<f64>) -> Vec<f64> {
     pmf.resize(pmf.len().max(2), 0.0);
     pmf[1] += std::mem::take(&mut pmf[0]);

@@ -26,21 +26,21 @@ const MOST_WORK: u64 = 30_000_000;
 /// Axes that live in one state, by deadline.
 #[derive(Debug, Clone, Default)]
 struct Carried {
-    /// Their share, whatever becomes of what they bear; 0 where nothing is carried.
+    /// The share of the axes, whether or not the axes on them live; 0 where the cell is empty.
     share: f64,
-    /// w: those of which all that they have borne will be dead by the deadline.
+    /// w: the share of the axes on which all axes will be dead by the deadline.
     alone: Vec<f64>,
-    /// m: organs due at the deadline on those.
+    /// m: organs due at the deadline on these axes.
     due: Vec<f64>,
 }
 
-/// What has come of one axis, by deadline.
+/// The end of the axes of one birth, by deadline: the probability that the branch is dead, and the organs lost.
 struct Ended {
     gone: Vec<f64>,
     lost: Vec<f64>,
 }
 
-/// A cohort that is followed.
+/// The cohort that is being followed.
 struct Cohort<'a> {
     order: usize,
     laws: &'a OrderLaws,
@@ -64,7 +64,7 @@ pub fn organs(model: &BudModel, births: &Births, until: Tick) -> Option<Vec<Vec<
                 let born = births[order][2 * usize::from(state) + follows][birth as usize];
                 if born > 0.0 {
                     let ended = follow_all(model, &mut gone, (order, state, follows), birth)?;
-                    // Nothing is lost of an axis before its birth.
+                    // No organ of an axis is lost before the birth of the axis.
                     let ticks = lost[order][birth as usize..].iter_mut().zip(&ended.lost[birth as usize..]);
                     ticks.for_each(|(sum, lost)| *sum += born * lost);
                     gone.tell((order, state, follows), birth, &ended.gone);
@@ -75,7 +75,8 @@ pub fn organs(model: &BudModel, births: &Births, until: Tick) -> Option<Vec<Vec<
     Some(lost)
 }
 
-/// The axes that are born at one tick alike, over the speeds that they draw; `None` where the sum takes too long.
+/// Follows the axes that are born alike at one tick, over the speeds that they draw; `None` where the sum takes too
+/// long.
 fn follow_all(
     model: &BudModel,
     gone: &mut Gone,
@@ -120,13 +121,13 @@ impl Cohort<'_> {
         }
     }
 
-    /// What the new columns of a step cost: memory that comes as zeros is far cheaper than sums over deadlines, but not
-    /// free, and a long run has many steps.
+    /// The cost of the new columns of a step: memory that the system gives filled with zeros is far cheaper than sums
+    /// over deadlines, but not free, and a long run has many steps.
     fn column_work(&self) -> u64 {
         u64::from(self.until) / 32
     }
 
-    /// One clock step: what still lives after it.
+    /// One clock step of a cohort; `after` becomes the share that still lives.
     fn step(&self, gone: &mut Gone, living: &[Carried], after: &mut [Carried], ended: &mut Ended, at: At) {
         let frame = self.frame;
         for state in 0..frame.states as u8 {
@@ -145,7 +146,7 @@ impl Cohort<'_> {
         }
     }
 
-    /// Death, pause and terminal flower; what is left to grow.
+    /// Applies death, pause and terminal flower; returns the share that grows.
     fn fates(
         &self,
         gone: &mut Gone,
@@ -168,7 +169,7 @@ impl Cohort<'_> {
         growing
     }
 
-    /// The growth units of a step, one after another, then the passages between states.
+    /// Makes the growth units of a step, one after another, then the passages between states.
     fn grow(
         &self,
         gone: &mut Gone,
@@ -198,7 +199,7 @@ impl Cohort<'_> {
         }
     }
 
-    /// After a growth unit: axes have more nodes, and other organs are due on them.
+    /// The shares after a growth unit: axes have more nodes, and other organs are due on them.
     fn grown(&self, gone: &mut Gone, growing: &[Carried], unit: &MadeUnit, at: At) -> Vec<Carried> {
         let mut after = vec![Carried::default(); growing.len()];
         let (now, until) = (at.age as usize, self.until as usize);
@@ -216,7 +217,7 @@ impl Cohort<'_> {
         after
     }
 
-    /// Passages between states: the first that happens, in the order in which they are stated.
+    /// Passages between states: an axis makes the first passage that happens, in the order in which they are stated.
     fn pass(
         &self,
         gone: &mut Gone,
@@ -236,7 +237,7 @@ impl Cohort<'_> {
         self.add(&mut after[self.frame.cell(stage, rank, at.state)], of, stays, None, at);
     }
 
-    /// The end of a share of apices: their branches are dead once all that follows the end is dead, too.
+    /// Ends a share of apices: their branches are dead once all axes that follow the end are dead.
     fn end(&self, gone: &mut Gone, (rank, of, share): (usize, &Carried, f64), end: ApexEnd, ended: &mut Ended, at: At) {
         if of.share * share <= 0.0 {
             return;
@@ -259,7 +260,7 @@ impl Cohort<'_> {
         gone.work += u64::from(self.until - at.age);
     }
 
-    /// The probability that all relays of an axis of so many nodes are dead, by deadline; `None`: there are none.
+    /// The probability, by deadline, that all relays of an axis of `rank` nodes are dead; `None`: it has no relays.
     fn relays(&self, gone: &mut Gone, rank: usize, at: At) -> Option<Vec<f64>> {
         let reaches = self.frame.reaches(self.laws, rank, at);
         (reaches > 0.0).then(|| {
@@ -269,7 +270,7 @@ impl Cohort<'_> {
         })
     }
 
-    /// Adds a share of axes, times the probability, by deadline, that what they have just borne is dead.
+    /// Adds a share of axes, times the probability, by deadline, that the axes just borne are dead.
     fn add(&self, into: &mut Carried, of: &Carried, share: f64, dead: Option<&[f64]>, at: At) {
         if of.share * share <= 0.0 {
             return;
@@ -289,7 +290,7 @@ impl Cohort<'_> {
         }
     }
 
-    /// Adds axes that have made such a growth unit.
+    /// Adds axes that have made the growth unit `made`.
     fn add_made(&self, into: &mut Carried, of: &Carried, made: &Made, at: At) {
         let share = into.share;
         match &made.alone {
@@ -301,7 +302,7 @@ impl Cohort<'_> {
         }
     }
 
-    /// The last deadline for which anything is due that has been made by now.
+    /// The last deadline at which an organ made by now is due.
     fn last_due(&self, at: At) -> usize {
         at.age.saturating_add(self.longest).min(self.until) as usize
     }

@@ -1,5 +1,5 @@
-//! What a closed form needs: laws that ask nothing but what is known of a cohort, and the axes whose end matters to
-//! organs that have not appeared yet.
+//! The conditions of a closed form: laws that depend only on what is known of a cohort, and the axes whose end matters
+//! to organs that have not appeared yet.
 //!
 //! Absent: the sums (`cohort`, `lost`).
 
@@ -10,14 +10,14 @@ use crate::buds::compile::{Branching, BudModel, NodeLaws, OrderLaws};
 use crate::law::{CountTable, ProbabilityTable, Variable};
 use phytomer_sim::expectation::Certainty;
 
-/// What is known of the axes of one cohort, whatever became of each; beside it, their states are followed.
+/// The variables that are known for the axes of a cohort; their states are followed beside these.
 const KNOWN: &[Variable] = &[Variable::Age, Variable::Dimension, Variable::Cycle, Variable::Rank];
 
-/// The same but for the rank: a flower that an apex has become asks its laws at the rank of its bearing node, which no
-/// cohort is told apart by.
+/// The variables of [`KNOWN`] without the rank: the laws of a terminal flower are evaluated at the rank of its bearing
+/// node, by which the axes of a cohort are not counted apart.
 const KNOWN_OF_APICES: &[Variable] = &[Variable::Age, Variable::Dimension, Variable::Cycle];
 
-/// What the means of axes, growth units and nodes are.
+/// The certainty of the means of axes, growth units and nodes.
 pub fn of_axes(model: &BudModel) -> Certainty {
     if !model.orders.iter().all(axes_are_of_cohorts) {
         return Certainty::About;
@@ -28,7 +28,7 @@ pub fn of_axes(model: &BudModel) -> Certainty {
     }
 }
 
-/// What the means of organs are, where none is lost with its branch before it appears.
+/// The certainty of the means of organs, where no organ is lost with its branch before it appears.
 pub fn of_organs(model: &BudModel) -> Certainty {
     if model.orders.iter().all(organs_are_of_cohorts) { of_axes(model) } else { Certainty::About }
 }
@@ -69,16 +69,17 @@ fn terminal_flowers_are_of_cohorts(node: &NodeLaws) -> bool {
 /// Axes that start in one state, by place of their order and the state.
 type Start = (usize, u8);
 
-/// The axes on which organs may be lost, and all that these may bear.
+/// The axes on which organs may be lost, and all axes that these may bear.
 #[derive(Debug, Default)]
 pub struct Needs {
-    /// Orders and states in which axes may start whose organs may be lost, or that are borne by such.
+    /// The places of orders and the states in which such axes start, in ascending order.
     pub starts: Vec<Start>,
 }
 
 impl Needs {
-    /// Those of the axes that are `born`. `None` where the death of such branches has no closed form here: where
-    /// dormant buds are released, or growth units draw the ranks of their zones.
+    /// The axes among `born` on which organs may be lost, and all that these may bear. `None` where the death of such
+    /// branches has no closed form here: where dormant buds are released, or growth units draw the ranks of their
+    /// zones.
     pub fn of(model: &BudModel, born: &Births) -> Option<Self> {
         let states = 0..model.states as u8;
         let all = (0..model.orders.len()).flat_map(|order| states.clone().map(move |state| (order, state)));

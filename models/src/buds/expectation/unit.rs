@@ -2,7 +2,7 @@
 //! become.
 //!
 //! They are sums over the distribution of the number of nodes and over ranks, since laws may depend on either. Absent:
-//! the fates of buds, which `cohort` follows, and those of organs, which `lost` does.
+//! the fates of buds, which `cohort` follows, and the loss of organs, which `lost` follows.
 
 use super::frame;
 use crate::buds::compile::{BudModel, NodeLaws, OrderLaws, Ramification, Ranks};
@@ -14,9 +14,11 @@ use phytomer_sim::Tick;
 pub struct Unit {
     /// Nodes.
     pub nodes: f64,
-    /// The probability that it has 0, 1, 2 … nodes, as far as axes are told apart by them; the last one: or more.
+    /// The probability of 0, 1, 2 … nodes, by the cells in which axes are counted; the last cell has all larger
+    /// numbers.
     pub counts: Vec<f64>,
-    /// Leaves, flowers and fruits that appear so many ticks after it, with the ticks.
+    /// Leaves, flowers and fruits: each entry has the ticks from the growth unit to their appearance, and their mean
+    /// number.
     pub organs: Vec<(Tick, f64)>,
     /// Axillary axes.
     pub laterals: Vec<Lateral>,
@@ -24,18 +26,18 @@ pub struct Unit {
     pub reiterations: Vec<Lateral>,
     /// Dormant axillary buds on its last node, 0 where it has none.
     pub dormant: f64,
-    /// Steps of summation that it took.
+    /// The steps of summation spent on this unit.
     pub work: u64,
 }
 
 /// Axes that start alike.
 #[derive(Debug, Clone, Copy)]
 pub struct Lateral {
-    /// The state that their zone gives; `None`: as the branching says.
+    /// The state that their zone gives; `None`: the state that the branching states.
     pub state: Option<u8>,
-    /// The rank of their nodes, at which their delay is asked; 1 where it does not matter.
+    /// The rank of their nodes, at which their delay is evaluated; 1 where the delay does not depend on it.
     pub rank: u32,
-    /// How many.
+    /// The mean number of axes.
     pub axes: f64,
 }
 
@@ -53,7 +55,7 @@ impl Unit {
         mean
     }
 
-    /// Adds a share of growth units whose number of nodes is so distributed.
+    /// Adds a share of growth units whose number of nodes has the distribution `nodes`.
     fn add(&mut self, model: &BudModel, laws: &OrderLaws, (share, nodes): (f64, &[f64]), organs: &mut Organs, at: At) {
         let most = self.counts.len() - 1;
         nodes.iter().enumerate().for_each(|(count, p)| self.counts[count.min(most)] += share * p);
@@ -71,14 +73,14 @@ impl Unit {
         self.work += nodes.len() as u64;
     }
 
-    /// Laterals and dormant buds, for every number of nodes, since zones are counted from either end.
+    /// Adds lateral axes and dormant buds, for every number of nodes, since zones are counted from either end.
     fn ramify(&mut self, model: &BudModel, laws: &OrderLaws, (share, nodes): (f64, &[f64]), at: At) {
         let axillary = &laws.node.axillary;
         if axillary.count.table.max() == 0 {
             return;
         }
         let next = model.has_order(laws.number + 1);
-        // What units draw of their zones: nothing of it where ranks are constant.
+        // The probabilities of the drawn ranks; not needed where ranks are constant.
         let ranks = &laws.step.zone_ranks;
         let holding = if ranks.are_drawn() { ranks.holding(At { rank: 0, ..at }) } else { Vec::new() };
         for (count, &probability) in nodes.iter().enumerate().skip(1).filter(|(_, p)| **p > 0.0) {
@@ -129,9 +131,9 @@ pub fn sizes(laws: &OrderLaws, at: At) -> Vec<(f64, Vec<f64>)> {
 #[derive(Debug, Clone)]
 pub struct Organs {
     by: Vec<f64>,
-    /// Flowers that will open and those of them that will set fruit, where it does not matter on which rank.
+    /// Flowers that will open, and the part of them that will set fruit, where their delays do not depend on the rank.
     waiting: Option<[f64; 2]>,
-    /// A rank at which they stand.
+    /// A rank at which flowers stand.
     at: Option<At>,
 }
 
@@ -142,12 +144,12 @@ impl Organs {
         Self { by: vec![0.0; longest + 1], waiting: is_rankless.then_some([0.0; 2]), at: None }
     }
 
-    /// The ticks over which they are spread.
+    /// The number of ticks over which the organs are spread.
     pub fn ticks(&self) -> u64 {
         self.by.len() as u64
     }
 
-    /// Adds those of `nodes` nodes at a rank.
+    /// Adds the organs of `nodes` nodes at a rank.
     pub fn add(&mut self, node: &NodeLaws, nodes: f64, at: At) {
         self.by[0] += nodes * node.leaves.table.mean(at);
         let opening = nodes * node.flowers.table.mean(at) * node.flower_opens.table.probability(at);
@@ -165,7 +167,8 @@ impl Organs {
         }
     }
 
-    /// Puts flowers and fruits at their ticks; what never appears by the horizon is left out.
+    /// Adds flowers and fruits at the ticks of their appearance; organs that do not appear within the horizon are left
+    /// out.
     fn open(&mut self, node: &NodeLaws, [flowers, fruits]: [f64; 2], at: At) {
         let life = if fruits > 0.0 { node.flower_life.table.pmf(at) } else { Vec::new() };
         let delays = node.flower_delay.table.pmf(at);
@@ -180,7 +183,7 @@ impl Organs {
         }
     }
 
-    /// All of them, by ticks after their node.
+    /// The mean numbers of organs by ticks after their node.
     pub fn settle(&mut self, node: &NodeLaws) -> &[f64] {
         if let (Some(waiting), Some(at)) = (&mut self.waiting, self.at.take()) {
             let waiting = std::mem::take(waiting);
@@ -197,8 +200,8 @@ pub fn longest_wait(node: &NodeLaws) -> Tick {
     if sets { opens.saturating_add(node.flower_life.table.max().max(1)) } else { opens }
 }
 
-/// The mean probabilities that a bud of the node at a rank of a growth unit of so many nodes ramifies, with the state
-/// that a zone gives.
+/// The mean probabilities that a bud of the node at a rank of a growth unit ramifies, each with the state that a zone
+/// gives.
 fn ramification(node: &NodeLaws, (rank, nodes): Ranks, holding: &[Vec<f64>], at: At) -> Vec<(Option<u8>, f64)> {
     let spread = |(holds, of): (f64, Ramification<'_>)| {
         let probability = holds * of.chance.table.probability(at);

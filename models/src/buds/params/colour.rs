@@ -1,7 +1,7 @@
-//! Colours as a species file states them (de Reffye 1988 §6): by kind of place and
-//! by order, and each by the age of the component; of leaves also by season.
+//! Colours as a species file states them (de Reffye 1988 §6): by kind of place and by order, and each by the age of the
+//! component; of leaves also by season.
 //!
-//! Absent: the colours of what states none, which `phytomer_outputs::meshes` knows by kind and form.
+//! Absent: the colours of components without a stated colour, which `phytomer_meshes::palette` has by kind and form.
 
 use crate::law::Quantity;
 use phytomer_looks::Colour;

@@ -32,8 +32,8 @@ pub struct OwnForm {
 }
 
 impl FormChoice {
-    /// The share of length × width that the area of one side is; of a mesh of the user's, whose own share is known
-    /// where the mesh is read, that of a broad blade.
+    /// The area of one side as a share of length × width. A user's mesh has here the share of a broad blade; its own
+    /// share is computed where the mesh is read.
     pub(in crate::buds) const fn area_share(&self) -> f32 {
         match self {
             Self::Named(name) => name.area_share(),
@@ -107,7 +107,7 @@ pub struct EachState<T> {
 }
 
 impl<T> ByState<T> {
-    /// All that is stated, each with its place.
+    /// Every value that is stated, with its path.
     pub(in crate::buds) fn places(&self, path: &Path) -> Vec<(Path, &T)> {
         let below = path.key("by_state");
         match self {

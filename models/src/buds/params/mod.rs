@@ -1,11 +1,12 @@
 //! The parameters of the bud model as a species file states them (de Reffye 1988 §4, the list of parameters).
 //!
-//! One [`Order`] for each order of axes, the trunk first; every probability is a [`Law`] of state and the variables of
-//! [`crate::law`], every number of things a [`Count`], every measure a [`Variate`], every speed one of [`Speeds`], and
-//! what is one for a whole species a [`Quantity`] or a [`Constant`]; so each may be bare or say its source. A species
-//! without states, reiteration and relays reads as in 1988. Axes of an order past the last are never made.
+//! There is one [`Order`] for each order of axes, the trunk first; every probability is a [`Law`] of state and the
+//! variables of [`crate::law`], every number of things a [`Count`], every measure a [`Variate`], every speed one of
+//! [`Speeds`], and a number for a whole species a [`Quantity`] or a [`Constant`]; so each may be bare or state its
+//! source. A species without states, reiteration and relays reads as in 1988. Axes of an order past the last are never
+//! made.
 //!
-//! Absent on purpose: what the parameters do, which is in `compile` and `grow`.
+//! Absent on purpose: the effects of the parameters, which are in `compile` and `grow`.
 
 mod colour;
 mod geometry;
@@ -82,7 +83,7 @@ pub struct Order {
     pub transition: Vec<Transition>,
     /// Length and diameter of internodes.
     pub internode: Internode,
-    /// The insertion angle with the bearing axis, degrees; for order 1 with the vertical. A law of it is asked at the
+    /// The insertion angle with the bearing axis, degrees; for order 1 with the vertical. Its laws are evaluated at the
     /// bearing node: age, dimension, cycle, rank and state are those of the bearing axis there.
     pub insertion_deg: Variate,
     /// How leaves and axillary buds turn around the axis from node to node.
@@ -95,11 +96,11 @@ pub struct Order {
     pub flower: Flower,
     /// Fruits, from flowers that set.
     pub fruit: Fruit,
-    /// What the wood of this order is, where it is not that of the species, and how its axes right themselves.
+    /// The wood of this order, where it differs from that of the species, and how its axes right themselves.
     #[serde(skip_serializing_if = "OrderWood::is_as_the_species")]
     pub wood: OrderWood,
-    /// After how many ticks a branch falls, all of whose buds are dead; drawn once an axis, at its birth, where a law
-    /// of it knows the `age` of the plant. Left out: dead wood stays.
+    /// The ticks from the death of all buds of a branch to its fall; drawn once an axis, at its birth, by laws that may
+    /// depend on the `age` of the plant. Left out: dead wood stays.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shed_after: Option<Count>,
 }
@@ -236,7 +237,7 @@ pub struct Rhythmic {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Zone {
-    /// What botanists call it.
+    /// The botanists' name of the zone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// From which end of the growth unit ranks are counted.

@@ -1,7 +1,7 @@
 //! Leaves, flowers and fruits (de Reffye 1988 §5): how many, how long they live, how large they are.
 //!
 //! Lateral organs stand in the axils of their node, terminal flowers at the end of their axis. Absent: how organs are
-//! drawn, which is known by their form's name alone.
+//! drawn; a species names the form alone.
 
 use super::colour::{FlowerChoice, FruitChoice, LeafChoice};
 use super::looks::{FormChoice, KindName};
@@ -17,7 +17,7 @@ pub struct Season {
     /// The ticks of a year. They are not drawn: the year is the calendar's, and the same for every leaf of a plant.
     pub ticks_per_year: Quantity,
     /// The tick of the year, from 0, at whose beginning a leaf falls that appeared before it; drawn once a leaf, with
-    /// its laws asked at the node, so that leaves may fall one after another.
+    /// its laws evaluated at the node, so that leaves may fall one after another.
     pub leaf_fall: Count,
 }
 
@@ -118,7 +118,7 @@ pub struct Flower {
     /// The probability that the apical bud becomes a flower at a clock step, which ends the axis. Tested after the
     /// pause. The flower stands on the last node of the axis; a bud without a node of its own ends without one.
     pub terminal: Law,
-    /// The probability that a lateral flower opens, asked for each of the flowers of a node.
+    /// The probability that a lateral flower opens, tested for each of the flowers of a node.
     pub lateral: Law,
     /// The lateral flowers that a node can bear.
     pub per_node: Count,

@@ -1,9 +1,9 @@
 //! The ends of apices and what follows them: relays and reiteration (de Reffye 1988 §2), forks, and passages between
 //! states.
 //!
-//! Forks are the dichotomy of Hallé, Oldeman & Tomlinson 1978 (Schoute's model).
-//! Passages between states are those of a reference axis (Barczi et al. 2008, AMAPsim): an oriented automaton along the
-//! life of an axis. All of it is optional; a species that states none of it grows as in 1988.
+//! Forks are the dichotomy of Hallé, Oldeman & Tomlinson 1978 (Schoute's model). Passages between states are those of a
+//! reference axis (Barczi et al. 2008, AMAPsim): an oriented automaton along the life of an axis. All of these are
+//! optional; a species that states none of them grows as in 1988.
 
 use crate::law::{Count, Law, Quantity, Variate};
 use schemars::JsonSchema;

@@ -1,9 +1,9 @@
-//! The wood of a species: how internodes thicken beyond their law of age, what they weigh, and how they bend
-//! (de Reffye 1988 §5; the mechanics is `phytomer_sim::mechanics`).
+//! The wood of a species: how internodes thicken beyond their law of age, what they weigh, and how they bend (de Reffye
+//! 1988 §5; the mechanics is `phytomer_sim::mechanics`).
 //!
-//! A species without a `[wood]` table keeps the pose at rest and the law `thickening_mm` of each order. People type
-//! GPa, millimetres and degrees; compilation makes SI of them. Absent: the measured table of woods, which `like` names
-//! and the reader of species files fills in.
+//! A species without a `[wood]` table keeps the pose at rest and the law `thickening_mm` of each order. The keys are in
+//! GPa, millimetres and degrees; compilation makes SI units of them. Absent: the measured table of woods; the reader of
+//! species files looks up the wood that `like` names.
 
 use crate::law::{Constant, Law, Quantity};
 use schemars::JsonSchema;
@@ -26,7 +26,7 @@ pub struct Wood {
     /// Green density, kg/m³; a law of the same variables.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density_kg_m3: Option<Law>,
-    /// What wind finds in leaves and wood; left out: nothing.
+    /// The drag of leaves and wood in the wind; left out: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drag: Option<DragLaw>,
     /// How internodes gain diameter; left out: by the law `internode.thickening_mm` of their order.
@@ -136,7 +136,7 @@ pub struct OrderWood {
 }
 
 impl OrderWood {
-    /// Whether the order says nothing of its own.
+    /// Whether the order states no wood of its own.
     pub fn is_as_the_species(&self) -> bool {
         *self == Self::default()
     }

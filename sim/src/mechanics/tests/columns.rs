@@ -1,5 +1,7 @@
 //! Greenhill 1881: the height at which a column buckles under its own weight, for radii that fall as a power of the
 //! distance to the top. λ = ρ g A₀ L³ / (E I₀) at the limit.
+//!
+//! Absent: the deflection of rods that hold (`small`, `elastica`).
 
 use super::*;
 
@@ -30,7 +32,7 @@ fn columns_buckle_at_greenhills_height() {
         ("1", |s| 1.0 - s, 30.529849),
     ];
     for (n, taper, lambda) in columns {
-        // The critical length is as the cube root of λ; 1 % of it is asked for.
+        // The critical length is as the cube root of λ; the bound is 1 % of the length.
         let ratio = crate::math::cbrt(limit(taper) / lambda);
         assert!((ratio - 1.0).abs() < 0.01, "n = {n}: {ratio} of the critical length");
     }

@@ -37,7 +37,7 @@ const OWN_WEIGHT_FROM_45_DEGREES: [[f64; 4]; 5] = [
 
 const INTERNODES: u32 = 400;
 
-/// The agreement asked for, in parts of the length.
+/// The tolerance, in parts of the length.
 const TOLERANCE: f64 = 1e-4;
 
 fn check(rod: &Rod, [load, x, drop, curvature]: [f64; 4]) {

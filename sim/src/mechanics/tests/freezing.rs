@@ -1,4 +1,6 @@
 //! New wood is laid free of stress on the bent shape, so that the shape is frozen in as the wood thickens.
+//!
+//! A rod is loaded, thickens and is unloaded; the curvature that remains has a closed form. Absent: righting (`habit`).
 
 use super::*;
 use std::f64::consts::PI;

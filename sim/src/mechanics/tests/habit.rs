@@ -1,4 +1,7 @@
 //! Whole plants: gravity off, wind, righting, and forks in space.
+//!
+//! Results are compared with sums of torques, with symmetries and with tabled rods. Absent: rods by themselves
+//! (`small`, `elastica`).
 
 use super::*;
 use crate::pose::pose;

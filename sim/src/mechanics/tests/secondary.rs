@@ -1,4 +1,6 @@
-//! Secondary growth: what the rules conserve.
+//! Secondary growth: the quantities that each rule conserves.
+//!
+//! Sections and powers of diameters are summed over forks; rings are counted by hand. Absent: the model's law of age.
 
 use super::*;
 use crate::mechanics::secondary;

@@ -1,4 +1,6 @@
 //! Small deflections: the closed forms of Euler–Bernoulli beams, uniform and tapered, and second-order convergence.
+//!
+//! Absent: large deflections (`elastica`).
 
 use super::*;
 
@@ -6,7 +8,7 @@ use super::*;
 /// single precision of the clamp's angle, 4e-8 rad.
 const SMALL: f64 = 1e-2;
 
-/// The agreement asked for, with the internodes stated.
+/// The tolerance, with the number of internodes.
 const TOLERANCE: f64 = 1e-3;
 const INTERNODES: u32 = 200;
 
