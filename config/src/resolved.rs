@@ -50,8 +50,7 @@ impl fmt::Debug for Resolved {
 }
 
 impl Resolved {
-    /// A report of faults that were found in the scenario's own species after reading, such as by growing it. See
-    /// [`ResolvedSpecies::report`].
+    /// A report of faults that were found in the scenario's own species after reading, such as by growing it.
     pub fn report(&self, faults: Vec<fault::Fault>) -> Report {
         self.report_of(0, faults)
     }

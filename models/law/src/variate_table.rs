@@ -190,7 +190,7 @@ impl VariateTable {
         self.draw_f64(word, at) as f32
     }
 
-    /// The draw of [`Self::sample`] before it is rounded to single precision.
+    /// The draw of [`Self::draw`] before it is rounded to single precision.
     #[inline]
     pub fn draw_f64(&self, word: u32, at: At) -> f64 {
         self.draw_in(self.grid.cell(at), word)

@@ -2,7 +2,7 @@
 //! result must not depend on whether the plant was grown ahead or by the clock.
 //!
 //! Loads are summed in the order of the plant's columns, which differs between growth ahead and growth by the clock; so
-//! poses agree to [`ALIKE`] and not to the bit. Absent on purpose: bending itself (`sim::mechanics`).
+//! poses agree to `ALIKE` and not to the bit. Absent on purpose: bending itself (`sim::mechanics`).
 
 use super::structure::standing;
 use super::{grow, sown};
@@ -17,7 +17,7 @@ pub const ALIKE: f32 = 1e-5;
 /// A plant grown ahead and bent at each age stands as the same plant grown and bent tick by tick, in a light wind.
 ///
 /// # Panics
-/// At the first internode whose two positions differ by more than [`ALIKE`].
+/// At the first internode whose two positions differ by more than `ALIKE`.
 pub fn bends_alike_ahead_and_by_the_clock(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
     let rule = "a plant bends alike, grown ahead or by the clock";
     let (ahead, by_clock) =
