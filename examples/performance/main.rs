@@ -5,14 +5,20 @@
 //! ```
 //!
 //! Criterion keeps its estimates in a folder of its own (`folder`). In each group the bench that is called a baseline
-//! is the measure for the others.
+//! is the measure for the others. With two folders as arguments the table compares two builds of the program instead
+//! (`compare`):
+//!
+//! ```sh
+//! cargo run --release --example performance -- BEFORE AFTER
+//! ```
 
+mod compare;
 mod folder;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// One bench with its estimate as criterion has stored it.
 struct Bench {
@@ -23,6 +29,16 @@ struct Bench {
 }
 
 fn main() -> Result<()> {
+    let folders: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
+    match &folders[..] {
+        [] => rates(),
+        [before, after] => compare::ratios(before, after),
+        _ => bail!("two folders are expected, those of the benches before and after, or none"),
+    }
+}
+
+/// Prints the benches of this machine, each with its rate against the baseline of its group.
+fn rates() -> Result<()> {
     let folder = folder::of_benches(Path::new(env!("CARGO_MANIFEST_DIR")), |name| std::env::var_os(name));
     let mut benches = Vec::new();
     collect(&folder, &mut benches)

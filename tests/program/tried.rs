@@ -36,8 +36,12 @@ pub fn assert_tells(report: &Report) {
 pub fn cap(resolved: &mut Resolved) -> bool {
     let scenario = &mut resolved.scenario;
     let asked_for = (scenario.plants, scenario.ages.until);
-    scenario.plants = scenario.plants.min(MOST_PLANTS);
+    // Whole plots, of which the last plant is sown before the last tick.
+    let members = scenario.members();
+    scenario.plants = scenario.plants.min((MOST_PLANTS / members).max(1) * members);
     scenario.ages.until = scenario.ages.until.min(MOST_AGES);
+    let last_sowing = scenario.ages.until - 1;
+    scenario.member.iter_mut().for_each(|member| member.sown = member.sown.min(last_sowing));
     scenario.limits.max_components = scenario.limits.max_components.min(MOST_COMPONENTS);
     if !scenario.faults().is_empty() {
         // The scenario names plants or ages that have been removed.
