@@ -72,7 +72,8 @@ fn all() -> Vec<Resolved> {
     all
 }
 
-/// The scenario with two plants, at an age that is quickly tested, with all tables and the columns of mechanics.
+/// The scenario with two plots, at an age that is quickly tested, with all tables and the columns of mechanics. Of the
+/// members of its plots the first of each species is kept.
 fn small(mut resolved: Resolved) -> Resolved {
     let scenario = &mut resolved.scenario;
     let until = scenario.ages.until;
@@ -84,7 +85,11 @@ fn small(mut resolved: Resolved) -> Resolved {
     let every = until.div_ceil(AGES);
     scenario.ages.until = until;
     scenario.ages.record = Record::Every(Every { every, from: Some(until - every * ((until - 1) / every)) });
-    scenario.plants = 2;
+    let mut species = BTreeSet::new();
+    scenario.member.retain(|member| species.insert(member.species.clone()));
+    scenario.plants = 2 * scenario.members();
+    let last_sowing = until - 1;
+    scenario.member.iter_mut().for_each(|member| member.sown = member.sown.min(last_sowing));
     scenario.meshes = None;
     scenario.output.mechanics = true;
     scenario.output.float_precision_m = None;
@@ -199,7 +204,10 @@ fn compare(resolved: Resolved) -> [u32; 2] {
         ["summary", "records", "components"].map(|table| Columns::of(&settings.folder, table));
     let told = by_records(&records);
     let (plants, ages) = (summary.numbers("plant_id"), summary.numbers("age"));
-    assert_eq!(plants.len(), 2 * resolved.scenario.ages.recorded().len(), "{name}: a row a plant and age");
+    let (scenario, recorded) = (&resolved.scenario, resolved.scenario.ages.recorded());
+    let of = |plant: u32| recorded.iter().filter(|tick| **tick >= scenario.sown_at(plant)).count();
+    let expected = (0..scenario.plants).map(of).sum::<usize>();
+    assert_eq!(plants.len(), expected, "{name}: a row a plant and recorded tick from its sowing on");
     let nothing = Told::default();
     let mut budless = 0;
     for row in 0..plants.len() {
