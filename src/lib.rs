@@ -17,6 +17,7 @@ pub use phytomer_config as config;
 pub use phytomer_models as models;
 pub use phytomer_outputs as outputs;
 pub use phytomer_sim as sim;
+pub use phytomer_weather as weather;
 
 pub mod architecture;
 pub mod run;

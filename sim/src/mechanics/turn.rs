@@ -73,7 +73,8 @@ impl Curvature for Turned<'_> {
         Turn { turn: self.turns[axis], largest: 0.0 }
     }
 
-    #[inline]
+    // Inlined into the scan of the pose, so that the turn stays in registers from internode to internode.
+    #[inline(always)]
     fn next(
         &mut self,
         Turn { turn, largest }: Turn,

@@ -133,7 +133,9 @@ fn follow_run<C: Course>(
     curvature: &mut impl Curvature,
 ) {
     let axis = run.axis.index();
-    let (Stance { mut course, mut tip }, mut carried) = (stances[axis], curvature.enter(axis));
+    // Part by part: a whole stance is longer than what is copied in registers.
+    let (mut course, mut tip) = (stances[axis].course, stances[axis].tip);
+    let mut carried = curvature.enter(axis);
     let mut begins = run.begins;
     for node in run.nodes() {
         if let Some(start) = course.start(way, node, begins) {
@@ -148,11 +150,14 @@ fn follow_run<C: Course>(
         (tip, frame) = tip.extended(course.directions(), length, curved);
         (columns.base[node], columns.heading[node], columns.up[node]) = (frame.base, frame.heading, frame.up);
         while let Some(lateral) = borne.on(node) {
-            stances[lateral] = Stance { course, tip }.leaving(length, way.axes, lateral, insertion);
+            let leaving = || insertion.leaving(way.axes.azimuth[lateral], way.axes.insertion[lateral]);
+            let start = &mut stances[lateral];
+            start.course = C::leaving(course.directions(), length, leaving);
+            start.tip = if C::STATED { tip } else { tip.ended() };
             curvature.leave(carried, lateral);
         }
     }
-    stances[axis] = Stance { course, tip };
+    (stances[axis].course, stances[axis].tip) = (course, tip);
     curvature.leave(carried, axis);
 }
 
@@ -162,17 +167,6 @@ fn ground_left<C: Course>(axes: &Axes, axis: usize) -> Stance<C> {
     let (plane, slope) = Plane::of(&Frame::GROUND);
     let leaving = || LastInsertion::default().leaving(axes.azimuth[axis], axes.insertion[axis]);
     Stance { course: C::leaving([plane.heading(slope), plane.up(slope)], 0.0, leaving), tip }
-}
-
-impl<C: Course> Stance<C> {
-    /// The start of `axis`, which leaves the last internode of this stance.
-    #[inline]
-    fn leaving(self, length: f64, axes: &Axes, axis: usize, insertion: &mut LastInsertion) -> Self {
-        let leaving = || insertion.leaving(axes.azimuth[axis], axes.insertion[axis]);
-        let course = C::leaving(self.course.directions(), length, leaving);
-        let tip = if C::STATED { self.tip } else { self.tip.ended() };
-        Self { course, tip }
-    }
 }
 
 impl Tip {
