@@ -201,10 +201,29 @@ impl Scan<'_> {
 
     #[inline]
     fn weigh_run<const WINDY: bool>(&mut self, run: &Run, laterals: &mut Down<'_>, organs: &mut Down<'_>) -> bool {
+        let Plant { own_looks, stated, .. } = self.plant;
+        let section = Section::of(self.plant.look_of(run.axis));
+        let plain = section == Section::Round && own_looks.is_empty() && !stated.has_starts_of_axes();
+        // Most plants: a scan that knows it in advance makes a tenth fewer steps.
+        if plain {
+            self.weigh_along::<WINDY, true>(run, Section::Round, laterals, organs)
+        } else {
+            self.weigh_along::<WINDY, false>(run, section, laterals, organs)
+        }
+    }
+
+    /// `PLAIN`: the internodes are round, none has a look of its own, and each axis begins at the tip of its bearer.
+    #[inline(always)]
+    fn weigh_along<const WINDY: bool, const PLAIN: bool>(
+        &mut self,
+        run: &Run,
+        of_axis: Section,
+        laterals: &mut Down<'_>,
+        organs: &mut Down<'_>,
+    ) -> bool {
         let tissue = self.wood.tissue(self.plant.axes.order[run.axis.index()]);
         let mut load = self.loads[run.axis.index()];
-        let of_axis = Section::of(self.plant.look_of(run.axis));
-        let starts = self.plant.stated.has_starts_of_axes();
+        let starts = !PLAIN && self.plant.stated.has_starts_of_axes();
         let (mut low, mut holds) = (Vec::new(), true);
         for node in run.nodes().rev() {
             while let Some(axis) = laterals.on(node) {
@@ -218,13 +237,13 @@ impl Scan<'_> {
                 self.hang(&mut load, node, organ);
             }
             let own_age = self.age - self.plant.nodes.birth[node];
-            let section = of_axis.at(self.plant, node);
+            let section = if PLAIN { Section::Round } else { of_axis.at(self.plant, node) };
             let piece = self.piece(node, section, tissue.density(own_age));
             let felt = piece.pass::<WINDY>(&mut load, &self.fields);
             let modulus = tissue.modulus(own_age);
             let flexural = section.second_moments(piece.diameters[1]).map(|moment| modulus * moment);
             let answered;
-            (load, answered) = self.answer(load, node, &felt, flexural, piece.length);
+            (load, answered) = self.answer::<PLAIN>(load, node, &felt, flexural, piece.length);
             holds &= answered;
             if starts {
                 low.drain(..).for_each(|axis| load.add(&self.loads[axis]));
@@ -256,7 +275,7 @@ impl Scan<'_> {
         load.sail.put(at * area, area);
     }
 
-    #[inline]
+    #[inline(always)]
     fn piece(&self, node: usize, section: Section, density: f64) -> Piece {
         let Plant { nodes, frames, .. } = self.plant;
         let (base, tip) = (f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]));
@@ -275,7 +294,14 @@ impl Scan<'_> {
     /// `up`; the gain is that of the weaker axis for both, which slows the steps where a blade stands on edge and
     /// leaves the equilibrium as it is. Inlined, so that loads stay in registers.
     #[inline(always)]
-    fn answer(&mut self, mut load: Load, node: usize, felt: &Felt, flexural: [f64; 2], length: f64) -> (Load, bool) {
+    fn answer<const ROUND: bool>(
+        &mut self,
+        mut load: Load,
+        node: usize,
+        felt: &Felt,
+        flexural: [f64; 2],
+        length: f64,
+    ) -> (Load, bool) {
         let Felt { moment, near, whole } = *felt;
         let stiffness = flexural[1] / length;
         if !(stiffness.is_finite() && stiffness > 0.0) {
@@ -291,7 +317,7 @@ impl Scan<'_> {
         let (heading, up) = (Vector::from(frames.heading[node]), Vector::from(frames.up[node]));
         let axes = [up, heading.cross(up)];
         let (curvature, natural, per_pivot) = (strain.curvature[node], self.natural[node], 1.0 / pivot);
-        let stiffer = (flexural[0] - flexural[1]) / length;
+        let stiffer = if ROUND { 0.0 } else { (flexural[0] - flexural[1]) / length };
         let per_pivot = [if stiffer == 0.0 { per_pivot } else { 1.0 / (pivot + stiffer) }, per_pivot];
         let moment = moment + load.moves;
         let answer = |k: usize| {
