@@ -97,8 +97,8 @@ fn follow<C: Course>(
     plant.frames.bend(plant.nodes.len(), age);
     let Plant { axes, nodes, frames, habit, own_trends, stated, .. } = plant;
     if !axes.is_empty() {
-        // What other plants left in it is written over before it is read: by the bearer of the axis, or below for an axis
-        // without a bearer.
+        // What other plants left in it is written over before it is read: by the bearer of the axis, or below for an
+        // axis without a bearer.
         stances.resize(axes.len(), ground_left(axes, 0));
     }
     let (mut borne, mut insertion) = (Up::new(laterals, &axes.bearer), LastInsertion::default());
