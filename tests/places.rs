@@ -5,9 +5,11 @@
 //! Single precision has steps of 8 mm 100 km from the origin and of 60 mm 1,000 km from it. These are the distances of
 //! the last of ten thousand, and of a million, plants that stand a kilometre apart.
 
+mod ply;
 mod program;
 mod read;
 
+use ply::{count, mesh, place_in};
 use program::{data, run};
 use read::Columns;
 use std::collections::{BTreeMap, BTreeSet};
@@ -179,25 +181,6 @@ fn places_go_with_every_table() {
         let tables = told["tables"].as_object().unwrap();
         assert_eq!((tables.len(), tables.contains_key("plants")), (written, written > 0), "{told}");
     }
-}
-
-/// The header of a PLY file, and what follows it.
-fn mesh(path: &Path) -> (String, Vec<u8>) {
-    let bytes = fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let end = b"end_header\n";
-    let at = bytes.windows(end.len()).position(|window| window == end).expect("a header") + end.len();
-    (String::from_utf8_lossy(&bytes[..at]).into_owned(), bytes[at..].to_vec())
-}
-
-fn place_in(header: &str) -> [f64; 3] {
-    let line = header.lines().find_map(|line| line.strip_prefix("comment place_m ")).expect("a place");
-    let numbers: Vec<f64> = line.split(' ').map(|number| number.parse().expect("a number")).collect();
-    numbers.try_into().expect("three numbers")
-}
-
-fn count(header: &str, element: &str) -> usize {
-    let line = header.lines().find_map(|line| line.strip_prefix(&format!("element {element} "))).expect("an element");
-    line.parse().expect("a count")
 }
 
 fn word(bytes: &[u8]) -> u32 {

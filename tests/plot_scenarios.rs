@@ -4,6 +4,7 @@
 //! A plant of a plot is the same plant whenever it is grown again: by itself, or with its whole plot where the site has
 //! feedback. The tests compare files that were written in different ways.
 
+mod ply;
 mod program;
 
 use phytomer::config::{Resolved, validate, validate_texts};
@@ -14,9 +15,9 @@ use phytomer::run::regrowth::Regrowth;
 use phytomer::sim::plant::{ApexFate, AxisId, ThreadBudget};
 use phytomer::sim::pose::bud_frame;
 use phytomer::sim::{Tick, grow};
+use ply::{count, mesh, place_in};
 use program::{data, hashes, program, run};
 use std::fs;
-use std::path::Path;
 
 /// Two species sown three ticks apart under a plane.
 const ROOF: &str = "under_a_roof";
@@ -229,25 +230,6 @@ fn a_run_folder_keeps_all_species() {
     assert!(again == fresh, "the plot of the folder is that of the scenario");
     let told = run(folder.path(), &["grow", "two.toml", "--plants", "3", "--dry-run"]).ending(2).stderr;
     assert!(told.contains("3 plants cannot be dealt into plots of 2") && told.contains("2 or 4"), "{told}");
-}
-
-/// The header of a PLY file, and what follows it.
-fn mesh(path: &Path) -> (String, Vec<u8>) {
-    let bytes = fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let end = b"end_header\n";
-    let at = bytes.windows(end.len()).position(|window| window == end).expect("a header") + end.len();
-    (String::from_utf8_lossy(&bytes[..at]).into_owned(), bytes[at..].to_vec())
-}
-
-fn place_in(header: &str) -> [f64; 3] {
-    let line = header.lines().find_map(|line| line.strip_prefix("comment place_m ")).expect("a place");
-    let numbers: Vec<f64> = line.split(' ').map(|number| number.parse().expect("a number")).collect();
-    numbers.try_into().expect("three numbers")
-}
-
-fn count(header: &str, element: &str) -> usize {
-    let line = header.lines().find_map(|line| line.strip_prefix(&format!("element {element} "))).expect("an element");
-    line.parse().expect("a count")
 }
 
 fn float(bytes: &[u8]) -> f32 {

@@ -5,7 +5,10 @@
 
 mod answered;
 
+mod draw;
+
 use answered::{answer, choice};
+use draw::Draw;
 use phytomer_weather::Format;
 use std::time::{Duration, Instant};
 
@@ -43,19 +46,6 @@ const PIECES: [&str; 24] = [
     "é",
     "@DATE  TMAX  TMIN\n",
 ];
-
-/// splitmix64.
-struct Draw(u64);
-
-impl Draw {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) % n.max(1) as u64) as usize
-    }
-}
 
 fn broken(file: &[u8], draw: &mut Draw) -> Vec<u8> {
     let mut file = file.to_vec();

@@ -5,21 +5,13 @@
 //! the one that was written, or the file is told; where nothing is shifted or blank it must be read. Absent: slips of
 //! values.
 
+mod draw;
+
+use draw::Draw;
 use phytomer_weather::{Asked, Weather, read};
 use std::fmt::Write as _;
 
-/// splitmix64.
-struct Draw(u64);
-
 impl Draw {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) % n.max(1) as u64) as usize
-    }
-
     /// Tenths between two bounds.
     fn tenths(&mut self, least: i32, most: i32) -> i32 {
         least + self.below((most - least + 1) as usize) as i32

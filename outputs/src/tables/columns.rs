@@ -116,14 +116,32 @@ pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
          place of the seed: added up in double precision they are the place in the plot.",
     )
     .rounded(Rounding::Position),
-    Column::float("y_m", "m", "The base of the component, northward of the seed of its plant; for an apical bud, its place.").rounded(Rounding::Position),
-    Column::float("z_m", "m", "The base of the component, above the seed of its plant; for an apical bud, its place.").rounded(Rounding::Position),
-    Column::float("dir_x", "", "The direction in which the component points, eastward: a unit vector with the next two.")
-        .rounded(Rounding::Direction),
+    Column::float(
+        "y_m",
+        "m",
+        "The base of the component, northward of the seed of its plant; for an apical bud, its place.",
+    )
+    .rounded(Rounding::Position),
+    Column::float(
+        "z_m",
+        "m",
+        "The base of the component, above the seed of its plant; for an apical bud, its place.",
+    )
+    .rounded(Rounding::Position),
+    Column::float(
+        "dir_x",
+        "",
+        "The direction in which the component points, eastward: a unit vector with the next two.",
+    )
+    .rounded(Rounding::Direction),
     Column::float("dir_y", "", "The direction in which the component points, northward.").rounded(Rounding::Direction),
     Column::float("dir_z", "", "The direction in which the component points, upward.").rounded(Rounding::Direction),
-    Column::float("up_x", "", "The direction of its upper side, eastward: a unit vector with the next two, across the first.")
-        .rounded(Rounding::Direction),
+    Column::float(
+        "up_x",
+        "",
+        "The direction of its upper side, eastward: a unit vector with the next two, across the first.",
+    )
+    .rounded(Rounding::Direction),
     Column::float("up_y", "", "The direction of its upper side, northward.").rounded(Rounding::Direction),
     Column::float("up_z", "", "The direction of its upper side, upward.").rounded(Rounding::Direction),
     Column::float("length_m", "m", "Length along its direction at this age. Null for buds.").repeated().or_null(),
@@ -134,7 +152,12 @@ pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
         "alive",
         "Whether the component lives. False for dead wood that still stands alone: between its branch's death and its fall.",
     ),
-    Column::float("wood_volume_m3", "m3", "The frustum of an internode at this age, of a blade its area by its thickness. Null for organs and buds.").or_null(),
+    Column::float(
+        "wood_volume_m3",
+        "m3",
+        "The frustum of an internode at this age, of a blade its area by its thickness. Null for organs and buds.",
+    )
+    .or_null(),
     Column::float(
         "fresh_mass_kg",
         "kg",
