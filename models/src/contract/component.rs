@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::fmt::Debug;
 
 use phytomer_sim::clock::Tick;
-use phytomer_sim::plant::{AxisId, LineageKey, NodeId, OrganId, Plant, Rest};
+use phytomer_sim::plant::{AxisId, Departed, LineageKey, NodeId, OrganId, Plant, Rest};
 
 /// One component of a plant.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -31,12 +31,13 @@ pub struct Component {
     pub measures: Vec<u32>,
 }
 
-/// The components of `plant`, sorted by lineage key. Takes time n log n for n components.
+/// The components of `plant`, also those of its ledger, sorted by lineage key. Takes time n log n for n components.
 pub fn components(plant: &Plant) -> Vec<Component> {
     let axes = (0..plant.axes.len()).map(|i| axis(plant, i));
     let nodes = (0..plant.nodes.len()).map(|i| node(plant, i));
     let organs = (0..plant.organs.len()).map(|i| organ(plant, i));
-    let mut components: Vec<Component> = axes.chain(nodes).chain(organs).collect();
+    let gone = plant.ledger.iter().map(departed);
+    let mut components: Vec<Component> = axes.chain(nodes).chain(organs).chain(gone).collect();
     components.sort_unstable();
     components
 }
@@ -62,7 +63,8 @@ pub(super) fn numbered(plant: &Plant) -> Vec<(u32, Component)> {
     let axes = (0..plant.axes.len()).map(|i| (plant.axes.component[i], axis(plant, i)));
     let nodes = (0..plant.nodes.len()).map(|i| (plant.nodes.component[i], node(plant, i)));
     let organs = (0..plant.organs.len()).map(|i| (plant.organs.component[i], organ(plant, i)));
-    let mut components: Vec<(u32, Component)> = axes.chain(nodes).chain(organs).collect();
+    let gone = plant.ledger.iter().map(|gone| (gone.component, departed(gone)));
+    let mut components: Vec<(u32, Component)> = axes.chain(nodes).chain(organs).chain(gone).collect();
     components.sort_unstable();
     components
 }
@@ -121,6 +123,27 @@ fn node(plant: &Plant, i: usize) -> Component {
             .into_iter()
             .chain(rest.into_iter().flat_map(|x| [x.to_bits() as u32, (x.to_bits() >> 32) as u32]))
             .collect(),
+    }
+}
+
+/// An internode of the ledger. Its parent is known by its number alone.
+fn departed(gone: &Departed) -> Component {
+    Component {
+        key: gone.key,
+        what: "node",
+        birth: gone.birth,
+        death: gone.death,
+        shed: gone.death,
+        parent: None,
+        state: vec![
+            gone.rank,
+            gone.unit_rank.into(),
+            gone.parent.map_or(0, |parent| parent + 1),
+            gone.axis,
+            gone.order.into(),
+            gone.cause as u32,
+        ],
+        measures: bits(&[gone.length, gone.birth_diameter]),
     }
 }
 

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use phytomer_sim::clock::{NEVER, Tick};
 use phytomer_sim::model::{Growth, GrowthModel};
-use phytomer_sim::plant::{ApexFate, EventKind, NodeId, OrganId, Origin, Plant, Rest};
+use phytomer_sim::plant::{ApexFate, Cause, EventKind, NodeId, OrganId, Origin, Plant, Rest};
 use phytomer_sim::pose::{organ_frame, pose};
 
 /// Topology, ticks, keys and rest geometry of a plant grown to `until` and shed.
@@ -19,6 +19,7 @@ pub fn structure(plant: &Plant, growth: Growth, until: Tick) {
     assert!(!plant.axes.is_empty(), "a plant has the axis of its seed");
     numbers(plant);
     keys(plant);
+    ledger(plant, growth, until);
     (0..plant.axes.len()).for_each(|i| axis(plant, i, growth, until));
     (0..plant.nodes.len()).for_each(|i| node(plant, i, growth, until));
     if growth != Growth::Rewrites {
@@ -30,13 +31,14 @@ pub fn structure(plant: &Plant, growth: Growth, until: Tick) {
     headings(plant);
 }
 
-/// Component numbers are 0, 1, 2 … without a gap.
+/// Component numbers are 0, 1, 2 … without a gap, over the columns and the ledger.
 fn numbers(plant: &Plant) {
     let columns = [&plant.axes.component, &plant.nodes.component, &plant.organs.component];
-    let mut numbers: Vec<u32> = columns.into_iter().flatten().copied().collect();
+    let gone = plant.ledger.iter().map(|gone| gone.component);
+    let mut numbers: Vec<u32> = columns.into_iter().flatten().copied().chain(gone).collect();
     numbers.sort_unstable();
     let dense = numbers.iter().zip(0..).all(|(&number, expected)| number == expected);
-    assert!(dense, "component numbers are dense and unique over axes, nodes and organs");
+    assert!(dense, "component numbers are dense and unique over axes, nodes, organs and the ledger");
     assert_eq!(numbers.len(), plant.components() as usize, "a plant counts its components");
     assert!(plant.components() <= plant.component_limit(), "a plant keeps to its limit of components");
 }
@@ -51,6 +53,22 @@ fn keys(plant: &Plant) {
     }
     for i in 0..plant.organs.len() {
         assert!(keys.insert(plant.organ_key(OrganId(i as u32))), "lineage keys are unique: organ {i}");
+    }
+    for gone in &plant.ledger {
+        assert!(keys.insert(gone.key), "lineage keys are unique: component {} of the ledger", gone.component);
+    }
+}
+
+/// Only a model that rewrites takes components out of the columns; each stood for a tick at least, by the age of the
+/// plant, and with a cause.
+fn ledger(plant: &Plant, growth: Growth, until: Tick) {
+    assert!(growth == Growth::Rewrites || plant.ledger.is_empty(), "only what is rewritten has a ledger");
+    for gone in &plant.ledger {
+        let number = gone.component;
+        assert!(gone.birth < gone.death, "a component stands before it goes: component {number}");
+        assert!(gone.death <= until, "a component of the ledger is gone by age {until}: component {number}");
+        assert_eq!(gone.cause, Cause::Rewritten, "a component of the ledger has a cause: component {number}");
+        assert!(plant.axes.component.contains(&gone.axis), "its axis stays: component {number}");
     }
 }
 
@@ -203,11 +221,19 @@ pub fn events_tell_the_plant(plant: &Plant, until: Tick) {
             _ => {}
         }
     }
+    let mut gone = vec![0; plant.axes.len()];
+    for departed in &plant.ledger {
+        let axis = plant.axes.component.iter().position(|bud| *bud == departed.axis);
+        axis.into_iter().for_each(|axis| {
+            gone[axis] += 1;
+            nodes[axis] += u32::from(departed.birth == 0);
+        });
+    }
     // Components that are there with the seed have no event.
     (0..plant.nodes.len()).filter(|&i| plant.nodes.birth[i] == 0).for_each(|i| nodes[plant.nodes.axis[i].index()] += 1);
     for i in 0..plant.axes.len() {
         let last = plant.axes.last_node[i].some().map_or(0, |node| plant.nodes.rank[node.index()]);
-        assert_eq!(nodes[i], last, "the events of growth count the nodes of an axis: axis {i}");
+        assert_eq!(nodes[i], last + gone[i], "the events of growth count the nodes of an axis: axis {i}");
         let once = u32::from(plant.axes.appearance[i] > 0);
         assert!(i == 0 || appeared[i] == once, "an axis appears in one event, what is in the seed in none: axis {i}");
         assert!(i > 0 || appeared[i] == 0, "the axis of the seed appears in no event");

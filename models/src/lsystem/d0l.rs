@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 use super::model::D0lModel;
 use super::string::{MOST_CELLS, Rules};
-use super::text::{Symbol, UNREADABLE, parse};
+use super::text::{Symbol, UNREADABLE, bearing, last_cell, parse};
 use crate::fault::{Fault, Path};
 use crate::law::{Constant, ValueRange};
 
@@ -30,7 +30,8 @@ pub struct D0l {
     /// The string at age 0: cells by their letters, and branches in parentheses, each behind a cell.
     #[schemars(length(min = 1, max = 10_000))]
     pub axiom: String,
-    /// What each cell becomes at a tick: a string that begins with a cell. A cell without a production stays as it is.
+    /// What each cell becomes at a tick: a string that begins with a cell, or an empty string where the cell vanishes. A
+    /// cell that vanishes may bear no branch, and no axis may end with it. A cell without a production stays as it is.
     #[serde(default)]
     pub production: BTreeMap<String, String>,
     /// The cells, each by its letter.
@@ -80,6 +81,9 @@ impl D0l {
         let axiom = text(&self.axiom, &letters, &path.key("axiom"), &mut faults);
         let productions = self.productions(&letters, path, &mut faults);
         if faults.is_empty() {
+            self.check_deaths(&Rules { axiom: axiom.clone(), productions: productions.clone() }, path, &mut faults);
+        }
+        if faults.is_empty() {
             Ok(D0lModel::new(Rules { axiom, productions }, &sizes, angle.to_radians()))
         } else {
             Err(faults)
@@ -116,9 +120,51 @@ impl D0l {
             faults.push(Fault::new(&path.key(name), format!("unknown cell `{name}`"), expected));
         }
         let of = |name: &String| self.production.get(name).map(|becomes| (path.key(name), becomes));
+        let mut becomes = |(path, becomes): (Path, &String)| match becomes.trim() {
+            "" => Vec::new(),
+            _ => text(becomes, letters, &path, faults),
+        };
         let productions = self.cell.keys().map(of);
-        productions.map(|rule| rule.map(|(path, becomes)| text(becomes, letters, &path, faults))).collect()
+        productions.map(|rule| rule.map(&mut becomes)).collect()
     }
+
+    /// Adds a fault for each string that has, or comes to have, a cell that vanishes and that an apex or a branch rests
+    /// on: both would hang in the air.
+    fn check_deaths(&self, rules: &Rules, path: &Path, faults: &mut Vec<Fault>) {
+        let names: Vec<&String> = self.cell.keys().collect();
+        let ends_in = vanishing(&rules.productions);
+        let by_name = |letter: usize| path.key("production").key(names[letter]);
+        let strings = rules.productions.iter().enumerate();
+        let strings = strings.filter_map(|(letter, rule)| rule.as_ref().map(|rule| (by_name(letter), rule, false)));
+        for (path, string, ends) in [(path.key("axiom"), &rules.axiom, true)].into_iter().chain(strings) {
+            let rests = bearing(string, ends).into_iter();
+            let Some((cell, gone)) = rests.filter_map(|cell| Some((cell, ends_in[usize::from(cell)]?))).next() else {
+                continue;
+            };
+            let (cell, gone) = (names[usize::from(cell)], names[gone]);
+            let becomes = if cell == gone { String::new() } else { format!(" becomes `{gone}`, which") };
+            let problem = format!("`{cell}` ends an axis or bears a branch, and it{becomes} vanishes");
+            let expected = format!("another cell there, or a production of `{gone}` that is not empty");
+            faults.push(Fault::new(&path, problem, expected));
+        }
+    }
+}
+
+/// For each letter the letter that vanishes and that stands, after some ticks, at the end of what the letter has become;
+/// `None` where there is none, so that something may rest on the letter for ever.
+fn vanishing(productions: &[Option<Vec<Symbol>>]) -> Vec<Option<usize>> {
+    let follow = |start: usize| {
+        let mut letter = start;
+        for _ in 0..=productions.len() {
+            match productions[letter].as_deref() {
+                None => return None,
+                Some([]) => return Some(letter),
+                Some(symbols) => letter = usize::from(last_cell(symbols)?),
+            }
+        }
+        None
+    };
+    (0..productions.len()).map(follow).collect()
 }
 
 fn text(text: &str, letters: &[char], path: &Path, faults: &mut Vec<Fault>) -> Vec<Symbol> {

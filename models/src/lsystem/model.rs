@@ -5,11 +5,11 @@
 
 use super::count::expectation;
 use super::draw::{Size, draw, note_new};
-use super::string::{Born, Living, Rules};
+use super::string::{Born, Living, Rewriting, Rules};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::expectation::Expectation;
 use phytomer_sim::model::{Grow, Growth, Overgrown};
-use phytomer_sim::plant::{Habit, Looks, Plant, Shape, Trend};
+use phytomer_sim::plant::{Habit, Looks, NodeId, Plant, Shape, Trend};
 use phytomer_sim::site::View;
 use std::sync::Arc;
 
@@ -34,6 +34,30 @@ impl D0lModel {
     }
 }
 
+impl D0lModel {
+    /// Rewrites the string up to the age `age`, and draws the plant.
+    fn rewrite(&self, age: Tick, plant: &mut Plant, living: &mut Living) -> Result<(), Overgrown> {
+        let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
+        // Each component is at least one module of the string, and a branch two.
+        let most = 2 * limit.limit as usize;
+        let mut vanished = Vec::new();
+        for at in plant.age + 1..=age {
+            let how = Rewriting { at, most, number: || plant.next_number(), vanished: &mut vanished };
+            if !self.rules.rewrite(living, how) || plant.is_overgrown() {
+                return Err(limit);
+            }
+        }
+        // The internodes of the columns are the cells of the string, in their order.
+        vanished.into_iter().for_each(|cell| plant.depart(NodeId(cell), age));
+        let last = plant.age;
+        plant.begin_rewriting();
+        draw(living, TRUNK, &self.sizes, self.angle, plant);
+        plant.age = age;
+        note_new(plant, last);
+        Ok(())
+    }
+}
+
 impl Grow for D0lModel {
     type Life = Living;
 
@@ -54,19 +78,11 @@ impl Grow for D0lModel {
     }
 
     fn grow_to(&self, age: Tick, plant: &mut Plant, living: &mut Living, _: &View<'_>) -> Result<(), Overgrown> {
-        let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
-        // Each component is at least one module of the string, and a branch two.
-        let most = 2 * limit.limit as usize;
-        for tick in plant.age + 1..=age {
-            if !self.rules.rewrite(living, tick, most, || plant.next_number()) || plant.is_overgrown() {
-                return Err(limit);
-            }
+        // Where cells vanish the plant is drawn at each tick, so that each stands in the columns before it goes.
+        let legs = if self.rules.has_deaths() { 1 } else { age.saturating_sub(plant.age) };
+        while plant.age < age {
+            self.rewrite(plant.age + legs, plant, living)?;
         }
-        let last = plant.age;
-        plant.begin_rewriting();
-        draw(living, TRUNK, &self.sizes, self.angle, plant);
-        plant.age = age;
-        note_new(plant, last);
         Ok(())
     }
 

@@ -3,8 +3,9 @@
 //! Rules are applied to all symbols at once (Aono & Kunii 1984, "L-system model"). A rewritten cell is the first cell
 //! of its production: it differentiates and keeps its number, and the other cells are new. So in `F → F F` the first
 //! internode keeps the number, and in `g → d(g)g` the apical cell becomes the internode below the new apex. New cells
-//! and branches are numbered in the order of the string. A branch is a fork, or lateral, from its birth on. Absent: the
-//! positions of cells in space (`draw`).
+//! and branches are numbered in the order of the string. A cell whose production is empty vanishes with its number; it
+//! bears no branch and does not end an axis, which is checked beforehand (`d0l`). A branch is a fork, or lateral, from
+//! its birth on. Absent: the positions of cells in space (`draw`).
 
 use super::text::{Branching, Symbol};
 use phytomer_sim::clock::Tick;
@@ -17,8 +18,20 @@ pub(super) const MOST_CELLS: usize = 64;
 pub(super) struct Rules {
     /// The string at age 0.
     pub axiom: Vec<Symbol>,
-    /// The production of each cell, which begins with a cell; `None`: the cell stays as it is.
+    /// The production of each cell, which is empty or begins with a cell; `None`: the cell stays as it is.
     pub productions: Vec<Option<Vec<Symbol>>>,
+}
+
+/// What a rewriting may not go beyond, and what it tells of the cells of the string.
+pub(super) struct Rewriting<'a, N> {
+    /// The tick.
+    pub at: Tick,
+    /// The most modules of the new string.
+    pub most: usize,
+    /// Gives component numbers.
+    pub number: N,
+    /// Gets the cells that vanish, each as its place among the cells of the old string.
+    pub vanished: &'a mut Vec<u32>,
 }
 
 /// A cell or a branch of a plant: its component number, and the tick at which it appeared.
@@ -53,33 +66,39 @@ impl Rules {
         Living { modules }
     }
 
-    /// Rewrites the string for the tick `at`. Returns `false` where it would have more than `most` modules; the string
-    /// is then incomplete. Linear in the modules of the new string.
-    pub fn rewrite(&self, living: &mut Living, at: Tick, most: usize, mut number: impl FnMut() -> u32) -> bool {
+    /// Whether any cell vanishes.
+    pub fn has_deaths(&self) -> bool {
+        self.productions.iter().flatten().any(Vec::is_empty)
+    }
+
+    /// Rewrites the string. Returns `false` where it would have more modules than allowed; the string is then
+    /// incomplete. Linear in the modules of the new string.
+    pub fn rewrite(&self, living: &mut Living, mut how: Rewriting<'_, impl FnMut() -> u32>) -> bool {
         let Living { modules } = living;
         let last = std::mem::take(modules);
         let ends = ends_of_axes(&last);
+        let mut cells = 0..;
         for (old, end) in last.into_iter().zip(ends) {
-            match self.production(old) {
-                Some((Symbol::Cell(letter), others, born)) => {
-                    modules.push(Module::Cell(*letter, born));
-                    modules.extend(others.iter().map(|symbol| module(*symbol, end, at, &mut number)));
+            let Module::Cell(letter, born) = old else {
+                modules.push(old);
+                continue;
+            };
+            let cell = cells.next().unwrap_or(u32::MAX);
+            match self.productions[usize::from(letter)].as_deref() {
+                None => modules.push(old),
+                Some([]) => how.vanished.push(cell),
+                Some([first, others @ ..]) => {
+                    // The first symbol is a cell, which keeps the number.
+                    let kept = if let Symbol::Cell(letter) = first { *letter } else { letter };
+                    modules.push(Module::Cell(kept, born));
+                    modules.extend(others.iter().map(|symbol| module(*symbol, end, how.at, &mut how.number)));
                 }
-                _ => modules.push(old),
             }
-            if modules.len() > most {
+            if modules.len() > how.most {
                 return false;
             }
         }
         true
-    }
-
-    /// The production of a module, if it is a cell that is rewritten: the first symbol and the others, and the cell's
-    /// number and birth.
-    fn production(&self, old: Module) -> Option<(&Symbol, &[Symbol], Born)> {
-        let Module::Cell(letter, born) = old else { return None };
-        let (first, others) = self.productions[usize::from(letter)].as_ref()?.split_first()?;
-        Some((first, others, born))
     }
 }
 

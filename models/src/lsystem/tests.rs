@@ -9,7 +9,7 @@ use crate::contract;
 use crate::fault::Path;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::model::Grow as _;
-use phytomer_sim::plant::{ApexFate, NodeId, Origin, Plant};
+use phytomer_sim::plant::{ApexFate, Cause, NodeId, Origin, Plant};
 use phytomer_sim::pose::{bud_frame, node_frame, pose};
 use std::collections::BTreeMap;
 
@@ -137,8 +137,72 @@ fn a_cell_keeps_its_number_where_a_system_rewrites_in_mid_axis() {
     }
 }
 
+/// `F → F e F`, `e →`: at age n there are 2ⁿ cells F, and 2ⁿ⁻¹ cells e, which are gone a tick later.
+#[test]
+fn a_cell_that_vanishes_stays_in_the_ledger() {
+    let fleeting = system("F", &[("F", "FeF"), ("e", "")], &[("F", 0.1), ("e", 0.02)]);
+    for age in 1..=8_u32 {
+        let plant = grown(&fleeting, age);
+        let (lasting, short_lived) = (1_usize << age, 1_usize << (age - 1));
+        let short = plant.nodes.length.iter().filter(|length| **length < 0.05).count();
+        assert_eq!((plant.nodes.len(), short), (lasting + short_lived, short_lived), "age {age}");
+        assert_eq!(plant.ledger.len(), short_lived - 1, "age {age}: 1 + 2 + … cells came and went");
+        for gone in &plant.ledger {
+            assert_eq!((gone.death - gone.birth, gone.length), (1, 0.02), "it stood for one tick: {gone:?}");
+            assert_eq!((gone.axis, gone.bearing_axis, gone.order, gone.cause), (0, None, 1, Cause::Rewritten));
+            assert!(gone.parent.is_some_and(|parent| parent < gone.component), "it stood on its F: {gone:?}");
+        }
+        assert_eq!(plant.lived_by(age), u64::from(plant.components()), "all are counted");
+        assert_eq!(plant.lived_by(age - 1), u64::from(grown(&fleeting, age - 1).components()));
+    }
+}
+
+/// Whatever ages are looked at, numbers, births and deaths are those of a plant that is looked at each tick.
+#[test]
+fn the_ledger_does_not_depend_on_the_ages_looked_at() {
+    let slow = system("Fe", &[("F", "FxFx"), ("x", "y"), ("y", ""), ("e", "Fe")], &cells_of("Fxye"));
+    let branched = system("F", &[("F", "xF(F)F"), ("x", "")], &cells_of("Fx"));
+    for system in [slow, branched] {
+        let by_clock = contract::grown_by_the_clock(&compiled(&system), 7, &contract::seed_of(1, 0));
+        let model = compiled(&system);
+        let mut plot = contract::sown(&model, &contract::seed_of(1, 0));
+        for age in [2, 5, 7] {
+            plot.grow_to(age).expect("room to grow");
+        }
+        assert_eq!(contract::components(&by_clock), contract::components(&plot.plants[0]));
+        assert_eq!(by_clock.ledger, plot.plants[0].ledger);
+        assert_eq!(by_clock.ledger, grown(&system, 7).ledger);
+    }
+}
+
+fn cells_of(letters: &str) -> Vec<(&str, f64)> {
+    (0..letters.len()).map(|at| (&letters[at..=at], 0.1)).collect()
+}
+
+/// Neither an apex nor a branch is left in the air.
+#[test]
+fn a_cell_that_bears_something_may_not_vanish() {
+    let told = |axiom: &str, productions: &[(&str, &str)]| {
+        let faults = system(axiom, productions, &cells_of("abe")).compile(5, &Path::root()).err().unwrap_or_default();
+        faults.iter().map(|fault| format!("{}: {}", fault.path, fault.problem)).collect::<Vec<_>>().join("; ")
+    };
+    let gone = [("e", "")];
+    assert_eq!(told("ea", &gone), "");
+    assert_eq!(told("e", &gone), "axiom: `e` ends an axis or bears a branch, and it vanishes");
+    assert_eq!(told("e(a)a", &gone), "axiom: `e` ends an axis or bears a branch, and it vanishes");
+    assert_eq!(told("a(ae)a", &gone), "axiom: `e` ends an axis or bears a branch, and it vanishes");
+    let later = [("e", ""), ("b", "ae")];
+    let becomes = "axiom: `b` ends an axis or bears a branch, and it becomes `e`, which vanishes";
+    assert_eq!(told("ab", &later), becomes);
+    assert_eq!(told("ba", &later), "");
+    let borne = [("e", ""), ("a", "e(b)a")];
+    assert_eq!(told("a", &borne), "production.a: `e` ends an axis or bears a branch, and it vanishes");
+}
+
 #[test]
 fn systems_keep_the_contract_of_growth_models() {
+    let fleeting = system("F", &[("F", "FxF(F)xF"), ("x", "y"), ("y", "")], &cells_of("Fxy"));
+    contract::check(&compiled(&fleeting), 4, 3);
     let mixed = system("ab(a)", &[("a", "b(a)a"), ("b", "bb")], &[("a", 0.1), ("b", 0.2)]);
     for (system, until) in
         [(k("d(g)g"), 6), (k("d(g)(g)"), 6), (system("F", &[("F", "FF")], &[("F", 0.1)]), 7), (mixed, 4)]
@@ -191,6 +255,7 @@ fn the_forecast_counts_every_string() {
         system("ab(a)", &[("a", "b(a)a"), ("b", "bb")], &cells),
         system("a(b)(a)", &[("a", "b(a)(a)"), ("b", "ab")], &cells),
         system("ab", &[("a", "b(a(b)(b))(a)"), ("b", "b(a)")], &cells),
+        system("a", &[("a", "abca"), ("b", "ca(a)"), ("c", "")], &cells_of("abc")),
     ];
     for system in systems {
         let expected = compiled(&system).expectation(5).expect("a forecast");
@@ -199,7 +264,8 @@ fn the_forecast_counts_every_string() {
             for (order, foretold) in (1..).zip(&expected.orders) {
                 let axes = plant.axes.order.iter().filter(|of| **of == order).count() as f64;
                 let on = |axis: &&phytomer_sim::plant::AxisId| plant.axes.order[axis.index()] == order;
-                let nodes = plant.nodes.axis.iter().filter(on).count() as f64;
+                let gone = plant.ledger.iter().filter(|gone| gone.order == order).count();
+                let nodes = (plant.nodes.axis.iter().filter(on).count() + gone) as f64;
                 let at = age as usize;
                 let (of, string) = ((foretold.axes[at], foretold.nodes[at]), string(&system, age));
                 assert_eq!(of, (axes, nodes), "axes and cells of order {order} at age {age}: {string}");

@@ -1,8 +1,8 @@
 //! Strings as people write them: letters of cells, and branches in parentheses (Aono & Kunii 1984, drawing rules 1 and
 //! 4). White space is ignored.
 //!
-//! A branch stands behind a cell of its axis, which bears it; a branch is not empty. Absent: the meaning of a string
-//! (`draw`).
+//! A branch stands behind a cell of its axis, which bears it; a branch is not empty. A cell that bears a branch, or at
+//! which an axis ends, may never vanish ([`bearing`]). Absent: the meaning of a string (`draw`).
 
 /// Replaces a cell whose name is no letter; the name has a fault of its own.
 pub(super) const UNREADABLE: char = char::REPLACEMENT_CHARACTER;
@@ -81,6 +81,40 @@ pub(super) fn parse(text: &str, letters: &[char]) -> Result<Vec<Symbol>, (String
             Ok(symbols)
         }
     }
+}
+
+/// The cells of a string that something else rests on: the last cell of each axis, which its apex stands on, and each
+/// cell that bears a branch. Of the string's own axis the last cell is among them only if `ends`.
+pub(super) fn bearing(symbols: &[Symbol], ends: bool) -> Vec<u8> {
+    let mut found = Vec::new();
+    let mut axes: Vec<Option<u8>> = vec![None];
+    for symbol in symbols {
+        match symbol {
+            Symbol::Cell(letter) => axes.iter_mut().last().into_iter().for_each(|last| *last = Some(*letter)),
+            Symbol::Open(_) => {
+                found.extend(axes.last().copied().flatten());
+                axes.push(None);
+            }
+            Symbol::Close => found.extend(axes.pop().flatten()),
+        }
+    }
+    found.extend(axes.pop().flatten().filter(|_| ends));
+    found
+}
+
+/// The last cell of the string's own axis.
+pub(super) fn last_cell(symbols: &[Symbol]) -> Option<u8> {
+    let mut depth = 0_usize;
+    let mut last = None;
+    for symbol in symbols {
+        match symbol {
+            Symbol::Cell(letter) if depth == 0 => last = Some(*letter),
+            Symbol::Cell(_) => {}
+            Symbol::Open(_) => depth += 1,
+            Symbol::Close => depth = depth.saturating_sub(1),
+        }
+    }
+    last
 }
 
 /// Marks the branches that are forks: two or more behind the last cell of an axis.

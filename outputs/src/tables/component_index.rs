@@ -1,6 +1,6 @@
 //! An index of the components of one plant by their numbers, from which the standing components at an age are selected.
 //!
-//! Nodes, organs and axes together fill the numbers from 0 without a gap, but their columns have orders of their own.
+//! Nodes, organs and axes, with the ledger, fill the numbers from 0 without a gap, but each has an order of its own.
 //! So the index lays them out by number: the component, and the first and the last tick at which it stands. Selecting
 //! an age is then one scan in order. An index holds one plant; the next plant reuses its memory.
 
@@ -25,6 +25,8 @@ pub enum Component {
     Organ(OrganId),
     /// The apical bud of an axis.
     Bud(AxisId),
+    /// An internode that a model that rewrites has taken out of the plant: its place in the ledger.
+    Departed(usize),
 }
 
 /// The components of one plant by their numbers.
@@ -82,6 +84,9 @@ impl ComponentIndex {
         for axis in 0..axes.len() {
             self.put(axes.component[axis], 2, axis, axes.appearance[axis], plant.bud_end(AxisId(axis as u32)));
         }
+        for (place, departed) in plant.ledger.iter().enumerate() {
+            self.put(departed.component, 3, place, departed.birth, departed.death);
+        }
         let first = |from: &[Tick]| from.iter().copied().min().unwrap_or(NEVER);
         self.first.clear();
         self.first.extend(self.from.chunks(SELECTION).map(first));
@@ -103,7 +108,8 @@ impl ComponentIndex {
         match place >> CLASS_SHIFT {
             0 => Component::Node(NodeId(index)),
             1 => Component::Organ(OrganId(index)),
-            _ => Component::Bud(AxisId(index)),
+            2 => Component::Bud(AxisId(index)),
+            _ => Component::Departed(index as usize),
         }
     }
 
@@ -169,6 +175,7 @@ impl ComponentIndex {
     }
 }
 
-fn inclination(trend: &Trend) -> f32 {
+/// The inclination of a trend, degrees from the upward vertical; NaN for a trend without inclination.
+pub fn inclination(trend: &Trend) -> f32 {
     trend.inclination_deg().unwrap_or(f32::NAN)
 }

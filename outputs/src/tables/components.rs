@@ -3,11 +3,11 @@
 //! Fates later than the last age are null, even where the plant was grown ahead and they are computed already.
 
 use super::buffers::{NULL, columns, known};
-use super::component_index::{Component, ComponentIndex};
+use super::component_index::{Component, ComponentIndex, inclination};
 use super::membership::Membership;
 use super::records::{area_of, number_of};
 use phytomer_sim::Tick;
-use phytomer_sim::plant::{AxisId, Cause, Kind, LineageKey, NodeId, OrganId, Plant};
+use phytomer_sim::plant::{AxisId, Cause, Departed, Kind, LineageKey, NodeId, OrganId, Origin, Plant};
 use phytomer_sim::shed::cause_of;
 use std::ops::Range;
 
@@ -20,12 +20,12 @@ columns! {
         component: Int(i32) = row.component as i32,
         key: Key(i64) = row.key.0 as i64,
         parent: Int(i32) = row.parent,
-        axis: Int(i32) = of.plant.axes.component[row.axis.index()] as i32,
-        bearing_axis: Int(i32) = bearing_axis(of.plant, row.axis),
-        order: Int(i32) = i32::from(of.plant.axes.order[row.axis.index()]),
+        axis: Int(i32) = row.axis.component as i32,
+        bearing_axis: Int(i32) = row.axis.bearing,
+        order: Int(i32) = i32::from(row.axis.order),
         kind: Word(i8) = row.kind as i8,
-        origin: Word(i8) = of.plant.axes.origin[row.axis.index()] as i8,
-        state: Int(i32) = i32::from(of.plant.axes.state[row.axis.index()]),
+        origin: Word(i8) = row.axis.origin as i8,
+        state: Int(i32) = i32::from(row.axis.state),
         position: Int(i32) = row.position,
         rank: Int(i32) = row.rank,
         unit_rank: Int(i32) = row.unit_rank,
@@ -57,7 +57,7 @@ pub struct ComponentRow {
     component: u32,
     key: LineageKey,
     parent: i32,
-    axis: AxisId,
+    axis: OfAxis,
     kind: Kind,
     position: i32,
     rank: i32,
@@ -73,6 +73,15 @@ pub struct ComponentRow {
     shed: Tick,
     cause: Cause,
     trend: f32,
+}
+
+/// The values that a component has of its axis.
+struct OfAxis {
+    component: u32,
+    bearing: i32,
+    order: u8,
+    origin: Origin,
+    state: u8,
 }
 
 impl ComponentColumns {
@@ -91,6 +100,7 @@ impl ComponentColumns {
             Component::Node(node) => of_node(plant, node, index),
             Component::Organ(organ) => of_organ(plant, organ),
             Component::Bud(axis) => of_bud(plant, axis),
+            Component::Departed(place) => of_departed(&plant.ledger[place]),
         };
         let lived = |row: &ComponentRow| row.birth <= last && (row.kind == Kind::ApicalBud || row.birth < row.death);
         rows.extend(numbers.map(row_of).filter(lived));
@@ -107,7 +117,7 @@ fn of_node(plant: &Plant, node: NodeId, index: &ComponentIndex) -> ComponentRow 
         component: nodes.component[i],
         key: plant.node_key(node),
         parent: number_of(plant, nodes.parent[i]),
-        axis,
+        axis: of_axis(plant, axis),
         kind: plant.kind_of(node),
         position: NULL,
         rank: nodes.rank[i] as i32,
@@ -137,7 +147,7 @@ fn of_organ(plant: &Plant, organ: OrganId) -> ComponentRow {
         component: organs.component[i],
         key: plant.organ_key(organ),
         parent: nodes.component[node] as i32,
-        axis,
+        axis: of_axis(plant, axis),
         kind: organs.kind[i],
         // The greatest position marks an organ at the end of an axis, which has no position among laterals.
         position: if organs.position[i] == u16::MAX { NULL } else { i32::from(organs.position[i]) },
@@ -169,7 +179,7 @@ fn of_bud(plant: &Plant, axis: AxisId) -> ComponentRow {
         component: axes.component[i],
         key: axes.key[i],
         parent: number_of(plant, axes.bearer[i]),
-        axis,
+        axis: of_axis(plant, axis),
         kind: Kind::ApicalBud,
         position: i32::from(axes.position[i]),
         rank: bearer.map_or(NULL, |node| plant.nodes.rank[node] as i32),
@@ -188,7 +198,48 @@ fn of_bud(plant: &Plant, axis: AxisId) -> ComponentRow {
     }
 }
 
-fn bearing_axis(plant: &Plant, axis: AxisId) -> i32 {
-    let bearer = plant.axes.bearer[axis.index()].some();
-    bearer.map_or(NULL, |bearer| plant.axes.component[plant.nodes.axis[bearer.index()].index()] as i32)
+/// The row of an internode of the ledger, as it last stood.
+fn of_departed(departed: &Departed) -> ComponentRow {
+    let number = |component: Option<u32>| component.map_or(NULL, |component| component as i32);
+    ComponentRow {
+        component: departed.component,
+        key: departed.key,
+        parent: number(departed.parent),
+        axis: OfAxis {
+            component: departed.axis,
+            bearing: number(departed.bearing_axis),
+            order: departed.order,
+            origin: departed.origin,
+            state: departed.state,
+        },
+        kind: departed.kind,
+        position: NULL,
+        rank: departed.rank as i32,
+        unit_rank: i32::from(departed.unit_rank),
+        neoformed: i8::from(departed.neoformed),
+        birth: departed.birth,
+        birth_dimension: departed.birth_dimension as i32,
+        delay: NULL,
+        length: departed.length,
+        birth_diameter: departed.birth_diameter,
+        area: f32::NAN,
+        death: departed.death,
+        shed: departed.death,
+        cause: departed.cause,
+        trend: departed.trend.as_ref().map_or(f32::NAN, inclination),
+    }
+}
+
+#[inline]
+fn of_axis(plant: &Plant, axis: AxisId) -> OfAxis {
+    let axes = &plant.axes;
+    let i = axis.index();
+    let bearer = axes.bearer[i].some();
+    OfAxis {
+        component: axes.component[i],
+        bearing: bearer.map_or(NULL, |node| axes.component[plant.nodes.axis[node.index()].index()] as i32),
+        order: axes.order[i],
+        origin: axes.origin[i],
+        state: axes.state[i],
+    }
 }

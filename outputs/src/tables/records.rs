@@ -96,10 +96,13 @@ impl RecordColumns {
     pub fn fill(&mut self, shown: &PlantAtAge<'_>, numbers: &[u32], rows: &mut Vec<RecordRow>) {
         rows.clear();
         let mut bearing = Bearing::of(shown, AxisId::TRUNK);
-        rows.extend(numbers.iter().map(|&number| match shown.index.component(number) {
-            Component::Node(node) => shown.of_node(node, &mut bearing),
-            Component::Organ(organ) => shown.of_organ(organ, &mut bearing),
-            Component::Bud(axis) => shown.of_bud(axis),
+        rows.reserve(numbers.len());
+        rows.extend(numbers.iter().filter_map(|&number| match shown.index.component(number) {
+            Component::Node(node) => Some(shown.of_node(node, &mut bearing)),
+            Component::Organ(organ) => Some(shown.of_organ(organ, &mut bearing)),
+            Component::Bud(axis) => Some(shown.of_bud(axis)),
+            // What has left the plant does not stand at the age of its columns.
+            Component::Departed(_) => None,
         }));
         // The rows are copied column by column while they are in the cache: several times as fast as pushing to 26
         // columns per row.
@@ -229,7 +232,7 @@ impl PlantAtAge<'_> {
         match component {
             Component::Node(node) => self.loaded_node(node),
             Component::Organ(organ) => self.loaded_organ(organ),
-            Component::Bud(_) => Loaded::NONE,
+            Component::Bud(_) | Component::Departed(_) => Loaded::NONE,
         }
     }
 

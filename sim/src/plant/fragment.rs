@@ -79,6 +79,7 @@ impl Plant {
             rewritten: Default::default(),
             own_looks: Default::default(),
             cuts: Default::default(),
+            ledger: Vec::new(),
             budget: self.budget,
             components: 0,
             component_limit: self.component_limit.saturating_sub(self.components),

@@ -194,11 +194,13 @@ pub enum Cause {
     Killed = 8,
     /// It was cut off.
     Pruned = 9,
+    /// The rules of its model replaced it by nothing.
+    Rewritten = 10,
 }
 
 impl Cause {
     /// Every cause of an end, in the order of their numbers.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Mortality,
         Self::Flowered,
         Self::Completed,
@@ -208,6 +210,7 @@ impl Cause {
         Self::FruitSet,
         Self::Killed,
         Self::Pruned,
+        Self::Rewritten,
     ];
 
     /// The cause as it stands in tables; `None` for a living component.
@@ -223,6 +226,7 @@ impl Cause {
             Self::FruitSet => "fruit_set",
             Self::Killed => "killed",
             Self::Pruned => "pruned",
+            Self::Rewritten => "rewritten",
         })
     }
 }

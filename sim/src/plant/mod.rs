@@ -22,6 +22,7 @@ mod habit;
 mod handle;
 mod joint;
 mod kind;
+mod ledger;
 mod length;
 mod look;
 mod node;
@@ -46,6 +47,7 @@ pub use habit::{Habit, OrganTrend, OrganTrends, OwnTrends, Trend};
 pub use handle::{AxisId, NodeId, OrganId};
 pub use joint::Joint;
 pub use kind::{Cause, Class, Kind, PartOfPlant};
+pub use ledger::Departed;
 pub use length::Rewritten;
 pub use look::{InternodeLook, Looks, OrganLook, OrganLooks, PaintNumber, Shape};
 pub use node::{NewNode, Nodes};
@@ -109,6 +111,8 @@ pub struct Plant {
     pub own_looks: OwnLooks,
     /// The cuts.
     pub cuts: Cuts,
+    /// What a model that rewrites has taken out of the columns, in the order of departure; empty for other models.
+    pub ledger: Vec<Departed>,
     /// Thread budget of its growth; never changes the result.
     pub budget: ThreadBudget,
     components: u32,
@@ -153,6 +157,7 @@ impl Plant {
             rewritten: Rewritten::default(),
             own_looks: OwnLooks::default(),
             cuts: Cuts::default(),
+            ledger: Vec::new(),
             budget: ThreadBudget::default(),
             components: 0,
             component_limit: seed.component_limit.min(MOST_COMPONENTS),
@@ -172,6 +177,7 @@ impl Plant {
     /// Removes all components, for a model that rebuilds the plant.
     pub fn clear(&mut self) {
         self.begin_rewriting();
+        self.ledger.clear();
         self.age = 0;
         self.components = 0;
         if let Some(events) = &mut self.events {
@@ -179,7 +185,7 @@ impl Plant {
         }
     }
 
-    /// Empties the columns, for a model that writes them anew; component numbers and events continue.
+    /// Empties the columns, for a model that writes them anew; component numbers, events and the ledger continue.
     pub fn begin_rewriting(&mut self) {
         self.death = NEVER;
         self.axes.clear();
@@ -219,12 +225,13 @@ impl Plant {
     }
 
     /// The number of components that have lived by `age`. A flower planned for a branch that died before it opened is
-    /// not counted. Linear in the components.
+    /// not counted; an internode of the ledger is. Linear in the components.
     pub fn lived_by(&self, age: Tick) -> u64 {
         let by = |births: &[Tick]| births.iter().filter(|&&birth| birth <= age).count() as u64;
         let organs = self.organs.birth.iter().zip(&self.organs.death);
         let opened = organs.filter(|&(&birth, &death)| birth <= age && birth < death).count() as u64;
-        by(&self.axes.appearance) + by(&self.nodes.birth) + opened
+        let departed = self.ledger.iter().filter(|departed| departed.birth <= age).count() as u64;
+        by(&self.axes.appearance) + by(&self.nodes.birth) + opened + departed
     }
 
     /// Adds an axis, standing as a bud; its bearing node comes before it.
