@@ -136,7 +136,7 @@ fn species_made_to_break_it_keep_the_contract() {
         for plant in 0..4 {
             let seed = contract::seed_of(u64::from(number), plant);
             contract::structure(&contract::grown(&model, until, &seed), Growth::Extends, until);
-            contract::hands_leave_no_trace(&model, until, &seed);
+            contract::threads_change_nothing(&model, until, &seed);
         }
         contract::ahead_equals_the_clock(&model, until, &contract::seed_of(u64::from(number), 0));
     }

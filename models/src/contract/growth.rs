@@ -161,7 +161,7 @@ pub fn memory_is_forgotten(model: &dyn GrowthModel, until: Tick, seed: u64) {
 ///
 /// # Panics
 /// At the first difference.
-pub fn hands_leave_no_trace(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
+pub fn threads_change_nothing(model: &dyn GrowthModel, until: Tick, seed: &Seed) {
     let legs = |threads: usize, ages: &[Tick], component_limit: u32| {
         let mut plot = sown(model, &Seed { component_limit, ..seed.clone() });
         plot.plants[0].budget = ThreadBudget { threads, least_axes: 2 };

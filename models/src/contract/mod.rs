@@ -24,7 +24,7 @@ pub use bending::bends_alike_ahead_and_by_the_clock;
 pub use component::{Component, components};
 pub use cuts::a_cut_takes_what_is_above_it;
 pub use growth::{
-    ages_agree, ahead_equals_the_clock, alone_equals_among_neighbours, hands_leave_no_trace, limit_holds,
+    ages_agree, ahead_equals_the_clock, alone_equals_among_neighbours, threads_change_nothing, limit_holds,
     memory_is_forgotten, sown_later_is_the_same_later,
 };
 pub use length::the_length_of_the_run_leaves_no_trace;
@@ -49,7 +49,7 @@ pub fn check(model: &dyn GrowthModel, until: Tick, seed: u64) {
         diameters(model, &mut plant, until);
         poses(&mut plant);
         ahead_equals_the_clock(model, until, &seed_of(seed, number));
-        hands_leave_no_trace(model, until, &seed_of(seed, number));
+        threads_change_nothing(model, until, &seed_of(seed, number));
         if model.habit().wood.as_ref().is_some_and(|wood| wood.bends) {
             bends_alike_ahead_and_by_the_clock(model, until, &seed_of(seed, number));
         }
