@@ -192,13 +192,17 @@ pub enum Cause {
     FruitSet = 7,
     /// A cause outside the plant killed it.
     Killed = 8,
-    /// It was cut off.
+    /// It was cut off, or picked off to thin the fruits.
     Pruned = 9,
+    /// It was harvested.
+    Harvested = 10,
+    /// A pest killed it.
+    Attacked = 11,
 }
 
 impl Cause {
     /// Every cause of an end, in the order of their numbers.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Mortality,
         Self::Flowered,
         Self::Completed,
@@ -208,6 +212,8 @@ impl Cause {
         Self::FruitSet,
         Self::Killed,
         Self::Pruned,
+        Self::Harvested,
+        Self::Attacked,
     ];
 
     /// The cause as it stands in tables; `None` for a living component.
@@ -223,6 +229,8 @@ impl Cause {
             Self::FruitSet => "fruit_set",
             Self::Killed => "killed",
             Self::Pruned => "pruned",
+            Self::Harvested => "harvested",
+            Self::Attacked => "attacked",
         })
     }
 }
