@@ -4,7 +4,8 @@
 //! them. Square roots, divisions and the four operations are exact by IEEE 754 and need no wrapper.
 
 pub use libm::{
-    acos, asin, atan2, cbrt, cos, erf, exp, exp2, expm1, fmod, lgamma, log, log1p, log2, pow, sin, sincos, tan,
+    acos, acosh, asin, asinh, atan, atan2, atanh, cbrt, cos, cosh, erf, exp, exp2, expm1, fma, fmod, hypot, lgamma,
+    log, log1p, log2, log10, pow, sin, sincos, sinh, tan, tanh,
 };
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 

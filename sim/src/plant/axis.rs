@@ -60,6 +60,10 @@ pub enum ApexFate {
     Killed = 4,
     /// It was cut off.
     Pruned = 5,
+    /// It was harvested.
+    Harvested = 6,
+    /// A pest killed it.
+    Attacked = 7,
 }
 
 /// The values of a new axis.

@@ -192,15 +192,19 @@ pub enum Cause {
     FruitSet = 7,
     /// A cause outside the plant killed it.
     Killed = 8,
-    /// It was cut off.
+    /// It was cut off, or picked off to thin the fruits.
     Pruned = 9,
+    /// It was harvested.
+    Harvested = 10,
+    /// A pest killed it.
+    Attacked = 11,
     /// The rules of its model replaced it by nothing.
-    Rewritten = 10,
+    Rewritten = 12,
 }
 
 impl Cause {
     /// Every cause of an end, in the order of their numbers.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::Mortality,
         Self::Flowered,
         Self::Completed,
@@ -210,6 +214,8 @@ impl Cause {
         Self::FruitSet,
         Self::Killed,
         Self::Pruned,
+        Self::Harvested,
+        Self::Attacked,
         Self::Rewritten,
     ];
 
@@ -226,6 +232,8 @@ impl Cause {
             Self::FruitSet => "fruit_set",
             Self::Killed => "killed",
             Self::Pruned => "pruned",
+            Self::Harvested => "harvested",
+            Self::Attacked => "attacked",
             Self::Rewritten => "rewritten",
         })
     }
