@@ -28,4 +28,4 @@ pub use run_folder::{
 };
 pub use storage::FileError;
 pub use storage::space::{Bytes, FreeSpace, Space, SystemSpace};
-pub use tables::{Input, Provenance, RunPlan, Table};
+pub use tables::{Input, Provenance, RunPlan, Sample, Table};

@@ -7,13 +7,16 @@
 use super::seal::check_of;
 use crate::storage::durable::sha256_of;
 use crate::tables::columns::SCHEMA_VERSION;
-use crate::tables::{Provenance, RunPlan};
+use crate::tables::{Provenance, RunPlan, Sample, Stated};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
 /// The format version of the run folder's own files. Version 2 has checks in `run.json` and in each line of the
 /// journal.
 pub const FORMAT_VERSION: u32 = 2;
+
+/// The key of a run's sample.
+const SAMPLE: &str = "sample";
 
 /// The identity as JSON, key by key; the resolved scenario is replaced by its hash.
 pub fn identity(plan: &RunPlan) -> Map<String, Value> {
@@ -41,6 +44,7 @@ pub fn identity(plan: &RunPlan) -> Map<String, Value> {
     if plan.mechanics {
         identity.insert("mechanics".to_owned(), json!(true));
     }
+    identity.extend(plan.sample.map(|sample| (SAMPLE.to_owned(), json!(sample.stated()))));
     identity
 }
 
@@ -57,8 +61,11 @@ pub fn plan_of(run: &Value) -> Option<RunPlan> {
 }
 
 fn stated_plan(run: &Value) -> Option<RunPlan> {
+    let seed = stated(&run["seed"])?;
+    let sample = stated::<Stated>(&run[SAMPLE]).and_then(|Stated { plants, of }| Sample::of(seed, plants, of));
     Some(RunPlan {
         tables: stated(&run["tables"])?,
+        sample,
         recorded: stated(&run["recorded_ages"])?,
         until: stated(&run["until"])?,
         plots: stated(&run["plots"])?,
@@ -70,7 +77,7 @@ fn stated_plan(run: &Value) -> Option<RunPlan> {
             scenario: stated(&run["scenario"])?,
             treatments: stated(&run["treatments"])?,
             species: stated(&run["species"])?,
-            seed: stated(&run["seed"])?,
+            seed,
             version: stated(&run["version"])?,
             git_hash: stated(&run["git_hash"])?,
             resolved: run["resolved_scenario"].clone(),
@@ -92,6 +99,7 @@ mod tests {
     fn a_plan_is_read_back_from_its_identity() {
         let mut before = plan(7, 2);
         (before.precision_m, before.mechanics) = (Some(1e-4), true);
+        before.sample = Sample::of(42, 3, 7);
         before.provenance.resolved = json!({"share": 0.1 + 0.2, "least": 5e-324, "most": 1.797_693_134_862_315_7e308});
         let mut run = Value::Object(identity(&before));
         run["fingerprint"] = json!(fingerprint(&before));
@@ -100,6 +108,7 @@ mod tests {
         let read: Value = serde_json::from_str(&run.to_string()).unwrap();
         let plan = plan_of(&read).unwrap();
         assert_eq!(identity(&plan), identity(&before));
+        assert_eq!(plan.sample, before.sample);
         for (key, value) in [("until", json!(13)), ("schema_version", json!("0")), ("plots", json!("many"))] {
             let mut other = read.clone();
             other[key] = value;

@@ -44,8 +44,9 @@ struct Source {
     found: Checkup,
 }
 
-/// Merges the folders `parts` into the folder `into`. `program` is the version and the commit of this program, which must
-/// be those of the program that grew the parts. The progress counts the bytes of the check, then those of the copies.
+/// Merges the folders `parts` into the folder `into`. `program` is the version and the commit of this program, which
+/// must be those of the program that grew the parts. The progress counts the bytes of the check, then those of the
+/// copies.
 ///
 /// # Errors
 /// [`Error::Merge`] with all that is wrong with the folders; else as [`RunFolder::open`].

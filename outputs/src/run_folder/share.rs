@@ -1,8 +1,8 @@
 //! A share of a run: every n-th of its part files, grown into a folder of its own (`--shard 3/16`) and merged later.
 //!
-//! Share k of n has the parts k − 1, k − 1 + n, k − 1 + 2n …, so that each share has parts of the whole run: shares take
-//! about the same time where plots differ from the first to the last, and a finished share is a picture of the whole.
-//! Which parts those are depends on the scenario and the two numbers alone. Absent: merging (`merge`).
+//! Share k of n has the parts k − 1, k − 1 + n, k − 1 + 2n …, so that each share has parts of the whole run: shares
+//! take about the same time where plots differ from the first to the last, and a finished share is a picture of the
+//! whole. Which parts those are depends on the scenario and the two numbers alone. Absent: merging (`merge`).
 
 use serde::Serialize;
 use serde_json::Value;

@@ -39,7 +39,9 @@ impl HashingFile {
     pub fn finish(mut self) -> Result<(u64, String), FileError> {
         // The system reports a lost block once, to the first call that asks, so the background syncs are checked first.
         let watch = Arc::clone(&self.watch);
-        watch.wait(|| self.sent().and_then(|()| self.file.sync_all())).map_err(FileError::io("write to disk", &self.path))?;
+        watch
+            .wait(|| self.sent().and_then(|()| self.file.sync_all()))
+            .map_err(FileError::io("write to disk", &self.path))?;
         Ok((self.bytes, hexadecimal(&self.hash.finalize())))
     }
 

@@ -78,7 +78,12 @@ pub struct Watch {
 impl Watch {
     /// Watches the disk of a folder.
     pub fn over(folder: &Path, space: &Arc<dyn FreeSpace>) -> Arc<Self> {
-        Arc::new(Self { folder: folder.to_path_buf(), space: Arc::clone(space), written: AtomicU64::new(0), waited_ns: AtomicU64::new(0) })
+        Arc::new(Self {
+            folder: folder.to_path_buf(),
+            space: Arc::clone(space),
+            written: AtomicU64::new(0),
+            waited_ns: AtomicU64::new(0),
+        })
     }
 
     /// The number of bytes that were counted so far.
