@@ -13,6 +13,7 @@ mod error;
 pub mod forecast;
 pub mod forms;
 mod in_memory;
+mod in_turn;
 pub mod picturing;
 mod plan;
 pub mod plots;
@@ -23,19 +24,18 @@ pub use error::RunError;
 pub use in_memory::{InMemory, in_memory};
 pub use plan::{CONTROL, Program, plan_of};
 pub use plots::{component_limit, place_of, seed_of};
-pub use progress::Progress;
+pub use progress::{Progress, Reading};
 
 use drawing::RunMeshes;
 use phytomer_config::Resolved;
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::{
-    Checkup, FreeSpace, Mode, Opening, RunFolder, RunPlan, RunReport, Shard, ShardReport, SystemSpace,
+    Checkup, FreeSpace, Mode, Opening, RunFolder, RunPlan, RunReport, Shard, ShardReport, Share, SystemSpace,
 };
 use phytomer_sim::plant::ThreadBudget;
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick, grow};
 use plots::Plots;
 use rayon::ThreadPool;
-use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -57,6 +57,8 @@ pub struct Settings {
     pub space: Arc<dyn FreeSpace>,
     /// Whether a run begins that the disk seems too small for.
     pub ignore_disk: bool,
+    /// The share of the run that is grown, to be merged with the others later; `None` grows the whole run.
+    pub share: Option<Share>,
 }
 
 impl Settings {
@@ -69,6 +71,7 @@ impl Settings {
             program: Program::default(),
             space: Arc::new(SystemSpace),
             ignore_disk: false,
+            share: None,
         }
     }
 }
@@ -78,7 +81,7 @@ impl Settings {
 pub struct Outcome {
     /// What was written; of an interrupted run the shards of this start alone.
     pub report: RunReport,
-    /// How many shards the run has.
+    /// How many shards the run has; of a share of it, how many that share has.
     pub shards: u32,
     /// How many of them are on the disk.
     pub committed: u32,
@@ -88,6 +91,8 @@ pub struct Outcome {
     pub components_now: u64,
     /// How long it took, seconds.
     pub seconds: f64,
+    /// The share of the time of its threads in which they waited for the writer, in [0, 1].
+    pub waited: f64,
 }
 
 impl Outcome {
@@ -130,7 +135,7 @@ pub fn begin<'a>(resolved: &'a Resolved, settings: &Settings, progress: &Progres
 }
 
 fn open(plan: RunPlan, settings: &Settings, progress: &Progress) -> Result<RunFolder, phytomer_outputs::Error> {
-    let opening = Opening { checking: progress.checking(), space: Arc::clone(&settings.space) };
+    let opening = Opening { checking: progress.checking(), space: Arc::clone(&settings.space), share: settings.share };
     RunFolder::open(&settings.folder, plan, settings.mode, &opening)
 }
 
@@ -151,10 +156,10 @@ impl Begun<'_> {
     /// Where a file cannot be written.
     pub fn grow(self, progress: &Progress) -> Result<Outcome, RunError> {
         let Self { resolved, forms, folder, pool, start } = self;
-        let shards = folder.plan().shards();
+        let shards = folder.own_shards().count() as u32;
         let missing = folder.missing_shards();
         let plots: u64 = missing.iter().map(|shard| folder.plan().plots_of(*shard).len() as u64).sum();
-        progress.begin(&resolved.scenario, plots);
+        progress.begin(&resolved.scenario, plots, missing.len());
         let grown = pool.install(|| grow_shards(&resolved, &forms, &folder, &missing, progress))?;
         let seconds = start.elapsed().as_secs_f64();
         let components_now = grown.iter().map(|shard| shard.components).sum();
@@ -165,7 +170,8 @@ impl Begun<'_> {
         } else {
             RunReport::of(&grown)
         };
-        Ok(Outcome { report, shards, committed, grown_now, components_now, seconds })
+        let waited = folder.waited().as_secs_f64() / (seconds * pool.current_num_threads() as f64).max(1e-9);
+        Ok(Outcome { report, shards, committed, grown_now, components_now, seconds, waited })
     }
 }
 
@@ -184,17 +190,13 @@ fn grow_shards(
     progress: &Progress,
 ) -> Result<Vec<ShardReport>, RunError> {
     let grower = Grower::of(resolved, folder.plan(), progress);
-    let grow = |shard: &u32| {
+    let grow = |shard: u32| {
         let meshes = RunMeshes::of(resolved, forms, folder.plan().shards());
-        let mut keeper = FolderKeeper { grower: &grower, shard: folder.shard(*shard)?, meshes, plot: 0 };
-        Ok(if grower.grow_shard(*shard, &mut keeper)? { Some(keeper.commit()?) } else { None })
+        let mut keeper = FolderKeeper { grower: &grower, folder, shard: folder.shard(shard)?, meshes, plot: 0 };
+        Ok(if grower.grow_shard(shard, &mut keeper)? { Some(keeper.commit()?) } else { None })
     };
     // A failed write ends the run: the other shards need not go on.
-    let grow = |shard: &u32| grow(shard).inspect_err(|_: &RunError| progress.stop());
-    let mut grown = Vec::new();
-    for some in missing.chunks(grower.at_once()) {
-        grown.extend(some.into_par_iter().map(grow).collect::<Result<Vec<_>, _>>()?);
-    }
+    let grown = in_turn::on_all_threads(missing, |shard| grow(shard).inspect_err(|_: &RunError| progress.stop()))?;
     Ok(grown.into_iter().flatten().collect())
 }
 
@@ -243,6 +245,10 @@ impl<'a> Grower<'a> {
     /// Grows one plot to its end; `false` where it was told to stop.
     fn grow_plot(&self, plot: &mut Plot<'_>, keeper: &mut impl Keeper) -> Result<bool, RunError> {
         keeper.begin_plot(plot.id);
+        if let Some(sample) = self.plan.sample {
+            let others = plot.plants.iter_mut().filter(|plant| !sample.has(plant.id));
+            others.for_each(|plant| plant.events = None);
+        }
         let ending = match grow(plot, self.plan.until, keeper).map_err(RunError::of_recorder) {
             Ok(ending) => ending,
             Err(RunError::Stopped) => return Ok(false),
@@ -259,12 +265,6 @@ impl<'a> Grower<'a> {
         tick == self.plan.until && self.plots.models().iter().any(|model| !model.growth().keeps_its_past())
     }
 
-    /// How many shards grow at once: all of them. Where a plot has several plants, as many as there are threads: one
-    /// that waits for the other plants of its plot begins with a further shard meanwhile, and so would keep many.
-    fn at_once(&self) -> usize {
-        if self.plots.scenario().members() > 1 { rayon::current_num_threads().max(1) } else { usize::MAX }
-    }
-
     /// The threads that may grow one plant: those for which there is no shard help with the plants of other shards.
     /// Where every thread has a shard of its own there is no help: a thread that waits for its helper would begin a
     /// further shard meanwhile, and keep two plants in memory. The plants of a plot share the helpers of their shard.
@@ -277,6 +277,7 @@ impl<'a> Grower<'a> {
 /// Shows each plot of a shard to the shard's tables and meshes.
 struct FolderKeeper<'a> {
     grower: &'a Grower<'a>,
+    folder: &'a RunFolder,
     shard: Shard<'a>,
     meshes: Option<RunMeshes<'a>>,
     plot: u32,
@@ -285,7 +286,9 @@ struct FolderKeeper<'a> {
 impl FolderKeeper<'_> {
     fn commit(mut self) -> Result<ShardReport, RunError> {
         self.meshes.iter_mut().try_for_each(RunMeshes::finish)?;
-        Ok(self.shard.commit()?)
+        let report = self.shard.commit()?;
+        self.grower.progress.end_part(self.folder.written());
+        Ok(report)
     }
 
     fn draws(&self, tick: Tick) -> bool {
@@ -324,7 +327,7 @@ impl Recorder for FolderKeeper<'_> {
             self.shard.look_at_disk()?;
             meshes.draw(age, plot, &mut self.shard)?;
         }
-        self.grower.progress.end_age(plot);
+        self.grower.progress.end_age(plot, self.folder.written());
         Ok(())
     }
 }

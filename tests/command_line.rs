@@ -9,7 +9,8 @@ use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 9] = ["init", "grow", "validate", "verify", "describe", "list", "schema", "mesh", "picture"];
+const VERBS: [&str; 10] =
+    ["init", "grow", "merge", "validate", "verify", "describe", "list", "schema", "mesh", "picture"];
 
 /// A scenario of one fast plant, with these lines added.
 fn scenario(folder: &Path, lines: &str) {
@@ -360,6 +361,9 @@ fn every_example_of_help_runs() {
     assert_eq!(shown.iter().map(|words| words[0]).collect::<Vec<_>>(), VERBS, "an example for each verb");
     run(folder.path(), &["init", "my_plant"]).ending(0);
     run(folder.path(), &["grow", "coffee", "--plants", "4", "--quiet"]).ending(0);
+    for share in ["1/2", "2/2"] {
+        run(folder.path(), &["grow", "coffee", "--plants", DEALT, "--quiet", "--shard", share]).ending(0);
+    }
     let mut helps = vec![top.clone()];
     helps.extend(VERBS.map(|verb| run(folder.path(), &["help", verb]).ending(0).stdout));
     for (number, help) in helps.iter().enumerate() {
@@ -371,13 +375,17 @@ fn every_example_of_help_runs() {
     }
 }
 
+/// So many plants of coffee that there are several parts to be dealt into shards.
+const DEALT: &str = "24";
+
 fn obey_example(folder: &Path, number: usize, words: &[&str]) {
     let mut words = words.to_vec();
-    let name = format!("example-{number}");
+    let name = format!("example-{}-{number}", words.len());
     match words[0] {
-        "init" => words[1] = &name,
+        "init" | "merge" => words[1] = &name,
         "grow" => {
-            let few = ["--plants", "4", "--quiet", "--overwrite"];
+            let plants = if words.contains(&"--shard") { DEALT } else { "4" };
+            let few = ["--plants", plants, "--quiet", "--overwrite"];
             let kept = if words.contains(&"--plants") || words.contains(&"--dry-run") { 2..2 } else { 0..2 };
             words.extend(&few[kept]);
             words.extend((!words.contains(&"--resume")).then_some("--overwrite"));

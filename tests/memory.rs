@@ -95,6 +95,31 @@ fn peak_of(plants: u32) -> usize {
     peak
 }
 
+/// As [`peak_of`], of the shipped million of coffee trees: their sample is of two hundred, whatever their number.
+fn peak_of_million(plants: u32) -> usize {
+    let mut resolved = validate("million_coffee").unwrap_or_else(|report| panic!("{}", report.render(false)));
+    resolved.scenario.plants = plants;
+    resolved.scenario.output.plants_per_part = Some(250);
+    let home = tempfile::tempdir().expect("a temporary folder");
+    let settings = Settings { threads: 1, ..Settings::in_folder(home.path().join("run")) };
+    let before = ALLOCATED.current_usage();
+    ALLOCATED.reset_peak_usage();
+    let outcome = run::run(&resolved, &settings, &Progress::default()).expect("a run");
+    let peak = ALLOCATED.peak_usage() - before;
+    println!("{plants} plants, {} components, a sample of 200: {peak} bytes", outcome.report.components);
+    peak
+}
+
+/// The plants that are not in the sample cost no rows, and their number no memory.
+#[test]
+fn the_peak_of_a_population_with_a_sample_does_not_depend_on_its_size() {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let [few, many] = [1_000, 10_000].map(peak_of_million);
+    assert!(few > 100_000, "{few} bytes: nothing is measured");
+    assert!(many as f64 <= few as f64 * 1.25, "{few} bytes for 1,000 plants, {many} for 10,000");
+    assert!(many < 256_000_000, "{many} bytes");
+}
+
 #[test]
 fn the_peak_of_a_population_does_not_depend_on_its_size() {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);

@@ -39,6 +39,7 @@ impl ResolvedSpecies {
             site: Site::default(),
             member: Vec::new(),
             ages: Ages { until, record: Record::Every(recorded(until)) },
+            sample: None,
             tables: BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary, Table::Plants]),
             meshes: None,
             limits: Limits::default(),

@@ -6,6 +6,7 @@
 
 mod meshes;
 mod plots;
+mod sample;
 mod site;
 mod tables;
 
@@ -70,6 +71,11 @@ pub struct Scenario {
     /// place of each plant.
     #[serde(default = "tables::all")]
     pub tables: BTreeSet<Table>,
+    /// The number of plants with rows in `components`, `records` and `events`; all if not given. The plants are drawn
+    /// by the seed: `sampled` in `plants` tells which. `summary` and `plants` have rows of all plants.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
+    pub sample: Option<u32>,
     /// The meshes that are written. None if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub meshes: Option<Meshes>,
@@ -242,6 +248,7 @@ impl Scenario {
         }
         self.check_mesh_plants(&meshes.key("plants"), &mut faults);
         self.check_members(&mut faults);
+        self.check_sample(&mut faults);
         self.site.check_planes(&Path::root().key("site"), &mut faults);
         if self.tables.is_empty() && self.meshes.is_none() {
             let problem = "this run would write nothing: no table and no mesh is asked for";

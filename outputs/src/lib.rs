@@ -22,9 +22,10 @@ pub use destination::Destination;
 pub use phytomer_meshes as meshes;
 pub use phytomer_pictures as pictures;
 pub use run_folder::{
-    Checking, Checkup, Depth, Difference, Differences, Error, FileReport, Finding, Holder, Mode, Opening,
-    OvergrownPlot, RunFolder, RunReport, Shard, ShardReport, State, Trouble, check,
+    Checking, Checkup, Depth, Difference, Differences, Error, FileReport, Finding, Holder, MergeFault, MergeFaults,
+    Merged, Mode, Opening, OvergrownPlot, RunFolder, RunReport, Shard, ShardReport, Share, State, Trouble, check,
+    merge,
 };
 pub use storage::FileError;
 pub use storage::space::{Bytes, FreeSpace, Space, SystemSpace};
-pub use tables::{Input, Provenance, RunPlan, Table};
+pub use tables::{Input, Provenance, RunPlan, Sample, Table};

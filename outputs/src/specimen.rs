@@ -165,6 +165,7 @@ fn organ(plant: &mut Plant, node: NodeId, kind: Kind, birth: Tick, life: Tick) {
 pub fn plan(plots: u32, plots_per_part: u32) -> RunPlan {
     RunPlan {
         tables: Table::ALL.to_vec(),
+        sample: None,
         recorded: vec![1, 4, 7, 8, 10, 12],
         until: 12,
         plots,

@@ -1,12 +1,12 @@
-//! The progress bars: drawn on stderr beside the work, with the rate and the time left. Where stderr is no terminal
+//! The progress bars: drawn on stderr beside the work, with the rates and the time left. Where stderr is no terminal
 //! there are none.
 //!
 //! The working threads only raise numbers ([`Progress`], [`Checking`]); a thread of the bar's reads them ten times a
-//! second.
+//! second. Absent: progress for programs (`events`).
 
 use super::amounts;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use phytomer::run::Progress;
+use phytomer::run::{Progress, Reading};
 use phytomer_outputs::Checking;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::thread;
@@ -18,12 +18,21 @@ const PAUSE: Duration = Duration::from_millis(100);
 
 /// Does `work` while a bar shows how far growth has come.
 pub fn growing<T>(progress: &Progress, hidden: bool, work: impl FnOnce() -> T) -> T {
-    let state = |bar: &ProgressBar| {
-        let rate = progress.components() as f64 / bar.elapsed().as_secs_f64().max(1e-3);
-        let plants = amounts::of(progress.plants(), "plant");
-        (progress.share(), format!("{plants}, {} components/s", amounts::about(rate.round())))
+    let state = |_: &ProgressBar| {
+        let now = progress.reading();
+        (now.share, in_words(&now))
     };
     beside(hidden, state, work)
+}
+
+/// "1 234 plants (56.0/s), 2.30 M components/s, 31.5 MB written".
+fn in_words(now: &Reading) -> String {
+    let plants = amounts::of(now.plants, "plant");
+    let [plants_per_s, components_per_s] = [now.plants_per_s, now.components_per_s].map(amounts::about);
+    format!(
+        "{plants} ({plants_per_s}/s), {components_per_s} components/s, {} written",
+        amounts::bytes(now.bytes as f64)
+    )
 }
 
 /// Does `work` while a bar shows how much of the files has been read.
@@ -46,20 +55,48 @@ fn beside<T>(hidden: bool, state: impl Fn(&ProgressBar) -> (f64, String) + Sync,
     if let Ok(style) = ProgressStyle::with_template(TEMPLATE) {
         bar.set_style(style.progress_chars("=> "));
     }
+    let draw = || {
+        let (share, message) = state(&bar);
+        bar.set_message(message);
+        bar.set_position((share * STEPS as f64) as u64);
+    };
+    let result = meanwhile(PAUSE, draw, work);
+    bar.finish_and_clear();
+    result
+}
+
+/// Does something every now and then, on a thread of its own, while `work` is done.
+pub fn meanwhile<T>(pause: Duration, each: impl Fn() + Sync, work: impl FnOnce() -> T) -> T {
     let done = AtomicBool::new(false);
     thread::scope(|scope| {
-        let drawing = scope.spawn(|| {
+        let beside = scope.spawn(|| {
             while !done.load(Relaxed) {
-                thread::park_timeout(PAUSE);
-                let (share, message) = state(&bar);
-                bar.set_message(message);
-                bar.set_position((share * STEPS as f64) as u64);
+                thread::park_timeout(pause);
+                if !done.load(Relaxed) {
+                    each();
+                }
             }
-            bar.finish_and_clear();
         });
         let result = work();
         done.store(true, Relaxed);
-        drawing.thread().unpark();
+        beside.thread().unpark();
         result
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bar_tells_rates_and_bytes() {
+        let now = Reading {
+            plants: 1234,
+            plants_per_s: 56.0,
+            components_per_s: 2.3e6,
+            bytes: 31_500_000,
+            ..Reading::default()
+        };
+        assert_eq!(in_words(&now), "1 234 plants (56/s), 2.30 M components/s, 31.5 MB written");
+    }
 }

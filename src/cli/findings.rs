@@ -3,7 +3,7 @@
 //! Absent: the check, which is `phytomer_outputs::check`, and what each verb makes of it.
 
 use super::amounts;
-use phytomer_outputs::{Checkup, Depth, Finding, State};
+use phytomer_outputs::{Checkup, Depth, Finding, Share, State};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -17,13 +17,14 @@ pub fn word(state: State) -> &'static str {
     }
 }
 
-/// "a damaged run".
-pub fn kind_of(state: State) -> &'static str {
+/// "a damaged run"; "a complete shard 3/16".
+pub fn kind_of(state: State, share: Option<Share>) -> String {
+    let what = share.map_or("run".to_owned(), |share| format!("shard {share}"));
     match state {
-        State::InProgress => "a run in progress",
-        State::Damaged => "a damaged run",
-        State::Unfinished => "an unfinished run",
-        State::Complete => "a complete run",
+        State::InProgress => format!("a {what} in progress"),
+        State::Damaged => format!("a damaged {what}"),
+        State::Unfinished => format!("an unfinished {what}"),
+        State::Complete => format!("a complete {what}"),
     }
 }
 
@@ -38,6 +39,7 @@ pub fn as_json(found: &Checkup) -> Value {
         "bytes_checked": found.depth == Depth::Bytes,
         "files": found.files,
         "bytes": found.bytes,
+        "shard": found.share,
         "parts": found.shards,
         "parts_sound": found.sound.len(),
         "parts_to_grow": found.to_grow,
@@ -61,7 +63,12 @@ pub fn lines(found: &Checkup, most: usize) -> String {
 /// What is the matter and what to do, in a sentence; `None` where nothing is.
 pub fn advice(found: &Checkup) -> Option<String> {
     let parts = amounts::of(found.to_grow.len() as u64, "part");
-    let again = "`phytomer grow` with --resume, and with the scenario and the folder of the run,";
+    let again = match found.share {
+        Some(share) => {
+            &format!("`phytomer grow` with --resume, --shard {share}, the scenario and the folder of the shard")
+        }
+        None => "`phytomer grow` with --resume, and with the scenario and the folder of the run,",
+    };
     match found.state {
         State::InProgress => {
             let holder = found.holder.as_ref().map(ToString::to_string).unwrap_or_default();

@@ -8,12 +8,12 @@ mod telling;
 pub use telling::{clock, species_in_words};
 
 use super::named::RUNS;
-use super::{Misuse, Verdict, bar, causes, findings, refuse, terminal};
+use super::{Misuse, Verdict, bar, causes, events, findings, refuse, terminal};
 use anyhow::{Context, Result};
-use clap::Args;
-use phytomer::outputs::{Error, Mode};
+use clap::{Args, ValueEnum};
+use phytomer::outputs::{Error, Mode, Share};
 use phytomer::run::forecast::Forecast;
-use phytomer::run::{self, Begun, Progress, RunError, Settings};
+use phytomer::run::{self, Begun, Outcome, Progress, RunError, Settings};
 use phytomer::run::{disk, forms};
 use phytomer_config::scenario::MOST_SEED;
 use phytomer_config::{Resolved, validate};
@@ -29,6 +29,8 @@ Examples:
   phytomer grow my_plant/scenario.toml --seed 7 --name another_seed
   phytomer grow coffee --plants 20 --out twenty --threads 2
   phytomer grow coffee --resume
+  phytomer grow coffee --shard 1/2
+  phytomer grow coffee --progress json
   phytomer grow halle/massart
 
 Exit code 1 where a plant came to its limit, where another process fills the folder, where the disk is too small or a file
@@ -60,6 +62,10 @@ pub struct Grow {
     /// Replace the run that is in the folder.
     #[arg(long)]
     overwrite: bool,
+    /// Grow a fixed part of the run alone, such as 3/16, on one of several machines: every sixteenth of its part files,
+    /// into `runs/<name>-shard-03-of-16` if no folder is given. `phytomer merge` makes the run of all shards.
+    #[arg(long, value_name = "NUMBER/ALL")]
+    shard: Option<Share>,
     /// Begin even where more is expected than the disk has room for. The run still ends before the disk is full.
     #[arg(long)]
     ignore_disk: bool,
@@ -69,9 +75,22 @@ pub struct Grow {
     /// Tell what came of it as one JSON object on stdout.
     #[arg(long)]
     json: bool,
+    /// How progress is shown: a bar where stderr is a terminal, or `json`, an event a line on stderr.
+    #[arg(long, value_enum, default_value_t)]
+    progress: Shown,
     /// Show no progress, and at the end nothing but trouble.
     #[arg(long, short)]
     quiet: bool,
+}
+
+/// How progress is shown.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+enum Shown {
+    /// A bar where stderr is a terminal.
+    #[default]
+    Bar,
+    /// A JSON object a line on stderr, for programs.
+    Json,
 }
 
 impl Grow {
@@ -86,7 +105,9 @@ impl Grow {
         self.override_scenario(&mut resolved)?;
         let settings = self.settings(&resolved)?;
         if self.dry_run {
-            telling::forecast(&resolved, Forecast::of(&resolved).as_ref(), disk::room(&settings), self.json)?;
+            let parts = run::plan_of(&resolved, &settings.program)?.shards();
+            let forecast = Forecast::of(&resolved);
+            telling::forecast(&resolved, forecast.as_ref(), (parts, disk::room(&settings)), self.json)?;
             return Ok(Verdict::Done);
         }
         let progress = Arc::new(Progress::default());
@@ -106,11 +127,18 @@ impl Grow {
 
     /// Makes the folder ready, tells what was found in it, and grows.
     fn grow(&self, resolved: &Resolved, settings: &Settings, progress: &Progress) -> Result<Verdict> {
-        let hidden = self.quiet || self.json;
-        let begun = bar::checking(progress.checking(), hidden, || run::begin(resolved, settings, progress))?;
+        let begin = || run::begin(resolved, settings, progress);
+        let begun = match self.progress {
+            Shown::Json if !self.quiet => events::checking(progress.checking(), begin)?,
+            _ => bar::checking(progress.checking(), self.quiet || self.json, begin)?,
+        };
         say_before(&begun);
         let found = begun.found().map(findings::as_json);
-        let outcome = bar::growing(progress, hidden, || begun.grow(progress))?;
+        let grow = || begun.grow(progress);
+        let outcome = match self.progress {
+            Shown::Json if !self.quiet => events::growing(progress, status, grow)?,
+            _ => bar::growing(progress, self.quiet || self.json, grow)?,
+        };
         self.tell(&telling::Told { resolved, settings, outcome: &outcome, found })
     }
 
@@ -139,7 +167,7 @@ impl Grow {
         let name = self.name.as_ref().unwrap_or(&resolved.scenario.name);
         let folder = match &self.out {
             Some(folder) => folder.clone(),
-            None => Path::new(RUNS).join(folder_name(name)?),
+            None => Path::new(RUNS).join(folder_name(name)? + &self.shard.map(end_of_name).unwrap_or_default()),
         };
         let mode = match (self.resume, self.overwrite) {
             (true, _) => Mode::Resume,
@@ -147,7 +175,8 @@ impl Grow {
             _ => Mode::New,
         };
         let threads = self.threads.unwrap_or(0).into();
-        Ok(Settings { mode, threads, ignore_disk: self.ignore_disk, ..Settings::in_folder(folder) })
+        let (ignore_disk, share) = (self.ignore_disk, self.shard);
+        Ok(Settings { mode, threads, ignore_disk, share, ..Settings::in_folder(folder) })
     }
 
     fn listen(&self, progress: &Arc<Progress>) -> Result<()> {
@@ -188,10 +217,22 @@ impl Grow {
         option("plants", self.plants.map(|plants| plants.to_string()));
         option("out", self.out.as_ref().map(|folder| folder.display().to_string()));
         option("name", self.name.clone());
+        option("shard", self.shard.map(|share| share.to_string()));
         words.extend(self.ignore_disk.then(|| "--ignore-disk".to_owned()));
         words.push("--resume".to_owned());
         words.join(" ")
     }
+}
+
+/// How growth ended, in a word.
+fn status(result: &std::result::Result<Outcome, RunError>) -> &'static str {
+    result.as_ref().map_or("failed", telling::status)
+}
+
+/// What follows the name of the run in the name of a shard's folder: "-shard-03-of-16", so that names sort as numbers.
+fn end_of_name(share: Share) -> String {
+    let digits = share.of().to_string().len();
+    format!("-shard-{:0digits$}-of-{}", share.number(), share.of())
 }
 
 /// A seed that a scenario can state too.

@@ -7,10 +7,12 @@ mod amounts;
 mod bar;
 pub mod causes;
 mod describe;
+mod events;
 mod findings;
 mod grow;
 mod init;
 mod list;
+mod merge;
 mod mesh;
 mod named;
 mod out;
@@ -33,6 +35,7 @@ const EXAMPLES: &str = "\
 Examples:
   phytomer init my_plant                        a species and a scenario to begin with
   phytomer grow coffee                          grow a shipped scenario into runs/coffee
+  phytomer merge whole runs/coffee-shard-1-of-2 runs/coffee-shard-2-of-2
   phytomer validate my_plant/scenario.toml      every fault at once
   phytomer verify runs/coffee                   whether every file of a run is as it was written
   phytomer describe coffee                      what a run, a scenario or a species holds
@@ -55,6 +58,7 @@ pub struct Cli {
 enum Verb {
     Init(init::Init),
     Grow(grow::Grow),
+    Merge(merge::Merge),
     Validate(validate::Validate),
     Verify(verify::Verify),
     Describe(describe::Describe),
@@ -99,6 +103,7 @@ impl Cli {
         match self.verb {
             Verb::Init(verb) => verb.obey(),
             Verb::Grow(verb) => verb.obey(),
+            Verb::Merge(verb) => verb.obey(),
             Verb::Validate(verb) => verb.obey(),
             Verb::Verify(verb) => verb.obey(),
             Verb::Describe(verb) => verb.obey(),

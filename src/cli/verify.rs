@@ -60,7 +60,7 @@ impl Verify {
 fn in_words(folder: &Path, found: &Checkup) -> String {
     let files = amounts::of(found.files as u64, "file");
     let bytes = amounts::bytes(found.bytes as f64);
-    let kind = findings::kind_of(found.state);
+    let kind = findings::kind_of(found.state, found.share);
     let mut text = format!("{}: {kind}; {files}, {bytes}, read and compared", folder.display());
     text += &match found.findings.len() as u64 {
         0 => ": all as they were written".to_owned(),

@@ -81,7 +81,8 @@ pub fn check_room(needed: f64, there: There, space: Space, folder: &Path) -> Res
 pub(super) fn check(resolved: &Resolved, settings: &Settings, there: There) -> Result<(), TooSmall> {
     match (Forecast::of(resolved), room(settings)) {
         (Some(forecast), Some(space)) if !settings.ignore_disk => {
-            check_room(forecast.table_bytes, there, space, &settings.folder)
+            let share = settings.share.map_or(1.0, |share| 1.0 / f64::from(share.of()));
+            check_room(forecast.table_bytes * share, there, space, &settings.folder)
         }
         _ => Ok(()),
     }

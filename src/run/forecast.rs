@@ -54,6 +54,8 @@ impl From<Certainty> for Figure {
 pub struct Forecast {
     /// Plants of the run.
     pub plants: u32,
+    /// Plants with rows in `components`, `records` and `events`.
+    pub sampled: u32,
     /// Components of one plot, of one plant where it has no members, by the last tick, by order from the trunk.
     pub components_by_order: Vec<f64>,
     /// Components of all plants by the last age.
@@ -84,12 +86,14 @@ impl Forecast {
         let scenario = &resolved.scenario;
         let plot = PlotForecast::of(resolved)?;
         let plots = f64::from(scenario.plots());
+        let sampled = f64::from(scenario.sampled()) / f64::from(scenario.plants.max(1));
         let rows = |table: Table, rows: f64| if scenario.tables.contains(&table) { rows * plots } else { 0.0 };
-        let records_rows = rows(Table::Records, plot.shown);
+        let records_rows = rows(Table::Records, plot.shown * sampled);
         let summary_rows = rows(Table::Summary, plot.summary_rows);
-        let component_rows = rows(Table::Components, plot.components);
+        let component_rows = rows(Table::Components, plot.components * sampled);
         Some(Self {
             plants: scenario.plants,
+            sampled: scenario.sampled(),
             components_are: plot.certainty.into(),
             // As if nothing that the plants have made had ended.
             records_rows_are: plot.certainty.max(Certainty::AtMost).into(),
@@ -103,7 +107,7 @@ impl Forecast {
             bytes_a_plant: plot.largest * BYTES_A_COMPONENT as f64,
             bytes_a_plot: plot.components * BYTES_A_COMPONENT as f64,
             component_limit: scenario.limits.components(),
-            work_a_plot: plot.components + if records_rows > 0.0 { plot.shown } else { 0.0 },
+            work_a_plot: plot.components + if records_rows > 0.0 { plot.shown * sampled } else { 0.0 },
         })
     }
 

@@ -4,12 +4,11 @@
 //! The batches have the rows, the schema and the metadata of the Parquet files that the same scenario writes; a batch
 //! is a row group of one part. Absent: meshes, a journal, resuming and any file.
 
-use super::{Grower, Keeper, Program, Progress, RunError, forms, plan_of, pool};
+use super::{Grower, Keeper, Program, Progress, RunError, forms, in_turn, plan_of, pool};
 use phytomer_config::Resolved;
 use phytomer_outputs::OvergrownPlot;
 use phytomer_outputs::tables::{MemoryTables, TableBatches};
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick};
-use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// What a run in memory has made.
 #[derive(Debug, Clone, Default)]
@@ -46,17 +45,11 @@ pub struct InMemory {
 pub fn in_memory(resolved: &Resolved, threads: usize, progress: &Progress) -> Result<InMemory, RunError> {
     let (resolved, _) = forms::settled(resolved)?;
     let plan = plan_of(&resolved, &Program::default())?;
-    progress.begin(&resolved.scenario, plan.plots.into());
+    progress.begin(&resolved.scenario, plan.plots.into(), plan.shards() as usize);
     let grower = Grower::of(&resolved, &plan, progress);
     let all: Vec<u32> = (0..plan.shards()).collect();
-    let shards = pool(threads)?.install(|| {
-        let mut shards = Vec::new();
-        for some in all.chunks(grower.at_once()) {
-            let grown = some.into_par_iter().map(|shard| MemoryKeeper::grown(&grower, *shard));
-            shards.extend(grown.collect::<Result<Vec<_>, RunError>>()?);
-        }
-        Ok::<_, RunError>(shards)
-    })?;
+    let grown = |shard| MemoryKeeper::grown(&grower, shard);
+    let shards = pool(threads)?.install(|| in_turn::on_all_threads(&all, grown))?;
     let mut run = InMemory::default();
     for shard in shards {
         for (table, batches) in shard.batches {
@@ -112,7 +105,7 @@ impl Recorder for MemoryKeeper<'_> {
         if self.tables.wants(age) {
             self.tables.record(age, plot)?;
         }
-        self.grower.progress.end_age(plot);
+        self.grower.progress.end_age(plot, 0);
         Ok(())
     }
 }

@@ -6,7 +6,7 @@
 use super::RunError;
 use super::forecast::Forecast;
 use phytomer_config::{Resolved, scenario};
-use phytomer_outputs::{Input, Provenance, RunPlan, Table};
+use phytomer_outputs::{Input, Provenance, RunPlan, Sample, Table};
 use sha2::{Digest, Sha256};
 
 /// The work of a part file, in components shown to a table: about 60 MB of `records`, some seconds of one core.
@@ -47,6 +47,7 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunErr
     let scenario = &resolved.scenario;
     Ok(RunPlan {
         tables: scenario.written_tables().into_iter().map(table).collect(),
+        sample: scenario.sample.and_then(|sample| Sample::of(scenario.seed, sample, scenario.plants)),
         recorded: scenario.ages.recorded(),
         until: scenario.ages.until,
         plots: scenario.plots(),

@@ -93,3 +93,25 @@ fn is_result(path: &Path) -> bool {
 pub fn sha256(path: &PathBuf) -> String {
     Sha256::digest(fs::read(path).expect("a readable file")).iter().map(|byte| format!("{byte:02x}")).collect()
 }
+
+/// Every file of a run folder, by its path there; of `run.json` all but what depends on the time. The lock is left out.
+pub fn contents(run: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut contents = BTreeMap::new();
+    let mut folders = vec![run.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(&folder).expect("a folder").map(|entry| entry.expect("an entry").path()) {
+            let name = path.strip_prefix(run).expect("below the run").display().to_string().replace('\\', "/");
+            if path.is_dir() {
+                folders.push(path);
+            } else if name != "run.lock" {
+                contents.insert(name, fs::read(&path).expect("a readable file"));
+            }
+        }
+    }
+    let json = contents.get("run.json").map(|text| serde_json::from_slice::<serde_json::Value>(text).expect("JSON"));
+    if let Some(serde_json::Value::Object(mut json)) = json {
+        ["timings_s", "check"].iter().for_each(|key| _ = json.remove(*key));
+        contents.insert("run.json".to_owned(), serde_json::Value::Object(json).to_string().into_bytes());
+    }
+    contents
+}

@@ -25,7 +25,8 @@ pub struct Qualified {
 }
 
 /// The models that the first [`LOOKED_AT`] plants of a run qualify for. `None` where the run has no `components`, or
-/// where its first plants have more than four million rows. Holds the rows of these plants in memory.
+/// where its first plants have none (a sample without them, or a shard) or more than four million rows. Holds the rows
+/// of these plants in memory.
 ///
 /// # Errors
 /// [`Error`] where a table cannot be read.
@@ -44,7 +45,7 @@ pub fn qualified(run: &Run, plants_of_run: u32) -> Result<Option<Qualified>, Err
         let plant = components[0].plant_id;
         found.add(components, &poses.iter().filter(|pose| pose.plant_id == plant).copied().collect::<Vec<_>>());
     }
-    Ok(Some(found))
+    Ok((found.plants > 0).then_some(found))
 }
 
 impl Qualified {

@@ -11,6 +11,7 @@ use super::holder::Holder;
 use super::journal::{FileReport, JOURNAL, ShardReport};
 use super::lock::{LOCK, holder_of};
 use super::papers::{Papers, RunJson};
+use super::share::Share;
 use crate::storage::durable;
 use crate::tables::Table;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -47,6 +48,17 @@ impl Checking {
         self.stop.store(true, Relaxed);
     }
 
+    /// Whether the check is to stop.
+    pub(super) fn is_stopped(&self) -> bool {
+        self.stop.load(Relaxed)
+    }
+
+    /// Begins to count anew, of so many bytes in all.
+    pub(super) fn begin(&self, in_all: u64) {
+        self.bytes.store(0, Relaxed);
+        self.in_all.store(in_all, Relaxed);
+    }
+
     /// The number of bytes read so far.
     pub fn bytes(&self) -> u64 {
         self.bytes.load(Relaxed)
@@ -57,7 +69,8 @@ impl Checking {
         self.in_all.load(Relaxed)
     }
 
-    fn read(&self, bytes: u64) -> io::Result<()> {
+    /// Counts bytes that were read; an error where the check is to stop.
+    pub(super) fn read(&self, bytes: u64) -> io::Result<()> {
         self.bytes.fetch_add(bytes, Relaxed);
         if self.stop.load(Relaxed) { Err(io::Error::from(io::ErrorKind::Interrupted)) } else { Ok(()) }
     }
@@ -133,8 +146,10 @@ pub struct Checkup {
     pub bytes: u64,
     /// How closely the files were checked.
     pub depth: Depth,
-    /// The number of shards of the run; `None` where `run.json` does not state it.
+    /// The number of shards that belong into the folder; `None` where `run.json` does not state it.
     pub shards: Option<u32>,
+    /// The share of the run that the folder has; `None` for a whole run.
+    pub share: Option<Share>,
     /// The numbers of the shards whose files are all as they were written.
     pub sound: BTreeSet<u32>,
     /// The numbers of the shards that are to be grown, or grown again, ascending.
@@ -171,14 +186,16 @@ pub fn check(folder: &Path, depth: Depth, checking: &Checking) -> Result<Checkup
         return Err(Error::OlderFormat { path: folder.to_path_buf() });
     }
     let run = papers.fingerprint();
-    of(folder, &papers, run.as_deref().unwrap_or_default(), holder, (depth, checking))
+    let share = papers.whole().and_then(Share::of_run);
+    of(folder, &papers, (run.as_deref().unwrap_or_default(), share), holder, (depth, checking))
 }
 
-/// Checks a run folder whose documents were read already; `run` is the fingerprint of the run.
+/// Checks a run folder whose documents were read already; `run` is the fingerprint of the run, `share` what the folder
+/// has of it.
 pub fn of(
     folder: &Path,
     papers: &Papers,
-    run: &str,
+    (run, share): (&str, Option<Share>),
     holder: Option<Holder>,
     (depth, checking): (Depth, &Checking),
 ) -> Result<Checkup, Error> {
@@ -186,7 +203,7 @@ pub fn of(
     let in_progress = holder.is_some();
     let named = papers.named(&done, in_progress);
     let bytes = named.values().map(|file| file.bytes).sum();
-    checking.in_all.store(bytes, Relaxed);
+    checking.begin(bytes);
     let mut troubles = troubles_of(folder, &named, depth, checking)?;
     let is_sound = |report: &ShardReport| report.files.iter().all(|file| !troubles.contains_key(&file.path));
     let sound: BTreeSet<u32> = done.values().filter(|report| is_sound(report)).map(|report| report.shard).collect();
@@ -197,6 +214,7 @@ pub fn of(
     }
     let shards = papers.whole().map(shards_of);
     let most = shards.or_else(|| done.keys().max().map(|last| last + 1)).unwrap_or_default();
+    let own = || Share::parts(share, most);
     let findings: Vec<Finding> = troubles.into_iter().map(|(path, trouble)| Finding { path, trouble }).collect();
     Ok(Checkup {
         state: state_of(&findings, in_progress, complete),
@@ -204,8 +222,9 @@ pub fn of(
         files: named.len(),
         bytes,
         depth,
-        shards,
-        to_grow: (0..most).filter(|shard| !sound.contains(shard)).collect(),
+        shards: shards.map(|_| own().count() as u32),
+        share,
+        to_grow: own().filter(|shard| !sound.contains(shard)).collect(),
         sound,
         holder,
     })
@@ -227,8 +246,8 @@ fn state_of(findings: &[Finding], in_progress: bool, complete: bool) -> State {
     }
 }
 
-/// The number of shards of the run, from its `run.json`.
-fn shards_of(run: &Value) -> u32 {
+/// The number of shards of the whole run, from its `run.json`.
+pub fn shards_of(run: &Value) -> u32 {
     let number = |key: &str| run[key].as_u64().and_then(|number| u32::try_from(number).ok()).unwrap_or_default();
     number("plots").div_ceil(number("plots_per_part").max(1))
 }

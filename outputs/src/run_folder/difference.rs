@@ -5,6 +5,7 @@
 //! the advice what to do, which is in the error.
 
 use super::identity::identity;
+use super::share::{SHARE, Share};
 use crate::tables::RunPlan;
 use serde_json::{Map, Value};
 use std::fmt;
@@ -52,6 +53,14 @@ impl Differences {
             }
         }
         Self(found)
+    }
+
+    /// Adds the difference between the share of the run in the folder and that of the resuming run.
+    pub fn compare_shares(&mut self, run: Option<Share>, now: Option<Share>) {
+        if run != now {
+            let [run, now] = [run, now].map(|share| Some(share.map_or("the whole run".to_owned(), |s| s.to_string())));
+            self.0.push(Difference { key: SHARE.to_owned(), run, now });
+        }
     }
 }
 

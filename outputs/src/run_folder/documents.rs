@@ -8,6 +8,7 @@ use super::error::Error;
 use super::identity::{fingerprint, identity};
 use super::journal::{FileReport, JOURNAL, OvergrownPlot, ShardReport};
 use super::seal::DOCUMENT;
+use super::share::{SHARE, Share};
 use crate::storage::durable;
 use crate::tables::arrow::plant_ontology;
 use crate::tables::schema::{Column, Type};
@@ -70,8 +71,8 @@ impl RunReport {
 ///
 /// `run.json` comes first, so that a folder with any other file of the run also holds it: a run that was killed at its
 /// start can be resumed.
-pub fn write_start(path: &Path, plan: &RunPlan) -> Result<(), Error> {
-    let mut run = run(plan, "running");
+pub fn write_start(path: &Path, plan: &RunPlan, share: Option<Share>) -> Result<(), Error> {
+    let mut run = run(plan, share, "running");
     run.insert("documents".to_owned(), json!([document(VIEWS, views(plan).as_bytes())]));
     write_run(path, run)?;
     write_views(path, plan)
@@ -85,7 +86,7 @@ pub fn write_views(path: &Path, plan: &RunPlan) -> Result<(), Error> {
 /// Writes the documents of a finished run, whose journal must be in order.
 pub fn write_end(
     path: &Path,
-    plan: &RunPlan,
+    (plan, share): (&RunPlan, Option<Share>),
     done: &BTreeMap<u32, ShardReport>,
     timings: &[(&str, f64)],
 ) -> Result<RunReport, Error> {
@@ -95,7 +96,7 @@ pub fn write_end(
     let (bytes, sha256) = durable::sync_and_hash(&path.join(JOURNAL))?;
     let journal = FileReport { path: JOURNAL.to_owned(), table: None, rows: None, bytes, sha256 };
     let documents = [journal, document(PACKAGE, &package), document(VIEWS, views(plan).as_bytes())];
-    let mut run = run(plan, "complete");
+    let mut run = run(plan, share, "complete");
     let timings: Map<String, Value> =
         timings.iter().map(|(name, seconds)| ((*name).to_owned(), json!(seconds))).collect();
     run.insert("timings_s".to_owned(), Value::Object(timings));
@@ -108,8 +109,9 @@ pub fn write_end(
     Ok(report)
 }
 
-fn run(plan: &RunPlan, status: &str) -> Map<String, Value> {
+fn run(plan: &RunPlan, share: Option<Share>, status: &str) -> Map<String, Value> {
     let mut run = Map::from_iter([("format".to_owned(), json!("phytomer run")), ("status".to_owned(), json!(status))]);
+    run.extend(share.map(|share| (SHARE.to_owned(), json!(share))));
     run.extend(identity(plan));
     run.insert("fingerprint".to_owned(), json!(fingerprint(plan)));
     run.insert("resolved_scenario".to_owned(), plan.provenance.resolved.clone());

@@ -5,6 +5,8 @@
 
 use super::difference::Differences;
 use super::holder::Holder;
+use super::merge_fault::MergeFaults;
+use super::share::Share;
 use crate::storage::FileError;
 use crate::tables::TableError;
 use std::io;
@@ -97,6 +99,20 @@ pub enum Error {
         /// The folder.
         path: PathBuf,
     },
+    /// The share of a run would have no part.
+    #[error(
+        "the shard {share} would be empty: the run has {parts} part files, so that it can be dealt into at most {parts} \
+         shards; ask for fewer shards, or for smaller parts by `output = {{ plants_per_part = … }}` in the scenario"
+    )]
+    EmptyShare {
+        /// The share.
+        share: Share,
+        /// The number of parts of the run.
+        parts: u32,
+    },
+    /// Folders do not make up one run.
+    #[error("these folders cannot be merged; nothing was written:\n{0}")]
+    Merge(MergeFaults),
     /// The caller stopped the check of the files.
     #[error("the check of the files was stopped")]
     Stopped,

@@ -13,11 +13,16 @@ mod holder;
 mod identity;
 mod journal;
 mod lock;
+mod merge;
+mod merge_fault;
 mod papers;
 mod seal;
 mod shard;
+mod share;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_merge;
 
 pub use check::{Checking, Checkup, Depth, Finding, State, Trouble, check};
 pub use difference::{Difference, Differences};
@@ -25,8 +30,11 @@ pub use documents::RunReport;
 pub use error::Error;
 pub use holder::Holder;
 pub use journal::{FileReport, OvergrownPlot, ShardReport};
+pub use merge::{Merged, merge};
+pub use merge_fault::{MergeFault, MergeFaults};
 pub(crate) use papers::{Papers, RunJson};
 pub use shard::Shard;
+pub use share::Share;
 
 use crate::storage::durable;
 use crate::storage::space::{FreeSpace, SystemSpace, Watch};
@@ -38,6 +46,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 /// What to do with a folder that already holds files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,6 +66,8 @@ pub struct Opening<'a> {
     pub checking: &'a Checking,
     /// The source of the free space of the disk: the system, or a test.
     pub space: Arc<dyn FreeSpace>,
+    /// The share of the run that the folder gets; `None` for the whole run.
+    pub share: Option<Share>,
 }
 
 /// A run folder that is being filled. Several threads may each fill a shard at once.
@@ -64,6 +75,7 @@ pub struct Opening<'a> {
 pub struct RunFolder {
     path: PathBuf,
     plan: RunPlan,
+    share: Option<Share>,
     journal: Mutex<Journal>,
     watch: Arc<Watch>,
     found: Option<Checkup>,
@@ -77,7 +89,7 @@ impl RunFolder {
     /// As [`RunFolder::open`].
     pub fn create(path: &Path, plan: RunPlan, mode: Mode) -> Result<Self, Error> {
         let space = Arc::new(SystemSpace);
-        Self::open(path, plan, mode, &Opening { checking: &Checking::default(), space })
+        Self::open(path, plan, mode, &Opening { checking: &Checking::default(), space, share: None })
     }
 
     /// Creates the folder, or opens the folder of an earlier start. Before anything in it is read or removed, the lock
@@ -86,8 +98,12 @@ impl RunFolder {
     ///
     /// # Errors
     /// [`Error::Occupied`], [`Error::NotARun`], [`Error::InProgress`], [`Error::Foreign`], [`Error::Unrecognised`],
-    /// [`Error::Stopped`], or a failed write.
+    /// [`Error::EmptyShare`], [`Error::Stopped`], or a failed write.
     pub fn open(path: &Path, plan: RunPlan, mode: Mode, opening: &Opening) -> Result<Self, Error> {
+        let share = opening.share;
+        if let Some(share) = share.filter(|_| Share::parts(share, plan.shards()).next().is_none()) {
+            return Err(Error::EmptyShare { share, parts: plan.shards() });
+        }
         if lock::holder_of(path).is_none() {
             refuse(path, mode, Papers::read(path)?.is_run())?;
         }
@@ -99,15 +115,15 @@ impl RunFolder {
         let mut done = BTreeMap::new();
         let mut found = None;
         if mode == Mode::Resume && is_run {
-            let checkup = check_resumed(path, &papers, &plan, opening.checking)?;
+            let checkup = check_resumed(path, &papers, (&plan, share), opening.checking)?;
             done = kept(&papers, &plan, &checkup);
             found = Some(checkup);
         } else if is_run {
             clear(path, &papers)?;
         }
         let watch = Watch::over(path, &opening.space);
-        let journal = prepare(path, &plan, &papers, done)?;
-        Ok(Self { path: path.to_path_buf(), plan, journal: Mutex::new(journal), watch, found, lock })
+        let journal = prepare(path, (&plan, share), &papers, done)?;
+        Ok(Self { path: path.to_path_buf(), plan, share, journal: Mutex::new(journal), watch, found, lock })
     }
 
     /// What the check of a resumed run found, before repair; `None` for a new run.
@@ -131,10 +147,25 @@ impl RunFolder {
         &self.plan
     }
 
+    /// The numbers of the shards that belong into the folder, ascending: all, or those of its share of the run.
+    pub fn own_shards(&self) -> impl Iterator<Item = u32> + use<> {
+        Share::parts(self.share, self.plan.shards())
+    }
+
     /// The numbers of the shards that are still to be grown, ascending.
     pub fn missing_shards(&self) -> Vec<u32> {
         let journal = self.journal();
-        (0..self.plan.shards()).filter(|shard| !journal.done().contains_key(shard)).collect()
+        self.own_shards().filter(|shard| !journal.done().contains_key(shard)).collect()
+    }
+
+    /// The number of bytes that were written to tables and meshes since the folder was opened.
+    pub fn written(&self) -> u64 {
+        self.watch.written()
+    }
+
+    /// The time that threads have waited since then for columns that others encode and for the disk, all together.
+    pub fn waited(&self) -> Duration {
+        self.watch.waited()
     }
 
     /// Opens a shard for writing.
@@ -151,6 +182,7 @@ impl RunFolder {
 
     /// Closes the run: sorts the journal, writes `datapackage.json`, and writes `run.json` with the `timings`, pairs of
     /// a name and seconds.
+    ///
     /// # Errors
     /// [`Error::MissingShards`], or a failed write.
     pub fn finish(&self, timings: &[(&str, f64)]) -> Result<RunReport, Error> {
@@ -160,7 +192,7 @@ impl RunFolder {
         }
         let mut journal = self.journal();
         journal.put_in_order()?;
-        documents::write_end(&self.path, &self.plan, journal.done(), timings)
+        documents::write_end(&self.path, (&self.plan, self.share), journal.done(), timings)
     }
 
     fn journal(&self) -> MutexGuard<'_, Journal> {
@@ -179,12 +211,18 @@ fn refuse(path: &Path, mode: Mode, is_run: bool) -> Result<(), Error> {
     }
 }
 
-/// Checks all files of a run that is to be resumed, if its plan is equal.
-fn check_resumed(path: &Path, papers: &Papers, plan: &RunPlan, checking: &Checking) -> Result<Checkup, Error> {
+/// Checks all files of a run that is to be resumed, if its plan and its share are equal.
+fn check_resumed(
+    path: &Path,
+    papers: &Papers,
+    (plan, share): (&RunPlan, Option<Share>),
+    checking: &Checking,
+) -> Result<Checkup, Error> {
     let run = fingerprint(plan);
     match &papers.run {
         RunJson::Whole(there) | RunJson::Older(there) => {
-            let differences = Differences::between(there, plan);
+            let mut differences = Differences::between(there, plan);
+            differences.compare_shares(Share::of_run(there), share);
             if !differences.0.is_empty() {
                 return Err(Error::Foreign { path: path.to_path_buf(), differences });
             }
@@ -196,7 +234,7 @@ fn check_resumed(path: &Path, papers: &Papers, plan: &RunPlan, checking: &Checki
             }
         }
     }
-    check::of(path, papers, &run, None, (Depth::Bytes, checking))
+    check::of(path, papers, (&run, share), None, (Depth::Bytes, checking))
 }
 
 /// The shards that need not be grown again, by number.
@@ -209,11 +247,17 @@ fn kept(papers: &Papers, plan: &RunPlan, found: &Checkup) -> BTreeMap<u32, Shard
 /// Prepares the folder for the shards that are not `done`: documents, folders and journal. Files of interrupted or
 /// damaged shards are removed. `run.json` is first set to that of an unfinished run, before any file that it named is
 /// removed.
-fn prepare(path: &Path, plan: &RunPlan, papers: &Papers, done: BTreeMap<u32, ShardReport>) -> Result<Journal, Error> {
-    if papers.whole().is_some() && done.len() == plan.shards() as usize {
+fn prepare(
+    path: &Path,
+    (plan, share): (&RunPlan, Option<Share>),
+    papers: &Papers,
+    done: BTreeMap<u32, ShardReport>,
+) -> Result<Journal, Error> {
+    let all_done = Share::parts(share, plan.shards()).all(|shard| done.contains_key(&shard));
+    if papers.whole().is_some() && all_done {
         documents::write_views(path, plan)?;
     } else {
-        documents::write_start(path, plan)?;
+        documents::write_start(path, plan, share)?;
     }
     make_tables(path, plan)?;
     let journal = Journal::of(&path.join(JOURNAL), fingerprint(plan), done)?;

@@ -113,10 +113,11 @@ impl<'a> Shard<'a> {
             let path = part_path(table, self.report.shard);
             self.report.files.push(FileReport { path, table: Some(table), rows: Some(rows), bytes, sha256 });
         }
-        for path in std::mem::take(&mut self.staged) {
-            self.name(path)?;
-        }
-        self.folder.journal().enter(self.report.clone())?;
+        let folder = self.folder;
+        folder.watch.wait(|| {
+            std::mem::take(&mut self.staged).into_iter().try_for_each(|path| self.name(path))?;
+            folder.journal().enter(self.report.clone())
+        })?;
         Ok(self.report.clone())
     }
 
@@ -126,6 +127,7 @@ impl<'a> Shard<'a> {
         let staged = durable::beside(&full);
         if !self.report.files.iter().any(|file| file.path == path) {
             let (bytes, sha256) = durable::sync_and_hash(&staged)?;
+            self.folder.watch.count(bytes);
             self.report.files.push(FileReport { path, table: None, rows: None, bytes, sha256 });
         }
         Ok(durable::rename(&staged, &full)?)

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use tempfile::tempdir;
 
 /// Every file under a folder but `run.json`, which holds timings.
-fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+pub(super) fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut all = BTreeMap::new();
     for path in durable::files_in(folder).unwrap() {
         if path.is_dir() {
@@ -173,7 +173,7 @@ fn a_check_that_is_told_to_stop_says_so_and_changes_nothing() {
     let checking = Checking::default();
     checking.stop();
     assert!(matches!(check(home.path(), Depth::Bytes, &checking), Err(Error::Stopped)));
-    let opening = Opening { checking: &checking, space: Arc::new(SystemSpace) };
+    let opening = Opening { checking: &checking, space: Arc::new(SystemSpace), share: None };
     let stopped = RunFolder::open(home.path(), plan(4, 2), Mode::Resume, &opening);
     assert!(matches!(stopped, Err(Error::Stopped)), "{stopped:?}");
     assert_eq!(contents(home.path()), before);

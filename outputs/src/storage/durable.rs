@@ -38,7 +38,10 @@ impl HashingFile {
     /// Syncs the file; returns its size in bytes and its SHA-256 in hexadecimal.
     pub fn finish(mut self) -> Result<(u64, String), FileError> {
         // The system reports a lost block once, to the first call that asks, so the background syncs are checked first.
-        self.sent().and_then(|()| self.file.sync_all()).map_err(FileError::io("write to disk", &self.path))?;
+        let watch = Arc::clone(&self.watch);
+        watch
+            .wait(|| self.sent().and_then(|()| self.file.sync_all()))
+            .map_err(FileError::io("write to disk", &self.path))?;
         Ok((self.bytes, hexadecimal(&self.hash.finalize())))
     }
 

@@ -3,13 +3,14 @@
 //! A full disk harms every program on the machine, and a run that first learns of it from a failed write may have
 //! damaged a file of another program. So free space is checked while tables are written, and before each mesh. Where a
 //! system does not report its free space, a run goes on without this check. Absent: the size that a run is expected to
-//! need.
+//! need. The watch also counts what was written, and how long threads have waited until it was.
 
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use std::time::{Duration, Instant};
 
 /// The most bytes that a run leaves free: for writes under way on other threads, for the journal and for other
 /// programs.
@@ -71,12 +72,42 @@ pub struct Watch {
     folder: PathBuf,
     space: Arc<dyn FreeSpace>,
     written: AtomicU64,
+    waited_ns: AtomicU64,
 }
 
 impl Watch {
     /// Watches the disk of a folder.
     pub fn over(folder: &Path, space: &Arc<dyn FreeSpace>) -> Arc<Self> {
-        Arc::new(Self { folder: folder.to_path_buf(), space: Arc::clone(space), written: AtomicU64::new(0) })
+        Arc::new(Self {
+            folder: folder.to_path_buf(),
+            space: Arc::clone(space),
+            written: AtomicU64::new(0),
+            waited_ns: AtomicU64::new(0),
+        })
+    }
+
+    /// The number of bytes that were counted so far.
+    pub fn written(&self) -> u64 {
+        self.written.load(Relaxed)
+    }
+
+    /// The time that threads have waited for the writer, all together.
+    pub fn waited(&self) -> Duration {
+        Duration::from_nanos(self.waited_ns.load(Relaxed))
+    }
+
+    /// Does what a thread must wait for, and counts the time.
+    pub fn wait<T>(&self, work: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let result = work();
+        let waited = u64::try_from(start.elapsed().as_nanos()).unwrap_or(u64::MAX);
+        self.waited_ns.fetch_add(waited, Relaxed);
+        result
+    }
+
+    /// Counts written bytes without a look at the disk.
+    pub fn count(&self, bytes: u64) {
+        self.written.fetch_add(bytes, Relaxed);
     }
 
     /// Counts written bytes, and checks the disk once per megabyte.

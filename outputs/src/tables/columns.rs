@@ -311,7 +311,7 @@ pub static SUMMARY: [Column; 19] = [
 ];
 
 /// A row per plant.
-pub static PLANTS: [Column; 9] = [
+pub static PLANTS: [Column; 10] = [
     TREATMENT,
     PLOT,
     PLANT,
@@ -329,4 +329,9 @@ pub static PLANTS: [Column; 9] = [
     ),
     Column::double("y_m", "m", "The place of the seed in the plot, northward; never rounded."),
     Column::double("z_m", "m", "The place of the seed in the plot, upward; never rounded."),
+    Column::truth(
+        "sampled",
+        "Whether `components`, `records` and `events` have rows of the plant: true unless the run has a sample that it is \
+         not in.",
+    ),
 ];

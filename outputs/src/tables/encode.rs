@@ -6,6 +6,7 @@
 
 use super::buffers::{self, Values};
 use super::schema::Column;
+use crate::storage::space::Watch;
 use arrow_array::StringArray;
 use arrow_schema::Field;
 use parquet::arrow::arrow_writer::{ArrowColumnChunk, ArrowColumnWriter, compute_leaves};
@@ -101,13 +102,13 @@ impl Queue {
     }
 
     /// Waits for the encoded columns of `group` and returns them in their order. Until then this thread runs jobs from
-    /// the queue.
-    pub fn finish(&self, group: &RowGroup) -> Vec<Encoded> {
+    /// the queue; the watch counts the time in which there is none.
+    pub fn finish(&self, group: &RowGroup, watch: &Watch) -> Vec<Encoded> {
         while !group.is_finished() {
             let Some(job) = lock(&self.waiting).jobs.pop_front() else { break };
             job.run();
         }
-        group.wait()
+        watch.wait(|| group.wait())
     }
 
     fn work(&self) {

@@ -19,13 +19,15 @@ pub struct Membership {
     pub species: usize,
     /// The tick of the plot at which the plant was sown.
     pub sown: Tick,
+    /// Whether `components`, `records` and `events` have rows of the plant.
+    pub sampled: bool,
 }
 
 impl Membership {
     /// The membership of the plant with the index `at` in a plot.
     pub fn of(plot: &Plot, at: usize) -> Self {
         let Member { species, sown } = plot.members[at];
-        Self { plot: plot.id, treatment: plot.treatment, replicate: plot.replicate, species, sown }
+        Self { plot: plot.id, treatment: plot.treatment, replicate: plot.replicate, species, sown, sampled: true }
     }
 
     /// The plant's age at a tick of the plot; `None` before it is sown.

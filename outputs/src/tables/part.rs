@@ -31,6 +31,7 @@ pub struct Part {
     words: Vec<Arc<StringArray>>,
     precision_m: Option<f32>,
     queue: Arc<Queue>,
+    watch: Arc<Watch>,
     file: SerializedFileWriter<HashingFile>,
     factory: ArrowRowGroupWriterFactory,
     in_flight: VecDeque<Arc<RowGroup>>,
@@ -70,6 +71,7 @@ impl Part {
             words: words_of_run(declared, plan),
             precision_m: plan.precision_m.map(|precision| precision as f32),
             queue: queue.clone(),
+            watch: watch.clone(),
             file,
             factory,
             in_flight: VecDeque::new(),
@@ -103,7 +105,7 @@ impl Part {
 
     fn write_first(&mut self) -> Result<(), ParquetError> {
         let Some(group) = self.in_flight.pop_front() else { return Ok(()) };
-        let columns = self.queue.finish(&group);
+        let columns = self.queue.finish(&group, &self.watch);
         let mut row_group = self.file.next_row_group()?;
         let mut buffers = Vec::with_capacity(columns.len());
         for column in columns {

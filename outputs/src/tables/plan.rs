@@ -4,6 +4,7 @@
 //! threads, which change no byte.
 
 use super::Table;
+use super::sample::Sample;
 use super::schema::Column;
 use phytomer_sim::Tick;
 use serde::{Deserialize, Serialize};
@@ -15,6 +16,8 @@ use std::ops::Range;
 pub struct RunPlan {
     /// The tables that are written.
     pub tables: Vec<Table>,
+    /// The plants with rows in `components`, `records` and `events`; `None` for all.
+    pub sample: Option<Sample>,
     /// The ticks of the plots at which `records` and `summary` have rows, ascending.
     pub recorded: Vec<Tick>,
     /// The last tick of a plot.

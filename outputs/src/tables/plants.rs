@@ -20,6 +20,7 @@ columns! {
         x: Double(f64) = plant.place[0],
         y: Double(f64) = plant.place[1],
         z: Double(f64) = plant.place[2],
+        sampled: Bool(i8) = i8::from(of.sampled),
     }
 }
 

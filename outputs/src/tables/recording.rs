@@ -3,13 +3,13 @@
 //! Files and memory are filled by the same code, so a table in memory has the rows of the Parquet file. The components
 //! of a plant are written once, when their fates are known; `records` and `summary` at each recorded tick; `events` and
 //! `plants` when the plot has ended. The plants of a plot are written in the order of their numbers, one at a time, so
-//! the working memory is that of the largest plant. A plant that is not sown yet has a row in `plants` only. Absent:
-//! storing row groups ([`Sink`]).
+//! the working memory is that of the largest plant. A plant that is not sown yet has a row in `plants` only, a plant
+//! that is not in the sample in `plants` and `summary`. Absent: storing row groups ([`Sink`]).
 
 use super::sink::{Rows, Sink};
 use super::{
     ComponentColumns, ComponentIndex, ComponentRow, EventColumns, Membership, PlantAtAge, PlantColumns, RecordColumns,
-    RecordRow, RunPlan, SortedEvents, SummaryColumns, Table, TableError, by_number, summarise,
+    RecordRow, RunPlan, Sample, SortedEvents, SummaryColumns, Table, TableError, by_number, summarise,
 };
 use phytomer_sim::{Ending, Plot, Tick};
 
@@ -25,6 +25,7 @@ struct Tables<S> {
 /// Tables that are filled plot by plot.
 pub struct Recording<S> {
     tables: Tables<S>,
+    sample: Option<Sample>,
     recorded: Vec<Tick>,
     until: Tick,
     mechanics: bool,
@@ -35,6 +36,11 @@ pub struct Recording<S> {
     rows: Vec<RecordRow>,
     lives: Vec<ComponentRow>,
     sorted: SortedEvents,
+}
+
+/// Whether the plant with the index `at` in a plot has rows in `components`, `records` and `events`.
+fn has(sample: Option<Sample>, plot: &Plot, at: usize) -> bool {
+    sample.is_none_or(|sample| sample.has(plot.plants[at].id))
 }
 
 impl<S: Sink> Recording<S> {
@@ -53,6 +59,7 @@ impl<S: Sink> Recording<S> {
         };
         Ok(Self {
             tables,
+            sample: plan.sample,
             recorded: plan.recorded.clone(),
             until: plan.until,
             mechanics: plan.mechanics,
@@ -106,7 +113,8 @@ impl<S: Sink> Recording<S> {
 
     fn write_components(&mut self, plot: &Plot, last: Tick) -> Result<(), TableError> {
         let Some(table) = &mut self.tables.components else { return Ok(()) };
-        for at in by_number(plot) {
+        let chosen = |at: &usize| has(self.sample, plot, *at);
+        for at in by_number(plot).into_iter().filter(chosen) {
             let (of, plant) = (Membership::of(plot, at), &plot.plants[at]);
             let Some(last) = of.age_at(last) else { continue };
             self.index.read(plant)?;
@@ -123,7 +131,8 @@ impl<S: Sink> Recording<S> {
     fn write_events(&mut self, plot: &Plot, last: Tick) -> Result<(), TableError> {
         let Some(table) = &mut self.tables.events else { return Ok(()) };
         self.sorted.sort(plot, last);
-        for (at, mut left) in self.sorted.stretches() {
+        let chosen = |(at, _): &(usize, &[_])| has(self.sample, plot, *at);
+        for (at, mut left) in self.sorted.stretches().filter(chosen) {
             while !left.is_empty() {
                 let (events, others) = left.split_at(left.len().min(table.room()));
                 table.columns.fill(Membership::of(plot, at), &plot.plants[at], events);
@@ -137,7 +146,8 @@ impl<S: Sink> Recording<S> {
     fn write_plants(&mut self, plot: &Plot) -> Result<(), TableError> {
         let Some(table) = &mut self.tables.plants else { return Ok(()) };
         for at in by_number(plot) {
-            table.columns.add(Membership::of(plot, at), &plot.plants[at]);
+            let of = Membership { sampled: has(self.sample, plot, at), ..Membership::of(plot, at) };
+            table.columns.add(of, &plot.plants[at]);
             table.flush_if_full()?;
         }
         Ok(())
@@ -153,7 +163,8 @@ impl<S: Sink> Recording<S> {
             table.columns.add(of, plant, age, &summarise(plant, &self.index, age));
             table.flush_if_full()?;
         }
-        let Some(table) = &mut self.tables.records else { return Ok(()) };
+        let chosen = has(self.sample, plot, at);
+        let Some(table) = self.tables.records.as_mut().filter(|_| chosen) else { return Ok(()) };
         let shown = PlantAtAge { of, plant, index: &self.index, age, mechanics: self.mechanics };
         let mut next = 0;
         while next < self.index.len() {

@@ -166,7 +166,8 @@ impl Held {
 
     pub fn as_text(&self) -> String {
         let scenario = &self.recorded.scenario;
-        let status = findings::kind_of(self.state());
+        let share = self.found.as_ref().and_then(|found| found.share);
+        let status = findings::kind_of(self.state(), share);
         let (name, species) = (self.words("scenario"), self.recorded.species_in_words());
         let mut text = format!("{}: {status} of the scenario `{name}`, species `{species}`\n", self.folder.display());
         let mut line = |name: &str, value: String| {
@@ -234,7 +235,11 @@ impl Held {
         let plants = amounts::count(self.recorded.scenario.plants.into());
         match (self.number("living"), self.number("dead")) {
             (Some(living), Some(dead)) => {
-                format!("{plants}: {} living, {} dead", amounts::count(living), amounts::count(dead))
+                let own = match self.found.as_ref().and_then(|found| found.share) {
+                    Some(_) => format!("{} of the {plants} of the run", amounts::count(living + dead)),
+                    None => plants,
+                };
+                format!("{own}: {} living, {} dead", amounts::count(living), amounts::count(dead))
             }
             _ => format!("{plants}, not all of them grown yet; --resume goes on"),
         }

@@ -44,6 +44,10 @@ pub fn as_text(resolved: &Resolved) -> String {
     line("ages", ages_in_words(&scenario.ages.recorded(), scenario.ages.until));
     line("seed", scenario.seed.to_string());
     line("tables", tables_in_words(&scenario.written_tables()));
+    if scenario.sample.is_some() {
+        let plants = amounts::of(scenario.sampled().into(), "plant");
+        line("sample", format!("components, records and events of {plants}, summary and plants of all"));
+    }
     line("meshes", meshes_in_words(resolved));
     if let Some(forecast) = Forecast::of(resolved) {
         line(

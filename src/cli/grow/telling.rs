@@ -21,14 +21,28 @@ pub struct Told<'a> {
     pub found: Option<Value>,
 }
 
+/// How a run ended.
+fn verdict_of(outcome: &Outcome) -> Verdict {
+    match outcome {
+        outcome if outcome.is_interrupted() => Verdict::Interrupted,
+        outcome if !outcome.report.overgrown.is_empty() => Verdict::Failed,
+        _ => Verdict::Done,
+    }
+}
+
+/// How a run ended, in a word for programs.
+pub fn status(outcome: &Outcome) -> &'static str {
+    match verdict_of(outcome) {
+        Verdict::Interrupted => "interrupted",
+        Verdict::Failed => "limited",
+        _ => "complete",
+    }
+}
+
 impl Told<'_> {
     /// How it ended.
     pub fn verdict(&self) -> Verdict {
-        match self.outcome {
-            outcome if outcome.is_interrupted() => Verdict::Interrupted,
-            outcome if !outcome.report.overgrown.is_empty() => Verdict::Failed,
-            _ => Verdict::Done,
-        }
+        verdict_of(self.outcome)
     }
 
     /// One object with everything.
@@ -36,11 +50,8 @@ impl Told<'_> {
         let Self { resolved, settings, outcome, .. } = self;
         let report = &outcome.report;
         json!({
-            "status": match self.verdict() {
-                Verdict::Interrupted => "interrupted",
-                Verdict::Failed => "limited",
-                _ => "complete",
-            },
+            "status": status(outcome),
+            "shard": settings.share,
             "run": settings.folder.display().to_string(),
             "scenario": resolved.scenario.name,
             "species": species_in_words(resolved),
@@ -61,6 +72,7 @@ impl Told<'_> {
             "components_grown_now": outcome.components_now,
             "seconds": outcome.seconds,
             "components_per_second": self.rate().round(),
+            "waited_for_writer": outcome.waited,
             "peak_memory_bytes": amounts::peak_memory(),
             "overgrown": report.overgrown,
             "found": self.found,
@@ -78,8 +90,9 @@ impl Told<'_> {
         let plants = amounts::of(report.living + report.dead, "plant");
         let species = species_in_words(resolved);
         let time = amounts::time(outcome.seconds);
+        let shard = self.settings.share.map(|share| format!(", shard {share}")).unwrap_or_default();
         let mut text =
-            format!("{plants} of `{species}` grown to {} {} in {time}\n", clock(resolved), scenario.ages.until);
+            format!("{plants} of `{species}`{shard} grown to {} {} in {time}\n", clock(resolved), scenario.ages.until);
         let mut line = |name: &str, value: String| {
             let _ = writeln!(text, "  {name:<11} {value}");
         };
@@ -165,13 +178,24 @@ impl Told<'_> {
 }
 
 /// Tells what is expected of a run.
-pub fn forecast(resolved: &Resolved, forecast: Option<&Forecast>, room: Option<Space>, as_json: bool) -> Result<()> {
+pub fn forecast(
+    resolved: &Resolved,
+    forecast: Option<&Forecast>,
+    (parts, room): (u32, Option<Space>),
+    as_json: bool,
+) -> Result<()> {
     let scenario = &resolved.scenario;
     if as_json {
         let free = room.map(|space| space.free);
         let (name, seed) = (&scenario.name, scenario.seed);
-        let what =
-            json!({"status": "dry_run", "scenario": name, "seed": seed, "expected": forecast, "free_bytes": free});
+        let what = json!({
+            "status": "dry_run",
+            "scenario": name,
+            "seed": seed,
+            "expected": forecast,
+            "parts": parts,
+            "free_bytes": free,
+        });
         return terminal::put_json(&what);
     }
     let plants = amounts::of(scenario.plants.into(), "plant");
@@ -182,6 +206,8 @@ pub fn forecast(resolved: &Resolved, forecast: Option<&Forecast>, room: Option<S
         Some(forecast) => text += &in_words(forecast, scenario.members()),
         None => text += "  no forecast: the expectation of this species takes too long to sum up\n",
     }
+    let dealt = "of each table, so at most so many shards";
+    let _ = writeln!(text, "  {:<11} {:>7} {:>10} {dealt}", "parts", "", amounts::count(parts.into()));
     let free = room.map_or("unknown".to_owned(), |space| amounts::bytes(space.free as f64));
     let _ = writeln!(text, "  {:<11} {free:>10} on the disk of the run folder", "free");
     terminal::put(&(text + "nothing was written"))
@@ -208,6 +234,9 @@ fn in_words(forecast: &Forecast, members: u32) -> String {
         line(&format!("order {order}"), components, amounts::about(*value), &format!("components {whole}"));
     }
     line("in all", components, amounts::about(forecast.components), "components");
+    if forecast.sampled < forecast.plants {
+        line("sample", Figure::Exact, amounts::count(forecast.sampled.into()), "plants in components, records, events");
+    }
     line("records", forecast.records_rows_are, amounts::about(forecast.records_rows), "rows");
     line("summary", Figure::Exact, amounts::about(forecast.summary_rows), "rows");
     let tables = "of tables, if nothing is shed";

@@ -1,0 +1,150 @@
+//! Shares of a run, grown into folders of their own, checked, resumed and merged: the bytes of a run that was grown at
+//! once, and what is told of folders that do not make up one run.
+
+use super::tests::contents;
+use super::*;
+use crate::specimen::{grow_shard, plan, run};
+use serde_json::Value;
+use tempfile::{TempDir, tempdir};
+
+/// Seven plots in parts of two: four parts.
+fn seven() -> RunPlan {
+    plan(7, 2)
+}
+
+fn opening(checking: &Checking, share: Option<Share>) -> Opening<'_> {
+    Opening { checking, space: Arc::new(SystemSpace), share }
+}
+
+/// The folder of a share that is being filled.
+fn share_of(path: &Path, plan: RunPlan, share: &str, mode: Mode) -> Result<RunFolder, Error> {
+    RunFolder::open(path, plan, mode, &opening(&Checking::default(), share.parse().ok()))
+}
+
+fn grow_share(path: &Path, plan: RunPlan, share: &str) {
+    let folder = share_of(path, plan, share, Mode::New).unwrap();
+    folder.missing_shards().into_iter().for_each(|shard| _ = grow_shard(&folder, shard, 100_000));
+    folder.finish(&[("growth", 0.25)]).unwrap();
+}
+
+fn merge_into(path: &Path, parts: &[PathBuf], mode: Mode) -> Result<Merged, Error> {
+    let program = (seven().provenance.version, seven().provenance.git_hash);
+    merge(path, parts, (&program.0, &program.1), (mode, &opening(&Checking::default(), None)))
+}
+
+/// A home with the two shares of a run and the whole run.
+fn shared() -> (TempDir, [PathBuf; 2], PathBuf) {
+    let home = tempdir().unwrap();
+    let parts = ["1/2", "2/2"].map(|share| {
+        let path = home.path().join(share.replace('/', "-"));
+        grow_share(&path, seven(), share);
+        path
+    });
+    let whole = home.path().join("whole");
+    run(&whole, seven());
+    (home, parts, whole)
+}
+
+fn faults(error: Error) -> Vec<String> {
+    let Error::Merge(MergeFaults(faults)) = error else { panic!("{error}") };
+    faults.iter().map(ToString::to_string).collect()
+}
+
+fn told(path: &Path, parts: &[PathBuf]) -> Vec<String> {
+    let told = faults(merge_into(path, parts, Mode::New).unwrap_err());
+    assert!(!path.exists(), "nothing is written");
+    told
+}
+
+#[test]
+fn shares_that_are_merged_are_the_run_that_was_grown_at_once() {
+    let (home, [first, second], whole) = shared();
+    for part in [&first, &second] {
+        let found = check(part, Depth::Bytes, &Checking::default()).unwrap();
+        assert_eq!((found.state, found.shards, found.sound.len()), (State::Complete, Some(2), 2), "{found:?}");
+    }
+    let merged = home.path().join("merged");
+    // In any order of the folders.
+    let told = merge_into(&merged, &[second, first], Mode::New).unwrap();
+    assert_eq!((told.shards, told.copied), (4, 4));
+    assert!(contents(&merged) == contents(&whole), "every file but run.json");
+    let [merged, whole] = [merged, whole].map(|folder| fs::read(folder.join("run.json")).unwrap());
+    let [mut merged, mut whole] = [merged, whole].map(|text| serde_json::from_slice::<Value>(&text).unwrap());
+    assert_eq!(merged["timings_s"]["growth"], 0.5, "the sum of both");
+    for run in [&mut merged, &mut whole] {
+        ["timings_s", "check"].iter().for_each(|key| _ = run.as_object_mut().unwrap().remove(*key));
+    }
+    assert_eq!(merged.to_string(), whole.to_string());
+}
+
+#[test]
+fn an_interrupted_share_and_an_interrupted_merge_go_on() {
+    let (home, [first, second], whole) = shared();
+    fs::remove_file(second.join("events/part-00003.parquet")).unwrap();
+    let other = share_of(&second, seven(), "1/2", Mode::Resume).unwrap_err().to_string();
+    assert!(
+        other.ends_with("shard: \"2/2\" in the run, \"1/2\" now") || other.ends_with("shard: 2/2 in the run, 1/2 now"),
+        "{other}"
+    );
+    let folder = share_of(&second, seven(), "2/2", Mode::Resume).unwrap();
+    assert_eq!((folder.missing_shards(), folder.found().unwrap().to_grow.clone()), (vec![3], vec![3]));
+    let merged = home.path().join("merged");
+    let busy = faults(merge_into(&merged, &[first.clone(), second.clone()], Mode::New).unwrap_err());
+    assert!(busy[0].contains("is being filled by"), "{busy:?}");
+    drop(folder);
+    let left = told(&merged, &[first.clone(), second.clone()]);
+    assert_eq!(left.len(), 1, "{left:?}");
+    assert!(left[0].contains("lacks part 3") && left[0].contains("--shard 2/2"), "{left:?}");
+    let folder = share_of(&second, seven(), "2/2", Mode::Resume).unwrap();
+    grow_shard(&folder, 3, 100_000);
+    folder.finish(&[("growth", 0.25)]).unwrap();
+    drop(folder);
+    merge_into(&merged, &[first.clone(), second.clone()], Mode::New).unwrap();
+    fs::write(merged.join("records/part-00002.parquet"), b"cut").unwrap();
+    let again = merge_into(&merged, &[first, second], Mode::Resume).unwrap();
+    assert_eq!(again.copied, 1);
+    assert!(contents(&merged) == contents(&whole));
+}
+
+#[test]
+fn gaps_overlaps_damage_and_other_runs_are_told_together() {
+    let (home, [first, second], whole) = shared();
+    let merged = home.path().join("merged");
+    let gap = told(&merged, std::slice::from_ref(&first));
+    assert_eq!(gap.len(), 1);
+    assert!(gap[0].starts_with("no folder holds the parts 1, 3 of 4") && gap[0].contains("--shard 2/2"), "{gap:?}");
+    let twice = told(&merged, &[first.clone(), second.clone(), whole.clone()]);
+    assert_eq!(twice.len(), 2, "{twice:?}");
+    assert!(
+        twice.iter().all(|fault| fault.contains("both hold the parts") && fault.contains("leave out")),
+        "{twice:?}"
+    );
+    let mut other = seven();
+    other.provenance.seed = 43;
+    let third = home.path().join("third");
+    grow_share(&third, other, "2/2");
+    let file = first.join("summary/part-00002.parquet");
+    let mut bytes = fs::read(&file).unwrap();
+    bytes[40] ^= 1;
+    fs::write(&file, bytes).unwrap();
+    let letter = home.path().join("letter");
+    fs::create_dir(&letter).unwrap();
+    let all = told(&merged, &[second.clone(), first, third, letter, merged.clone()]);
+    let expected = ["summary/part-00002.parquet: its SHA-256", "no run.json", "merged into", "seed: 43, and 42 in"];
+    for words in expected {
+        assert!(all.iter().any(|fault| fault.contains(words)), "`{words}` is not told: {all:#?}");
+    }
+    assert_eq!(all.len(), expected.len(), "{all:#?}");
+}
+
+#[test]
+fn a_run_of_another_program_is_not_merged_and_an_empty_share_not_begun() {
+    let (home, parts, _) = shared();
+    let merged = home.path().join("merged");
+    let checking = Checking::default();
+    let refused = merge(&merged, &parts, ("9", "cafe"), (Mode::New, &opening(&checking, None))).unwrap_err();
+    assert!(faults(refused)[0].contains("merge with the program that grew it"));
+    let empty = share_of(&home.path().join("fifth"), seven(), "5/5", Mode::New).unwrap_err().to_string();
+    assert!(empty.contains("at most 4 shards") && empty.contains("plants_per_part"), "{empty}");
+    assert!(!home.path().join("fifth").exists());
+}
