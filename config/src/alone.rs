@@ -30,6 +30,7 @@ impl ResolvedSpecies {
         let until = self.shown_at();
         let mechanics = self.model.habit().wood.as_ref().is_some_and(|wood| wood.bends);
         let scenario = Scenario {
+            pest: Vec::new(),
             name: self.species.about.name.clone(),
             description: self.species.about.description.clone(),
             species: name.to_owned(),

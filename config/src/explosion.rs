@@ -21,6 +21,10 @@ pub(crate) fn fault_of(
     (species, model): (&Species, &dyn GrowthModel),
     until: u32,
 ) -> Option<Fault> {
+    // A pest may keep a plant small; the limits hold while it grows.
+    if !scenario.pest.is_empty() {
+        return None;
+    }
     let (most, key) = (scenario.limits.components(), scenario.limits.binding());
     let means = model.expectation(until)?;
     let expected = means.least_components(until);

@@ -5,12 +5,14 @@
 //! which is a file of its own, and the place of the run folder, which the command line states.
 
 mod meshes;
+mod pests;
 mod plots;
 mod sample;
 mod site;
 mod tables;
 
 pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
+pub use pests::{Attacked, Clustered, Host, Larvae, Pest, exposure};
 pub use plots::Member;
 pub use site::{Plane, Site, Wind};
 pub use tables::Table;
@@ -61,6 +63,9 @@ pub struct Scenario {
     /// External influences on the plants: gravity, wind, and planes that kill buds.
     #[serde(default, skip_serializing_if = "Site::is_default")]
     pub site: Site,
+    /// The pests of the run, as `[[pest]]`. None if not given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pest: Vec<Pest>,
     /// The plants of each plot, as `[[member]]`. If not given, a plot is one plant of the scenario's species, sown at
     /// tick 0.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -249,6 +254,7 @@ impl Scenario {
         self.check_mesh_plants(&meshes.key("plants"), &mut faults);
         self.check_members(&mut faults);
         self.check_sample(&mut faults);
+        pests::check(&self.pest, self.ages.until, self.spacing_m.is_some(), &Path::root().key("pest"), &mut faults);
         self.site.check_planes(&Path::root().key("site"), &mut faults);
         if self.tables.is_empty() && self.meshes.is_none() {
             let problem = "this run would write nothing: no table and no mesh is asked for";

@@ -22,6 +22,10 @@ pub enum Purpose {
     Relay = 2,
     /// What a plant draws once for its whole life, in the stream of the seed's axis.
     Plant = 3,
+    /// What responses and pests change in the fate of an apical bud.
+    StepResponse = 4,
+    /// What responses and pests change in what a node bears.
+    NodeResponse = 6,
 }
 
 /// The words of one ChaCha block.

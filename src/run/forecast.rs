@@ -145,7 +145,8 @@ impl PlotForecast {
             largest: 0.0,
             shown: 0.0,
             summary_rows: 0.0,
-            certainty: Certainty::Exact,
+            // No closed form knows which plants a pest attacks.
+            certainty: if scenario.pest.is_empty() { Certainty::Exact } else { Certainty::About },
         };
         for member in scenario.plot_members() {
             let Some(expected) = expected.get(scenario.species_of(&member)) else { continue };

@@ -5,7 +5,7 @@
 //! feel another one, or a plane, a single plant can be sown without its plot. Absent: growing.
 
 use phytomer_config::Scenario;
-use phytomer_config::scenario::{Member, Table};
+use phytomer_config::scenario::{Host, Member, Table, exposure};
 use phytomer_sim::plant::{Seed, ThreadBudget};
 use phytomer_sim::site::Site;
 use phytomer_sim::{GrowthModel, Plot, Sowing};
@@ -42,6 +42,7 @@ impl<'a> Plots<'a> {
         let mut sown = Plot::new(plot, self.models.clone(), &self.sowings(plot));
         sown.site = self.site(plot);
         sown.plants.iter_mut().for_each(|plant| plant.budget = budget);
+        self.expose(&mut sown);
         sown
     }
 
@@ -49,6 +50,7 @@ impl<'a> Plots<'a> {
     pub fn sow_again(&self, grown: &mut Plot<'a>, plot: u32) {
         grown.sow_again(plot, &self.sowings(plot));
         grown.site = self.site(plot);
+        self.expose(grown);
     }
 
     /// A plant by itself in a plot of one, sown at tick 0, so that tick and age are the same.
@@ -58,7 +60,24 @@ impl<'a> Plots<'a> {
         let (seed, place) = (seed_of(self.scenario, plant), place_of(self.scenario, plant));
         let mut alone = Plot::new(plot, self.models.clone(), &[Sowing { species, seed, place, sown: 0 }]);
         alone.site = self.site(plot);
+        self.expose(&mut alone);
         alone
+    }
+
+    /// Tells the plants of a plot what pests will do to them.
+    fn expose(&self, plot: &mut Plot) {
+        for (plant, member) in plot.plants.iter_mut().zip(&plot.members) {
+            let number = plant.id;
+            let host = Host {
+                seed: self.scenario.seed,
+                replicate: plot.replicate,
+                plot: self.scenario.plot_of(number).0,
+                plant: number,
+                place: [plant.place[0], plant.place[1]],
+                until: self.scenario.ages.until.saturating_sub(member.sown),
+            };
+            plant.exposure = exposure(&self.scenario.pest, &host);
+        }
     }
 
     /// Whether a plant depends on what else stands in its plot, or on when it was sown in it.

@@ -68,6 +68,17 @@ fn threshold(p: f64) -> u32 {
     if p >= 1.0 { CERTAIN } else { ((p * WORDS).round() as u32).min(CERTAIN - 1) }
 }
 
+#[inline]
+fn is_below(word: u32, threshold: u32) -> bool {
+    (word < threshold) | (threshold == CERTAIN)
+}
+
+/// Whether an event of probability `p` in [0, 1] happens, drawn with one uniform 32-bit word as a table draws it.
+#[inline]
+pub fn happens(p: f64, word: u32) -> bool {
+    is_below(word, threshold(p))
+}
+
 impl ProbabilityTable {
     /// The same probability at every point.
     pub fn certain_or_never(certain: bool) -> Self {
@@ -78,8 +89,7 @@ impl ProbabilityTable {
     /// Whether the event happens at a point, drawn with one uniform 32-bit word.
     #[inline]
     pub fn happens(&self, word: u32, at: At) -> bool {
-        let threshold = self.thresholds[self.grid.cell(at)];
-        (word < threshold) | (threshold == CERTAIN)
+        is_below(word, self.thresholds[self.grid.cell(at)])
     }
 
     /// The probability at a point, as it is drawn (to 1.2e-10).

@@ -113,6 +113,8 @@ pub enum Asked {
     /// For a thing whose laws depend on its own age alone, as `dimension` and `cycle`: how an organ expands and turns,
     /// the stiffness and density of wood.
     OwnAge,
+    /// For a response of the buds of a plant to what the date brings: the age of the plant.
+    Response,
     /// For a plant, for quantities that it draws once: no variable.
     Once,
 }
@@ -123,7 +125,7 @@ impl Asked {
         use Variable::{Age, Cycle, Dimension, Rank};
         match self {
             Self::Bud => variable != Rank || has_ranks,
-            Self::Birth => variable == Age,
+            Self::Birth | Self::Response => variable == Age,
             Self::Internode => matches!(variable, Age | Dimension | Cycle),
             Self::OwnAge => matches!(variable, Dimension | Cycle),
             Self::Once => false,
@@ -155,6 +157,7 @@ impl Asked {
                 ("which is the plant's age and not known here", "`dimension`, its own age in ticks")
             }
             Self::OwnAge => ("which is not known here", "`dimension`, its own age in ticks"),
+            Self::Response => ("on which no response can depend", "a variable of the date, or `age`"),
             Self::Once => ("which does not apply here", "a number, or a formula without variables"),
         };
         Fault::new(path, format!("the law depends on {what}, {why}"), expected)

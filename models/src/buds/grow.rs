@@ -10,62 +10,13 @@
 //! tick, each axis makes the same draws at the same steps.
 
 use super::bud::ApicalBud;
-use super::compile::{BudModel, OrderLaws, Passage, Ranks};
+use super::compile::{BudModel, OrderLaws, Passage};
 use super::params::ApexEnd;
+use super::record::Words;
 use crate::law::At;
 use phytomer_sim::clock::{NEVER, Speed, Tick};
-use phytomer_sim::plant::{ApexFate, AxisId, Cause, EventKind, Form, Kind, NewAxis, NewOrgan, NodeId, Plant};
-use phytomer_sim::random::{Purpose, Stream};
-
-/// The words of one axis: its streams, opened when first read, and the record last read from each.
-#[derive(Debug, Default)]
-pub(super) struct Words {
-    bud: Option<Stream>,
-    node: Option<Stream>,
-    /// The head record of the bud stream; then the records of a step, of a node and of the end.
-    pub head: Vec<u32>,
-    pub step: Vec<u32>,
-    pub on_node: Vec<u32>,
-    pub end: Vec<u32>,
-    /// The ranks from which the axis's trends hold, where it draws them, with their places.
-    pub trends: Vec<(u32, u8)>,
-    /// The ranks of the zones of the growth unit, where it draws them.
-    pub zones: Vec<Ranks>,
-}
-
-impl Words {
-    fn of(&mut self, laws: &OrderLaws) {
-        self.bud = None;
-        self.node = None;
-        // A quantity without words reads word 0 and ignores it.
-        self.head.resize(laws.head.width.max(1), 0);
-        self.step.resize(laws.step.width.max(1), 0);
-        self.on_node.resize(laws.node.width.max(1), 0);
-        self.end.resize(laws.end.width.max(1), 0);
-        self.trends.clear();
-        self.zones.clear();
-    }
-}
-
-/// Reads record `number` of `width` words, after a head of `head` words.
-pub(super) fn read(stream: &mut Stream, head: usize, number: u32, width: usize, words: &mut [u32]) {
-    stream.seek(head as u64 + u64::from(number) * width as u64);
-    stream.read(&mut words[..width]);
-}
-
-/// The position of a terminal flower, which is no lateral's.
-const TERMINAL: u16 = u16::MAX;
-
-/// Where a flower opens, and when.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct FlowerSite {
-    pub node: NodeId,
-    /// Its place among the flowers in its node's record, from 0.
-    pub nth: u32,
-    pub birth: Tick,
-    pub azimuth: f32,
-    pub position: u16,
-}
+use phytomer_sim::plant::{ApexFate, AxisId, EventKind, NewAxis, NodeId, Plant};
+use phytomer_sim::random::Purpose;
 
 /// One axis while it grows.
 pub(super) struct Axis<'a> {
@@ -83,6 +34,8 @@ pub(super) struct Axis<'a> {
     leads: bool,
     /// The tick from which dimensions count.
     birth: Tick,
+    /// The age at which a pest kills the whole plant.
+    pub whole_death: Tick,
 }
 
 /// The plant has no room left for a component that a bud would make.
@@ -105,9 +58,11 @@ impl<'a> Axis<'a> {
             last_unit: u32::MAX,
             leads: false,
             birth: 0,
+            whole_death: NEVER,
         };
         let place = axis.bud.axis.index();
         (axis.leads, axis.birth) = (!axis.plant.axes.follows[place], axis.plant.axes.birth[place]);
+        axis.whole_death = axis.plant.exposure.as_ref().map_or(NEVER, |exposure| exposure.death);
         axis.read_head();
         axis
     }
@@ -119,8 +74,7 @@ impl<'a> Axis<'a> {
         let axis = self.bud.axis.index();
         if laws.guides_growth && laws.width > 0 {
             let random = &self.plant.random;
-            let stream = self.words.bud.insert(random.stream(self.plant.axes.key[axis], Purpose::Bud));
-            stream.read(&mut self.words.head);
+            self.words.read_head(random.stream(self.plant.axes.key[axis], Purpose::Bud));
         }
         let at = at_birth(self.birth, self.plant.axes.state[axis]);
         self.speed = laws.speed.draw(&self.words.head);
@@ -131,7 +85,8 @@ impl<'a> Axis<'a> {
     /// Grows the axis to `age`. Returns the bud at that age, or `None` where the apex has come to its end. Linear in
     /// the ticks and in the components made.
     pub fn grow(mut self, age: Tick) -> Result<Option<ApicalBud>, Full> {
-        for tick in self.bud.age + 1..=age {
+        let last = age.min(self.whole_death.saturating_sub(1));
+        for tick in self.bud.age + 1..=last {
             self.tick = tick;
             self.dimension = tick.saturating_sub(self.birth);
             for _ in self.bud.cycle..self.speed.steps_by(self.dimension) {
@@ -139,6 +94,10 @@ impl<'a> Axis<'a> {
                     return Ok(None);
                 }
             }
+        }
+        if age >= self.whole_death {
+            self.die_whole();
+            return Ok(None);
         }
         self.bud.age = age;
         Ok(Some(self.bud))
@@ -167,6 +126,9 @@ impl<'a> Axis<'a> {
         if laws.death.happens(&self.words.step, 0, at) {
             return self.end(ApexFate::Died, EventKind::Died, ApexEnd::Death);
         }
+        if self.plant.exposure.is_some() && self.is_attacked(at) {
+            return self.end(ApexFate::Attacked, EventKind::Attacked, ApexEnd::Death);
+        }
         if laws.pause.happens(&self.words.step, 0, at) {
             self.plant.note(self.tick, self.bud.axis, EventKind::Paused, 1);
             return Ok(true);
@@ -190,14 +152,8 @@ impl<'a> Axis<'a> {
     }
 
     fn read_step(&mut self) {
-        if self.laws.step.width == 0 {
-            return;
-        }
         let key = self.plant.axes.key[self.bud.axis.index()];
-        let random = &self.plant.random;
-        let stream = self.words.bud.get_or_insert_with(|| random.stream(key, Purpose::Bud));
-        let step = self.bud.cycle - 1;
-        read(stream, self.laws.head.width, step, self.laws.step.width, &mut self.words.step);
+        self.words.read_step(self.laws, &self.plant.random, key, self.bud.cycle - 1);
     }
 
     /// A growth unit: its type, the number of its nodes, then node by node.
@@ -210,6 +166,10 @@ impl<'a> Axis<'a> {
             false => laws.long_nodes.draw(&self.words.step, unit, at),
         };
         let neoformed = if short { 0 } else { laws.neoformed.draw(&self.words.step, unit, at) };
+        let [preformed, neoformed] = match self.plant.exposure.is_some() {
+            true => self.weakened(unit, [preformed, neoformed]),
+            false => [preformed, neoformed],
+        };
         let nodes = preformed + neoformed;
         if laws.zone_ranks.are_drawn() {
             laws.zone_ranks.draw(&self.words.step, unit, at, &mut self.words.zones);
@@ -223,14 +183,9 @@ impl<'a> Axis<'a> {
     }
 
     #[inline]
-    fn read_node(&mut self) {
-        if self.laws.node.width == 0 {
-            return;
-        }
+    pub fn read_node(&mut self) {
         let key = self.plant.axes.key[self.bud.axis.index()];
-        let random = &self.plant.random;
-        let stream = self.words.node.get_or_insert_with(|| random.stream(key, Purpose::Node));
-        read(stream, 0, self.bud.rank, self.laws.node.width, &mut self.words.on_node);
+        self.words.read_node(self.laws, &self.plant.random, key, self.bud.rank);
     }
 
     /// Makes at most one passage between states. Each passage has one word, in the order in which they are stated.
@@ -259,63 +214,9 @@ impl<'a> Axis<'a> {
         Ok(false)
     }
 
-    /// Adds the flower that an apex has become, on the last node of its axis. The apex is spent when the flower and its
-    /// fruit have fallen.
-    fn terminal_flower(&mut self) {
-        let Some(node) = self.own_last_node() else {
-            return;
-        };
-        // The flower uses the record of the node that this bud will never make.
-        self.read_node();
-        let at = self.at(self.plant.nodes.unit_rank[node.index()].into());
-        let past = self.flower(FlowerSite { node, nth: 0, birth: self.tick, azimuth: 0.0, position: TERMINAL }, at);
-        self.plant.axes.spent[self.bud.axis.index()] = past;
-    }
-
     /// The last node of the axis, where it has one of its own.
     pub fn own_last_node(&self) -> Option<NodeId> {
         (self.bud.rank > 0).then_some(self.bud.last_node)
-    }
-
-    /// Adds a flower, and the fruit that it may set. Returns the tick at which the last of them falls. A terminal
-    /// flower stands in the direction of its axis, and its laws are evaluated at the rank of the node that bears it. An
-    /// organ that would appear after the last age of the run is left out: it takes neither memory nor room under the
-    /// plant's limit.
-    pub fn flower(&mut self, site: FlowerSite, at: At) -> Tick {
-        let FlowerSite { node, nth, birth, azimuth, position } = site;
-        let laws = &self.laws.node;
-        let words = &self.words.on_node;
-        let fall = birth.saturating_add(laws.flower_life.draw(words, nth, at).max(1));
-        let sets = laws.fruit_set.happens(words, nth, at);
-        let insertion = if position == TERMINAL { 0.0 } else { laws.flower.insertion.draw(words, nth, at) };
-        let organ = |kind: Kind, form: Form, birth, death, cause, length, width| NewOrgan {
-            node,
-            kind,
-            position,
-            birth,
-            death,
-            cause,
-            form,
-            length,
-            width,
-            area: 0.0,
-            azimuth,
-            insertion,
-        };
-        let (length, width) = (laws.flower.length.draw(words, nth, at), laws.flower.width.draw(words, nth, at));
-        let cause = if sets { Cause::FruitSet } else { Cause::LifeLength };
-        let flower = organ(laws.flower.kind, laws.flower.form, birth, fall, cause, length, width);
-        let fruit = sets.then(|| {
-            let ripe = fall.saturating_add(laws.fruit_life.draw(words, nth, at).max(1));
-            let (length, width) = (laws.fruit.length.draw(words, nth, at), laws.fruit.width.draw(words, nth, at));
-            organ(laws.fruit.kind, laws.fruit.form, fall, ripe, Cause::LifeLength, length, width)
-        });
-        let last = self.model.until();
-        let planned = [Some(flower), fruit].into_iter().flatten();
-        planned.filter(|organ| organ.birth <= last).for_each(|organ| {
-            self.plant.add_organ(organ);
-        });
-        fruit.map_or(fall, |fruit| fruit.death)
     }
 }
 
@@ -364,22 +265,5 @@ pub(super) fn first_bud(model: &BudModel, plant: &Plant, axis: AxisId) -> Apical
         state,
         dormant: 0,
         bud_spacing: 0.0,
-    }
-}
-
-/// The tick at which a leaf falls and why, by its life length or by the season: the ticks of a year, and the tick of
-/// the year at which it falls.
-pub(super) fn leaf_fall(season: Option<(u32, u32)>, birth: Tick, life: Option<u32>) -> (Tick, Cause) {
-    let aged = life.map_or(NEVER, |life| birth.saturating_add(life.max(1)));
-    let seasonal = season.map_or(NEVER, |(year, fall)| {
-        let (year, fall) = (u64::from(year), u64::from(fall));
-        let wait = (fall + year - u64::from(birth) % year) % year;
-        let wait = if wait == 0 { year } else { wait };
-        u32::try_from(u64::from(birth) + wait).unwrap_or(NEVER)
-    });
-    match (aged.min(seasonal), aged <= seasonal) {
-        (NEVER, _) => (NEVER, Cause::None),
-        (tick, true) => (tick, Cause::LifeLength),
-        (tick, false) => (tick, Cause::Season),
     }
 }

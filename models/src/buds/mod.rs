@@ -3,6 +3,7 @@
 //! [`Buds`] are the parameters as people state them, in the laws of [`crate::law`]; [`BudModel`] is the compiled
 //! species that grows. [`expectation`] gives the mean of what grows in closed form.
 
+mod attack;
 mod bud;
 mod card;
 mod compile;
@@ -10,13 +11,19 @@ pub mod expectation;
 mod grow;
 mod model;
 mod node;
+mod organ;
 pub mod params;
+mod record;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod tests_drawn;
 #[cfg(test)]
 mod tests_faults;
+#[cfg(test)]
+mod tests_pests;
+#[cfg(test)]
+mod tests_responses;
 #[cfg(test)]
 mod tests_sets;
 #[cfg(test)]

@@ -5,7 +5,8 @@
 
 use super::bud::{ApicalBud, LivingBuds};
 use super::compile::{BudModel, OrderLaws};
-use super::grow::{Axis, Full, Words, add_axis, first_bud};
+use super::grow::{Axis, Full, add_axis, first_bud};
+use super::record::Words;
 use crate::law::At;
 use phytomer_sim::Tick;
 use phytomer_sim::expectation::Expectation;

@@ -4,12 +4,13 @@
 //! of a node are spread evenly around it, the first at the node's azimuth, each axillary bud in the axil of its leaf.
 
 use super::compile::Branching;
-use super::grow::{Axis, FlowerSite, Full, add_axis, leaf_fall, read};
+use super::grow::{Axis, Full, add_axis};
 use super::params::ApexEnd;
+use super::record::read;
 use crate::law::At;
 use phytomer_sim::clock::NEVER;
 use phytomer_sim::plant::key::Place;
-use phytomer_sim::plant::{EventKind, NewAxis, NewNode, NewOrgan, NodeId, Origin};
+use phytomer_sim::plant::{EventKind, NewAxis, NewNode, NodeId, Origin};
 use phytomer_sim::random::Purpose;
 
 const TURN: f32 = 2.0 * std::f32::consts::PI;
@@ -108,37 +109,6 @@ impl Axis<'_> {
         self.bud.last_node
     }
 
-    fn leaf(&mut self, node: NodeId, nth: u32, azimuth: f32, at: At) {
-        let laws = &self.laws.node;
-        let words = &self.words.on_node;
-        let life = laws.leaf_life.as_ref().map(|life| life.draw(words, nth, at));
-        let season = laws.leaf_fall.as_ref().map(|(year, fall)| (*year, fall.draw(words, nth, at)));
-        let (death, cause) = leaf_fall(season, self.tick, life);
-        let (length, width) = (laws.leaf.length.draw(words, nth, at), laws.leaf.width.draw(words, nth, at));
-        self.plant.add_organ(NewOrgan {
-            node,
-            kind: laws.leaf.kind,
-            position: nth as u16,
-            birth: self.tick,
-            death,
-            cause,
-            form: laws.leaf.form,
-            length,
-            width,
-            area: length * width * laws.leaf.area_share.draw(words, nth, at),
-            azimuth,
-            insertion: laws.leaf.insertion.draw(words, nth, at),
-        });
-    }
-
-    fn lateral_flower(&mut self, node: NodeId, nth: u32, azimuth: f32, at: At) {
-        let laws = &self.laws.node;
-        if laws.flower_opens.happens(&self.words.on_node, nth, at) {
-            let birth = self.tick.saturating_add(laws.flower_delay.draw(&self.words.on_node, nth, at));
-            self.flower(FlowerSite { node, nth, birth, azimuth, position: nth as u16 }, at);
-        }
-    }
-
     /// Adds the axes of the axillary buds: each bud ramifies by its law, or lies dormant.
     fn axillary(&mut self, of: AxillaryBuds, azimuth: f32) {
         let AxillaryBuds { node, rank, nodes, buds, spacing } = of;
@@ -192,7 +162,7 @@ impl Axis<'_> {
     pub(super) fn follow_end(&mut self, end: ApexEnd) -> Result<(), Full> {
         let laws = &self.laws.end;
         let relayed = laws.is_relayed(end);
-        let released = end == ApexEnd::Death && !laws.traumatic.chance.table.is_never();
+        let released = end == ApexEnd::Death && !laws.traumatic.chance.is_never();
         let completed = end == ApexEnd::Completed && (laws.fork.is_some() || laws.persists.is_some());
         let Some(node) = self.own_last_node().filter(|_| relayed || released || completed) else {
             return Ok(());

@@ -85,7 +85,7 @@ pub(super) fn chimera() -> Buds {
     };
     let states = ["juvenile", "adult", "branch"].map(str::to_owned).to_vec();
     let season = Some(Season { ticks_per_year: Quantity::from(4), leaf_fall: Count::from(3) });
-    Buds { states, season, wood: None, order: vec![trunk, branch] }
+    Buds { states, season, order: vec![trunk, branch], ..Buds::default() }
 }
 
 /// Zones from both ends, laws of rank and of state, determinate axes, relays on death and completion, composite trends.
@@ -135,7 +135,12 @@ pub(super) fn hydra() -> Buds {
         ..Order::default()
     };
     let leafless = Order { leaf: Leaf { per_node: Count::from(0), ..Leaf::default() }, ..order.clone() };
-    Buds { states: vec!["long".to_owned(), "short".to_owned()], season: None, wood: None, order: vec![order, leafless] }
+    Buds {
+        states: vec!["long".to_owned(), "short".to_owned()],
+        season: None,
+        order: vec![order, leafless],
+        ..Buds::default()
+    }
 }
 
 /// Sets of equal axes: relays at passages and at ends, of which the leaders pass on and the others do not, trends by
@@ -179,7 +184,12 @@ fn candelabrum() -> Buds {
         insertion_deg: normal(50.0, 5.0),
         ..Order::default()
     };
-    Buds { states: vec!["up".to_owned(), "out".to_owned()], season: None, wood: None, order: vec![trunk, branch] }
+    Buds {
+        states: vec!["up".to_owned(), "out".to_owned()],
+        season: None,
+        order: vec![trunk, branch],
+        ..Buds::default()
+    }
 }
 
 /// In each set of relays one relay leads, and it alone passes into another state; a passage is relayed while the apex

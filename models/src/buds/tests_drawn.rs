@@ -94,7 +94,7 @@ fn species(n: &Numbers) -> Buds {
         ..Order::default()
     };
     let season = Some(Season { ticks_per_year: (n.quantity)(5), leaf_fall: (n.count)(2) });
-    Buds { states: Vec::new(), season, wood: None, order: vec![trunk, branch] }
+    Buds { states: Vec::new(), season, order: vec![trunk, branch], ..Buds::default() }
 }
 
 fn bare() -> Numbers {

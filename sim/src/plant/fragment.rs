@@ -72,6 +72,7 @@ impl Plant {
             events: self.events.as_ref().map(|_| Vec::new()),
             habit: self.habit.clone(),
             own_trends: OwnTrends::default(),
+            exposure: self.exposure.clone(),
             random: self.random.clone(),
             place: self.place,
             stated: Default::default(),

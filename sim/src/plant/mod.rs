@@ -13,6 +13,7 @@ pub(crate) mod borne;
 mod columns;
 mod cut;
 mod event;
+mod exposure;
 mod first;
 mod for_drawing;
 mod form;
@@ -39,6 +40,7 @@ pub use appeared::{Appeared, Stretch};
 pub use axis::{ApexFate, Axes, NewAxis, Origin};
 pub use cut::{Cut, Cuts};
 pub use event::{Event, EventKind};
+pub use exposure::{Exposure, Hazard, Survival};
 pub use for_drawing::{Carried, ForDrawing};
 pub use form::Form;
 pub use fragment::{Fragment, ThreadBudget};
@@ -96,6 +98,8 @@ pub struct Plant {
     pub habit: Arc<Habit>,
     /// The trends of axes that have drawn their own.
     pub own_trends: OwnTrends,
+    /// What pests do to it; `None` where no pest is.
+    pub exposure: Option<Arc<Exposure>>,
     /// The source of its random words.
     pub random: PlantRandom,
     /// The place of its seed in the plot, metres. All other positions of a plant are relative to its seed, so that a
@@ -150,6 +154,7 @@ impl Plant {
             events: seed.keep_events.then(Vec::new),
             habit,
             own_trends: OwnTrends::default(),
+            exposure: None,
             random: PlantRandom::new(seed.run_seed, u64::from(seed.plant)),
             place: [0.0; 3],
             stated: StatedFrames::default(),
@@ -169,6 +174,7 @@ impl Plant {
     pub fn resow(&mut self, seed: &Seed) {
         self.clear();
         self.id = seed.plant;
+        self.exposure = None;
         self.random = PlantRandom::new(seed.run_seed, u64::from(seed.plant));
         self.component_limit = seed.component_limit.min(MOST_COMPONENTS);
         self.events = seed.keep_events.then(|| self.events.take().unwrap_or_default());

@@ -5,6 +5,7 @@
 //! no word at all.
 
 mod branching;
+mod change;
 mod compiler;
 mod geometry;
 mod head;
@@ -12,6 +13,7 @@ mod look;
 mod node;
 mod organs;
 mod relay;
+mod response;
 mod step;
 mod trend;
 mod wood;
@@ -19,10 +21,14 @@ pub(super) mod words;
 mod zone;
 
 pub(super) use branching::Branching;
+pub(super) use change::{join, nodes_times};
 pub(super) use head::HeadLaws;
-pub(super) use node::NodeLaws;
+pub(super) use node::{
+    NODE_OF_RESPONSES, NodeLaws, PLACE_OF_EATEN_FLOWERS, PLACE_OF_EATEN_FRUITS, PLACE_OF_EATEN_LEAVES,
+};
 pub(super) use relay::EndLaws;
-pub(super) use step::{Passage, StepLaws};
+pub(super) use step::{PLACE_OF_DEATH, PLACE_OF_WEAKNESS, Passage, STEP_OF_RESPONSES, StepLaws};
+pub(super) use words::{Chance, Spare};
 pub(super) use zone::{Ramification, Ranks};
 
 use super::params::Buds;
@@ -80,6 +86,7 @@ impl Buds {
             faults.append(&mut compiler.faults);
             fault::tell_once(&mut faults, compiler.asked_again);
         }
+        response::compile(self, &mut orders, until.min(LAST_TICK), path, &mut faults);
         let (looks, paints) = look::compile(self, until.min(LAST_TICK), path, &mut faults);
         let wood = wood::compile(self, until.min(LAST_TICK), path, &mut faults);
         if !faults.is_empty() {

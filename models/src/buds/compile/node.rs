@@ -4,10 +4,11 @@
 //! (`buds::node`), and the laws of a clock step (`step`).
 
 use super::branching::{Branching, MOST_BUDS};
+use super::change::{ByAge, Change};
 use super::compiler::{Compiler, LONGEST};
 use super::geometry::{DEGREE, divergence};
 use super::step::StepLaws;
-use super::words::{Chance, Layout, Measure, Number};
+use super::words::{Chance, Layout, Measure, Number, Spare};
 use super::zone::{Ramification, Ranks, Zones};
 use crate::buds::params::{Order, Season};
 use crate::law::{Count, CountTable, ProbabilityTable, ValueRange, VariateTable};
@@ -24,11 +25,22 @@ const AREA_SHARE: ValueRange = ValueRange { min: 0.0, max: 20.0, what: "a share 
 /// The most organs of one kind on a node.
 const MOST_ORGANS: u32 = 64;
 
+/// The places of the words of a node in its record in the stream of responses, and the width of that record.
+const PLACE_OF_BUDS: u32 = 0;
+const PLACE_OF_FLOWERS: u32 = PLACE_OF_BUDS + MOST_BUDS;
+const PLACE_OF_FRUITS: u32 = PLACE_OF_FLOWERS + MOST_ORGANS;
+pub const PLACE_OF_EATEN_LEAVES: u32 = PLACE_OF_FRUITS + MOST_ORGANS;
+pub const PLACE_OF_EATEN_FLOWERS: u32 = PLACE_OF_EATEN_LEAVES + MOST_ORGANS;
+pub const PLACE_OF_EATEN_FRUITS: u32 = PLACE_OF_EATEN_FLOWERS + MOST_ORGANS;
+pub const NODE_OF_RESPONSES: u32 = PLACE_OF_EATEN_FRUITS + MOST_ORGANS;
+
 /// The laws of one node of an order.
 #[derive(Debug, Clone)]
 pub struct NodeLaws {
     /// The words of a node's record.
     pub width: usize,
+    /// The words of responses behind it.
+    pub spare: Spare,
     /// Whether no node bears anything: neither leaf nor flower nor bud.
     pub is_bare: bool,
     pub long_length: Measure,
@@ -119,7 +131,48 @@ impl NodeLaws {
             fruit: fruit(order, flower_angle, compiler, words, most_flowers),
             leaf_fall: season.map(|season| leaf_fall(season, compiler, words, most_leaves)),
             width: layout.width(),
+            spare: Spare::after(layout.width()),
         }
+    }
+
+    /// Multiplies the probability that an axillary bud ramifies, in every zone.
+    pub fn ramification_times(&mut self, factor: &ByAge) {
+        let buds = self.axillary.count.table.max_in_any_run();
+        let of_zones = self.zones.iter_mut().flat_map(|zones| zones.own_chances());
+        for chance in of_zones.chain([&mut self.axillary.chance]) {
+            chance.respond(Change::Times(factor.clone()), (PLACE_OF_BUDS, buds), &mut self.spare);
+        }
+    }
+
+    /// Multiplies the probability that a lateral flower opens.
+    pub fn flowers_times(&mut self, factor: ByAge) {
+        let words = (PLACE_OF_FLOWERS, self.most_flowers());
+        self.flower_opens.respond(Change::Times(factor), words, &mut self.spare);
+    }
+
+    /// Multiplies the probability that a flower sets fruit.
+    pub fn fruits_times(&mut self, factor: ByAge) {
+        let words = (PLACE_OF_FRUITS, self.most_flowers());
+        self.fruit_set.respond(Change::Times(factor), words, &mut self.spare);
+    }
+
+    /// Multiplies the lengths of internodes.
+    pub fn lengths_times(&mut self, factor: &ByAge) {
+        for length in [&mut self.long_length, &mut self.short_length] {
+            length.respond(factor.clone());
+        }
+    }
+
+    /// Multiplies the areas of leaves, and so their lengths and widths by the square root.
+    pub fn leaf_areas_times(&mut self, factor: &ByAge) {
+        let root = factor.roots();
+        for side in [&mut self.leaf.length, &mut self.leaf.width] {
+            side.respond(root.clone());
+        }
+    }
+
+    fn most_flowers(&self) -> u32 {
+        self.flowers.table.max_in_any_run().clamp(1, MOST_ORGANS)
     }
 
     /// How the node at `rank` of a growth unit of `nodes` ramifies; `None` where it does not. `drawn` are the ranks of

@@ -3,14 +3,22 @@
 //! De Reffye 1988 §4: the mortality test, the break test, then the growth unit. Each has its slot in the step's record
 //! of words. Absent: the organs and buds of a node (`node`), and the clock (`buds::grow`).
 
+use super::change::{ByAge, Change};
 use super::compiler::{Compiler, Ranks};
-use super::words::{Chance, Layout, Number};
+use super::words::{Chance, Layout, Number, Spare};
 use super::zone::ZoneRanks;
 use crate::buds::params::{Order, Sibling, Transition};
 use crate::law::{CountTable, ProbabilityTable};
 
 /// The most growth units of one step.
 const MOST_UNITS: u32 = 64;
+/// The places of the words of a step in its record in the stream of responses, and the width of that record.
+pub const PLACE_OF_DEATH: u32 = 0;
+const PLACE_OF_PAUSE: u32 = 1;
+const PLACE_OF_FLOWER: u32 = 2;
+const PLACE_OF_NODES: u32 = 16;
+pub const PLACE_OF_WEAKNESS: u32 = PLACE_OF_NODES + 2 * MOST_UNITS;
+pub const STEP_OF_RESPONSES: u32 = PLACE_OF_WEAKNESS + 2 * MOST_UNITS;
 /// The most nodes of a growth unit.
 pub const MOST_NODES: u32 = 65_535;
 
@@ -19,6 +27,8 @@ pub const MOST_NODES: u32 = 65_535;
 pub struct StepLaws {
     /// The number of words of a step's record.
     pub width: usize,
+    /// The words of responses behind it.
+    pub spare: Spare,
     pub death: Chance,
     pub pause: Chance,
     /// The terminal flower.
@@ -94,6 +104,33 @@ impl StepLaws {
             transitions: transitions(order, compiler, &mut layout),
             zone_ranks: ZoneRanks::compile(order, compiler, &mut layout, most_units),
             width: layout.width(),
+            spare: Spare::after(layout.width()),
+        }
+    }
+
+    /// Lets hazards join the mortality of a bud.
+    pub fn endanger(&mut self, hazard: ByAge) {
+        self.death.respond(Change::Joins(hazard), (PLACE_OF_DEATH, 1), &mut self.spare);
+    }
+
+    /// Lets hazards join the probability of a pause.
+    pub fn delay(&mut self, hazard: ByAge) {
+        self.pause.respond(Change::Joins(hazard), (PLACE_OF_PAUSE, 1), &mut self.spare);
+    }
+
+    /// Multiplies the probability of a terminal flower.
+    pub fn flower_times(&mut self, factor: ByAge) {
+        self.flower.respond(Change::Times(factor), (PLACE_OF_FLOWER, 1), &mut self.spare);
+    }
+
+    /// Multiplies the numbers of nodes of growth units.
+    pub fn nodes_times(&mut self, factor: &ByAge) {
+        let units = self.per_step.table.max_in_any_run().min(MOST_UNITS);
+        // A unit is long or short, so both numbers use one word.
+        for (nodes, place) in [(&mut self.long_nodes, 0), (&mut self.short_nodes, 0), (&mut self.neoformed, 1)] {
+            if nodes.table.max_in_any_run() > 0 {
+                nodes.respond(factor.clone(), (PLACE_OF_NODES + place * MOST_UNITS, units), &mut self.spare);
+            }
         }
     }
 

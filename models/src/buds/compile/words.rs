@@ -3,9 +3,10 @@
 //! A stream is read in records of a fixed width: one record an axis and then one a clock step (bud stream), one a node
 //! (node stream), one an axis (relay stream). Quantities that are the same at every point take no word. The layout of a
 //! record does not depend on how long the run lasts: a quantity that could be drawn in a longer run alone has its words
-//! in a shorter run too.
+//! in a shorter run too. What responses need beyond it has a stream of its own ([`Spare`]).
 
-use crate::law::{At, CountTable, ProbabilityTable, VariateTable};
+use super::change::{ByAge, Change, nodes_times};
+use crate::law::{At, CountTable, ProbabilityTable, Variable, VariateTable, happens};
 
 /// Assigns the slots of one record.
 #[derive(Debug, Default)]
@@ -32,21 +33,21 @@ impl Layout {
     pub fn chance(&mut self, table: ProbabilityTable, times: u32) -> Chance {
         let fixed = (table.is_never() || table.is_certain()).then(|| table.is_certain());
         let slot = self.take(fixed.is_none(), times);
-        Chance { table, slot, fixed }
+        Chance { table, slot, fixed, change: None }
     }
 
     /// Slots for `times` numbers of things.
     pub fn number(&mut self, table: CountTable, times: u32) -> Number {
         let fixed = table.constant();
         let slot = self.take(fixed.is_none(), times);
-        Number { table, slot, fixed }
+        Number { table, slot, fixed, times: None }
     }
 
     /// Slots for `times` measures, each multiplied by `unit`.
     pub fn measure(&mut self, table: VariateTable, unit: f32, times: u32) -> Measure {
         let fixed = table.constant().map(|value| value * unit);
         let slot = self.take(fixed.is_none() && table.is_random(), times);
-        Measure { table, slot, unit, fixed }
+        Measure { table, slot, unit, fixed, times: None }
     }
 }
 
@@ -63,23 +64,102 @@ impl Slot {
     }
 }
 
+/// The words of the responses of one record. They stand behind the words of the record itself, whose width no response
+/// changes, and come from a stream of their own, each from a place that does not depend on which responses there are.
+#[derive(Debug, Clone, Default)]
+pub struct Spare {
+    /// The width of the record.
+    width: usize,
+    /// The place in the record of the stream of responses for each further word.
+    places: Vec<u32>,
+}
+
+impl Spare {
+    /// No words beyond a record of `width` words.
+    pub fn after(width: usize) -> Self {
+        Self { width, places: Vec::new() }
+    }
+
+    /// The words of the record and of its responses; at least one, which a quantity without words reads and ignores.
+    pub fn words(&self) -> usize {
+        (self.width + self.places.len()).max(1)
+    }
+
+    /// The place of each word in the record of the stream of responses, in their order behind the record itself.
+    pub fn places(&self) -> &[u32] {
+        &self.places
+    }
+
+    fn take(&mut self, place: u32, times: u32) -> Slot {
+        let slot = Slot { first: self.width + self.places.len(), stride: 1 };
+        self.places.extend((0..times).map(|nth| place + nth));
+        slot
+    }
+}
+
 /// A probability with its slot.
 #[derive(Debug, Clone)]
 pub struct Chance {
-    pub table: ProbabilityTable,
+    table: ProbabilityTable,
     slot: Slot,
     /// The outcome, where it is the same at every point.
     fixed: Option<bool>,
+    /// The change by responses.
+    change: Option<Change>,
 }
 
 impl Chance {
+    /// Lets responses change the probability. It keeps its word; a probability of 0 or 1, which needs none, is given
+    /// `times` words of responses, from `place` on.
+    pub fn respond(&mut self, change: Change, (place, times): (u32, u32), spare: &mut Spare) {
+        if self.fixed.is_some() && change.can_change(self.table.is_never()) {
+            self.slot = spare.take(place, times);
+        }
+        self.change = Some(change).filter(|change| change.can_change(self.table.is_never()));
+    }
+
     /// Whether the event happens, the `nth` time (from 0) in this record.
     #[inline]
     pub fn happens(&self, words: &[u32], nth: u32, at: At) -> bool {
-        match self.fixed {
-            Some(fixed) => fixed,
-            None => self.table.happens(self.slot.word(words, nth), at),
+        match (&self.change, self.fixed) {
+            (Some(change), _) if !change.is_neutral_at(at.age) => happens(self.probability(at), self.word(words, nth)),
+            (_, Some(fixed)) => fixed,
+            (_, None) => self.table.happens(self.slot.word(words, nth), at),
         }
+    }
+
+    /// The word of the `nth` test, where it has one.
+    #[inline]
+    fn word(&self, words: &[u32], nth: u32) -> u32 {
+        self.slot.word(words, nth)
+    }
+
+    /// The word of the first test; `None` where the outcome is the same at every point and no response changes it.
+    #[inline]
+    pub fn first_word(&self, words: &[u32]) -> Option<u32> {
+        (self.fixed.is_none() || self.change.is_some()).then(|| self.word(words, 0))
+    }
+
+    /// The probability at a point.
+    #[inline]
+    pub fn probability(&self, at: At) -> f64 {
+        let own = self.table.probability(at);
+        self.change.as_ref().map_or(own, |change| change.of(own, at.age))
+    }
+
+    /// Whether the probability depends on the state and the variables `known` at most.
+    pub fn asks_only(&self, known: &[Variable]) -> bool {
+        self.table.asks_only(known) && (self.change.is_none() || known.contains(&Variable::Age))
+    }
+
+    /// Whether the event happens at no point, so that no draw is needed.
+    pub fn is_never(&self) -> bool {
+        self.table.is_never() && self.change.is_none()
+    }
+
+    /// Whether the event happens at no point of a state.
+    pub fn is_never_in(&self, state: u8) -> bool {
+        self.table.is_never_in(state) && !self.change.as_ref().is_some_and(|change| change.can_change(true))
     }
 }
 
@@ -89,6 +169,8 @@ pub struct Number {
     pub table: CountTable,
     slot: Slot,
     fixed: Option<u32>,
+    /// The factor of responses, with the slot of the words that round its product.
+    times: Option<(ByAge, Slot)>,
 }
 
 impl Number {
@@ -98,13 +180,36 @@ impl Number {
         self.fixed
     }
 
+    /// Multiplies the number by a factor: n becomes ⌊n m + u⌋ with u from `times` words of responses, from `place` on.
+    pub fn respond(&mut self, factor: ByAge, (place, times): (u32, u32), spare: &mut Spare) {
+        self.times = Some((factor, spare.take(place, times)));
+    }
+
     /// The number drawn, the `nth` time (from 0) in this record.
     #[inline]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> u32 {
-        match self.fixed {
+        let own = match self.fixed {
             Some(fixed) => fixed,
             None => self.table.sample(self.slot.word(words, nth), at),
+        };
+        match &self.times {
+            None => own,
+            Some((factor, slot)) => nodes_times(own, factor.at(at.age), slot.word(words, nth)),
         }
+    }
+
+    /// The probabilities of 0, 1, 2 … at a point.
+    pub fn pmf(&self, at: At) -> Vec<f64> {
+        let own = self.table.pmf(at);
+        match &self.times {
+            None => own,
+            Some((factor, _)) => factor.spread(own, at.age),
+        }
+    }
+
+    /// Whether the distribution depends on the state and the variables `known` at most.
+    pub fn asks_only(&self, known: &[Variable]) -> bool {
+        self.table.asks_only(known) && (self.times.is_none() || known.contains(&Variable::Age))
     }
 }
 
@@ -115,6 +220,8 @@ pub struct Measure {
     slot: Slot,
     unit: f32,
     fixed: Option<f32>,
+    /// The factor of responses.
+    times: Option<ByAge>,
 }
 
 impl Measure {
@@ -127,9 +234,18 @@ impl Measure {
     /// The value in SI units or radians, the `nth` time (from 0) in this record.
     #[inline]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> f32 {
-        match self.fixed {
+        let own = match self.fixed {
             Some(fixed) => fixed,
             None => self.table.draw(self.slot.word(words, nth), at) * self.unit,
+        };
+        match &self.times {
+            None => own,
+            Some(factor) => own * factor.at(at.age) as f32,
         }
+    }
+
+    /// Multiplies the measure by a factor.
+    pub fn respond(&mut self, factor: ByAge) {
+        self.times = Some(factor);
     }
 }

@@ -120,10 +120,15 @@ impl Zones {
         Some(zone.ramification(order))
     }
 
+    /// The probabilities of ramification of the zones that state their own.
+    pub fn own_chances(&mut self) -> impl Iterator<Item = &mut Chance> {
+        self.0.iter_mut().filter_map(|zone| zone.chance.as_mut())
+    }
+
     /// Whether the ramification depends on the state of the axis and the variables `known` at most.
     pub fn ask_only(&self, known: &[Variable]) -> bool {
         self.0.iter().all(|zone| {
-            zone.chance.as_ref().is_none_or(|chance| chance.table.asks_only(known))
+            zone.chance.as_ref().is_none_or(|chance| chance.asks_only(known))
                 && zone.states.as_ref().is_none_or(|states| states.which.table.asks_only(known))
         })
     }
@@ -131,7 +136,7 @@ impl Zones {
     /// The states that zones state for the axes of buds on an axis in `state`; `None` stands for the state of the
     /// order's axillary buds. `order` is the law of zones without a law of their own.
     pub fn states_of(&self, state: u8, order: &Chance) -> Vec<Option<u8>> {
-        let bearing = self.0.iter().filter(|zone| !zone.ramification(order).chance.table.is_never_in(state));
+        let bearing = self.0.iter().filter(|zone| !zone.ramification(order).chance.is_never_in(state));
         bearing
             .flat_map(|zone| zone.states.as_ref().map_or(vec![None], |of| of.of.iter().copied().map(Some).collect()))
             .collect()

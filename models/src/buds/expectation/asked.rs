@@ -48,8 +48,8 @@ fn units_ask_only(laws: &OrderLaws, known: &[Variable]) -> bool {
         &node.reiteration.count,
         &node.reiteration.delay,
     ];
-    chances.iter().all(|chance| chance.table.asks_only(known))
-        && counts.iter().all(|count| count.table.asks_only(known))
+    chances.iter().all(|chance| chance.asks_only(known))
+        && counts.iter().all(|count| count.asks_only(known))
         && step.zone_ranks.ask_only(known)
         && node.zones.as_ref().is_none_or(|zones| zones.ask_only(known))
 }

@@ -179,9 +179,9 @@ impl<'a> Cohorts<'a> {
             return flow;
         }
         let laws = &cohort.laws.step;
-        let death = laws.death.table.probability(at);
-        let pause = laws.pause.table.probability(at);
-        let flower = laws.flower.table.probability(at);
+        let death = laws.death.probability(at);
+        let pause = laws.pause.probability(at);
+        let flower = laws.flower.probability(at);
         self.end(cohort, (rank, flow.share(death)), ApexEnd::Death, at);
         let alive = flow.share(1.0 - death);
         resting.add(alive.share(pause));
@@ -197,7 +197,7 @@ impl<'a> Cohorts<'a> {
     /// Adds the flowers that apices have become, and their fruits.
     fn terminal_flowers(&mut self, cohort: &Cohort, flowers: f64, at: At) {
         let laws = &cohort.laws.node;
-        let fruits = flowers * laws.fruit_set.table.probability(at);
+        let fruits = flowers * laws.fruit_set.probability(at);
         let organs = &mut self.expected[cohort.order].organs;
         organs[at.age as usize] += flowers;
         if fruits > 0.0 {
@@ -268,7 +268,7 @@ impl<'a> Cohorts<'a> {
         let mut stays = flow;
         let passages = cohort.laws.step.transitions.iter();
         for passage in passages.filter(|passage| passage.concerns(at.state, cohort.leads)) {
-            let passes = passage.chance.table.probability(at);
+            let passes = passage.chance.probability(at);
             let passing = stays.share(passes);
             if passage.relayed {
                 self.relay(cohort, (rank, passing), at);
@@ -289,7 +289,7 @@ impl<'a> Cohorts<'a> {
             self.relay(cohort, (rank, ended), at);
         }
         if end == ApexEnd::Death {
-            let released = ended.dormant * laws.traumatic.chance.table.probability(at);
+            let released = ended.dormant * laws.traumatic.chance.probability(at);
             let state = laws.traumatic.state.unwrap_or(at.state);
             self.bear((cohort.order, state, 0), released, &laws.traumatic, at);
         }
@@ -306,7 +306,7 @@ impl<'a> Cohorts<'a> {
 
     /// Adds sets of equal axes. The first axis of a set leads it.
     fn bear_set(&mut self, order: usize, sets: f64, branching: &Branching, at: At) {
-        let chance = branching.chance.table.probability(at);
+        let chance = branching.chance.probability(at);
         let mean = branching.count.table.mean(at) * chance;
         let mut none_of_so_many = 1.0;
         let mut none = 0.0;

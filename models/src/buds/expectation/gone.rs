@@ -93,7 +93,7 @@ impl<'a> Gone<'a> {
         let state = set.state.unwrap_or(at.state);
         let leader = self.of_axis((order, state, 0), &set.delay.table, at);
         let other = self.of_axis((order, state, 1), &set.delay.table, at);
-        let chance = set.chance.table.probability(at);
+        let chance = set.chance.probability(at);
         let counts = set.count.table.pmf(at);
         let of_deadline = |(q, r): (&f64, &f64)| {
             let (mut dead, mut none, mut some) = (0.0, 1.0, 0.0);
@@ -181,7 +181,7 @@ impl<'a> Gone<'a> {
         let (axillary, reiteration) = (&laws.node.axillary, &laws.node.reiteration);
         let next = self.model.has_order(laws.number + 1);
         let ramifies = laws.node.ramification(rank as u32, nodes as u32, &[]).filter(|_| next);
-        let chance = ramifies.map_or(0.0, |of| of.chance.table.probability(at));
+        let chance = ramifies.map_or(0.0, |of| of.chance.probability(at));
         let mut dead = None;
         if let Some(of) = ramifies.filter(|_| chance > 0.0 && axillary.count.table.max() > 0) {
             let states = of.shares(at).into_iter().filter(|(_, share)| *share > 0.0);
@@ -189,7 +189,7 @@ impl<'a> Gone<'a> {
                 states.map(|(state, share)| ((order + 1, state.or(axillary.state).unwrap_or(at.state), 0), share));
             dead = Some(self.of_buds((axillary, chance), starts.collect(), at));
         }
-        let chance = reiteration.chance.table.probability(at);
+        let chance = reiteration.chance.probability(at);
         if chance > 0.0 && reiteration.count.table.max() > 0 {
             let start = (usize::from(laws.node.reiteration_order) - 1, reiteration.state.unwrap_or(at.state), 0);
             dead = product(dead, Some(self.of_buds((reiteration, chance), vec![(start, 1.0)], at)));
@@ -240,7 +240,7 @@ fn product(a: Option<Vec<f64>>, b: Option<Vec<f64>>) -> Option<Vec<f64>> {
 /// sets.
 fn terminal_life(laws: &OrderLaws, at: At) -> Vec<f64> {
     let node = &laws.node;
-    let sets = node.fruit_set.table.probability(at);
+    let sets = node.fruit_set.probability(at);
     let flower = at_least_one(node.flower_life.table.pmf(at));
     let fruit = if sets > 0.0 { at_least_one(node.fruit_life.table.pmf(at)) } else { vec![1.0] };
     let mut lives = vec![0.0; flower.len() + fruit.len()];

@@ -157,9 +157,9 @@ impl Cohort<'_> {
         at: At,
     ) -> Carried {
         let laws = &self.laws.step;
-        let death = laws.death.table.probability(at);
-        let pause = laws.pause.table.probability(at);
-        let flower = laws.flower.table.probability(at);
+        let death = laws.death.probability(at);
+        let pause = laws.pause.probability(at);
+        let flower = laws.flower.probability(at);
         self.end(gone, (rank, of, death), ApexEnd::Death, ended, at);
         self.add(resting, of, (1.0 - death) * pause, None, at);
         let active = (1.0 - death) * (1.0 - pause);
@@ -229,7 +229,7 @@ impl Cohort<'_> {
         let mut stays = share;
         let passages = self.laws.step.transitions.iter();
         for passage in passages.filter(|passage| passage.concerns(at.state, self.leads)) {
-            let passes = stays * passage.chance.table.probability(at);
+            let passes = stays * passage.chance.probability(at);
             let relays = if passage.relayed && passes > 0.0 { self.relays(gone, rank, at) } else { None };
             self.add(&mut after[self.frame.cell(stage, rank, passage.to)], of, passes, relays.as_deref(), at);
             stays -= passes;

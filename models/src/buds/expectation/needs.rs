@@ -6,8 +6,8 @@
 use super::cohort::Births;
 use super::frame;
 use super::unit::longest_wait;
-use crate::buds::compile::{Branching, BudModel, NodeLaws, OrderLaws};
-use crate::law::{CountTable, ProbabilityTable, Variable};
+use crate::buds::compile::{Branching, BudModel, Chance, NodeLaws, OrderLaws};
+use crate::law::{CountTable, Variable};
 use phytomer_sim::expectation::Certainty;
 
 /// The variables that are known for the axes of a cohort; their states are followed beside these.
@@ -43,9 +43,9 @@ fn axes_are_of_cohorts(laws: &OrderLaws) -> bool {
     let mut branchings = branchings.into_iter().chain(&end.fork);
     let of_branching = |of: &Branching| {
         let counts: [&CountTable; 2] = [&of.count.table, &of.delay.table];
-        of.chance.table.asks_only(KNOWN) && counts.iter().all(|table| table.asks_only(KNOWN))
+        of.chance.asks_only(KNOWN) && counts.iter().all(|table| table.asks_only(KNOWN))
     };
-    chances.map(|of| &of.table).all(|table| table.asks_only(KNOWN))
+    chances.into_iter().all(|of| of.asks_only(KNOWN))
         && counts.map(|of| &of.table).all(|table| table.asks_only(KNOWN))
         && branchings.all(of_branching)
         && step.zone_ranks.ask_only(KNOWN)
@@ -56,14 +56,14 @@ fn organs_are_of_cohorts(laws: &OrderLaws) -> bool {
     let node = &laws.node;
     let counts = [&node.leaves, &node.flowers, &node.flower_delay, &node.flower_life, &node.fruit_life];
     counts.iter().all(|count| count.table.asks_only(KNOWN))
-        && node.flower_opens.table.asks_only(KNOWN)
-        && node.fruit_set.table.asks_only(KNOWN)
-        && (laws.step.flower.table.is_never() || terminal_flowers_are_of_cohorts(node))
+        && node.flower_opens.asks_only(KNOWN)
+        && node.fruit_set.asks_only(KNOWN)
+        && (laws.step.flower.is_never() || terminal_flowers_are_of_cohorts(node))
 }
 
 fn terminal_flowers_are_of_cohorts(node: &NodeLaws) -> bool {
     let lives = [&node.flower_life, &node.fruit_life];
-    node.fruit_set.table.asks_only(KNOWN_OF_APICES) && lives.iter().all(|life| life.table.asks_only(KNOWN_OF_APICES))
+    node.fruit_set.asks_only(KNOWN_OF_APICES) && lives.iter().all(|life| life.table.asks_only(KNOWN_OF_APICES))
 }
 
 /// Axes that start in one state, by place of their order and the state.
@@ -92,7 +92,7 @@ impl Needs {
         while let Some(&(order, state)) = starts.get(next) {
             let laws = &model.orders[order];
             let bears = laws.node.axillary.count.table.max() > 0 && model.has_order(laws.number + 1);
-            if !laws.end.traumatic.chance.table.is_never() || bears && laws.step.zone_ranks.are_drawn() {
+            if !laws.end.traumatic.chance.is_never() || bears && laws.step.zone_ranks.are_drawn() {
                 return None;
             }
             let borne = reached(laws, state).into_iter().flat_map(|state| borne_in(model, order, state));
@@ -114,9 +114,9 @@ fn loses(model: &BudModel, (order, state): Start) -> bool {
     let laws = &model.orders[order];
     let (step, node) = (&laws.step, &laws.node);
     let states = reached(laws, state);
-    let happens = |chance: &ProbabilityTable| states.iter().any(|state| !chance.is_never_in(*state));
-    let ends = happens(&step.death.table) || happens(&step.flower.table) || laws.head.units.is_some();
-    let flowers = node.flowers.table.max() > 0 && happens(&node.flower_opens.table);
+    let happens = |chance: &Chance| states.iter().any(|state| !chance.is_never_in(*state));
+    let ends = happens(&step.death) || happens(&step.flower) || laws.head.units.is_some();
+    let flowers = node.flowers.table.max() > 0 && happens(&node.flower_opens);
     let leaves = node.leaves.table.max() > 0;
     ends && (flowers && longest_wait(node) > 0 || ends_at_birth(laws) && (flowers || leaves))
 }
@@ -151,13 +151,13 @@ fn borne_in(model: &BudModel, order: usize, state: u8) -> Vec<Start> {
     if node.axillary.count.table.max() > 0 && model.has_order(laws.number + 1) {
         let states = match &node.zones {
             Some(zones) => zones.states_of(state, &node.axillary.chance),
-            None if node.axillary.chance.table.is_never_in(state) => Vec::new(),
+            None if node.axillary.chance.is_never_in(state) => Vec::new(),
             None => vec![None],
         };
         let of_zone = |of: Option<u8>| (order + 1, of.or(node.axillary.state).unwrap_or(state));
         borne.extend(states.into_iter().map(of_zone));
     }
-    if node.reiteration.count.table.max() > 0 && !node.reiteration.chance.table.is_never_in(state) {
+    if node.reiteration.count.table.max() > 0 && !node.reiteration.chance.is_never_in(state) {
         borne.push((usize::from(node.reiteration_order) - 1, node.reiteration.state.unwrap_or(state)));
     }
     let relays = Some(&end.relay).filter(|_| frame::is_relayed(laws));

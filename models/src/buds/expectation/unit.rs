@@ -66,7 +66,7 @@ impl Unit {
             let at = At { rank: rank as u32, ..at };
             self.nodes += at_least;
             organs.add(&laws.node, at_least, at);
-            let axes = reiteration.count.table.mean(at) * reiteration.chance.table.probability(at);
+            let axes = reiteration.count.table.mean(at) * reiteration.chance.probability(at);
             bear(&mut self.reiterations, (None, &reiteration.delay.table), at_least * axes, at);
         }
         self.ramify(model, laws, (share, nodes), at);
@@ -115,14 +115,14 @@ fn bear(laterals: &mut Vec<Lateral>, (state, delay): (Option<u8>, &CountTable), 
 /// The distributions of the number of nodes of long and of short growth units, with the share of either; none of a type
 /// that does not occur.
 pub fn sizes(laws: &OrderLaws, at: At) -> Vec<(f64, Vec<f64>)> {
-    let short = laws.step.short.table.probability(at);
+    let short = laws.step.short.probability(at);
     let mut sizes = Vec::new();
     if short < 1.0 {
-        let neoformed = laws.step.neoformed.table.pmf(at);
-        sizes.push((1.0 - short, convolve(&laws.step.long_nodes.table.pmf(at), &neoformed)));
+        let neoformed = laws.step.neoformed.pmf(at);
+        sizes.push((1.0 - short, convolve(&laws.step.long_nodes.pmf(at), &neoformed)));
     }
     if short > 0.0 {
-        sizes.push((short, laws.step.short_nodes.table.pmf(at)));
+        sizes.push((short, laws.step.short_nodes.pmf(at)));
     }
     sizes
 }
@@ -152,11 +152,11 @@ impl Organs {
     /// Adds the organs of `nodes` nodes at a rank.
     pub fn add(&mut self, node: &NodeLaws, nodes: f64, at: At) {
         self.by[0] += nodes * node.leaves.table.mean(at);
-        let opening = nodes * node.flowers.table.mean(at) * node.flower_opens.table.probability(at);
+        let opening = nodes * node.flowers.table.mean(at) * node.flower_opens.probability(at);
         if opening <= 0.0 {
             return;
         }
-        let sets = opening * node.fruit_set.table.probability(at);
+        let sets = opening * node.fruit_set.probability(at);
         match &mut self.waiting {
             Some([flowers, fruits]) => {
                 *flowers += opening;
@@ -196,7 +196,7 @@ impl Organs {
 /// The longest time from a node to the appearance of an organ on it.
 pub fn longest_wait(node: &NodeLaws) -> Tick {
     let opens = if node.flowers.table.max() > 0 { node.flower_delay.table.max() } else { return 0 };
-    let sets = !node.fruit_set.table.is_never();
+    let sets = !node.fruit_set.is_never();
     if sets { opens.saturating_add(node.flower_life.table.max().max(1)) } else { opens }
 }
 
@@ -204,7 +204,7 @@ pub fn longest_wait(node: &NodeLaws) -> Tick {
 /// gives.
 fn ramification(node: &NodeLaws, (rank, nodes): Ranks, holding: &[Vec<f64>], at: At) -> Vec<(Option<u8>, f64)> {
     let spread = |(holds, of): (f64, Ramification<'_>)| {
-        let probability = holds * of.chance.table.probability(at);
+        let probability = holds * of.chance.probability(at);
         of.shares(at).into_iter().map(move |(state, share)| (state, share * probability))
     };
     match &node.zones {

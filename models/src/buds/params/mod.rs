@@ -12,6 +12,7 @@ mod colour;
 mod geometry;
 mod looks;
 mod organs;
+mod response;
 mod sympodial;
 mod wood;
 
@@ -24,6 +25,7 @@ pub use geometry::{
 };
 pub use looks::{ByState, EachState, FormChoice, KindName, OwnForm};
 pub use organs::{Facing, Flower, Fruit, Leaf, OrganTrend, Season};
+pub use response::{Response, Target};
 pub use sympodial::{Apex, ApexEnd, Fork, Reiteration, Relay, Sibling, Transition, Traumatic};
 pub use wood::{CountedLeaves, DragLaw, OrderWood, ThickeningRule, UprightingLaw, Wood};
 
@@ -50,6 +52,9 @@ pub struct Buds {
     /// The wood: secondary growth, weight and bending; left out: laws of age, and the pose at rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wood: Option<Wood>,
+    /// How the buds respond to what the site and its seasons bring, such as nitrogen; in the order in which they act.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub response: Vec<Response>,
     /// The axes of each order: the first entry is the trunk. Axes of an order past the last are never made.
     #[schemars(length(min = 1, max = 16))]
     pub order: Vec<Order>,

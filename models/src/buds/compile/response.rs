@@ -1,0 +1,109 @@
+//! Responses compiled beside the laws that they act on: a value for each age of the plant.
+//!
+//! They act in the order in which the species states them: hazards join one after another, factors are multiplied one
+//! after another. No response changes the width of a record of words, so that a plant at the reference of all its
+//! responses has the same bytes as a plant without any. Absent: the joining itself (`change`).
+
+use super::change::ByAge;
+use super::{OrderLaws, order_of};
+use crate::buds::params::{Buds, Response, Target};
+use crate::fault::{Fault, Path};
+use crate::law::{Asked, Domain, Responding, ValueRange};
+use std::collections::BTreeMap;
+
+/// The largest ratio of a response to its value at the reference.
+const MOST: f64 = 100.0;
+
+const RATIO: ValueRange = ValueRange { min: 0.0, max: 1e9, what: "a response" };
+
+/// The values by age of all that acts on a target.
+type Acting = BTreeMap<Target, Vec<f64>>;
+
+/// Compiles the responses of a species up to the age `until`, and lets them act on the laws of its orders.
+pub fn compile(buds: &Buds, orders: &mut [OrderLaws], until: u32, path: &Path, faults: &mut Vec<Fault>) {
+    let mut again = Vec::new();
+    for (index, laws) in orders.iter_mut().enumerate() {
+        let number = order_of(index);
+        let mut acting = Acting::new();
+        for (place, response) in buds.response.iter().enumerate() {
+            let path = path.key("response").index(place);
+            if response.orders.as_ref().is_none_or(|orders| orders.contains(&number)) {
+                let domain = Domain { order: number, until, asked: Asked::Response, ..Domain::default() };
+                act(response, &domain, &path, &mut acting, &mut again);
+            }
+        }
+        acting.into_iter().for_each(|(target, values)| respond(laws, target, ByAge::new(values)));
+    }
+    for (place, response) in buds.response.iter().enumerate() {
+        check(response, orders.len(), &path.key("response").index(place), faults);
+    }
+    crate::fault::tell_once(faults, again);
+}
+
+/// Faults of what a response acts on.
+fn check(response: &Response, orders: usize, path: &Path, faults: &mut Vec<Fault>) {
+    if response.acts_on.is_empty() {
+        faults.push(Fault::new(&path.key("acts_on"), "the response acts on nothing", "at least one of its targets"));
+    }
+    let of = response.orders.iter().flatten();
+    if let Some(order) = of.copied().find(|order| !(1..=orders).contains(&usize::from(*order))) {
+        let problem = format!("the species has no order {order}");
+        faults.push(Fault::new(&path.key("orders"), problem, format!("orders from 1 to {orders}")));
+    }
+}
+
+/// Adds one response to what acts on its targets.
+fn act(response: &Response, domain: &Domain, path: &Path, acting: &mut Acting, faults: &mut Vec<Fault>) {
+    let law = path.key("law");
+    let (hazards, ratios): (Vec<Target>, Vec<Target>) = response.acts_on.iter().partition(|target| target.is_hazard());
+    let range = if hazards.is_empty() { RATIO } else { ValueRange::PROBABILITY };
+    let values = match response.law.respond(domain, response.reference, &law, range) {
+        Ok(values) => values,
+        Err(mut found) => return faults.append(&mut found),
+    };
+    for target in hazards {
+        let joined = acting.entry(target).or_insert_with(|| vec![0.0; values.by_age.len()]);
+        let d = values.by_age.iter().map(|q| q - values.at_reference);
+        joined.iter_mut().zip(d).for_each(|(joined, d)| *joined += d * (1.0 - *joined));
+    }
+    if ratios.is_empty() {
+        return;
+    }
+    if let Some(fault) = ratio_fault(&values, response.reference, &law) {
+        return faults.push(fault);
+    }
+    for target in ratios {
+        let product = acting.entry(target).or_insert_with(|| vec![1.0; values.by_age.len()]);
+        product.iter_mut().zip(&values.by_age).for_each(|(product, value)| *product *= value / values.at_reference);
+    }
+}
+
+/// The fault of a response that has no ratio to its value at the reference, or a ratio that is too large.
+fn ratio_fault(values: &Responding, reference: f64, path: &Path) -> Option<Fault> {
+    if values.at_reference <= 0.0 {
+        let problem =
+            format!("the response is {} at the reference {reference}, by which it is divided", values.at_reference);
+        return Some(Fault::new(path, problem, "a response above 0 at its reference"));
+    }
+    let most = values.by_age.iter().fold(0.0_f64, |most, value| most.max(value / values.at_reference));
+    let problem = format!("the response is {most} times its value at the reference {reference}");
+    (most > MOST).then(|| Fault::new(path, problem, format!("at most {MOST} times")))
+}
+
+/// Lets values by age act on a target.
+fn respond(laws: &mut OrderLaws, target: Target, values: ByAge) {
+    let OrderLaws { step, node, .. } = laws;
+    match target {
+        Target::Death => step.endanger(values),
+        Target::Pause => step.delay(values),
+        Target::Ramification => node.ramification_times(&values),
+        Target::Flowering => {
+            step.flower_times(values.clone());
+            node.flowers_times(values);
+        }
+        Target::FruitSet => node.fruits_times(values),
+        Target::Nodes => step.nodes_times(&values),
+        Target::InternodeLength => node.lengths_times(&values),
+        Target::LeafArea => node.leaf_areas_times(&values),
+    }
+}
