@@ -22,6 +22,8 @@ pub enum Purpose {
     Relay = 2,
     /// What a plant draws once for its whole life, in the stream of the seed's axis.
     Plant = 3,
+    /// What a cut releases at a node, in a stream of the node.
+    Cut = 5,
 }
 
 /// The words of one ChaCha block.

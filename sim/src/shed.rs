@@ -83,5 +83,6 @@ pub fn cause_of(fate: ApexFate) -> Cause {
         ApexFate::Completed => Cause::Completed,
         ApexFate::Killed => Cause::Killed,
         ApexFate::Pruned => Cause::Pruned,
+        ApexFate::Harvested => Cause::Harvested,
     }
 }

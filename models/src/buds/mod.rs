@@ -6,6 +6,7 @@
 mod bud;
 mod card;
 mod compile;
+mod cuts;
 pub mod expectation;
 mod grow;
 mod model;
@@ -13,6 +14,8 @@ mod node;
 pub mod params;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_cuts;
 #[cfg(test)]
 mod tests_drawn;
 #[cfg(test)]

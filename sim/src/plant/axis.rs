@@ -60,6 +60,8 @@ pub enum ApexFate {
     Killed = 4,
     /// It was cut off.
     Pruned = 5,
+    /// It was harvested.
+    Harvested = 6,
 }
 
 /// The values of a new axis.

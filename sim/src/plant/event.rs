@@ -39,11 +39,15 @@ pub enum EventKind {
     Unsettled = 12,
     /// An apex divided, and this axis is one of the equal axes of its order into which it divided.
     Forked = 13,
+    /// The axis was harvested, or `count` of the fruits that it bears.
+    Harvested = 14,
+    /// Fruits were picked off the axis so that the others have more; `count` is their number.
+    Thinned = 15,
 }
 
 impl EventKind {
     /// Every kind, in the order of their numbers.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 16] = [
         Self::Grew,
         Self::Paused,
         Self::Died,
@@ -58,6 +62,8 @@ impl EventKind {
         Self::Buckled,
         Self::Unsettled,
         Self::Forked,
+        Self::Harvested,
+        Self::Thinned,
     ];
 
     /// The event as it stands in tables.
@@ -77,6 +83,8 @@ impl EventKind {
             Self::Buckled => "buckled",
             Self::Unsettled => "unsettled",
             Self::Forked => "forked",
+            Self::Harvested => "harvested",
+            Self::Thinned => "thinned",
         }
     }
 }

@@ -79,6 +79,7 @@ impl Plant {
             rewritten: Default::default(),
             own_looks: Default::default(),
             cuts: Default::default(),
+            dormant: self.dormant.begun(),
             budget: self.budget,
             components: 0,
             component_limit: self.component_limit.saturating_sub(self.components),
@@ -98,6 +99,7 @@ impl Plant {
         self.stated_organs.join(&plant.stated_organs, self.organs.len());
         self.rewritten.join(&plant.rewritten, &joint);
         self.own_looks.join(&plant.own_looks, [nodes, self.organs.len()]);
+        self.dormant.join(&plant.dormant, nodes);
         self.nodes.join_runs(&plant.nodes, &joint);
         self.axes.take_back(&plant.axes, &joint);
         self.join_columns(&plant, &joint);

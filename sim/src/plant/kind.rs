@@ -192,13 +192,15 @@ pub enum Cause {
     FruitSet = 7,
     /// A cause outside the plant killed it.
     Killed = 8,
-    /// It was cut off.
+    /// It was cut off, or picked off to thin the fruits.
     Pruned = 9,
+    /// It was harvested.
+    Harvested = 10,
 }
 
 impl Cause {
     /// Every cause of an end, in the order of their numbers.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Mortality,
         Self::Flowered,
         Self::Completed,
@@ -208,6 +210,7 @@ impl Cause {
         Self::FruitSet,
         Self::Killed,
         Self::Pruned,
+        Self::Harvested,
     ];
 
     /// The cause as it stands in tables; `None` for a living component.
@@ -223,6 +226,7 @@ impl Cause {
             Self::FruitSet => "fruit_set",
             Self::Killed => "killed",
             Self::Pruned => "pruned",
+            Self::Harvested => "harvested",
         })
     }
 }

@@ -12,6 +12,7 @@ mod axis;
 pub(crate) mod borne;
 mod columns;
 mod cut;
+mod dormant;
 mod event;
 mod first;
 mod for_drawing;
@@ -36,7 +37,8 @@ mod wood;
 
 pub use appeared::{Appeared, Stretch};
 pub use axis::{ApexFate, Axes, NewAxis, Origin};
-pub use cut::{Cut, Cuts};
+pub use cut::{Cut, Cuts, Taking};
+pub use dormant::{Dormant, DormantBuds};
 pub use event::{Event, EventKind};
 pub use for_drawing::{Carried, ForDrawing};
 pub use form::Form;
@@ -109,6 +111,8 @@ pub struct Plant {
     pub own_looks: OwnLooks,
     /// The cuts.
     pub cuts: Cuts,
+    /// The axillary buds that lie dormant, where a cut may release them.
+    pub dormant: DormantBuds,
     /// Thread budget of its growth; never changes the result.
     pub budget: ThreadBudget,
     components: u32,
@@ -153,6 +157,7 @@ impl Plant {
             rewritten: Rewritten::default(),
             own_looks: OwnLooks::default(),
             cuts: Cuts::default(),
+            dormant: DormantBuds::default(),
             budget: ThreadBudget::default(),
             components: 0,
             component_limit: seed.component_limit.min(MOST_COMPONENTS),
@@ -194,6 +199,7 @@ impl Plant {
         self.rewritten.clear();
         self.own_looks.clear();
         self.cuts.clear();
+        self.dormant.clear();
     }
 
     /// Whether `more` components still fit under the plant's limit.
