@@ -59,7 +59,7 @@ fn follow_ticks(plot: &mut Plot<'_>, until: Tick, recorder: &mut dyn Recorder) -
         if tick > 0
             && !ahead
             && plot.follows(tick, recorder)
-            && let Err(limit) = plot.grow_to(tick)
+            && let Err(limit) = plot.operate(tick).and_then(|()| plot.grow_to(tick))
         {
             return Ok(Ending::Overgrown { age: tick, limit });
         }
@@ -75,13 +75,15 @@ fn follow_ticks(plot: &mut Plot<'_>, until: Tick, recorder: &mut dyn Recorder) -
 }
 
 impl Plot<'_> {
-    /// Grows all members to the tick `until` at once, where that is allowed; whether it did. A plot in which a plant is
+    /// Grows all members to the tick `until` at once, or from operation to operation, where that is allowed; whether it
+    /// did. A plot in which a plant is
     /// too large for its limit starts again by the clock, so that the ticks before the limit are kept.
     pub fn ahead(&mut self, until: Tick) -> bool {
-        if self.site.feeds_back() || self.species.iter().any(|model| !model.growth().keeps_its_past()) {
+        let remade = self.species.iter().any(|model| !model.growth().keeps_its_past());
+        if self.site.feeds_back() || remade || self.is_watched() {
             return false;
         }
-        let fits = self.grow_to(until).is_ok();
+        let fits = self.grow_managed(until).is_ok();
         if !fits {
             self.restart();
         }
@@ -144,7 +146,7 @@ impl Plot<'_> {
     }
 
     /// Whether plants must stand at every tick: wood remembers its shape, or the site sees where buds are.
-    fn is_looked_at(&self) -> bool {
+    pub(crate) fn is_looked_at(&self) -> bool {
         self.remembers() || self.site.sees_buds()
     }
 

@@ -7,6 +7,8 @@ pub mod clock;
 pub mod expectation;
 pub mod grow;
 pub mod key;
+mod managed;
+pub mod management;
 pub mod math;
 pub mod mechanics;
 pub mod model;

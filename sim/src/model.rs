@@ -77,6 +77,16 @@ pub trait Grow: Send + Sync {
         let _ = (plant, life, claims);
     }
 
+    /// Answers the cuts that were made at the plant's age `age`, of which [`Plant::stumps`] tells the ends, before the
+    /// plant grows to that age: what a cut releases appears at `age`. Nothing grows from a cut where a model says nothing.
+    ///
+    /// # Errors
+    /// [`Overgrown`], as [`Grow::grow_to`].
+    fn answer_cuts(&self, age: Tick, plant: &mut Plant, life: &mut Self::Life) -> Result<(), Overgrown> {
+        let _ = (age, plant, life);
+        Ok(())
+    }
+
     /// The means of what a plant makes up to `until`, or bounds or estimates of them, as it says; `None` where the
     /// model has none.
     fn expectation(&self, until: Tick) -> Option<Expectation> {
@@ -109,6 +119,15 @@ pub trait GrowthModel: Send + Sync {
     /// Where `life` is that of another model's plant.
     fn claim(&self, plant: &Plant, life: &Life, claims: &mut Claims);
 
+    /// As [`Grow::answer_cuts`].
+    ///
+    /// # Errors
+    /// As there.
+    ///
+    /// # Panics
+    /// Where `life` is that of another model's plant.
+    fn answer_cuts(&self, age: Tick, plant: &mut Plant, life: &mut Life) -> Result<(), Overgrown>;
+
     fn expectation(&self, until: Tick) -> Option<Expectation>;
 }
 
@@ -135,6 +154,10 @@ impl<M: Grow> GrowthModel for M {
 
     fn claim(&self, plant: &Plant, life: &Life, claims: &mut Claims) {
         Grow::claim(self, plant, life.get(), claims);
+    }
+
+    fn answer_cuts(&self, age: Tick, plant: &mut Plant, life: &mut Life) -> Result<(), Overgrown> {
+        Grow::answer_cuts(self, age, plant, life.get_mut())
     }
 
     fn expectation(&self, until: Tick) -> Option<Expectation> {

@@ -5,6 +5,7 @@
 //! members stand in `sim::grow`.
 
 use crate::clock::Tick;
+use crate::management::Management;
 use crate::mechanics::Wood;
 use crate::model::{GrowthModel, Life};
 use crate::plant::{Plant, Seed};
@@ -42,6 +43,8 @@ pub struct Plot<'m> {
     pub members: Vec<Member>,
     /// What they stand on.
     pub site: Site,
+    /// What people do to them; stated by [`Plot::manage`].
+    pub management: Management,
 }
 
 /// What a plant is in its plot.
@@ -68,7 +71,14 @@ impl<'m> Plot<'m> {
     pub fn new(id: u32, species: Vec<&'m dyn GrowthModel>, sowings: &[Sowing]) -> Self {
         let (plants, lives) = sowings.iter().map(|sowing| sown(species[sowing.species], sowing)).unzip();
         let members = sowings.iter().map(|sowing| Member { species: sowing.species, sown: sowing.sown }).collect();
-        Self { id, treatment: 0, replicate: 0, species, plants, lives, members, site: Site::default() }
+        let (site, management) = (Site::default(), Management::default());
+        Self { id, treatment: 0, replicate: 0, species, plants, lives, members, site, management }
+    }
+
+    /// States what people do to the plants, before their first tick.
+    pub fn manage(&mut self, management: Management) {
+        self.plants.iter_mut().for_each(|plant| plant.dormant.keep(management.cuts()));
+        self.management = management;
     }
 
     /// A plot of one plant at the origin, sown at tick 0 by `model`.
@@ -101,11 +111,17 @@ impl<'m> Plot<'m> {
     }
 
     fn sow(&mut self) {
-        let Self { species, plants, lives, members, site, .. } = self;
+        let Self { species, plants, lives, members, site, management, .. } = self;
         site.restart();
+        management.restart();
         for ((plant, life), member) in plants.iter_mut().zip(lives).zip(members) {
             *life = species[member.species].sow(plant);
         }
+    }
+
+    /// Whether any of its plants bends under its load.
+    pub fn bends(&self) -> bool {
+        self.plants.iter().any(|plant| plant.habit.wood.as_ref().is_some_and(|wood| wood.bends))
     }
 
     /// Whether the shape of its plants at an age depends on those at the ages before, so that each must be gone

@@ -24,6 +24,8 @@ pub enum Purpose {
     Plant = 3,
     /// What responses and pests change in the fate of an apical bud.
     StepResponse = 4,
+    /// What a cut releases at a node, in a stream of the node.
+    Cut = 5,
     /// What responses and pests change in what a node bears.
     NodeResponse = 6,
 }

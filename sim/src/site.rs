@@ -50,7 +50,16 @@ pub struct Plane {
 impl Plane {
     /// Whether a point of the plot, metres, lies on the plane or beyond it.
     pub fn is_reached_by(&self, point: [f64; 3]) -> bool {
-        (0..3).map(|k| (point[k] - self.point[k]) * self.normal[k]).sum::<f64>() >= 0.0
+        self.beyond(point) >= 0.0
+    }
+
+    /// Whether a point, metres, lies beyond the plane.
+    pub fn is_passed_by(&self, point: [f64; 3]) -> bool {
+        self.beyond(point) > 0.0
+    }
+
+    fn beyond(&self, point: [f64; 3]) -> f64 {
+        (0..3).map(|k| (point[k] - self.point[k]) * self.normal[k]).sum::<f64>()
     }
 }
 

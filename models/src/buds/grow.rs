@@ -103,6 +103,13 @@ impl<'a> Axis<'a> {
         Ok(Some(self.bud))
     }
 
+    /// Puts the clock of the axis to `tick`, with all the steps that are due by then made.
+    pub fn begin_at(&mut self, tick: Tick) {
+        self.tick = tick;
+        self.dimension = tick.saturating_sub(self.birth);
+        self.bud.cycle = self.speed.steps_by(self.dimension);
+    }
+
     /// Kills the bud at `tick` from outside; relays and reiteration follow as after any death of an apex.
     pub fn kill(mut self, tick: Tick) -> Result<(), Full> {
         self.tick = tick;

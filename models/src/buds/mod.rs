@@ -7,6 +7,7 @@ mod attack;
 mod bud;
 mod card;
 mod compile;
+mod cuts;
 pub mod expectation;
 mod grow;
 mod model;
@@ -16,6 +17,8 @@ pub mod params;
 mod record;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_cuts;
 #[cfg(test)]
 mod tests_drawn;
 #[cfg(test)]

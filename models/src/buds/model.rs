@@ -232,6 +232,10 @@ impl Grow for BudModel {
         self.grow_plant(plant, living, age)
     }
 
+    fn answer_cuts(&self, age: Tick, plant: &mut Plant, LivingBuds(living): &mut LivingBuds) -> Result<(), Overgrown> {
+        self.release_below_cuts(age, plant, living)
+    }
+
     fn expectation(&self, until: Tick) -> Option<Expectation> {
         if self.asks_the_bud() {
             return None;

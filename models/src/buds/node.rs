@@ -3,6 +3,7 @@
 //! Order of a node's components: internode, leaves, lateral flowers, then axillary and reiteration buds; the positions
 //! of a node are spread evenly around it, the first at the node's azimuth, each axillary bud in the axil of its leaf.
 
+use super::bud::ApicalBud;
 use super::compile::Branching;
 use super::grow::{Axis, Full, add_axis};
 use super::params::ApexEnd;
@@ -10,7 +11,7 @@ use super::record::read;
 use crate::law::At;
 use phytomer_sim::clock::NEVER;
 use phytomer_sim::plant::key::Place;
-use phytomer_sim::plant::{EventKind, NewAxis, NewNode, NodeId, Origin};
+use phytomer_sim::plant::{Dormant, EventKind, NewAxis, NewNode, NodeId, Origin};
 use phytomer_sim::random::Purpose;
 
 const TURN: f32 = 2.0 * std::f32::consts::PI;
@@ -135,6 +136,9 @@ impl Axis<'_> {
                 false => self.bud.dormant |= 1 << position,
             }
         }
+        if buds > 0 {
+            self.remember_dormant(node);
+        }
     }
 
     fn reiterations(&mut self, node: NodeId, buds: u32, azimuth: f32, at: At) {
@@ -258,8 +262,9 @@ impl Axis<'_> {
         follows
     }
 
-    /// Traumatic reiteration: releases the dormant axillary buds of the last node, at this axis's order.
-    fn release(&mut self, node: NodeId) {
+    /// Traumatic reiteration: releases the dormant axillary buds of the last node, at this axis's order. Those that stay
+    /// dormant may be released by a later cut.
+    pub(super) fn release(&mut self, node: NodeId) {
         let laws = self.laws;
         let at = self.at(0);
         let first = self.plant.nodes.azimuth[node.index()];
@@ -271,7 +276,17 @@ impl Axis<'_> {
                 let (order, origin) = (laws.number, Origin::Traumatic);
                 let site = BudSite { node, order, origin, place, position, azimuth, follows: false, state: None };
                 self.branch(site, &laws.end.traumatic, EventKind::Reiterated, true, at);
+                self.bud.dormant &= !(1 << position);
             }
+        }
+        self.remember_dormant(node);
+    }
+
+    /// Writes down the buds of a node that lie dormant, where a cut may release them.
+    fn remember_dormant(&mut self, node: NodeId) {
+        if self.plant.dormant.are_kept() {
+            let ApicalBud { dormant: buds, bud_spacing: spacing, state, .. } = self.bud;
+            self.plant.dormant.set(node, Dormant { buds, spacing, state });
         }
     }
 

@@ -81,6 +81,7 @@ impl Plant {
             own_looks: Default::default(),
             cuts: Default::default(),
             ledger: Vec::new(),
+            dormant: self.dormant.begun(),
             budget: self.budget,
             components: 0,
             component_limit: self.component_limit.saturating_sub(self.components),
@@ -100,6 +101,7 @@ impl Plant {
         self.stated_organs.join(&plant.stated_organs, self.organs.len());
         self.rewritten.join(&plant.rewritten, &joint);
         self.own_looks.join(&plant.own_looks, [nodes, self.organs.len()]);
+        self.dormant.join(&plant.dormant, nodes);
         self.nodes.join_runs(&plant.nodes, &joint);
         self.axes.take_back(&plant.axes, &joint);
         self.join_columns(&plant, &joint);

@@ -12,6 +12,7 @@ mod axis;
 pub(crate) mod borne;
 mod columns;
 mod cut;
+mod dormant;
 mod event;
 mod exposure;
 mod first;
@@ -38,7 +39,8 @@ mod wood;
 
 pub use appeared::{Appeared, Stretch};
 pub use axis::{ApexFate, Axes, NewAxis, Origin};
-pub use cut::{Cut, Cuts};
+pub use cut::{Cut, Cuts, Taking};
+pub use dormant::{Dormant, DormantBuds};
 pub use event::{Event, EventKind};
 pub use exposure::{Exposure, Hazard, Survival};
 pub use for_drawing::{Carried, ForDrawing};
@@ -117,6 +119,8 @@ pub struct Plant {
     pub cuts: Cuts,
     /// What a model that rewrites has taken out of the columns, in the order of departure; empty for other models.
     pub ledger: Vec<Departed>,
+    /// The axillary buds that lie dormant, where a cut may release them.
+    pub dormant: DormantBuds,
     /// Thread budget of its growth; never changes the result.
     pub budget: ThreadBudget,
     components: u32,
@@ -163,6 +167,7 @@ impl Plant {
             own_looks: OwnLooks::default(),
             cuts: Cuts::default(),
             ledger: Vec::new(),
+            dormant: DormantBuds::default(),
             budget: ThreadBudget::default(),
             components: 0,
             component_limit: seed.component_limit.min(MOST_COMPONENTS),
@@ -206,6 +211,7 @@ impl Plant {
         self.rewritten.clear();
         self.own_looks.clear();
         self.cuts.clear();
+        self.dormant.clear();
     }
 
     /// Whether `more` components still fit under the plant's limit.

@@ -98,11 +98,14 @@ impl Plant {
         if self.cuts.is_empty() { shed } else { shed.min(self.cut_of(node)) }
     }
 
-    /// Why an internode, with its organs, dies: with its branch, or because it is cut off.
+    /// Why an internode, with its organs, dies: with its branch, or because it is cut off or harvested.
     #[inline]
     pub fn cause_of_death(&self, node: NodeId) -> Cause {
         let cut = self.cut_of(node);
-        if cut != NEVER && cut <= self.death_of(node) { Cause::Pruned } else { Cause::Branch }
+        if cut == NEVER || cut > self.death_of(node) {
+            return Cause::Branch;
+        }
+        self.cuts.cause_of(self.nodes.axis[node.index()], self.nodes.rank[node.index()])
     }
 
     /// The tick at which a cut took an internode; mostly [`NEVER`].

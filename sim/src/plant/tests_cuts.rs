@@ -34,6 +34,19 @@ fn reached(plant: &Plant, cuts: &[Cut], node: NodeId, age: Tick) -> bool {
     !cut && plant.nodes.parent[node.index()].some().is_none_or(|parent| reached(plant, cuts, parent, age))
 }
 
+/// The first of all cuts between an internode and the ground.
+fn first_below(plant: &Plant, cuts: &[Cut], node: NodeId) -> Cut {
+    let mut below = Some(node);
+    let mut found: Option<Cut> = None;
+    while let Some(node) = below {
+        let (axis, rank) = (plant.nodes.axis[node.index()], plant.nodes.rank[node.index()]);
+        let of = cuts.iter().filter(|cut| cut.axis == axis && cut.rank < rank);
+        found = of.copied().chain(found).min_by_key(|cut| (cut.tick, cut.by));
+        below = plant.nodes.parent[node.index()].some();
+    }
+    found.expect("a cut below")
+}
+
 fn assert_reached(plant: &Plant, cuts: &[Cut]) {
     for age in 5..LAST {
         let (mut standing, mut gone) = (0, 0);
@@ -47,7 +60,8 @@ fn assert_reached(plant: &Plant, cuts: &[Cut]) {
             let (organ, foliate) = (node.index(), stands && age < branch);
             assert_eq!(plant.organ_stands(OrganId(node.0), age), foliate, "the leaf of {node:?} at {age}");
             if !stands && plant.shed_of(node) <= branch {
-                assert_eq!((plant.organs.cause[organ], plant.cause_of_death(node)), (Cause::Pruned, Cause::Pruned));
+                let cause = first_below(plant, cuts, node).by.cause();
+                assert_eq!((plant.organs.cause[organ], plant.cause_of_death(node)), (cause, cause));
                 assert_eq!(plant.organs.death[organ], plant.shed_of(node));
             }
             *(if stands { &mut standing } else { &mut gone }) += 1;
@@ -58,7 +72,8 @@ fn assert_reached(plant: &Plant, cuts: &[Cut]) {
             let bearer = plant.axes.bearer[axis.index()].some();
             let lives = !cuts.iter().any(|cut| of(&cut)) && bearer.is_none_or(|node| reached(plant, cuts, node, age));
             assert_eq!(plant.bud_lives(axis, age), lives, "the bud of {axis:?} at {age}: {cuts:?}");
-            assert_eq!(plant.axes.apex_fate[axis.index()] == ApexFate::Pruned, plant.bud_end(axis) < NEVER);
+            let taken = matches!(plant.axes.apex_fate[axis.index()], ApexFate::Pruned | ApexFate::Harvested);
+            assert_eq!(taken, plant.bud_end(axis) < NEVER);
             *(if lives { &mut standing } else { &mut gone }) += 1;
         }
         assert_eq!(standing + gone, plant.lived_by(age), "every component stands or is gone");
@@ -71,22 +86,19 @@ fn what_stands_is_what_can_be_reached_whatever_is_cut_and_in_whatever_order() {
     for _ in 0..300 {
         let mut any = |n: usize| words.word() as usize % n;
         let bearers: Vec<_> = (0..8).map(|axis| (axis > 0).then(|| (any(axis), 1 + any(5) as u32))).collect();
-        let cut = |any: &mut dyn FnMut(usize) -> usize| Cut {
-            axis: AxisId(any(8) as u32),
-            rank: any(6) as u32,
-            tick: 5 + any(20) as u32,
+        let cut = |any: &mut dyn FnMut(usize) -> usize| {
+            let (axis, rank, tick) = (AxisId(any(8) as u32), any(6) as u32, 5 + any(20) as u32);
+            Cut { axis, rank, tick, by: [Taking::Pruning, Taking::Harvest][tick as usize % 2] }
         };
         let mut cuts: Vec<Cut> = (0..any(5)).map(|_| cut(&mut any)).collect();
         let mut plant = plant_of(&bearers);
-        for at in &cuts {
-            plant.cut(at.axis, at.rank, at.tick);
-        }
+        plant.cut_all(&cuts);
         shed(&mut plant);
         assert_reached(&plant, &cuts);
         cuts.reverse();
         let mut other = plant_of(&bearers);
         for at in &cuts {
-            other.cut(at.axis, at.rank, at.tick);
+            other.cut_all(&[*at]);
             shed(&mut other);
         }
         assert!((&plant.axes, &plant.organs, &plant.cuts) == (&other.axes, &other.organs, &other.cuts), "{cuts:?}");
