@@ -14,6 +14,8 @@ pub mod params;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_dates;
+#[cfg(test)]
 mod tests_drawn;
 #[cfg(test)]
 mod tests_faults;
