@@ -14,6 +14,7 @@ mod count;
 mod count_source;
 mod count_table;
 mod curves;
+mod dates;
 mod domain;
 mod expression;
 pub mod fault;
@@ -26,11 +27,14 @@ mod quantile;
 mod quantity;
 mod range;
 mod response;
+mod responses;
 mod speed;
 pub mod spelling;
 mod table;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_dates;
 #[cfg(test)]
 mod tests_draws;
 mod variable;
@@ -46,6 +50,7 @@ pub use form::{Law, LawForm};
 pub use quantity::{Quantity, QuantityForm};
 pub use range::ValueRange;
 pub use response::Responding;
+pub use responses::{LinearPlateauLaw, MitscherlichLaw, QuadraticPlateauLaw};
 pub use speed::{SpeedForm, SpeedTable, SpeedText, Speeds};
 pub use table::{ProbabilityTable, ValueTable, happens};
 pub use variable::{Asked, Variable};

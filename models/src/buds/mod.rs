@@ -20,6 +20,8 @@ mod tests;
 #[cfg(test)]
 mod tests_cuts;
 #[cfg(test)]
+mod tests_dates;
+#[cfg(test)]
 mod tests_drawn;
 #[cfg(test)]
 mod tests_faults;

@@ -124,6 +124,11 @@ impl Calendar {
         Ok(Self { ticks, length: terms.tick })
     }
 
+    /// A calendar of these ticks, as another one had them; `None` without any.
+    pub fn of_ticks(length: TickLength, ticks: Vec<CalendarTick>) -> Option<Self> {
+        (!ticks.is_empty()).then_some(Self { ticks, length })
+    }
+
     /// A tick; beyond the last, the last one.
     pub fn at(&self, tick: Tick) -> &CalendarTick {
         &self.ticks[(tick as usize).min(self.ticks.len() - 1)]
@@ -287,7 +292,11 @@ mod tests {
     fn a_hot_day_can_end_several_ticks() {
         let calendar = Calendar::of(&terms(TickLength::DegreeDays(6.0)), 5, steady).expect("a calendar");
         let days: Vec<u32> = calendar.ticks().iter().map(|at| at.days).collect();
-        assert_eq!(days, [0, 1, 0, 1, 0, 0], "15 °C d a day: the sums 6, 12, 18, 24 and 30 after 1, 1, 2, 2 and 2 days");
+        assert_eq!(
+            days,
+            [0, 1, 0, 1, 0, 0],
+            "15 °C d a day: the sums 6, 12, 18, 24 and 30 after 1, 1, 2, 2 and 2 days"
+        );
         assert_eq!(calendar.at(99), calendar.at(5), "beyond the last tick, the last");
     }
 
