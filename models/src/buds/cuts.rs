@@ -8,7 +8,8 @@
 
 use super::bud::ApicalBud;
 use super::compile::BudModel;
-use super::grow::{Axis, Words, first_bud, read};
+use super::grow::{Axis, first_bud};
+use super::record::{Words, read};
 use phytomer_sim::Tick;
 use phytomer_sim::model::Overgrown;
 use phytomer_sim::plant::key::Place;
@@ -70,7 +71,7 @@ fn units_by(plant: &Plant, node: NodeId) -> u32 {
 impl Axis<'_> {
     /// Releases the dormant buds of `node`, the end of this axis since a cut at `tick`.
     fn wake(mut self, node: NodeId, tick: Tick) {
-        if self.bud.dormant == 0 || self.laws.end.traumatic.chance.table.is_never() {
+        if self.bud.dormant == 0 || self.laws.end.traumatic.chance.is_never() {
             return;
         }
         self.begin_at(tick);
