@@ -10,6 +10,7 @@
 pub mod disk;
 pub mod drawing;
 mod error;
+mod field;
 pub mod forecast;
 pub mod forms;
 mod in_memory;
@@ -21,12 +22,12 @@ pub mod regrowth;
 
 pub use error::RunError;
 pub use in_memory::{InMemory, in_memory};
-pub use plan::{CONTROL, Program, plan_of};
-pub use plots::{component_limit, place_of, seed_of};
+pub use plan::{Program, plan_of};
+pub use plots::{component_limit, seed_of};
 pub use progress::Progress;
 
 use drawing::RunMeshes;
-use phytomer_config::Resolved;
+use phytomer_config::{Resolved, Trial};
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::{
     Checkup, FreeSpace, Mode, Opening, RunFolder, RunPlan, RunReport, Shard, ShardReport, SystemSpace,
@@ -37,6 +38,7 @@ use plots::Plots;
 use rayon::ThreadPool;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use std::borrow::Cow;
+use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -153,8 +155,9 @@ impl Begun<'_> {
         let Self { resolved, forms, folder, pool, start } = self;
         let shards = folder.plan().shards();
         let missing = folder.missing_shards();
-        let plots: u64 = missing.iter().map(|shard| folder.plan().plots_of(*shard).len() as u64).sum();
-        progress.begin(&resolved.scenario, plots);
+        let trial = resolved.trial();
+        let plants = missing.iter().map(|shard| plants_in(&trial, folder.plan().plots_of(*shard))).sum();
+        progress.begin(&resolved.scenario, plants);
         let grown = pool.install(|| grow_shards(&resolved, &forms, &folder, &missing, progress))?;
         let seconds = start.elapsed().as_secs_f64();
         let components_now = grown.iter().map(|shard| shard.components).sum();
@@ -173,6 +176,12 @@ impl Begun<'_> {
 fn pool(threads: usize) -> Result<ThreadPool, RunError> {
     let builder = rayon::ThreadPoolBuilder::new().num_threads(threads).thread_name(|i| format!("grow-{i}"));
     builder.build().map_err(RunError::Threads)
+}
+
+/// The number of plants in a range of plots.
+fn plants_in(trial: &Trial, plots: Range<u32>) -> u64 {
+    let before = |plot: u32| if plot < trial.plots() { trial.plot(plot).first_plant } else { trial.plants() };
+    u64::from(before(plots.end) - before(plots.start))
 }
 
 /// The shards that were committed; fewer than `missing` after a stop.
@@ -216,7 +225,7 @@ trait Keeper: Recorder {
 
 impl<'a> Grower<'a> {
     fn of(resolved: &'a Resolved, plan: &'a RunPlan, progress: &'a Progress) -> Self {
-        Self { plots: Plots::of(&resolved.scenario, resolved.models()), plan, progress }
+        Self { plots: Plots::of(resolved.trial(), resolved.models()), plan, progress }
     }
 
     /// Grows the plots of one shard, one after another in the same columns; `false` where it was told to stop.
@@ -262,14 +271,14 @@ impl<'a> Grower<'a> {
     /// How many shards grow at once: all of them. Where a plot has several plants, as many as there are threads: one
     /// that waits for the other plants of its plot begins with a further shard meanwhile, and so would keep many.
     fn at_once(&self) -> usize {
-        if self.plots.scenario().members() > 1 { rayon::current_num_threads().max(1) } else { usize::MAX }
+        if self.plots.trial().most_members() > 1 { rayon::current_num_threads().max(1) } else { usize::MAX }
     }
 
     /// The threads that may grow one plant: those for which there is no shard help with the plants of other shards.
     /// Where every thread has a shard of its own there is no help: a thread that waits for its helper would begin a
     /// further shard meanwhile, and keep two plants in memory. The plants of a plot share the helpers of their shard.
     fn budget(&self) -> ThreadBudget {
-        let plants = self.plan.shards() as usize * self.plots.scenario().members() as usize;
+        let plants = self.plan.shards() as usize * self.plots.trial().most_members() as usize;
         ThreadBudget { threads: (rayon::current_num_threads() / plants.max(1)).max(1), ..ThreadBudget::default() }
     }
 }

@@ -61,13 +61,13 @@ impl Progress {
         (ages / in_all).min(1.0)
     }
 
-    pub(super) fn begin(&self, scenario: &Scenario, plots: u64) {
+    pub(super) fn begin(&self, scenario: &Scenario, plants: u64) {
         let mut ages = scenario.ages.recorded();
         ages.extend(scenario.mesh_ages());
         ages.sort_unstable();
         ages.dedup();
         self.ages_a_plant.store(ages.len() as u64, Relaxed);
-        self.plants_in_all.store(plots * u64::from(scenario.members()), Relaxed);
+        self.plants_in_all.store(plants, Relaxed);
     }
 
     pub(super) fn check(&self) -> Result<(), RunError> {
