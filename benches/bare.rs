@@ -51,7 +51,7 @@ impl Bare {
 
     fn bench(&self, criterion: &mut Criterion) {
         let model = self.species().compile(self.until, &Path::root()).expect("sound laws");
-        let seed = Seed { plant: 1, run_seed: 1, component_limit: MOST_COMPONENTS, keep_events: false };
+        let seed = Seed { plant: 1, draws: 1, run_seed: 1, component_limit: MOST_COMPONENTS, keep_events: false };
         let mut plot = Plot::of_one(&model, &seed);
         plot.grow_to(self.until).expect("room to grow");
         let internodes = plot.plants[0].nodes.len() as u64;

@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
     let wood = Wood { modulus_gpa: Some(7.0.into()), density_kg_m3: Some(850.0.into()), ..Wood::default() };
     poplar.wood = Some(wood);
     let model = poplar.compile(UNTIL, &Path::root()).map_err(|faults| format!("{faults:?}"))?;
-    let seed = Seed { plant: 0, run_seed: 1988, component_limit: u32::MAX, keep_events: false };
+    let seed = Seed { plant: 0, draws: 0, run_seed: 1988, component_limit: u32::MAX, keep_events: false };
     println!("| age, years | height, m | DBH, cm | f₁ simulated, Hz | f₁ of broadleaves, Hz |\n|---|---|---|---|---|");
     grow(&mut Plot::of_one(&model, &seed), UNTIL, &mut Rows)?;
     Ok(())

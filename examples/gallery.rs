@@ -6,7 +6,9 @@
 //! `phytomer picture --plot` draws it. This file lists no names: every shipped species and plot is drawn.
 
 use anyhow::{Context, Result, anyhow};
-use phytomer::config::{Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, presets, validate, validate_species};
+use phytomer::config::{
+    Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, Trial, presets, validate, validate_species,
+};
 use phytomer::outputs::pictures::{Canvas, Compression, Picture, draw_stands, write_png};
 use phytomer::run::picturing::{Pictured, pictured_plants, pictured_plot};
 use phytomer::run::regrowth::Regrowth;
@@ -106,7 +108,7 @@ impl Sitter {
     }
 
     fn regrowth(&self) -> Regrowth<'_> {
-        Regrowth::new(&self.scenario, vec![self.model.as_ref()], None)
+        Regrowth::new(Trial::of(&self.scenario, &[]), vec![self.model.as_ref()], None)
     }
 }
 

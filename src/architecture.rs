@@ -38,7 +38,7 @@ pub fn characters(model: &dyn GrowthModel, until: Tick, plants: u32) -> Result<V
 
 /// The characters of one plant at the age `until`, and its components; nothing where it comes to its limit.
 fn characters_of(plant: u32, model: &dyn GrowthModel, until: Tick) -> Result<Option<(Characters, u32)>, RecordError> {
-    let seed = Seed { plant, run_seed: DEFAULT_SEED, component_limit: LIMIT, keep_events: false };
+    let seed = Seed { plant, draws: plant.into(), run_seed: DEFAULT_SEED, component_limit: LIMIT, keep_events: false };
     let mut plot = Plot::of_one(model, &seed);
     let bends = model.habit().wood.as_ref().is_some_and(|wood| wood.bends);
     let mut poses = Poses { ages: if bends { recorded_alone(until) } else { Vec::new() }, rows: Vec::new() };

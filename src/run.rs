@@ -10,6 +10,7 @@
 pub mod disk;
 pub mod drawing;
 mod error;
+mod field;
 pub mod forecast;
 pub mod forms;
 mod in_memory;
@@ -22,12 +23,12 @@ pub mod regrowth;
 
 pub use error::RunError;
 pub use in_memory::{InMemory, in_memory};
-pub use plan::{CONTROL, Program, plan_of};
-pub use plots::{component_limit, place_of, seed_of};
+pub use plan::{Program, plan_of};
+pub use plots::{component_limit, seed_of};
 pub use progress::{Progress, Reading};
 
 use drawing::RunMeshes;
-use phytomer_config::Resolved;
+use phytomer_config::{Resolved, Trial};
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::{
     Checkup, FreeSpace, Mode, Opening, RunFolder, RunPlan, RunReport, Shard, ShardReport, Share, SystemSpace,
@@ -37,6 +38,7 @@ use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick, grow};
 use plots::Plots;
 use rayon::ThreadPool;
 use std::borrow::Cow;
+use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -158,8 +160,9 @@ impl Begun<'_> {
         let Self { resolved, forms, folder, pool, start } = self;
         let shards = folder.own_shards().count() as u32;
         let missing = folder.missing_shards();
-        let plots: u64 = missing.iter().map(|shard| folder.plan().plots_of(*shard).len() as u64).sum();
-        progress.begin(&resolved.scenario, plots, missing.len());
+        let trial = resolved.trial();
+        let plants = missing.iter().map(|shard| plants_in(&trial, folder.plan().plots_of(*shard))).sum();
+        progress.begin(&resolved.scenario, plants, missing.len());
         let grown = pool.install(|| grow_shards(&resolved, &forms, &folder, &missing, progress))?;
         let seconds = start.elapsed().as_secs_f64();
         let components_now = grown.iter().map(|shard| shard.components).sum();
@@ -179,6 +182,12 @@ impl Begun<'_> {
 fn pool(threads: usize) -> Result<ThreadPool, RunError> {
     let builder = rayon::ThreadPoolBuilder::new().num_threads(threads).thread_name(|i| format!("grow-{i}"));
     builder.build().map_err(RunError::Threads)
+}
+
+/// The number of plants in a range of plots.
+fn plants_in(trial: &Trial, plots: Range<u32>) -> u64 {
+    let before = |plot: u32| if plot < trial.plots() { trial.plot(plot).first_plant } else { trial.plants() };
+    u64::from(before(plots.end) - before(plots.start))
 }
 
 /// The shards that were committed; fewer than `missing` after a stop.
@@ -218,7 +227,7 @@ trait Keeper: Recorder {
 
 impl<'a> Grower<'a> {
     fn of(resolved: &'a Resolved, plan: &'a RunPlan, progress: &'a Progress) -> Self {
-        Self { plots: Plots::of(&resolved.scenario, resolved.models()), plan, progress }
+        Self { plots: Plots::of(resolved.trial(), resolved.models()), plan, progress }
     }
 
     /// Grows the plots of one shard, one after another in the same columns; `false` where it was told to stop.
@@ -269,7 +278,7 @@ impl<'a> Grower<'a> {
     /// Where every thread has a shard of its own there is no help: a thread that waits for its helper would begin a
     /// further shard meanwhile, and keep two plants in memory. The plants of a plot share the helpers of their shard.
     fn budget(&self) -> ThreadBudget {
-        let plants = self.plan.shards() as usize * self.plots.scenario().members() as usize;
+        let plants = self.plan.shards() as usize * self.plots.trial().most_members() as usize;
         ThreadBudget { threads: (rayon::current_num_threads() / plants.max(1)).max(1), ..ThreadBudget::default() }
     }
 }

@@ -139,7 +139,13 @@ impl Sample {
 
 /// Grows one plant of a sample; what was seen of it, and its components.
 fn seen_of(plant: u32, model: &dyn GrowthModel, ages: &[Tick], last: Tick) -> Result<(Vec<Seen>, u64), String> {
-    let seed = Seed { plant, run_seed: DEFAULT_SEED, component_limit: COMPONENT_LIMIT, keep_events: false };
+    let seed = Seed {
+        plant,
+        draws: plant.into(),
+        run_seed: DEFAULT_SEED,
+        component_limit: COMPONENT_LIMIT,
+        keep_events: false,
+    };
     let mut plot = Plot::of_one(model, &seed);
     let mut view = View { ages, seen: Vec::new() };
     match grow(&mut plot, last, &mut view) {

@@ -23,6 +23,10 @@ plants = 3
 seed = 7
 ages = { until = 10, record = "all" }
 meshes = { ages = [4, 10], plants = 1, sides = 8 }
+
+[[experiment.factor]]
+name = "site"
+level = [{ name = "level" }, { name = "roofed", site = { plane = [{ point_m = [0, 0, 1], normal = [0, 0, 1] }] } }]
 "#;
 
 /// The path of the Python with the readers; `None`, with the reason printed, where there is none.

@@ -69,7 +69,7 @@ fn shipped_text(name: &str) -> String {
 #[test]
 fn buds_die_where_they_reach_the_roof() {
     let roofed = shipped(ROOF);
-    let plots = Plots::of(&roofed.scenario, roofed.models());
+    let plots = Plots::of(roofed.trial(), roofed.models());
     let mut plot = plots.sow(1, ThreadBudget::default());
     assert!(plot.plants[0].place[1] != 0.0 || plot.plants[0].place[0] > 5.0, "the roof moves with its plot");
     grow(&mut plot, roofed.scenario.ages.until, &mut ()).unwrap();

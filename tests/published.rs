@@ -97,7 +97,7 @@ fn stems_die_at_the_ages_that_are_told() {
 }
 
 fn end_of_stem(model: &BudModel, plant: u32, until: u32) -> u32 {
-    let seed = Seed { plant, run_seed: 1988, component_limit: u32::MAX, keep_events: false };
+    let seed = Seed { plant, draws: plant.into(), run_seed: 1988, component_limit: u32::MAX, keep_events: false };
     let mut plot = Plot::of_one(model, &seed);
     plot.grow_to(until).expect("within the limit");
     plot.plants[0].axes.apex_end[0]

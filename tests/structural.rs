@@ -10,7 +10,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Plant number `number` of a shipped species, grown, shed and posed at `age`.
 fn grown(name: &str, number: u32, age: Tick) -> Plant {
     let found = phytomer_config::validate_species(name, age).unwrap_or_else(|report| panic!("{name}: {report}"));
-    let seed = Seed { plant: number, run_seed: 1988, component_limit: 5_000_000, keep_events: false };
+    let seed =
+        Seed { plant: number, draws: number.into(), run_seed: 1988, component_limit: 5_000_000, keep_events: false };
     let mut plot = Plot::of_one(found.model.as_ref(), &seed);
     plot.grow_to(age).expect("within the limit");
     plot.site.gravity = 0.0;

@@ -20,7 +20,7 @@ fn buds(species: &str) -> Option<Buds> {
 
 fn grown(buds: &Buds, until: Tick, gravity: f64) -> Plant {
     let model = buds.compile(until, &Path::root()).expect("a shipped species compiles");
-    let seed = Seed { plant: 0, run_seed: 1988, component_limit: u32::MAX, keep_events: true };
+    let seed = Seed { plant: 0, draws: 0, run_seed: 1988, component_limit: u32::MAX, keep_events: true };
     let mut plot = Plot::of_one(&model, &seed);
     plot.site = Site { gravity, ..Site::default() };
     grow(&mut plot, until, &mut ()).expect("nothing is written");

@@ -3,13 +3,14 @@
 //! The key `shown_at` of a species file states this age. Without the key it is 100 ticks, or fewer, so that the plant
 //! stays small. About ten ages are recorded, up to and with the last, and mechanics are recorded where the wood bends.
 
-use std::collections::BTreeSet;
-
 use phytomer_sim::model::GrowthModel;
 
 use crate::resolved::Resolved;
-use crate::scenario::{Ages, DEFAULT_SEED, Every, Limits, Output, Record, Scenario, Site, Table};
+use crate::scenario::{
+    Ages, DEFAULT_SEED, Every, Experiment, Limits, Output, Planting, Record, Scenario, Site, all_tables,
+};
 use crate::species::Species;
+use crate::trial::Treatment;
 use crate::validate::{ResolvedSpecies, SPECIES_ALONE_UNTIL};
 
 /// A plant of a species that states no age is grown only to an age at which at most this many components are expected.
@@ -37,17 +38,20 @@ impl ResolvedSpecies {
             plants: 1,
             seed: DEFAULT_SEED,
             spacing_m: None,
+            planting: Planting::default(),
+            experiment: Experiment::default(),
             site: Site::default(),
             member: Vec::new(),
             ages: Ages { until, record: Record::Every(recorded(until)) },
             sample: None,
-            tables: BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary, Table::Plants]),
+            tables: all_tables(),
             meshes: None,
             limits: Limits::default(),
             output: Output { mechanics, ..Output::default() },
         };
         let Self { species, model, sources, tree } = self;
-        Resolved { scenario, species, model, others: Vec::new(), sources, tree }
+        let treatments = vec![Treatment::control(&scenario)];
+        Resolved { scenario, treatments, species, model, others: Vec::new(), sources, tree }
     }
 }
 

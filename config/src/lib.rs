@@ -9,6 +9,7 @@ mod about;
 mod alone;
 mod architectural_model;
 mod document;
+mod expansion;
 mod explosion;
 mod forms;
 mod inherit;
@@ -23,6 +24,8 @@ pub mod scenario;
 mod schema;
 mod source;
 mod species;
+mod treatments;
+mod trial;
 mod validate;
 mod woods;
 
@@ -37,6 +40,7 @@ pub use resolved::{OtherSpecies, Resolved};
 pub use scenario::Scenario;
 pub use source::{Origin, Source, SourceId, Sources, Span};
 pub use species::Species;
+pub use trial::{PlantPlace, PlotPlace, Treatment, Trial};
 pub use validate::{
     ResolvedSpecies, SPECIES_ALONE_UNTIL, kind_of, schema_of, validate, validate_species, validate_texts,
 };

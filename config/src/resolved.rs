@@ -1,7 +1,7 @@
 //! A scenario that was checked, with all its species compiled: a run that is ready to start.
 //!
-//! The scenario's own species has fields of its own, since most runs have no other species; the species that only
-//! members name are in a list. Absent: the checks (`validate`).
+//! The first species has fields of its own, since most runs have no other species; the species that members and levels
+//! name are in a list. Absent: the checks (`validate`).
 
 use std::fmt;
 use std::sync::Arc;
@@ -16,24 +16,29 @@ use crate::report::Report;
 use crate::scenario::Scenario;
 use crate::source::Sources;
 use crate::species::Species;
+use crate::trial::{Treatment, Trial, check_size};
 
 /// A run that is ready to start.
 #[derive(Clone)]
 pub struct Resolved {
     /// The scenario: plants, plots, ages, tables and meshes.
     pub scenario: Scenario,
-    /// The scenario's own species, with its inheritance resolved.
+    /// Its treatments, each a scenario of its own; one, `control`, where nothing is compared. [`Resolved::trial`] has
+    /// them with what was changed in `scenario` since.
+    pub treatments: Vec<Treatment>,
+    /// The first species of the run, with its inheritance resolved: the scenario's own, unless each level of a factor
+    /// names another.
     pub species: Species,
-    /// The growth model of the scenario's own species, compiled for all ages that its plants reach.
+    /// The growth model of the first species, compiled for all ages that its plants reach.
     pub model: Arc<dyn GrowthModel>,
-    /// The other species that members name, in the order of [`Scenario::species_names`] without the first.
+    /// The other species, which members or levels name, in the order in which the treatments name them.
     pub others: Vec<OtherSpecies>,
     /// Every text that was read, for hashes and provenance: the scenario first, then each species and its ancestors.
     pub sources: Sources,
     pub(crate) tree: Node,
 }
 
-/// A species of a run that is not the scenario's own: a member of the plots names it.
+/// A species of a run that is not its first: a member of the plots or a level names it.
 #[derive(Clone)]
 pub struct OtherSpecies {
     /// The species, with its inheritance resolved.
@@ -50,35 +55,62 @@ impl fmt::Debug for Resolved {
 }
 
 impl Resolved {
-    /// A report of faults that were found in the scenario's own species after reading, such as by growing it.
+    /// The treatments with the numbers of their plots and plants.
+    pub fn trial(&self) -> Trial {
+        Trial::of(&self.scenario, &self.treatments)
+    }
+
+    /// Limits each replicate of each treatment to so many plants, and leaves out the meshes of plants that do not grow.
+    /// Returns the number of plants whose meshes are left out.
+    pub fn grow_only(&mut self, plants: u32) -> u32 {
+        self.scenario.plants = plants;
+        self.treatments.iter_mut().for_each(|treatment| treatment.scenario.plants = plants);
+        let in_all = self.trial().plants();
+        self.scenario.draw_only(in_all)
+    }
+
+    /// The faults of all treatments that came of changes since the check, each with its treatment.
+    pub fn faults(&self) -> Vec<(String, fault::Fault)> {
+        let trial = self.trial();
+        let size = check_size(&self.scenario, trial.treatments().iter().map(|treatment| &treatment.scenario)).err();
+        let size = size.map(|fault| (String::new(), fault));
+        let of = |treatment: &Treatment| {
+            let name = treatment.name.clone();
+            treatment.scenario.faults_in_run_of(trial.plants()).into_iter().map(move |fault| (name.clone(), fault))
+        };
+        size.into_iter().chain(trial.treatments().iter().flat_map(of)).collect()
+    }
+
+    /// A report of faults that were found in the first species after reading, such as by growing it.
     pub fn report(&self, faults: Vec<fault::Fault>) -> Report {
         self.report_of(0, faults)
     }
 
-    /// A report of faults in the species with the index `species` in [`Scenario::species_names`].
+    /// A report of faults in the species with the index `species` in [`Resolved::all_species`].
     pub fn report_of(&self, species: usize, faults: Vec<fault::Fault>) -> Report {
         let other = species.checked_sub(1).and_then(|place| self.others.get(place));
         placed(&self.sources, other.map_or(&self.tree, |other| &other.tree), faults)
     }
 
-    /// All species, in the order of [`Scenario::species_names`].
+    /// All species, in the order in which the treatments name them.
     pub fn all_species(&self) -> Vec<&Species> {
         [&self.species].into_iter().chain(self.others.iter().map(|other| &other.species)).collect()
     }
 
-    /// The growth models of all species, in the order of [`Scenario::species_names`].
+    /// The growth models of all species, in the order of [`Resolved::all_species`].
     pub fn models(&self) -> Vec<&dyn GrowthModel> {
         [self.model.as_ref()].into_iter().chain(self.others.iter().map(|other| other.model.as_ref())).collect()
     }
 
-    /// The expected number of components that a plant of the scenario's own species has made by `age`, in ticks: the
+    /// The expected number of components that a plant of the first species has made by `age`, in ticks: the
     /// exact mean, an upper bound or an estimate. `None` where the sum would take too long.
     pub fn expected_components(&self, age: u32) -> Option<f64> {
         self.model.expectation(age).map(|means| means.components(age))
     }
 
     /// The whole run as JSON, for `run.json`: the scenario with its defaults, its species with inheritance resolved,
-    /// and under `other_species` the species that only members name.
+    /// under `other_species` the further species, and under `treatments` those of an experiment, each with its
+    /// scenario.
     ///
     /// # Errors
     /// A number that JSON cannot hold, which no checked run has.
@@ -87,6 +119,9 @@ impl Resolved {
         if !self.others.is_empty() {
             let others = self.others.iter().map(|other| other.species.to_json());
             json["other_species"] = others.collect::<serde_json::Result<Vec<Json>>>()?.into();
+        }
+        if !self.scenario.experiment.is_control_alone() {
+            json["treatments"] = serde_json::to_value(self.trial().treatments())?;
         }
         Ok(json)
     }

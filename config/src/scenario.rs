@@ -1,21 +1,27 @@
 //! A scenario: what one run grows, for how long, and what it records.
 //!
-//! A scenario is one TOML file. Treatments and events will be further tables of this file; until they exist their keys
-//! are refused like any unknown key, so that a file never states something that has no effect. Absent: the species,
-//! which is a file of its own, and the place of the run folder, which the command line states.
+//! A scenario is one TOML file. Its `experiment` says which treatments are compared: each is the scenario with other
+//! values at some keys. A key that has no meaning is refused, so that a file never states something that has no effect.
+//! Absent: the species, which is a file of its own, and the place of the run folder, which the command line states.
 
+pub mod experiment;
+pub(crate) mod icasa;
 mod meshes;
 mod pests;
+mod planting;
 mod plots;
 mod sample;
 mod site;
 mod tables;
 
+pub use experiment::{Design, Experiment};
 pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use pests::{Attacked, Clustered, Host, Larvae, Pest, exposure};
+pub use planting::{Grid, Planting};
 pub use plots::Member;
 pub use site::{Plane, Site, Wind};
 pub use tables::Table;
+pub(crate) use tables::all as all_tables;
 
 use std::collections::BTreeSet;
 
@@ -46,7 +52,8 @@ pub struct Scenario {
     /// The species: a shipped species by its name, or a species file by its path from the folder of this file.
     #[schemars(length(min = 1))]
     pub species: String,
-    /// The number of plants; where plots have several members, a multiple of the number of members.
+    /// The number of plants, of an experiment in each replicate of each treatment; where plots have several members, a
+    /// multiple of the number of members.
     #[schemars(range(min = 1, max = 1_000_000_000))]
     pub plants: u32,
     /// The seed of all random draws: an equal seed gives equal bytes. From 0 to 2⁶³ − 1; 1988 if not given.
@@ -60,6 +67,12 @@ pub struct Scenario {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(max = 1000.0), extend("exclusiveMinimum" = 0))]
     pub spacing_m: Option<f64>,
+    /// The rows of plants and the share of seeds that germinate, by the names and units of the ICASA dictionary.
+    #[serde(default, skip_serializing_if = "Planting::is_default")]
+    pub planting: Planting,
+    /// The treatments that are compared, and their replicates. One treatment, `control`, if not given.
+    #[serde(default, skip_serializing_if = "Experiment::is_default")]
+    pub experiment: Experiment,
     /// External influences on the plants: gravity, wind, and planes that kill buds.
     #[serde(default, skip_serializing_if = "Site::is_default")]
     pub site: Site,
@@ -72,8 +85,8 @@ pub struct Scenario {
     pub member: Vec<Member>,
     /// The last tick of the plots, and the recorded ticks.
     pub ages: Ages,
-    /// The tables that are written. All if not given. With any table, `plants` is written too, since it states the
-    /// place of each plant.
+    /// The tables that are written. All if not given. With any table, `plants` and `treatments` are written too, since
+    /// they state the place and the treatment of each plant.
     #[serde(default = "tables::all")]
     pub tables: BTreeSet<Table>,
     /// The number of plants with rows in `components`, `records` and `events`; all if not given. The plants are drawn
@@ -240,6 +253,11 @@ impl Scenario {
     /// The faults that the schema cannot state: ages after the last, plants beyond their number, a run that writes
     /// nothing.
     pub fn faults(&self) -> Vec<Fault> {
+        self.faults_in_run_of(self.plants)
+    }
+
+    /// The same for the scenario of one treatment of a run that has so many plants in all.
+    pub fn faults_in_run_of(&self, plants: u32) -> Vec<Fault> {
         let mut faults = Vec::new();
         let ages = Path::root().key("ages");
         match &self.ages.record {
@@ -251,10 +269,11 @@ impl Scenario {
         if let Some(MeshAges::List(list)) = self.meshes.as_ref().map(|m| &m.ages) {
             self.check_ages(list, &meshes.key("ages"), &mut faults);
         }
-        self.check_mesh_plants(&meshes.key("plants"), &mut faults);
+        self.check_mesh_plants(plants, &meshes.key("plants"), &mut faults);
         self.check_members(&mut faults);
         self.check_sample(&mut faults);
         pests::check(&self.pest, self.ages.until, self.spacing_m.is_some(), &Path::root().key("pest"), &mut faults);
+        self.check_planting(&mut faults);
         self.site.check_planes(&Path::root().key("site"), &mut faults);
         if self.tables.is_empty() && self.meshes.is_none() {
             let problem = "this run would write nothing: no table and no mesh is asked for";

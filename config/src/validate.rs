@@ -9,7 +9,7 @@ use std::path::Path as FilePath;
 use std::sync::{Arc, OnceLock};
 
 use phytomer_law::Constant;
-use phytomer_law::fault;
+use phytomer_law::fault::{self, Segment};
 use phytomer_models::parameters::Keys;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::model::GrowthModel;
@@ -17,6 +17,7 @@ use serde_json::Value as Json;
 
 use crate::about::About;
 use crate::document::Node;
+use crate::expansion::{self, Expanded};
 use crate::explosion;
 use crate::library::{Kind, Library};
 use crate::load::{Found, Loader, Mention, integer_at, path_of};
@@ -24,10 +25,13 @@ use crate::meaning;
 use crate::models::{MODELS, Model, any_file};
 use crate::report::{Fault, Report};
 use crate::resolved::{OtherSpecies, Resolved, placed};
-use crate::scenario::Scenario;
+use crate::scenario::experiment::{CONTROL, Chosen, state_levels};
+use crate::scenario::{Scenario, icasa};
 use crate::schema;
 use crate::source::{Source, Sources};
 use crate::species::Species;
+use crate::treatments::{self, Read};
+use crate::trial::{Treatment, Trial};
 
 /// The last age, in ticks, up to which a species without a scenario is checked.
 pub const SPECIES_ALONE_UNTIL: u32 = 100;
@@ -77,10 +81,10 @@ fn validate_in(library: Library, scenario: &str) -> Result<Resolved, Report> {
     let mut loader = Loader { library, ..Loader::default() };
     let mention = Mention { name: scenario.to_owned(), place: None };
     let found = loader.find(Kind::Scenario, &mention).and_then(|source| check_scenario(&mut loader, source));
-    conclude(loader, found, |(scenario, Compiled { species, model, tree }, others), sources| {
+    conclude(loader, found, |(scenario, treatments, (Compiled { species, model, tree }, others)), sources| {
         let other = |Compiled { species, model, tree }| OtherSpecies { species, model, tree };
         let others = others.into_iter().map(other).collect();
-        Resolved { scenario, species, model, others, sources, tree }
+        Resolved { scenario, treatments, species, model, others, sources, tree }
     })
 }
 
@@ -139,7 +143,11 @@ pub fn schema_of(kind: Kind) -> Json {
 
 fn scenario_schema() -> &'static Json {
     static SCHEMA: OnceLock<Json> = OnceLock::new();
-    SCHEMA.get_or_init(schema::of_type::<Scenario>)
+    SCHEMA.get_or_init(|| {
+        let mut schema = schema::of_type::<Scenario>();
+        state_levels(&mut schema);
+        schema
+    })
 }
 
 fn conclude<T, R>(loader: Loader, found: Option<T>, make: impl FnOnce(T, Sources) -> R) -> Result<R, Report> {
@@ -156,58 +164,72 @@ struct Compiled {
     tree: Node,
 }
 
-/// A checked scenario, its own species, and the other species of its members.
-type Checked = (Scenario, Compiled, Vec<Compiled>);
+/// A checked scenario, its treatments, and the species of all of them: the first, and the others.
+type Checked = (Scenario, Vec<Treatment>, (Compiled, Vec<Compiled>));
 
 fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let (_, node) = loader.parse(source);
     let node = node?;
     let mut refused = Vec::new();
     schema::check(scenario_schema(), &node, &mut refused);
-    loader.faults.extend(refused.iter().cloned());
+    icasa::name_keys(&mut refused);
     let scenario: Option<Scenario> = loader.read(&node, &Keys::PLAIN, &refused, serde_path_to_error::deserialize);
-    if let Some(scenario) = &scenario {
-        tell(loader, &node, scenario.faults());
-    }
+    let expanded = expanded(loader, &node, scenario.as_ref(), &refused);
+    loader.faults.extend(refused);
+    let read = treatments::check(loader, scenario_schema(), (&node, scenario.as_ref()), expanded);
     let until = integer_at(&node, &["ages", "until"]).and_then(|n| u32::try_from(n).ok());
     let until = until.filter(|n| (1..=LAST_TICK).contains(n));
-    let last_age = |species: usize| until.map(|until| last_age_of(scenario.as_ref(), species).unwrap_or(until));
-    let mentions = species_mentions(&node).into_iter().enumerate();
+    let mentions = treatments::species_of_all(&read);
+    let last_age = |mention: &Mention| until.map(|until| last_age_of(&read, mention).unwrap_or(until));
     let species: Vec<Option<Compiled>> =
-        mentions.map(|(place, mention)| check_species(loader, &mention, |_| last_age(place))).collect();
+        mentions.iter().map(|mention| check_species(loader, mention, |_| last_age(mention))).collect();
     let mut species = species.into_iter().collect::<Option<Vec<Compiled>>>()?.into_iter();
-    let checked = (scenario?, species.next()?, species.collect());
+    let scenario = scenario?;
+    let treatments = read.into_iter().map(|read| treatment(&scenario, read, &mentions));
+    let treatments = treatments.collect::<Option<Vec<Treatment>>>()?;
+    let checked = (scenario, treatments, (species.next()?, species.collect()));
     check_explosions(loader, &node, &checked);
     Some(checked)
 }
 
-fn check_explosions(loader: &mut Loader, node: &Node, (scenario, own, others): &Checked) {
-    for (place, of) in [own].into_iter().chain(others).enumerate() {
-        let until = scenario.last_age_of_species(place);
+/// The trees of all treatments; that of the scenario alone where its experiment cannot be understood.
+fn expanded(loader: &mut Loader, node: &Node, scenario: Option<&Scenario>, refused: &[Fault]) -> Vec<Expanded> {
+    let of_experiment = |fault: &Fault| fault.path.0.first() == Some(&Segment::Key("experiment".to_owned()));
+    let experiment = scenario.map(|scenario| &scenario.experiment).filter(|_| !refused.iter().any(of_experiment));
+    let chosen = experiment.cloned().unwrap_or_default().chosen().unwrap_or_else(|faults| {
+        tell(loader, node, faults);
+        Vec::new()
+    });
+    let control = || vec![Chosen { name: CONTROL.to_owned(), levels: Vec::new() }];
+    expansion::expand(scenario_schema(), node, if chosen.is_empty() { control() } else { chosen })
+}
+
+/// A treatment whose species are found among those of the run.
+fn treatment(run: &Scenario, read: Read, species: &[Mention]) -> Option<Treatment> {
+    let scenario = read.scenario?;
+    let place = |name: &str| species.iter().position(|mention| mention.name == name);
+    let places = scenario.species_names().into_iter().map(place).collect::<Option<_>>()?;
+    let Chosen { name, levels } = read.expanded.chosen;
+    let levels = run.experiment.level_names(&levels);
+    Some(Treatment { name, levels, scenario, species: places })
+}
+
+fn check_explosions(loader: &mut Loader, node: &Node, (scenario, treatments, (first, others)): &Checked) {
+    let trial = Trial::of(scenario, treatments);
+    for (place, of) in [first].into_iter().chain(others).enumerate() {
+        let until = trial.last_age_of_species(place);
         loader.faults.extend(explosion::fault_of(node, scenario, (&of.species, of.model.as_ref()), until));
     }
 }
 
-/// The last age of a species; `None` where the scenario could not be read.
-fn last_age_of(scenario: Option<&Scenario>, species: usize) -> Option<u32> {
-    scenario.map(|scenario| scenario.last_age_of_species(species).clamp(1, LAST_TICK))
-}
-
-/// The species that a scenario names, each at the first place where it is named: the scenario's own first, in the order
-/// of [`Scenario::species_names`].
-fn species_mentions(scenario: &Node) -> Vec<Mention> {
-    let own = (scenario.get("species"), path_of(&["species"]));
-    let members = scenario.get("member").map(Node::items).unwrap_or_default().iter().enumerate();
-    let members = members.map(|(k, member)| (member.get("species"), path_of(&["member"]).index(k).key("species")));
-    let mut mentions: Vec<Mention> = Vec::new();
-    for (value, path) in [own].into_iter().chain(members) {
-        let Some(value) = value else { continue };
-        let Some(name) = value.text().filter(|name| !name.is_empty()) else { continue };
-        if mentions.iter().all(|known| known.name != name) {
-            mentions.push(Mention { name: name.to_owned(), place: Some((value.span, path)) });
-        }
-    }
-    mentions
+/// The last age that a species reaches in any treatment; `None` where none of them could be read.
+fn last_age_of(read: &[Read], species: &Mention) -> Option<u32> {
+    let ages = read.iter().filter_map(|Read { scenario, .. }| {
+        let scenario = scenario.as_ref()?;
+        let place = scenario.species_names().iter().position(|name| *name == species.name)?;
+        Some(scenario.last_age_of_species(place).clamp(1, LAST_TICK))
+    });
+    ages.max()
 }
 
 fn check_species(

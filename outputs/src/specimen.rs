@@ -176,6 +176,7 @@ pub fn plan(plots: u32, plots_per_part: u32) -> RunPlan {
         provenance: Provenance {
             scenario: "Sapling".to_owned(),
             treatments: vec!["control".to_owned()],
+            factors: Vec::new(),
             species: vec!["sapling".to_owned()],
             seed: 42,
             version: "0.0.0".to_owned(),
@@ -192,7 +193,7 @@ pub fn plot(plant: u32, component_limit: u32) -> Plot<'static> {
 }
 
 fn seed(plant: u32, component_limit: u32) -> Seed {
-    Seed { plant, run_seed: 42, component_limit, keep_events: true }
+    Seed { plant, draws: plant.into(), run_seed: 42, component_limit, keep_events: true }
 }
 
 /// A grown and ended plot in the shard of a folder.

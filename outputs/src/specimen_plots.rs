@@ -83,7 +83,7 @@ pub fn model(species: usize) -> &'static dyn GrowthModel {
 
 /// The seed of the plant with the number `plant`.
 pub fn seed(plant: u32, component_limit: u32) -> Seed {
-    Seed { plant, run_seed: 42, component_limit, keep_events: true }
+    Seed { plant, draws: plant.into(), run_seed: 42, component_limit, keep_events: true }
 }
 
 /// The number of a plant of a plot. Numbers are dealt across plots: each plot has some of the first plants.

@@ -21,6 +21,7 @@ pub struct Sowing {
     /// Where the seed lies, metres.
     pub place: [f64; 3],
     /// The tick of the plot at which it is sown: the plant has age 0 then, and its first clock signal one tick later.
+    /// [`NEVER`](crate::NEVER) for a seed that does not germinate.
     pub sown: Tick,
 }
 
@@ -33,6 +34,10 @@ pub struct Plot<'m> {
     pub treatment: u32,
     /// The replicate of its treatment, from 0; 0 where a run compares no treatments.
     pub replicate: u32,
+    /// The block of the field that it stands in; `None` where the field has no blocks.
+    pub block: Option<u32>,
+    /// Its number within its treatment and replicate, from 0, by which its own draws are keyed.
+    pub number: u32,
     /// Its species.
     pub species: Vec<&'m dyn GrowthModel>,
     /// Its plants, in the order of their sowings in the list.
@@ -71,8 +76,19 @@ impl<'m> Plot<'m> {
     pub fn new(id: u32, species: Vec<&'m dyn GrowthModel>, sowings: &[Sowing]) -> Self {
         let (plants, lives) = sowings.iter().map(|sowing| sown(species[sowing.species], sowing)).unzip();
         let members = sowings.iter().map(|sowing| Member { species: sowing.species, sown: sowing.sown }).collect();
-        let (site, management) = (Site::default(), Management::default());
-        Self { id, treatment: 0, replicate: 0, species, plants, lives, members, site, management }
+        Self {
+            id,
+            treatment: 0,
+            replicate: 0,
+            block: None,
+            number: id,
+            species,
+            plants,
+            lives,
+            members,
+            site: Site::default(),
+            management: Management::default(),
+        }
     }
 
     /// States what people do to the plants, before their first tick.
@@ -93,13 +109,14 @@ impl<'m> Plot<'m> {
         self.sow();
     }
 
-    /// Sows the plot anew as another one whose members are of the same species and sown at the same ticks, keeping the
-    /// memory of its columns: a sowing for each member, in their order.
+    /// Sows the plot anew as another one whose members are of the same species, keeping the memory of its columns: a
+    /// sowing for each member, in their order.
     pub fn sow_again(&mut self, id: u32, sowings: &[Sowing]) {
         self.id = id;
-        for (plant, sowing) in self.plants.iter_mut().zip(sowings) {
+        for ((plant, member), sowing) in self.plants.iter_mut().zip(&mut self.members).zip(sowings) {
             plant.resow(&sowing.seed);
             plant.place = sowing.place;
+            member.sown = sowing.sown;
         }
         self.sow();
     }

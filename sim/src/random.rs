@@ -1,7 +1,8 @@
 //! Random draws without a shared generator: a draw is a function of (run seed, plant, lineage key, place in the axis's
 //! life, purpose), with ChaCha8 as the counter-based generator.
 //!
-//! A plant's 256-bit key is a hash of the run's seed and the plant's number. Each axis has streams of its own, named by
+//! A plant's 256-bit key is a hash of the run's seed, the plant's replicate and its number within treatment and
+//! replicate ([`draw_key`]). Each axis has streams of its own, named by
 //! its lineage key, one for each [`Purpose`]; within a stream the word position is the place in the axis's life. So a
 //! draw can be sought at any time, in any order, on any thread, and a plant does not depend on its neighbours.
 //!
@@ -28,6 +29,10 @@ pub enum Purpose {
     Cut = 5,
     /// What responses and pests change in what a node bears.
     NodeResponse = 6,
+    /// The places of field plots, which a run draws once; the axis is the number of the block.
+    Field = 7,
+    /// Whether the seed of a plant germinates, in the stream of the seed's axis.
+    Germination = 8,
 }
 
 /// The words of one ChaCha block.
@@ -36,6 +41,14 @@ const BLOCK: u64 = 16;
 /// Stands for no block: no stream is that long.
 const NO_BLOCK: u64 = u64::MAX;
 
+/// The key of the draws of a plant: its replicate, and its number within its treatment and replicate.
+///
+/// The treatment is no part of it. So treatments are compared on common random numbers: plant k of replicate r draws
+/// the same in each of them, and what differs comes of the treatment. In the first replicate the key is the number.
+pub fn draw_key(replicate: u32, number: u32) -> u64 {
+    u64::from(replicate) << 32 | u64::from(number)
+}
+
 /// The source of every draw of one plant.
 #[derive(Debug, Clone)]
 pub struct PlantRandom {
@@ -43,7 +56,7 @@ pub struct PlantRandom {
 }
 
 impl PlantRandom {
-    /// The draws of plant number `plant` in a run seeded with `seed`.
+    /// The draws of the plant with the key `plant`, a [`draw_key`], in a run seeded with `seed`.
     pub fn new(seed: u64, plant: u64) -> Self {
         let mut key = [0; 8];
         let mut state = mix(scramble(seed), plant);
@@ -52,6 +65,12 @@ impl PlantRandom {
             pair.copy_from_slice(&[state as u32, (state >> 32) as u32]);
         }
         Self { key }
+    }
+
+    /// Whether the seed germinates, of which a share of all does: u < share for one word u/2³².
+    pub fn germinates(&self, share: f64) -> bool {
+        let mut stream = self.stream(LineageKey(0), Purpose::Germination);
+        f64::from(stream.word()) < share * 4_294_967_296.0
     }
 
     /// The stream of the axis with lineage key `axis`, standing at its first word.

@@ -55,7 +55,7 @@ fn next(plant: &Plant, cells: &[Cell]) -> Cell {
 fn grown(threads: usize) -> Vec<Vec<i32>> {
     let sowing = |(number, place): (u32, f64)| Sowing {
         species: 0,
-        seed: Seed { plant: number, run_seed: 1, component_limit: 9, keep_events: false },
+        seed: Seed { plant: number, draws: number.into(), run_seed: 1, component_limit: 9, keep_events: false },
         place: [place, 0.0, 0.0],
         sown: 0,
     };

@@ -144,10 +144,9 @@ impl Grow {
 
     /// The seed and the number of plants as the command line has them.
     fn override_scenario(&self, resolved: &mut Resolved) -> Result<()> {
-        let scenario = &mut resolved.scenario;
-        scenario.seed = self.seed.unwrap_or(scenario.seed);
+        resolved.scenario.seed = self.seed.unwrap_or(resolved.scenario.seed);
         let Some(plants) = self.plants else { return Ok(()) };
-        let left_out = scenario.grow_only(plants);
+        let left_out = resolved.grow_only(plants);
         if left_out > 0 && !self.quiet {
             let (noun, verb) = if left_out == 1 { ("plant", "does") } else { ("plants", "do") };
             terminal::say(&format!(
@@ -155,8 +154,8 @@ impl Grow {
                  {noun} {verb} not grow"
             ));
         }
-        match scenario.faults().first() {
-            Some(fault) => {
+        match resolved.faults().first() {
+            Some((_, fault)) => {
                 Err(Misuse(format!("--plants {plants}: {}; expected {}", fault.problem, fault.expected)).into())
             }
             None => Ok(()),

@@ -68,11 +68,11 @@ impl Mesh {
     }
 
     fn write_plant(&self, regrown: &Regrown) -> Result<Verdict> {
-        let age = self.age.unwrap_or_else(|| regrown.scenario.last_age_of(self.plant));
+        let age = self.age.unwrap_or_else(|| regrown.trial.last_age_of(self.plant));
         regrown.check(("--age", &[age]), ("--plant", &[self.plant]))?;
         let regrowth = regrown.regrowth(&self.breeze)?;
         let mut file = Destination::create(&self.out)?;
-        let own = regrown.forms.get(regrown.scenario.species_of_plant(self.plant)).cloned().unwrap_or_default();
+        let own = regrown.forms.get(regrown.trial.species_of_plant(self.plant)).cloned().unwrap_or_default();
         let options = options_of(self.sides, &own);
         let seed = regrown.scenario.seed;
         regrowth.show(self.plant, &[age], &mut |age, plant| {

@@ -6,8 +6,8 @@
 use anyhow::{Context, Result};
 use phytomer::run::forms;
 use phytomer_config::{
-    Kind, Report, Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, Scenario, Species, kind_of, presets, validate,
-    validate_species,
+    Kind, Report, Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, Scenario, Species, Treatment, Trial, kind_of,
+    presets, validate, validate_species,
 };
 use phytomer_outputs::read::Run;
 use phytomer_sim::GrowthModel;
@@ -85,9 +85,11 @@ fn unknown(name: &str, mut report: Report) -> Report {
 pub struct Recorded {
     /// The scenario, with what the command line changed.
     pub scenario: Scenario,
-    /// The scenario's own species without ancestors.
+    /// Its treatments.
+    pub trial: Trial,
+    /// The first species, without ancestors.
     pub species: Species,
-    /// The species that members name beside it, in the scenario's order.
+    /// The species that members and levels name beside it, in the order of the run.
     pub others: Vec<Species>,
     /// The run folder.
     pub run: Run,
@@ -106,10 +108,14 @@ impl Recorded {
         let species = Species::from_json(&resolved["species"]).with_context(doing)?;
         let others = resolved["other_species"].as_array().map(Vec::as_slice).unwrap_or_default();
         let others = others.iter().map(Species::from_json).collect::<serde_json::Result<_>>().with_context(doing)?;
-        Ok(Self { scenario, species, others, run })
+        let treatments = match &resolved["treatments"] {
+            serde_json::Value::Null => Vec::new(),
+            treatments => Vec::<Treatment>::deserialize(treatments).with_context(doing)?,
+        };
+        Ok(Self { trial: Trial::of(&scenario, &treatments), scenario, species, others, run })
     }
 
-    /// All species, in the scenario's order.
+    /// All species, in the order of the run.
     pub fn all_species(&self) -> impl Iterator<Item = &Species> {
         [&self.species].into_iter().chain(&self.others)
     }
@@ -125,7 +131,7 @@ impl Recorded {
     /// Where their laws do not hold, which those of a run that began do.
     pub fn compile(&self) -> Result<Vec<Arc<dyn GrowthModel>>> {
         let compiled = |(place, species): (usize, &Species)| {
-            species.model.compile(self.scenario.last_age_of_species(place)).map_err(|faults| {
+            species.model.compile(self.trial.last_age_of_species(place)).map_err(|faults| {
                 match faults.into_iter().next() {
                     Some(fault) => anyhow::Error::new(fault),
                     None => anyhow::anyhow!("the species of the run cannot be compiled"),

@@ -10,17 +10,14 @@ use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
-use phytomer::run::CONTROL;
 use phytomer::run::picturing::{Pictured, pictured_plants, pictured_plot};
 use phytomer_outputs::Destination;
 use phytomer_outputs::colouring::{Belonging, ColouringError, colour_columns, colouring};
-use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::pictures::{
     Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, draw_stands, sheet_of_stands, write_png,
 };
 use phytomer_sim::Tick;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// The formats of pictures.
 const FORMATS: [Format; 1] = [Format { name: "PNG", extension: "png" }];
@@ -130,7 +127,7 @@ impl Picture {
             Some(plot) => self.plot(regrown, plot, ages)?,
             None => self.plants(regrown, ages)?,
         };
-        let canvas = self.draw(&pictured, &regrown.forms)?;
+        let canvas = self.draw(&pictured, &regrown)?;
         let bytes = amounts::bytes(self.save(&canvas, &pictured.note, file)? as f64);
         out::tell(&self.out, &format!("{what}{}, {bytes}", self.breeze.in_words()))?;
         Ok(Verdict::Done)
@@ -182,7 +179,7 @@ impl Picture {
         Ok(())
     }
 
-    fn draw(&self, pictured: &Pictured, forms: &[Arc<OwnForms>]) -> std::result::Result<Canvas, ColouringError> {
+    fn draw(&self, pictured: &Pictured, regrown: &Regrown) -> std::result::Result<Canvas, ColouringError> {
         let view = match self.view {
             From::Perspective => Some(View::Perspective),
             From::Top => Some(View::Top),
@@ -192,7 +189,8 @@ impl Picture {
             From::Sheet => None,
         };
         let subjects = pictured.subjects();
-        let treatments = [CONTROL.to_owned()];
+        let treatments: Vec<String> =
+            regrown.trial.treatments().iter().map(|treatment| treatment.name.clone()).collect();
         let members = pictured.memberships();
         let of = Belonging { members: &members, treatments: &treatments };
         let colour_by = self.colour_by.as_ref().map(|column| colouring(column, &subjects, of)).transpose()?;
@@ -208,7 +206,7 @@ impl Picture {
             colour_by,
             ..Style::default()
         };
-        let stands = pictured.stands(forms);
+        let stands = pictured.stands(&regrown.forms);
         let draw = if view.is_some() { draw_stands } else { sheet_of_stands };
         Ok(draw(&stands, &pictured.title, &style))
     }

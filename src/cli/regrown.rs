@@ -11,7 +11,7 @@ use anyhow::Result;
 use clap::Args;
 use phytomer::run::forms;
 use phytomer::run::regrowth::{Air, Regrowth};
-use phytomer_config::{MODELS, Resolved, ResolvedSpecies, Scenario, Species};
+use phytomer_config::{MODELS, Resolved, ResolvedSpecies, Scenario, Species, Treatment, Trial};
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_sim::mechanics::sway::{Unmoved, yielding};
 use phytomer_sim::site::Wind;
@@ -30,7 +30,9 @@ const MOST_COMPONENTS_ALONE: u32 = 4_000_000;
 pub struct Regrown {
     /// How they grow.
     pub scenario: Scenario,
-    /// What they are: the species in the scenario's order.
+    /// The treatments that they are given.
+    pub trial: Trial,
+    /// What they are: the species in the order of the run.
     species: Vec<Species>,
     /// Their models, compiled for all ages that their plants reach.
     models: Vec<Arc<dyn GrowthModel>>,
@@ -69,14 +71,15 @@ impl Regrown {
                 let forms = recorded.all_species().map(|species| forms::of_run(species, &recorded.run));
                 let forms = forms.collect::<std::result::Result<_, _>>()?;
                 let species = recorded.all_species().cloned().collect();
-                Self { scenario: recorded.scenario, species, models, forms }
+                Self { scenario: recorded.scenario, trial: recorded.trial, species, models, forms }
             }
             Named::Scenario(resolved) => {
                 let species: Vec<Species> = resolved.all_species().into_iter().cloned().collect();
+                let trial = resolved.trial();
                 let forms = species.iter().map(forms::of).collect::<std::result::Result<_, _>>()?;
                 let others = resolved.others.into_iter().map(|other| other.model);
                 let models = [resolved.model].into_iter().chain(others).collect();
-                Self { scenario: resolved.scenario, species, models, forms }
+                Self { scenario: resolved.scenario, trial, species, models, forms }
             }
             Named::Species(found) => Self::alone(name, *found, ages)?,
         }))
@@ -94,17 +97,18 @@ impl Regrown {
             None => Misuse(format!("{name} cannot be grown to the age {until}")),
         })?;
         let forms = vec![forms::of(&species)?];
-        Ok(Self { scenario, species: vec![species], models: vec![model], forms })
+        let trial = Trial::of(&scenario, &[]);
+        Ok(Self { scenario, trial, species: vec![species], models: vec![model], forms })
     }
 
-    /// The species in the scenario's order.
+    /// The species in the order of the run.
     pub fn species(&self) -> Vec<&Species> {
         self.species.iter().collect()
     }
 
     /// The species of a plant.
     pub fn species_of(&self, plant: u32) -> &Species {
-        &self.species[self.scenario.species_of_plant(plant)]
+        &self.species[self.trial.species_of_plant(plant)]
     }
 
     /// Its plants, grown again in the wind that is asked for.
@@ -116,7 +120,7 @@ impl Regrown {
         for (species, model) in self.species.iter().zip(&self.models).filter(|_| air.is_some()) {
             yielding(&model.habit()).map_err(|unmoved| self.unmoved(species, unmoved, breeze))?;
         }
-        Ok(Regrowth::new(&self.scenario, self.models.iter().map(AsRef::as_ref).collect(), air))
+        Ok(Regrowth::new(self.trial.clone(), self.models.iter().map(AsRef::as_ref).collect(), air))
     }
 
     /// Refuses what the run does not have.
@@ -124,14 +128,14 @@ impl Regrown {
     /// # Errors
     /// An age or a plant outside of the run, by the option that names it.
     pub fn check(&self, (age_option, ages): (&str, &[Tick]), (plant_option, plants): (&str, &[u32])) -> Result<()> {
-        let count = self.scenario.plants;
+        let count = self.trial.plants();
         if let Some(plant) = plants.iter().find(|plant| **plant >= count) {
             return Err(Misuse(format!("{plant_option} {plant}: the run has the plants 0 to {}", count - 1)).into());
         }
         for &plant in plants {
-            let until = self.scenario.last_age_of(plant);
+            let until = self.trial.last_age_of(plant);
             let Some(age) = ages.iter().find(|age| **age > until) else { continue };
-            let sown = self.scenario.sown_at(plant);
+            let sown = self.trial.sown_at(plant);
             let whose = if sown == 0 {
                 format!("the run has the ages 0 to {until}")
             } else {
@@ -147,7 +151,7 @@ impl Regrown {
     /// # Errors
     /// By the option that names it.
     pub fn check_plot(&self, (tick_option, ticks): (&str, &[Tick]), plot: u32) -> Result<()> {
-        let (until, plots) = (self.scenario.ages.until, self.scenario.plots());
+        let (until, plots) = (self.scenario.ages.until, self.trial.plots());
         if plot >= plots {
             return Err(Misuse(format!("--plot {plot}: the run has the plots 0 to {}", plots - 1)).into());
         }
@@ -165,8 +169,11 @@ impl Regrown {
             Unmoved::NoDrag => ("wood without drag", "`drag` in its `[wood]`, such as `drag = { c = 2, n = 0.5 }`"),
         };
         let place = self.species.iter().position(|known| std::ptr::eq(known, species)).unwrap_or(0);
-        let names = self.scenario.species_names();
-        let file = names.get(place).copied().unwrap_or(name);
+        let of_treatment = |treatment: &'_ Treatment| {
+            let known = treatment.species.iter().position(|known| *known == place)?;
+            treatment.scenario.species_names().get(known).map(|name| (*name).to_owned())
+        };
+        let file = self.trial.treatments().iter().find_map(of_treatment).unwrap_or_else(|| name.clone());
         let wind = breeze.wind.unwrap_or_default();
         let model = species.model.name();
         let with_wood = MODELS.into_iter().filter(|model| model.card().keys.wood.is_some());

@@ -78,7 +78,7 @@ fn tell(name: &str, found: &Found) -> Result<()> {
         Ok(Named::Run(_)) => terminal::put(&format!("{name}: a run folder, whose scenario was valid when it began")),
         Ok(Named::Scenario(scenario)) => {
             let (species, clock) = (species_in_words(scenario), clock(scenario));
-            let plants = amounts::of(scenario.scenario.plants.into(), "plant");
+            let plants = amounts::of(scenario.trial().plants().into(), "plant");
             let until = scenario.scenario.ages.until;
             terminal::put(&format!("{name}: a valid scenario: {plants} of `{species}` to {clock} {until}"))
         }

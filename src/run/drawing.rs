@@ -6,7 +6,7 @@
 
 use super::RunError;
 use phytomer_config::scenario::{MeshFile, Meshes};
-use phytomer_config::{Resolved, Scenario};
+use phytomer_config::{Resolved, Scenario, Trial};
 use phytomer_outputs::Shard;
 use phytomer_outputs::meshes::{Collection, MeshOptions, MeshWriter, OwnForms, Ply, Scene};
 use phytomer_sim::plant::Plant;
@@ -22,6 +22,7 @@ const MOST_VERTICES: u64 = i32::MAX as u64;
 /// What is drawn of the plants of one shard.
 pub struct RunMeshes<'a> {
     scenario: &'a Scenario,
+    trial: Trial,
     meshes: &'a Meshes,
     ticks: Vec<Tick>,
     /// The options of each species.
@@ -67,14 +68,23 @@ impl<'a> RunMeshes<'a> {
         let scenario = &resolved.scenario;
         let meshes = scenario.meshes.as_ref()?;
         let options = own.iter().map(|own| options_of(meshes.sides, own)).collect();
-        Some(Self { scenario, meshes, ticks: scenario.mesh_ages(), options, parts, open: BTreeMap::new() })
+        Some(Self {
+            scenario,
+            trial: resolved.trial(),
+            meshes,
+            ticks: scenario.mesh_ages(),
+            options,
+            parts,
+            open: BTreeMap::new(),
+        })
     }
 
     /// Whether a plant of this plot is drawn at this tick.
     pub fn wants(&self, plot: u32, tick: Tick) -> bool {
-        let members = self.scenario.members();
+        let of = self.trial.plot(plot);
+        let members = self.trial.treatments()[of.treatment].scenario.members();
         self.ticks.binary_search(&tick).is_ok()
-            && (0..members).any(|member| self.scenario.draws(plot * members + member))
+            && (0..members).any(|member| self.scenario.draws(of.first_plant + member))
     }
 
     /// Draws the plants of a plot that are sown and asked for, as they stand at a tick. Files are named by the tick,

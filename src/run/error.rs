@@ -70,6 +70,12 @@ pub enum RunError {
         /// The first age.
         age: Tick,
     },
+    /// A plant of which nothing can be shown.
+    #[error("the seed of plant {plant} did not germinate")]
+    NotGerminated {
+        /// The plant's number.
+        plant: u32,
+    },
     /// The run was told to stop.
     #[error("the run was told to stop")]
     Stopped,

@@ -4,8 +4,8 @@
 //! have *made*; what they have shed by a recorded age is counted as if it still stood, so that the rows of `records`
 //! are a bound from above. Absent: memory and time, which the machine decides.
 
-use phytomer_config::Resolved;
 use phytomer_config::scenario::{BYTES_A_COMPONENT, Table};
+use phytomer_config::{Resolved, Scenario, Treatment, Trial};
 use phytomer_sim::expectation::{Certainty, Expectation};
 use serde::Serialize;
 
@@ -56,7 +56,8 @@ pub struct Forecast {
     pub plants: u32,
     /// Plants with rows in `components`, `records` and `events`.
     pub sampled: u32,
-    /// Components of one plot, of one plant where it has no members, by the last tick, by order from the trunk.
+    /// Components of one plot, of one plant where it has no members, by the last tick, by order from the trunk; of an
+    /// experiment of the mean plot.
     pub components_by_order: Vec<f64>,
     /// Components of all plants by the last age.
     pub components: f64,
@@ -76,38 +77,59 @@ pub struct Forecast {
     pub bytes_a_plot: f64,
     /// The most components that a plant may have.
     pub component_limit: u32,
+    /// What is expected of each treatment; empty where one grows alone.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub treatments: Vec<OfTreatment>,
     #[serde(skip)]
     work_a_plot: f64,
+}
+
+/// What is expected of all replicates of a treatment.
+#[derive(Debug, Clone, Serialize)]
+pub struct OfTreatment {
+    /// The treatment.
+    pub name: String,
+    /// Its plants.
+    pub plants: u32,
+    /// Their components by the last age.
+    pub components: f64,
+    /// Their rows of `records`.
+    pub records_rows: f64,
+    /// Their rows of `summary`.
+    pub summary_rows: f64,
+    /// Bytes of their tables, about.
+    pub table_bytes: f64,
 }
 
 impl Forecast {
     /// The forecast of a run; `None` where the sum for one of its species would take too long.
     pub fn of(resolved: &Resolved) -> Option<Self> {
-        let scenario = &resolved.scenario;
-        let plot = PlotForecast::of(resolved)?;
-        let plots = f64::from(scenario.plots());
-        let sampled = f64::from(scenario.sampled()) / f64::from(scenario.plants.max(1));
-        let rows = |table: Table, rows: f64| if scenario.tables.contains(&table) { rows * plots } else { 0.0 };
-        let records_rows = rows(Table::Records, plot.shown * sampled);
-        let summary_rows = rows(Table::Summary, plot.summary_rows);
-        let component_rows = rows(Table::Components, plot.components * sampled);
+        let trial = resolved.trial();
+        let plots = plots_of(resolved, &trial)?;
+        let treatments: Vec<OfTreatment> =
+            trial.treatments().iter().zip(&plots).map(|(treatment, plot)| plot.of_all(&trial, treatment)).collect();
+        let mean = PlotForecast::mean(&trial, &plots);
+        let sum = |of: fn(&OfTreatment) -> f64| treatments.iter().map(of).fold(0.0, |sum, more| sum + more);
+        let records_rows = sum(|of| of.records_rows);
+        let most = |of: fn(&PlotForecast) -> f64| plots.iter().map(of).fold(0.0, f64::max);
+        let of_scenario = &resolved.scenario;
+        let sampled = sampled_share(of_scenario);
         Some(Self {
-            plants: scenario.plants,
-            sampled: scenario.sampled(),
-            components_are: plot.certainty.into(),
+            plants: trial.plants(),
+            sampled: (f64::from(trial.plants()) * sampled).round() as u32,
+            components_are: mean.certainty.into(),
             // As if nothing that the plants have made had ended.
-            records_rows_are: plot.certainty.max(Certainty::AtMost).into(),
-            components: plot.components * plots,
-            components_by_order: plot.by_order,
+            records_rows_are: mean.certainty.max(Certainty::AtMost).into(),
+            components: sum(|of| of.components),
+            components_by_order: mean.by_order,
             records_rows,
-            summary_rows,
-            table_bytes: records_rows * BYTES_A_RECORD
-                + component_rows * BYTES_A_COMPONENT_ROW
-                + summary_rows * BYTES_A_SUMMARY_ROW,
-            bytes_a_plant: plot.largest * BYTES_A_COMPONENT as f64,
-            bytes_a_plot: plot.components * BYTES_A_COMPONENT as f64,
-            component_limit: scenario.limits.components(),
-            work_a_plot: plot.components + if records_rows > 0.0 { plot.shown * sampled } else { 0.0 },
+            summary_rows: sum(|of| of.summary_rows),
+            table_bytes: sum(|of| of.table_bytes),
+            bytes_a_plant: most(|plot| plot.largest) * BYTES_A_COMPONENT as f64,
+            bytes_a_plot: most(|plot| plot.components) * BYTES_A_COMPONENT as f64,
+            component_limit: of_scenario.limits.components(),
+            work_a_plot: mean.components + if records_rows > 0.0 { mean.shown * sampled } else { 0.0 },
+            treatments: if treatments.len() > 1 { treatments } else { Vec::new() },
         })
     }
 
@@ -115,6 +137,20 @@ impl Forecast {
     pub fn work_a_plot(&self) -> f64 {
         self.work_a_plot
     }
+}
+
+/// The share of the plants of a scenario with rows in `components`, `records` and `events`.
+fn sampled_share(scenario: &Scenario) -> f64 {
+    f64::from(scenario.sampled()) / f64::from(scenario.plants.max(1))
+}
+
+/// What is expected of a plot of each treatment.
+fn plots_of(resolved: &Resolved, trial: &Trial) -> Option<Vec<PlotForecast>> {
+    let models = resolved.models().into_iter().enumerate();
+    let expected = models.map(|(place, model)| model.expectation(trial.last_age_of_species(place)));
+    let expected: Vec<Expectation> = expected.collect::<Option<_>>()?;
+    let recorded = resolved.scenario.ages.recorded();
+    Some(trial.treatments().iter().map(|treatment| PlotForecast::of(treatment, &expected, &recorded)).collect())
 }
 
 /// What is expected of one plot: the sums over its members, each at its own age.
@@ -133,28 +169,66 @@ struct PlotForecast {
 }
 
 impl PlotForecast {
-    fn of(resolved: &Resolved) -> Option<Self> {
-        let scenario = &resolved.scenario;
-        let models = resolved.models().into_iter().enumerate();
-        let expected = models.map(|(place, model)| model.expectation(scenario.last_age_of_species(place)));
-        let expected: Vec<Expectation> = expected.collect::<Option<_>>()?;
-        let recorded = scenario.ages.recorded();
-        let mut plot = Self {
-            components: 0.0,
-            by_order: Vec::new(),
-            largest: 0.0,
-            shown: 0.0,
-            summary_rows: 0.0,
-            // No closed form knows which plants a pest attacks.
-            certainty: if scenario.pest.is_empty() { Certainty::Exact } else { Certainty::About },
-        };
+    const NOTHING: Self = Self {
+        components: 0.0,
+        by_order: Vec::new(),
+        largest: 0.0,
+        shown: 0.0,
+        summary_rows: 0.0,
+        certainty: Certainty::Exact,
+    };
+
+    fn of(Treatment { scenario, species, .. }: &Treatment, expected: &[Expectation], recorded: &[u32]) -> Self {
+        // No closed form knows which plants a pest attacks.
+        let certainty = if scenario.pest.is_empty() { Certainty::Exact } else { Certainty::About };
+        let mut plot = Self { certainty, ..Self::NOTHING };
         for member in scenario.plot_members() {
-            let Some(expected) = expected.get(scenario.species_of(&member)) else { continue };
+            let of_member = species.get(scenario.species_of(&member)).and_then(|species| expected.get(*species));
+            let Some(expected) = of_member else { continue };
             plot.add(expected, scenario.ages.until.saturating_sub(member.sown), || {
                 recorded.iter().filter_map(|tick| tick.checked_sub(member.sown))
             });
         }
-        Some(plot)
+        plot.germinated(scenario.planting.germination / 100.0)
+    }
+
+    /// The same where a share of the seeds germinates, on which growth does not depend.
+    fn germinated(mut self, share: f64) -> Self {
+        self.by_order.iter_mut().for_each(|components| *components *= share);
+        self.components *= share;
+        self.shown *= share;
+        self.summary_rows *= share;
+        self
+    }
+
+    /// The mean plot of a trial: that of each treatment weighs as many as it has.
+    fn mean(trial: &Trial, plots: &[Self]) -> Self {
+        let mut mean = Self::NOTHING;
+        for (treatment, plot) in trial.treatments().iter().zip(plots) {
+            let of_treatment = u64::from(treatment.scenario.plots()) * u64::from(trial.replicates());
+            let weight = of_treatment as f64 / f64::from(trial.plots().max(1));
+            mean.components += weight * plot.components;
+            mean.shown += weight * plot.shown;
+            mean.by_order.resize(mean.by_order.len().max(plot.by_order.len()), 0.0);
+            mean.by_order.iter_mut().zip(&plot.by_order).for_each(|(sum, more)| *sum += weight * more);
+            mean.certainty = mean.certainty.max(plot.certainty);
+        }
+        mean
+    }
+
+    /// What is expected of all plots of a treatment, each of which is like this.
+    fn of_all(&self, trial: &Trial, Treatment { name, scenario, .. }: &Treatment) -> OfTreatment {
+        let plots = f64::from(scenario.plots()) * f64::from(trial.replicates());
+        let rows = |table: Table, rows: f64| if scenario.tables.contains(&table) { rows * plots } else { 0.0 };
+        let sampled = sampled_share(scenario);
+        let records_rows = rows(Table::Records, self.shown * sampled);
+        let summary_rows = rows(Table::Summary, self.summary_rows);
+        let table_bytes = records_rows * BYTES_A_RECORD
+            + rows(Table::Components, self.components * sampled) * BYTES_A_COMPONENT_ROW
+            + summary_rows * BYTES_A_SUMMARY_ROW;
+        let plants = scenario.plants.saturating_mul(trial.replicates());
+        let components = self.components * plots;
+        OfTreatment { name: name.clone(), plants, components, records_rows, summary_rows, table_bytes }
     }
 
     /// Adds a member that reaches the age `until` and is recorded at `ages`.

@@ -6,8 +6,8 @@
 
 use super::{Grower, Keeper, Program, Progress, RunError, forms, in_turn, plan_of, pool};
 use phytomer_config::Resolved;
-use phytomer_outputs::OvergrownPlot;
-use phytomer_outputs::tables::{MemoryTables, TableBatches};
+use phytomer_outputs::tables::{MemoryTables, TableBatches, treatments};
+use phytomer_outputs::{OvergrownPlot, Table};
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick};
 
 /// What a run in memory has made.
@@ -45,7 +45,7 @@ pub struct InMemory {
 pub fn in_memory(resolved: &Resolved, threads: usize, progress: &Progress) -> Result<InMemory, RunError> {
     let (resolved, _) = forms::settled(resolved)?;
     let plan = plan_of(&resolved, &Program::default())?;
-    progress.begin(&resolved.scenario, plan.plots.into(), plan.shards() as usize);
+    progress.begin(&resolved.scenario, resolved.trial().plants().into(), plan.shards() as usize);
     let grower = Grower::of(&resolved, &plan, progress);
     let all: Vec<u32> = (0..plan.shards()).collect();
     let grown = |shard| MemoryKeeper::grown(&grower, shard);
@@ -56,6 +56,10 @@ pub fn in_memory(resolved: &Resolved, threads: usize, progress: &Progress) -> Re
             run.batches.entry(table).or_default().extend(batches);
         }
         run.overgrown.extend(shard.overgrown);
+    }
+    if plan.tables.contains(&Table::Treatments) {
+        let rows = treatments::batch(&plan).map_err(phytomer_outputs::Error::from)?;
+        run.batches.insert(Table::Treatments, vec![rows]);
     }
     Ok(run)
 }

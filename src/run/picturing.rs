@@ -6,7 +6,6 @@
 
 use super::RunError;
 use super::drawing::options_of;
-use super::plots::plot_place;
 use super::regrowth::{Regrowth, Standing};
 use phytomer_config::{About, Species};
 use phytomer_outputs::meshes::{Chunk, MeshOptions, OwnForms, PlotBody, PlotMember, PlotMesh, Scene};
@@ -47,11 +46,13 @@ pub struct PicturedMember {
     pub number: u32,
     /// Its plot.
     pub plot: u32,
+    /// The treatment of its plot, as an index into those of the trial.
+    pub treatment: u32,
     /// The tick of its plot at which it is sown.
     pub sown: Tick,
     /// What stands there, as a place in the stand's `plants`.
     pub plant: usize,
-    /// Its species, as a place in the scenario's list.
+    /// Its species, as an index into those of the run.
     pub species: usize,
     /// Its age.
     pub age: Tick,
@@ -78,8 +79,9 @@ impl Pictured {
     /// Where each plant of each stand belongs, in the order of [`Pictured::subjects`].
     pub fn memberships(&self) -> Vec<Membership> {
         let each = self.stands.iter().flat_map(|stand| &stand.members);
-        let of = |PicturedMember { plot, species, sown, .. }: &PicturedMember| Membership {
+        let of = |PicturedMember { plot, treatment, species, sown, .. }: &PicturedMember| Membership {
             plot: *plot,
+            treatment: *treatment,
             species: *species,
             sown: *sown,
             ..Membership::default()
@@ -110,11 +112,11 @@ pub fn pictured_plants(
     plants: &[u32],
     ages: &[Tick],
 ) -> Result<Pictured, RunError> {
-    let scenario = regrowth.scenario();
+    let trial = regrowth.trial();
     let mut stands = Vec::new();
     let mut shown = BTreeSet::new();
     for &number in plants {
-        let place = scenario.species_of_plant(number);
+        let place = trial.species_of_plant(number);
         shown.insert(place);
         let mut seen = BTreeMap::new();
         regrowth.show(number, ages, &mut |age, plant| {
@@ -125,14 +127,18 @@ pub fn pictured_plants(
             let whose = if plants.len() > 1 { format!("plant {number}, ") } else { String::new() };
             let years = species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default();
             let Some(plant) = seen.get(&age).cloned() else { continue };
-            let (plot, sown) = (scenario.plot_of(number).0, scenario.sown_at(number));
-            let member = PicturedMember { number, plot, sown, plant: 0, species: place, age, place: [0.0; 3] };
+            let (of, sown) = (trial.plant(number), trial.sown_at(number));
+            let (plot, treatment) = (of.plot, of.treatment as u32);
+            let place_m = [0.0; 3];
+            let member =
+                PicturedMember { number, plot, treatment, sown, plant: 0, species: place, age, place: place_m };
             let label = format!("{whose}age {age}{years}");
             stands.push(PicturedStand { plants: vec![plant], members: vec![member], label });
         }
     }
     let names: Vec<&str> = shown.iter().map(|place| species[*place].about.name.as_str()).collect();
-    let note = format!("{}: plants {plants:?} at the ages {ages:?} of seed {}", names.join(", "), scenario.seed);
+    let note =
+        format!("{}: plants {plants:?} at the ages {ages:?} of seed {}", names.join(", "), trial.scenario().seed);
     Ok(Pictured { stands, title: titles_of(species, &shown), note })
 }
 
@@ -147,18 +153,18 @@ pub fn pictured_plot(
     (plot, ticks): (u32, &[Tick]),
     apart: bool,
 ) -> Result<Pictured, RunError> {
-    let scenario = regrowth.scenario();
+    let trial = regrowth.trial();
+    let scenario = trial.scenario();
     let mut seen = BTreeMap::new();
     regrowth.show_plot(plot, ticks, &mut |tick, standing| {
         seen.entry(tick).or_insert_with(|| kept(standing, apart));
         Ok(())
     })?;
-    let members = scenario.plot_members();
     let of_members = |mut stand: PicturedStand, tick: Tick| {
         for member in &mut stand.members {
-            let (plot, of_plot) = scenario.plot_of(member.number);
-            let Some(of_plot) = members.get(of_plot as usize) else { continue };
+            let of_plot = trial.member_of(member.number);
             (member.plot, member.sown, member.place) = (plot, of_plot.sown, of_plot.place());
+            member.treatment = trial.plot(plot).treatment as u32;
         }
         stand.label = format!("tick {tick}{}", years_of(species, tick));
         stand
@@ -178,7 +184,7 @@ pub fn plot_mesh<'a>(
     (species, forms): (&[&Species], &[Arc<OwnForms>]),
     sides: u32,
 ) -> PlotMesh<'a> {
-    let scenario = regrowth.scenario();
+    let scenario = regrowth.trial().scenario();
     let member = |member: &PicturedMember| PlotMember {
         body: member.plant,
         place: member.place,
@@ -193,7 +199,7 @@ pub fn plot_mesh<'a>(
         bodies: stand.plants.iter().enumerate().map(body).collect(),
         members: stand.members.iter().map(member).collect(),
         name: format!("plot {plot} tick {tick} seed {}", scenario.seed),
-        place: plot_place(scenario, plot),
+        place: regrowth.plot_place(plot),
     }
 }
 
@@ -222,7 +228,7 @@ fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
         }
         let (number, species, age) = (plant.id, *species, *age);
         let place = [0.0; 3];
-        stand.members.push(PicturedMember { number, plot: 0, sown: 0, plant: body, species, age, place });
+        stand.members.push(PicturedMember { number, plot: 0, treatment: 0, sown: 0, plant: body, species, age, place });
     }
     stand
 }

@@ -5,7 +5,8 @@
 
 use super::RunError;
 use super::forecast::Forecast;
-use phytomer_config::{Resolved, scenario};
+use phytomer_config::{Resolved, Treatment, Trial, scenario};
+use phytomer_outputs::tables::Factor;
 use phytomer_outputs::{Input, Provenance, RunPlan, Sample, Table};
 use sha2::{Digest, Sha256};
 
@@ -17,9 +18,6 @@ const LEAST_WORK_A_PART: f64 = 2.5e5;
 
 /// Parts that even a small run is dealt into, so that it uses several threads and can be resumed.
 const PARTS_OF_A_SMALL_RUN: f64 = 16.0;
-
-/// The treatment of a scenario that compares none.
-pub const CONTROL: &str = "control";
 
 /// Components of a plant of which nothing can be expected.
 const UNFORESEEN: f64 = 1e4;
@@ -44,13 +42,13 @@ impl Default for Program {
 /// # Errors
 /// Where the scenario cannot be written as JSON, which no checked scenario can fail to be.
 pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunError> {
-    let scenario = &resolved.scenario;
+    let (scenario, trial) = (&resolved.scenario, resolved.trial());
     Ok(RunPlan {
         tables: scenario.written_tables().into_iter().map(table).collect(),
         sample: scenario.sample.and_then(|sample| Sample::of(scenario.seed, sample, scenario.plants)),
         recorded: scenario.ages.recorded(),
         until: scenario.ages.until,
-        plots: scenario.plots(),
+        plots: trial.plots(),
         plots_per_part: plots_per_part(resolved),
         compression_level: match scenario.output.compression {
             scenario::Compression::Zstd1 => 1,
@@ -60,7 +58,8 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunErr
         mechanics: scenario.output.mechanics,
         provenance: Provenance {
             scenario: scenario.name.clone(),
-            treatments: vec![CONTROL.to_owned()],
+            treatments: trial.treatments().iter().map(|treatment| treatment.name.clone()).collect(),
+            factors: factors(&trial),
             species: resolved.all_species().iter().map(|species| species.about.name.clone()).collect(),
             seed: scenario.seed,
             version: program.version.clone(),
@@ -78,7 +77,18 @@ fn table(table: scenario::Table) -> Table {
         scenario::Table::Events => Table::Events,
         scenario::Table::Summary => Table::Summary,
         scenario::Table::Plants => Table::Plants,
+        scenario::Table::Treatments => Table::Treatments,
     }
+}
+
+/// The factors of the experiment, with the level of each treatment.
+fn factors(trial: &Trial) -> Vec<Factor> {
+    let levels_of = |place: usize| {
+        let of_treatment = |treatment: &Treatment| treatment.levels.get(place).cloned().unwrap_or_default();
+        trial.treatments().iter().map(of_treatment).collect()
+    };
+    let factors = trial.scenario().experiment.factor.iter().enumerate();
+    factors.map(|(place, factor)| Factor { name: factor.name.clone(), levels: levels_of(place) }).collect()
 }
 
 fn inputs(resolved: &Resolved) -> Result<Vec<Input>, RunError> {
@@ -95,12 +105,13 @@ fn inputs(resolved: &Resolved) -> Result<Vec<Input>, RunError> {
 /// How many plots share a part file: as many as hold the plants that the scenario says, else by the expected work of a
 /// plot.
 fn plots_per_part(resolved: &Resolved) -> u32 {
-    let scenario = &resolved.scenario;
-    let (plots, members) = (scenario.plots(), scenario.members());
-    if let Some(plants) = scenario.output.plants_per_part {
-        return (plants / members).clamp(1, plots.max(1));
+    let (scenario, trial) = (&resolved.scenario, resolved.trial());
+    let (plots, plants) = (trial.plots(), trial.plants());
+    if let Some(a_part) = scenario.output.plants_per_part {
+        // Of plots of different sizes the largest are counted.
+        return (a_part / trial.most_members()).clamp(1, plots.max(1));
     }
-    let unforeseen = UNFORESEEN * f64::from(members);
+    let unforeseen = UNFORESEEN * f64::from(plants) / f64::from(plots.max(1));
     let work = Forecast::of(resolved).map_or(unforeseen, |forecast| forecast.work_a_plot()).max(1.0);
     let in_all = work * f64::from(plots);
     let parts = (in_all / LEAST_WORK_A_PART).clamp(1.0, PARTS_OF_A_SMALL_RUN).max(in_all / WORK_A_PART);

@@ -115,7 +115,7 @@ impl Progress {
         }
     }
 
-    pub(super) fn begin(&self, scenario: &Scenario, plots: u64, parts: usize) {
+    pub(super) fn begin(&self, scenario: &Scenario, plants: u64, parts: usize) {
         self.begun.get_or_init(Instant::now);
         self.parts_in_all.store(parts as u64, Relaxed);
         let mut ages = scenario.ages.recorded();
@@ -123,7 +123,7 @@ impl Progress {
         ages.sort_unstable();
         ages.dedup();
         self.ages_a_plant.store(ages.len() as u64, Relaxed);
-        self.plants_in_all.store(plots * u64::from(scenario.members()), Relaxed);
+        self.plants_in_all.store(plants, Relaxed);
     }
 
     pub(super) fn check(&self) -> Result<(), RunError> {

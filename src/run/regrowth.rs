@@ -8,7 +8,7 @@
 
 use super::RunError;
 use super::plots::Plots;
-use phytomer_config::{Resolved, Scenario, Species};
+use phytomer_config::{Resolved, Species, Trial};
 use phytomer_sim::mechanics::Scratch;
 use phytomer_sim::mechanics::sway::sway;
 use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant, ThreadBudget};
@@ -47,25 +47,33 @@ pub struct Standing<'p> {
     pub plant: Cow<'p, Plant>,
     /// Its age.
     pub age: Tick,
-    /// Its species, as a place in [`Scenario::species_names`].
+    /// Its species, as an index into the species of the run.
     pub species: usize,
 }
 
 impl<'a> Regrowth<'a> {
-    /// The plants of a scenario whose species, in the order of [`Scenario::species_names`], have these models, compiled
-    /// for all their ages.
-    pub fn new(scenario: &'a Scenario, models: Vec<&'a dyn GrowthModel>, air: Option<Air>) -> Self {
-        Self { plots: Plots::of(scenario, models), air }
+    /// The plants of a trial whose species, in the order of the run, have these models, compiled for all their ages.
+    pub fn new(trial: Trial, models: Vec<&'a dyn GrowthModel>, air: Option<Air>) -> Self {
+        Self { plots: Plots::of(trial, models), air }
     }
 
     /// The plants of a checked scenario, in still air.
     pub fn of(resolved: &'a Resolved) -> Self {
-        Self::new(&resolved.scenario, resolved.models(), None)
+        Self::new(resolved.trial(), resolved.models(), None)
     }
 
-    /// The scenario.
-    pub fn scenario(&self) -> &'a Scenario {
-        self.plots.scenario()
+    /// The trial.
+    pub fn trial(&self) -> &Trial {
+        self.plots.trial()
+    }
+
+    /// The place of a plot, metres.
+    pub fn plot_place(&self, plot: u32) -> [f64; 3] {
+        self.plots.plot_place(plot)
+    }
+
+    fn until(&self) -> Tick {
+        self.trial().scenario().ages.until
     }
 
     /// Grows a plant and shows it at `ages`, its own, in their order of time.
@@ -73,6 +81,9 @@ impl<'a> Regrowth<'a> {
     /// # Errors
     /// What `show` says; a plant that comes to its limit before the last of the ages.
     pub fn show(&self, plant: u32, ages: &[Tick], show: &mut Show<'_>) -> Result<(), RunError> {
+        if !self.plots.germinates(plant) {
+            return Err(RunError::NotGerminated { plant });
+        }
         let sown = self.sown(plant);
         let ticks: Vec<Tick> = ages.iter().map(|age| age.saturating_add(sown.at)).collect();
         self.show_ticks(sown.plot, sown.until, &ticks, &mut |_, standing| {
@@ -86,7 +97,7 @@ impl<'a> Regrowth<'a> {
     /// # Errors
     /// What `show` says; a plant that comes to its limit before the last of the ticks.
     pub fn show_plot(&self, plot: u32, ticks: &[Tick], show: &mut ShowPlot<'_>) -> Result<(), RunError> {
-        self.show_ticks(self.plots.sow(plot, ThreadBudget::default()), self.scenario().ages.until, ticks, show)
+        self.show_ticks(self.plots.sow(plot, ThreadBudget::default()), self.until(), ticks, show)
     }
 
     fn show_ticks(
@@ -113,7 +124,7 @@ impl<'a> Regrowth<'a> {
     /// # Errors
     /// As [`Regrowth::prime`].
     pub fn shown_at(&self, species: &Species, plant: u32) -> Result<Tick, RunError> {
-        let until = self.scenario().last_age_of(plant);
+        let until = self.trial().last_age_of(plant);
         species
             .about
             .shown_at
@@ -129,8 +140,11 @@ impl<'a> Regrowth<'a> {
     /// # Errors
     /// Where it comes to its limit at its first age.
     pub fn prime(&self, plant: u32, year: Tick) -> Result<Tick, RunError> {
+        if !self.plots.germinates(plant) {
+            return Err(RunError::NotGerminated { plant });
+        }
         let mut sown = self.sown(plant);
-        let model = self.plots.models()[self.scenario().species_of_plant(plant)];
+        let model = self.plots.models()[self.trial().species_of_plant(plant)];
         let mut last = sown.until;
         if !model.growth().keeps_its_past() {
             return Ok(last - sown.at);
@@ -150,12 +164,12 @@ impl<'a> Regrowth<'a> {
 
     /// A plant before its first tick, by itself where that gives the same plant.
     fn sown(&self, plant: u32) -> SownPlant<'a> {
-        let scenario = self.scenario();
-        if self.plots.feed_back() {
-            let plot = self.plots.sow(scenario.plot_of(plant).0, ThreadBudget::default());
-            return SownPlant { plot, at: scenario.sown_at(plant), until: scenario.ages.until };
+        let trial = self.trial();
+        if self.plots.feed_back(plant) {
+            let plot = self.plots.sow(trial.plant(plant).plot, ThreadBudget::default());
+            return SownPlant { plot, at: trial.sown_at(plant), until: self.until() };
         }
-        SownPlant { plot: self.plots.sow_alone(plant), at: 0, until: scenario.last_age_of(plant) }
+        SownPlant { plot: self.plots.sow_alone(plant), at: 0, until: trial.last_age_of(plant) }
     }
 }
 

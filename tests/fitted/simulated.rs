@@ -22,7 +22,7 @@ pub fn shipped(name: &str, orders: usize) -> Buds {
 pub fn grown(buds: &Buds, plants: u32, until: Tick) -> Vec<Plant> {
     let model = buds.compile(until, &Path::root()).unwrap_or_else(|faults| panic!("{faults:?}"));
     let grow = |plant| {
-        let seed = Seed { plant, run_seed: 1988, component_limit: 20_000_000, keep_events: false };
+        let seed = Seed { plant, draws: plant.into(), run_seed: 1988, component_limit: 20_000_000, keep_events: false };
         let mut plot = Plot::of_one(&model, &seed);
         plot.grow_to(until).expect("within the limit");
         plot.plants.remove(0)

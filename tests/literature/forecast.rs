@@ -85,7 +85,7 @@ fn unseen(sample: &Sample, foretold: f64) -> f64 {
 }
 
 fn grown(model: &dyn GrowthModel, plant: u32, age: Tick) -> Plant {
-    let seed = Seed { plant, run_seed: 1988, component_limit: 5_000_000, keep_events: true };
+    let seed = Seed { plant, draws: plant.into(), run_seed: 1988, component_limit: 5_000_000, keep_events: true };
     let mut plot = Plot::of_one(model, &seed);
     plot.grow_to(age).expect("within the limit");
     plot.plants.remove(0)
@@ -167,7 +167,7 @@ fn flowers_that_open_after_the_last_age_are_neither_foretold_nor_limited() {
     let resolved = validate(path.to_str().unwrap()).unwrap_or_else(|report| panic!("{}", report.render(false)));
     let expected = resolved.model.expectation(120).unwrap();
     assert_eq!((expected.components(120), expected.certainty()), (121.0, Certainty::Exact));
-    let limits = Seed { plant: 0, run_seed: 1, component_limit: 500, keep_events: false };
+    let limits = Seed { plant: 0, draws: 0, run_seed: 1, component_limit: 500, keep_events: false };
     let mut plot = Plot::of_one(resolved.model.as_ref(), &limits);
     plot.grow_to(120).expect("121 components grow");
     assert_eq!(plot.plants[0].lived_by(120), 121);

@@ -26,7 +26,7 @@ pub fn compiled(buds: &Buds, until: Tick) -> BudModel {
 
 /// Plant number `plant`, grown to `until` and shed.
 pub fn plant(model: &BudModel, plant: u32, until: Tick) -> Plant {
-    let seed = Seed { plant, run_seed: 1988, component_limit: 10_000_000, keep_events: false };
+    let seed = Seed { plant, draws: plant.into(), run_seed: 1988, component_limit: 10_000_000, keep_events: false };
     let mut plot = Plot::of_one(model, &seed);
     plot.grow_to(until).expect("within the limit");
     plot.plants.remove(0)

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 type Facts = (Option<LineageKey>, Vec<u32>);
 
 fn seed() -> Seed {
-    Seed { plant: 5, run_seed: 88, component_limit: 2_000_000, keep_events: true }
+    Seed { plant: 5, draws: 5, run_seed: 88, component_limit: 2_000_000, keep_events: true }
 }
 
 /// The tree of one bud, each axis through all its ticks, its laterals' trees as soon as they appear.

@@ -40,7 +40,7 @@ fn resolved(species: &str) -> Resolved {
 fn sown<'m>(id: u32, models: [&'m dyn GrowthModel; 2]) -> Plot<'m> {
     let sowings = MEMBERS.map(|(species, in_plot, sown)| {
         let plant = id * MEMBERS.len() as u32 + in_plot;
-        let seed = Seed { plant, run_seed: 7, component_limit: 1_000_000, keep_events: true };
+        let seed = Seed { plant, draws: plant.into(), run_seed: 7, component_limit: 1_000_000, keep_events: true };
         Sowing { species, seed, place: [f64::from(plant), 0.0, 0.0], sown }
     });
     let mut plot = Plot::new(id, models.to_vec(), &sowings);

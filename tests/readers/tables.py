@@ -16,7 +16,7 @@ run = Path(sys.argv[1])
 package = json.loads((run / "datapackage.json").read_text(encoding="utf-8"))
 report = json.loads((run / "run.json").read_text(encoding="utf-8"))
 resources = {resource["name"]: resource for resource in package["resources"]}
-assert set(resources) >= {"components", "records", "events", "summary", "plants"}, resources.keys()
+assert set(resources) >= {"components", "records", "events", "summary", "plants", "treatments"}, resources.keys()
 
 ARROW = {
     "integer": ("int32", "int64"),
@@ -65,7 +65,7 @@ for table, resource in resources.items():
 # Rows are sorted by the columns that each part states, by plot, tick, plant and component as far as a table has them.
 for table, resource in resources.items():
     names = [field["name"] for field in resource["schema"]["fields"]]
-    order = [name for name in ("plot_id", "tick", "plant_id", "component_id") if name in names]
+    order = [name for name in ("treatment_index", "plot_id", "tick", "plant_id", "component_id") if name in names]
     assert resource["schema"].get("primaryKey", order) == order, (table, resource["schema"]["primaryKey"])
     for part in parts(table):
         groups = pyarrow.parquet.ParquetFile(part).metadata
@@ -149,6 +149,17 @@ species, ticks = (con.sql(f"select count(distinct {name}) from plants").fetchall
 means = con.sql("select count(distinct species), sum(plants) from growth()").fetchall()[0]
 assert means == (species, con.sql("select count(*) from summary").fetchall()[0][0]), means
 print(f"sowing: {species} species, sown at {ticks} ticks")
+
+# A row a treatment, with a column for each factor; each plant is of one of them, and pairs are found in each.
+treatments = con.sql("select treatment_index, treatment from treatments order by treatment_index").fetchall()
+assert [index for index, _ in treatments] == list(range(len(treatments))), treatments
+given = {row[0] for row in con.sql("select distinct treatment from plants").fetchall()}
+assert given == {name for _, name in treatments}, (given, treatments)
+assert len(con.sql(f"from treatments_at({last})").fetchall()) <= len(treatments)
+paired = con.sql(f"select count(*), count(distinct (treatment, replicate, number)) from pairs_at({last})").fetchall()[0]
+assert paired[0] == paired[1], f"{paired[0]} plants have {paired[1]} places"
+factors = [field["name"] for field in resources["treatments"]["schema"]["fields"]][2:]
+print(f"treatments: {len(treatments)}, factors: {', '.join(factors) or 'none'}")
 
 # Places in the plot are sums in double precision of what `records` says and where the seed lies.
 types = dict(zip(con.sql("from records_world").columns, con.sql("from records_world").types))

@@ -109,10 +109,9 @@ impl Scenario {
         }
     }
 
-    /// Limits the run to its first `plants` plants and leaves out the meshes of all others. Returns the number of
-    /// plants whose meshes are left out; 0 where the scenario has meshes of all plants.
-    pub fn grow_only(&mut self, plants: u32) -> u32 {
-        self.plants = plants;
+    /// Leaves out the meshes of all but the first `plants` plants of the run. Returns the number of plants whose meshes
+    /// are left out; 0 where the scenario has meshes of all plants.
+    pub fn draw_only(&mut self, plants: u32) -> u32 {
         let Some(meshes) = &mut self.meshes else { return 0 };
         let left_out = match &mut meshes.plants {
             MeshPlants::All(_) => 0,
@@ -129,8 +128,8 @@ impl Scenario {
         left_out
     }
 
-    pub(super) fn check_mesh_plants(&self, path: &Path, faults: &mut Vec<Fault>) {
-        let plants = self.plants;
+    /// Adds the faults of the plants of which meshes are asked for, in a run of so many plants.
+    pub(super) fn check_mesh_plants(&self, plants: u32, path: &Path, faults: &mut Vec<Fault>) {
         match self.meshes.as_ref().map(|m| &m.plants) {
             Some(MeshPlants::First(count)) if *count > plants && *count > 1 => {
                 let problem = format!("meshes of {count} plants are asked for, but only {plants} grow");

@@ -21,18 +21,20 @@ pub enum Table {
     Summary,
     /// A row per plant, with its species and its place in the plot.
     Plants,
+    /// A row per treatment, with its level of each factor.
+    Treatments,
 }
 
 /// Every table, for a scenario that names none.
-pub(super) fn all() -> BTreeSet<Table> {
-    BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary, Table::Plants])
+pub(crate) fn all() -> BTreeSet<Table> {
+    BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary, Table::Plants, Table::Treatments])
 }
 
 impl Scenario {
     /// The tables that are written: those of the scenario, and with any of them `plants`, without which the place of a
-    /// plant is unknown.
+    /// plant is unknown, and `treatments`, without which its levels are.
     pub fn written_tables(&self) -> BTreeSet<Table> {
-        let plants = (!self.tables.is_empty()).then_some(Table::Plants);
-        self.tables.iter().copied().chain(plants).collect()
+        let with_any = [Table::Plants, Table::Treatments].into_iter().filter(|_| !self.tables.is_empty());
+        self.tables.iter().copied().chain(with_any).collect()
     }
 }

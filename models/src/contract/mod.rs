@@ -66,7 +66,7 @@ pub fn check(model: &dyn GrowthModel, until: Tick, seed: u64) {
 
 /// The seed of plant `number` in the run `run_seed`, without a limit of components; its events are kept.
 pub fn seed_of(run_seed: u64, number: u32) -> Seed {
-    Seed { plant: number, run_seed, component_limit: MOST_COMPONENTS, keep_events: true }
+    Seed { plant: number, draws: number.into(), run_seed, component_limit: MOST_COMPONENTS, keep_events: true }
 }
 
 /// A plot of one plant, sown by `model`.

@@ -141,7 +141,7 @@ mod tests {
         let looks = Looks { organs: vec![looks], ..Looks::of_shape(Shape::Cone) };
         let for_drawing = paints.into_habit();
         let habit = Habit { trends: vec![Trend::STRAIGHT], looks, for_drawing, ..Habit::default() };
-        let seed = Seed { plant: 0, run_seed: 1, component_limit: 9, keep_events: false };
+        let seed = Seed { plant: 0, draws: 0, run_seed: 1, component_limit: 9, keep_events: false };
         let mut plant = Plant::new(&seed, Arc::new(habit));
         let axis = plant.add_axis(NewAxis::OF_THE_SEED);
         let node = plant.add_node(NewNode { axis, length: 0.1, diameter: 0.01, ..NewNode::OF_THE_TRUNK });

@@ -77,7 +77,7 @@ fn add_organ(plant: &mut Plant, node: NodeId, position: u16) {
 pub fn specimen() -> Plant {
     let trend = Trend { inclination: 0.0, share: 0.1 };
     let habit = Habit { trends: vec![trend], looks: Looks::of_shape(Shape::Cone), ..Habit::default() };
-    let seed = Seed { plant: 7, run_seed: 42, component_limit: 1000, keep_events: false };
+    let seed = Seed { plant: 7, draws: 7, run_seed: 42, component_limit: 1000, keep_events: false };
     let mut plant = Plant::new(&seed, Arc::new(habit));
     let trunk = add_axis(&mut plant, None, 5);
     add_axis(&mut plant, Some(trunk[2]), 3);

@@ -12,7 +12,7 @@ use super::share::{SHARE, Share};
 use crate::storage::durable;
 use crate::tables::arrow::plant_ontology;
 use crate::tables::schema::{Column, Type};
-use crate::tables::{RunPlan, Table};
+use crate::tables::{Factor, RunPlan, Table, treatments};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -157,7 +157,9 @@ fn slug(name: &str) -> String {
 fn resource(plan: &RunPlan, table: Table, report: &RunReport) -> Value {
     let paths: Vec<&str> =
         report.files.iter().filter(|file| file.table == Some(table)).map(|file| file.path.as_str()).collect();
-    let fields: Vec<Value> = plan.columns(table).iter().map(field).collect();
+    let declared = plan.columns(table).iter().map(field);
+    let factors = plan.provenance.factors.iter().filter(|_| table == Table::Treatments).map(factor_field);
+    let fields: Vec<Value> = declared.chain(factors).collect();
     let mut schema = json!({ "fields": fields, "missingValues": [] });
     if table != Table::Events {
         schema["primaryKey"] = json!(table.sorted_by());
@@ -198,6 +200,19 @@ fn field(column: &Column) -> Value {
     field
 }
 
+/// The column of a factor in `treatments`.
+fn factor_field(factor: &Factor) -> Value {
+    let mut levels: Vec<&String> = factor.levels.iter().collect();
+    levels.sort();
+    levels.dedup();
+    json!({
+        "name": factor.name,
+        "type": "string",
+        "description": treatments::description_of(factor),
+        "constraints": { "required": true, "enum": levels },
+    })
+}
+
 /// The view of a run with `records` and `plants`: the rows of `records` with the places of components in the plot. The
 /// sums are in double precision, as the places of plants are.
 const WORLD: (&str, &str) = (
@@ -207,7 +222,7 @@ const WORLD: (&str, &str) = (
 );
 
 /// The macros of `views.sql`: the tables that each needs, its description, and its SQL.
-const MACROS: [(&[Table], &str, &str); 7] = [
+const MACROS: [(&[Table], &str, &str); 9] = [
     (
         &[Table::Records],
         "Everything that stands on plants of an age: SELECT kind, count(*) FROM at_age(10) GROUP BY kind;",
@@ -249,6 +264,21 @@ const MACROS: [(&[Table], &str, &str); 7] = [
         "growth() AS TABLE SELECT s.treatment, p.species, s.age, count(*) AS plants, count(*) FILTER (alive) AS alive, \
          avg(internodes) AS internodes, avg(leaves) AS leaves, avg(height_m) AS height_m, avg(leaf_area_m2) AS \
          leaf_area_m2 FROM summary s JOIN plants p USING (plot_id, plant_id) GROUP BY ALL ORDER BY ALL",
+    ),
+    (
+        &[Table::Summary, Table::Treatments],
+        "The means of each treatment at an age, with its level of each factor.",
+        "treatments_at(a) AS TABLE SELECT t.*, count(*) AS plants, count(*) FILTER (s.alive) AS alive, \
+         avg(s.internodes) AS internodes, avg(s.leaves) AS leaves, avg(s.height_m) AS height_m, avg(s.leaf_area_m2) AS \
+         leaf_area_m2 FROM treatments t JOIN summary s USING (treatment) WHERE s.age = a GROUP BY ALL ORDER BY treatment_index",
+    ),
+    (
+        &[Table::Summary, Table::Plants],
+        "The plants at an age with what pairs them across treatments: replicate, and number within it. Plants of the same \
+         replicate and number have the same draws.",
+        "pairs_at(a) AS TABLE SELECT p.replicate, p.block, p.number, s.* FROM summary s JOIN (SELECT plot_id, plant_id, \
+         replicate, block, row_number() OVER (PARTITION BY treatment, replicate ORDER BY plant_id) - 1 AS number FROM \
+         plants) p USING (plot_id, plant_id) WHERE s.age = a ORDER BY ALL",
     ),
 ];
 

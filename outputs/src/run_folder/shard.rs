@@ -7,7 +7,7 @@ use super::RunFolder;
 use super::error::Error;
 use super::journal::{FileReport, OvergrownPlot, ShardReport};
 use crate::storage::durable;
-use crate::tables::{Part, PartReport, Queue, Recording, Table};
+use crate::tables::{Part, PartReport, Queue, Recording, Table, treatments};
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick};
 use std::fs;
 use std::path::PathBuf;
@@ -113,12 +113,26 @@ impl<'a> Shard<'a> {
             let path = part_path(table, self.report.shard);
             self.report.files.push(FileReport { path, table: Some(table), rows: Some(rows), bytes, sha256 });
         }
+        self.write_treatments()?;
         let folder = self.folder;
         folder.watch.wait(|| {
             std::mem::take(&mut self.staged).into_iter().try_for_each(|path| self.name(path))?;
             folder.journal().enter(self.report.clone())
         })?;
         Ok(self.report.clone())
+    }
+
+    /// Writes the table `treatments`, which the first shard has for the whole run.
+    fn write_treatments(&mut self) -> Result<(), Error> {
+        let plan = &self.folder.plan;
+        if self.report.shard > 0 || !plan.tables.contains(&Table::Treatments) {
+            return Ok(());
+        }
+        let path = part_path(Table::Treatments, self.report.shard);
+        let staged = self.stage(&path)?;
+        let PartReport { rows, bytes, sha256 } = treatments::write(&staged, plan, &self.folder.watch)?;
+        self.report.files.push(FileReport { path, table: Some(Table::Treatments), rows: Some(rows), bytes, sha256 });
+        Ok(())
     }
 
     /// Renames a staged file; a file that is no table is synced and hashed first.

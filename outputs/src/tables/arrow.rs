@@ -5,7 +5,7 @@
 
 use super::columns::SCHEMA_VERSION;
 use super::schema::{Column, Encoding, Type};
-use super::{RunPlan, Table};
+use super::{Factor, RunPlan, Table};
 use arrow_schema::{DataType, Field, Schema, SchemaRef};
 use parquet::basic::{Compression, Encoding as ParquetEncoding, ZstdLevel};
 use parquet::errors::ParquetError;
@@ -59,7 +59,12 @@ pub fn properties(table: Table, plan: &RunPlan) -> Result<WriterProperties, Parq
         .set_dictionary_enabled(false)
         .set_sorting_columns(Some(sorting(table, plan.columns(table))))
         .set_key_value_metadata(Some(key_values(table, plan)));
-    Ok(plan.columns(table).iter().fold(base, encode).build())
+    let declared = plan.columns(table).iter().fold(base, encode);
+    let factors = plan.provenance.factors.iter().filter(|_| table == Table::Treatments);
+    let words = |properties: WriterPropertiesBuilder, factor: &Factor| {
+        properties.set_column_dictionary_enabled(ColumnPath::from(factor.name.as_str()), true)
+    };
+    Ok(factors.fold(declared, words).build())
 }
 
 fn encode(properties: WriterPropertiesBuilder, column: &Column) -> WriterPropertiesBuilder {

@@ -1,4 +1,4 @@
-//! The columns of the five tables, each declared once.
+//! The columns of the six tables, each declared once; `treatments` has a further column for each factor of the run.
 //!
 //! The Arrow schema, the Parquet metadata, `datapackage.json` and the documentation are made from these lists. Ids and
 //! ticks are signed, because many readers have no unsigned numbers. Null means "does not apply" or "not by the end of
@@ -319,8 +319,17 @@ pub static PLANTS: [Column; 10] = [
         "replicate",
         "The replicate of the treatment of the plot, from 0; 0 where a run compares no treatments.",
     ),
+    Column::small(
+        "block",
+        "The block of the field that the plot stands in, from 0. Null where the experiment has no blocks.",
+    )
+    .or_null(),
     Column::new("species", Type::Name(Named::Species), Encoding::Dictionary, "The species of the plant."),
-    Column::tick("sown_tick", "The tick of the plot at which the plant was sown: its age 0."),
+    Column::tick(
+        "sown_tick",
+        "The tick of the plot at which the plant was sown: its age 0. Null for a seed that did not germinate.",
+    )
+    .or_null(),
     Column::double(
         "x_m",
         "m",
@@ -335,3 +344,7 @@ pub static PLANTS: [Column; 10] = [
          not in.",
     ),
 ];
+
+/// A row per treatment. A column for each factor follows, with the name of the level.
+pub static TREATMENTS: [Column; 2] =
+    [Column::id("treatment_index", "The number of the treatment, from 0, in the order of its plots."), TREATMENT];

@@ -15,6 +15,8 @@ pub struct Membership {
     pub treatment: u32,
     /// The replicate of that treatment.
     pub replicate: u32,
+    /// The block of the field that the plot stands in.
+    pub block: Option<u32>,
     /// The species of the plant, as an index into the run's list of species.
     pub species: usize,
     /// The tick of the plot at which the plant was sown.
@@ -27,7 +29,8 @@ impl Membership {
     /// The membership of the plant with the index `at` in a plot.
     pub fn of(plot: &Plot, at: usize) -> Self {
         let Member { species, sown } = plot.members[at];
-        Self { plot: plot.id, treatment: plot.treatment, replicate: plot.replicate, species, sown, sampled: true }
+        let Plot { id, treatment, replicate, block, .. } = *plot;
+        Self { plot: id, treatment, replicate, block, species, sown, sampled: true }
     }
 
     /// The plant's age at a tick of the plot; `None` before it is sown.

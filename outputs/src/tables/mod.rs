@@ -1,10 +1,11 @@
-//! The five tables of a run, from the plant's columns to Parquet part files, or to Arrow record batches in memory.
+//! The six tables of a run, from the plant's columns to Parquet part files, or to Arrow record batches in memory.
 //!
 //! [`columns`] declares the columns of each table; `records`, `components`, `events`, `summary` and `plants` fill
 //! column buffers from a plant; `recording` decides which rows are written when, for files and for memory. `part`
 //! writes full buffers as row groups of a file, encoded column by column on as many threads as there are (`encode`);
 //! `memory` keeps them as Arrow record batches. The bytes do not depend on the number of threads: a row group has a
-//! fixed number of rows, and its columns are put into the file in their order.
+//! fixed number of rows, and its columns are put into the file in their order. `treatments` is small, follows from the
+//! plan alone, and is written once a run.
 
 pub mod arrow;
 mod buffers;
@@ -32,6 +33,7 @@ mod tests;
 mod tests_mechanics;
 #[cfg(test)]
 mod tests_plots;
+pub mod treatments;
 
 pub(crate) use component_index::ComponentIndex;
 pub(crate) use components::{ComponentColumns, ComponentRow};
@@ -42,7 +44,7 @@ pub use membership::Membership;
 pub(crate) use membership::by_number;
 pub use memory::{MemoryTables, TableBatches};
 pub(crate) use part::{Part, PartReport};
-pub use plan::{Input, Provenance, RunPlan};
+pub use plan::{Factor, Input, Provenance, RunPlan};
 pub(crate) use plants::PlantColumns;
 pub(crate) use recording::Recording;
 pub(crate) use records::{PlantAtAge, RecordColumns, RecordRow};
@@ -57,7 +59,7 @@ use serde::{Deserialize, Serialize};
 /// Rows in a row group.
 pub const ROW_GROUP: usize = 122_880;
 
-/// One of the five tables.
+/// One of the six tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Table {
@@ -71,11 +73,14 @@ pub enum Table {
     Summary,
     /// A row per plant.
     Plants,
+    /// A row per treatment.
+    Treatments,
 }
 
 impl Table {
     /// Every table.
-    pub const ALL: [Self; 5] = [Self::Components, Self::Records, Self::Events, Self::Summary, Self::Plants];
+    pub const ALL: [Self; 6] =
+        [Self::Components, Self::Records, Self::Events, Self::Summary, Self::Plants, Self::Treatments];
 
     /// The name of the table, and of its folder in the run.
     pub const fn name(self) -> &'static str {
@@ -85,6 +90,7 @@ impl Table {
             Self::Events => "events",
             Self::Summary => "summary",
             Self::Plants => "plants",
+            Self::Treatments => "treatments",
         }
     }
 
@@ -96,10 +102,12 @@ impl Table {
             Self::Events => "A row per fate of a bud or a branch.",
             Self::Summary => "A row per plant and recorded tick.",
             Self::Plants => "A row per plant, with its species, its sowing and its place in the plot.",
+            Self::Treatments => "A row per treatment, with its level of each factor.",
         }
     }
 
-    /// Its columns in a run with or without those of mechanics.
+    /// Its columns in a run with or without those of mechanics. Those of factors, which `treatments` has too, are the
+    /// run's own ([`treatments`]).
     pub fn columns(self, mechanics: bool) -> &'static [Column] {
         match self {
             Self::Components => &columns::COMPONENTS,
@@ -108,6 +116,7 @@ impl Table {
             Self::Events => &columns::EVENTS,
             Self::Summary => &columns::SUMMARY,
             Self::Plants => &columns::PLANTS,
+            Self::Treatments => &columns::TREATMENTS,
         }
     }
 
@@ -120,6 +129,7 @@ impl Table {
             Self::Events => &["plot_id", "tick", "plant_id", "component_id"],
             Self::Summary => &["plot_id", "tick", "plant_id"],
             Self::Plants => &["plot_id", "plant_id"],
+            Self::Treatments => &["treatment_index"],
         }
     }
 }

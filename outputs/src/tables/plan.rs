@@ -43,6 +43,8 @@ pub struct Provenance {
     pub scenario: String,
     /// The treatments of the run, to which plots refer by index; `control` alone for a run without treatments.
     pub treatments: Vec<String>,
+    /// The factors of the experiment, with the level of each treatment; empty for a run without factors.
+    pub factors: Vec<Factor>,
     /// The names of the species of the run, to which plants refer by index.
     pub species: Vec<String>,
     /// The seed of all random draws.
@@ -55,6 +57,15 @@ pub struct Provenance {
     pub resolved: Value,
     /// The files that were read.
     pub inputs: Vec<Input>,
+}
+
+/// A factor of the experiment of a run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Factor {
+    /// The name of the factor, and of its column in `treatments`.
+    pub name: String,
+    /// The name of the level of each treatment, in the order of [`Provenance::treatments`].
+    pub levels: Vec<String>,
 }
 
 /// An input file of a run.

@@ -1,10 +1,10 @@
-//! The rows of `plants`: what is known of a plant when it is sown, as species, tick, replicate and place.
+//! The rows of `plants`: what is known of a plant when it is sown, as species, tick, replicate, block and place.
 //!
 //! The place of a plant is stated here alone, in double precision: a 32-bit float has a precision of 8 mm at 100 km,
 //! while components relative to the plant's seed keep a precision that fits the plant's size. Absent: the growth and
 //! fate of the plant (`summary`).
 
-use super::buffers::columns;
+use super::buffers::{NULL, columns};
 use super::membership::Membership;
 use phytomer_sim::plant::Plant;
 
@@ -15,6 +15,7 @@ columns! {
         plot: Int(i32) = of.plot as i32,
         plant: Int(i32) = plant.id as i32,
         replicate: Int(i32) = of.replicate as i32,
+        block: Int(i32) = of.block.map_or(NULL, |block| block as i32),
         species: Name(i32) = of.species as i32,
         sown: Int(i32) = of.sown as i32,
         x: Double(f64) = plant.place[0],

@@ -134,6 +134,9 @@ pub struct Plant {
 pub struct Seed {
     /// The plant's number in the run, from 0.
     pub plant: u32,
+    /// The key of its draws: [`draw_key`](crate::random::draw_key) of its replicate and its number there, not of its
+    /// treatment.
+    pub draws: u64,
     /// The seed of the run's draws.
     pub run_seed: u64,
     /// The most components that it may have.
@@ -159,7 +162,7 @@ impl Plant {
             habit,
             own_trends: OwnTrends::default(),
             exposure: None,
-            random: PlantRandom::new(seed.run_seed, u64::from(seed.plant)),
+            random: PlantRandom::new(seed.run_seed, seed.draws),
             place: [0.0; 3],
             stated: StatedFrames::default(),
             stated_organs: StatedOrgans::default(),
@@ -180,7 +183,7 @@ impl Plant {
         self.clear();
         self.id = seed.plant;
         self.exposure = None;
-        self.random = PlantRandom::new(seed.run_seed, u64::from(seed.plant));
+        self.random = PlantRandom::new(seed.run_seed, seed.draws);
         self.component_limit = seed.component_limit.min(MOST_COMPONENTS);
         self.events = seed.keep_events.then(|| self.events.take().unwrap_or_default());
     }

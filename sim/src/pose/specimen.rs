@@ -53,7 +53,7 @@ pub struct Specimen {
 impl Specimen {
     pub fn new(branches: &[Branch], trends: &[Trend]) -> Self {
         let habit = Habit { trends: trends.to_vec(), looks: Looks::of_shape(Shape::Cylinder), ..Habit::default() };
-        let seed = Seed { plant: 0, run_seed: 1, component_limit: u32::MAX, keep_events: false };
+        let seed = Seed { plant: 0, draws: 0, run_seed: 1, component_limit: u32::MAX, keep_events: false };
         let plant = Plant::new(&seed, Arc::new(habit));
         let (node_at, axis_at) = (vec![Vec::new(); branches.len()], vec![None; branches.len()]);
         Self { plant, node_at, branches: branches.to_vec(), axis_at }

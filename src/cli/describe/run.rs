@@ -96,7 +96,7 @@ impl Held {
             files.filter(|file| file.extension().is_some_and(|end| end == "ply")).for_each(|file| meshes.add(&file));
         }
         let population = population(&recorded.run)?;
-        let architecture = qualified(&recorded.run, recorded.scenario.plants)?;
+        let architecture = qualified(&recorded.run, recorded.trial.plants())?;
         Ok(Self { recorded, folder, found, tables, meshes, population, architecture })
     }
 
@@ -150,7 +150,7 @@ impl Held {
             "version": run["version"],
             "git_hash": run["git_hash"],
             "schema_version": run["schema_version"],
-            "plants": self.recorded.scenario.plants,
+            "plants": self.recorded.trial.plants(),
             "living": run["living"],
             "dead": run["dead"],
             "components": run["components"],
@@ -232,7 +232,7 @@ impl Held {
     }
 
     fn plants_in_words(&self) -> String {
-        let plants = amounts::count(self.recorded.scenario.plants.into());
+        let plants = amounts::count(self.recorded.trial.plants().into());
         match (self.number("living"), self.number("dead")) {
             (Some(living), Some(dead)) => {
                 let own = match self.found.as_ref().and_then(|found| found.share) {

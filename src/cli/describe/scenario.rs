@@ -6,8 +6,8 @@ use super::super::amounts;
 use super::run::ages_in_words;
 use anyhow::Result;
 use phytomer::run::forecast::{Figure, Forecast};
-use phytomer_config::scenario::Table;
-use phytomer_config::{Resolved, Scenario};
+use phytomer_config::Resolved;
+use phytomer_config::scenario::{Design, Planting, Table};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -19,6 +19,7 @@ use std::fmt::Write as _;
 pub fn as_json(resolved: &Resolved) -> Result<Value> {
     let mut json = resolved.to_json()?;
     json["kind"] = "scenario".into();
+    json["treatments"] = serde_json::to_value(resolved.trial().treatments())?;
     json["expected"] = json!(Forecast::of(resolved));
     Ok(json)
 }
@@ -35,7 +36,10 @@ pub fn as_text(resolved: &Resolved) -> String {
     for species in resolved.all_species() {
         line("species", format!("{} ({})", species.about.name, species.model.name().word()));
     }
-    line("plants", plants_in_words(scenario));
+    line("plants", plants_in_words(resolved));
+    for (name, value) in planting_in_words(&scenario.planting) {
+        line(name, value);
+    }
     for plane in &scenario.site.plane {
         line("plane", format!("through {:?} m, kills the buds towards {:?}", plane.point_m, plane.normal));
     }
@@ -59,16 +63,63 @@ pub fn as_text(resolved: &Resolved) -> String {
             ),
         );
     }
+    text += &treatments_in_words(resolved);
     text
 }
 
+/// The treatments of an experiment, a line each: its name, the plants of a replicate, and what its levels set, as typed
+/// and in SI units.
+fn treatments_in_words(resolved: &Resolved) -> String {
+    let (trial, experiment) = (resolved.trial(), &resolved.scenario.experiment);
+    if trial.treatments().len() == 1 && trial.replicates() == 1 {
+        return String::new();
+    }
+    let design = match experiment.experimental_design {
+        Design::CompletelyRandomised => "completely randomised",
+        Design::RandomisedBlocks => "in randomised blocks",
+    };
+    let (treatments, replicates) = (trial.treatments().len() as u64, u64::from(trial.replicates()));
+    let (treatments, replicates) = (amounts::of(treatments, "treatment"), amounts::of(replicates, "replicate"));
+    let mut text = format!("\n  {treatments}, {replicates} of each, {design}\n");
+    for treatment in trial.treatments() {
+        let plants = amounts::of(treatment.scenario.plants.into(), "plant");
+        let levels = experiment.factor.iter().zip(&treatment.levels);
+        let sets = levels.filter_map(|(factor, name)| factor.level.iter().find(|level| level.name == *name));
+        let sets: Vec<String> =
+            sets.flat_map(|level| level.sets.iter()).map(|(key, value)| format!("{key} = {value}")).collect();
+        let sets = if sets.is_empty() { "the scenario as it stands".to_owned() } else { sets.join(", ") };
+        let _ = writeln!(text, "    {}: {plants} a replicate; {sets}", treatment.name);
+        for (name, value) in planting_in_words(&treatment.scenario.planting) {
+            let _ = writeln!(text, "      {name:<9} {value}");
+        }
+    }
+    text
+}
+
+/// What is said of planting, in the units of ICASA and in SI.
+fn planting_in_words(planting: &Planting) -> Vec<(&'static str, String)> {
+    let cm = |name: &'static str, what: Option<f64>| what.map(|cm| (name, format!("{cm} cm ({} m)", cm / 100.0)));
+    let density = planting.plant_pop_at_planting;
+    let density = density.map(|density| ("density", format!("{density} plants/m² ({density} m⁻²)")));
+    let direction = (planting.row_direction != 0.0).then(|| {
+        let degrees = planting.row_direction;
+        ("rows run", format!("towards {degrees}° from north ({:.4} rad)", degrees.to_radians()))
+    });
+    let germination = (planting.germination < 100.0)
+        .then(|| ("germination", format!("{} % (a share of {})", planting.germination, planting.germination / 100.0)));
+    let stated =
+        [cm("rows", planting.row_spacing), cm("in a row", planting.plant_spacing), density, direction, germination];
+    stated.into_iter().flatten().collect()
+}
+
 /// How many plants there are, in how many plots of which members.
-fn plants_in_words(scenario: &Scenario) -> String {
-    let plants = amounts::count(scenario.plants.into());
-    if scenario.member.is_empty() {
+fn plants_in_words(resolved: &Resolved) -> String {
+    let (scenario, trial) = (&resolved.scenario, resolved.trial());
+    let plants = amounts::count(trial.plants().into());
+    if scenario.member.is_empty() || trial.treatments().len() > 1 {
         return plants;
     }
-    let plots = amounts::of(scenario.plots().into(), "plot");
+    let plots = amounts::of(trial.plots().into(), "plot");
     let later = scenario.member.iter().filter(|member| member.sown > 0).count();
     let sown = if later > 0 { format!(", {later} of them sown later") } else { String::new() };
     format!("{plants}, in {plots} of {}{sown}", amounts::of(scenario.members().into(), "plant"))
@@ -87,6 +138,7 @@ fn tables_in_words(tables: &BTreeSet<Table>) -> String {
         Table::Events => "events",
         Table::Summary => "summary",
         Table::Plants => "plants",
+        Table::Treatments => "treatments",
     };
     let words: Vec<&str> = tables.iter().map(word).collect();
     if words.is_empty() { "none".to_owned() } else { words.join(", ") }
@@ -98,7 +150,7 @@ fn meshes_in_words(resolved: &Resolved) -> String {
     match &scenario.meshes {
         None => "none".to_owned(),
         Some(_) => {
-            let plants = (0..scenario.plants).filter(|plant| scenario.draws(*plant)).count();
+            let plants = (0..resolved.trial().plants()).filter(|plant| scenario.draws(*plant)).count();
             format!("{} at age {}", amounts::of(plants as u64, "plant"), ages.join(", "))
         }
     }

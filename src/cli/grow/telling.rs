@@ -7,7 +7,7 @@ use super::shown;
 use anyhow::Result;
 use phytomer::run::forecast::{Figure, Forecast};
 use phytomer::run::{Outcome, Settings};
-use phytomer_config::Resolved;
+use phytomer_config::{Resolved, Trial};
 use phytomer_outputs::{Space, Table};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -198,12 +198,13 @@ pub fn forecast(
         });
         return terminal::put_json(&what);
     }
-    let plants = amounts::of(scenario.plants.into(), "plant");
+    let trial = resolved.trial();
+    let plants = amounts::of(trial.plants().into(), "plant");
     let species = species_in_words(resolved);
     let (clock, until) = (clock(resolved), scenario.ages.until);
     let mut text = format!("{plants} of `{species}` to {clock} {until}, seed {}\n", scenario.seed);
     match forecast {
-        Some(forecast) => text += &in_words(forecast, scenario.members()),
+        Some(forecast) => text += &(in_words(forecast, trial.most_members()) + &treatments_in_words(forecast, &trial)),
         None => text += "  no forecast: the expectation of this species takes too long to sum up\n",
     }
     let dealt = "of each table, so at most so many shards";
@@ -213,6 +214,22 @@ pub fn forecast(
     terminal::put(&(text + "nothing was written"))
 }
 
+/// What is expected of each treatment of an experiment, a line each.
+fn treatments_in_words(forecast: &Forecast, trial: &Trial) -> String {
+    let mut text = String::new();
+    let replicates = amounts::of(trial.replicates().into(), "replicate");
+    for of in &forecast.treatments {
+        let (plants, components) = (amounts::of(of.plants.into(), "plant"), amounts::about(of.components));
+        let (rows, bytes) = (amounts::about(of.records_rows), amounts::bytes(of.table_bytes));
+        let name = &of.name;
+        let _ = writeln!(
+            text,
+            "  {name}: {plants} in {replicates}, {components} components, {rows} rows of records, {bytes} of tables"
+        );
+    }
+    text
+}
+
 /// The names of all species: "a, b".
 pub fn species_in_words(resolved: &Resolved) -> String {
     resolved.all_species().iter().map(|species| species.about.name.as_str()).collect::<Vec<_>>().join(", ")
@@ -220,7 +237,13 @@ pub fn species_in_words(resolved: &Resolved) -> String {
 
 /// What the last tick of a run is to its plants: their age, unless some are sown later.
 pub fn clock(resolved: &Resolved) -> &'static str {
-    if resolved.scenario.member.iter().any(|member| member.sown > 0) { "tick" } else { "age" }
+    if is_sown_later(resolved) { "tick" } else { "age" }
+}
+
+/// Whether a plant of any treatment is sown after tick 0.
+fn is_sown_later(resolved: &Resolved) -> bool {
+    let trial = resolved.trial();
+    trial.treatments().iter().any(|treatment| treatment.scenario.member.iter().any(|member| member.sown > 0))
 }
 
 fn in_words(forecast: &Forecast, members: u32) -> String {

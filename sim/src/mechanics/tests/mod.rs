@@ -62,7 +62,7 @@ impl Rod {
     pub fn plant(&self) -> Plant {
         let habit =
             Habit { trends: vec![], looks: Looks::of_shape(Shape::Cone), wood: Some(self.wood()), ..Habit::default() };
-        let seed = Seed { plant: 0, run_seed: 1, component_limit: u32::MAX, keep_events: true };
+        let seed = Seed { plant: 0, draws: 0, run_seed: 1, component_limit: u32::MAX, keep_events: true };
         let mut plant = Plant::new(&seed, Arc::new(habit));
         let axis = add_axis(&mut plant, None, self.insertion);
         for rank in 0..self.internodes {

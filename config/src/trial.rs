@@ -1,0 +1,245 @@
+//! The trial of a run: its treatments, and the numbers of their plots and plants.
+//!
+//! Plots and plants are numbered through the whole run: treatment by treatment, in each replicate by replicate, in each
+//! plot by plot and member by member. `plants` of a scenario is the number of plants of one replicate of a treatment.
+//! What is drawn is keyed by the replicate and the number within it, never by the treatment, so that treatments are
+//! compared on the same draws. Absent: places on the field, and growing.
+
+use phytomer_law::fault::{Fault, Path};
+use serde::{Deserialize, Serialize};
+
+use crate::scenario::experiment::{CONTROL, MOST_FIELD_PLOTS};
+use crate::scenario::{Member, Scenario};
+
+/// The most plants of a run.
+const MOST_PLANTS: u64 = 1_000_000_000;
+
+/// A treatment: the scenario with one level of each factor laid over it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Treatment {
+    /// Its name.
+    pub name: String,
+    /// The name of its level of each factor, in the order of the factors.
+    pub levels: Vec<String>,
+    /// Its scenario, without `experiment`.
+    pub scenario: Scenario,
+    /// Its species: of each of [`Scenario::species_names`], the index in the species of the run.
+    pub species: Vec<usize>,
+}
+
+impl Treatment {
+    /// The one treatment of a run that compares none.
+    pub fn control(scenario: &Scenario) -> Self {
+        let mut scenario = scenario.clone();
+        scenario.experiment = Default::default();
+        let species = (0..scenario.species_names().len()).collect();
+        Self { name: CONTROL.to_owned(), levels: Vec::new(), scenario, species }
+    }
+}
+
+/// Where a plot belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PlotPlace {
+    /// Its treatment, as an index into [`Trial::treatments`].
+    pub treatment: usize,
+    /// Its replicate, from 0.
+    pub replicate: u32,
+    /// Its number within treatment and replicate, from 0.
+    pub number: u32,
+    /// The number in the run of its first plant.
+    pub first_plant: u32,
+}
+
+/// Where a plant belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PlantPlace {
+    /// Its treatment, as an index into [`Trial::treatments`].
+    pub treatment: usize,
+    /// Its replicate, from 0.
+    pub replicate: u32,
+    /// Its number within treatment and replicate, from 0.
+    pub number: u32,
+    /// The number in the run of its plot.
+    pub plot: u32,
+    /// Its index among the members of its plot.
+    pub member: u32,
+}
+
+/// The treatments of a run with the numbers of their plots.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trial {
+    scenario: Scenario,
+    treatments: Vec<Treatment>,
+    /// The first plot of each treatment, and the number of all plots.
+    plots: Vec<u32>,
+    /// The first plant of each treatment, and the number of all plants.
+    plants: Vec<u32>,
+}
+
+impl Trial {
+    /// The trial of a scenario. What belongs to the whole run, such as the seed and the ages, is the scenario's own in
+    /// every treatment; a scenario without factors is its own treatment.
+    pub fn of(scenario: &Scenario, treatments: &[Treatment]) -> Self {
+        let treatments: Vec<Treatment> = match treatments {
+            treatments if !treatments.is_empty() && !scenario.experiment.is_control_alone() => {
+                treatments.iter().map(|treatment| settled(scenario, treatment)).collect()
+            }
+            _ => vec![Treatment::control(scenario)],
+        };
+        let replicates = scenario.experiment.replicates;
+        let (mut plots, mut plants) = (vec![0_u32], vec![0_u32]);
+        for Treatment { scenario, .. } in &treatments {
+            let after = |firsts: &[u32], count: u32| {
+                firsts.last().copied().unwrap_or(0).saturating_add(count.saturating_mul(replicates))
+            };
+            plots.push(after(&plots, scenario.plots()));
+            plants.push(after(&plants, scenario.plots() * scenario.members()));
+        }
+        Self { scenario: scenario.clone(), treatments, plots, plants }
+    }
+
+    /// The scenario, without the levels of any treatment.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// The treatments, at least one.
+    pub fn treatments(&self) -> &[Treatment] {
+        &self.treatments
+    }
+
+    /// The number of replicates of each treatment.
+    pub fn replicates(&self) -> u32 {
+        self.scenario.experiment.replicates
+    }
+
+    /// The number of all plots.
+    pub fn plots(&self) -> u32 {
+        self.plots.last().copied().unwrap_or(0)
+    }
+
+    /// The number of all plants.
+    pub fn plants(&self) -> u32 {
+        self.plants.last().copied().unwrap_or(0)
+    }
+
+    /// The most plants that a plot has.
+    pub fn most_members(&self) -> u32 {
+        self.treatments.iter().map(|treatment| treatment.scenario.members()).max().unwrap_or(1)
+    }
+
+    /// The block of a replicate; `None` where the design has no blocks.
+    pub fn block_of(&self, replicate: u32) -> Option<u32> {
+        self.scenario.experiment.block_of(replicate)
+    }
+
+    /// Where a plot belongs; beyond the last plot, where that would.
+    pub fn plot(&self, plot: u32) -> PlotPlace {
+        let treatment = self.treatment_of(&self.plots, plot);
+        let scenario = &self.treatments[treatment].scenario;
+        let of_treatment = plot - self.plots[treatment];
+        let (plots, members) = (scenario.plots().max(1), scenario.members());
+        PlotPlace {
+            treatment,
+            replicate: of_treatment / plots,
+            number: of_treatment % plots,
+            first_plant: self.plants[treatment] + of_treatment * members,
+        }
+    }
+
+    /// Where a plant belongs.
+    pub fn plant(&self, plant: u32) -> PlantPlace {
+        let treatment = self.treatment_of(&self.plants, plant);
+        let scenario = &self.treatments[treatment].scenario;
+        let of_treatment = plant - self.plants[treatment];
+        let members = scenario.members();
+        let plants = (scenario.plots() * members).max(1);
+        PlantPlace {
+            treatment,
+            replicate: of_treatment / plants,
+            number: of_treatment % plants,
+            plot: self.plots[treatment] + of_treatment / members,
+            member: of_treatment % members,
+        }
+    }
+
+    /// The treatment in whose range of numbers a plot or a plant lies.
+    fn treatment_of(&self, firsts: &[u32], number: u32) -> usize {
+        firsts.partition_point(|first| *first <= number).clamp(1, self.treatments.len()) - 1
+    }
+
+    /// The scenario of the treatment of a plant.
+    pub fn scenario_of(&self, plant: u32) -> &Scenario {
+        &self.treatments[self.plant(plant).treatment].scenario
+    }
+
+    /// What a plant is in its plot.
+    pub fn member_of(&self, plant: u32) -> Member {
+        let PlantPlace { treatment, member, .. } = self.plant(plant);
+        self.treatments[treatment].scenario.member.get(member as usize).cloned().unwrap_or_default()
+    }
+
+    /// The tick of its plot at which a plant is sown.
+    pub fn sown_at(&self, plant: u32) -> u32 {
+        self.member_of(plant).sown
+    }
+
+    /// The age, in ticks, that a plant has at the end of the run.
+    pub fn last_age_of(&self, plant: u32) -> u32 {
+        self.scenario.ages.until.saturating_sub(self.sown_at(plant))
+    }
+
+    /// The species of a plant, as an index into the species of the run.
+    pub fn species_of_plant(&self, plant: u32) -> usize {
+        let treatment = &self.treatments[self.plant(plant).treatment];
+        treatment.species.get(treatment.scenario.species_of(&self.member_of(plant))).copied().unwrap_or(0)
+    }
+
+    /// The last age, in ticks, that a plant of a species of the run reaches in any treatment.
+    pub fn last_age_of_species(&self, species: usize) -> u32 {
+        let ages = self.treatments.iter().filter_map(|treatment| {
+            let of_treatment = treatment.species.iter().position(|known| *known == species)?;
+            Some(treatment.scenario.last_age_of_species(of_treatment))
+        });
+        ages.max().unwrap_or(self.scenario.ages.until).max(1)
+    }
+}
+
+/// A treatment in whose scenario all that belongs to the whole run is that of the run.
+fn settled(run: &Scenario, treatment: &Treatment) -> Treatment {
+    let run = run.clone();
+    let scenario = Scenario {
+        name: run.name,
+        description: run.description,
+        seed: run.seed,
+        ages: run.ages,
+        tables: run.tables,
+        sample: run.sample,
+        meshes: run.meshes,
+        limits: run.limits,
+        output: run.output,
+        experiment: Default::default(),
+        ..treatment.scenario.clone()
+    };
+    Treatment { scenario, ..treatment.clone() }
+}
+
+/// The plants of a run whose treatments have these scenarios, and the fault of too many of them.
+pub(crate) fn check_size<'a>(run: &Scenario, treatments: impl Iterator<Item = &'a Scenario>) -> Result<u32, Fault> {
+    let replicates = u64::from(run.experiment.replicates);
+    let path = Path::root().key("experiment").key("replicates");
+    let (mut plants, mut field_plots) = (0_u64, 0_u64);
+    for scenario in treatments {
+        plants = plants.saturating_add(replicates.saturating_mul(scenario.plants.into()));
+        field_plots = field_plots.saturating_add(replicates);
+    }
+    if field_plots > MOST_FIELD_PLOTS {
+        let problem = format!("{field_plots} replicates of treatments are too many");
+        return Err(Fault::new(&path, problem, format!("at most {MOST_FIELD_PLOTS} in all")));
+    }
+    let few = u32::try_from(plants).ok().filter(|few| u64::from(*few) <= MOST_PLANTS);
+    few.ok_or_else(|| {
+        let problem = format!("all treatments and replicates together have {plants} plants");
+        Fault::new(&path, problem, format!("at most {MOST_PLANTS} plants in a run"))
+    })
+}
