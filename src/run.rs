@@ -31,12 +31,13 @@ use drawing::RunMeshes;
 use phytomer_config::{Resolved, Trial};
 use phytomer_outputs::meshes::OwnForms;
 use phytomer_outputs::{
-    Checkup, FreeSpace, Mode, Opening, RunFolder, RunPlan, RunReport, Shard, ShardReport, Share, SystemSpace,
+    Checkup, FreeSpace, Mode, Opening, RunFolder, RunPlan, RunReport, Shard, ShardReport, Share, SystemSpace, WaitFor,
 };
 use phytomer_sim::plant::ThreadBudget;
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick, grow};
 use plots::Plots;
 use rayon::ThreadPool;
+use serde::Serialize;
 use std::borrow::Cow;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -93,8 +94,24 @@ pub struct Outcome {
     pub components_now: u64,
     /// How long it took, seconds.
     pub seconds: f64,
-    /// The share of the time of its threads in which they waited for the writer, in [0, 1].
-    pub waited: f64,
+    /// How long its threads waited for the writer.
+    pub waited: Waited,
+}
+
+/// The shares of the time of all threads of a run in which they waited for the writer, in [0, 1].
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Waited {
+    /// For columns that other threads encode.
+    pub columns: f64,
+    /// For the disk, at the end of each part.
+    pub disk: f64,
+}
+
+impl Waited {
+    fn of(folder: &RunFolder, threads_seconds: f64) -> Self {
+        let share = |what| folder.waited(what).as_secs_f64() / threads_seconds.max(1e-9);
+        Self { columns: share(WaitFor::Columns), disk: share(WaitFor::Disk) }
+    }
 }
 
 impl Outcome {
@@ -173,7 +190,7 @@ impl Begun<'_> {
         } else {
             RunReport::of(&grown)
         };
-        let waited = folder.waited().as_secs_f64() / (seconds * pool.current_num_threads() as f64).max(1e-9);
+        let waited = Waited::of(&folder, seconds * pool.current_num_threads() as f64);
         Ok(Outcome { report, shards, committed, grown_now, components_now, seconds, waited })
     }
 }

@@ -92,7 +92,7 @@ pub struct Scenario {
     /// The number of plants with rows in `components`, `records` and `events`; all if not given. The plants are drawn
     /// by the seed: `sampled` in `plants` tells which. `summary` and `plants` have rows of all plants.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 1))]
+    #[schemars(range(min = 1, max = 1_000_000_000))]
     pub sample: Option<u32>,
     /// The meshes that are written. None if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -27,5 +27,5 @@ pub use run_folder::{
     merge,
 };
 pub use storage::FileError;
-pub use storage::space::{Bytes, FreeSpace, Space, SystemSpace};
+pub use storage::space::{Bytes, FreeSpace, Space, SystemSpace, WaitFor};
 pub use tables::{Input, Provenance, RunPlan, Sample, Table};

@@ -37,7 +37,7 @@ pub use shard::Shard;
 pub use share::Share;
 
 use crate::storage::durable;
-use crate::storage::space::{FreeSpace, SystemSpace, Watch};
+use crate::storage::space::{FreeSpace, SystemSpace, WaitFor, Watch};
 use crate::tables::RunPlan;
 use identity::fingerprint;
 use journal::{JOURNAL, Journal};
@@ -163,9 +163,9 @@ impl RunFolder {
         self.watch.written()
     }
 
-    /// The time that threads have waited since then for columns that others encode and for the disk, all together.
-    pub fn waited(&self) -> Duration {
-        self.watch.waited()
+    /// The time that threads have waited since then for something of the writer, all together.
+    pub fn waited(&self, what: WaitFor) -> Duration {
+        self.watch.waited(what)
     }
 
     /// Opens a shard for writing.

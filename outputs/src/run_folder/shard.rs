@@ -7,6 +7,7 @@ use super::RunFolder;
 use super::error::Error;
 use super::journal::{FileReport, OvergrownPlot, ShardReport};
 use crate::storage::durable;
+use crate::storage::space::WaitFor;
 use crate::tables::{Part, PartReport, Queue, Recording, Table, treatments};
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick};
 use std::fs;
@@ -115,7 +116,7 @@ impl<'a> Shard<'a> {
         }
         self.write_treatments()?;
         let folder = self.folder;
-        folder.watch.wait(|| {
+        folder.watch.wait(WaitFor::Disk, || {
             std::mem::take(&mut self.staged).into_iter().try_for_each(|path| self.name(path))?;
             folder.journal().enter(self.report.clone())
         })?;

@@ -3,7 +3,7 @@
 //! A crash at any moment leaves the old file, the new file, or a file beside its name, which a resumed run removes.
 
 use super::error::FileError;
-use super::space::Watch;
+use super::space::{WaitFor, Watch};
 use sha2::{Digest, Sha256};
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -40,7 +40,7 @@ impl HashingFile {
         // The system reports a lost block once, to the first call that asks, so the background syncs are checked first.
         let watch = Arc::clone(&self.watch);
         watch
-            .wait(|| self.sent().and_then(|()| self.file.sync_all()))
+            .wait(WaitFor::Disk, || self.sent().and_then(|()| self.file.sync_all()))
             .map_err(FileError::io("write to disk", &self.path))?;
         Ok((self.bytes, hexadecimal(&self.hash.finalize())))
     }

@@ -66,13 +66,22 @@ pub struct AlmostFull {
     pub reserve: Bytes,
 }
 
+/// What a thread may wait for that would grow plants.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WaitFor {
+    /// Columns of a row group that other threads encode.
+    Columns = 0,
+    /// The disk, which syncs and renames a file.
+    Disk = 1,
+}
+
 /// Checks the free space of a disk while a run folder is filled.
 #[derive(Debug)]
 pub struct Watch {
     folder: PathBuf,
     space: Arc<dyn FreeSpace>,
     written: AtomicU64,
-    waited_ns: AtomicU64,
+    waited_ns: [AtomicU64; 2],
 }
 
 impl Watch {
@@ -82,7 +91,7 @@ impl Watch {
             folder: folder.to_path_buf(),
             space: Arc::clone(space),
             written: AtomicU64::new(0),
-            waited_ns: AtomicU64::new(0),
+            waited_ns: Default::default(),
         })
     }
 
@@ -91,17 +100,17 @@ impl Watch {
         self.written.load(Relaxed)
     }
 
-    /// The time that threads have waited for the writer, all together.
-    pub fn waited(&self) -> Duration {
-        Duration::from_nanos(self.waited_ns.load(Relaxed))
+    /// The time that threads have waited for something of the writer, all together.
+    pub fn waited(&self, what: WaitFor) -> Duration {
+        Duration::from_nanos(self.waited_ns[what as usize].load(Relaxed))
     }
 
     /// Does what a thread must wait for, and counts the time.
-    pub fn wait<T>(&self, work: impl FnOnce() -> T) -> T {
+    pub fn wait<T>(&self, what: WaitFor, work: impl FnOnce() -> T) -> T {
         let start = Instant::now();
         let result = work();
         let waited = u64::try_from(start.elapsed().as_nanos()).unwrap_or(u64::MAX);
-        self.waited_ns.fetch_add(waited, Relaxed);
+        self.waited_ns[what as usize].fetch_add(waited, Relaxed);
         result
     }
 

@@ -6,7 +6,7 @@
 
 use super::buffers::{self, Values};
 use super::schema::Column;
-use crate::storage::space::Watch;
+use crate::storage::space::{WaitFor, Watch};
 use arrow_array::StringArray;
 use arrow_schema::Field;
 use parquet::arrow::arrow_writer::{ArrowColumnChunk, ArrowColumnWriter, compute_leaves};
@@ -108,7 +108,7 @@ impl Queue {
             let Some(job) = lock(&self.waiting).jobs.pop_front() else { break };
             job.run();
         }
-        watch.wait(|| group.wait())
+        watch.wait(WaitFor::Columns, || group.wait())
     }
 
     fn work(&self) {
