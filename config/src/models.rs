@@ -8,6 +8,7 @@ use std::sync::{Arc, OnceLock};
 use phytomer_law::fault::{Fault, Path};
 use phytomer_models::parameters::{Card, Parameters};
 use phytomer_sim::model::GrowthModel;
+use phytomer_sim::site::calendar::Dates;
 use serde_json::{Value as Json, json};
 
 use crate::about::About;
@@ -126,12 +127,21 @@ impl ModelName {
 }
 
 impl Model {
-    /// Compiles the model for all ages up to `until`, in ticks, and checks every law over its whole range.
+    /// Compiles the model for all ages up to `until`, in ticks, and checks every law over its whole range. A law that
+    /// names the date is a fault: see [`Model::compile_dated`].
     ///
     /// # Errors
     /// Every fault, each with its path from the top of the species file.
     pub fn compile(&self, until: u32) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
-        self.parameters().model(until, &Path::root())
+        self.compile_dated(until, None)
+    }
+
+    /// As [`Model::compile`], for a plant whose ages have these dates.
+    ///
+    /// # Errors
+    /// Every fault, each with its path from the top of the species file.
+    pub fn compile_dated(&self, until: u32, dates: Option<&Dates>) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
+        self.parameters().model(until, dates, &Path::root())
     }
 
     /// As [`Parameters::own_forms`].

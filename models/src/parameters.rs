@@ -8,6 +8,7 @@
 use crate::fault::{Fault, Path};
 use phytomer_sim::Tick;
 use phytomer_sim::model::GrowthModel;
+use phytomer_sim::site::calendar::Dates;
 use std::sync::Arc;
 
 /// The name of a model, a sentence about it, and the roles of its keys in a species file.
@@ -65,11 +66,12 @@ pub trait Parameters {
     /// The name of the model, and the roles of its keys.
     fn card(&self) -> &'static Card;
 
-    /// The model compiled for all ages up to `until`, every law checked over its whole range.
+    /// The model compiled for all ages up to `until`, every law checked over its whole range. `dates` are those of the
+    /// ages, for laws that depend on the date; `None` without a calendar.
     ///
     /// # Errors
     /// Every fault found, each with its path below `top`.
-    fn model(&self, until: Tick, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>>;
+    fn model(&self, until: Tick, dates: Option<&Dates>, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>>;
 
     /// The files of the meshes that the species names as forms, each once, in the order of their numbers, with the path
     /// of the first mention. Empty unless the model has own forms.

@@ -4,8 +4,9 @@
 //! see the site unchanged ([`View`]), and what they did is gathered in the order of the plot. So no result depends on
 //! the threads. Two things feed back today: planes that kill the buds that reach them, and cells of space that plants
 //! claim in the first half of a tick and are granted or refused in the second. Light and events of the date belong
-//! here. What they ask of the calendar stands below: [`date`], [`sun`] and [`degree_days`].
+//! here. What the date alone decides is the [`calendar`], made of [`date`], [`sun`] and [`degree_days`].
 
+pub mod calendar;
 pub mod date;
 pub mod degree_days;
 pub mod sun;

@@ -19,7 +19,13 @@ pub(super) trait Curve {
     /// The variable of which the curve is a function.
     fn over(&self) -> Variable;
     /// The value of the curve where the variable is `x`.
-    fn at(&self, x: u32) -> f64;
+    fn at(&self, x: f64) -> f64;
+    /// The least and the largest value where the variable is in `low..=high`; `None` where nothing is known of them.
+    /// Those at the ends, for a curve that rises or falls all the way.
+    fn extremes(&self, low: f64, high: f64) -> Option<(f64, f64)> {
+        let (from, to) = (self.at(low), self.at(high));
+        Some((from.min(to), from.max(to)))
+    }
     /// Adds a fault for each parameter that is wrong.
     fn check(&self, domain: &Domain, path: &Path, faults: &mut Vec<Fault>);
 }
@@ -35,7 +41,7 @@ pub struct TableLaw {
     #[serde(default = "one", skip_serializing_if = "is_one")]
     #[schemars(range(max = 4294967295_u32))]
     pub from: u32,
-    /// The numbers, for `from`, `from` + 1, `from` + 2 …
+    /// The numbers, for `from`, `from` + 1, `from` + 2 …; between two of them the first holds.
     pub values: Vec<f64>,
     /// What holds beyond the last number: `error` (the table must reach the end), `last` or `zero`.
     #[serde(default, skip_serializing_if = "Beyond::is_error")]
@@ -89,13 +95,20 @@ impl Curve for TableLaw {
         self.over
     }
 
-    fn at(&self, x: u32) -> f64 {
-        let place = x.saturating_sub(self.from) as usize;
+    fn at(&self, x: f64) -> f64 {
+        // The cast rounds down and saturates.
+        let place = (x - f64::from(self.from)) as usize;
         match (self.values.get(place), self.beyond) {
             (Some(&value), _) => value,
             (None, Beyond::Zero) => 0.0,
             (None, _) => self.values.last().copied().unwrap_or(f64::NAN),
         }
+    }
+
+    fn extremes(&self, _: f64, _: f64) -> Option<(f64, f64)> {
+        let beyond = (self.beyond == Beyond::Zero).then_some(0.0);
+        let all = self.values.iter().copied().chain(beyond);
+        Some(all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value))))
     }
 
     fn check(&self, domain: &Domain, path: &Path, faults: &mut Vec<Fault>) {
@@ -115,7 +128,7 @@ impl Curve for TableLaw {
 }
 
 /// A fault for each parameter that is not a finite number, or not above 0 where it must be.
-fn check_numbers(numbers: &[(&str, f64, bool)], path: &Path, faults: &mut Vec<Fault>) {
+pub(super) fn check_numbers(numbers: &[(&str, f64, bool)], path: &Path, faults: &mut Vec<Fault>) {
     for &(name, value, positive) in numbers {
         let expected = if positive { "a finite number above 0" } else { "a finite number" };
         if !value.is_finite() || (positive && value <= 0.0) {
@@ -145,8 +158,8 @@ impl Curve for StepLaw {
         self.over
     }
 
-    fn at(&self, x: u32) -> f64 {
-        if x < self.at { self.before } else { self.after }
+    fn at(&self, x: f64) -> f64 {
+        if x < f64::from(self.at) { self.before } else { self.after }
     }
 
     fn check(&self, _: &Domain, path: &Path, faults: &mut Vec<Fault>) {
@@ -180,8 +193,8 @@ impl Curve for LinearLaw {
         self.over
     }
 
-    fn at(&self, x: u32) -> f64 {
-        let line = self.start + self.slope * f64::from(x);
+    fn at(&self, x: f64) -> f64 {
+        let line = self.start + self.slope * x;
         line.max(self.min.unwrap_or(f64::NEG_INFINITY)).min(self.max.unwrap_or(f64::INFINITY))
     }
 
@@ -218,8 +231,8 @@ impl Curve for ExponentialLaw {
         self.over
     }
 
-    fn at(&self, x: u32) -> f64 {
-        self.end + (self.start - self.end) * math::exp(-self.rate * f64::from(x))
+    fn at(&self, x: f64) -> f64 {
+        self.end + (self.start - self.end) * math::exp(-self.rate * x)
     }
 
     fn check(&self, _: &Domain, path: &Path, faults: &mut Vec<Fault>) {
@@ -253,8 +266,8 @@ impl Curve for LogisticLaw {
         self.over
     }
 
-    fn at(&self, x: u32) -> f64 {
-        self.low + (self.high - self.low) / (1.0 + math::exp(-self.steepness * (f64::from(x) - self.midpoint)))
+    fn at(&self, x: f64) -> f64 {
+        self.low + (self.high - self.low) / (1.0 + math::exp(-self.steepness * (x - self.midpoint)))
     }
 
     fn check(&self, _: &Domain, path: &Path, faults: &mut Vec<Fault>) {
@@ -269,10 +282,12 @@ impl Curve for LogisticLaw {
 }
 
 /// The probability of ending in the unit before `x`, given life up to it, from a cumulative hazard; 0 at x = 0.
-fn hazard(x: u32, cumulative: impl Fn(f64) -> f64) -> f64 {
-    let Some(before) = x.checked_sub(1) else { return 0.0 };
-    let total = cumulative(f64::from(x));
-    if total == f64::INFINITY { 1.0 } else { -math::expm1(cumulative(f64::from(before)) - total) }
+fn hazard(x: f64, cumulative: impl Fn(f64) -> f64) -> f64 {
+    if x <= 0.0 {
+        return 0.0;
+    }
+    let (before, total) = (cumulative((x - 1.0).max(0.0)), cumulative(x));
+    if total == f64::INFINITY { 1.0 } else { -math::expm1(before - total) }
 }
 
 /// The hazard of one tick of a Weibull life length: 1 − exp(−((x/scale)^shape − ((x−1)/scale)^shape)), 0 at x = 0.
@@ -293,8 +308,12 @@ impl Curve for WeibullLaw {
         self.over
     }
 
-    fn at(&self, x: u32) -> f64 {
+    fn at(&self, x: f64) -> f64 {
         hazard(x, |x| math::pow(x / self.scale, self.shape))
+    }
+
+    fn extremes(&self, _: f64, _: f64) -> Option<(f64, f64)> {
+        Some((0.0, 1.0))
     }
 
     fn check(&self, _: &Domain, path: &Path, faults: &mut Vec<Fault>) {
@@ -321,8 +340,12 @@ impl Curve for RobustaLaw {
         self.over
     }
 
-    fn at(&self, x: u32) -> f64 {
+    fn at(&self, x: f64) -> f64 {
         hazard(x, |i| self.alpha * math::pow(i, self.beta))
+    }
+
+    fn extremes(&self, _: f64, _: f64) -> Option<(f64, f64)> {
+        Some((0.0, 1.0))
     }
 
     fn check(&self, _: &Domain, path: &Path, faults: &mut Vec<Fault>) {

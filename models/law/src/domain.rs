@@ -2,11 +2,13 @@
 //!
 //! A variable that a law does not use has stride 0, so a constant is one cell. Points outside the range are clamped.
 //! An axis is never older than its plant, so a point with dimension > age cannot occur; it is read as dimension = age.
+//! What the date alone decides has no axis of its own in a table: a law that names it is a function of the age.
 //! Absent: what the variables mean and which laws may depend on them (`variable`).
 
 use super::MAX_CELLS;
 use super::variable::{Asked, Variable};
 use phytomer_sim::clock::LAST_TICK;
+use phytomer_sim::site::calendar::Dates;
 
 /// The point at which a law is evaluated, as of the moment of the draw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,7 +32,7 @@ pub struct At {
 }
 
 /// The points at which a law can be evaluated: the order and the range of each variable.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Domain {
     /// Order of the axis, trunk = 1; 0 where the law belongs to no axis, as a quantity that a plant draws once.
     pub order: u8,
@@ -48,6 +50,10 @@ pub struct Domain {
     pub asked: Asked,
     /// The longest run that there can be.
     pub longest: Longest,
+    /// The dates of the plant's ages; `None` without a calendar.
+    pub dates: Option<Dates>,
+    /// The value at which every variable is held, for a law of one variable whose value at a reference is asked for.
+    pub held: Option<f64>,
 }
 
 /// How far variables go in the longest run that there can be. The places in a stream of words follow these limits and
@@ -64,7 +70,7 @@ pub struct Longest {
     pub ranks_go_on: bool,
 }
 
-/// The number of variables of a grid: those of [`Variable`] and the state.
+/// The number of variables of a grid: those of [`Variable`] that the date does not decide, and the state.
 const AXES: usize = 8;
 /// The place of the state among the variables of a grid.
 const STATE: usize = 7;
@@ -73,19 +79,32 @@ const OF_THE_BUD: usize = 4;
 
 /// Which variables a law depends on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Uses([bool; AXES]);
+pub(super) struct Uses {
+    /// The variables of the grid.
+    axes: [bool; AXES],
+    /// Those of [`Variable::OF_THE_DATE`], each of which also uses the age.
+    dates: [bool; Variable::OF_THE_DATE.len()],
+}
 
 impl Uses {
     pub fn add(&mut self, variable: Variable) {
-        self.0[variable as usize] = true;
+        self.axes[axis_of(variable)] = true;
+        if let Some(place) = place_among_dates(variable) {
+            self.dates[place] = true;
+        }
     }
 
     pub fn add_state(&mut self) {
-        self.0[STATE] = true;
+        self.axes[STATE] = true;
     }
 
     pub fn has(&self, variable: Variable) -> bool {
-        self.0[variable as usize]
+        place_among_dates(variable).map_or_else(|| self.axes[axis_of(variable)], |place| self.dates[place])
+    }
+
+    /// The variables of the date that the law depends on.
+    pub fn of_the_date(self) -> impl Iterator<Item = Variable> {
+        Variable::OF_THE_DATE.into_iter().filter(move |variable| self.has(*variable))
     }
 
     /// The variables that the law depends on, without the state.
@@ -94,14 +113,24 @@ impl Uses {
     }
 
     pub fn join(&mut self, other: Uses) {
-        self.0.iter_mut().zip(other.0).for_each(|(mine, theirs)| *mine |= theirs);
+        self.axes.iter_mut().zip(other.axes).for_each(|(mine, theirs)| *mine |= theirs);
+        self.dates.iter_mut().zip(other.dates).for_each(|(mine, theirs)| *mine |= theirs);
     }
 }
 
+/// The place of a variable in a grid; that of the age for those of the date.
+fn axis_of(variable: Variable) -> usize {
+    (if variable.is_of_the_date() { Variable::Age } else { variable }) as usize
+}
+
+fn place_among_dates(variable: Variable) -> Option<usize> {
+    Variable::OF_THE_DATE.iter().position(|known| *known == variable)
+}
+
 impl At {
-    /// The value of `variable` at this point.
+    /// The value of `variable` at this point; of a variable of the date the age, which decides it.
     pub fn get(&self, variable: Variable) -> u32 {
-        self.all()[variable as usize]
+        self.all()[axis_of(variable)]
     }
 
     #[inline]
@@ -113,9 +142,9 @@ impl At {
     /// The variables in `uses` with their values, such as "age 3, dimension 27, state adult"; empty where there are
     /// none.
     pub(super) fn describe(&self, uses: Uses, domain: &Domain) -> String {
-        let mut words: Vec<String> =
-            uses.variables().map(|variable| format!("{} {}", variable.name(), self.get(variable))).collect();
-        if let (true, Some(state)) = (uses.0[STATE], domain.states.get(usize::from(self.state))) {
+        let shown = |variable: Variable| format!("{} {}", variable.name(), domain.read(variable, *self));
+        let mut words: Vec<String> = uses.variables().map(shown).collect();
+        if let (true, Some(state)) = (uses.axes[STATE], domain.states.get(usize::from(self.state))) {
             words.push(format!("state {state}"));
         }
         words.join(", ")
@@ -133,6 +162,8 @@ impl Domain {
         states: Vec::new(),
         asked: Asked::Once,
         longest: Longest { max_cycle: 0, max_unit: 0, max_rank: 0, ranks_go_on: false },
+        dates: None,
+        held: None,
     };
 
     /// The domain of a thing of an axis of `order` whose laws depend on its own age alone, from 0 to `until` ticks.
@@ -148,6 +179,41 @@ impl Domain {
             Variable::Cycle => (0, self.max_cycle),
             Variable::Rank => (self.max_rank.min(1), self.max_rank),
             Variable::Unit => (0, self.max_unit),
+            _ => self.range_of_dates(variable),
+        }
+    }
+
+    /// The whole numbers between which a variable of the date stays in the run.
+    fn range_of_dates(&self, variable: Variable) -> (u32, u32) {
+        let values = (1..=self.until.max(1)).filter_map(|age| self.on_date(variable, age));
+        let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
+        // The casts saturate.
+        (low.min(high).floor() as u32, high.ceil() as u32)
+    }
+
+    /// The value of a variable at a point; not a number where it is of the date and not known.
+    pub(super) fn read(&self, variable: Variable, at: At) -> f64 {
+        if let Some(held) = self.held {
+            return held;
+        }
+        match variable.is_of_the_date() {
+            true => self.on_date(variable, at.age).unwrap_or(f64::NAN),
+            false => f64::from(at.get(variable)),
+        }
+    }
+
+    /// The value of a variable of the date at an age of the plant; `None` where it is not known.
+    pub(super) fn on_date(&self, variable: Variable, age: u32) -> Option<f64> {
+        if self.held.is_some() {
+            return self.held;
+        }
+        let dates = self.dates.as_ref()?;
+        match variable {
+            Variable::Nitrogen => dates.at_age(age).nitrogen_kg_ha,
+            Variable::DegreeDays => dates.degree_days_by(age),
+            Variable::DayLengthH => dates.at_age(age).day_length_h,
+            Variable::Date => Some(f64::from(dates.at_age(age).date.day_of_year())),
+            _ => None,
         }
     }
 
@@ -190,13 +256,13 @@ impl Grid {
     pub fn over(uses: Uses, domain: &Domain) -> Result<Self, u64> {
         let mut grid = Self::single();
         let mut cells: u64 = 1;
-        let ranges = Variable::ALL.map(|variable| domain.range(variable));
         let states = (0, u32::try_from(domain.states.len().saturating_sub(1)).unwrap_or(u32::MAX));
-        let [age, dimension, cycle, rank, bud_birth, bud_dimension, unit] = ranges;
         // The rank runs fastest and the state slowest.
-        let of_time = [(2, cycle), (6, unit), (5, bud_dimension), (1, dimension), (4, bud_birth), (0, age)];
-        for (axis, (first, last)) in [(3, rank)].into_iter().chain(of_time).chain([(STATE, states)]) {
-            if !uses.0[axis] {
+        use Variable::{Age, BudBirth, BudDimension, Cycle, Dimension, Rank, Unit};
+        let of_time = [Rank, Cycle, Unit, BudDimension, Dimension, BudBirth, Age];
+        let ranges = of_time.map(|variable| (axis_of(variable), domain.range(variable)));
+        for (axis, (first, last)) in ranges.into_iter().chain([(STATE, states)]) {
+            if !uses.axes[axis] {
                 continue;
             }
             grid.first[axis] = first;

@@ -6,7 +6,7 @@
 
 use phytomer_sim::math;
 
-use super::domain::{At, Uses};
+use super::domain::{At, Domain, Uses};
 use super::variable::Variable;
 
 /// One step of the postfix code.
@@ -34,15 +34,20 @@ impl Expression {
         self.code.iter().any(|op| matches!(op, Op::Order))
     }
 
-    /// The value at a point of an axis of `order`; NaN where the expression is undefined. `stack` is scratch memory.
-    /// Linear in the steps of the code.
-    pub fn value(&self, order: u8, at: At, stack: &mut Vec<f64>) -> f64 {
+    /// The variables that the expression names.
+    pub fn named(&self) -> impl Iterator<Item = Variable> {
+        self.code.iter().filter_map(|op| if let Op::Load(variable) = op { Some(*variable) } else { None })
+    }
+
+    /// The value at a point of a domain; NaN where the expression is undefined. `stack` is scratch memory. Linear in the
+    /// steps of the code.
+    pub fn value(&self, domain: &Domain, at: At, stack: &mut Vec<f64>) -> f64 {
         stack.clear();
         for &op in &self.code {
             let value = match op {
                 Op::Number(number) => number,
-                Op::Order => f64::from(order),
-                Op::Load(variable) => f64::from(at.get(variable)),
+                Op::Order => f64::from(domain.order),
+                Op::Load(variable) => domain.read(variable, at),
                 Op::Unary(f) => f(pop(stack)),
                 Op::Binary(f) => {
                     let right = pop(stack);

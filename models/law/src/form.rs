@@ -12,11 +12,12 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::bare::{self, BareOr};
 use super::curves::{ExponentialLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw};
+use super::responses::{LinearPlateauLaw, MitscherlichLaw, QuadraticPlateauLaw};
 use crate::fault::{Fault, Path};
 
-/// A law: a number as a function of age, dimension, cycle, rank, bud_birth, bud_dimension, unit and state. Written as a
-/// bare number, or as a table with exactly one kind, for example `{ value = 0.1 }` or
-/// `{ expression = "min(1, 0.01 * dimension)" }`.
+/// A law: a number as a function of age, dimension, cycle, rank, bud_birth, bud_dimension, unit and state, and of
+/// nitrogen, degree_days, day_length_h and date where the scenario tells them. Written as a bare number, or as a table
+/// with exactly one kind, for example `{ value = 0.1 }` or `{ expression = "min(1, 0.01 * dimension)" }`.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Law {
@@ -63,8 +64,23 @@ pub struct LawForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "RobustaLaw")]
     pub robusta: Option<RobustaLaw>,
-    /// A formula of order, age, dimension, cycle, rank, bud_birth, bud_dimension and unit: + - * / ^, comparisons (0 or
-    /// 1), and, or, not, min, max, exp, log (natural), pow, sqrt, abs, floor, if(condition, then, else).
+    /// The law of diminishing returns: max (1 − exp(−rate (x + offset))), which starts at 0 where x is −offset
+    /// (Mitscherlich 1909).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "MitscherlichLaw")]
+    pub mitscherlich: Option<MitscherlichLaw>,
+    /// A straight line up to a plateau: start + slope min(x, plateau_from) (Cerrato & Blackmer 1990).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "LinearPlateauLaw")]
+    pub linear_plateau: Option<LinearPlateauLaw>,
+    /// A parabola up to the plateau at its vertex: start + slope (x − x² / (2 plateau_from)), and start + slope
+    /// plateau_from / 2 from there on (Cerrato & Blackmer 1990).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "QuadraticPlateauLaw")]
+    pub quadratic_plateau: Option<QuadraticPlateauLaw>,
+    /// A formula of order, age, dimension, cycle, rank, bud_birth, bud_dimension, unit, nitrogen, degree_days,
+    /// day_length_h and date: + - * / ^, comparisons (0 or 1), and, or, not, min, max, exp, log (natural), pow, sqrt, abs,
+    /// floor, if(condition, then, else).
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub expression: Option<String>,
@@ -133,6 +149,9 @@ impl LawForm {
             ("logistic", self.logistic.is_some()),
             ("weibull", self.weibull.is_some()),
             ("robusta", self.robusta.is_some()),
+            ("mitscherlich", self.mitscherlich.is_some()),
+            ("linear_plateau", self.linear_plateau.is_some()),
+            ("quadratic_plateau", self.quadratic_plateau.is_some()),
             ("expression", self.expression.is_some()),
             ("by_state", self.by_state.is_some()),
         ];

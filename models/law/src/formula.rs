@@ -3,7 +3,7 @@
 //! Faults of form (no kind, two kinds, a table too short, an unknown state) are found here, faults of value (outside
 //! the range at some point) at the evaluation. Absent on purpose: the tables that the values go to.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::curves::Curve;
 use super::domain::{At, Domain, Grid, Uses};
@@ -11,7 +11,7 @@ use super::expression::Expression;
 use super::form::{Law, LawForm};
 use super::range::ValueRange;
 use super::variable::Variable;
-use super::{MAX_CELLS, MAX_WORK, parser, spelling};
+use super::{MAX_CELLS, MAX_WORK, dates, parser, spelling};
 use crate::fault::{Fault, Path};
 
 /// The most steps of evaluation spent on a law's values beyond the run at hand: a few milliseconds.
@@ -37,12 +37,16 @@ impl Term {
         }
     }
 
-    /// The name of a variable, or the order, that the term depends on and that is not known in this domain.
-    fn unknown(&self, domain: &Domain) -> Option<&'static str> {
-        let has_ranks = domain.max_rank > 0;
-        let variable = self.uses().variables().find(|variable| !domain.asked.knows(*variable, has_ranks));
+    /// The fault of a variable, or the order, that the term depends on and that is not known in this domain.
+    fn unknown(&self, domain: &Domain, path: &Path) -> Option<Fault> {
+        let (has_ranks, uses) = (domain.max_rank > 0, self.uses());
+        let is_unknown = |variable: &Variable| !domain.asked.knows(*variable, has_ranks);
+        // A law of the date depends on the age too: what was written is told.
+        let variable = uses.of_the_date().find(is_unknown).or_else(|| uses.variables().find(is_unknown));
         let of_order = matches!(self, Self::Code(code) if code.names_order()) && !domain.asked.knows_order();
-        variable.map(Variable::name).or(of_order.then_some("order"))
+        let name = variable.map(Variable::name).or(of_order.then_some("order"));
+        let here = name.map(|name| domain.asked.fault(name, path));
+        here.or_else(|| uses.of_the_date().find_map(|variable| dates::fault_of(variable, domain, path)))
     }
 }
 
@@ -119,9 +123,7 @@ impl<'a> Formula<'a> {
         };
         let Some(term) = term else { return };
         let uses = term.uses();
-        if let Some(name) = term.unknown(self.domain) {
-            faults.push(self.domain.asked.fault(name, path));
-        }
+        faults.extend(term.unknown(self.domain, path));
         self.uses.join(uses);
         if faults.len() == before {
             self.parts.push(Part { term, path: path.clone() });
@@ -155,8 +157,8 @@ impl<'a> Formula<'a> {
         let Some(part) = self.part(at) else { return f64::NAN };
         match &part.term {
             Term::Value(value) => *value,
-            Term::Curve(curve) => curve.at(at.get(curve.over())),
-            Term::Code(code) => code.value(self.domain.order, at, stack),
+            Term::Curve(curve) => curve.at(self.domain.read(curve.over(), at)),
+            Term::Code(code) => code.value(self.domain, at, stack),
         }
     }
 
@@ -203,6 +205,19 @@ impl<'a> Formula<'a> {
         self.parts.get(self.state(at))
     }
 
+    /// The variables that the law names, each once; not the age for a variable of the date.
+    pub fn named(&self) -> BTreeSet<Variable> {
+        let mut named = BTreeSet::new();
+        for part in &self.parts {
+            match &part.term {
+                Term::Value(_) => {}
+                Term::Curve(curve) => _ = named.insert(curve.over()),
+                Term::Code(code) => named.extend(code.named()),
+            }
+        }
+        named
+    }
+
     /// The index of the part that holds at a point.
     fn state(&self, at: At) -> usize {
         usize::from(at.state).min(self.parts.len().saturating_sub(1))
@@ -216,6 +231,9 @@ impl<'a> Formula<'a> {
     /// The least and the largest value in the longest run that there can be; `None` where there are too many points to
     /// look at. Points without a value are passed over.
     pub fn extremes_in_any_run(&self) -> Option<(f64, f64)> {
+        if self.uses.of_the_date().next().is_some() {
+            return self.extremes_on_any_date();
+        }
         let grid = Grid::over(self.uses, &self.domain.in_the_longest_run()).ok()?;
         if self.steps().saturating_mul(grid.len() as u64) > MOST_LOOKING_AHEAD {
             return None;
@@ -227,6 +245,19 @@ impl<'a> Formula<'a> {
                 .filter(|value| !value.is_nan())
                 .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value))),
         )
+    }
+
+    /// The least and the largest value whatever the date: a longer run has other dates, which its scenario tells. `None`
+    /// where no bounds are known.
+    fn extremes_on_any_date(&self) -> Option<(f64, f64)> {
+        let of_part = |part: &Part| match &part.term {
+            Term::Value(value) => Some((*value, *value)),
+            Term::Curve(curve) => curve.over().bounds().and_then(|(low, high)| curve.extremes(low, high)),
+            Term::Code(_) => None,
+        };
+        self.parts.iter().try_fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), part| {
+            of_part(part).map(|(least, largest)| (low.min(least), high.max(largest)))
+        })
     }
 
     fn steps(&self) -> u64 {
@@ -266,6 +297,9 @@ impl LawForm {
             ("logistic", boxed(&self.logistic)),
             ("weibull", boxed(&self.weibull)),
             ("robusta", boxed(&self.robusta)),
+            ("mitscherlich", boxed(&self.mitscherlich)),
+            ("linear_plateau", boxed(&self.linear_plateau)),
+            ("quadratic_plateau", boxed(&self.quadratic_plateau)),
         ];
         curves.into_iter().find_map(|(kind, curve)| curve.map(|curve| (kind, curve)))
     }

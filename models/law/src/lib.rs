@@ -14,6 +14,7 @@ mod count;
 mod count_source;
 mod count_table;
 mod curves;
+mod dates;
 mod domain;
 mod expression;
 pub mod fault;
@@ -25,12 +26,15 @@ mod parser;
 mod quantile;
 mod quantity;
 mod range;
-mod response;
+mod responding;
+mod responses;
 mod speed;
 pub mod spelling;
 mod table;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_dates;
 #[cfg(test)]
 mod tests_draws;
 mod variable;
@@ -45,7 +49,8 @@ pub use domain::{At, Domain, Longest};
 pub use form::{Law, LawForm};
 pub use quantity::{Quantity, QuantityForm};
 pub use range::ValueRange;
-pub use response::Responding;
+pub use responding::Responding;
+pub use responses::{LinearPlateauLaw, MitscherlichLaw, QuadraticPlateauLaw};
 pub use speed::{SpeedForm, SpeedTable, SpeedText, Speeds};
 pub use table::{ProbabilityTable, ValueTable, happens};
 pub use variable::{Asked, Variable};

@@ -5,6 +5,9 @@
 //! its dimension the same tick counted from the birth of its axis, so neither moves while the bud pauses. These two are
 //! `bud_birth` and `bud_dimension` here; `age` and `dimension` are read from the clock at the moment of the draw and
 //! move with every tick. For a node that is being made both meanings agree, because it is born at that tick.
+//!
+//! `nitrogen`, `degree_days`, `day_length_h` and `date` are known where the scenario has a calendar that tells them; a
+//! law reads them for the tick at which it is drawn (`dates`).
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
@@ -31,12 +34,34 @@ pub enum Variable {
     BudDimension,
     /// The growth units that the axis has made before the one that is being made, from 0.
     Unit,
+    /// The nitrogen of the season, kg/ha: the soil's own supply and what was applied since the season began.
+    Nitrogen,
+    /// Degree-days since the plant was sown, °C d.
+    DegreeDays,
+    /// Hours from sunrise to sunset.
+    DayLengthH,
+    /// The day of the year, from 1 (1 January).
+    Date,
 }
 
 impl Variable {
     /// Every variable, in the order of the lists that people see.
-    pub const ALL: [Self; 7] =
-        [Self::Age, Self::Dimension, Self::Cycle, Self::Rank, Self::BudBirth, Self::BudDimension, Self::Unit];
+    pub const ALL: [Self; 11] = [
+        Self::Age,
+        Self::Dimension,
+        Self::Cycle,
+        Self::Rank,
+        Self::BudBirth,
+        Self::BudDimension,
+        Self::Unit,
+        Self::Nitrogen,
+        Self::DegreeDays,
+        Self::DayLengthH,
+        Self::Date,
+    ];
+
+    /// The variables that the date alone decides.
+    pub const OF_THE_DATE: [Self; 4] = [Self::Nitrogen, Self::DegreeDays, Self::DayLengthH, Self::Date];
 
     /// The name in files and expressions.
     pub const fn name(self) -> &'static str {
@@ -48,6 +73,10 @@ impl Variable {
             Self::BudBirth => "bud_birth",
             Self::BudDimension => "bud_dimension",
             Self::Unit => "unit",
+            Self::Nitrogen => "nitrogen",
+            Self::DegreeDays => "degree_days",
+            Self::DayLengthH => "day_length_h",
+            Self::Date => "date",
         }
     }
 
@@ -69,7 +98,29 @@ impl Variable {
                  a bud in de Reffye 1988 §3"
             }
             Self::Unit => "growth units that the axis has made before this one, from 0",
+            Self::Nitrogen => {
+                "the nitrogen of the season, kg/ha: the soil's own supply and what was applied since the season began"
+            }
+            Self::DegreeDays => "degree-days since the plant was sown, °C d",
+            Self::DayLengthH => "hours from sunrise to sunset on the date, from 0 to 24",
+            Self::Date => "the day of the year, from 1 (1 January) to 366",
         }
+    }
+
+    /// The least and the largest value that a variable of the date can have in any scenario; `None` for the others.
+    pub const fn bounds(self) -> Option<(f64, f64)> {
+        match self {
+            Self::Nitrogen => Some((0.0, 100_000.0)),
+            Self::DegreeDays => Some((0.0, 1e9)),
+            Self::DayLengthH => Some((0.0, 24.0)),
+            Self::Date => Some((1.0, 366.0)),
+            _ => None,
+        }
+    }
+
+    /// Whether the date alone decides the variable, so that it is a function of the age of the plant.
+    pub const fn is_of_the_date(self) -> bool {
+        self.bounds().is_some()
     }
 
     /// Whether the variable moves only when the bud makes a growth unit.
@@ -124,6 +175,7 @@ impl Asked {
     pub(super) fn knows(self, variable: Variable, has_ranks: bool) -> bool {
         use Variable::{Age, Cycle, Dimension, Rank};
         match self {
+            _ if variable.is_of_the_date() => self.knows(Age, has_ranks),
             Self::Bud => variable != Rank || has_ranks,
             Self::Birth | Self::Response => variable == Age,
             Self::Internode => matches!(variable, Age | Dimension | Cycle),

@@ -7,6 +7,7 @@ use crate::fault::{Fault, Path};
 use crate::parameters::{ByPlace, Card, Keys, Parameters, Together};
 use phytomer_sim::Tick;
 use phytomer_sim::model::GrowthModel;
+use phytomer_sim::site::calendar::Dates;
 use std::sync::Arc;
 
 /// The keys of a wood that are checked even where its stiffness is refused; the others depend on it.
@@ -31,8 +32,8 @@ impl Parameters for Buds {
         &Self::CARD
     }
 
-    fn model(&self, until: Tick, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
-        Ok(Arc::new(self.compile(until, top)?))
+    fn model(&self, until: Tick, dates: Option<&Dates>, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
+        Ok(Arc::new(self.compile_dated(until, dates, top)?))
     }
 
     fn own_forms(&self) -> Vec<(Path, &str)> {

@@ -17,6 +17,8 @@ mod record;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_dates;
+#[cfg(test)]
 mod tests_drawn;
 #[cfg(test)]
 mod tests_faults;

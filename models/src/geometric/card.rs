@@ -7,6 +7,7 @@ use crate::fault::{Fault, Path};
 use crate::parameters::{Card, Keys, Parameters};
 use phytomer_sim::Tick;
 use phytomer_sim::model::GrowthModel;
+use phytomer_sim::site::calendar::Dates;
 use std::sync::Arc;
 
 impl Gmt1 {
@@ -23,7 +24,7 @@ impl Parameters for Gmt1 {
         &Self::CARD
     }
 
-    fn model(&self, until: Tick, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
+    fn model(&self, until: Tick, _: Option<&Dates>, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
         Ok(Arc::new(self.compile(until, top)?))
     }
 

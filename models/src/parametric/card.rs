@@ -8,6 +8,7 @@ use crate::fault::{Fault, Path};
 use crate::parameters::{Card, Keys, Parameters};
 use phytomer_sim::Tick;
 use phytomer_sim::model::GrowthModel;
+use phytomer_sim::site::calendar::Dates;
 use std::sync::Arc;
 
 impl Tree {
@@ -24,7 +25,7 @@ impl Parameters for Tree {
         &Self::CARD
     }
 
-    fn model(&self, until: Tick, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
+    fn model(&self, until: Tick, _: Option<&Dates>, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
         Ok(Arc::new(self.compile(until, top)?))
     }
 

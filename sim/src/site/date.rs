@@ -18,13 +18,15 @@ pub struct Date {
 /// Days of an era of 400 years.
 const DAYS_OF_ERA: i32 = 146_097;
 /// Days from 0000-03-01 to 1970-01-01.
-const EPOCH: i32 = 719_468;
+const TO_EPOCH: i32 = 719_468;
 /// The years that a date may have.
 const YEARS: std::ops::RangeInclusive<i32> = -9999..=9999;
 
 impl Date {
     /// The first day that there is, −9999-01-01.
     pub const FIRST: Self = Self { number: -4_371_587 };
+    /// 1970-01-01, from which tables and other programs count days.
+    pub const EPOCH: Self = Self { number: 0 };
     /// The last one, 9999-12-31.
     pub const LAST: Self = Self { number: 2_932_896 };
 
@@ -92,7 +94,7 @@ impl Date {
 
     /// Year, month and day of the month.
     fn parts(self) -> (i32, u32, u32) {
-        let shifted = self.number + EPOCH;
+        let shifted = self.number + TO_EPOCH;
         let (era, day_of_era) = (shifted.div_euclid(DAYS_OF_ERA), shifted.rem_euclid(DAYS_OF_ERA));
         let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
         let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
@@ -134,7 +136,7 @@ fn number(year: i32, month: u32, day: u32) -> i32 {
     let (era, year_of_era) = (year.div_euclid(400), year.rem_euclid(400));
     let from_march = (month as i32 + 9) % 12;
     let day_of_year = (153 * from_march + 2) / 5 + day as i32 - 1;
-    era * DAYS_OF_ERA + year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year - EPOCH
+    era * DAYS_OF_ERA + year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year - TO_EPOCH
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use crate::law::{
 };
 use phytomer_sim::clock::{LAST_TICK, Speed};
 use phytomer_sim::plant::Form;
+use phytomer_sim::site::calendar::Dates;
 use std::ops::RangeInclusive;
 
 /// A length or a diameter, in the unit of its key.
@@ -57,8 +58,8 @@ pub struct Compiler<'a> {
 }
 
 impl<'a> Compiler<'a> {
-    /// The compiler of the order at `index` (from 0).
-    pub fn new(buds: &'a Buds, index: usize, until: u32, species_path: &Path) -> Self {
+    /// The compiler of the order at `index` (from 0), for ages up to `until` that have these dates.
+    pub fn new(buds: &'a Buds, index: usize, (until, dates): (u32, Option<&Dates>), species_path: &Path) -> Self {
         let orders_path = species_path.key("order");
         let path = orders_path.index(index);
         let mut faults = Vec::new();
@@ -68,6 +69,7 @@ impl<'a> Compiler<'a> {
         });
         let mut domain = domain(buds, index, until, speeds.most_steps_by(until));
         domain.longest.max_cycle = speeds.most_steps_by(LAST_TICK);
+        domain.dates = dates.cloned();
         Self {
             buds,
             domain,

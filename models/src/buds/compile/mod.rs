@@ -38,6 +38,7 @@ use compiler::Compiler;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::expectation::Expectation;
 use phytomer_sim::plant::{Habit, OrganTrends, Trend};
+use phytomer_sim::site::calendar::Dates;
 use std::sync::{Arc, OnceLock};
 
 /// The most orders that a species may have.
@@ -70,23 +71,32 @@ pub(super) struct OrderLaws {
 }
 
 impl Buds {
-    /// Compiles the species for all ages up to `until`, and checks every law over its whole range.
+    /// Compiles the species for all ages up to `until`, and checks every law over its whole range. Laws of the date are
+    /// faults: see [`Buds::compile_dated`].
     ///
     /// # Errors
     /// Every fault found, each with its path below `path`.
     pub fn compile(&self, until: u32, path: &Path) -> Result<BudModel, Vec<Fault>> {
+        self.compile_dated(until, None, path)
+    }
+
+    /// As [`Buds::compile`], for a plant whose ages have these dates. A law of the date becomes one of the age.
+    ///
+    /// # Errors
+    /// Every fault found, each with its path below `path`.
+    pub fn compile_dated(&self, until: u32, dates: Option<&Dates>, path: &Path) -> Result<BudModel, Vec<Fault>> {
         let mut faults = self.check(until, path);
         let mut orders = Vec::new();
         let mut trends = Vec::new();
         let mut organ_trends = Vec::new();
         for index in 0..self.order.len().min(MOST_ORDERS) {
-            let mut compiler = Compiler::new(self, index, until.min(LAST_TICK), path);
+            let mut compiler = Compiler::new(self, index, (until.min(LAST_TICK), dates), path);
             orders.push(OrderLaws::compile(self, index, &mut compiler, &mut trends));
             organ_trends.push(organs::trends(&self.order[index], &mut compiler));
             faults.append(&mut compiler.faults);
             fault::tell_once(&mut faults, compiler.asked_again);
         }
-        response::compile(self, &mut orders, until.min(LAST_TICK), path, &mut faults);
+        response::compile(self, &mut orders, (until.min(LAST_TICK), dates), path, &mut faults);
         let (looks, paints) = look::compile(self, until.min(LAST_TICK), path, &mut faults);
         let wood = wood::compile(self, until.min(LAST_TICK), path, &mut faults);
         if !faults.is_empty() {

@@ -1,0 +1,354 @@
+//! The calendar of a plot: what the date alone decides of each of its ticks, as degree-days, day length and nitrogen.
+//!
+//! Tick 0 is the midnight with which the day of planting begins, and every tick ends at a midnight: its *date* is the
+//! day that then begins. So a tick spans whole days, from the date of the tick before up to the day before its own. A
+//! tick is a fixed number of days, or it ends at the first midnight by which the degree-days since planting reach so
+//! many times their sum; a hot day can then end two ticks, which have the same date. Degree-days are added up from
+//! planting on; nitrogen is what the soil supplies in a season, and what was applied in it by then. Growth at tick t
+//! reads the values of tick t. Absent: weather files, which the caller reads; water.
+
+use crate::clock::Tick;
+use crate::site::date::Date;
+use crate::site::degree_days::DegreeDays;
+use crate::site::sun;
+use std::sync::Arc;
+
+/// A tick that is a sum of degree-days and needs more days than ten years is refused.
+const MOST_DAYS_OF_A_TICK: u32 = 3_660;
+
+/// How long a tick is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TickLength {
+    /// So many days; at least one.
+    Days(u32),
+    /// So many degree-days, °C d; above 0.
+    DegreeDays(f64),
+}
+
+/// What a calendar is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Terms {
+    /// The day of planting, with which tick 0 is reached.
+    pub planted: Date,
+    /// How long a tick is.
+    pub tick: TickLength,
+    /// How a day's temperatures become degree-days; `None` where nothing asks for them.
+    pub degree_days: Option<DegreeDays>,
+    /// The latitude of the site, radians, north positive; `None` where it is not known.
+    pub latitude: Option<f64>,
+    /// The nitrogen of the soil; `None` where it is not known.
+    pub soil: Option<Soil>,
+}
+
+/// The nitrogen that plants find in the soil.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Soil {
+    /// What the soil supplies by itself in a season, kg N/ha.
+    pub own: f64,
+    /// What is applied, kg N/ha: each amount with its day, in any order.
+    pub applied: Vec<(Date, f64)>,
+    /// Month and day with which a season begins; what was applied before counts no more.
+    pub season_begins: (u32, u32),
+}
+
+/// A tick of a calendar.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CalendarTick {
+    /// The day that begins when the tick ends.
+    pub date: Date,
+    /// The days that the tick spans; 0 at tick 0, and where the tick before ended at the same midnight.
+    pub days: u32,
+    /// The degree-days of these days, °C d; `None` where they are not known.
+    pub degree_days: Option<f64>,
+    /// The degree-days since planting, °C d.
+    pub degree_day_sum: Option<f64>,
+    /// Hours from sunrise to sunset on the date; `None` without a latitude.
+    pub day_length_h: Option<f64>,
+    /// The soil's own supply of the season and what was applied in it before the date, kg N/ha; `None` where the soil
+    /// is not known.
+    pub nitrogen_kg_ha: Option<f64>,
+}
+
+/// Why a calendar cannot be made.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum CalendarError {
+    /// The weather has no such day, on which growth depends.
+    #[error("there is no weather for {date}, which tick {tick} needs")]
+    NoWeather {
+        /// The tick that spans the day.
+        tick: Tick,
+        /// The day.
+        date: Date,
+    },
+    /// A tick does not end, because it is too cold.
+    #[error("tick {tick} begins on {from} and has not reached its degree-days after ten years")]
+    Endless {
+        /// The tick.
+        tick: Tick,
+        /// The day with which it begins.
+        from: Date,
+    },
+    /// A tick lies beyond the dates that there are.
+    #[error("tick {tick} lies beyond the year 9999")]
+    BeyondDates {
+        /// The tick.
+        tick: Tick,
+    },
+}
+
+/// The calendar of a plot: its ticks, from 0 to the last.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Calendar {
+    ticks: Vec<CalendarTick>,
+    length: TickLength,
+}
+
+impl Calendar {
+    /// The calendar up to the tick `until`. `weather` gives the highest and the lowest temperature of a day, °C, or
+    /// `None` where there is no weather; it is asked day by day, and not at all where nothing asks for degree-days.
+    ///
+    /// # Errors
+    /// The first day without weather, or the first tick that does not end.
+    pub fn of(
+        terms: &Terms,
+        until: Tick,
+        mut weather: impl FnMut(Date) -> Option<[f64; 2]>,
+    ) -> Result<Self, CalendarError> {
+        let mut days = Days { terms, weather: &mut weather, date: terms.planted, sum: 0.0 };
+        let mut ticks = vec![days.end_of_tick(terms.planted, 0.0)];
+        for tick in 1..=until {
+            let (from, before) = (days.date, days.sum);
+            days.go_through(tick)?;
+            ticks.push(days.end_of_tick(from, before));
+        }
+        Ok(Self { ticks, length: terms.tick })
+    }
+
+    /// A calendar of these ticks, as another one had them; `None` without any.
+    pub fn of_ticks(length: TickLength, ticks: Vec<CalendarTick>) -> Option<Self> {
+        (!ticks.is_empty()).then_some(Self { ticks, length })
+    }
+
+    /// A tick; beyond the last, the last one.
+    pub fn at(&self, tick: Tick) -> &CalendarTick {
+        &self.ticks[(tick as usize).min(self.ticks.len() - 1)]
+    }
+
+    /// All ticks, from 0.
+    pub fn ticks(&self) -> &[CalendarTick] {
+        &self.ticks
+    }
+
+    /// How long a tick is.
+    pub fn tick_length(&self) -> TickLength {
+        self.length
+    }
+}
+
+/// The dates of a plant: the calendar of its plot, and the tick of the plot at which the plant is sown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dates {
+    /// The calendar of the plot.
+    pub calendar: Arc<Calendar>,
+    /// The tick of the plot at which the plant has age 0.
+    pub sown: Tick,
+}
+
+impl Dates {
+    /// The tick of the plot at which the plant has an age.
+    pub fn at_age(&self, age: Tick) -> &CalendarTick {
+        self.calendar.at(self.sown.saturating_add(age))
+    }
+
+    /// The degree-days from its sowing to an age, °C d; `None` where they are not known.
+    pub fn degree_days_by(&self, age: Tick) -> Option<f64> {
+        Some(self.at_age(age).degree_day_sum? - self.at_age(0).degree_day_sum?)
+    }
+}
+
+/// The days of a calendar while it is made.
+struct Days<'a, W> {
+    terms: &'a Terms,
+    weather: &'a mut W,
+    /// The day that begins.
+    date: Date,
+    /// The degree-days since planting.
+    sum: f64,
+}
+
+impl<W: FnMut(Date) -> Option<[f64; 2]>> Days<'_, W> {
+    /// Goes to the midnight at which a tick ends.
+    fn go_through(&mut self, tick: Tick) -> Result<(), CalendarError> {
+        let from = self.date;
+        match self.terms.tick {
+            TickLength::Days(days) => (0..days.max(1)).try_for_each(|_| self.pass_day(tick)),
+            TickLength::DegreeDays(wanted) => {
+                // A product and not a sum, so that ticks do not drift.
+                let end = wanted * f64::from(tick);
+                while self.sum < end {
+                    if self.date.since(from) >= MOST_DAYS_OF_A_TICK as i32 {
+                        return Err(CalendarError::Endless { tick, from });
+                    }
+                    self.pass_day(tick)?;
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn pass_day(&mut self, tick: Tick) -> Result<(), CalendarError> {
+        let date = self.date;
+        if date == Date::LAST {
+            return Err(CalendarError::BeyondDates { tick });
+        }
+        if let Some(how) = self.terms.degree_days {
+            let [maximum, minimum] = (self.weather)(date).ok_or(CalendarError::NoWeather { tick, date })?;
+            self.sum += how.of_day(maximum, minimum);
+        }
+        self.date = date.plus(1);
+        Ok(())
+    }
+
+    /// The tick that began with the day `from`, at the sum `before`, and ends now.
+    fn end_of_tick(&self, from: Date, before: f64) -> CalendarTick {
+        let (terms, date) = (self.terms, self.date);
+        let is_known = terms.degree_days.is_some();
+        CalendarTick {
+            date,
+            days: date.since(from).unsigned_abs(),
+            degree_days: is_known.then_some(self.sum - before),
+            degree_day_sum: is_known.then_some(self.sum),
+            day_length_h: terms.latitude.map(|latitude| sun::day_length_h(latitude, date.day_of_year())),
+            nitrogen_kg_ha: terms.soil.as_ref().map(|soil| soil.by(date)),
+        }
+    }
+}
+
+impl Soil {
+    /// The nitrogen of the season to which the day before `date` belongs, with what was applied up to that day.
+    fn by(&self, date: Date) -> f64 {
+        let last = date.plus(-1);
+        let begins = season_of(last, self.season_begins);
+        let of_season = self.applied.iter().filter(|(day, _)| (begins..=last).contains(day));
+        self.own + of_season.map(|(_, amount)| amount).sum::<f64>()
+    }
+}
+
+/// The first day of the season to which a day belongs, where seasons begin on this month and day of each year; 29
+/// February is 28 February in a year without it.
+pub fn season_of(day: Date, (month, of_month): (u32, u32)) -> Date {
+    let beginning = |year| Date::new(year, month, of_month).or_else(|| Date::new(year, month, of_month.min(28)));
+    let this_year = beginning(day.year()).filter(|first| *first <= day);
+    this_year.or_else(|| beginning(day.year() - 1)).unwrap_or(Date::FIRST)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::site::degree_days::Method;
+
+    const ABOVE_TEN: DegreeDays = DegreeDays { method: Method::Average, base: 10.0, upper: None };
+
+    fn date(year: i32, month: u32, day: u32) -> Date {
+        Date::new(year, month, day).expect("a day")
+    }
+
+    fn terms(tick: TickLength) -> Terms {
+        Terms { planted: date(2001, 3, 1), tick, degree_days: Some(ABOVE_TEN), latitude: None, soil: None }
+    }
+
+    fn steady(_: Date) -> Option<[f64; 2]> {
+        Some([25.0, 25.0])
+    }
+
+    /// 25 °C all day are 15 °C d above 10 °C: after t ticks of 30 days, 450 t.
+    #[test]
+    fn ticks_of_days_add_up_degree_days() {
+        let calendar = Calendar::of(&terms(TickLength::Days(30)), 40, steady).expect("a calendar");
+        assert_eq!(calendar.ticks().len(), 41);
+        for (tick, at) in (0..).zip(calendar.ticks()) {
+            assert_eq!(at.date, date(2001, 3, 1).plus(30 * tick));
+            assert_eq!(at.days, if tick == 0 { 0 } else { 30 });
+            assert_eq!(at.degree_days, Some(if tick == 0 { 0.0 } else { 450.0 }));
+            assert_eq!(at.degree_day_sum, Some(450.0 * f64::from(tick)));
+            assert_eq!((at.day_length_h, at.nitrogen_kg_ha), (None, None));
+        }
+    }
+
+    /// At 15 °C d a day, tick t of 100 °C d ends at the first midnight by which 15 d ≥ 100 t: after ⌈20 t/3⌉ days.
+    #[test]
+    fn ticks_of_degree_days_end_at_the_midnight_that_reaches_their_sum() {
+        let calendar = Calendar::of(&terms(TickLength::DegreeDays(100.0)), 60, steady).expect("a calendar");
+        for (tick, at) in (0..).zip(calendar.ticks()) {
+            let days = (20 * tick + 2) / 3;
+            assert_eq!(at.date.since(date(2001, 3, 1)), days, "tick {tick}");
+            assert_eq!(at.degree_day_sum, Some(15.0 * f64::from(days)));
+        }
+        let spans: Vec<u32> = calendar.ticks().iter().map(|at| at.days).collect();
+        assert_eq!(spans[..7], [0, 7, 7, 6, 7, 7, 6]);
+    }
+
+    #[test]
+    fn a_hot_day_can_end_several_ticks() {
+        let calendar = Calendar::of(&terms(TickLength::DegreeDays(6.0)), 5, steady).expect("a calendar");
+        let days: Vec<u32> = calendar.ticks().iter().map(|at| at.days).collect();
+        assert_eq!(
+            days,
+            [0, 1, 0, 1, 0, 0],
+            "15 °C d a day: the sums 6, 12, 18, 24 and 30 after 1, 1, 2, 2 and 2 days"
+        );
+        assert_eq!(calendar.at(99), calendar.at(5), "beyond the last tick, the last");
+    }
+
+    #[test]
+    fn what_the_weather_does_not_have_is_told() {
+        let last = date(2001, 4, 9);
+        let ends = |day: Date| (day <= last).then_some([25.0, 25.0]);
+        let told = Calendar::of(&terms(TickLength::Days(30)), 2, ends).expect_err("no weather");
+        assert_eq!(told, CalendarError::NoWeather { tick: 2, date: date(2001, 4, 10) });
+        let cold = Calendar::of(&terms(TickLength::DegreeDays(100.0)), 3, |_| Some([9.0, 1.0]));
+        assert_eq!(cold, Err(CalendarError::Endless { tick: 1, from: date(2001, 3, 1) }));
+        let without = Terms { degree_days: None, ..terms(TickLength::Days(1)) };
+        assert!(Calendar::of(&without, 9, |_| None).is_ok(), "nothing asks for weather");
+        let late = Terms { planted: date(9999, 12, 1), ..without };
+        assert_eq!(Calendar::of(&late, 40, steady), Err(CalendarError::BeyondDates { tick: 31 }));
+    }
+
+    /// FAO-56, example 9: 20° S on 3 September has a day of 11.7 hours; days are longest at midsummer.
+    #[test]
+    fn day_length_is_that_of_the_date() {
+        let south = Terms {
+            planted: date(2001, 9, 3),
+            latitude: Some((-20.0_f64).to_radians()),
+            degree_days: None,
+            ..terms(TickLength::Days(1))
+        };
+        let calendar = Calendar::of(&south, 365, |_| None).expect("a calendar");
+        let length = |tick| calendar.at(tick).day_length_h.expect("a latitude");
+        assert!((length(0) - 11.7).abs() < 0.05, "{}", length(0));
+        let longest = (0..=365).max_by(|a, b| length(*a).total_cmp(&length(*b))).expect("a tick");
+        let solstice = calendar.at(longest).date;
+        assert!((19..=24).contains(&solstice.month_and_day().1) && solstice.month_and_day().0 == 12, "{solstice}");
+    }
+
+    #[test]
+    fn nitrogen_is_the_soils_and_what_the_season_was_given_so_far() {
+        let applied = vec![(date(2001, 3, 1), 40.0), (date(2001, 5, 1), 20.0), (date(2002, 3, 2), 5.0)];
+        let soil = Soil { own: 20.0, applied, season_begins: (3, 1) };
+        let fed = Terms { soil: Some(soil), degree_days: None, ..terms(TickLength::Days(1)) };
+        let calendar = Calendar::of(&fed, 800, |_| None).expect("a calendar");
+        let by = |day: Date| calendar.at(day.since(date(2001, 3, 1)) as u32).nitrogen_kg_ha.expect("a soil");
+        assert_eq!(by(date(2001, 3, 1)), 20.0, "nothing has been applied yet when the day begins");
+        assert_eq!([by(date(2001, 3, 2)), by(date(2001, 5, 1)), by(date(2001, 5, 2))], [60.0, 60.0, 80.0]);
+        assert_eq!(by(date(2002, 3, 1)), 80.0, "the last day of the season");
+        assert_eq!([by(date(2002, 3, 2)), by(date(2002, 3, 3)), by(date(2003, 3, 2))], [20.0, 25.0, 20.0]);
+    }
+
+    #[test]
+    fn seasons_begin_each_year_on_their_day() {
+        assert_eq!(season_of(date(2001, 8, 31), (9, 1)), date(2000, 9, 1));
+        assert_eq!(season_of(date(2001, 9, 1), (9, 1)), date(2001, 9, 1));
+        assert_eq!(season_of(date(2001, 2, 28), (2, 29)), date(2001, 2, 28));
+        assert_eq!(season_of(date(2004, 2, 28), (2, 29)), date(2003, 2, 28));
+    }
+}
