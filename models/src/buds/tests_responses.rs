@@ -122,8 +122,8 @@ fn on_soil(nitrogen: f64, buds: &Buds) -> BudModel {
     buds.compile_dated(6, Some(&dates), &Path::root()).unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 
-/// Mitscherlich 1 − exp(−.02 (N + 20)) with the reference 120 is .351026, .849779, 1 and 1.058874 at 0, 60, 120 and 240:
-/// by so much an internode of a metre is shorter or longer. At 120, and where no soil is told, nothing changes.
+/// Mitscherlich 1 − exp(−.02 (N + 20)) with the reference 120 is .351026, .849779, 1 and 1.058874 at 0, 60, 120 and
+/// 240: by so much an internode of a metre is shorter or longer. At 120, and where no soil is told, nothing changes.
 #[test]
 fn nitrogen_acts_relative_to_its_reference() {
     let law = json!({ "mitscherlich": { "over": "nitrogen", "rate": 0.02, "offset": 20 } });

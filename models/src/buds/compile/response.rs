@@ -20,8 +20,8 @@ const RATIO: ValueRange = ValueRange { min: 0.0, max: 1e9, what: "a response" };
 /// The values by age of all that acts on a target.
 type Acting = BTreeMap<Target, Vec<f64>>;
 
-/// Compiles the responses of a species up to the age `until`, for a plant whose ages have these dates, and lets them act
-/// on the laws of its orders.
+/// Compiles the responses of a species up to the age `until`, for a plant whose ages have these dates, and lets them
+/// act on the laws of its orders.
 pub fn compile(
     buds: &Buds,
     orders: &mut [OrderLaws],
