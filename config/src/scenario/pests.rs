@@ -1,9 +1,11 @@
-//! Pests of a run: what each attacks, how severely, at which ages, and how its attacks are spread over plants and field.
+//! Pests of a run: what each attacks, how severely, at which ages, and how its attacks are spread over plants and
+//! field.
 //!
 //! A severity is the probability that a thing which stands through the attack is attacked: stated as such, as the
-//! percentage that scouts have found, or, for leaves, by what larvae eat: larvae a m² × m² a larva and day × days, m² of
-//! leaf a m² of leaf (10 × 0.00144 × 10 = 0.144). It is spread evenly over the ticks of an attack, so that each has the
-//! hazard 1 − (1 − s)^(1/n). Absent: what an attack does to a plant (`sim::plant::Exposure`, `models::buds`), and dates.
+//! percentage that scouts have found, or, for leaves, by what larvae eat: larvae a m² × m² a larva and day × days, m²
+//! of leaf a m² of leaf (10 × 0.00144 × 10 = 0.144). It is spread evenly over the ticks of an attack, so that each has
+//! the hazard 1 − (1 − s)^(1/n). Absent: what an attack does to a plant (`sim::plant::Exposure`, `models::buds`), and
+//! dates.
 
 use phytomer_draws::{Aggregation, Clusters, Draws, Event, Key, NONE};
 use phytomer_law::fault::{Fault, Path};
@@ -46,7 +48,8 @@ pub struct Pest {
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(range(min = 0, max = 1))]
     pub aggregation: f64,
-    /// Clusters in the field, a Thomas process; they multiply the severity at each place, with mean 1. None if not given.
+    /// Clusters in the field, a Thomas process; they multiply the severity at each place, with mean 1. None if not
+    /// given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Clustered")]
     pub clusters: Option<Clustered>,
@@ -54,8 +57,8 @@ pub struct Pest {
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(range(min = 0, max = 1))]
     pub plot_sd: f64,
-    /// The share of its growth that a plant loses in the next season for each share of its leaves that is eaten: a growth
-    /// unit of n nodes has ⌊n (1 − next_season × share) + u⌋. 0 if not given.
+    /// The share of its growth that a plant loses in the next season for each share of its leaves that is eaten: a
+    /// growth unit of n nodes has ⌊n (1 − next_season × share) + u⌋. 0 if not given.
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(range(min = 0, max = 1))]
     pub next_season: f64,
@@ -252,8 +255,8 @@ impl Exposed {
     }
 }
 
-/// What the pests of a run do to one plant; `None` without pests. A plant of the same replicate and number meets the same
-/// draws in every treatment.
+/// What the pests of a run do to one plant; `None` without pests. A plant of the same replicate and number meets the
+/// same draws in every treatment.
 pub fn exposure(pests: &[Pest], host: &Host) -> Option<Arc<Exposure>> {
     if pests.is_empty() {
         return None;
@@ -294,8 +297,8 @@ mod tests {
         Host { seed: 7, replicate: 0, plot: plant, plant, place: [3.0 * f64::from(plant), 0.0], until: 40 }
     }
 
-    /// Ten larvae a m² that eat .00144 m² a day for ten days eat .144 m²/m²: so many of the leaves that stand through the
-    /// attack, whatever its number of ticks.
+    /// Ten larvae a m² that eat .00144 m² a day for ten days eat .144 m²/m²: so many of the leaves that stand through
+    /// the attack, whatever its number of ticks.
     #[test]
     fn larvae_eat_their_area() {
         let larvae = pest("larvae = { per_m2 = 10, eats_m2_per_day = 0.00144, days = 10 }");

@@ -52,6 +52,8 @@ pub struct Domain {
     pub longest: Longest,
     /// The dates of the plant's ages; `None` without a calendar.
     pub dates: Option<Dates>,
+    /// The value at which every variable is held, for a law of one variable whose value at a reference is asked for.
+    pub held: Option<f64>,
 }
 
 /// How far variables go in the longest run that there can be. The places in a stream of words follow these limits and
@@ -161,6 +163,7 @@ impl Domain {
         asked: Asked::Once,
         longest: Longest { max_cycle: 0, max_unit: 0, max_rank: 0, ranks_go_on: false },
         dates: None,
+        held: None,
     };
 
     /// The domain of a thing of an axis of `order` whose laws depend on its own age alone, from 0 to `until` ticks.
@@ -190,6 +193,9 @@ impl Domain {
 
     /// The value of a variable at a point; not a number where it is of the date and not known.
     pub(super) fn read(&self, variable: Variable, at: At) -> f64 {
+        if let Some(held) = self.held {
+            return held;
+        }
         match variable.is_of_the_date() {
             true => self.on_date(variable, at.age).unwrap_or(f64::NAN),
             false => f64::from(at.get(variable)),
@@ -198,6 +204,9 @@ impl Domain {
 
     /// The value of a variable of the date at an age of the plant; `None` where it is not known.
     pub(super) fn on_date(&self, variable: Variable, age: u32) -> Option<f64> {
+        if self.held.is_some() {
+            return self.held;
+        }
         let dates = self.dates.as_ref()?;
         match variable {
             Variable::Nitrogen => dates.at_age(age).nitrogen_kg_ha,

@@ -34,6 +34,11 @@ impl Expression {
         self.code.iter().any(|op| matches!(op, Op::Order))
     }
 
+    /// The variables that the expression names.
+    pub fn named(&self) -> impl Iterator<Item = Variable> {
+        self.code.iter().filter_map(|op| if let Op::Load(variable) = op { Some(*variable) } else { None })
+    }
+
     /// The value at a point of a domain; NaN where the expression is undefined. `stack` is scratch memory. Linear in the
     /// steps of the code.
     pub fn value(&self, domain: &Domain, at: At, stack: &mut Vec<f64>) -> f64 {

@@ -3,7 +3,7 @@
 //! Faults of form (no kind, two kinds, a table too short, an unknown state) are found here, faults of value (outside
 //! the range at some point) at the evaluation. Absent on purpose: the tables that the values go to.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::curves::Curve;
 use super::domain::{At, Domain, Grid, Uses};
@@ -203,6 +203,19 @@ impl<'a> Formula<'a> {
 
     fn part(&self, at: At) -> Option<&Part> {
         self.parts.get(self.state(at))
+    }
+
+    /// The variables that the law names, each once; not the age for a variable of the date.
+    pub fn named(&self) -> BTreeSet<Variable> {
+        let mut named = BTreeSet::new();
+        for part in &self.parts {
+            match &part.term {
+                Term::Value(_) => {}
+                Term::Curve(curve) => _ = named.insert(curve.over()),
+                Term::Code(code) => named.extend(code.named()),
+            }
+        }
+        named
     }
 
     /// The index of the part that holds at a point.

@@ -1,10 +1,10 @@
-//! What pests do to an axis: they kill its bud, weaken its growth units, eat what stands on its nodes, or kill the plant
-//! whole.
+//! What pests do to an axis: they kill its bud, weaken its growth units, eat what stands on its nodes, or kill the
+//! plant whole.
 //!
-//! An attack joins the mortality of a bud in the same draw: with p the probability that the bud dies of itself and q that
-//! of the attack, a word below p is mortality, a word between p and p + q − p q an attack. All other draws are from the
-//! streams of responses, so that a plant without pests is the same to the byte. Absent: where the hazards come from
-//! (`sim::plant::Exposure`).
+//! An attack joins the mortality of a bud in the same draw: with p the probability that the bud dies of itself and q
+//! that of the attack, a word below p is mortality, a word between p and p + q − p q an attack. All other draws are
+//! from the streams of responses, so that a plant without pests is the same to the byte. Absent: where the hazards come
+//! from (`sim::plant::Exposure`).
 
 use super::compile::{PLACE_OF_DEATH, PLACE_OF_WEAKNESS, join, nodes_times};
 use super::grow::Axis;

@@ -1,7 +1,7 @@
 //! The organs of a node: its leaves, and flowers with the fruits that they set.
 //!
-//! An organ has its end from its birth on: that of its life, of the season, or of the pest that eats it. Absent: the fall
-//! of branches, with which organs fall too (`sim::shed`).
+//! An organ has its end from its birth on: that of its life, of the season, or of the pest that eats it. Absent: the
+//! fall of branches, with which organs fall too (`sim::shed`).
 
 use super::attack::first_end;
 use super::compile::{PLACE_OF_EATEN_FLOWERS, PLACE_OF_EATEN_FRUITS, PLACE_OF_EATEN_LEAVES};

@@ -12,7 +12,10 @@ use crate::law::{Count, Law, Variate};
 use phytomer_sim::expectation::Certainty;
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::{ApexFate, Class, Plant};
+use phytomer_sim::site::calendar::{Calendar, Dates, Soil, Terms, TickLength};
+use phytomer_sim::site::date::Date;
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 fn compiled(buds: &Buds, until: u32) -> BudModel {
     buds.compile(until, &Path::root()).unwrap_or_else(|faults| panic!("{faults:?}"))
@@ -109,6 +112,37 @@ fn hazards_join_in_the_draw_of_the_bud() {
     assert!(dead_of(0.1, before_age_1, 0.0).is_empty());
 }
 
+/// A plant on a soil with so much nitrogen, planted by a calendar of months.
+fn on_soil(nitrogen: f64, buds: &Buds) -> BudModel {
+    let planted = Date::new(2001, 7, 1).expect("a day");
+    let soil = Some(Soil { own: nitrogen, applied: Vec::new(), season_begins: (7, 1) });
+    let terms = Terms { planted, tick: TickLength::Days(30), degree_days: None, latitude: None, soil };
+    let calendar = Calendar::of(&terms, 6, |_| None).expect("a calendar");
+    let dates = Dates { calendar: Arc::new(calendar), sown: 0 };
+    buds.compile_dated(6, Some(&dates), &Path::root()).unwrap_or_else(|faults| panic!("{faults:?}"))
+}
+
+/// Mitscherlich 1 − exp(−.02 (N + 20)) with the reference 120 is .351026, .849779, 1 and 1.058874 at 0, 60, 120 and
+/// 240: by so much an internode of a metre is shorter or longer. At 120, and where no soil is told, nothing changes.
+#[test]
+fn nitrogen_acts_relative_to_its_reference() {
+    let law = json!({ "mitscherlich": { "over": "nitrogen", "rate": 0.02, "offset": 20 } });
+    let internode = Internode { length_cm: Variate::from(100.0), ..Internode::default() };
+    let plain = Buds { order: vec![Order { internode, ..Order::default() }], ..Buds::default() };
+    let buds = responding(&plain, &[response(&[Target::InternodeLength], law.clone(), 120.0)]);
+    for (nitrogen, expected) in [(0.0, 0.351_026), (60.0, 0.849_779), (120.0, 1.0), (240.0, 1.058_874)] {
+        let plant = grown(&on_soil(nitrogen, &buds), 6, 0);
+        assert!(plant.nodes.length.iter().all(|length| (length - expected).abs() < 1e-6), "{nitrogen}");
+        assert_eq!(plant.nodes.len(), 6);
+    }
+    let all = responding(&chimera(), &[response(&Target::ALL, law, 120.0)]);
+    for number in 0..10 {
+        let alone = columns(&grown(&compiled(&chimera(), 6), 6, number));
+        assert!(alone == columns(&grown(&on_soil(120.0, &all), 6, number)));
+        assert!(alone == columns(&grown(&compiled(&all, 6), 6, number)));
+    }
+}
+
 /// A plant with constant laws under factors of .5 for nodes and 1.5 for the rest.
 #[test]
 fn what_is_multiplied_has_the_mean_of_the_product() {
@@ -200,6 +234,7 @@ fn faults_of_responses() {
             of("pause", json!({ "expression": "0.1 * (age > dimension)" }), 1.0),
             "the law depends on dimension, on which no",
         ),
+        (of("nodes", json!({ "expression": "nitrogen + age" }), 1.0), "the response depends on age and nitrogen"),
         (told(json!({ "acts_on": [], "law": 1, "reference": 1 })), "response[0].acts_on: the response acts on nothing"),
         (
             told(json!({ "acts_on": ["nodes"], "law": 1, "reference": 1, "orders": [1, 3] })),

@@ -1,10 +1,10 @@
 //! Attacks that are aggregated in space: a Thomas process (M. Thomas 1949, *Biometrika* 36: 18–25).
 //!
-//! Parents stand in the field at random; around each, offspring fall with a normal deviate in either direction. Ripley's
-//! K is K(r) = π r² + (1 − exp(−r²/4σ²)) / (parents a m²) (P. J. Diggle 2003, *Statistical Analysis of Spatial Point
-//! Patterns* §5.3). The parents of each cell of a square grid have a stream of their own, so that the pressure at any
-//! place is known without the rest of the field, and a field keeps its clusters when it becomes larger. Parents further
-//! away than the side of a cell, 5 σ, are left out: 4·10⁻⁶ of their offspring.
+//! Parents stand in the field at random; around each, offspring fall with a normal deviate in either direction.
+//! Ripley's K is K(r) = π r² + (1 − exp(−r²/4σ²)) / (parents a m²) (P. J. Diggle 2003, *Statistical Analysis of Spatial
+//! Point Patterns* §5.3). The parents of each cell of a square grid have a stream of their own, so that the pressure at
+//! any place is known without the rest of the field, and a field keeps its clusters when it becomes larger. Parents
+//! further away than the side of a cell, 5 σ, are left out: 4·10⁻⁶ of their offspring.
 
 use super::draws::Draws;
 use super::key::Key;

@@ -1,10 +1,10 @@
 //! Draws of a site: what chance brings to a field beyond the growth of its plants, such as which plants are susceptible
 //! to a pest, where its clusters stand, and how the soil differs between blocks.
 //!
-//! The samplers of Beta, Gamma, Poisson and Normal are those of `rand_distr`. They reject, and so take a number of words
-//! that depends on the draw: each event has a stream of its own ([`Key`]), and no draw moves another. They are given a
-//! float of ours ([`Real`]), because those for `f64` call the system's `ln` and `exp` where any crate of the build
-//! switches on `num-traits/std`, and then draw other bits on other machines. Absent: the draws of growth
+//! The samplers of Beta, Gamma, Poisson and Normal are those of `rand_distr`. They reject, and so take a number of
+//! words that depends on the draw: each event has a stream of its own ([`Key`]), and no draw moves another. They are
+//! given a float of ours ([`Real`]), because those for `f64` call the system's `ln` and `exp` where any crate of the
+//! build switches on `num-traits/std`, and then draw other bits on other machines. Absent: the draws of growth
 //! (`phytomer_sim::random`), and the keys of scenarios.
 
 mod aggregation;

@@ -192,8 +192,8 @@ fn blocks_shift_what_the_site_gives() {
 }
 
 /// The sampler of Beta for shapes above 1 (R. C. H. Cheng 1978, *Communications of the ACM* 21: 317–322, algorithm BB)
-/// and of a small Poisson mean (Knuth), written out with the functions of `sim::math`: the same bits from the same words.
-/// With the system's functions `rand_distr` would draw other bits wherever they differ in their last.
+/// and of a small Poisson mean (Knuth), written out with the functions of `sim::math`: the same bits from the same
+/// words. With the system's functions `rand_distr` would draw other bits wherever they differ in their last.
 #[test]
 fn draws_are_those_of_samplers_over_math() {
     let mut words = key("by hand").generator();

@@ -2,9 +2,9 @@
 //! growth that is left, and the end of the whole plant.
 //!
 //! A plant's exposure is drawn before it grows, since a pest does not depend on what the plant has become. An organ of
-//! birth b stands until the first tick t at which 1 − ∏ (1 − h) over the ticks b + 1 … t exceeds its draw u; the product
-//! is kept as a sum of −ln(1 − h), so that the tick is found by a binary search. Absent: where the hazards come from, and
-//! the growth that they act on, which is the model's.
+//! birth b stands until the first tick t at which 1 − ∏ (1 − h) over the ticks b + 1 … t exceeds its draw u; the
+//! product is kept as a sum of −ln(1 − h), so that the tick is found by a binary search. Absent: where the hazards come
+//! from, and the growth that they act on, which is the model's.
 
 use crate::clock::{NEVER, Tick};
 use crate::math::log1p;

@@ -1,9 +1,9 @@
 //! What responses change, by the age of the plant: probabilities, numbers of nodes, lengths.
 //!
-//! Hazards join. Independent causes of death with probabilities p and q kill with p + q − p q; of a response counts what
-//! it adds to its value at the reference, d = q − q(reference), so that p becomes p + d − p d, kept within [0, 1], and
-//! the species' own p where the response is at its reference. (On the logit scale p = 0 could never respond.) All other
-//! quantities are multiplied by m, the response divided by its value at the reference; a number of nodes becomes
+//! Hazards join. Independent causes of death with probabilities p and q kill with p + q − p q; of a response counts
+//! what it adds to its value at the reference, d = q − q(reference), so that p becomes p + d − p d, kept within [0, 1],
+//! and the species' own p where the response is at its reference. (On the logit scale p = 0 could never respond.) All
+//! other quantities are multiplied by m, the response divided by its value at the reference; a number of nodes becomes
 //! ⌊n m + u⌋ with u uniform over [0, 1), whose mean is n m. At the reference d = 0 and m = 1 to the bit. Absent: where
 //! the values come from (`response`).
 

@@ -96,7 +96,7 @@ impl Buds {
             faults.append(&mut compiler.faults);
             fault::tell_once(&mut faults, compiler.asked_again);
         }
-        response::compile(self, &mut orders, until.min(LAST_TICK), path, &mut faults);
+        response::compile(self, &mut orders, (until.min(LAST_TICK), dates), path, &mut faults);
         let (looks, paints) = look::compile(self, until.min(LAST_TICK), path, &mut faults);
         let wood = wood::compile(self, until.min(LAST_TICK), path, &mut faults);
         if !faults.is_empty() {

@@ -9,6 +9,7 @@ use super::{OrderLaws, order_of};
 use crate::buds::params::{Buds, Response, Target};
 use crate::fault::{Fault, Path};
 use crate::law::{Asked, Domain, Responding, ValueRange};
+use phytomer_sim::site::calendar::Dates;
 use std::collections::BTreeMap;
 
 /// The largest ratio of a response to its value at the reference.
@@ -19,8 +20,15 @@ const RATIO: ValueRange = ValueRange { min: 0.0, max: 1e9, what: "a response" };
 /// The values by age of all that acts on a target.
 type Acting = BTreeMap<Target, Vec<f64>>;
 
-/// Compiles the responses of a species up to the age `until`, and lets them act on the laws of its orders.
-pub fn compile(buds: &Buds, orders: &mut [OrderLaws], until: u32, path: &Path, faults: &mut Vec<Fault>) {
+/// Compiles the responses of a species up to the age `until`, for a plant whose ages have these dates, and lets them
+/// act on the laws of its orders.
+pub fn compile(
+    buds: &Buds,
+    orders: &mut [OrderLaws],
+    (until, dates): (u32, Option<&Dates>),
+    path: &Path,
+    faults: &mut Vec<Fault>,
+) {
     let mut again = Vec::new();
     for (index, laws) in orders.iter_mut().enumerate() {
         let number = order_of(index);
@@ -28,7 +36,8 @@ pub fn compile(buds: &Buds, orders: &mut [OrderLaws], until: u32, path: &Path, f
         for (place, response) in buds.response.iter().enumerate() {
             let path = path.key("response").index(place);
             if response.orders.as_ref().is_none_or(|orders| orders.contains(&number)) {
-                let domain = Domain { order: number, until, asked: Asked::Response, ..Domain::default() };
+                let domain =
+                    Domain { order: number, until, asked: Asked::Response, dates: dates.cloned(), ..Domain::default() };
                 act(response, &domain, &path, &mut acting, &mut again);
             }
         }
@@ -57,10 +66,11 @@ fn act(response: &Response, domain: &Domain, path: &Path, acting: &mut Acting, f
     let law = path.key("law");
     let (hazards, ratios): (Vec<Target>, Vec<Target>) = response.acts_on.iter().partition(|target| target.is_hazard());
     let range = if hazards.is_empty() { RATIO } else { ValueRange::PROBABILITY };
-    let values = match response.law.respond(domain, response.reference, &law, range) {
+    let mut values = match response.law.respond(domain, response.reference, &law, range) {
         Ok(values) => values,
         Err(mut found) => return faults.append(&mut found),
     };
+    values.by_age.resize(domain.until as usize + 1, values.at_reference);
     for target in hazards {
         let joined = acting.entry(target).or_insert_with(|| vec![0.0; values.by_age.len()]);
         let d = values.by_age.iter().map(|q| q - values.at_reference);

@@ -18,8 +18,8 @@ pub struct Response {
     #[schemars(length(min = 1))]
     pub acts_on: BTreeSet<Target>,
     /// The response as a law of one variable, for example `{ mitscherlich = { over = "nitrogen", rate = 0.02 } }`. On
-    /// `death` and `pause` it is a hazard, a probability of its own at each clock step; on all else only its ratio to its
-    /// value at `reference` counts.
+    /// `death` and `pause` it is a hazard, a probability of its own at each clock step; on all else only its ratio to
+    /// its value at `reference` counts.
     pub law: Law,
     /// The value of the variable for which the laws of the species hold, at which the response changes nothing.
     pub reference: f64,

@@ -1,18 +1,20 @@
 //! A law of one variable as a response: its value at each age of the plant, and its value at a reference.
 //!
 //! A plant's age decides the variable, so that a response is a row of numbers, made once. The reference is a value of
-//! the variable and need not occur at any age. Absent: what responds.
+//! the variable and need not occur at any age. A variable of the date that the scenario does not tell stands at the
+//! reference, so that a species which responds to nitrogen can be grown without a soil. Absent: what responds.
 
 use super::domain::{At, Domain};
 use super::form::Law;
 use super::formula::Formula;
 use super::range::ValueRange;
+use super::variable::Variable;
 use crate::fault::{Fault, Path};
 
 /// The values of a response.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Responding {
-    /// At each age of the plant, from 0.
+    /// At each age of the plant, from 0; one value where it is the same at all.
     pub by_age: Vec<f64>,
     /// At the reference.
     pub at_reference: f64,
@@ -31,20 +33,27 @@ impl Law {
         path: &Path,
         range: ValueRange,
     ) -> Result<Responding, Vec<Fault>> {
-        let formula = Formula::checked(self, domain, path, &range, false)?;
-        if formula.uses.variables().count() > 1 {
-            let names: Vec<&str> = formula.uses.variables().map(|variable| variable.name()).collect();
+        let held = Domain { held: Some(reference), ..domain.clone() };
+        let formula = Formula::new(self, &held, path)?;
+        let named = formula.named();
+        if named.len() > 1 {
+            let names: Vec<&str> = named.iter().map(|variable| variable.name()).collect();
             let problem = format!("the response depends on {}", names.join(" and "));
             return Err(vec![Fault::new(path, problem, "a law of one variable, of which `reference` is a value")]);
         }
         let mut stack = Vec::new();
-        let mut value = |age| formula.value(At { age, ..At::default() }, &mut stack);
-        let by_age = (0..=domain.until).map(|age| value(age.max(1))).collect();
-        let at_reference = value(reference as u32);
+        let at_reference = formula.value(At::default(), &mut stack);
         if !range.holds(at_reference) {
             let problem = format!("the response is {} at the reference {reference}", range.show(at_reference));
             return Err(vec![Fault::new(path, problem, range.expected())]);
         }
+        let is_unknown = |variable: &Variable| variable.is_of_the_date() && domain.on_date(*variable, 1).is_none();
+        if named.first().is_some_and(is_unknown) {
+            return Ok(Responding { by_age: vec![at_reference], at_reference });
+        }
+        let formula = Formula::checked(self, domain, path, &range, false)?;
+        let mut value = |age| formula.value(At { age, ..At::default() }, &mut stack);
+        let by_age = (0..=domain.until).map(|age| value(age.max(1))).collect();
         Ok(Responding { by_age, at_reference })
     }
 }
