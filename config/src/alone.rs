@@ -38,6 +38,7 @@ impl ResolvedSpecies {
             spacing_m: None,
             site: Site::default(),
             member: Vec::new(),
+            event: Vec::new(),
             ages: Ages { until, record: Record::Every(recorded(until)) },
             tables: BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary, Table::Plants]),
             meshes: None,

@@ -14,13 +14,15 @@ use crate::species::Species;
 
 /// A fault where a plant is expected to have more components than the scenario allows, since it would be cut off later.
 /// The number is the exact expectation, or a lower bound of it for a species whose expectation has no closed form. An
-/// estimate or an upper bound gives no fault; the limit then holds while the plant grows.
+/// estimate or an upper bound gives no fault; the limit then holds while the plant grows. So it does after the first cut
+/// of an event, which no expectation knows.
 pub(crate) fn fault_of(
     node: &Node,
     scenario: &Scenario,
     (species, model): (&Species, &dyn GrowthModel),
     until: u32,
 ) -> Option<Fault> {
+    let until = scenario.first_cut().map_or(until, |first| until.min(first.saturating_sub(1)));
     let (most, key) = (scenario.limits.components(), scenario.limits.binding());
     let means = model.expectation(until)?;
     let expected = means.least_components(until);

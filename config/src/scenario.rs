@@ -1,14 +1,16 @@
 //! A scenario: what one run grows, for how long, and what it records.
 //!
-//! A scenario is one TOML file. Treatments and events will be further tables of this file; until they exist their keys
-//! are refused like any unknown key, so that a file never states something that has no effect. Absent: the species,
+//! A scenario is one TOML file. Treatments will be further tables of this file; until they exist their keys are refused
+//! like any unknown key, so that a file never states something that has no effect. Absent: the species,
 //! which is a file of its own, and the place of the run folder, which the command line states.
 
+mod events;
 mod meshes;
 mod plots;
 mod site;
 mod tables;
 
+pub use events::{Event, Work};
 pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use plots::Member;
 pub use site::{Plane, Site, Wind};
@@ -64,6 +66,10 @@ pub struct Scenario {
     /// tick 0.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub member: Vec<Member>,
+    /// What people do to the plants, as `[[event]]`: pruning, thinning, harvest. Nothing if not given. Of one tick they
+    /// are done in the order of this file.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub event: Vec<Event>,
     /// The last tick of the plots, and the recorded ticks.
     pub ages: Ages,
     /// The tables that are written. All if not given. With any table, `plants` is written too, since it states the
@@ -242,6 +248,7 @@ impl Scenario {
         }
         self.check_mesh_plants(&meshes.key("plants"), &mut faults);
         self.check_members(&mut faults);
+        self.check_events(&mut faults);
         self.site.check_planes(&Path::root().key("site"), &mut faults);
         if self.tables.is_empty() && self.meshes.is_none() {
             let problem = "this run would write nothing: no table and no mesh is asked for";

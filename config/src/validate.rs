@@ -178,7 +178,16 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let mut species = species.into_iter().collect::<Option<Vec<Compiled>>>()?.into_iter();
     let checked = (scenario?, species.next()?, species.collect());
     check_explosions(loader, &node, &checked);
+    check_cuttable(loader, &node, &checked);
     Some(checked)
+}
+
+/// Events change plants that keep their past alone.
+fn check_cuttable(loader: &mut Loader, node: &Node, (scenario, own, others): &Checked) {
+    let remade = [own].into_iter().chain(others).filter(|of| !of.model.growth().keeps_its_past());
+    let named = remade.map(|of| scenario.fault_of_uncuttable(&of.species.about.name));
+    let faults = if scenario.event.is_empty() { Vec::new() } else { named.collect() };
+    tell(loader, node, faults);
 }
 
 fn check_explosions(loader: &mut Loader, node: &Node, (scenario, own, others): &Checked) {

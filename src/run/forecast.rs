@@ -141,7 +141,8 @@ impl PlotForecast {
             largest: 0.0,
             shown: 0.0,
             summary_rows: 0.0,
-            certainty: Certainty::Exact,
+            // Events change plants in ways that no expectation knows.
+            certainty: if resolved.scenario.event.is_empty() { Certainty::Exact } else { Certainty::About },
         };
         for member in scenario.plot_members() {
             let Some(expected) = expected.get(scenario.species_of(&member)) else { continue };

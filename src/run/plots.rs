@@ -6,6 +6,7 @@
 
 use phytomer_config::Scenario;
 use phytomer_config::scenario::{Member, Table};
+use phytomer_sim::management::Management;
 use phytomer_sim::plant::{Seed, ThreadBudget};
 use phytomer_sim::site::Site;
 use phytomer_sim::{GrowthModel, Plot, Sowing};
@@ -14,6 +15,7 @@ use phytomer_sim::{GrowthModel, Plot, Sowing};
 #[derive(Clone)]
 pub struct Plots<'a> {
     scenario: &'a Scenario,
+    management: Management,
     models: Vec<&'a dyn GrowthModel>,
     /// Each member with its species, as a place in `models`.
     members: Vec<(Member, usize)>,
@@ -24,7 +26,7 @@ impl<'a> Plots<'a> {
     pub fn of(scenario: &'a Scenario, models: Vec<&'a dyn GrowthModel>) -> Self {
         let members = scenario.plot_members();
         let members = members.into_iter().map(|member| (member.clone(), scenario.species_of(&member))).collect();
-        Self { scenario, models, members }
+        Self { scenario, management: scenario.management(), models, members }
     }
 
     /// The scenario.
@@ -41,6 +43,7 @@ impl<'a> Plots<'a> {
     pub fn sow(&self, plot: u32, budget: ThreadBudget) -> Plot<'a> {
         let mut sown = Plot::new(plot, self.models.clone(), &self.sowings(plot));
         sown.site = self.site(plot);
+        sown.manage(self.management.clone());
         sown.plants.iter_mut().for_each(|plant| plant.budget = budget);
         sown
     }
@@ -58,12 +61,14 @@ impl<'a> Plots<'a> {
         let (seed, place) = (seed_of(self.scenario, plant), place_of(self.scenario, plant));
         let mut alone = Plot::new(plot, self.models.clone(), &[Sowing { species, seed, place, sown: 0 }]);
         alone.site = self.site(plot);
+        alone.manage(self.management.clone());
         alone
     }
 
-    /// Whether a plant depends on what else stands in its plot, or on when it was sown in it.
+    /// Whether a plant depends on what else stands in its plot, or on when it was sown in it: events have ticks of the
+    /// plot, and may choose among its plants.
     pub fn feed_back(&self) -> bool {
-        self.site(0).feeds_back()
+        self.site(0).feeds_back() || !self.management.is_empty()
     }
 
     fn site(&self, plot: u32) -> Site {
