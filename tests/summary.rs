@@ -169,6 +169,15 @@ fn by_components(components: &Columns, plant: u32, age: u32) -> (BTreeMap<u32, b
     (standing, last)
 }
 
+/// By `components`: the fruits of a plant that were harvested by an age.
+fn harvested(components: &Columns, plant: u32, age: u32) -> f64 {
+    let (of, death) = (components.numbers("plant_id"), components.numbers("death_age"));
+    let (kind, cause) = (components.words("kind"), components.words("cause_of_death"));
+    let fruit = |row: &usize| matches!(kind[*row].as_str(), "fruit" | "infructescence" | "strobilus");
+    let rows = (0..of.len()).filter(|row| of[*row] == f64::from(plant) && death[*row] <= f64::from(age));
+    rows.filter(fruit).filter(|row| cause[*row] == "harvested").count() as f64
+}
+
 /// Compares the columns of one row of `summary` with the other tables.
 fn check(summary: &Columns, row: usize, told: &Told, last_death: f64) {
     let number = |name: &str| summary.numbers(name)[row];
@@ -217,6 +226,8 @@ fn compare(resolved: Resolved) -> [u32; 2] {
         let agree = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
             assert_eq!(told.standing, standing, "what stands by records, and by components");
             check(&summary, row, told, last_death);
+            let picked = harvested(&components, plant, age);
+            assert_eq!(summary.numbers("harvested_fruits")[row], picked, "harvested_fruits");
         }));
         assert!(agree.is_ok(), "{name}: plant {plant} at age {age} disagrees");
         budless += u32::from(summary.numbers("alive")[row] == 1.0 && summary.numbers("buds")[row] == 0.0);

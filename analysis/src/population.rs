@@ -111,6 +111,8 @@ mod tests {
             wood_volume_m3: 0.0,
             alive,
             death_age: None,
+            harvested_fruits: 0,
+            harvested_fresh_mass_kg: None,
         };
         let mut age = AgeOfPopulation::default();
         [plant(true, Some(1.0)), plant(true, Some(3.0)), plant(false, Some(9.0)), plant(true, None)]

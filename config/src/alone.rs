@@ -42,6 +42,7 @@ impl ResolvedSpecies {
             experiment: Experiment::default(),
             site: Site::default(),
             member: Vec::new(),
+            event: Vec::new(),
             ages: Ages { until, record: Record::Every(recorded(until)) },
             sample: None,
             tables: all_tables(),

@@ -11,20 +11,18 @@ use crate::load::{integer_at, path_of};
 use crate::report::Fault;
 use crate::scenario::Scenario;
 use crate::species::Species;
+use crate::trial::{Treatment, Trial};
 
 /// A fault where a plant is expected to have more components than the scenario allows, since it would be cut off later.
 /// The number is the exact expectation, or a lower bound of it for a species whose expectation has no closed form. An
-/// estimate or an upper bound gives no fault; the limit then holds while the plant grows.
+/// estimate or an upper bound gives no fault; the limit then holds while the plant grows. `until` is the last age of
+/// which the expectation tells, [`foreseen_until`].
 pub(crate) fn fault_of(
     node: &Node,
     scenario: &Scenario,
     (species, model): (&Species, &dyn GrowthModel),
     until: u32,
 ) -> Option<Fault> {
-    // A pest may keep a plant small; the limits hold while it grows.
-    if !scenario.pest.is_empty() {
-        return None;
-    }
     let (most, key) = (scenario.limits.components(), scenario.limits.binding());
     let means = model.expectation(until)?;
     let expected = means.least_components(until);
@@ -40,6 +38,19 @@ pub(crate) fn fault_of(
     );
     let expected = format!("at most {most} (limits.{key}): an earlier last age, or fewer branches");
     Some(Fault::new(node.locate(&path), &path, problem, expected))
+}
+
+/// The last age of a species of the trial, by its index, up to which nothing but its model decides how it grows in some
+/// treatment: a pest may keep a plant small from the first tick on, and a cut from its tick on. `None` where there is no
+/// such age.
+pub(crate) fn foreseen_until(trial: &Trial, species: usize) -> Option<u32> {
+    let of_treatment = |treatment: &Treatment| {
+        let place = treatment.species.iter().position(|known| *known == species)?;
+        let last = treatment.scenario.last_age_of_species(place);
+        let uncut = treatment.scenario.first_cut().map_or(last, |first| last.min(first.saturating_sub(1)));
+        Some(uncut).filter(|uncut| *uncut > 0 && treatment.scenario.pest.is_empty())
+    };
+    trial.treatments().iter().filter_map(of_treatment).max()
 }
 
 /// A large number as text, such as "12 000" or "3.4e12".

@@ -4,6 +4,7 @@
 //! values at some keys. A key that has no meaning is refused, so that a file never states something that has no effect.
 //! Absent: the species, which is a file of its own, and the place of the run folder, which the command line states.
 
+mod events;
 pub mod experiment;
 pub(crate) mod icasa;
 mod meshes;
@@ -14,6 +15,7 @@ mod sample;
 mod site;
 mod tables;
 
+pub use events::{Event, Work};
 pub use experiment::{Design, Experiment};
 pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use pests::{Attacked, Clustered, Host, Larvae, Pest, exposure};
@@ -83,6 +85,10 @@ pub struct Scenario {
     /// tick 0.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub member: Vec<Member>,
+    /// What people do to the plants, as `[[event]]`: pruning, thinning, harvest. Nothing if not given. Of one tick they
+    /// are done in the order of this file.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub event: Vec<Event>,
     /// The last tick of the plots, and the recorded ticks.
     pub ages: Ages,
     /// The tables that are written. All if not given. With any table, `plants` and `treatments` are written too, since
@@ -274,6 +280,7 @@ impl Scenario {
         self.check_sample(&mut faults);
         pests::check(&self.pest, self.ages.until, self.spacing_m.is_some(), &Path::root().key("pest"), &mut faults);
         self.check_planting(&mut faults);
+        self.check_events(&mut faults);
         self.site.check_planes(&Path::root().key("site"), &mut faults);
         if self.tables.is_empty() && self.meshes.is_none() {
             let problem = "this run would write nothing: no table and no mesh is asked for";

@@ -4,6 +4,7 @@
 //! after the last, laws that leave their range at some age), and last the growth explosion, which needs compiled laws.
 //! Absent: writing; nothing is written before the whole scenario has passed.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::path::Path as FilePath;
 use std::sync::{Arc, OnceLock};
@@ -189,6 +190,7 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let treatments = treatments.collect::<Option<Vec<Treatment>>>()?;
     let checked = (scenario, treatments, (species.next()?, species.collect()));
     check_explosions(loader, &node, &checked);
+    check_cuttable(loader, &node, &checked);
     Some(checked)
 }
 
@@ -214,10 +216,20 @@ fn treatment(run: &Scenario, read: Read, species: &[Mention]) -> Option<Treatmen
     Some(Treatment { name, levels, scenario, species: places })
 }
 
+/// Events change plants that keep their past alone.
+fn check_cuttable(loader: &mut Loader, node: &Node, (_, treatments, (first, others)): &Checked) {
+    let species: Vec<&Compiled> = [first].into_iter().chain(others).collect();
+    let managed = treatments.iter().filter(|treatment| !treatment.scenario.event.is_empty());
+    let places: BTreeSet<usize> = managed.flat_map(|treatment| treatment.species.iter().copied()).collect();
+    let remade = places.into_iter().map(|place| species[place]).filter(|of| !of.model.growth().keeps_its_past());
+    let faults = remade.map(|of| Scenario::fault_of_uncuttable(&of.species.about.name)).collect();
+    tell(loader, node, faults);
+}
+
 fn check_explosions(loader: &mut Loader, node: &Node, (scenario, treatments, (first, others)): &Checked) {
     let trial = Trial::of(scenario, treatments);
     for (place, of) in [first].into_iter().chain(others).enumerate() {
-        let until = trial.last_age_of_species(place);
+        let Some(until) = explosion::foreseen_until(&trial, place) else { continue };
         loader.faults.extend(explosion::fault_of(node, scenario, (&of.species, of.model.as_ref()), until));
     }
 }

@@ -53,6 +53,8 @@ pub struct SummaryRow {
     pub wood_volume_m3: f64,
     pub alive: bool,
     pub death_age: Option<Tick>,
+    pub harvested_fruits: u32,
+    pub harvested_fresh_mass_kg: Option<f64>,
 }
 
 impl Run {
@@ -258,6 +260,15 @@ impl SummaryBatch<'_> {
             wood_volume_m3: self.real("wood_volume_m3", row)?.unwrap_or_default(),
             alive: self.column::<BooleanArray>("alive")?.value(row),
             death_age: self.number("death_age", row)?,
+            // Runs of older programs harvest nothing.
+            harvested_fruits: match self.has("harvested_fruits") {
+                true => self.count("harvested_fruits", row)?,
+                false => 0,
+            },
+            harvested_fresh_mass_kg: match self.has("harvested_fresh_mass_kg") {
+                true => self.real("harvested_fresh_mass_kg", row)?,
+                false => None,
+            },
         })
     }
 

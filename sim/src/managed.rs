@@ -1,8 +1,8 @@
 //! Growth between the operations of people: ahead to the tick before each, then the operation, then on.
 //!
-//! So a plot with few operations grows axis by axis for nearly all of its ticks. The plants stand at the end of the tick
-//! before an operation that looks at where their wood is. Then the cuts are made, the models answer them, and what is
-//! dead is shed. Absent: what an operation does ([`crate::management`]), and the loop.
+//! So a plot with few operations grows axis by axis for nearly all of its ticks. The plants stand at the end of the
+//! tick before an operation that looks at where their wood is. Then the cuts are made, the models answer them, and what
+//! is dead is shed. Absent: what an operation does ([`crate::management`]), and the loop.
 
 use crate::clock::Tick;
 use crate::management::Worked;

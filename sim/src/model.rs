@@ -78,7 +78,8 @@ pub trait Grow: Send + Sync {
     }
 
     /// Answers the cuts that were made at the plant's age `age`, of which [`Plant::stumps`] tells the ends, before the
-    /// plant grows to that age: what a cut releases appears at `age`. Nothing grows from a cut where a model says nothing.
+    /// plant grows to that age: what a cut releases appears at `age`. Nothing grows from a cut where a model says
+    /// nothing.
     ///
     /// # Errors
     /// [`Overgrown`], as [`Grow::grow_to`].

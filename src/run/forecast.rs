@@ -179,8 +179,9 @@ impl PlotForecast {
     };
 
     fn of(Treatment { scenario, species, .. }: &Treatment, expected: &[Expectation], recorded: &[u32]) -> Self {
-        // No closed form knows which plants a pest attacks.
-        let certainty = if scenario.pest.is_empty() { Certainty::Exact } else { Certainty::About };
+        // No closed form knows which plants a pest attacks, or what events take off.
+        let foreseen = scenario.pest.is_empty() && scenario.event.is_empty();
+        let certainty = if foreseen { Certainty::Exact } else { Certainty::About };
         let mut plot = Self { certainty, ..Self::NOTHING };
         for member in scenario.plot_members() {
             let of_member = species.get(scenario.species_of(&member)).and_then(|species| expected.get(*species));

@@ -8,6 +8,7 @@
 use super::field::Field;
 use phytomer_config::scenario::{Host, Member, Table, exposure};
 use phytomer_config::{PlantPlace, PlotPlace, Scenario, Treatment, Trial};
+use phytomer_sim::management::Management;
 use phytomer_sim::plant::{Seed, ThreadBudget};
 use phytomer_sim::random::{PlantRandom, draw_key};
 use phytomer_sim::site::Site;
@@ -18,6 +19,8 @@ use phytomer_sim::{GrowthModel, NEVER, Plot, Sowing};
 pub struct Plots<'a> {
     trial: Trial,
     field: Field,
+    /// What people do to the plants of each treatment.
+    management: Vec<Management>,
     models: Vec<&'a dyn GrowthModel>,
     /// Each member of the plots of each treatment with its species, as a place in `models`.
     members: Vec<Vec<(Member, usize)>>,
@@ -28,7 +31,8 @@ impl<'a> Plots<'a> {
     pub fn of(trial: Trial, models: Vec<&'a dyn GrowthModel>) -> Self {
         let field = Field::of(&trial);
         let members = trial.treatments().iter().map(members_of).collect();
-        Self { trial, field, models, members }
+        let management = trial.treatments().iter().map(|treatment| treatment.scenario.management()).collect();
+        Self { trial, field, management, models, members }
     }
 
     /// The trial.
@@ -45,6 +49,7 @@ impl<'a> Plots<'a> {
     pub fn sow(&self, plot: u32, budget: ThreadBudget) -> Plot<'a> {
         let mut sown = Plot::new(plot, self.models.clone(), &self.sowings(plot));
         self.settle(&mut sown, plot);
+        sown.manage(self.management_of(plot).clone());
         sown.plants.iter_mut().for_each(|plant| plant.budget = budget);
         self.expose(&mut sown);
         sown
@@ -70,6 +75,7 @@ impl<'a> Plots<'a> {
         let sown = if self.germinates(plant) { 0 } else { NEVER };
         let mut alone = Plot::new(plot, self.models.clone(), &[Sowing { species, seed, place, sown }]);
         self.settle(&mut alone, plot);
+        alone.manage(self.management_of(plot).clone());
         self.expose(&mut alone);
         alone
     }
@@ -91,9 +97,16 @@ impl<'a> Plots<'a> {
         }
     }
 
-    /// Whether a plant depends on what else stands in its plot, or on when it was sown in it.
+    /// Whether a plant depends on what else stands in its plot, or on when it was sown in it: events have ticks of the
+    /// plot, and may choose among its plants.
     pub fn feed_back(&self, plant: u32) -> bool {
-        self.site(self.trial.plant(plant).plot).feeds_back()
+        let plot = self.trial.plant(plant).plot;
+        self.site(plot).feeds_back() || !self.management_of(plot).is_empty()
+    }
+
+    /// What people do to the plants of a plot.
+    fn management_of(&self, plot: u32) -> &Management {
+        &self.management[self.trial.plot(plot).treatment]
     }
 
     /// The place of a plot, metres.

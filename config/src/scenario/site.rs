@@ -78,6 +78,11 @@ impl Site {
 }
 
 impl Plane {
+    /// The plane as it lies around the seed of a plant.
+    pub(super) fn around_seed(&self) -> SimPlane {
+        self.moved([0.0; 3])
+    }
+
     /// The plane of a plot at `place`, metres.
     fn moved(&self, place: [f64; 3]) -> SimPlane {
         SimPlane { point: [0, 1, 2].map(|k| self.point_m[k] + place[k]), normal: self.normal }

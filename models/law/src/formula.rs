@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::curves::Curve;
 use super::domain::{At, Domain, Grid, Uses};
-use super::expression::Expression;
+use super::expression::{Expression, Loaded, OfLaws};
 use super::form::{Law, LawForm};
 use super::range::ValueRange;
 use super::variable::Variable;
@@ -21,7 +21,7 @@ const MOST_LOOKING_AHEAD: u64 = 1 << 23;
 enum Term {
     Value(f64),
     Curve(Box<dyn Curve>),
-    Code(Expression),
+    Code(Expression<Loaded>),
 }
 
 impl Term {
@@ -33,7 +33,7 @@ impl Term {
                 uses.add(curve.over());
                 uses
             }
-            Self::Code(code) => code.uses,
+            Self::Code(code) => code.uses(),
         }
     }
 
@@ -139,7 +139,7 @@ impl<'a> Formula<'a> {
             curve.check(self.domain, &path.key(kind), faults);
             return Some(Term::Curve(curve));
         } else if let Some(text) = &form.expression {
-            match parser::parse(text) {
+            match parser::parse(text, &OfLaws) {
                 Ok(code) => return Some(Term::Code(code)),
                 Err(e) => {
                     let problem = format!("column {} of the expression: {}", e.column, e.problem);

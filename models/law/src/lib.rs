@@ -9,6 +9,7 @@
 //! words (a draw takes one 32-bit word from its caller).
 
 mod bare;
+pub mod condition;
 mod constant;
 mod count;
 mod count_source;

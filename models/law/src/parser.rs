@@ -1,12 +1,12 @@
 //! The parser of free expressions: text to postfix code, by precedence climbing.
 //!
 //! Bounded in length and depth, so that no text can exhaust the stack. Precedence from loose to tight: or, and, not,
-//! comparisons (which do not chain), + −, * /, unary minus, ^ (from the right; −2^2 = −4). Errors carry the column
-//! in the text, from 1, in characters.
+//! comparisons (which do not chain), + −, * /, unary minus, ^ (from the right; −2^2 = −4). A name whose values are
+//! words is compared with a word in quotes and stands nowhere else. Errors carry the column in the text, from 1, in
+//! characters.
 
-use super::domain::Uses;
 use super::expression::{
-    COMPARISON, Expression, FUNCTIONS, Function, INFIXES, Infix, MINUS, NOT, Op, POWER, is_true, named, names, truth,
+    COMPARISON, Expression, FUNCTIONS, Function, INFIXES, Infix, MINUS, NOT, Op, POWER, Vocabulary, is_true, truth,
 };
 use super::spelling;
 
@@ -28,6 +28,8 @@ pub(super) struct ParseError {
 enum Token {
     Number(f64),
     Name(String),
+    /// A word in quotes.
+    Text(String),
     Symbol(&'static str),
     End,
 }
@@ -37,6 +39,7 @@ impl Token {
         match self {
             Self::Number(number) => format!("unexpected number {number}"),
             Self::Name(name) => format!("unexpected name `{}`", spelling::clip(name)),
+            Self::Text(text) => format!("unexpected text '{}'", spelling::clip(text)),
             Self::Symbol(symbol) => format!("unexpected `{symbol}`"),
             Self::End => "the expression ends too early".to_owned(),
         }
@@ -47,16 +50,16 @@ fn error<T>(column: usize, problem: impl Into<String>, expected: impl Into<Strin
     Err(ParseError { column, problem: problem.into(), expected: expected.into() })
 }
 
-/// Parses an expression.
-pub(super) fn parse(text: &str) -> Result<Expression, ParseError> {
+/// Parses an expression over the names of a vocabulary.
+pub(super) fn parse<V: Vocabulary>(text: &str, vocabulary: &V) -> Result<Expression<V::Name>, ParseError> {
     let chars: Vec<char> = text.chars().take(MAX_LENGTH + 1).collect();
     if chars.len() > MAX_LENGTH {
         return error(MAX_LENGTH, "the expression is too long", format!("at most {MAX_LENGTH} characters"));
     }
-    let mut parser = Parser { tokens: tokens(&chars)?, next: 0, depth: 0, code: Vec::new(), uses: Uses::default() };
+    let mut parser = Parser { tokens: tokens(&chars)?, next: 0, depth: 0, code: Vec::new(), vocabulary };
     parser.expression(0)?;
     match parser.token() {
-        Token::End => Ok(Expression { code: parser.code, uses: parser.uses }),
+        Token::End => Ok(Expression { code: parser.code }),
         token => error(parser.column(), token.describe(), "an operator or the end of the expression"),
     }
 }
@@ -90,6 +93,14 @@ fn token(rest: &[char], column: usize) -> Result<(Token, usize), ParseError> {
         let len = name.chars().count();
         return Ok((Token::Name(name), len));
     }
+    if first == '\'' || first == '"' {
+        let text: String = rest[1..].iter().take_while(|c| **c != first).collect();
+        let len = text.chars().count() + 2;
+        return match len <= rest.len() {
+            true => Ok((Token::Text(text), len)),
+            false => error(column, "a text without an end", format!("`{first}` at its end")),
+        };
+    }
     let starts = |symbol: &&&str| symbol.chars().enumerate().all(|(i, c)| rest.get(i) == Some(&c));
     match SYMBOLS.iter().find(starts) {
         Some(symbol) => Ok((Token::Symbol(symbol), symbol.len())),
@@ -115,15 +126,15 @@ fn number(rest: &[char], column: usize) -> Result<(Token, usize), ParseError> {
     }
 }
 
-struct Parser {
+struct Parser<'v, V: Vocabulary> {
     tokens: Vec<(usize, Token)>,
     next: usize,
     depth: u32,
-    code: Vec<Op>,
-    uses: Uses,
+    code: Vec<Op<V::Name>>,
+    vocabulary: &'v V,
 }
 
-impl Parser {
+impl<V: Vocabulary> Parser<'_, V> {
     fn token(&self) -> Token {
         self.tokens.get(self.next).map_or(Token::End, |(_, token)| token.clone())
     }
@@ -181,9 +192,12 @@ impl Parser {
                 self.expression(NOT)?;
                 self.code.push(Op::Unary(|x| truth(!is_true(x))));
             }
+            Token::Name(name) if matches!(name.as_str(), "and" | "or") => {
+                return error(column, format!("unexpected `{name}`"), self.expected_operand());
+            }
             Token::Name(name) if self.token() == Token::Symbol("(") => self.call(&name, column)?,
             Token::Name(name) => self.variable(&name, column)?,
-            token => return error(column, token.describe(), "a number, a variable, a function or `(`"),
+            token => return error(column, token.describe(), self.expected_operand()),
         }
         Ok(())
     }
@@ -197,19 +211,49 @@ impl Parser {
     }
 
     fn variable(&mut self, name: &str, column: usize) -> Result<(), ParseError> {
-        let Some(op) = named(name) else {
-            return error(column, format!("unknown name `{}`", spelling::clip(name)), expected_name(name));
+        let Some(known) = self.vocabulary.named(name) else {
+            let problem = format!("unknown name `{}`", spelling::clip(name));
+            return error(column, problem, self.expected_name(name));
         };
-        if let Op::Load(variable) = op {
-            self.uses.add(variable);
-        }
-        self.code.push(op);
+        self.code.push(Op::Load(known));
+        let words = self.vocabulary.words(known);
+        if words.is_empty() { Ok(()) } else { self.compared_with(name, column, &words) }
+    }
+
+    /// The word with which a name is compared whose values are words.
+    fn compared_with(&mut self, name: &str, column: usize, words: &[(&'static str, f64)]) -> Result<(), ParseError> {
+        let infix = self.infix().filter(|infix| matches!(infix.symbol, "==" | "!="));
+        let text = self.tokens.get(self.next + 1).cloned();
+        let (Some(infix), Some((at, Token::Text(text)))) = (infix, text) else {
+            let (word, _) = words[0];
+            let expected = format!("a comparison with a word, such as `{name} == '{word}'`");
+            return error(column, format!("the values of `{name}` are words"), expected);
+        };
+        let Some((_, number)) = words.iter().find(|(word, _)| *word == text) else {
+            let problem = format!("`{name}` is never '{}'", spelling::clip(&text));
+            let all = words.iter().map(|(word, _)| *word);
+            return error(at, problem, spelling::expected(&text, all, "a word"));
+        };
+        self.next += 2;
+        self.code.push(Op::Number(*number));
+        self.code.push(Op::Binary(infix.apply));
         Ok(())
+    }
+
+    fn expected_operand(&self) -> String {
+        format!("a number, a {}, a function or `(`", self.vocabulary.noun())
+    }
+
+    fn expected_name(&self, name: &str) -> String {
+        let all = self.vocabulary.names().into_iter().chain(FUNCTIONS.iter().map(|known| known.0));
+        let noun = self.vocabulary.noun();
+        spelling::expected(name, all.chain(["and", "or", "not"]), &format!("a {noun} or a function"))
     }
 
     fn call(&mut self, name: &str, column: usize) -> Result<(), ParseError> {
         let Some((name, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) else {
-            return error(column, format!("unknown function `{}`", spelling::clip(name)), expected_name(name));
+            let problem = format!("unknown function `{}`", spelling::clip(name));
+            return error(column, problem, self.expected_name(name));
         };
         self.symbol("(")?;
         let mut arguments = 0;
@@ -251,9 +295,4 @@ impl Parser {
         }
         error(column, format!("`{name}` is given {arguments} arguments"), needs)
     }
-}
-
-fn expected_name(name: &str) -> String {
-    let all = names().chain(FUNCTIONS.iter().map(|known| known.0));
-    spelling::expected(name, all.chain(["and", "or", "not"]), "a variable or a function")
 }

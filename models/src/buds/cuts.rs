@@ -2,9 +2,9 @@
 //!
 //! The dormant axillary buds of the last node that a cut has left are released as they are by the death of an apex: by
 //! the law of traumatic reiteration of the order of the stump, and as axes of that order, i and not i + 1. Of a branch
-//! that was taken off as a whole the bearing node answers, where it is the end of its own axis. A bud that stays dormant
-//! may be released by a later cut, so each cut draws anew: in a stream of the node, a record for each age of the plant.
-//! Absent: the cuts, and the memory of dormant buds (`sim::plant`).
+//! that was taken off as a whole the bearing node answers, where it is the end of its own axis. A bud that stays
+//! dormant may be released by a later cut, so each cut draws anew: in a stream of the node, a record for each age of
+//! the plant. Absent: the cuts, and the memory of dormant buds (`sim::plant`).
 
 use super::bud::ApicalBud;
 use super::compile::BudModel;

@@ -262,8 +262,8 @@ impl Axis<'_> {
         follows
     }
 
-    /// Traumatic reiteration: releases the dormant axillary buds of the last node, at this axis's order. Those that stay
-    /// dormant may be released by a later cut.
+    /// Traumatic reiteration: releases the dormant axillary buds of the last node, at this axis's order. Those that
+    /// stay dormant may be released by a later cut.
     pub(super) fn release(&mut self, node: NodeId) {
         let laws = self.laws;
         let at = self.at(0);

@@ -268,11 +268,15 @@ pub static EVENTS: [Column; 9] = [
     Column::id("component_id", "The apical bud: of the new axis where one began, of the branch that fell for `shed`."),
     Column::id("axis_id", "The axis of that bud: the same number, so that events join by axis too."),
     Column::word("event", &EVENT_TAGS, "What happened; the falls of organs are in components."),
-    Column::small("count", "Of how many: the nodes of `grew`, the growth units of `completed`; else 1."),
+    Column::small(
+        "count",
+        "Of how many: the nodes of `grew`, the growth units of `completed`, the fruits of `thinned` and of a harvest of \
+         fruits; else 1.",
+    ),
 ];
 
 /// A row per plant and recorded tick; none before the plant is sown.
-pub static SUMMARY: [Column; 19] = [
+pub static SUMMARY: [Column; 21] = [
     TREATMENT,
     PLOT,
     PLANT,
@@ -308,6 +312,13 @@ pub static SUMMARY: [Column; 19] = [
     ),
     Column::tick("death_age", "The age at which the last of its components died. Null while the plant lives.")
         .or_null(),
+    Column::id("harvested_fruits", "Fruits of the plant that were harvested by this age: the yield."),
+    Column::double(
+        "harvested_fresh_mass_kg",
+        "kg",
+        "The fresh mass of these fruits when they were harvested. Null where the species states no mass of fruits.",
+    )
+    .or_null(),
 ];
 
 /// A row per plant.

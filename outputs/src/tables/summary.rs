@@ -9,7 +9,7 @@ use super::component_index::ComponentIndex;
 use super::membership::Membership;
 use phytomer_sim::Tick;
 use phytomer_sim::mechanics::wood_volume;
-use phytomer_sim::plant::{AxisId, Class, Kind, NodeId, OrganId, Plant};
+use phytomer_sim::plant::{AxisId, Cause, Class, Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::node_frame;
 
 columns! {
@@ -34,6 +34,8 @@ columns! {
         wood_volume: Double(f64) = summary.wood_volume,
         alive: Bool(i8) = i8::from(of.plant.lives(of.age)),
         death: Int(i32) = if of.plant.lives(of.age) { NULL } else { of.plant.death as i32 },
+        harvested_fruits: Int(i32) = summary.harvested_fruits as i32,
+        harvested_mass: Double(f64) = summary.harvested_mass,
     }
 }
 
@@ -72,6 +74,10 @@ pub struct Summary {
     pub leaf_area: f64,
     /// The volume of all internodes that stand, m³.
     pub wood_volume: f64,
+    /// Fruits harvested by this age.
+    pub harvested_fruits: u32,
+    /// Their fresh mass when they were harvested, kg; NaN where the species states no mass of fruits.
+    pub harvested_mass: f64,
 }
 
 impl Summary {
@@ -126,8 +132,17 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
 
 fn count_organs(plant: &Plant, age: Tick, summary: &mut Summary) {
     let organs = &plant.organs;
+    let masses = plant.habit.wood.as_ref().map(|wood| &wood.organs).filter(|masses| masses.fruit > 0.0);
+    summary.harvested_mass = if masses.is_some() { 0.0 } else { f64::NAN };
     for organ in 0..organs.len() {
-        if organs.birth[organ] > age || age >= plant.organ_end(OrganId(organ as u32)) {
+        if organs.birth[organ] > age {
+            continue;
+        }
+        if age >= plant.organ_end(OrganId(organ as u32)) {
+            if organs.cause[organ] == Cause::Harvested && organs.kind[organ].class() == Class::Fruit {
+                summary.harvested_fruits += 1;
+                summary.harvested_mass += masses.map_or(0.0, |of| of.of(plant, organ, organs.death[organ]));
+            }
             continue;
         }
         let kind = organs.kind[organ];

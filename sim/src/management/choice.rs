@@ -1,7 +1,8 @@
-//! Which things an operation concerns: those for which a condition holds, of these the first by a rank, at most a share.
+//! Which things an operation concerns: those for which a condition holds, of these the first by a rank, at most a
+//! share.
 //!
-//! A condition is a formula over columns that is not 0. The language of formulas stands above this crate; here a formula
-//! is what gives a number where it is told the values of columns. Absent: what is done with the chosen.
+//! A condition is a formula over columns that is not 0. The language of formulas stands above this crate; here a
+//! formula is what gives a number where it is told the values of columns. Absent: what is done with the chosen.
 
 use super::column::Column;
 use std::cmp::Ordering;

@@ -38,7 +38,10 @@ pub enum Values {
 }
 
 macro_rules! columns {
-    ($($(#[doc = $meaning:literal])+ $name:ident = $tag:literal, [$($thing:ident),+], $values:ident, $needs:ident;)+) => {
+    ($(
+        $(#[doc = $meaning:literal])+
+        $name:ident = $tag:literal, [$($thing:ident),+], $values:ident, $needs:ident;
+    )+) => {
         /// A column that a condition can name.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Column {
@@ -116,7 +119,8 @@ columns! {
     Length = "length_m", [Wood, Fruit], Numbers, pose;
     /// The diameter at the base of the branch, of the fruit, or at the base of the trunk of a plant, metres.
     Diameter = "diameter_m", [Wood, Fruit, Plant], Numbers, pose;
-    /// The height of the base of the branch, or of the fruit, above the seed; of a plant that of its highest internode, metres.
+    /// The height of the base of the branch, or of the fruit, above the seed; of a plant that of its highest internode,
+    /// metres.
     Height = "height_m", [Wood, Fruit, Plant], Numbers, pose;
     /// The height of the tip of the axis above the seed, metres.
     TipHeight = "tip_height_m", [Wood], Numbers, pose;

@@ -60,8 +60,8 @@ fn life_share(plant: &Plant, organ: usize, tick: Tick) -> f64 {
     f64::from(tick.saturating_sub(birth)) / f64::from(death.saturating_sub(birth).max(1))
 }
 
-/// Picks the chosen fruits that have at least the share `ripe` of their life behind them. `height` is that of the plant.
-/// What is picked has left the plant at `tick`, and a shoot that ended in it is spent.
+/// Picks the chosen fruits that have at least the share `ripe` of their life behind them. `height` is that of the
+/// plant. What is picked has left the plant at `tick`, and a shoot that ended in it is spent.
 pub fn pick(plant: &mut Plant, choice: &Choice, ripe: f64, cause: Cause, tick: Tick, height: f64) {
     let fruits = hanging(plant, tick);
     let of = |place: usize, column: Column| value(plant, fruits[place], (tick, height), column);

@@ -1,10 +1,10 @@
 //! What people do to the plants of a plot: pruning, thinning, training and harvest, as a calendar of operations.
 //!
-//! An operation is done between two ticks ([`timing`]), on the plants for which its condition holds, one operation after
-//! another in the order of the file and plant by plant in the order of the plot. What it takes is chosen by conditions
-//! over columns ([`column`], [`choice`]). After the last operation of a tick the model of each plant answers the cuts,
-//! so that their order does not matter. Absent: dates, which become ticks above this crate; the language of conditions;
-//! and growth.
+//! An operation is done between two ticks ([`timing`]), on the plants for which its condition holds, one operation
+//! after another in the order of the file and plant by plant in the order of the plot. What it takes is chosen by
+//! conditions over columns ([`column`], [`choice`]). After the last operation of a tick the model of each plant answers
+//! the cuts, so that their order does not matter. Absent: dates, which become ticks above this crate; the language of
+//! conditions; and growth.
 
 pub mod choice;
 pub mod column;
@@ -25,6 +25,9 @@ use crate::plant::{AxisId, Cause, Cut, Plant, Taking};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
 use std::sync::Arc;
 use wood::Branches;
+
+#[cfg(test)]
+mod tests;
 
 /// What an operation does.
 #[derive(Debug, Clone, PartialEq)]

@@ -61,8 +61,8 @@ impl When {
         self.tick(time, sown)
     }
 
-    /// The first tick after `after` at which the operation is done, or its condition asked, for a plant that was sown at
-    /// `sown`; `begun` is the tick at which its condition first held.
+    /// The first tick after `after` at which the operation is done, or its condition asked, for a plant that was sown
+    /// at `sown`; `begun` is the tick at which its condition first held.
     pub fn next(&self, after: Tick, sown: Tick, begun: Option<Tick>) -> Option<Tick> {
         // A tick of the plot at or before the sowing is passed over, not put off.
         let after = after.max(sown);

@@ -142,10 +142,10 @@ impl Plant {
         self.cut_all(&[Cut { axis, rank, tick, by: Taking::Pruning }]);
     }
 
-    /// Makes cuts, each of which takes what is above the node of its rank, with all that it bears: at its tick that does
-    /// not stand any more. To be called before the plant grows past these ticks; a model then finds the apices of the
-    /// cut axes ended ([`ApexFate::Pruned`], [`ApexFate::Harvested`]). Not to be called on a fragment, which has no nodes
-    /// below its axes. Cost: one scan of the axes and a sort of the cuts.
+    /// Makes cuts, each of which takes what is above the node of its rank, with all that it bears: at its tick that
+    /// does not stand any more. To be called before the plant grows past these ticks; a model then finds the apices of
+    /// the cut axes ended ([`ApexFate::Pruned`], [`ApexFate::Harvested`]). Not to be called on a fragment, which has no
+    /// nodes below its axes. Cost: one scan of the axes and a sort of the cuts.
     pub fn cut_all(&mut self, cuts: &[Cut]) {
         let known = self.cuts.cuts.clone();
         for cut in cuts.iter().filter(|cut| known.binary_search(cut).is_err()) {

@@ -1,8 +1,9 @@
-//! The axillary buds that lie dormant on the nodes of a plant, remembered where something may release them later: a cut.
+//! The axillary buds that lie dormant on the nodes of a plant, remembered where something may release them later: a
+//! cut.
 //!
 //! Most scenarios cut nothing, and then the last node of an axis is the only one whose dormant buds matter, which the
-//! model's own bud knows. So the memory is empty unless it is asked for before the plant is sown ([`DormantBuds::keep`]).
-//! Models write it; absent: the laws of release, which are theirs.
+//! model's own bud knows. So the memory is empty unless it is asked for before the plant is sown
+//! ([`DormantBuds::keep`]). Models write it; absent: the laws of release, which are theirs.
 
 use super::handle::NodeId;
 use super::rare::Rare;

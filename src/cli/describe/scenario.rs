@@ -43,6 +43,9 @@ pub fn as_text(resolved: &Resolved) -> String {
     for plane in &scenario.site.plane {
         line("plane", format!("through {:?} m, kills the buds towards {:?}", plane.point_m, plane.normal));
     }
+    for event in &scenario.event {
+        line("event", event.in_words());
+    }
     let ticks: BTreeSet<&str> = resolved.all_species().iter().map(|species| species.about.tick.as_str()).collect();
     line("tick", ticks.into_iter().collect::<Vec<_>>().join(", "));
     line("ages", ages_in_words(&scenario.ages.recorded(), scenario.ages.until));
