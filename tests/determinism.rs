@@ -21,7 +21,7 @@ fn one_two_and_seven_threads_write_the_same_bytes() {
         phytomer(folder.path(), &["grow", &data("small.toml"), "--threads", threads, "--name", threads]).ending(0);
         hashes(&folder.path().join("runs").join(threads))
     });
-    assert_eq!(grown[0].len(), 5 * 3 + 2 * 2, "five tables of three parts, two plants at two ages");
+    assert_eq!(grown[0].len(), 6 * 3 + 2 * 2, "six tables of three parts, two plants at two ages");
     assert_eq!(grown[0], grown[1]);
     assert_eq!(grown[0], grown[2]);
 }
@@ -33,7 +33,7 @@ fn plants_that_bend_are_the_same_on_any_number_of_threads() {
         phytomer(folder.path(), &["grow", &data("bending.toml"), "--threads", threads, "--name", threads]).ending(0);
         hashes(&folder.path().join("runs").join(threads))
     });
-    assert_eq!(grown[0].len(), 5 * 3 + 2 * 2, "five tables of three parts, two plants at two ages");
+    assert_eq!(grown[0].len(), 6 * 3 + 2 * 2, "six tables of three parts, two plants at two ages");
     assert_eq!(grown[0], grown[1]);
     assert_eq!(grown[0], grown[2]);
 }
@@ -45,7 +45,7 @@ fn parametric_trees_are_the_same_on_any_number_of_threads() {
         phytomer(folder.path(), &["grow", &data("clump.toml"), "--threads", threads, "--name", threads]).ending(0);
         hashes(&folder.path().join("runs").join(threads))
     });
-    assert_eq!(grown[0].len(), 5 * 3 + 2, "five tables of three parts, one plant at two ages");
+    assert_eq!(grown[0].len(), 6 * 3 + 2, "six tables of three parts, one plant at two ages");
     assert_eq!(grown[0], grown[1]);
     assert_eq!(grown[0], grown[2]);
 }
@@ -95,13 +95,13 @@ fn shipped(folder: &Path, name: &str, plants: &str) -> BTreeMap<String, String> 
 #[test]
 fn the_shipped_coffee_is_the_same_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
-    assert_eq!(shipped(folder.path(), "coffee", "8").len(), 5 * 4 + 2 * 4, "four parts, two plants at four ages");
+    assert_eq!(shipped(folder.path(), "coffee", "8").len(), 6 * 4 + 2 * 4, "four parts, two plants at four ages");
 }
 
 #[test]
 fn the_shipped_gmt1_is_the_same_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
-    assert_eq!(shipped(folder.path(), "gmt1", "5").len(), 5 * 3 + 1, "three parts, one plant at its last age");
+    assert_eq!(shipped(folder.path(), "gmt1", "5").len(), 6 * 3 + 1, "three parts, one plant at its last age");
 }
 
 #[test]

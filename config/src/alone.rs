@@ -3,12 +3,10 @@
 //! The key `shown_at` of a species file states this age. Without the key it is 100 ticks, or fewer, so that the plant
 //! stays small. About ten ages are recorded, up to and with the last, and mechanics are recorded where the wood bends.
 
-use std::collections::BTreeSet;
-
 use phytomer_sim::model::GrowthModel;
 
 use crate::resolved::Resolved;
-use crate::scenario::{Ages, DEFAULT_SEED, Every, Limits, Output, Record, Scenario, Site, Table};
+use crate::scenario::{Ages, DEFAULT_SEED, Every, Limits, Output, Record, Scenario, Site, tables};
 use crate::species::Species;
 use crate::validate::{ResolvedSpecies, SPECIES_ALONE_UNTIL};
 
@@ -39,13 +37,18 @@ impl ResolvedSpecies {
             site: Site::default(),
             member: Vec::new(),
             ages: Ages { until, record: Record::Every(recorded(until)) },
-            tables: BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary, Table::Plants]),
+            planting_date: None,
+            calendar: None,
+            weather: None,
+            soil: None,
+            fertilizer: Vec::new(),
+            tables: tables::all(),
             meshes: None,
             limits: Limits::default(),
             output: Output { mechanics, ..Output::default() },
         };
         let Self { species, model, sources, tree } = self;
-        Resolved { scenario, species, model, others: Vec::new(), sources, tree }
+        Resolved { scenario, species, model, others: Vec::new(), dated: None, sources, tree }
     }
 }
 

@@ -4,11 +4,13 @@
 //! are refused like any unknown key, so that a file never states something that has no effect. Absent: the species,
 //! which is a file of its own, and the place of the run folder, which the command line states.
 
+mod calendar;
 mod meshes;
 mod plots;
 mod site;
-mod tables;
+pub(crate) mod tables;
 
+pub use calendar::{Calendar, Fertilizer, Soil, TickLength};
 pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use plots::Member;
 pub use site::{Plane, Site, Wind};
@@ -18,6 +20,7 @@ use std::collections::BTreeSet;
 
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::clock::LAST_TICK;
+use phytomer_weather::WeatherFile;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -66,6 +69,21 @@ pub struct Scenario {
     pub member: Vec<Member>,
     /// The last tick of the plots, and the recorded ticks.
     pub ages: Ages,
+    /// The day of planting, as YYYY-MM-DD: tick 0 is the midnight with which it begins.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub planting_date: Option<String>,
+    /// The ticks on the calendar, for laws that depend on the date. Without it ticks have no dates.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub calendar: Option<Calendar>,
+    /// The weather of the site.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weather: Option<WeatherFile>,
+    /// The nitrogen of the soil.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub soil: Option<Soil>,
+    /// Applications of fertilizer, as `[[fertilizer]]`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fertilizer: Vec<Fertilizer>,
     /// The tables that are written. All if not given. With any table, `plants` is written too, since it states the
     /// place of each plant.
     #[serde(default = "tables::all")]
@@ -242,6 +260,7 @@ impl Scenario {
         }
         self.check_mesh_plants(&meshes.key("plants"), &mut faults);
         self.check_members(&mut faults);
+        self.check_calendar(&mut faults);
         self.site.check_planes(&Path::root().key("site"), &mut faults);
         if self.tables.is_empty() && self.meshes.is_none() {
             let problem = "this run would write nothing: no table and no mesh is asked for";

@@ -13,9 +13,11 @@ use phytomer_law::fault;
 use phytomer_models::parameters::Keys;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::model::GrowthModel;
+use phytomer_sim::site::calendar::Dates;
 use serde_json::Value as Json;
 
 use crate::about::About;
+use crate::dates::{self, Dated};
 use crate::document::Node;
 use crate::explosion;
 use crate::library::{Kind, Library};
@@ -77,10 +79,11 @@ fn validate_in(library: Library, scenario: &str) -> Result<Resolved, Report> {
     let mut loader = Loader { library, ..Loader::default() };
     let mention = Mention { name: scenario.to_owned(), place: None };
     let found = loader.find(Kind::Scenario, &mention).and_then(|source| check_scenario(&mut loader, source));
-    conclude(loader, found, |(scenario, Compiled { species, model, tree }, others), sources| {
+    conclude(loader, found, |Checked { scenario, own, others, dated }, sources| {
         let other = |Compiled { species, model, tree }| OtherSpecies { species, model, tree };
         let others = others.into_iter().map(other).collect();
-        Resolved { scenario, species, model, others, sources, tree }
+        let Compiled { species, model, tree } = own;
+        Resolved { scenario, species, model, others, dated, sources, tree }
     })
 }
 
@@ -98,7 +101,7 @@ fn species_in(library: Library, species: &str, until: u32) -> Result<ResolvedSpe
     let until = |about: Option<&About>| {
         Some(about.and_then(|about| about.shown_at).unwrap_or(1).max(until).clamp(1, LAST_TICK))
     };
-    let found = check_species(&mut loader, &mention, until);
+    let found = check_species(&mut loader, &mention, until, Ok(None));
     conclude(loader, found, |Compiled { species, model, tree }, sources| ResolvedSpecies {
         species,
         model,
@@ -156,8 +159,13 @@ struct Compiled {
     tree: Node,
 }
 
-/// A checked scenario, its own species, and the other species of its members.
-type Checked = (Scenario, Compiled, Vec<Compiled>);
+/// A checked scenario, its own species, the other species of its members, and its calendar.
+struct Checked {
+    scenario: Scenario,
+    own: Compiled,
+    others: Vec<Compiled>,
+    dated: Option<Dated>,
+}
 
 fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let (_, node) = loader.parse(source);
@@ -166,22 +174,54 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     schema::check(scenario_schema(), &node, &mut refused);
     loader.faults.extend(refused.iter().cloned());
     let scenario: Option<Scenario> = loader.read(&node, &Keys::PLAIN, &refused, serde_path_to_error::deserialize);
+    let mut dated = Err(dates::Refused);
     if let Some(scenario) = &scenario {
-        tell(loader, &node, scenario.faults());
+        let is_refused = refused.iter().any(|fault| dates::is_of_dates(&fault.path));
+        let mut faults = scenario.faults();
+        // What the schema has refused is missing in the scenario: no more is told of the dates.
+        faults.retain(|fault| !is_refused || !dates::is_of_dates(&fault.path));
+        let is_sound = !is_refused && !faults.iter().any(|fault| dates::is_of_dates(&fault.path));
+        tell(loader, &node, faults);
+        dated = if is_sound { dates::of(loader, &node, scenario) } else { dated };
     }
     let until = integer_at(&node, &["ages", "until"]).and_then(|n| u32::try_from(n).ok());
     let until = until.filter(|n| (1..=LAST_TICK).contains(n));
     let last_age = |species: usize| until.map(|until| last_age_of(scenario.as_ref(), species).unwrap_or(until));
+    let dates = |species: usize| {
+        let sown = scenario.as_ref().map_or(0, |scenario| scenario.first_sowing_of(species));
+        dated.as_ref().map(|dated| dated.as_ref().map(|dated| dated.of_sowing(sown))).map_err(|refused| *refused)
+    };
     let mentions = species_mentions(&node).into_iter().enumerate();
     let species: Vec<Option<Compiled>> =
-        mentions.map(|(place, mention)| check_species(loader, &mention, |_| last_age(place))).collect();
+        mentions.map(|(place, mention)| check_species(loader, &mention, |_| last_age(place), dates(place))).collect();
     let mut species = species.into_iter().collect::<Option<Vec<Compiled>>>()?.into_iter();
-    let checked = (scenario?, species.next()?, species.collect());
+    let (own, others) = (species.next()?, species.collect());
+    let checked = Checked { scenario: scenario?, own, others, dated: dated.ok()? };
+    check_sowings(loader, &node, &checked);
     check_explosions(loader, &node, &checked);
     Some(checked)
 }
 
-fn check_explosions(loader: &mut Loader, node: &Node, (scenario, own, others): &Checked) {
+/// A species whose laws depend on the date has one model, and so one tick of sowing.
+fn check_sowings(loader: &mut Loader, node: &Node, Checked { scenario, own, others, dated }: &Checked) {
+    if dated.is_none() {
+        return;
+    }
+    for (place, of) in [own].into_iter().chain(others).enumerate() {
+        let Some(member) = scenario.sown_apart(place) else { continue };
+        if of.species.model.compile(scenario.last_age_of_species(place)).is_ok() {
+            continue;
+        }
+        let path = path_of(&["member"]).index(member).key("sown");
+        let problem =
+            format!("`{}` has laws of the date, and its members are sown at different ticks", of.species.about.name);
+        let expected =
+            "one tick of sowing for all members of the species, or a species of their own for the later ones";
+        loader.faults.push(Fault::new(node.locate(&path), &path, problem, expected));
+    }
+}
+
+fn check_explosions(loader: &mut Loader, node: &Node, Checked { scenario, own, others, .. }: &Checked) {
     for (place, of) in [own].into_iter().chain(others).enumerate() {
         let until = scenario.last_age_of_species(place);
         loader.faults.extend(explosion::fault_of(node, scenario, (&of.species, of.model.as_ref()), until));
@@ -214,13 +254,16 @@ fn check_species(
     loader: &mut Loader,
     mention: &Mention,
     until: impl Fn(Option<&About>) -> Option<u32>,
+    dates: Result<Option<Dates>, dates::Refused>,
 ) -> Option<Compiled> {
     let Found { about, model, node } = loader.species(mention)?;
     if let Some(about) = &about {
         tell(loader, &node, about.faults());
         check_year(loader, &node, about, &model);
     }
-    match model.compile(until(about.as_ref())?) {
+    // Without its calendar a scenario cannot know which laws of the date hold.
+    let dates = dates.ok()?;
+    match model.compile_dated(until(about.as_ref())?, dates.as_ref()) {
         Ok(compiled) => Some(Compiled { species: Species { about: about?, model }, model: compiled, tree: node }),
         Err(faults) => {
             tell(loader, &node, faults);

@@ -8,6 +8,7 @@ use super::forecast::Forecast;
 use phytomer_config::{Resolved, scenario};
 use phytomer_outputs::{Input, Provenance, RunPlan, Table};
 use sha2::{Digest, Sha256};
+use std::sync::Arc;
 
 /// The work of a part file, in components shown to a table: about 60 MB of `records`, some seconds of one core.
 const WORK_A_PART: f64 = 2e6;
@@ -57,6 +58,7 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunErr
         },
         precision_m: scenario.output.float_precision_m,
         mechanics: scenario.output.mechanics,
+        calendars: vec![resolved.dated.as_ref().map(|dated| Arc::clone(&dated.calendar))],
         provenance: Provenance {
             scenario: scenario.name.clone(),
             treatments: vec![CONTROL.to_owned()],
@@ -77,12 +79,16 @@ fn table(table: scenario::Table) -> Table {
         scenario::Table::Events => Table::Events,
         scenario::Table::Summary => Table::Summary,
         scenario::Table::Plants => Table::Plants,
+        scenario::Table::Site => Table::Site,
     }
 }
 
 fn inputs(resolved: &Resolved) -> Result<Vec<Input>, RunError> {
-    let hash = |text: &str| Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
-    let texts = resolved.sources.iter().map(|source| Input { path: source.name.clone(), sha256: hash(&source.text) });
+    let hash = |bytes: &[u8]| Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    let texts = resolved.sources.iter().map(|source| {
+        let bytes = source.bytes.as_deref().unwrap_or(source.text.as_bytes());
+        Input { path: source.name.clone(), sha256: hash(bytes) }
+    });
     let mut inputs: Vec<Input> = texts.collect();
     for species in resolved.all_species() {
         let own = super::forms::inputs(species)?;

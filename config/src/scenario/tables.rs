@@ -21,11 +21,13 @@ pub enum Table {
     Summary,
     /// A row per plant, with its species and its place in the plot.
     Plants,
+    /// A row per treatment, replicate and recorded tick, with its date and what the date brings.
+    Site,
 }
 
 /// Every table, for a scenario that names none.
-pub(super) fn all() -> BTreeSet<Table> {
-    BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary, Table::Plants])
+pub(crate) fn all() -> BTreeSet<Table> {
+    BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary, Table::Plants, Table::Site])
 }
 
 impl Scenario {

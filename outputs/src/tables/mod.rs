@@ -1,7 +1,7 @@
-//! The five tables of a run, from the plant's columns to Parquet part files, or to Arrow record batches in memory.
+//! The six tables of a run, from the plant's columns to Parquet part files, or to Arrow record batches in memory.
 //!
-//! [`columns`] declares the columns of each table; `records`, `components`, `events`, `summary` and `plants` fill
-//! column buffers from a plant; `recording` decides which rows are written when, for files and for memory. `part`
+//! [`columns`] declares the columns of each table; `records`, `components`, `events`, `summary`, `plants` and `site`
+//! fill column buffers from plants; `recording` decides which rows are written when, for files and for memory. `part`
 //! writes full buffers as row groups of a file, encoded column by column on as many threads as there are (`encode`);
 //! `memory` keeps them as Arrow record batches. The bytes do not depend on the number of threads: a row group has a
 //! fixed number of rows, and its columns are put into the file in their order.
@@ -24,6 +24,7 @@ mod records;
 pub mod schema;
 mod single;
 mod sink;
+mod site;
 mod summary;
 #[cfg(test)]
 mod tests;
@@ -46,6 +47,7 @@ pub(crate) use plants::PlantColumns;
 pub(crate) use recording::Recording;
 pub(crate) use records::{PlantAtAge, RecordColumns, RecordRow};
 pub(crate) use single::record_values;
+pub(crate) use site::{Group, SiteColumns};
 pub use summary::Summary;
 pub(crate) use summary::{SummaryColumns, summarise};
 
@@ -55,7 +57,7 @@ use serde::{Deserialize, Serialize};
 /// Rows in a row group.
 pub const ROW_GROUP: usize = 122_880;
 
-/// One of the five tables.
+/// One of the six tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Table {
@@ -69,11 +71,13 @@ pub enum Table {
     Summary,
     /// A row per plant.
     Plants,
+    /// A row per treatment, replicate and recorded tick.
+    Site,
 }
 
 impl Table {
     /// Every table.
-    pub const ALL: [Self; 5] = [Self::Components, Self::Records, Self::Events, Self::Summary, Self::Plants];
+    pub const ALL: [Self; 6] = [Self::Components, Self::Records, Self::Events, Self::Summary, Self::Plants, Self::Site];
 
     /// The name of the table, and of its folder in the run.
     pub const fn name(self) -> &'static str {
@@ -83,6 +87,7 @@ impl Table {
             Self::Events => "events",
             Self::Summary => "summary",
             Self::Plants => "plants",
+            Self::Site => "site",
         }
     }
 
@@ -94,6 +99,9 @@ impl Table {
             Self::Events => "A row per fate of a bud or a branch.",
             Self::Summary => "A row per plant and recorded tick.",
             Self::Plants => "A row per plant, with its species, its sowing and its place in the plot.",
+            Self::Site => {
+                "A row per treatment, replicate and recorded tick in each part, with its date and living plants."
+            }
         }
     }
 
@@ -106,6 +114,7 @@ impl Table {
             Self::Events => &columns::EVENTS,
             Self::Summary => &columns::SUMMARY,
             Self::Plants => &columns::PLANTS,
+            Self::Site => &columns::SITE,
         }
     }
 
@@ -118,6 +127,7 @@ impl Table {
             Self::Events => &["plot_id", "tick", "plant_id", "component_id"],
             Self::Summary => &["plot_id", "tick", "plant_id"],
             Self::Plants => &["plot_id", "plant_id"],
+            Self::Site => &["plot_id", "tick"],
         }
     }
 }
