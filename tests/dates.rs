@@ -60,9 +60,9 @@ fn the_site_of_each_tick_is_that_of_its_date() {
     }
 }
 
-/// The buds of the species wait for more than 300 °C d, so for tick 3 (3 March), and rest when a day is of 11 hours or
-/// less: at 20° S from 19 May on (FAO-56), which tick 10 (12 May) is before and tick 11 after. From day 60 of the year on
-/// a growth unit has two nodes.
+/// The buds of the species wait for more than 300 °C d, so for tick 3 (3 March), and rest when a day is of 11 hours
+/// or less: at 20° S from 19 May on (FAO-56), which tick 10 (12 May) is before and tick 11 after. From day 60 of the
+/// year on a growth unit has two nodes.
 #[test]
 fn growth_begins_by_the_date_on_any_number_of_threads() {
     let home = home(SCENARIO);
@@ -94,7 +94,8 @@ fn a_run_keeps_its_weather_and_draws_its_plants_without_the_file() {
     assert_eq!(resolved["weather"]["notes"]["filled"], serde_json::json!([]));
     assert_eq!(resolved["calendar"]["date"][12], "2001-06-01");
     let described = run(home.path(), &["describe", "dated.toml"]).ending(0).stdout;
-    for told in ["from 2001-02-01 to 2001-06-01, in ticks of 10 days", "steady.csv, 2001-01-01 to 2001-12-31, 20.00° S"] {
+    for told in ["from 2001-02-01 to 2001-06-01, in ticks of 10 days", "steady.csv, 2001-01-01 to 2001-12-31, 20.00° S"]
+    {
         assert!(described.contains(told), "{told}: {described}");
     }
     let mesh = |name: &str, from: &str| {
@@ -110,7 +111,11 @@ fn a_run_keeps_its_weather_and_draws_its_plants_without_the_file() {
 fn weather_that_is_missing_or_ends_is_invalid_input() {
     for (from, to, told) in [
         ("steady.csv", "none.csv", "cannot read the weather file `none.csv`: there is no such file"),
-        ("until = 12", "until = 34", "the weather goes from 2001-01-01 to 2001-12-31, and tick 34 needs that of 2002-01-01"),
+        (
+            "until = 12",
+            "until = 34",
+            "the weather goes from 2001-01-01 to 2001-12-31, and tick 34 needs that of 2002-01-01",
+        ),
         ("[weather]\nfile = \"steady.csv\"\n", "", "degree-days need temperatures, and there is no weather"),
     ] {
         let home = home(&SCENARIO.replace(from, to));
@@ -121,7 +126,9 @@ fn weather_that_is_missing_or_ends_is_invalid_input() {
         }
         assert!(!home.path().join("runs").exists());
     }
-    let repeated = home(&SCENARIO.replace("until = 12", "until = 40").replace("steady.csv\"", "steady.csv\"\nbeyond = \"repeat\""));
+    let repeated = home(
+        &SCENARIO.replace("until = 12", "until = 40").replace("steady.csv\"", "steady.csv\"\nbeyond = \"repeat\""),
+    );
     run(repeated.path(), &["validate", "dated.toml"]).ending(0);
 }
 

@@ -162,7 +162,8 @@ pub(crate) fn of(loader: &mut Loader, node: &Node, scenario: &Scenario) -> Resul
     }
 }
 
-/// Whether a fault is one of the keys that decide the dates, so that without them nothing can be said of laws of the date.
+/// Whether a fault is one of the keys that decide the dates, so that without them nothing can be said of laws of the
+/// date.
 pub(crate) fn is_of_dates(path: &Path) -> bool {
     const KEYS: [&str; 5] = ["planting_date", "calendar", "weather", "soil", "fertilizer"];
     match path.0.as_slice() {

@@ -2,8 +2,8 @@
 //! date decides.
 //!
 //! Names and units are those of the ICASA dictionary where it has them (`planting_date`, `fertilization_date`,
-//! `N_in_applied_fertilizer` kg[N]/ha). Absent: weather files (`phytomer_weather`), and the calendar that is made of all
-//! this (`dates`).
+//! `N_in_applied_fertilizer` kg[N]/ha). Absent: weather files (`phytomer_weather`), and the calendar that is made of
+//! all this (`dates`).
 
 use super::Scenario;
 use phytomer_law::fault::{Fault, Path};

@@ -34,8 +34,8 @@ impl Expression {
         self.code.iter().any(|op| matches!(op, Op::Order))
     }
 
-    /// The value at a point of a domain; NaN where the expression is undefined. `stack` is scratch memory. Linear in the
-    /// steps of the code.
+    /// The value at a point of a domain; NaN where the expression is undefined. `stack` is scratch memory. Linear in
+    /// the steps of the code.
     pub fn value(&self, domain: &Domain, at: At, stack: &mut Vec<f64>) -> f64 {
         stack.clear();
         for &op in &self.code {

@@ -367,16 +367,17 @@ pub(super) fn first_bud(model: &BudModel, plant: &Plant, axis: AxisId) -> Apical
     }
 }
 
-/// The tick at which a leaf falls and why, by its life length or by the season: the ticks of a year, and the tick of
-/// the year at which it falls.
-pub(super) fn leaf_fall(season: Option<(u32, u32)>, birth: Tick, life: Option<u32>) -> (Tick, Cause) {
+/// The first tick after a birth that is the tick `fall` of a year of `year` ticks.
+pub(super) fn fall_of_year(year: u32, fall: u32, birth: Tick) -> Tick {
+    let (year, fall) = (u64::from(year), u64::from(fall));
+    let wait = (fall + year - u64::from(birth) % year) % year;
+    let wait = if wait == 0 { year } else { wait };
+    u32::try_from(u64::from(birth) + wait).unwrap_or(NEVER)
+}
+
+/// The tick at which a leaf falls and why, by its life length or by the season, which makes it fall at `seasonal`.
+pub(super) fn leaf_fall(seasonal: Tick, birth: Tick, life: Option<u32>) -> (Tick, Cause) {
     let aged = life.map_or(NEVER, |life| birth.saturating_add(life.max(1)));
-    let seasonal = season.map_or(NEVER, |(year, fall)| {
-        let (year, fall) = (u64::from(year), u64::from(fall));
-        let wait = (fall + year - u64::from(birth) % year) % year;
-        let wait = if wait == 0 { year } else { wait };
-        u32::try_from(u64::from(birth) + wait).unwrap_or(NEVER)
-    });
     match (aged.min(seasonal), aged <= seasonal) {
         (NEVER, _) => (NEVER, Cause::None),
         (tick, true) => (tick, Cause::LifeLength),

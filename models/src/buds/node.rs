@@ -3,8 +3,8 @@
 //! Order of a node's components: internode, leaves, lateral flowers, then axillary and reiteration buds; the positions
 //! of a node are spread evenly around it, the first at the node's azimuth, each axillary bud in the axil of its leaf.
 
-use super::compile::Branching;
-use super::grow::{Axis, FlowerSite, Full, add_axis, leaf_fall, read};
+use super::compile::{Branching, LeafFall};
+use super::grow::{Axis, FlowerSite, Full, add_axis, fall_of_year, leaf_fall, read};
 use super::params::ApexEnd;
 use crate::law::At;
 use phytomer_sim::clock::NEVER;
@@ -112,8 +112,11 @@ impl Axis<'_> {
         let laws = &self.laws.node;
         let words = &self.words.on_node;
         let life = laws.leaf_life.as_ref().map(|life| life.draw(words, nth, at));
-        let season = laws.leaf_fall.as_ref().map(|(year, fall)| (*year, fall.draw(words, nth, at)));
-        let (death, cause) = leaf_fall(season, self.tick, life);
+        let seasonal = laws.leaf_fall.as_ref().map_or(NEVER, |fall| match fall {
+            LeafFall::OfYear(year, fall) => fall_of_year(*year, fall.draw(words, nth, at), self.tick),
+            LeafFall::When(falls) => falls.get(self.tick as usize).copied().unwrap_or(NEVER),
+        });
+        let (death, cause) = leaf_fall(seasonal, self.tick, life);
         let (length, width) = (laws.leaf.length.draw(words, nth, at), laws.leaf.width.draw(words, nth, at));
         self.plant.add_organ(NewOrgan {
             node,

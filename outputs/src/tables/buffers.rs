@@ -1,8 +1,8 @@
 //! Column buffers: filled row by row, lent to Arrow without a copy, and emptied for reuse.
 //!
-//! While a buffer is filled, a negative integer, a NaN or [`NO_DATE`] stands for null; they become nulls when the buffer is lent and
-//! never reach a file. [`columns!`] makes a struct of buffers from a table's columns and the expressions of their
-//! values in a row.
+//! While a buffer is filled, a negative integer, a NaN or [`NO_DATE`] stands for null; they become nulls when the
+//! buffer is lent and never reach a file. [`columns!`] makes a struct of buffers from a table's columns and the
+//! expressions of their values in a row.
 
 use super::schema::{Column, Rounding};
 use arrow_array::types::{ArrowPrimitiveType, Date32Type, Float32Type, Float64Type, Int8Type, Int32Type, Int64Type};

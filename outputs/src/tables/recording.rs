@@ -1,10 +1,10 @@
 //! The tables of a range of plots, filled while the plots grow: which rows are written, and when.
 //!
-//! Files and memory are filled by the same code, so a table in memory has the rows of the Parquet file. The components
-//! of a plant are written once, when their fates are known; `records` and `summary` at each recorded tick; `events` and
-//! `plants` when the plot has ended, `site` when all plots of a treatment and replicate have. The plants of a plot are written in the order of their numbers, one at a time, so
-//! the working memory is that of the largest plant. A plant that is not sown yet has a row in `plants` only. Absent:
-//! storing row groups ([`Sink`]).
+//! Files and memory are filled by the same code, so a table in memory has the rows of the Parquet file. The
+//! components of a plant are written once, when their fates are known; `records` and `summary` at each recorded tick;
+//! `events` and `plants` when the plot has ended, `site` when all plots of a treatment and replicate have. The plants
+//! of a plot are written in the order of their numbers, one at a time, so the working memory is that of the largest
+//! plant. A plant that is not sown yet has a row in `plants` only. Absent: storing row groups ([`Sink`]).
 
 use super::sink::{Rows, Sink};
 use super::{

@@ -2,9 +2,9 @@
 //! of their plants lived.
 //!
 //! Plots of one treatment and replicate follow one another, so their plants are counted together and their rows are
-//! written when the next ones begin, or the part ends. A run of several parts has the rows of each part that has plots
-//! of them: the sums of `plots` and `living_plants` are those of the run. Without a calendar the columns of the date are
-//! null. Absent: what single plants are (`summary`).
+//! written when the next ones begin, or the part ends. A run of several parts has the rows of each part that has
+//! plots of them: the sums of `plots` and `living_plants` are those of the run. Without a calendar the columns of the
+//! date are null. Absent: what single plants are (`summary`).
 
 use super::buffers::{NO_DATE, columns};
 use phytomer_sim::site::calendar::{Calendar, CalendarTick};

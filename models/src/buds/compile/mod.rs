@@ -20,7 +20,7 @@ mod zone;
 
 pub(super) use branching::Branching;
 pub(super) use head::HeadLaws;
-pub(super) use node::NodeLaws;
+pub(super) use node::{LeafFall, NodeLaws};
 pub(super) use relay::EndLaws;
 pub(super) use step::{Passage, StepLaws};
 pub(super) use zone::{Ramification, Ranks};
