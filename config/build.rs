@@ -1,4 +1,5 @@
-//! Writes the list of shipped presets: every `*.toml` under `presets/species`, `presets/halle` and `presets/scenarios`.
+//! Writes the list of shipped presets: every `*.toml` under `presets/species`, `presets/halle` and `presets/scenarios`,
+//! and every weather file under `presets/weather`.
 //!
 //! A preset's name is its path below `species` or `scenarios` without `.toml` (`gmt1/5a`); the architectural models are
 //! species too and keep their folder's name (`halle/massart`). Names are sorted, so that equal files give an equal
@@ -12,15 +13,18 @@ use std::{env, fs, io};
 fn main() -> io::Result<()> {
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR").map_err(io::Error::other)?).join("presets");
     let mut code = String::new();
+    let weather = ("WEATHER", [("weather", "weather"); 2]);
     for (name, folders) in
-        [("SPECIES", [("species", "species"), ("halle", "")]), ("SCENARIOS", [("scenarios", "scenarios"); 2])]
+        [("SPECIES", [("species", "species"), ("halle", "")]), ("SCENARIOS", [("scenarios", "scenarios"); 2]), weather]
     {
         let mut presets = BTreeMap::new();
         for (folder, below) in folders {
             let mut files = Vec::new();
             walk(&root.join(folder), &mut files)?;
             for file in files {
-                let path = file.strip_prefix(root.join(below)).map_err(io::Error::other)?.with_extension("");
+                let path = file.strip_prefix(root.join(below)).map_err(io::Error::other)?;
+                // A weather file keeps its ending, which tells its format.
+                let path = if name == "WEATHER" { path.to_owned() } else { path.with_extension("") };
                 presets.insert(path.to_string_lossy().replace('\\', "/"), file);
             }
         }
@@ -34,7 +38,10 @@ fn main() -> io::Result<()> {
     fs::write(out, code)
 }
 
-/// Collects every TOML file below `folder`, sorted by path. Cargo is told to rebuild when a file is added to a folder.
+/// The endings of parameter files and weather files.
+const ENDINGS: [&str; 5] = ["toml", "WTH", "AgMIP", "met", "csv"];
+
+/// Collects every such file below `folder`, sorted by path. Cargo is told to rebuild when a file is added to a folder.
 fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
     println!("cargo::rerun-if-changed={}", folder.display());
     if !folder.is_dir() {
@@ -45,7 +52,7 @@ fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
     for path in entries {
         if path.is_dir() {
             walk(&path, files)?;
-        } else if path.extension().is_some_and(|e| e == "toml") {
+        } else if path.extension().is_some_and(|ending| ENDINGS.iter().any(|known| ending == *known)) {
             files.push(path);
         }
     }

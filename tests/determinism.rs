@@ -23,8 +23,8 @@ fn one_two_and_seven_threads_write_the_same_bytes() {
     });
     assert_eq!(
         grown[0].len(),
-        5 * 3 + 1 + 2 * 2,
-        "five tables of three parts and the treatments, two plants at two ages"
+        6 * 3 + 1 + 2 * 2,
+        "six tables of three parts and the treatments, two plants at two ages"
     );
     assert_eq!(grown[0], grown[1]);
     assert_eq!(grown[0], grown[2]);
@@ -39,8 +39,8 @@ fn plants_that_bend_are_the_same_on_any_number_of_threads() {
     });
     assert_eq!(
         grown[0].len(),
-        5 * 3 + 1 + 2 * 2,
-        "five tables of three parts and the treatments, two plants at two ages"
+        6 * 3 + 1 + 2 * 2,
+        "six tables of three parts and the treatments, two plants at two ages"
     );
     assert_eq!(grown[0], grown[1]);
     assert_eq!(grown[0], grown[2]);
@@ -53,7 +53,7 @@ fn parametric_trees_are_the_same_on_any_number_of_threads() {
         phytomer(folder.path(), &["grow", &data("clump.toml"), "--threads", threads, "--name", threads]).ending(0);
         hashes(&folder.path().join("runs").join(threads))
     });
-    assert_eq!(grown[0].len(), 5 * 3 + 1 + 2, "five tables of three parts and the treatments, one plant at two ages");
+    assert_eq!(grown[0].len(), 6 * 3 + 1 + 2, "six tables of three parts and the treatments, one plant at two ages");
     assert_eq!(grown[0], grown[1]);
     assert_eq!(grown[0], grown[2]);
 }
@@ -105,7 +105,7 @@ fn the_shipped_coffee_is_the_same_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     assert_eq!(
         shipped(folder.path(), "coffee", "8").len(),
-        5 * 4 + 1 + 2 * 4,
+        6 * 4 + 1 + 2 * 4,
         "four parts, the table of treatments, two plants at four ages"
     );
 }
@@ -115,7 +115,7 @@ fn the_shipped_gmt1_is_the_same_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     assert_eq!(
         shipped(folder.path(), "gmt1", "5").len(),
-        5 * 3 + 1 + 1,
+        6 * 3 + 1 + 1,
         "three parts, the table of treatments, one plant at its last age"
     );
 }

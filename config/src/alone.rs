@@ -6,9 +6,7 @@
 use phytomer_sim::model::GrowthModel;
 
 use crate::resolved::Resolved;
-use crate::scenario::{
-    Ages, DEFAULT_SEED, Every, Experiment, Limits, Output, Planting, Record, Scenario, Site, all_tables,
-};
+use crate::scenario::{Ages, DEFAULT_SEED, Every, Experiment, Limits, Output, Planting, Record, Scenario, Site, tables};
 use crate::species::Species;
 use crate::trial::Treatment;
 use crate::validate::{ResolvedSpecies, SPECIES_ALONE_UNTIL};
@@ -44,15 +42,20 @@ impl ResolvedSpecies {
             member: Vec::new(),
             event: Vec::new(),
             ages: Ages { until, record: Record::Every(recorded(until)) },
+            planting_date: None,
+            calendar: None,
+            weather: None,
+            soil: None,
+            fertilizer: Vec::new(),
             sample: None,
-            tables: all_tables(),
+            tables: tables::all(),
             meshes: None,
             limits: Limits::default(),
             output: Output { mechanics, ..Output::default() },
         };
         let Self { species, model, sources, tree } = self;
         let treatments = vec![Treatment::control(&scenario)];
-        Resolved { scenario, treatments, species, model, others: Vec::new(), sources, tree }
+        Resolved { scenario, treatments, species, model, others: Vec::new(), dated: None, sources, tree }
     }
 }
 

@@ -8,6 +8,7 @@
 mod about;
 mod alone;
 mod architectural_model;
+mod dates;
 mod document;
 mod expansion;
 mod explosion;
@@ -32,6 +33,7 @@ mod woods;
 pub use about::About;
 pub use alone::recorded_alone;
 pub use architectural_model::ArchitecturalModel;
+pub use dates::{Dated, WeatherRead, calendar_of_run};
 pub use library::{Kind, presets};
 pub use models::{MODELS, Model, ModelName};
 pub use published::Published;

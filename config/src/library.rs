@@ -2,13 +2,14 @@
 //!
 //! A name that ends in `.toml` is a file. A name with a separator is a file where there is one, else a preset
 //! (`gmt1/5a`). A bare name is looked up first in the folder of the file that states it, then among the presets; on the
-//! command line a bare name is a preset. Presets are compiled into the program, so that an installed binary needs no
-//! data folder. A library of texts in memory reads no file: names then lead to these texts and to presets
-//! ([`Library::Memory`]).
+//! command line a bare name is a preset. Presets, and the weather files of shipped scenarios, are compiled into the
+//! program, so that an installed binary needs no data folder. A library of texts in memory reads no file: names then
+//! lead to these texts and to presets ([`Library::Memory`]).
 
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Component, Path as FilePath, PathBuf};
+use std::sync::Arc;
 
 use crate::source::{Origin, Source};
 use phytomer_models::law::spelling::nearest;
@@ -17,6 +18,8 @@ include!(concat!(env!("OUT_DIR"), "/presets.rs"));
 
 /// The largest size of a parameter file; a longer file is refused, so that it does not fill the memory.
 const MAX_BYTES: u64 = 4 << 20;
+/// The largest size of a weather file: a century of days is 2 MB.
+const MAX_WEATHER_BYTES: u64 = 64 << 20;
 
 /// The two kinds of parameter file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,7 +74,7 @@ impl Library {
     pub fn of_texts(texts: &[(&str, &str)]) -> Self {
         let source = |(name, text): &(&str, &str)| {
             let name = (*name).to_owned();
-            Source { origin: Origin::Memory(name.clone()), name, text: (*text).into() }
+            Source { origin: Origin::Memory(name.clone()), name, text: (*text).into(), bytes: None }
         };
         Self::Memory(texts.iter().map(source).collect())
     }
@@ -93,6 +96,53 @@ impl Library {
             }
         })
     }
+}
+
+impl Library {
+    /// The weather file with a name, as seen from the text that states it: beside a file, among the texts in memory, or
+    /// among the weather that ships, for a preset.
+    pub fn weather(&self, name: &str, beside: &Origin) -> Result<Source, NotFound> {
+        match (self, beside) {
+            (_, Origin::Preset(_)) => shipped_weather(name),
+            (Self::Memory(texts), _) => {
+                let found = texts.iter().find(|text| text.name == name).cloned();
+                found.ok_or_else(|| NotFound {
+                    problem: format!("there is no weather file `{name}` among the texts"),
+                    expected: "the name of a text in memory".to_owned(),
+                    suggestion: nearest(name, texts.iter().map(|text| text.name.as_str())).map(str::to_owned),
+                })
+            }
+            (Self::Disk, Origin::File(file)) => {
+                let path = file.parent().map_or_else(|| PathBuf::from(name), |folder| folder.join(name));
+                read_weather(&path).map_err(|error| NotFound {
+                    problem: format!("cannot read the weather file `{}`: {}", shown(&path), reason(&error)),
+                    expected: "a readable weather file, by its path from this file's folder".to_owned(),
+                    suggestion: None,
+                })
+            }
+            (Self::Disk, Origin::Memory(_)) => shipped_weather(name),
+        }
+    }
+}
+
+/// A weather file that ships, by its name.
+fn shipped_weather(name: &str) -> Result<Source, NotFound> {
+    let found = WEATHER.iter().find(|(known, _)| *known == name);
+    let (name, text) = found.ok_or_else(|| NotFound {
+        problem: format!("there is no weather file `{name}`"),
+        expected: "a weather file that ships".to_owned(),
+        suggestion: nearest(name, WEATHER.iter().map(|(known, _)| *known)).map(str::to_owned),
+    })?;
+    let origin = Origin::Preset((*name).to_owned());
+    Ok(Source { name: format!("preset:{name}"), origin, text: (*text).into(), bytes: None })
+}
+
+fn read_weather(path: &FilePath) -> io::Result<Source> {
+    let bytes = read_bytes(path, MAX_WEATHER_BYTES)?;
+    let text = phytomer_weather::decode(&bytes);
+    let differs = text.as_bytes() != bytes.as_slice();
+    let (text, name) = (Arc::from(text), shown(path));
+    Ok(Source { name, origin: Origin::File(path.to_owned()), text, bytes: differs.then(|| Arc::from(bytes)) })
 }
 
 /// Finds a file or a preset by its name. `beside` is the file that states the name, `None` on the command line.
@@ -121,18 +171,23 @@ pub fn find(kind: Kind, name: &str, beside: Option<&Origin>) -> Result<Source, N
 pub fn preset(kind: Kind, name: &str) -> Option<Source> {
     let (name, text) = presets(kind).iter().find(|(preset, _)| *preset == name)?;
     let origin = Origin::Preset((*name).to_owned());
-    Some(Source { name: format!("preset:{name}"), origin, text: (*text).into() })
+    Some(Source { name: format!("preset:{name}"), origin, text: (*text).into(), bytes: None })
+}
+
+fn read_bytes(path: &FilePath, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        return Err(io::Error::other(format!("it is longer than {} MiB", most >> 20)));
+    }
+    Ok(bytes)
 }
 
 fn read(path: &FilePath) -> io::Result<Source> {
-    let mut bytes = Vec::new();
-    File::open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(io::Error::other(format!("it is longer than {} MiB", MAX_BYTES >> 20)));
-    }
+    let bytes = read_bytes(path, MAX_BYTES)?;
     let text = String::from_utf8(bytes)
         .map_err(|e| io::Error::other(format!("byte {} is not UTF-8 text", e.utf8_error().valid_up_to() + 1)))?;
-    Ok(Source { name: shown(path), origin: Origin::File(path.to_owned()), text: text.into() })
+    Ok(Source { name: shown(path), origin: Origin::File(path.to_owned()), text: text.into(), bytes: None })
 }
 
 /// The path in short: without `.`, and without pairs of a folder and `..`.
@@ -151,16 +206,20 @@ pub(crate) fn shown(path: &FilePath) -> String {
 }
 
 fn unreadable(kind: Kind, name: &str, path: &FilePath, error: &io::Error) -> NotFound {
-    let reason = match error.kind() {
-        io::ErrorKind::NotFound => "there is no such file".to_owned(),
-        io::ErrorKind::PermissionDenied => "it may not be read".to_owned(),
-        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
-        _ => error.to_string(),
-    };
+    let reason = reason(error);
     NotFound {
         problem: format!("cannot read the {} file `{}`: {reason}", kind.word(), shown(path)),
         expected: format!("a readable {} file, or the name of a shipped {}", kind.word(), kind.word()),
         suggestion: near_file(name, path).or_else(|| near_preset(kind, name.trim_end_matches(".toml"))),
+    }
+}
+
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "it may not be read".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
+        _ => error.to_string(),
     }
 }
 

@@ -8,8 +8,10 @@ use std::sync::Arc;
 
 use phytomer_law::fault;
 use phytomer_sim::model::GrowthModel;
+use phytomer_sim::site::calendar::Dates;
 use serde_json::{Value as Json, json};
 
+use crate::dates::Dated;
 use crate::document::Node;
 use crate::meaning;
 use crate::report::Report;
@@ -33,6 +35,8 @@ pub struct Resolved {
     pub model: Arc<dyn GrowthModel>,
     /// The other species, which members or levels name, in the order in which the treatments name them.
     pub others: Vec<OtherSpecies>,
+    /// The calendar of the plots; `None` where the scenario states none.
+    pub dated: Option<Dated>,
     /// Every text that was read, for hashes and provenance: the scenario first, then each species and its ancestors.
     pub sources: Sources,
     pub(crate) tree: Node,
@@ -97,6 +101,11 @@ impl Resolved {
         [&self.species].into_iter().chain(self.others.iter().map(|other| &other.species)).collect()
     }
 
+    /// The dates of the ages of a species, by its index in [`Resolved::all_species`]; `None` without a calendar.
+    pub fn dates_of(&self, species: usize) -> Option<Dates> {
+        self.dated.as_ref().map(|dated| dated.of_sowing(self.trial().first_sowing_of_species(species)))
+    }
+
     /// The growth models of all species, in the order of [`Resolved::all_species`].
     pub fn models(&self) -> Vec<&dyn GrowthModel> {
         [self.model.as_ref()].into_iter().chain(self.others.iter().map(|other| other.model.as_ref())).collect()
@@ -122,6 +131,11 @@ impl Resolved {
         }
         if !self.scenario.experiment.is_control_alone() {
             json["treatments"] = serde_json::to_value(self.trial().treatments())?;
+        }
+        if let (Some(dated), Json::Object(keys)) = (&self.dated, &mut json)
+            && let Json::Object(of_dates) = dated.to_json()
+        {
+            keys.extend(of_dates);
         }
         Ok(json)
     }

@@ -4,6 +4,7 @@
 //! values at some keys. A key that has no meaning is refused, so that a file never states something that has no effect.
 //! Absent: the species, which is a file of its own, and the place of the run folder, which the command line states.
 
+mod calendar;
 mod events;
 pub mod experiment;
 pub(crate) mod icasa;
@@ -13,8 +14,9 @@ mod planting;
 mod plots;
 mod sample;
 mod site;
-mod tables;
+pub(crate) mod tables;
 
+pub use calendar::{Calendar, Fertilizer, Soil, TickLength};
 pub use events::{Event, Work};
 pub use experiment::{Design, Experiment};
 pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
@@ -23,12 +25,12 @@ pub use planting::{Grid, Planting};
 pub use plots::Member;
 pub use site::{Plane, Site, Wind};
 pub use tables::Table;
-pub(crate) use tables::all as all_tables;
 
 use std::collections::BTreeSet;
 
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::clock::LAST_TICK;
+use phytomer_weather::WeatherFile;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -91,6 +93,21 @@ pub struct Scenario {
     pub event: Vec<Event>,
     /// The last tick of the plots, and the recorded ticks.
     pub ages: Ages,
+    /// The day of planting, as YYYY-MM-DD: tick 0 is the midnight with which it begins.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub planting_date: Option<String>,
+    /// The ticks on the calendar, for laws that depend on the date. Without it ticks have no dates.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub calendar: Option<Calendar>,
+    /// The weather of the site.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weather: Option<WeatherFile>,
+    /// The nitrogen of the soil.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub soil: Option<Soil>,
+    /// Applications of fertilizer, as `[[fertilizer]]`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fertilizer: Vec<Fertilizer>,
     /// The tables that are written. All if not given. With any table, `plants` and `treatments` are written too, since
     /// they state the place and the treatment of each plant.
     #[serde(default = "tables::all")]
@@ -281,6 +298,7 @@ impl Scenario {
         pests::check(&self.pest, self.ages.until, self.spacing_m.is_some(), &Path::root().key("pest"), &mut faults);
         self.check_planting(&mut faults);
         self.check_events(&mut faults);
+        self.check_calendar(&mut faults);
         self.site.check_planes(&Path::root().key("site"), &mut faults);
         if self.tables.is_empty() && self.meshes.is_none() {
             let problem = "this run would write nothing: no table and no mesh is asked for";

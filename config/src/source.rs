@@ -26,6 +26,8 @@ pub struct Source {
     pub origin: Origin,
     /// The whole text, as read.
     pub text: Arc<str>,
+    /// The bytes of the file, where they are not those of the text: a weather file need not be UTF-8.
+    pub bytes: Option<Arc<[u8]>>,
 }
 
 /// The number of a text among the [`Sources`].
@@ -54,7 +56,7 @@ impl Sources {
         if let Some(known) = self.iter().position(|known| *known == source) {
             return SourceId(known as u32);
         }
-        let line_starts = [0].into_iter().chain(source.text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+        let line_starts = line_starts(&source.text);
         self.0.push((source, line_starts));
         SourceId(self.0.len() as u32 - 1)
     }
@@ -99,6 +101,12 @@ impl Sources {
     }
 }
 
+/// Where each line begins. A text without any LF has lines that end with CR, as old weather files do.
+fn line_starts(text: &str) -> Arc<[usize]> {
+    let end = if text.contains('\n') { '\n' } else { '\r' };
+    [0].into_iter().chain(text.match_indices(end).map(|(at, _)| at + 1)).collect()
+}
+
 /// The last character boundary at or before `at`.
 fn floor_boundary(text: &str, at: usize) -> usize {
     let mut at = at.min(text.len());
@@ -116,7 +124,12 @@ mod tests {
     fn columns_count_characters() {
         let mut sources = Sources::default();
         let text = "a = 1\nβ = \"é\" # x\n";
-        let id = sources.add(Source { name: "t".into(), origin: Origin::Preset("t".into()), text: text.into() });
+        let id = sources.add(Source {
+            name: "t".into(),
+            origin: Origin::Preset("t".into()),
+            text: text.into(),
+            bytes: None,
+        });
         let start = text.find('#').unwrap();
         assert_eq!(sources.place(Span { source: id, start, end: start + 1 }), (2, 9));
         let past = Span { source: id, start: 999, end: 1000 };

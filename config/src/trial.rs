@@ -205,6 +205,28 @@ impl Trial {
     }
 }
 
+impl Trial {
+    /// The first tick of its plot at which a species of the run is sown in any treatment.
+    pub fn first_sowing_of_species(&self, species: usize) -> u32 {
+        self.sowings_of(species).map(|(_, sown)| sown).min().unwrap_or(0)
+    }
+
+    /// A member of a species of the run that is sown at another tick than the first of the species, by its number.
+    pub(crate) fn sown_apart(&self, species: usize) -> Option<usize> {
+        let first = self.first_sowing_of_species(species);
+        self.sowings_of(species).find(|(_, sown)| *sown != first).map(|(member, _)| member)
+    }
+
+    /// The members of a species in all treatments, each with its tick of sowing.
+    fn sowings_of(&self, species: usize) -> impl Iterator<Item = (usize, u32)> {
+        self.treatments.iter().flat_map(move |Treatment { scenario, species: places, .. }| {
+            let of_species = move |member: &Member| places.get(scenario.species_of(member)) == Some(&species);
+            let members = scenario.plot_members().into_iter().enumerate();
+            members.filter(move |(_, member)| of_species(member)).map(|(number, member)| (number, member.sown))
+        })
+    }
+}
+
 /// A treatment in whose scenario all that belongs to the whole run is that of the run.
 fn settled(run: &Scenario, treatment: &Treatment) -> Treatment {
     let run = run.clone();
@@ -215,6 +237,11 @@ fn settled(run: &Scenario, treatment: &Treatment) -> Treatment {
         ages: run.ages,
         tables: run.tables,
         sample: run.sample,
+        planting_date: run.planting_date,
+        calendar: run.calendar,
+        weather: run.weather,
+        soil: run.soil,
+        fertilizer: run.fertilizer,
         meshes: run.meshes,
         limits: run.limits,
         output: run.output,

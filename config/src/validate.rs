@@ -14,9 +14,11 @@ use phytomer_law::fault::{self, Segment};
 use phytomer_models::parameters::Keys;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::model::GrowthModel;
+use phytomer_sim::site::calendar::Dates;
 use serde_json::Value as Json;
 
 use crate::about::About;
+use crate::dates::{self, Dated};
 use crate::document::Node;
 use crate::expansion::{self, Expanded};
 use crate::explosion;
@@ -82,10 +84,11 @@ fn validate_in(library: Library, scenario: &str) -> Result<Resolved, Report> {
     let mut loader = Loader { library, ..Loader::default() };
     let mention = Mention { name: scenario.to_owned(), place: None };
     let found = loader.find(Kind::Scenario, &mention).and_then(|source| check_scenario(&mut loader, source));
-    conclude(loader, found, |(scenario, treatments, (Compiled { species, model, tree }, others)), sources| {
+    conclude(loader, found, |Checked { scenario, treatments, first, others, dated }, sources| {
         let other = |Compiled { species, model, tree }| OtherSpecies { species, model, tree };
         let others = others.into_iter().map(other).collect();
-        Resolved { scenario, treatments, species, model, others, sources, tree }
+        let Compiled { species, model, tree } = first;
+        Resolved { scenario, treatments, species, model, others, dated, sources, tree }
     })
 }
 
@@ -103,7 +106,7 @@ fn species_in(library: Library, species: &str, until: u32) -> Result<ResolvedSpe
     let until = |about: Option<&About>| {
         Some(about.and_then(|about| about.shown_at).unwrap_or(1).max(until).clamp(1, LAST_TICK))
     };
-    let found = check_species(&mut loader, &mention, until);
+    let found = check_species(&mut loader, &mention, until, Ok(None));
     conclude(loader, found, |Compiled { species, model, tree }, sources| ResolvedSpecies {
         species,
         model,
@@ -165,8 +168,21 @@ struct Compiled {
     tree: Node,
 }
 
-/// A checked scenario, its treatments, and the species of all of them: the first, and the others.
-type Checked = (Scenario, Vec<Treatment>, (Compiled, Vec<Compiled>));
+/// A checked scenario, its treatments, the species of all of them, and its calendar.
+struct Checked {
+    scenario: Scenario,
+    treatments: Vec<Treatment>,
+    first: Compiled,
+    others: Vec<Compiled>,
+    dated: Option<Dated>,
+}
+
+impl Checked {
+    /// The species with their indices.
+    fn species(&self) -> impl Iterator<Item = (usize, &Compiled)> {
+        [&self.first].into_iter().chain(&self.others).enumerate()
+    }
+}
 
 fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let (_, node) = loader.parse(source);
@@ -176,19 +192,26 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     icasa::name_keys(&mut refused);
     let scenario: Option<Scenario> = loader.read(&node, &Keys::PLAIN, &refused, serde_path_to_error::deserialize);
     let expanded = expanded(loader, &node, scenario.as_ref(), &refused);
-    loader.faults.extend(refused);
+    loader.faults.extend(refused.iter().cloned());
     let read = treatments::check(loader, scenario_schema(), (&node, scenario.as_ref()), expanded);
+    let dated = dated(loader, &node, scenario.as_ref(), &refused);
     let until = integer_at(&node, &["ages", "until"]).and_then(|n| u32::try_from(n).ok());
     let until = until.filter(|n| (1..=LAST_TICK).contains(n));
     let mentions = treatments::species_of_all(&read);
     let last_age = |mention: &Mention| until.map(|until| last_age_of(&read, mention).unwrap_or(until));
-    let species: Vec<Option<Compiled>> =
-        mentions.iter().map(|mention| check_species(loader, mention, |_| last_age(mention))).collect();
+    let dates = |mention: &Mention| {
+        let sown = first_sowing_of(&read, mention);
+        dated.as_ref().map(|dated| dated.as_ref().map(|dated| dated.of_sowing(sown))).map_err(|refused| *refused)
+    };
+    let check = |mention: &Mention| check_species(loader, mention, |_| last_age(mention), dates(mention));
+    let species: Vec<Option<Compiled>> = mentions.iter().map(check).collect();
     let mut species = species.into_iter().collect::<Option<Vec<Compiled>>>()?.into_iter();
     let scenario = scenario?;
     let treatments = read.into_iter().map(|read| treatment(&scenario, read, &mentions));
     let treatments = treatments.collect::<Option<Vec<Treatment>>>()?;
-    let checked = (scenario, treatments, (species.next()?, species.collect()));
+    let (first, others) = (species.next()?, species.collect());
+    let checked = Checked { scenario, treatments, first, others, dated: dated.ok()? };
+    check_sowings(loader, &node, &checked);
     check_explosions(loader, &node, &checked);
     check_cuttable(loader, &node, &checked);
     Some(checked)
@@ -206,6 +229,21 @@ fn expanded(loader: &mut Loader, node: &Node, scenario: Option<&Scenario>, refus
     expansion::expand(scenario_schema(), node, if chosen.is_empty() { control() } else { chosen })
 }
 
+/// The calendar of the run. Where the schema has refused a key of the dates, that key is missing in what was read, and no
+/// more is told of the dates.
+fn dated(
+    loader: &mut Loader,
+    node: &Node,
+    scenario: Option<&Scenario>,
+    refused: &[Fault],
+) -> Result<Option<Dated>, dates::Refused> {
+    let is_refused = refused.iter().any(|fault| dates::is_of_dates(&fault.path));
+    let told = |fault: &Fault| refused.iter().any(|other| (other.span, &other.problem) == (fault.span, &fault.problem));
+    loader.faults.retain(|fault| !is_refused || !dates::is_of_dates(&fault.path) || told(fault));
+    let is_sound = !loader.faults.iter().any(|fault| dates::is_of_dates(&fault.path));
+    scenario.filter(|_| is_sound).map_or(Err(dates::Refused), |scenario| dates::of(loader, node, scenario))
+}
+
 /// A treatment whose species are found among those of the run.
 fn treatment(run: &Scenario, read: Read, species: &[Mention]) -> Option<Treatment> {
     let scenario = read.scenario?;
@@ -217,18 +255,39 @@ fn treatment(run: &Scenario, read: Read, species: &[Mention]) -> Option<Treatmen
 }
 
 /// Events change plants that keep their past alone.
-fn check_cuttable(loader: &mut Loader, node: &Node, (_, treatments, (first, others)): &Checked) {
-    let species: Vec<&Compiled> = [first].into_iter().chain(others).collect();
-    let managed = treatments.iter().filter(|treatment| !treatment.scenario.event.is_empty());
+fn check_cuttable(loader: &mut Loader, node: &Node, checked: &Checked) {
+    let managed = checked.treatments.iter().filter(|treatment| !treatment.scenario.event.is_empty());
     let places: BTreeSet<usize> = managed.flat_map(|treatment| treatment.species.iter().copied()).collect();
-    let remade = places.into_iter().map(|place| species[place]).filter(|of| !of.model.growth().keeps_its_past());
-    let faults = remade.map(|of| Scenario::fault_of_uncuttable(&of.species.about.name)).collect();
+    let managed = checked.species().filter(|(place, _)| places.contains(place));
+    let remade = managed.filter(|(_, of)| !of.model.growth().keeps_its_past());
+    let faults = remade.map(|(_, of)| Scenario::fault_of_uncuttable(&of.species.about.name)).collect();
     tell(loader, node, faults);
 }
 
-fn check_explosions(loader: &mut Loader, node: &Node, (scenario, treatments, (first, others)): &Checked) {
-    let trial = Trial::of(scenario, treatments);
-    for (place, of) in [first].into_iter().chain(others).enumerate() {
+/// A species whose laws depend on the date has one model, and so one tick of sowing.
+fn check_sowings(loader: &mut Loader, node: &Node, checked: &Checked) {
+    if checked.dated.is_none() {
+        return;
+    }
+    let trial = Trial::of(&checked.scenario, &checked.treatments);
+    for (place, of) in checked.species() {
+        let Some(member) = trial.sown_apart(place) else { continue };
+        if of.species.model.compile(trial.last_age_of_species(place)).is_ok() {
+            continue;
+        }
+        let path = path_of(&["member"]).index(member).key("sown");
+        let problem =
+            format!("`{}` has laws of the date, and its members are sown at different ticks", of.species.about.name);
+        let expected =
+            "one tick of sowing for all members of the species, or a species of their own for the later ones";
+        loader.faults.push(Fault::new(node.locate(&path), &path, problem, expected));
+    }
+}
+
+fn check_explosions(loader: &mut Loader, node: &Node, checked: &Checked) {
+    let scenario = &checked.scenario;
+    let trial = Trial::of(scenario, &checked.treatments);
+    for (place, of) in checked.species() {
         let Some(until) = explosion::foreseen_until(&trial, place) else { continue };
         loader.faults.extend(explosion::fault_of(node, scenario, (&of.species, of.model.as_ref()), until));
     }
@@ -244,17 +303,30 @@ fn last_age_of(read: &[Read], species: &Mention) -> Option<u32> {
     ages.max()
 }
 
+/// The first tick at which a species is sown in any treatment.
+fn first_sowing_of(read: &[Read], species: &Mention) -> u32 {
+    let sowings = read.iter().filter_map(|Read { scenario, .. }| {
+        let scenario = scenario.as_ref()?;
+        let place = scenario.species_names().iter().position(|name| *name == species.name)?;
+        Some(scenario.first_sowing_of(place))
+    });
+    sowings.min().unwrap_or(0)
+}
+
 fn check_species(
     loader: &mut Loader,
     mention: &Mention,
     until: impl Fn(Option<&About>) -> Option<u32>,
+    dates: Result<Option<Dates>, dates::Refused>,
 ) -> Option<Compiled> {
     let Found { about, model, node } = loader.species(mention)?;
     if let Some(about) = &about {
         tell(loader, &node, about.faults());
         check_year(loader, &node, about, &model);
     }
-    match model.compile(until(about.as_ref())?) {
+    // Without its calendar a scenario cannot know which laws of the date hold.
+    let dates = dates.ok()?;
+    match model.compile_dated(until(about.as_ref())?, dates.as_ref()) {
         Ok(compiled) => Some(Compiled { species: Species { about: about?, model }, model: compiled, tree: node }),
         Err(faults) => {
             tell(loader, &node, faults);

@@ -60,7 +60,7 @@ pub(crate) fn fill(species: &mut Node, keys: &Keys, sources: &mut Sources, fault
 /// The rows of the table by name; its text is added to the sources, so that spans point into it.
 fn read(sources: &mut Sources) -> Vec<(String, Node)> {
     let origin = Origin::Preset("wood".to_owned());
-    let source = sources.add(Source { name: "preset:wood".to_owned(), origin, text: TABLE.into() });
+    let source = sources.add(Source { name: "preset:wood".to_owned(), origin, text: TABLE.into(), bytes: None });
     let table = parse(sources, source, &mut Vec::new());
     let entries = table.as_ref().map(Node::entries).unwrap_or_default();
     entries.iter().map(|entry| (entry.key.clone(), entry.node.clone())).collect()

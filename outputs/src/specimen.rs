@@ -173,6 +173,7 @@ pub fn plan(plots: u32, plots_per_part: u32) -> RunPlan {
         compression_level: 1,
         precision_m: None,
         mechanics: false,
+        calendars: vec![None],
         provenance: Provenance {
             scenario: "Sapling".to_owned(),
             treatments: vec!["control".to_owned()],

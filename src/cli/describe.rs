@@ -3,6 +3,7 @@
 //! What the name stands for decides: a run folder, a scenario, or a species. Of a run folder every file is checked
 //! before it is told as complete. Absent: what each of them tells, in a file each.
 
+mod dates;
 mod run;
 mod scenario;
 mod species;

@@ -6,11 +6,12 @@
 use anyhow::{Context, Result};
 use phytomer::run::forms;
 use phytomer_config::{
-    Kind, Report, Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, Scenario, Species, Treatment, Trial, kind_of,
-    presets, validate, validate_species,
+    Kind, Report, Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, Scenario, Species, Treatment, Trial, calendar_of_run,
+    kind_of, presets, validate, validate_species,
 };
 use phytomer_outputs::read::Run;
 use phytomer_sim::GrowthModel;
+use phytomer_sim::site::calendar::Dates;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -130,12 +131,14 @@ impl Recorded {
     /// # Errors
     /// Where their laws do not hold, which those of a run that began do.
     pub fn compile(&self) -> Result<Vec<Arc<dyn GrowthModel>>> {
+        let calendar = calendar_of_run(&self.run.json()["resolved_scenario"]).context("the calendar of the run")?;
         let compiled = |(place, species): (usize, &Species)| {
-            species.model.compile(self.trial.last_age_of_species(place)).map_err(|faults| {
-                match faults.into_iter().next() {
-                    Some(fault) => anyhow::Error::new(fault),
-                    None => anyhow::anyhow!("the species of the run cannot be compiled"),
-                }
+            let sown = self.trial.first_sowing_of_species(place);
+            let dates = calendar.clone().map(|calendar| Dates { calendar, sown });
+            let until = self.trial.last_age_of_species(place);
+            species.model.compile_dated(until, dates.as_ref()).map_err(|faults| match faults.into_iter().next() {
+                Some(fault) => anyhow::Error::new(fault),
+                None => anyhow::anyhow!("the species of the run cannot be compiled"),
             })
         };
         self.all_species().enumerate().map(compiled).collect()

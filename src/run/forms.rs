@@ -67,13 +67,14 @@ pub fn settle(resolved: &mut Resolved) -> Result<Vec<Arc<OwnForms>>, Report> {
 /// The same; the faults with the place of the species that has them.
 fn settle_all(resolved: &mut Resolved) -> Result<Vec<Arc<OwnForms>>, (usize, Vec<Fault>)> {
     let trial = resolved.trial();
+    let dates: Vec<_> = (0..=resolved.others.len()).map(|place| resolved.dates_of(place)).collect();
     let Resolved { species, model, others, .. } = resolved;
     let others = others.iter_mut().map(|other| (&mut other.species, &mut other.model));
     let all = [(species, model)].into_iter().chain(others).enumerate();
     let settled = all.map(|(place, (species, model))| {
         let forms = read(species).map_err(|faults| (place, faults))?;
         if state_shares(species, &forms) {
-            let compiled = species.model.compile(trial.last_age_of_species(place));
+            let compiled = species.model.compile_dated(trial.last_age_of_species(place), dates[place].as_ref());
             *model = compiled.map_err(|faults| (place, faults))?;
         }
         Ok(forms)

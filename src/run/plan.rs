@@ -9,6 +9,7 @@ use phytomer_config::{Resolved, Treatment, Trial, scenario};
 use phytomer_outputs::tables::Factor;
 use phytomer_outputs::{Input, Provenance, RunPlan, Sample, Table};
 use sha2::{Digest, Sha256};
+use std::sync::Arc;
 
 /// The work of a part file, in components shown to a table: about 60 MB of `records`, some seconds of one core.
 const WORK_A_PART: f64 = 2e6;
@@ -56,6 +57,7 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunErr
         },
         precision_m: scenario.output.float_precision_m,
         mechanics: scenario.output.mechanics,
+        calendars: vec![resolved.dated.as_ref().map(|dated| Arc::clone(&dated.calendar)); trial.treatments().len()],
         provenance: Provenance {
             scenario: scenario.name.clone(),
             treatments: trial.treatments().iter().map(|treatment| treatment.name.clone()).collect(),
@@ -78,6 +80,7 @@ fn table(table: scenario::Table) -> Table {
         scenario::Table::Summary => Table::Summary,
         scenario::Table::Plants => Table::Plants,
         scenario::Table::Treatments => Table::Treatments,
+        scenario::Table::Site => Table::Site,
     }
 }
 
@@ -92,8 +95,11 @@ fn factors(trial: &Trial) -> Vec<Factor> {
 }
 
 fn inputs(resolved: &Resolved) -> Result<Vec<Input>, RunError> {
-    let hash = |text: &str| Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
-    let texts = resolved.sources.iter().map(|source| Input { path: source.name.clone(), sha256: hash(&source.text) });
+    let hash = |bytes: &[u8]| Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    let texts = resolved.sources.iter().map(|source| {
+        let bytes = source.bytes.as_deref().unwrap_or(source.text.as_bytes());
+        Input { path: source.name.clone(), sha256: hash(bytes) }
+    });
     let mut inputs: Vec<Input> = texts.collect();
     for species in resolved.all_species() {
         let own = super::forms::inputs(species)?;

@@ -5,7 +5,7 @@
 
 #![allow(dead_code, reason = "each test program uses a part of it")]
 
-use arrow_array::types::{Float32Type, Float64Type, Int8Type, Int32Type};
+use arrow_array::types::{Date32Type, Float32Type, Float64Type, Int8Type, Int32Type};
 use arrow_array::{Array, BooleanArray, DictionaryArray, PrimitiveArray, StringArray};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::collections::BTreeMap;
@@ -52,7 +52,7 @@ impl Columns {
         }
     }
 
-    /// A column of numbers; null is NaN, and truth values are 0 and 1.
+    /// A column of numbers; null is NaN, truth values are 0 and 1, and dates are days since 1970-01-01.
     #[track_caller]
     pub fn numbers(&self, name: &str) -> &[f64] {
         self.numbers.get(name).unwrap_or_else(|| panic!("no column {name}"))
@@ -80,6 +80,9 @@ fn numbers(array: &dyn Array) -> Option<Vec<f64>> {
     }
     let any = array.as_any();
     if let Some(values) = any.downcast_ref::<PrimitiveArray<Int32Type>>() {
+        return Some(all(values.iter(), |value| value));
+    }
+    if let Some(values) = any.downcast_ref::<PrimitiveArray<Date32Type>>() {
         return Some(all(values.iter(), |value| value));
     }
     if let Some(values) = any.downcast_ref::<PrimitiveArray<Float32Type>>() {

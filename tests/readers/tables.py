@@ -16,11 +16,12 @@ run = Path(sys.argv[1])
 package = json.loads((run / "datapackage.json").read_text(encoding="utf-8"))
 report = json.loads((run / "run.json").read_text(encoding="utf-8"))
 resources = {resource["name"]: resource for resource in package["resources"]}
-assert set(resources) >= {"components", "records", "events", "summary", "plants", "treatments"}, resources.keys()
+assert set(resources) >= {"components", "records", "events", "summary", "plants", "treatments", "site"}, resources.keys()
 
 ARROW = {
     "integer": ("int32", "int64"),
     "number": ("float", "double"),
+    "date": ("date32[day]",),
     "boolean": ("bool",),
     "string": ("string", *(f"dictionary<values=string, indices=int{bits}, ordered=0>" for bits in (8, 16, 32))),
 }

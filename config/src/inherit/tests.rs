@@ -24,7 +24,7 @@ fn merged(texts: &[&str]) -> (Node, Sources) {
     let mut chain = Vec::new();
     for (i, text) in texts.iter().enumerate() {
         let origin = Origin::Preset(i.to_string());
-        let id = sources.add(Source { name: i.to_string(), origin, text: (*text).into() });
+        let id = sources.add(Source { name: i.to_string(), origin, text: (*text).into(), bytes: None });
         let mut faults = Vec::new();
         chain.extend(document::parse(&sources, id, &mut faults));
         assert_eq!(faults, []);

@@ -98,9 +98,13 @@ impl Scenario {
     /// The last age, in ticks, that a plant of a species reaches: that of its member that is sown first. A species is
     /// checked and compiled for the ages up to it.
     pub fn last_age_of_species(&self, species: usize) -> u32 {
+        self.ages.until.saturating_sub(self.first_sowing_of(species)).max(1)
+    }
+
+    /// The tick at which the member of a species that is sown first is sown.
+    pub fn first_sowing_of(&self, species: usize) -> u32 {
         let of_species = self.member.iter().filter(|member| self.species_of(member) == species);
-        let first = of_species.map(|member| member.sown).min().unwrap_or(0);
-        self.ages.until.saturating_sub(first).max(1)
+        of_species.map(|member| member.sown).min().unwrap_or(0)
     }
 
     /// Adds the faults of members that the schema cannot state.

@@ -17,6 +17,11 @@ pub struct Site {
     /// A steady wind; calm if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wind: Option<Wind>,
+    /// The latitude, degrees, north positive. That of the weather file if not given; without either the length of a day
+    /// is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -90, max = 90))]
+    pub latitude_deg: Option<f64>,
     /// Planes that kill every bud that reaches them, as `[[site.plane]]`: a roof, a wall, a mown height. None if not
     /// given. Each plot has these planes, placed relative to the plot.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -50,7 +55,7 @@ pub struct Wind {
 
 impl Default for Site {
     fn default() -> Self {
-        Self { gravity_m_s2: STANDARD_GRAVITY, wind: None, plane: Vec::new() }
+        Self { gravity_m_s2: STANDARD_GRAVITY, wind: None, latitude_deg: None, plane: Vec::new() }
     }
 }
 

@@ -23,11 +23,21 @@ pub enum Table {
     Plants,
     /// A row per treatment, with its level of each factor.
     Treatments,
+    /// A row per treatment, replicate and recorded tick, with its date and what the date brings.
+    Site,
 }
 
 /// Every table, for a scenario that names none.
 pub(crate) fn all() -> BTreeSet<Table> {
-    BTreeSet::from([Table::Components, Table::Records, Table::Events, Table::Summary, Table::Plants, Table::Treatments])
+    BTreeSet::from([
+        Table::Components,
+        Table::Records,
+        Table::Events,
+        Table::Summary,
+        Table::Plants,
+        Table::Treatments,
+        Table::Site,
+    ])
 }
 
 impl Scenario {

@@ -57,7 +57,7 @@ enum Form {
 fn faults(text: &str) -> Vec<String> {
     let mut sources = Sources::default();
     let origin = Origin::Preset("t".into());
-    let id = sources.add(Source { name: "t.toml".into(), origin, text: text.into() });
+    let id = sources.add(Source { name: "t.toml".into(), origin, text: text.into(), bytes: None });
     let mut faults = Vec::new();
     let node = document::parse(&sources, id, &mut faults);
     if let Some(node) = node {

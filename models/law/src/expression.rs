@@ -99,8 +99,8 @@ impl Expression<Loaded> {
         })
     }
 
-    /// The value at a point of a domain; NaN where the expression is undefined. `stack` is scratch memory. Linear in the
-    /// steps of the code.
+    /// The value at a point of a domain; NaN where the expression is undefined. `stack` is scratch memory. Linear in
+    /// the steps of the code.
     pub fn value(&self, domain: &Domain, at: At, stack: &mut Vec<f64>) -> f64 {
         let known = |name| match name {
             Loaded::Order => f64::from(domain.order),

@@ -79,8 +79,8 @@ pub struct LawForm {
     #[schemars(with = "QuadraticPlateauLaw")]
     pub quadratic_plateau: Option<QuadraticPlateauLaw>,
     /// A formula of order, age, dimension, cycle, rank, bud_birth, bud_dimension, unit, nitrogen, degree_days,
-    /// day_length_h and date: + - * / ^, comparisons (0 or 1), and, or, not, min, max, exp, log (natural), pow, sqrt, abs,
-    /// floor, if(condition, then, else).
+    /// day_length_h and date: + - * / ^, comparisons (0 or 1), and, or, not, min, max, exp, log (natural), pow, sqrt,
+    /// abs, floor, if(condition, then, else).
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub expression: Option<String>,

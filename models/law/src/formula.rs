@@ -247,8 +247,8 @@ impl<'a> Formula<'a> {
         )
     }
 
-    /// The least and the largest value whatever the date: a longer run has other dates, which its scenario tells. `None`
-    /// where no bounds are known.
+    /// The least and the largest value whatever the date: a longer run has other dates, which its scenario tells.
+    /// `None` where no bounds are known.
     fn extremes_on_any_date(&self) -> Option<(f64, f64)> {
         let of_part = |part: &Part| match &part.term {
             Term::Value(value) => Some((*value, *value)),

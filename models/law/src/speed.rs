@@ -5,6 +5,7 @@
 //! purpose: continuous distributions of speeds, whose draws would be no ratios; and the clock itself (`sim::clock`).
 
 use phytomer_sim::clock::Speed;
+use phytomer_sim::site::calendar::{Dates, TickLength};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -17,15 +18,15 @@ const FASTEST: f64 = 64.0;
 /// The most ratios that may be listed.
 const MOST_RATIOS: usize = 64;
 
-/// A growth speed, clock steps per tick. Written bare as a whole number, a decimal number or a ratio in quotes such as
-/// "2/3", or as a table with its source, with `value` or with `empirical`: `{ empirical = ["1/2", "2/3"], weights = [1,
-/// 2] }`.
+/// A growth speed, clock steps per tick. Written bare as a whole number, a decimal number or a ratio in quotes such
+/// as "2/3", or as a table with its source, with `value`, with `empirical`: `{ empirical = ["1/2", "2/3"], weights =
+/// [1, 2] }`, or with `phyllochron_degree_days`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Speeds {
     /// The same speed for every axis.
     Text(SpeedText),
-    /// A table with `value` or with `empirical`.
+    /// A table with `value`, `empirical` or `phyllochron_degree_days`.
     Form(Box<SpeedForm>),
 }
 
@@ -43,6 +44,11 @@ pub struct SpeedForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Vec<SpeedText>")]
     pub empirical: Option<Vec<SpeedText>>,
+    /// The degree-days from one clock step to the next, °C d, for ticks that are sums of degree-days: the speed is
+    /// the sum of a tick by this number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "f64", extend("exclusiveMinimum" = 0))]
+    pub phyllochron_degree_days: Option<f64>,
     /// The weight of each of these speeds, as observed; they need not sum to 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Vec<f64>")]
@@ -97,13 +103,27 @@ pub struct SpeedTable {
 impl Speeds {
     /// Reads every ratio exactly and compiles the draw, or fails with every fault found.
     pub fn compile(&self, path: &Path) -> Result<SpeedTable, Vec<Fault>> {
+        self.compile_dated(path, None)
+    }
+
+    /// As [`Speeds::compile`], for a plant whose ages have these dates: where a tick is a sum of degree-days the
+    /// speed may be stated as a phyllochron.
+    pub fn compile_dated(&self, path: &Path, dates: Option<&Dates>) -> Result<SpeedTable, Vec<Fault>> {
         let form = match self {
             Self::Text(text) => return Ok(SpeedTable::always(exact(text, path).map_err(|fault| vec![fault])?)),
             Self::Form(form) => form,
         };
-        let kinds = [("value", form.value.is_some()), ("empirical", form.empirical.is_some())];
+        let kinds = [
+            ("value", form.value.is_some()),
+            ("empirical", form.empirical.is_some()),
+            ("phyllochron_degree_days", form.phyllochron_degree_days.is_some()),
+        ];
         one_kind(&kinds, path).map_err(|fault| vec![fault])?;
         form.check_weights(path)?;
+        if let Some(phyllochron) = form.phyllochron_degree_days {
+            let speed = of_phyllochron(phyllochron, dates, &path.key("phyllochron_degree_days"));
+            return Ok(SpeedTable::always(speed.map_err(|fault| vec![fault])?));
+        }
         match (&form.value, &form.empirical) {
             (Some(text), _) => Ok(SpeedTable::always(exact(text, &path.key("value")).map_err(|fault| vec![fault])?)),
             (None, texts) => form.table(texts.as_deref().unwrap_or_default(), path),
@@ -186,6 +206,32 @@ fn exact(text: &SpeedText, path: &Path) -> Result<Speed, Fault> {
     })
 }
 
+/// The clock steps a tick of an axis that makes a step each `phyllochron` °C d.
+fn of_phyllochron(phyllochron: f64, dates: Option<&Dates>, path: &Path) -> Result<Speed, Fault> {
+    let Some(TickLength::DegreeDays(tick)) = dates.map(|dates| dates.calendar.tick_length()) else {
+        let problem = "the speed is a phyllochron, and a tick is no sum of degree-days";
+        let expected = "a scenario whose `calendar.tick` is `{ degree_days = … }`, or a speed in clock steps per tick";
+        return Err(Fault::new(path, problem, expected));
+    };
+    let speed = match (decimal_parts(tick), decimal_parts(phyllochron)) {
+        (Some((tick, of_tick)), Some((step, of_step))) => ratio(tick * of_step, step * of_tick),
+        _ => None,
+    };
+    speed.filter(|speed| speed.ratio() <= FASTEST).ok_or_else(|| {
+        let problem = format!("a phyllochron of {phyllochron} °C d in ticks of {tick} °C d is no speed");
+        Fault::new(path, problem, "a positive number with few digits, at least a 64th of a tick")
+    })
+}
+
+/// The ratio of two whole numbers, in lowest terms; `None` where it does not fit.
+fn ratio(steps: u64, ticks: u64) -> Option<Speed> {
+    let (mut a, mut b) = (steps, ticks);
+    while b > 0 {
+        (a, b) = (b, a % b);
+    }
+    Speed::new(u32::try_from(steps / a.max(1)).ok()?, u32::try_from(ticks / a.max(1)).ok()?)
+}
+
 fn in_words(text: &SpeedText) -> String {
     match text {
         SpeedText::Whole(steps) => steps.to_string(),
@@ -207,15 +253,21 @@ fn parse(text: &SpeedText) -> Option<Speed> {
 }
 
 fn decimal(steps: f64) -> Option<Speed> {
+    let (whole, scale) = decimal_parts(steps)?;
+    Speed::new(u32::try_from(whole).ok()?, u32::try_from(scale).ok()?)
+}
+
+/// A decimal number of at most six digits after the point as a whole number and a power of ten.
+fn decimal_parts(number: f64) -> Option<(u64, u64)> {
     let digits = (0..=6).find_map(|digits| {
         let scale = f64::from(10_u32.pow(digits));
-        let scaled = steps * scale;
+        let scaled = number * scale;
         let whole = scaled.round();
-        ((scaled - whole).abs() < 1e-9 * scale).then_some((whole, 10_u32.pow(digits)))
+        ((scaled - whole).abs() < 1e-9 * scale).then_some((whole, 10_u64.pow(digits)))
     });
     let (whole, scale) = digits?;
-    let fits = whole >= 1.0 && whole <= f64::from(Speed::LIMIT);
-    if fits { Speed::new(whole as u32, scale) } else { None }
+    let fits = (1.0..=1e12).contains(&whole);
+    if fits { Some((whole as u64, scale)) } else { None }
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use phytomer_sim::clock::Speed;
 use phytomer_sim::site::calendar::{Calendar, CalendarTick, Dates, TickLength};
 use phytomer_sim::site::date::Date;
 
@@ -138,4 +139,22 @@ fn a_law_of_the_date_has_its_words_in_every_run() {
             assert_eq!(table.at_most(u32::from(u16::MAX)).max_in_any_run(), most.min(u32::from(u16::MAX)));
         }
     }
+}
+
+#[test]
+fn a_phyllochron_is_a_speed_where_ticks_are_sums_of_degree_days() {
+    let of = |phyllochron: f64, tick: TickLength| {
+        let mut dates = dates(0);
+        dates.calendar = Arc::new(Calendar::of_ticks(tick, dates.calendar.ticks().to_vec()).expect("ticks"));
+        let form = SpeedForm { phyllochron_degree_days: Some(phyllochron), ..SpeedForm::default() };
+        let speeds = Speeds::from(form).compile_dated(&root(), Some(&dates));
+        speeds.map(|table| table.into_parts().0[0]).map_err(|faults| faults[0].problem.clone())
+    };
+    for (phyllochron, steps, ticks) in [(110.0, 10, 11), (50.0, 2, 1), (33.3, 1000, 333), (1600.0, 1, 16)] {
+        assert_eq!(of(phyllochron, TickLength::DegreeDays(100.0)).ok(), Speed::new(steps, ticks), "{phyllochron}");
+    }
+    let told = "a phyllochron of 1 °C d in ticks of 100 °C d is no speed";
+    assert_eq!(of(1.0, TickLength::DegreeDays(100.0)), Err(told.to_owned()), "above 64 steps a tick");
+    let told = "the speed is a phyllochron, and a tick is no sum of degree-days";
+    assert_eq!(of(110.0, TickLength::Days(30)), Err(told.to_owned()));
 }

@@ -4,7 +4,7 @@
 //! fall of branches, with which organs fall too (`sim::shed`).
 
 use super::attack::first_end;
-use super::compile::{PLACE_OF_EATEN_FLOWERS, PLACE_OF_EATEN_FRUITS, PLACE_OF_EATEN_LEAVES};
+use super::compile::{LeafFall, PLACE_OF_EATEN_FLOWERS, PLACE_OF_EATEN_FRUITS, PLACE_OF_EATEN_LEAVES};
 use super::grow::Axis;
 use crate::law::At;
 use phytomer_sim::clock::{NEVER, Tick};
@@ -30,8 +30,11 @@ impl Axis<'_> {
         let laws = &self.laws.node;
         let words = &self.words.on_node;
         let life = laws.leaf_life.as_ref().map(|life| life.draw(words, nth, at));
-        let season = laws.leaf_fall.as_ref().map(|(year, fall)| (*year, fall.draw(words, nth, at)));
-        let own = leaf_fall(season, self.tick, life);
+        let seasonal = laws.leaf_fall.as_ref().map_or(NEVER, |fall| match fall {
+            LeafFall::OfYear(year, fall) => fall_of_year(*year, fall.draw(words, nth, at), self.tick),
+            LeafFall::When(falls) => falls.get(self.tick as usize).copied().unwrap_or(NEVER),
+        });
+        let own = leaf_fall(seasonal, self.tick, life);
         let eaten = self.eaten(|exposure| &exposure.leaf, self.tick, PLACE_OF_EATEN_LEAVES + nth);
         let (death, cause) = first_end(own, eaten);
         let words = &self.words.on_node;
@@ -120,16 +123,17 @@ impl Axis<'_> {
     }
 }
 
-/// The tick at which a leaf falls and why, by its life length or by the season: the ticks of a year, and the tick of
-/// the year at which it falls.
-fn leaf_fall(season: Option<(u32, u32)>, birth: Tick, life: Option<u32>) -> (Tick, Cause) {
+/// The first tick after a birth that is the tick `fall` of a year of `year` ticks.
+fn fall_of_year(year: u32, fall: u32, birth: Tick) -> Tick {
+    let (year, fall) = (u64::from(year), u64::from(fall));
+    let wait = (fall + year - u64::from(birth) % year) % year;
+    let wait = if wait == 0 { year } else { wait };
+    u32::try_from(u64::from(birth) + wait).unwrap_or(NEVER)
+}
+
+/// The tick at which a leaf falls and why, by its life length or by the season, which makes it fall at `seasonal`.
+fn leaf_fall(seasonal: Tick, birth: Tick, life: Option<u32>) -> (Tick, Cause) {
     let aged = life.map_or(NEVER, |life| birth.saturating_add(life.max(1)));
-    let seasonal = season.map_or(NEVER, |(year, fall)| {
-        let (year, fall) = (u64::from(year), u64::from(fall));
-        let wait = (fall + year - u64::from(birth) % year) % year;
-        let wait = if wait == 0 { year } else { wait };
-        u32::try_from(u64::from(birth) + wait).unwrap_or(NEVER)
-    });
     match (aged.min(seasonal), aged <= seasonal) {
         (NEVER, _) => (NEVER, Cause::None),
         (tick, true) => (tick, Cause::LifeLength),

@@ -84,7 +84,8 @@ pub(super) fn chimera() -> Buds {
         ..Order::default()
     };
     let states = ["juvenile", "adult", "branch"].map(str::to_owned).to_vec();
-    let season = Some(Season { ticks_per_year: Quantity::from(4), leaf_fall: Count::from(3) });
+    let season =
+        Some(Season { ticks_per_year: Quantity::from(4), leaf_fall: Some(Count::from(3)), leaf_fall_when: None });
     Buds { states, season, order: vec![trunk, branch], ..Buds::default() }
 }
 

@@ -4,12 +4,13 @@
 
 use std::sync::Arc;
 
-use super::params::{Axillary, GrowthUnit, Leaf};
+use super::params::{Axillary, GrowthUnit, Leaf, Quantity, Season, SpeedForm, Speeds};
 use super::{BudModel, Buds, Order};
 use crate::contract;
 use crate::fault::Path;
 use crate::law::{Count, CountForm, Law, LawForm, MitscherlichLaw, Variable};
-use phytomer_sim::plant::Plant;
+use phytomer_sim::clock::{NEVER, Tick};
+use phytomer_sim::plant::{Cause, Plant};
 use phytomer_sim::site::calendar::{Calendar, Dates, Soil, Terms, TickLength};
 use phytomer_sim::site::date::Date;
 use phytomer_sim::site::degree_days::{DegreeDays, Method};
@@ -62,6 +63,26 @@ fn leaves_of_a_steadily_growing_axis() {
         let plant = grown(&compiled(vec![Order { leaf, ..Order::default() }], until, tick), until);
         for n in 1..=until {
             assert_eq!(leaves_at(&plant, n), (n.min(life) * a_node) as usize, "{n} ticks of {tick:?}");
+        }
+    }
+}
+
+/// The same by the phyllochron: by t ticks of 150 °C d an axis with a phyllochron of P has made ⌊150 t/P⌋ nodes, and
+/// laid down as many leaves.
+#[test]
+fn nodes_follow_the_phyllochron_of_their_order() {
+    let until = 20;
+    for (phyllochron, steps, ticks) in [(75.0, 2, 1), (150.0, 1, 1), (400.0, 3, 8)] {
+        let speed = SpeedForm { phyllochron_degree_days: Some(phyllochron), ..SpeedForm::default() };
+        let leaf = Leaf { per_node: Count::from(2), life: None, ..Leaf::default() };
+        let order = Order { speed: Speeds::from(speed), leaf, ..Order::default() };
+        let plant = grown(&compiled(vec![order], until, TickLength::DegreeDays(150.0)), until);
+        for t in 1..=until {
+            let nodes = plant.nodes.birth.iter().filter(|birth| **birth <= t).count();
+            assert_eq!(
+                (nodes, leaves_at(&plant, t)),
+                ((t * steps / ticks) as usize, (2 * (t * steps / ticks)) as usize)
+            );
         }
     }
 }
@@ -125,5 +146,35 @@ fn a_longer_run_has_other_dates_and_the_same_plants() {
         let (short, long) = (compiled(orders(), 10, tick), compiled(orders(), 40, tick));
         contract::the_length_of_the_run_leaves_no_trace(&short, &long, 10, &contract::seed_of(3, 1));
         contract::check(&compiled(orders(), 8, tick), 8, 3);
+    }
+}
+
+/// Leaves fall at the first tick after their birth that ends in November: at tick 5 (28 November 2001), at tick 17 (23
+/// November 2002), and later than the run.
+#[test]
+fn leaves_fall_by_the_date() {
+    let until = 24;
+    let season = Season {
+        ticks_per_year: Quantity::from(12),
+        leaf_fall: None,
+        leaf_fall_when: Some(expression("date >= 305 and date < 335")),
+    };
+    let compiled = |season: Season| {
+        let buds = Buds { order: vec![Order::default()], season: Some(season), ..Buds::default() };
+        buds.compile_dated(until, Some(&dates(TickLength::Days(30), until)), &Path::root())
+    };
+    let plant = grown(&compiled(season.clone()).unwrap_or_else(|faults| panic!("{faults:?}")), until);
+    let falls: Vec<(Tick, Cause)> =
+        plant.organs.death.iter().copied().zip(plant.organs.cause.iter().copied()).collect();
+    let expected = (1..=until).map(|birth| match birth {
+        ..5 => (5, Cause::Season),
+        5..17 => (17, Cause::Season),
+        _ => (NEVER, Cause::None),
+    });
+    assert_eq!(falls, expected.collect::<Vec<_>>());
+    for leaf_fall in [None, Some(Count::from(3))] {
+        let when = season.leaf_fall_when.clone().filter(|_| leaf_fall.is_some());
+        let faults = compiled(Season { leaf_fall, leaf_fall_when: when, ..season.clone() }).expect_err("none or both");
+        assert_eq!(faults[0].expected, "either `leaf_fall` or `leaf_fall_when`");
     }
 }

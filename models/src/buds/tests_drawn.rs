@@ -93,7 +93,7 @@ fn species(n: &Numbers) -> Buds {
         trend: Trend::Tended(tended),
         ..Order::default()
     };
-    let season = Some(Season { ticks_per_year: (n.quantity)(5), leaf_fall: (n.count)(2) });
+    let season = Some(Season { ticks_per_year: (n.quantity)(5), leaf_fall: Some((n.count)(2)), leaf_fall_when: None });
     Buds { states: Vec::new(), season, order: vec![trunk, branch], ..Buds::default() }
 }
 
@@ -174,7 +174,8 @@ fn drawn() -> Buds {
         leaf: Leaf { area_share: Some(uniform(0.5, 0.9)), ..Leaf::default() },
         ..Order::default()
     };
-    let season = Some(Season { ticks_per_year: Quantity::from(6), leaf_fall: weights(&[0.0, 1.0, 0.0, 0.0, 3.0]) });
+    let leaf_fall = Some(weights(&[0.0, 1.0, 0.0, 0.0, 3.0]));
+    let season = Some(Season { ticks_per_year: Quantity::from(6), leaf_fall, leaf_fall_when: None });
     Buds { season, order: vec![trunk, branch], ..Buds::default() }
 }
 

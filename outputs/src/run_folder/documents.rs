@@ -182,6 +182,7 @@ fn field(column: &Column) -> Value {
         "type": match column.holds {
             Type::Bool => "boolean",
             Type::Int | Type::Key => "integer",
+            Type::Date => "date",
             Type::Float | Type::Double => "number",
             Type::Word(_) | Type::Name(_) => "string",
         },

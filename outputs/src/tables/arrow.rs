@@ -39,6 +39,7 @@ fn data_type(holds: Type) -> DataType {
         Type::Bool => DataType::Boolean,
         Type::Int => DataType::Int32,
         Type::Key => DataType::Int64,
+        Type::Date => DataType::Date32,
         Type::Float => DataType::Float32,
         Type::Double => DataType::Float64,
         Type::Word(_) => DataType::Dictionary(Box::new(DataType::Int8), Box::new(DataType::Utf8)),

@@ -1,11 +1,11 @@
 //! Column buffers: filled row by row, lent to Arrow without a copy, and emptied for reuse.
 //!
-//! While a buffer is filled, a negative integer or a NaN stands for null; both become nulls when the buffer is lent and
-//! never reach a file. [`columns!`] makes a struct of buffers from a table's columns and the expressions of their
-//! values in a row.
+//! While a buffer is filled, a negative integer, a NaN or [`NO_DATE`] stands for null; they become nulls when the
+//! buffer is lent and never reach a file. [`columns!`] makes a struct of buffers from a table's columns and the
+//! expressions of their values in a row.
 
 use super::schema::{Column, Rounding};
-use arrow_array::types::{ArrowPrimitiveType, Float32Type, Float64Type, Int8Type, Int32Type, Int64Type};
+use arrow_array::types::{ArrowPrimitiveType, Date32Type, Float32Type, Float64Type, Int8Type, Int32Type, Int64Type};
 use arrow_array::{ArrayRef, BooleanArray, DictionaryArray, PrimitiveArray, StringArray};
 use arrow_buffer::{ArrowNativeType, BooleanBuffer, Buffer, NullBuffer, ScalarBuffer};
 use arrow_schema::ArrowError;
@@ -15,9 +15,14 @@ use std::sync::Arc;
 /// The integer that stands for null in a buffer.
 pub const NULL: i32 = -1;
 
+/// The day that stands for null in a buffer.
+pub const NO_DATE: i32 = i32::MIN;
+
 /// The values of one column.
 #[derive(Debug)]
 pub enum Values {
+    /// Days since 1970-01-01; [`NO_DATE`] for null.
+    Date(Vec<i32>),
     /// 0, 1, or −1 for null.
     Bool(Vec<i8>),
     /// 32-bit integers; negative for null.
@@ -39,7 +44,7 @@ impl Values {
     pub fn clear(&mut self) {
         match self {
             Self::Bool(values) | Self::Word(values) => values.clear(),
-            Self::Int(values) | Self::Name(values) => values.clear(),
+            Self::Int(values) | Self::Name(values) | Self::Date(values) => values.clear(),
             Self::Key(values) => values.clear(),
             Self::Float(values) => values.clear(),
             Self::Double(values) => values.clear(),
@@ -64,6 +69,8 @@ pub enum Lent {
     Word(Buffer),
     /// Places in a list of names.
     Name(Buffer),
+    /// Days.
+    Date(Buffer),
 }
 
 impl Lent {
@@ -81,6 +88,7 @@ impl Lent {
             Self::Double(buffer) => Values::Double(emptied(buffer)),
             Self::Word(buffer) => Values::Word(emptied(buffer)),
             Self::Name(buffer) => Values::Name(emptied(buffer)),
+            Self::Date(buffer) => Values::Date(emptied(buffer)),
         }
     }
 }
@@ -107,6 +115,10 @@ pub fn lend(values: Values, column: &Column, words: &Arc<StringArray>) -> Result
         Values::Key(values) => {
             let (array, buffer) = numbers::<Int64Type>(values, false, |_| true);
             (Arc::new(array), Lent::Key(buffer))
+        }
+        Values::Date(values) => {
+            let (array, buffer) = numbers::<Date32Type>(values, nullable, |value| value != NO_DATE);
+            (Arc::new(array), Lent::Date(buffer))
         }
         Values::Float(values) => {
             let (array, buffer) = numbers::<Float32Type>(values, nullable, |value| !value.is_nan());

@@ -1,4 +1,4 @@
-//! The columns of the six tables, each declared once; `treatments` has a further column for each factor of the run.
+//! The columns of the seven tables, each declared once; `treatments` has a further column for each factor of the run.
 //!
 //! The Arrow schema, the Parquet metadata, `datapackage.json` and the documentation are made from these lists. Ids and
 //! ticks are signed, because many readers have no unsigned numbers. Null means "does not apply" or "not by the end of
@@ -359,3 +359,43 @@ pub static PLANTS: [Column; 10] = [
 /// A row per treatment. A column for each factor follows, with the name of the level.
 pub static TREATMENTS: [Column; 2] =
     [Column::id("treatment_index", "The number of the treatment, from 0, in the order of its plots."), TREATMENT];
+
+/// A row per treatment, replicate and recorded tick, in each part that has plots of them.
+pub static SITE: [Column; 11] = [
+    TREATMENT,
+    Column::id("plot_id", "The first of the plots in this part: those of one treatment and replicate."),
+    Column::small(
+        "replicate",
+        "The replicate of the treatment of the plots, from 0; 0 where a run compares no treatments.",
+    ),
+    TICK,
+    Column::new(
+        "date",
+        Type::Date,
+        Encoding::Dictionary,
+        "The day that begins when the tick ends. Null where the scenario has no calendar, as are the next four columns.",
+    )
+    .or_null(),
+    Column::double(
+        "degree_days",
+        "°C d",
+        "The degree-days of the days of the tick. Null where the scenario does not state how they are taken.",
+    )
+    .or_null(),
+    Column::double("degree_day_sum", "°C d", "The degree-days since planting. Null as `degree_days`.").or_null(),
+    Column::double(
+        "day_length_h",
+        "h",
+        "The hours from sunrise to sunset on the date. Null where the latitude is not known.",
+    )
+    .or_null(),
+    Column::double(
+        "nitrogen_kg_ha",
+        "kg/ha",
+        "The nitrogen of the season: the soil's own supply and what was applied since the season began. Null where the \
+         scenario states no soil.",
+    )
+    .or_null(),
+    Column::small("plots", "The number of plots of the treatment and replicate in this part."),
+    Column::small("living_plants", "The plants of these plots that live at the tick."),
+];

@@ -1,7 +1,7 @@
-//! The six tables of a run, from the plant's columns to Parquet part files, or to Arrow record batches in memory.
+//! The seven tables of a run, from the plant's columns to Parquet part files, or to Arrow record batches in memory.
 //!
-//! [`columns`] declares the columns of each table; `records`, `components`, `events`, `summary` and `plants` fill
-//! column buffers from a plant; `recording` decides which rows are written when, for files and for memory. `part`
+//! [`columns`] declares the columns of each table; `records`, `components`, `events`, `summary`, `plants` and `site`
+//! fill column buffers from plants; `recording` decides which rows are written when, for files and for memory. `part`
 //! writes full buffers as row groups of a file, encoded column by column on as many threads as there are (`encode`);
 //! `memory` keeps them as Arrow record batches. The bytes do not depend on the number of threads: a row group has a
 //! fixed number of rows, and its columns are put into the file in their order. `treatments` is small, follows from the
@@ -26,6 +26,7 @@ mod sample;
 pub mod schema;
 mod single;
 mod sink;
+mod site;
 mod summary;
 #[cfg(test)]
 mod tests;
@@ -50,6 +51,7 @@ pub(crate) use recording::Recording;
 pub(crate) use records::{PlantAtAge, RecordColumns, RecordRow};
 pub use sample::{Sample, Stated};
 pub(crate) use single::record_values;
+pub(crate) use site::{Group, SiteColumns};
 pub use summary::Summary;
 pub(crate) use summary::{SummaryColumns, summarise};
 
@@ -75,12 +77,21 @@ pub enum Table {
     Plants,
     /// A row per treatment.
     Treatments,
+    /// A row per treatment, replicate and recorded tick.
+    Site,
 }
 
 impl Table {
     /// Every table.
-    pub const ALL: [Self; 6] =
-        [Self::Components, Self::Records, Self::Events, Self::Summary, Self::Plants, Self::Treatments];
+    pub const ALL: [Self; 7] = [
+        Self::Components,
+        Self::Records,
+        Self::Events,
+        Self::Summary,
+        Self::Plants,
+        Self::Treatments,
+        Self::Site,
+    ];
 
     /// The name of the table, and of its folder in the run.
     pub const fn name(self) -> &'static str {
@@ -91,6 +102,7 @@ impl Table {
             Self::Summary => "summary",
             Self::Plants => "plants",
             Self::Treatments => "treatments",
+            Self::Site => "site",
         }
     }
 
@@ -103,6 +115,9 @@ impl Table {
             Self::Summary => "A row per plant and recorded tick.",
             Self::Plants => "A row per plant, with its species, its sowing and its place in the plot.",
             Self::Treatments => "A row per treatment, with its level of each factor.",
+            Self::Site => {
+                "A row per treatment, replicate and recorded tick in each part, with its date and living plants."
+            }
         }
     }
 
@@ -117,6 +132,7 @@ impl Table {
             Self::Summary => &columns::SUMMARY,
             Self::Plants => &columns::PLANTS,
             Self::Treatments => &columns::TREATMENTS,
+            Self::Site => &columns::SITE,
         }
     }
 
@@ -130,6 +146,7 @@ impl Table {
             Self::Summary => &["plot_id", "tick", "plant_id"],
             Self::Plants => &["plot_id", "plant_id"],
             Self::Treatments => &["treatment_index"],
+            Self::Site => &["plot_id", "tick"],
         }
     }
 }

@@ -7,9 +7,11 @@ use super::Table;
 use super::sample::Sample;
 use super::schema::Column;
 use phytomer_sim::Tick;
+use phytomer_sim::site::calendar::Calendar;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The plan of a run.
 #[derive(Debug, Clone)]
@@ -32,6 +34,8 @@ pub struct RunPlan {
     pub precision_m: Option<f64>,
     /// Whether `records` has the columns of mechanics.
     pub mechanics: bool,
+    /// The calendar of the plots of each treatment, in the order of the treatments; `None` where ticks have no dates.
+    pub calendars: Vec<Option<Arc<Calendar>>>,
     /// The origin of the figures.
     pub provenance: Provenance,
 }

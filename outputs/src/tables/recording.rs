@@ -2,16 +2,20 @@
 //!
 //! Files and memory are filled by the same code, so a table in memory has the rows of the Parquet file. The components
 //! of a plant are written once, when their fates are known; `records` and `summary` at each recorded tick; `events` and
-//! `plants` when the plot has ended. The plants of a plot are written in the order of their numbers, one at a time, so
-//! the working memory is that of the largest plant. A plant that is not sown yet has a row in `plants` only, a plant
-//! that is not in the sample in `plants` and `summary`. Absent: storing row groups ([`Sink`]).
+//! `plants` when the plot has ended, `site` when all plots of a treatment and replicate have. The plants of a plot are
+//! written in the order of their numbers, one at a time, so the working memory is that of the largest plant. A plant
+//! that is not sown yet has a row in `plants` only, a plant that is not in the sample in `plants` and `summary`.
+//! Absent: storing row groups ([`Sink`]).
 
 use super::sink::{Rows, Sink};
 use super::{
-    ComponentColumns, ComponentIndex, ComponentRow, EventColumns, Membership, PlantAtAge, PlantColumns, RecordColumns,
-    RecordRow, RunPlan, Sample, SortedEvents, SummaryColumns, Table, TableError, by_number, summarise,
+    ComponentColumns, ComponentIndex, ComponentRow, EventColumns, Group, Membership, PlantAtAge, PlantColumns,
+    RecordColumns, RecordRow, RunPlan, Sample, SiteColumns, SortedEvents, SummaryColumns, Table, TableError, by_number,
+    summarise,
 };
+use phytomer_sim::site::calendar::Calendar;
 use phytomer_sim::{Ending, Plot, Tick};
+use std::sync::Arc;
 
 /// The tables of a run, each `None` where the plan does not have it.
 struct Tables<S> {
@@ -20,6 +24,7 @@ struct Tables<S> {
     events: Option<Rows<EventColumns, S>>,
     summary: Option<Rows<SummaryColumns, S>>,
     plants: Option<Rows<PlantColumns, S>>,
+    site: Option<Rows<SiteColumns, S>>,
 }
 
 /// Tables that are filled plot by plot.
@@ -36,6 +41,9 @@ pub struct Recording<S> {
     rows: Vec<RecordRow>,
     lives: Vec<ComponentRow>,
     sorted: SortedEvents,
+    calendars: Vec<Option<Arc<Calendar>>>,
+    /// The present treatment and replicate.
+    group: Group,
 }
 
 /// Whether the plant with the index `at` in a plot has rows in `components`, `records` and `events`.
@@ -56,6 +64,7 @@ impl<S: Sink> Recording<S> {
             events: sink(Table::Events)?.map(Rows::to),
             summary: sink(Table::Summary)?.map(Rows::to),
             plants: sink(Table::Plants)?.map(Rows::to),
+            site: sink(Table::Site)?.map(Rows::to),
         };
         Ok(Self {
             tables,
@@ -69,6 +78,8 @@ impl<S: Sink> Recording<S> {
             rows: Vec::new(),
             lives: Vec::new(),
             sorted: SortedEvents::default(),
+            calendars: plan.calendars.clone(),
+            group: Group::default(),
         })
     }
 
@@ -106,6 +117,7 @@ impl<S: Sink> Recording<S> {
         }
         self.write_events(plot, last)?;
         self.write_plants(plot)?;
+        self.count_site(plot, last)?;
         self.index.forget();
         self.components_written = false;
         Ok(())
@@ -153,6 +165,32 @@ impl<S: Sink> Recording<S> {
         Ok(())
     }
 
+    /// Counts the plants of a plot among those of its treatment and replicate, and writes the rows of the ones before.
+    fn count_site(&mut self, plot: &Plot, last: Tick) -> Result<(), TableError> {
+        if self.tables.site.is_none() {
+            return Ok(());
+        }
+        if !self.group.has(plot) {
+            self.write_site()?;
+        }
+        self.group.count(plot, &self.recorded, last);
+        Ok(())
+    }
+
+    fn write_site(&mut self) -> Result<(), TableError> {
+        let Some(table) = &mut self.tables.site else { return Ok(()) };
+        let mut next = 0;
+        while next < self.group.living().len() {
+            let some = next..(next + table.room()).min(self.group.living().len());
+            next = some.end;
+            let rows = (&self.recorded[some.clone()], &self.group.living()[some]);
+            table.columns.add(&self.group, rows, &self.calendars);
+            table.flush_if_full()?;
+        }
+        self.group.clear();
+        Ok(())
+    }
+
     /// Writes the rows at a tick of the plant with the index `at` in a plot, if it is sown by then.
     fn write_age(&mut self, tick: Tick, plot: &Plot, at: usize) -> Result<(), TableError> {
         let (of, plant) = (Membership::of(plot, at), &plot.plants[at]);
@@ -179,14 +217,16 @@ impl<S: Sink> Recording<S> {
     ///
     /// # Errors
     /// The errors of the sinks.
-    pub fn close(self) -> Result<Vec<(Table, S::Closed)>, TableError> {
-        let Tables { components, records, events, summary, plants } = self.tables;
+    pub fn close(mut self) -> Result<Vec<(Table, S::Closed)>, TableError> {
+        self.write_site()?;
+        let Tables { components, records, events, summary, plants, site } = self.tables;
         let closed = [
             (Table::Components, components.map(Rows::close)),
             (Table::Records, records.map(Rows::close)),
             (Table::Events, events.map(Rows::close)),
             (Table::Summary, summary.map(Rows::close)),
             (Table::Plants, plants.map(Rows::close)),
+            (Table::Site, site.map(Rows::close)),
         ];
         closed.into_iter().filter_map(|(table, closed)| Some(closed?.map(|closed| (table, closed)))).collect()
     }

@@ -11,6 +11,8 @@ pub enum Type {
     Int,
     /// A 64-bit signed integer.
     Key,
+    /// A day of the calendar.
+    Date,
     /// A 32-bit real number.
     Float,
     /// A 64-bit real number.

@@ -46,6 +46,7 @@ fn numbers_of(values: &Values) -> Vec<f64> {
     match values {
         Values::Bool(values) | Values::Word(values) => values.iter().map(|value| whole(i64::from(*value))).collect(),
         Values::Int(values) | Values::Name(values) => values.iter().map(|value| whole(i64::from(*value))).collect(),
+        Values::Date(values) => values.iter().map(|value| f64::from(*value)).collect(),
         Values::Key(values) => values.iter().map(|value| *value as f64).collect(),
         Values::Float(values) => values.iter().map(|value| f64::from(*value)).collect(),
         Values::Double(values) => values.clone(),

@@ -10,13 +10,16 @@ use crate::specimen::{grow_plots, plan};
 use crate::specimen_plots::{MEMBERS, SPECIES, mixed, mixed_plan, model, number_of, run_mixed, seed};
 use crate::{Mode, RunFolder};
 use ::arrow_array::cast::AsArray;
-use ::arrow_array::types::{Float32Type, Float64Type, Int8Type, Int32Type, Int64Type};
+use ::arrow_array::types::{Date32Type, Float32Type, Float64Type, Int8Type, Int32Type, Int64Type};
 use ::arrow_array::{Array, RecordBatch};
 use ::arrow_schema::DataType;
 use phytomer_sim::plant::{AxisId, EventKind, NewAxis};
+use phytomer_sim::site::calendar::{Calendar, CalendarTick, TickLength};
+use phytomer_sim::site::date::Date;
 use phytomer_sim::{Ending, Plot, Tick, grow};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::Arc;
 use tempfile::tempdir;
 
 const PLOTS: u32 = 5;
@@ -31,6 +34,7 @@ fn cell(array: &dyn Array, row: usize) -> String {
     match array.data_type() {
         DataType::Boolean => array.as_boolean().value(row).to_string(),
         DataType::Int32 => array.as_primitive::<Int32Type>().value(row).to_string(),
+        DataType::Date32 => array.as_primitive::<Date32Type>().value(row).to_string(),
         DataType::Int64 => array.as_primitive::<Int64Type>().value(row).to_string(),
         DataType::Float32 => array.as_primitive::<Float32Type>().value(row).to_string(),
         DataType::Float64 => array.as_primitive::<Float64Type>().value(row).to_string(),
@@ -108,7 +112,7 @@ fn ticks_are_those_of_the_plot_and_ages_those_of_the_plant() {
     let report = run_mixed(home.path(), mixed_plan(PLOTS, 2));
     let (recorded, sown) = (mixed_plan(PLOTS, 2).recorded, sown());
     let treatments = ["control", "shade"];
-    for table in Table::ALL {
+    for table in Table::ALL.into_iter().filter(|table| *table != Table::Site) {
         let mut ticks: BTreeMap<i64, BTreeSet<Tick>> = BTreeMap::new();
         for row in rows(home.path(), table) {
             let (plot, _, sown) = sown[&int(&row, "plant_id")];
@@ -258,4 +262,40 @@ fn events_follow_the_numbers_of_buds_whatever_the_order_of_axes() {
     sorted.sort(&plot, 2);
     let events: Vec<_> = sorted.stretches().flat_map(|(_, events)| events).map(|of| (of.tick, of.axis.0)).collect();
     assert_eq!(events, [(1, 0), (1, 2), (1, 1), (2, 1)], "the third axis has a lower number than the second");
+}
+
+/// A day each tick from 1969-12-30 on, which is two days before day 0 of the tables.
+fn dated(until: Tick) -> Calendar {
+    let tick = |tick: Tick| CalendarTick {
+        date: Date::EPOCH.plus(tick as i32 - 2),
+        days: u32::from(tick > 0),
+        degree_days: Some(0.5),
+        degree_day_sum: Some(0.5 * f64::from(tick)),
+        day_length_h: None,
+        nitrogen_kg_ha: Some(60.0),
+    };
+    Calendar::of_ticks(TickLength::Days(1), (0..=until).map(tick).collect()).unwrap()
+}
+
+/// The plots of a treatment have its calendar; each plot is of another treatment or replicate, so each has its rows.
+#[test]
+fn the_site_has_the_calendar_of_its_treatment_and_counts_the_living() {
+    let home = tempdir().unwrap();
+    let mut plan = mixed_plan(PLOTS, 2);
+    plan.calendars = vec![None, Some(Arc::new(dated(plan.until)))];
+    run_mixed(home.path(), plan.clone());
+    let (site, summary) = (rows(home.path(), Table::Site), rows(home.path(), Table::Summary));
+    assert_eq!(site.len(), PLOTS as usize * plan.recorded.len());
+    for (place, row) in site.iter().enumerate() {
+        let (plot, tick) = (place / plan.recorded.len(), plan.recorded[place % plan.recorded.len()]);
+        let numbers = ["plot_id", "tick", "plots", "replicate"].map(|name| int(row, name));
+        assert_eq!(numbers, [plot as i64, tick.into(), 1, plot as i64 / 2]);
+        assert_eq!(row["treatment"], ["control", "shade"][plot % 2]);
+        let told = ["date", "degree_day_sum", "day_length_h", "nitrogen_kg_ha"].map(|name| row[name].as_str());
+        let (date, sum) = ((i64::from(tick) - 2).to_string(), (0.5 * f64::from(tick)).to_string());
+        assert_eq!(told, [["", "", "", ""], [date.as_str(), sum.as_str(), "", "60"]][plot % 2]);
+        let is_here = |of: &&Row| int(of, "plot_id") == plot as i64 && int(of, "tick") == i64::from(tick);
+        let living = summary.iter().filter(is_here).filter(|of| of["alive"] == "true").count();
+        assert_eq!(int(row, "living_plants"), living as i64, "plot {plot}, tick {tick}");
+    }
 }

@@ -3,6 +3,7 @@
 //! The laws of its species are told with it, since they are half of what a scenario means. Absent: anything grown.
 
 use super::super::amounts;
+use super::dates;
 use super::run::ages_in_words;
 use anyhow::Result;
 use phytomer::run::forecast::{Figure, Forecast};
@@ -48,6 +49,7 @@ pub fn as_text(resolved: &Resolved) -> String {
     }
     let ticks: BTreeSet<&str> = resolved.all_species().iter().map(|species| species.about.tick.as_str()).collect();
     line("tick", ticks.into_iter().collect::<Vec<_>>().join(", "));
+    resolved.dated.iter().flat_map(dates::lines).for_each(|(name, value)| line(name, value));
     line("ages", ages_in_words(&scenario.ages.recorded(), scenario.ages.until));
     line("seed", scenario.seed.to_string());
     line("tables", tables_in_words(&scenario.written_tables()));
@@ -142,6 +144,7 @@ fn tables_in_words(tables: &BTreeSet<Table>) -> String {
         Table::Summary => "summary",
         Table::Plants => "plants",
         Table::Treatments => "treatments",
+        Table::Site => "site",
     };
     let words: Vec<&str> = tables.iter().map(word).collect();
     if words.is_empty() { "none".to_owned() } else { words.join(", ") }

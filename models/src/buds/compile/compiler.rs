@@ -9,10 +9,10 @@ use super::look::form_of;
 use crate::buds::params::{Buds, FormChoice, Season};
 use crate::fault::{Fault, Path};
 use crate::law::{
-    Asked, Constant, Count, CountTable, Domain, Law, ProbabilityTable, Quantity, SpeedTable, ValueRange, ValueTable,
-    Variate, VariateTable,
+    Asked, At, Constant, Count, CountTable, Domain, Law, ProbabilityTable, Quantity, SpeedTable, ValueRange,
+    ValueTable, Variate, VariateTable,
 };
-use phytomer_sim::clock::{LAST_TICK, Speed};
+use phytomer_sim::clock::{LAST_TICK, NEVER, Speed, Tick};
 use phytomer_sim::plant::Form;
 use phytomer_sim::site::calendar::Dates;
 use std::ops::RangeInclusive;
@@ -63,7 +63,7 @@ impl<'a> Compiler<'a> {
         let orders_path = species_path.key("order");
         let path = orders_path.index(index);
         let mut faults = Vec::new();
-        let speeds = buds.order[index].speed.compile(&path.key("speed")).unwrap_or_else(|found| {
+        let speeds = buds.order[index].speed.compile_dated(&path.key("speed"), dates).unwrap_or_else(|found| {
             faults = found;
             SpeedTable::always(Speed::ONE)
         });
@@ -188,9 +188,9 @@ impl<'a> Compiler<'a> {
 
     /// Compiles the tick of the year at which leaves fall, in a year of `year` ticks. It is stated for the species and
     /// compiled for the nodes of each order.
-    pub fn fall_within(&mut self, season: &Season, year: u32) -> CountTable {
+    pub fn fall_within(&mut self, fall: &Count, year: u32) -> CountTable {
         let path = self.species_path.key("season").key("leaf_fall");
-        let compiled = season.leaf_fall.compile(&self.domain, &path);
+        let compiled = fall.compile(&self.domain, &path);
         let table = self.accept_again(compiled).unwrap_or_else(|| CountTable::always(0));
         self.asks_the_bud |= table.asks_the_bud();
         if year > 0 && table.max() >= year {
@@ -199,6 +199,32 @@ impl<'a> Compiler<'a> {
             self.asked_again.push(Fault::new(&path, found, expected));
         }
         table
+    }
+
+    /// The first tick after each age, from 0, at which a law of the date makes leaves fall; `NEVER` where there is
+    /// none in the run.
+    pub fn falls_after(&mut self, when: &Law) -> Vec<Tick> {
+        let path = self.species_path.key("season").key("leaf_fall_when");
+        let domain = Domain { max_rank: 0, states: Vec::new(), asked: Asked::Birth, ..self.domain.clone() };
+        let compiled = when.compile_value(&domain, &path, ValueRange { min: 0.0, max: 1.0, what: "0 or 1" });
+        let table = self.accept_again(compiled).unwrap_or_else(|| ValueTable::always(0.0));
+        let mut falls = vec![NEVER; domain.until as usize + 1];
+        for age in (1..=domain.until).rev() {
+            let falls_now = table.value(At { age, ..At::default() }) != 0.0;
+            falls[age as usize - 1] = if falls_now { age } else { falls[age as usize] };
+        }
+        falls
+    }
+
+    /// Refuses a season that states none or both of its two ways of leaf fall.
+    pub fn check_season(&mut self, season: &Season) {
+        let problem = match (&season.leaf_fall, &season.leaf_fall_when) {
+            (None, None) => "the season does not say when leaves fall",
+            (Some(_), Some(_)) => "the season says twice when leaves fall",
+            _ => return,
+        };
+        let path = self.species_path.key("season");
+        self.asked_again.push(Fault::new(&path, problem, "either `leaf_fall` or `leaf_fall_when`"));
     }
 
     /// Compiles a length or a diameter in the unit of its key.

@@ -24,7 +24,7 @@ pub(super) use branching::Branching;
 pub(super) use change::{join, nodes_times};
 pub(super) use head::HeadLaws;
 pub(super) use node::{
-    NODE_OF_RESPONSES, NodeLaws, PLACE_OF_EATEN_FLOWERS, PLACE_OF_EATEN_FRUITS, PLACE_OF_EATEN_LEAVES,
+    LeafFall, NODE_OF_RESPONSES, NodeLaws, PLACE_OF_EATEN_FLOWERS, PLACE_OF_EATEN_FRUITS, PLACE_OF_EATEN_LEAVES,
 };
 pub(super) use relay::EndLaws;
 pub(super) use step::{PLACE_OF_DEATH, PLACE_OF_WEAKNESS, Passage, STEP_OF_RESPONSES, StepLaws};

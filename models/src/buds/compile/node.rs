@@ -12,6 +12,7 @@ use super::words::{Chance, Layout, Measure, Number, Spare};
 use super::zone::{Ramification, Ranks, Zones};
 use crate::buds::params::{Order, Season};
 use crate::law::{Count, CountTable, ProbabilityTable, ValueRange, VariateTable};
+use phytomer_sim::Tick;
 use phytomer_sim::plant::{Form, Kind};
 
 /// Metres in a centimetre and in a millimetre.
@@ -50,8 +51,8 @@ pub struct NodeLaws {
     pub leaves: Number,
     /// The life length of a leaf; `None`: as long as its branch.
     pub leaf_life: Option<Number>,
-    /// The ticks of a year, and the tick of the year at which a leaf falls; `None`: leaves do not fall together.
-    pub leaf_fall: Option<(u32, Number)>,
+    /// When leaves fall together; `None` where they do not.
+    pub leaf_fall: Option<LeafFall>,
     pub leaf: OrganLaws,
     pub axillary: Branching,
     pub zones: Option<Zones>,
@@ -65,6 +66,15 @@ pub struct NodeLaws {
     pub fruit_life: Number,
     pub flower: OrganLaws,
     pub fruit: OrganLaws,
+}
+
+/// When the leaves of a plant fall together.
+#[derive(Debug, Clone)]
+pub enum LeafFall {
+    /// At a tick of the year, which each leaf draws: the ticks of a year, and the tick of the year.
+    OfYear(u32, Number),
+    /// By the date: the tick at which a leaf falls, by that of its birth; `NEVER` where none of the run makes it fall.
+    When(Vec<Tick>),
 }
 
 /// The size and the direction of an organ.
@@ -129,7 +139,7 @@ impl NodeLaws {
             fruit_life: words.number(fruit_life, most_flowers),
             flower: flower(order, flower_angle.clone(), compiler, words, most_flowers),
             fruit: fruit(order, flower_angle, compiler, words, most_flowers),
-            leaf_fall: season.map(|season| leaf_fall(season, compiler, words, most_leaves)),
+            leaf_fall: season.and_then(|season| LeafFall::compile(season, compiler, words, most_leaves)),
             width: layout.width(),
             spare: Spare::after(layout.width()),
         }
@@ -217,11 +227,16 @@ fn leaf(order: &Order, compiler: &mut Compiler, words: &mut Layout, leaves: u32)
     }
 }
 
-/// The ticks of a year, and the tick of the year at which a leaf falls, which must be within the year.
-fn leaf_fall(season: &Season, compiler: &mut Compiler, words: &mut Layout, leaves: u32) -> (u32, Number) {
-    let year = season.ticks_per_year.value();
-    let fall = compiler.fall_within(season, year);
-    (year, words.number(fall, leaves))
+impl LeafFall {
+    fn compile(season: &Season, compiler: &mut Compiler, words: &mut Layout, leaves: u32) -> Option<Self> {
+        compiler.check_season(season);
+        let year = season.ticks_per_year.value();
+        if let Some(fall) = &season.leaf_fall {
+            let fall = compiler.fall_within(fall, year);
+            return Some(Self::OfYear(year, words.number(fall, leaves)));
+        }
+        season.leaf_fall_when.as_ref().map(|when| Self::When(compiler.falls_after(when)))
+    }
 }
 
 fn flower(order: &Order, angle: VariateTable, compiler: &mut Compiler, words: &mut Layout, flowers: u32) -> OrganLaws {

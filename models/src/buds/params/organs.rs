@@ -17,8 +17,16 @@ pub struct Season {
     /// The ticks of a year. They are not drawn: the year is the calendar's, and the same for every leaf of a plant.
     pub ticks_per_year: Quantity,
     /// The tick of the year, from 0, at whose beginning a leaf falls that appeared before it; drawn once a leaf, with
-    /// its laws evaluated at the node, so that leaves may fall one after another.
-    pub leaf_fall: Count,
+    /// its laws evaluated at the node, so that leaves may fall one after another. Either this or `leaf_fall_when` is
+    /// given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Count")]
+    pub leaf_fall: Option<Count>,
+    /// By the date: leaves fall at the first tick after their birth at which this law is not 0, such as `{ expression
+    /// = "date >= 305 and degree_days > 1500" }`. It depends on the age of the plant and on its date alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Law")]
+    pub leaf_fall_when: Option<Law>,
 }
 
 /// How organs turn in the vertical plane in which they stand: leaves that sink as they age, fruits that hang,

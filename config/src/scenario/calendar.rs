@@ -1,0 +1,249 @@
+//! The calendar of a run as its scenario states it: the day of planting, how long a tick is, and the nitrogen that the
+//! date decides.
+//!
+//! Names and units are those of the ICASA dictionary where it has them (`planting_date`, `fertilization_date`,
+//! `N_in_applied_fertilizer` kg[N]/ha). Absent: weather files (`phytomer_weather`), and the calendar that is made of
+//! all this (`dates`).
+
+use super::Scenario;
+use phytomer_law::fault::{Fault, Path};
+use phytomer_sim::site::calendar::{Soil as SimSoil, TickLength as SimTick, season_of};
+use phytomer_sim::site::date::Date;
+use phytomer_weather::DegreeDays;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How a day is written.
+const A_DAY: &str = "a day as YYYY-MM-DD, such as \"2001-09-03\"";
+
+/// The ticks of a run on the calendar.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Calendar {
+    /// The length of a tick: `{ days = 30 }` or `{ degree_days = 100 }`.
+    pub tick: TickLength,
+    /// How the temperatures of a day become degree-days. Not needed where neither a tick nor a law asks for them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub degree_days: Option<DegreeDays>,
+}
+
+/// The length of a tick, by one of the two keys.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TickLength {
+    /// The days of a tick.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 3660))]
+    pub days: Option<u32>,
+    /// The sum of degree-days of a tick, °C d: tick t ends at the first midnight by which t times this sum is reached.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(max = 100_000), extend("exclusiveMinimum" = 0))]
+    pub degree_days: Option<f64>,
+}
+
+/// The nitrogen of the soil.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Soil {
+    /// What the soil supplies by itself in a season, kg N/ha.
+    #[schemars(range(min = 0, max = 10_000))]
+    pub nitrogen_kg_ha: f64,
+    /// The day with which each season begins, as MM-DD such as `"09-01"`: what was applied before counts no more. The
+    /// day of the year of planting if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub season_begins: Option<String>,
+}
+
+/// An application of fertilizer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fertilizer {
+    /// The day on which it is applied, as YYYY-MM-DD.
+    pub fertilization_date: String,
+    /// The nitrogen that is applied, kg N/ha.
+    #[serde(rename = "N_in_applied_fertilizer")]
+    #[schemars(range(min = 0, max = 10_000))]
+    pub nitrogen: f64,
+    /// Whether the same is applied on the same day of each later year. Once if not given.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub yearly: bool,
+}
+
+impl TickLength {
+    /// The length as the calendar takes it; `None` unless exactly one key is given.
+    pub(crate) fn stated(&self) -> Option<SimTick> {
+        match (self.days, self.degree_days) {
+            (Some(days), None) => Some(SimTick::Days(days)),
+            (None, Some(sum)) => Some(SimTick::DegreeDays(sum)),
+            _ => None,
+        }
+    }
+}
+
+impl Soil {
+    /// Month and day with which a season begins: those that are stated, else those of planting. `None` where what is
+    /// stated is no day.
+    fn season(&self, planted: Date) -> Option<(u32, u32)> {
+        let Some(stated) = &self.season_begins else { return Some(planted.month_and_day()) };
+        // A leap year has every day.
+        Date::parse(&format!("2000-{stated}")).map(Date::month_and_day)
+    }
+}
+
+impl Scenario {
+    /// The day of planting; `None` where none is stated or what is stated is no day.
+    pub(crate) fn planted(&self) -> Option<Date> {
+        Date::parse(self.planting_date.as_deref()?)
+    }
+
+    /// The nitrogen of the soil on the days up to `last`; `None` without `[soil]`. Dates are those of a scenario
+    /// without faults.
+    pub(crate) fn soil_until(&self, planted: Date, last: Date) -> Option<SimSoil> {
+        let soil = self.soil.as_ref()?;
+        let applied = self.fertilizer.iter().filter_map(|event| Some((Date::parse(&event.fertilization_date)?, event)));
+        let applied = applied.flat_map(|(first, event)| {
+            let years = if event.yearly { last.year().saturating_sub(first.year()).max(0) } else { 0 };
+            (0..=years).map(move |year| (first.years_later(year), event.nitrogen))
+        });
+        let season_begins = soil.season(planted)?;
+        Some(SimSoil { own: soil.nitrogen_kg_ha, applied: applied.collect(), season_begins })
+    }
+
+    /// Adds the faults of the calendar that the schema cannot state.
+    pub(super) fn check_calendar(&self, faults: &mut Vec<Fault>) {
+        let mut tell = |keys: &str, problem: String, expected: &str| {
+            let path = keys.split('.').fold(Path::root(), |path, key| path.key(key));
+            faults.push(Fault::new(&path, problem, expected));
+        };
+        match (&self.planting_date, &self.calendar) {
+            (Some(date), _) if self.planted().is_none() => tell("planting_date", format!("`{date}` is no day"), A_DAY),
+            (Some(_), None) => tell(
+                "planting_date",
+                "the day of planting has no effect without a calendar".to_owned(),
+                "`[calendar]` with the length of a tick, such as `tick = { days = 30 }`",
+            ),
+            (None, Some(_)) => tell(
+                "calendar",
+                "the calendar has no day to begin with".to_owned(),
+                "`planting_date`, the day on which tick 0 is reached",
+            ),
+            _ => {}
+        }
+        if self.calendar.is_none() {
+            let given = [("weather", self.weather.is_some()), ("soil", self.soil.is_some())];
+            for (key, _) in given.into_iter().filter(|(_, given)| *given) {
+                let problem = format!("`{key}` has no effect without a calendar");
+                tell(key, problem, "`planting_date` and `[calendar]`, or no such table");
+            }
+        }
+        if !self.fertilizer.is_empty() && self.soil.is_none() {
+            let problem = "fertilizer has no effect where the nitrogen of the soil is not stated".to_owned();
+            tell("fertilizer", problem, "`[soil]` with `nitrogen_kg_ha`");
+        }
+        self.check_degree_days(&mut tell);
+        self.check_latitude(&mut tell);
+        if let Some(degree_days) = self.calendar.as_ref().and_then(|calendar| calendar.degree_days) {
+            faults.extend(degree_days.faults(&Path::root().key("calendar").key("degree_days")));
+        }
+        self.check_soil(faults);
+    }
+
+    fn check_degree_days(&self, tell: &mut impl FnMut(&str, String, &str)) {
+        let Some(calendar) = &self.calendar else { return };
+        if calendar.tick.stated().is_none() {
+            let given = if calendar.tick.days.is_some() { "two lengths" } else { "no length" };
+            let problem = format!("the tick has {given}");
+            tell("calendar.tick", problem, "either `days` or `degree_days`, such as `{ days = 30 }`");
+        }
+        match (calendar.degree_days, calendar.tick.degree_days) {
+            (None, Some(_)) => tell(
+                "calendar.tick.degree_days",
+                "the tick is a sum of degree-days, and how they are taken is not stated".to_owned(),
+                "`calendar.degree_days` with `method` and `base_celsius`",
+            ),
+            (Some(_), _) if self.weather.is_none() => tell(
+                "calendar.degree_days",
+                "degree-days need temperatures, and there is no weather".to_owned(),
+                "`[weather]` with a `file`",
+            ),
+            _ => {}
+        }
+    }
+
+    fn check_latitude(&self, tell: &mut impl FnMut(&str, String, &str)) {
+        if self.site.latitude_deg.is_some() && self.weather.as_ref().is_some_and(|of| of.latitude_deg.is_some()) {
+            let problem = "the latitude is stated twice, in `[site]` and in `[weather]`".to_owned();
+            tell("site.latitude_deg", problem, "one of the two");
+        }
+    }
+
+    fn check_soil(&self, faults: &mut Vec<Fault>) {
+        let planted = self.planted();
+        let stated = self.soil.as_ref().and_then(|soil| soil.season_begins.as_ref());
+        let season = self.soil.as_ref().zip(planted).and_then(|(soil, planted)| soil.season(planted));
+        if let (Some(stated), Some(soil)) = (stated, &self.soil)
+            && soil.season(Date::FIRST).is_none()
+        {
+            let path = Path::root().key("soil").key("season_begins");
+            faults.push(Fault::new(
+                &path,
+                format!("`{stated}` is no day of a year"),
+                "a day as MM-DD, such as \"09-01\"",
+            ));
+        }
+        for (number, event) in self.fertilizer.iter().enumerate() {
+            let path = Path::root().key("fertilizer").index(number).key("fertilization_date");
+            let Some(date) = Date::parse(&event.fertilization_date) else {
+                faults.push(Fault::new(&path, format!("`{}` is no day", event.fertilization_date), A_DAY));
+                continue;
+            };
+            let Some((planted, season)) = planted.zip(season) else { continue };
+            let first = season_of(planted, season);
+            if date < first && !event.yearly {
+                let problem =
+                    format!("the season of planting begins on {first}: what is applied on {date} has no effect");
+                faults.push(Fault::new(&path, problem, "a later day, or an earlier `soil.season_begins`"));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scenario(keys: &str) -> Scenario {
+        let text = format!("name = \"a\"\nspecies = \"coffee\"\nplants = 1\nages = {{ until = 12 }}\n{keys}");
+        toml::from_str(&text).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    fn date(text: &str) -> Date {
+        Date::parse(text).expect("a day")
+    }
+
+    #[test]
+    fn applications_come_again_each_year_where_that_is_stated() {
+        let of = scenario(
+            "planting_date = \"2000-02-29\"\ncalendar = { tick = { days = 30 } }\n\
+             soil = { nitrogen_kg_ha = 20, season_begins = \"09-01\" }\n\
+             fertilizer = [{ fertilization_date = \"2000-02-29\", N_in_applied_fertilizer = 30, yearly = true },\n\
+             { fertilization_date = \"2000-10-01\", N_in_applied_fertilizer = 50 }]",
+        );
+        assert_eq!(of.faults(), []);
+        let soil = of.soil_until(date("2000-02-29"), date("2002-06-01")).expect("a soil");
+        let days = ["2000-02-29", "2001-02-28", "2002-02-28"].map(|day| (date(day), 30.0));
+        assert_eq!(soil.applied, [days.as_slice(), &[(date("2000-10-01"), 50.0)]].concat());
+        assert_eq!((soil.own, soil.season_begins), (20.0, (9, 1)));
+    }
+
+    #[test]
+    fn without_a_calendar_a_scenario_is_as_before() {
+        let plain = scenario("");
+        assert!(plain.planted().is_none() && plain.faults().is_empty());
+        let text = toml::to_string(&plain).expect("a text");
+        assert!(
+            ["calendar", "weather", "soil", "fertilizer", "planting"].iter().all(|key| !text.contains(key)),
+            "{text}"
+        );
+    }
+}
