@@ -97,8 +97,8 @@ fn dealt(trial: &Trial) -> Vec<u32> {
     cells
 }
 
-/// The numbers below `count` in a random order (Fisher & Yates 1938, *Statistical Tables*). A place among n is ⌊u·n/2³²⌋
-/// for a word u, whose bias is below n/2³².
+/// The numbers below `count` in a random order (Fisher & Yates 1938, *Statistical Tables*). A place among n is
+/// ⌊u·n/2³²⌋ for a word u, whose bias is below n/2³².
 fn shuffled(count: u32, random: &PlantRandom, block: u64) -> Vec<u32> {
     let mut stream = random.stream(LineageKey(block), Purpose::Field);
     let mut order: Vec<u32> = (0..count).collect();

@@ -164,7 +164,7 @@ impl Scenario {
     }
 }
 
-/// The sine and the cosine of an angle in degrees; exact at right angles, so that rows to the east are level to the bit.
+/// The sine and the cosine of an angle in degrees; exact at right angles, so that rows to the east are level.
 fn turned(degrees: f64) -> (f64, f64) {
     match degrees {
         0.0 | 360.0 => (0.0, 1.0),
