@@ -13,7 +13,7 @@
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use phytomer::config::validate;
 use phytomer::outputs::{Checking, Mode, Opening, Share, SystemSpace, merge};
-use phytomer::run::{self, Program, Progress, Settings};
+use phytomer::run::{self, Progress, Settings};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::env;
@@ -92,9 +92,8 @@ fn child(words: &[String]) -> Result<()> {
         }
         [verb, folder, parts @ ..] if verb == "merge" => {
             let parts: Vec<PathBuf> = parts.iter().map(PathBuf::from).collect();
-            let Program { version, git_hash } = Program::default();
             let opening = Opening { checking: &Checking::default(), space: Arc::new(SystemSpace), share: None };
-            merge(Path::new(folder), &parts, (&version, &git_hash), (Mode::Resume, &opening))?;
+            merge(Path::new(folder), &parts, Mode::Resume, &opening)?;
         }
         _ => bail!("grow or merge is expected"),
     }

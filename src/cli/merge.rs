@@ -6,7 +6,6 @@
 use super::{Misuse, Verdict, amounts, bar, terminal};
 use anyhow::{Context, Result};
 use clap::Args;
-use phytomer::run::Program;
 use phytomer_outputs::{Checking, Error, Merged, Mode, Opening, SystemSpace, merge};
 use serde_json::json;
 use std::path::PathBuf;
@@ -72,9 +71,8 @@ impl Merge {
             (_, true) => Mode::Overwrite,
             _ => Mode::New,
         };
-        let Program { version, git_hash } = Program::default();
         let opening = Opening { checking, space: Arc::new(SystemSpace), share: None };
-        merge(&self.out, &self.parts, (&version, &git_hash), (mode, &opening))
+        merge(&self.out, &self.parts, mode, &opening)
     }
 
     fn tell(&self, merged: &Merged) -> Result<()> {

@@ -4,7 +4,7 @@
 //! follow from them, such as the list of recorded ages, are reported only where scenario and species are equal. Absent:
 //! the advice what to do, which is in the error.
 
-use super::identity::identity;
+use super::identity::{identity, stated};
 use super::share::{SHARE, Share};
 use crate::tables::RunPlan;
 use serde_json::{Map, Value};
@@ -37,10 +37,19 @@ const OWN: [&str; 6] = ["format_version", "schema_version", "version", "git_hash
 impl Differences {
     /// The differences between a `run.json` and a plan.
     pub fn between(run: &Value, plan: &RunPlan) -> Self {
+        Self::of(run, &plan.provenance.resolved, identity(plan))
+    }
+
+    /// The differences between two `run.json`.
+    pub fn between_runs(run: &Value, now: &Value) -> Self {
+        Self::of(run, &now["resolved_scenario"], stated(now))
+    }
+
+    fn of(run: &Value, resolved: &Value, identity: Map<String, Value>) -> Self {
         let mut found = Vec::new();
-        compare(String::new(), run.get("resolved_scenario"), Some(&plan.provenance.resolved), &mut found);
+        compare(String::new(), run.get("resolved_scenario"), Some(resolved), &mut found);
         let same_scenario = found.is_empty();
-        for (key, now) in identity(plan) {
+        for (key, now) in identity {
             let told = if same_scenario { key != "scenario_sha256" } else { OWN.contains(&key.as_str()) };
             if !told {
                 continue;

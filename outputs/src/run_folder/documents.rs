@@ -91,22 +91,33 @@ pub fn write_end(
     timings: &[(&str, f64)],
 ) -> Result<RunReport, Error> {
     let report = RunReport::of(done.values());
-    let package = pretty(&path.join(PACKAGE), &data_package(plan, &report))?;
+    let (run, package) = (run(plan, share, "complete"), data_package(plan, &report));
+    write_results(path, run, (&package, views(plan).as_bytes()), &report, timings)?;
+    Ok(report)
+}
+
+/// Writes `datapackage.json`, and `run.json` with the results of the run; `run` is what stands in it before them.
+pub fn write_results(
+    path: &Path,
+    mut run: Map<String, Value>,
+    (package, views): (&Value, &[u8]),
+    report: &RunReport,
+    timings: &[(&str, f64)],
+) -> Result<(), Error> {
+    let package = pretty(&path.join(PACKAGE), package)?;
     durable::write(&path.join(PACKAGE), &package)?;
     let (bytes, sha256) = durable::sync_and_hash(&path.join(JOURNAL))?;
     let journal = FileReport { path: JOURNAL.to_owned(), table: None, rows: None, bytes, sha256 };
-    let documents = [journal, document(PACKAGE, &package), document(VIEWS, views(plan).as_bytes())];
-    let mut run = run(plan, share, "complete");
+    let documents = [journal, document(PACKAGE, &package), document(VIEWS, views)];
     let timings: Map<String, Value> =
         timings.iter().map(|(name, seconds)| ((*name).to_owned(), json!(seconds))).collect();
     run.insert("timings_s".to_owned(), Value::Object(timings));
-    let result = serde_json::to_value(&report).map_err(Error::json(&path.join(RUN)))?;
+    let result = serde_json::to_value(report).map_err(Error::json(&path.join(RUN)))?;
     if let Value::Object(result) = result {
         run.extend(result);
     }
     run.insert("documents".to_owned(), json!(documents));
-    write_run(path, run)?;
-    Ok(report)
+    write_run(path, run)
 }
 
 fn run(plan: &RunPlan, share: Option<Share>, status: &str) -> Map<String, Value> {
@@ -118,12 +129,14 @@ fn run(plan: &RunPlan, share: Option<Share>, status: &str) -> Map<String, Value>
     run
 }
 
-fn document(name: &str, content: &[u8]) -> FileReport {
+/// A document as `run.json` names it.
+pub fn document(name: &str, content: &[u8]) -> FileReport {
     let sha256 = durable::sha256_of(content);
     FileReport { path: name.to_owned(), table: None, rows: None, bytes: content.len() as u64, sha256 }
 }
 
-fn write_run(path: &Path, run: Map<String, Value>) -> Result<(), Error> {
+/// Writes `run.json`, with its check.
+pub fn write_run(path: &Path, run: Map<String, Value>) -> Result<(), Error> {
     let file = path.join(RUN);
     let text = serde_json::to_vec_pretty(&Value::Object(run)).map_err(Error::json(&file))?;
     Ok(durable::write(&file, &DOCUMENT.put(text))?)

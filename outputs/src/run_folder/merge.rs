@@ -10,20 +10,23 @@ use super::check::{self, Checking, Checkup, Depth, State};
 use super::difference::Differences;
 use super::documents::RunReport;
 use super::error::Error;
-use super::identity::plan_of;
-use super::journal::{FileReport, ShardReport};
+use super::identity::FORMAT_VERSION;
+use super::journal::{FileReport, JOURNAL, Journal, ShardReport};
+use super::lock::{Lock, holder_of};
 use super::merge_fault::{MergeFault, MergeFaults};
-use super::papers::Papers;
+use super::merged_documents::Drafts;
+use super::papers::{Papers, is_inside};
 use super::share::Share;
-use super::{Mode, Opening, RunFolder};
+use super::{Mode, Opening, clear, refuse, remove_leftovers};
 use crate::storage::durable::{self, HashingFile};
-use crate::tables::{Provenance, RunPlan};
+use crate::storage::space::Watch;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// What came of a merge.
 #[derive(Debug, Clone)]
@@ -44,72 +47,56 @@ struct Source {
     found: Checkup,
 }
 
-/// Merges the folders `parts` into the folder `into`. `program` is the version and the commit of this program, which
-/// must be those of the program that grew the parts. The progress counts the bytes of the check, then those of the
+/// Merges the folders `parts` into the folder `into`. The progress counts the bytes of the check, then those of the
 /// copies.
 ///
 /// # Errors
-/// [`Error::Merge`] with all that is wrong with the folders; else as [`RunFolder::open`].
-pub fn merge(
-    into: &Path,
-    parts: &[PathBuf],
-    program: (&str, &str),
-    (mode, opening): (Mode, &Opening),
-) -> Result<Merged, Error> {
-    let (sources, plan) = gathered(into, parts, program, opening.checking)?;
-    let provided: BTreeMap<u32, (&Path, &ShardReport)> = sources
-        .iter()
-        .flat_map(|source| source.done.iter().map(|(part, report)| (*part, (source.folder.as_path(), report))))
-        .collect();
-    let shards = plan.shards();
-    let folder = RunFolder::open(into, plan, mode, opening)?;
-    let missing = folder.missing_shards();
-    let reports = missing.iter().filter_map(|part| provided.get(part));
-    opening.checking.begin(reports.map(|(_, report)| report.bytes()).sum());
-    missing.par_iter().try_for_each(|part| match provided.get(part) {
-        Some((from, report)) => folder.adopt(from, report, opening.checking),
-        None => Ok(()),
-    })?;
+/// [`Error::Merge`] with all that is wrong with the folders; else as [`RunFolder::open`](super::RunFolder::open).
+pub fn merge(into: &Path, parts: &[PathBuf], mode: Mode, opening: &Opening) -> Result<Merged, Error> {
+    let sources = gathered(into, parts, opening.checking)?;
+    let Some(first) = sources.first() else { return Err(Error::Merge(MergeFaults(Vec::new()))) };
+    let drafts = Drafts::of(&first.folder, &first.run)?;
+    let target = Target::open(into, &drafts, &first.run, (mode, opening))?;
+    let of_sources =
+        sources.iter().flat_map(|source| source.done.values().map(|shard| (source.folder.as_path(), shard)));
+    let all: Vec<(&Path, &ShardReport)> = of_sources.collect();
+    let is_missing = |(_, shard): &&(&Path, &ShardReport)| !target.journal().done().contains_key(&shard.shard);
+    let missing: Vec<_> = all.iter().filter(is_missing).collect();
+    opening.checking.begin(missing.iter().map(|(_, shard)| shard.bytes()).sum());
+    missing.par_iter().try_for_each(|(from, shard)| target.adopt(from, shard, opening.checking))?;
     let timings = timings_of(&sources);
     let timings: Vec<(&str, f64)> = timings.iter().map(|(name, seconds)| (name.as_str(), *seconds)).collect();
-    Ok(Merged { report: folder.finish(&timings)?, shards, copied: missing.len() as u32 })
+    let mut journal = target.journal();
+    journal.put_in_order()?;
+    let report = drafts.write_end(into, journal.done(), &timings)?;
+    Ok(Merged { report, shards: all.len() as u32, copied: missing.len() as u32 })
 }
 
-/// The folders and the plan of their run, where they make up one.
-fn gathered(
-    into: &Path,
-    parts: &[PathBuf],
-    program: (&str, &str),
-    checking: &Checking,
-) -> Result<(Vec<Source>, RunPlan), Error> {
+/// The folders, where they make up one run.
+fn gathered(into: &Path, parts: &[PathBuf], checking: &Checking) -> Result<Vec<Source>, Error> {
     let mut faults = Vec::new();
-    let mut sources = Vec::new();
+    let mut sources: Vec<Source> = Vec::new();
     for folder in parts {
         if is_same(folder, into) {
             faults.push(MergeFault::Target { folder: folder.clone() });
             continue;
         }
         match Source::of(folder, checking, &mut faults) {
-            Ok(source) => sources.extend(source),
+            Ok(None) => {}
+            Ok(Some(source)) => match sources.first().and_then(|first| source.differs(first)) {
+                Some(fault) => faults.push(fault),
+                None => sources.push(source),
+            },
             Err(Error::Stopped) => return Err(Error::Stopped),
             Err(error) => faults.push(MergeFault::Unreadable(in_words(&error))),
         }
     }
-    let plan = sources.first().and_then(|first| first.plan(program, &mut faults));
-    if let Some(plan) = &plan {
-        let (same, others): (Vec<Source>, Vec<Source>) = sources.into_iter().partition(|source| source.is_of(plan));
-        faults.extend(others.iter().map(|other| other.differs(&same, plan)));
-        sources = same;
-        check_overlaps(&sources, &mut faults);
-        // What a folder that cannot be used would have is not missing.
-        if sources.len() == parts.len() {
-            check_gaps(&sources, plan.shards(), &mut faults);
-        }
+    check_overlaps(&sources, &mut faults);
+    // What a folder that cannot be used would have is not missing.
+    if sources.len() == parts.len() {
+        check_gaps(&sources, &mut faults);
     }
-    match plan {
-        Some(plan) if faults.is_empty() => Ok((sources, plan)),
-        _ => Err(Error::Merge(MergeFaults(faults))),
-    }
+    if faults.is_empty() { Ok(sources) } else { Err(Error::Merge(MergeFaults(faults))) }
 }
 
 /// The message of an error with those of its causes.
@@ -144,33 +131,27 @@ impl Source {
         }
         let papers = Papers::read(folder)?;
         let done = papers.journal.as_ref().zip(papers.fingerprint()).map(|(journal, run)| journal.done(&run));
-        let Some(run) = papers.whole().cloned() else {
+        let (Some(run), mut done) = (papers.whole().cloned(), done.unwrap_or_default()) else {
             return Err(Error::NotARun { path: folder.to_path_buf() });
         };
-        Ok(Some(Self { folder: folder.to_path_buf(), run, done: done.unwrap_or_default(), found }))
-    }
-
-    /// The plan of its run, which this program must be able to write as the program that grew it.
-    fn plan(&self, program: (&str, &str), faults: &mut Vec<MergeFault>) -> Option<RunPlan> {
-        let plan = plan_of(&self.run).filter(|plan| {
-            let Provenance { version, git_hash, .. } = &plan.provenance;
-            (version.as_str(), git_hash.as_str()) == program
-        });
-        if plan.is_none() {
-            let word = |key: &str| self.run[key].as_str().unwrap_or("unknown").to_owned();
+        if run["format_version"] != FORMAT_VERSION {
+            let word = |key: &str| run[key].as_str().unwrap_or("unknown").to_owned();
             let (version, git_hash) = (word("version"), word("git_hash"));
-            faults.push(MergeFault::OtherProgram { folder: self.folder.clone(), version, git_hash });
+            faults.push(MergeFault::OtherProgram { folder: folder.to_path_buf(), version, git_hash });
+            return Ok(None);
         }
-        plan
+        // A shard with a path that leads out of the folder was not written by a run, and is not copied.
+        done.retain(|_, report| report.files.iter().all(|file| is_inside(&file.path)));
+        Ok(Some(Self { folder: folder.to_path_buf(), run, done, found }))
     }
 
-    fn is_of(&self, plan: &RunPlan) -> bool {
-        Differences::between(&self.run, plan).0.is_empty()
-    }
-
-    fn differs(&self, same: &[Self], plan: &RunPlan) -> MergeFault {
-        let first = same.first().map(|source| source.folder.clone()).unwrap_or_default();
-        MergeFault::OtherRun { folder: self.folder.clone(), first, differences: Differences::between(&self.run, plan) }
+    /// The fault of a folder that is of another run than the first.
+    fn differs(&self, first: &Self) -> Option<MergeFault> {
+        (self.run["fingerprint"] != first.run["fingerprint"]).then(|| MergeFault::OtherRun {
+            folder: self.folder.clone(),
+            first: first.folder.clone(),
+            differences: Differences::between_runs(&self.run, &first.run),
+        })
     }
 }
 
@@ -188,15 +169,14 @@ fn check_overlaps(sources: &[Source], faults: &mut Vec<MergeFault>) {
 }
 
 /// Adds the faults of parts that no folder has.
-fn check_gaps(sources: &[Source], parts: u32, faults: &mut Vec<MergeFault>) {
+fn check_gaps(sources: &[Source], faults: &mut Vec<MergeFault>) {
+    let parts = sources.first().map_or(0, |first| check::shards_of(&first.run));
     let there: BTreeSet<u32> = sources.iter().flat_map(|source| source.done.keys().copied()).collect();
     let mut missing: Vec<u32> = (0..parts).filter(|part| !there.contains(part)).collect();
-    for Source { folder, found, .. } in sources {
-        let own: Vec<u32> = found.to_grow.iter().filter(|part| missing.contains(part)).copied().collect();
-        if !own.is_empty() {
-            missing.retain(|part| !own.contains(part));
-            faults.push(MergeFault::Unfinished { folder: folder.clone(), share: found.share, parts: own });
-        }
+    for Source { folder, found, .. } in sources.iter().filter(|source| source.found.state != State::Complete) {
+        let own = found.to_grow.clone();
+        missing.retain(|part| !own.contains(part));
+        faults.push(MergeFault::Unfinished { folder: folder.clone(), share: found.share, parts: own });
     }
     if !missing.is_empty() {
         let shares = shares_of(sources, &missing);
@@ -226,7 +206,42 @@ fn timings_of(sources: &[Source]) -> Vec<(String, f64)> {
     sums
 }
 
-impl RunFolder {
+/// The folder of the merged run while it is filled.
+struct Target {
+    path: PathBuf,
+    journal: Mutex<Journal>,
+    watch: Arc<Watch>,
+    _lock: Lock,
+}
+
+impl Target {
+    /// Makes the folder ready, or opens that of an interrupted merge; `run` is the `run.json` of a share.
+    fn open(path: &Path, drafts: &Drafts, run: &Value, (mode, opening): (Mode, &Opening)) -> Result<Self, Error> {
+        if holder_of(path).is_none() {
+            refuse(path, mode, Papers::read(path)?.is_run())?;
+        }
+        fs::create_dir_all(path).map_err(Error::io("create", path))?;
+        let lock = Lock::take(path)?;
+        let papers = Papers::read(path)?;
+        refuse(path, mode, papers.is_run())?;
+        let fingerprint = run["fingerprint"].as_str().unwrap_or_default();
+        let mut done = BTreeMap::new();
+        if mode == Mode::Resume && papers.is_run() {
+            done = kept(path, &papers, (run, fingerprint), opening.checking)?;
+        } else if papers.is_run() {
+            clear(path, &papers)?;
+        }
+        drafts.write_start(path)?;
+        let journal = Journal::of(&path.join(JOURNAL), fingerprint.to_owned(), done)?;
+        remove_leftovers(path, &journal)?;
+        let watch = Watch::over(path, &opening.space);
+        Ok(Self { path: path.to_path_buf(), journal: Mutex::new(journal), watch, _lock: lock })
+    }
+
+    fn journal(&self) -> MutexGuard<'_, Journal> {
+        self.journal.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// Copies the files of a shard from another folder of the same run and enters the shard in the journal.
     fn adopt(&self, from: &Path, report: &ShardReport, checking: &Checking) -> Result<(), Error> {
         report.files.iter().try_for_each(|file| self.copy(from, file, checking))?;
@@ -251,6 +266,24 @@ impl RunFolder {
         };
         done.inspect_err(|_| _ = fs::remove_file(&staged))
     }
+}
+
+/// The shards that an interrupted merge has copied, where it was of the same run.
+fn kept(
+    path: &Path,
+    papers: &Papers,
+    (run, fingerprint): (&Value, &str),
+    checking: &Checking,
+) -> Result<BTreeMap<u32, ShardReport>, Error> {
+    let mut differences = papers.whole().map(|there| Differences::between_runs(there, run)).unwrap_or_default();
+    differences.compare_shares(papers.whole().and_then(Share::of_run), None);
+    if !differences.0.is_empty() {
+        return Err(Error::Foreign { path: path.to_path_buf(), differences });
+    }
+    let found = check::of(path, papers, (fingerprint, None), None, (Depth::Bytes, checking))?;
+    let mut done = papers.journal.as_ref().map(|journal| journal.done(fingerprint)).unwrap_or_default();
+    done.retain(|shard, _| found.sound.contains(shard));
+    Ok(done)
 }
 
 /// Reads a file block by block.

@@ -45,9 +45,9 @@ pub enum MergeFault {
         /// The differences.
         differences: Differences,
     },
-    /// The folder was written by another program than this one, which would write other documents.
+    /// The folder was written by a program whose run folders this program does not know.
     #[error(
-        "{} was grown by phytomer {version} ({git_hash}), and this is another: merge with the program that grew it",
+        "{} was written by phytomer {version} ({git_hash}), whose run folders have another format: merge with that program",
         folder.display()
     )]
     OtherProgram {
@@ -114,9 +114,12 @@ impl fmt::Display for MergeFaults {
     }
 }
 
-/// "part 3", "the parts 1 to 4, 7 and 9".
+/// "part 3", "the parts 1 to 4, 7"; of a folder that was not closed when all its parts were there, "its end".
 fn in_words(parts: &[u32]) -> String {
     const SHOWN: usize = 8;
+    if parts.is_empty() {
+        return "its end".to_owned();
+    }
     let mut ranges: Vec<(u32, u32)> = Vec::new();
     for part in parts {
         match ranges.last_mut() {

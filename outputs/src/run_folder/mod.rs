@@ -15,6 +15,7 @@ mod journal;
 mod lock;
 mod merge;
 mod merge_fault;
+mod merged_documents;
 mod papers;
 mod seal;
 mod shard;
@@ -261,13 +262,19 @@ fn prepare(
     }
     make_tables(path, plan)?;
     let journal = Journal::of(&path.join(JOURNAL), fingerprint(plan), done)?;
+    remove_leftovers(path, &journal)?;
+    Ok(journal)
+}
+
+/// Removes the files of a run's own naming that the journal does not name.
+fn remove_leftovers(path: &Path, journal: &Journal) -> Result<(), Error> {
     let named = journal.done().values().flat_map(|report| &report.files).map(|file| file.path.as_str()).collect();
     for (left, trouble) in check::others(path, &named)? {
         if trouble == Trouble::Leftover {
             durable::remove(&path.join(left))?;
         }
     }
-    Ok(journal)
+    Ok(())
 }
 
 fn make_tables(path: &Path, plan: &RunPlan) -> Result<(), Error> {

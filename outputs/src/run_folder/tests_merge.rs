@@ -28,8 +28,7 @@ fn grow_share(path: &Path, plan: RunPlan, share: &str) {
 }
 
 fn merge_into(path: &Path, parts: &[PathBuf], mode: Mode) -> Result<Merged, Error> {
-    let program = (seven().provenance.version, seven().provenance.git_hash);
-    merge(path, parts, (&program.0, &program.1), (mode, &opening(&Checking::default(), None)))
+    merge(path, parts, mode, &opening(&Checking::default(), None))
 }
 
 /// A home with the two shares of a run and the whole run.
@@ -137,14 +136,33 @@ fn gaps_overlaps_damage_and_other_runs_are_told_together() {
     assert_eq!(all.len(), expected.len(), "{all:#?}");
 }
 
+/// Nobody has closed the second share, though all its parts are there.
 #[test]
-fn a_run_of_another_program_is_not_merged_and_an_empty_share_not_begun() {
-    let (home, parts, _) = shared();
-    let merged = home.path().join("merged");
-    let checking = Checking::default();
-    let refused = merge(&merged, &parts, ("9", "cafe"), (Mode::New, &opening(&checking, None))).unwrap_err();
-    assert!(faults(refused)[0].contains("merge with the program that grew it"));
+fn a_share_without_its_end_and_an_empty_share_are_told() {
+    let home = tempdir().unwrap();
+    let parts = ["1-2", "2-2"].map(|name| home.path().join(name));
+    grow_share(&parts[0], seven(), "1/2");
+    let folder = share_of(&parts[1], seven(), "2/2", Mode::New).unwrap();
+    folder.missing_shards().into_iter().for_each(|shard| _ = grow_shard(&folder, shard, 100_000));
+    drop(folder);
+    let left = told(&home.path().join("merged"), &parts);
+    assert!(left.len() == 1 && left[0].contains("lacks its end: it is unfinished"), "{left:?}");
     let empty = share_of(&home.path().join("fifth"), seven(), "5/5", Mode::New).unwrap_err().to_string();
     assert!(empty.contains("at most 4 shards") && empty.contains("plants_per_part"), "{empty}");
     assert!(!home.path().join("fifth").exists());
+}
+
+#[test]
+fn a_merge_is_not_resumed_with_another_run_nor_in_the_folder_of_a_share() {
+    let (home, parts, _) = shared();
+    let merged = home.path().join("merged");
+    let mut other = seven();
+    other.provenance.seed = 43;
+    run(&merged, other);
+    let refused = merge_into(&merged, &parts, Mode::Resume).unwrap_err().to_string();
+    assert!(refused.contains("seed: 43 in the run, 42 now"), "{refused}");
+    let third = home.path().join("third");
+    grow_share(&third, seven(), "1/2");
+    let refused = merge_into(&third, &parts, Mode::Resume).unwrap_err().to_string();
+    assert!(refused.contains("shard: 1/2 in the run, the whole run now"), "{refused}");
 }

@@ -8,7 +8,7 @@
 //! sample, so that treatments are compared plant by plant. Absent: the meshes, which a scenario chooses by number.
 
 use phytomer_sim::key::{mix, scramble};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::BinaryHeap;
 
 /// Keeps lots apart from the draws of growth, which begin with the seed and the number too.
@@ -24,7 +24,7 @@ pub struct Sample {
 }
 
 /// What a run states of its sample.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Stated {
     /// The number of chosen plants of each treatment and replicate.
     pub plants: u32,
