@@ -205,7 +205,8 @@ impl Pest {
         let given = [self.probability.is_some(), self.scouted_percent.is_some(), self.larvae.is_some()];
         let (count, kinds) = (given.iter().filter(|given| **given).count(), "probability, scouted_percent, larvae");
         if count != 1 {
-            let problem = format!("the pest `{}` states {count} severities", self.name);
+            let count = if count == 0 { "no severity".to_owned() } else { format!("{count} severities") };
+            let problem = format!("the pest `{}` states {count}", self.name);
             fault("attacks", problem, &format!("exactly one of {kinds}"));
         }
         if self.larvae.is_some() && self.attacks != Attacked::Leaf {
@@ -303,7 +304,7 @@ mod tests {
     fn larvae_eat_their_area() {
         let larvae = pest("larvae = { per_m2 = 10, eats_m2_per_day = 0.00144, days = 10 }");
         assert!((larvae.severity() - 0.144).abs() < 1e-15);
-        assert_eq!(pest("scouted_percent = 14.4").severity(), 0.144);
+        assert!((pest("scouted_percent = 14.4").severity() - 0.144).abs() < 1e-15);
         let exposure = exposure(&[larvae], &host(0)).expect("an exposure");
         let words = || (0..10_000).map(|k| k * 429_496 + 214_748_u32);
         let eaten = words().filter(|word| exposure.leaf.end(3, *word) < NEVER).count();
