@@ -8,7 +8,7 @@ mod ply;
 mod program;
 mod read;
 
-use ply::{count, mesh};
+use ply::{count, mesh, place_in};
 use program::{hashes, run};
 use read::Columns;
 use std::collections::BTreeSet;
@@ -116,11 +116,12 @@ fn a_plant_that_is_grown_again_was_pruned_as_in_the_run() {
     fs::write(folder.path().join("orchard.toml"), ORCHARD).unwrap();
     let recorded = written(folder.path(), "orchard", "2");
     let records = Columns::of(&recorded, "records");
-    for (plant, sown) in [(1, 3), (2, 0), (4, 0)] {
+    for (plant, sown, place) in [(1, 3, [2.0, 0.0, 0.0]), (2, 0, [0.0, 2.0, 0.0]), (4, 0, [0.0; 3])] {
         let (number, age) = (plant.to_string(), (20 - sown).to_string());
         let words = ["mesh", "runs/orchard", "--plant", &number, "--age", &age, "--sides", "3", "--out", "one.ply"];
         run(folder.path(), &words).ending(0);
         let (header, bytes) = mesh(&folder.path().join("one.ply"));
+        assert_eq!(place_in(&header), place, "plant {plant}");
         // The number of the component stands before the last byte of a vertex.
         let drawn: BTreeSet<u32> = (0..count(&header, "vertex"))
             .map(|vertex| u32::from_le_bytes(bytes[VERTEX * vertex + 44..][..4].try_into().unwrap()))

@@ -37,6 +37,7 @@ fn plant() -> Plant {
     let twig = Branch { insertion: 0.3, ..Branch::on(1, 3) };
     let branches = [Branch::trunk(10, 0.1), level(2), level(5), level(8), twig];
     let mut plant = Specimen::grown(&branches, &[Trend::STRAIGHT], Growth::AxisByAxis).plant;
+    plant.axes.order.copy_from_slice(&[1, 2, 2, 2, 3]);
     plant.events = Some(Vec::new());
     shed(&mut plant);
     pose(&mut plant, TICK - 1);
