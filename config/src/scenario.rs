@@ -83,6 +83,7 @@ pub struct Scenario {
     pub soil: Option<Soil>,
     /// Applications of fertilizer, as `[[fertilizer]]`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
     pub fertilizer: Vec<Fertilizer>,
     /// The tables that are written. All if not given. With any table, `plants` is written too, since it states the
     /// place of each plant.

@@ -174,15 +174,15 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     schema::check(scenario_schema(), &node, &mut refused);
     loader.faults.extend(refused.iter().cloned());
     let scenario: Option<Scenario> = loader.read(&node, &Keys::PLAIN, &refused, serde_path_to_error::deserialize);
-    let mut dated = Err(dates::Refused);
+    let is_refused = refused.iter().any(|fault| dates::is_of_dates(&fault.path));
+    let mut dated = if is_refused { Err(dates::Refused) } else { Ok(None) };
     if let Some(scenario) = &scenario {
-        let is_refused = refused.iter().any(|fault| dates::is_of_dates(&fault.path));
         let mut faults = scenario.faults();
         // What the schema has refused is missing in the scenario: no more is told of the dates.
         faults.retain(|fault| !is_refused || !dates::is_of_dates(&fault.path));
         let is_sound = !is_refused && !faults.iter().any(|fault| dates::is_of_dates(&fault.path));
         tell(loader, &node, faults);
-        dated = if is_sound { dates::of(loader, &node, scenario) } else { dated };
+        dated = if is_sound { dates::of(loader, &node, scenario) } else { Err(dates::Refused) };
     }
     let until = integer_at(&node, &["ages", "until"]).and_then(|n| u32::try_from(n).ok());
     let until = until.filter(|n| (1..=LAST_TICK).contains(n));
