@@ -99,7 +99,7 @@ fn a_run_keeps_its_weather_and_draws_its_plants_without_the_file() {
         assert!(described.contains(told), "{told}: {described}");
     }
     let mesh = |name: &str, from: &str| {
-        run(home.path(), &["mesh", from, "--plant", "3", "--age", "9", "--out", name, "--quiet"]).ending(0);
+        run(home.path(), &["mesh", from, "--plant", "3", "--age", "9", "--out", name]).ending(0);
         fs::read(home.path().join(name)).expect("a mesh")
     };
     let before = mesh("before.ply", "dated.toml");

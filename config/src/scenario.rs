@@ -107,6 +107,7 @@ pub struct Scenario {
     pub soil: Option<Soil>,
     /// Applications of fertilizer, as `[[fertilizer]]`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
     pub fertilizer: Vec<Fertilizer>,
     /// The tables that are written. All if not given. With any table, `plants` and `treatments` are written too, since
     /// they state the place and the treatment of each plant.

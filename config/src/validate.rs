@@ -229,8 +229,8 @@ fn expanded(loader: &mut Loader, node: &Node, scenario: Option<&Scenario>, refus
     expansion::expand(scenario_schema(), node, if chosen.is_empty() { control() } else { chosen })
 }
 
-/// The calendar of the run. Where the schema has refused a key of the dates, that key is missing in what was read, and no
-/// more is told of the dates.
+/// The calendar of the run; none where the scenario could not be read for other reasons. Where the schema has refused a
+/// key of the dates, that key is missing in what was read, and no more is told of the dates.
 fn dated(
     loader: &mut Loader,
     node: &Node,
@@ -241,7 +241,11 @@ fn dated(
     let told = |fault: &Fault| refused.iter().any(|other| (other.span, &other.problem) == (fault.span, &fault.problem));
     loader.faults.retain(|fault| !is_refused || !dates::is_of_dates(&fault.path) || told(fault));
     let is_sound = !loader.faults.iter().any(|fault| dates::is_of_dates(&fault.path));
-    scenario.filter(|_| is_sound).map_or(Err(dates::Refused), |scenario| dates::of(loader, node, scenario))
+    match (is_sound, scenario) {
+        (false, _) => Err(dates::Refused),
+        (true, None) => Ok(None),
+        (true, Some(scenario)) => dates::of(loader, node, scenario),
+    }
 }
 
 /// A treatment whose species are found among those of the run.

@@ -322,7 +322,7 @@ pub static SUMMARY: [Column; 21] = [
 ];
 
 /// A row per plant.
-pub static PLANTS: [Column; 10] = [
+pub static PLANTS: [Column; 11] = [
     TREATMENT,
     PLOT,
     PLANT,
