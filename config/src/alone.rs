@@ -6,7 +6,9 @@
 use phytomer_sim::model::GrowthModel;
 
 use crate::resolved::Resolved;
-use crate::scenario::{Ages, DEFAULT_SEED, Every, Experiment, Limits, Output, Planting, Record, Scenario, Site, tables};
+use crate::scenario::{
+    Ages, DEFAULT_SEED, Every, Experiment, Limits, Output, Planting, Record, Scenario, Site, tables,
+};
 use crate::species::Species;
 use crate::trial::Treatment;
 use crate::validate::{ResolvedSpecies, SPECIES_ALONE_UNTIL};

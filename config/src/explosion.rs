@@ -40,9 +40,9 @@ pub(crate) fn fault_of(
     Some(Fault::new(node.locate(&path), &path, problem, expected))
 }
 
-/// The last age of a species of the trial, by its index, up to which nothing but its model decides how it grows in some
-/// treatment: a pest may keep a plant small from the first tick on, and a cut from its tick on. `None` where there is no
-/// such age.
+/// The last age of a species of the trial, by its index, up to which its model alone decides how it grows in some
+/// treatment: a pest may keep a plant small from the first tick on, and a cut from its tick on. `None` where there is
+/// no such age.
 pub(crate) fn foreseen_until(trial: &Trial, species: usize) -> Option<u32> {
     let of_treatment = |treatment: &Treatment| {
         let place = treatment.species.iter().position(|known| *known == species)?;

@@ -8,6 +8,7 @@
 mod about;
 mod alone;
 mod architectural_model;
+mod checked;
 mod dates;
 mod document;
 mod expansion;

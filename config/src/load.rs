@@ -52,6 +52,12 @@ pub(crate) struct Mention {
 }
 
 impl Loader {
+    /// Adds a model's faults, each at the place where its value was typed.
+    pub fn tell(&mut self, node: &Node, faults: Vec<phytomer_law::fault::Fault>) {
+        let placed = faults.into_iter().map(|fault| meaning::place(&self.sources, node, fault));
+        self.faults.extend(placed.collect::<Vec<_>>());
+    }
+
     /// Finds a file by its name; where there is none, adds a fault and returns `None`.
     pub fn find(&mut self, kind: Kind, mention: &Mention) -> Option<Source> {
         let beside = mention.place.as_ref().map(|(span, _)| self.sources.get(span.source).origin.clone());

@@ -4,7 +4,6 @@
 //! after the last, laws that leave their range at some age), and last the growth explosion, which needs compiled laws.
 //! Absent: writing; nothing is written before the whole scenario has passed.
 
-use std::collections::BTreeSet;
 use std::fmt;
 use std::path::Path as FilePath;
 use std::sync::{Arc, OnceLock};
@@ -18,13 +17,12 @@ use phytomer_sim::site::calendar::Dates;
 use serde_json::Value as Json;
 
 use crate::about::About;
+use crate::checked::{Checked, Compiled, check_cuttable, check_explosions, check_sowings};
 use crate::dates::{self, Dated};
 use crate::document::Node;
 use crate::expansion::{self, Expanded};
-use crate::explosion;
 use crate::library::{Kind, Library};
 use crate::load::{Found, Loader, Mention, integer_at, path_of};
-use crate::meaning;
 use crate::models::{MODELS, Model, any_file};
 use crate::report::{Fault, Report};
 use crate::resolved::{OtherSpecies, Resolved, placed};
@@ -34,7 +32,7 @@ use crate::schema;
 use crate::source::{Source, Sources};
 use crate::species::Species;
 use crate::treatments::{self, Read};
-use crate::trial::{Treatment, Trial};
+use crate::trial::Treatment;
 
 /// The last age, in ticks, up to which a species without a scenario is checked.
 pub const SPECIES_ALONE_UNTIL: u32 = 100;
@@ -161,29 +159,6 @@ fn conclude<T, R>(loader: Loader, found: Option<T>, make: impl FnOnce(T, Sources
     }
 }
 
-/// A species that was checked, with the tree that it was read from.
-struct Compiled {
-    species: Species,
-    model: Arc<dyn GrowthModel>,
-    tree: Node,
-}
-
-/// A checked scenario, its treatments, the species of all of them, and its calendar.
-struct Checked {
-    scenario: Scenario,
-    treatments: Vec<Treatment>,
-    first: Compiled,
-    others: Vec<Compiled>,
-    dated: Option<Dated>,
-}
-
-impl Checked {
-    /// The species with their indices.
-    fn species(&self) -> impl Iterator<Item = (usize, &Compiled)> {
-        [&self.first].into_iter().chain(&self.others).enumerate()
-    }
-}
-
 fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let (_, node) = loader.parse(source);
     let node = node?;
@@ -222,7 +197,7 @@ fn expanded(loader: &mut Loader, node: &Node, scenario: Option<&Scenario>, refus
     let of_experiment = |fault: &Fault| fault.path.0.first() == Some(&Segment::Key("experiment".to_owned()));
     let experiment = scenario.map(|scenario| &scenario.experiment).filter(|_| !refused.iter().any(of_experiment));
     let chosen = experiment.cloned().unwrap_or_default().chosen().unwrap_or_else(|faults| {
-        tell(loader, node, faults);
+        loader.tell(node, faults);
         Vec::new()
     });
     let control = || vec![Chosen { name: CONTROL.to_owned(), levels: Vec::new() }];
@@ -258,45 +233,6 @@ fn treatment(run: &Scenario, read: Read, species: &[Mention]) -> Option<Treatmen
     Some(Treatment { name, levels, scenario, species: places })
 }
 
-/// Events change plants that keep their past alone.
-fn check_cuttable(loader: &mut Loader, node: &Node, checked: &Checked) {
-    let managed = checked.treatments.iter().filter(|treatment| !treatment.scenario.event.is_empty());
-    let places: BTreeSet<usize> = managed.flat_map(|treatment| treatment.species.iter().copied()).collect();
-    let managed = checked.species().filter(|(place, _)| places.contains(place));
-    let remade = managed.filter(|(_, of)| !of.model.growth().keeps_its_past());
-    let faults = remade.map(|(_, of)| Scenario::fault_of_uncuttable(&of.species.about.name)).collect();
-    tell(loader, node, faults);
-}
-
-/// A species whose laws depend on the date has one model, and so one tick of sowing.
-fn check_sowings(loader: &mut Loader, node: &Node, checked: &Checked) {
-    if checked.dated.is_none() {
-        return;
-    }
-    let trial = Trial::of(&checked.scenario, &checked.treatments);
-    for (place, of) in checked.species() {
-        let Some(member) = trial.sown_apart(place) else { continue };
-        if of.species.model.compile(trial.last_age_of_species(place)).is_ok() {
-            continue;
-        }
-        let path = path_of(&["member"]).index(member).key("sown");
-        let problem =
-            format!("`{}` has laws of the date, and its members are sown at different ticks", of.species.about.name);
-        let expected =
-            "one tick of sowing for all members of the species, or a species of their own for the later ones";
-        loader.faults.push(Fault::new(node.locate(&path), &path, problem, expected));
-    }
-}
-
-fn check_explosions(loader: &mut Loader, node: &Node, checked: &Checked) {
-    let scenario = &checked.scenario;
-    let trial = Trial::of(scenario, &checked.treatments);
-    for (place, of) in checked.species() {
-        let Some(until) = explosion::foreseen_until(&trial, place) else { continue };
-        loader.faults.extend(explosion::fault_of(node, scenario, (&of.species, of.model.as_ref()), until));
-    }
-}
-
 /// The last age that a species reaches in any treatment; `None` where none of them could be read.
 fn last_age_of(read: &[Read], species: &Mention) -> Option<u32> {
     let ages = read.iter().filter_map(|Read { scenario, .. }| {
@@ -325,7 +261,7 @@ fn check_species(
 ) -> Option<Compiled> {
     let Found { about, model, node } = loader.species(mention)?;
     if let Some(about) = &about {
-        tell(loader, &node, about.faults());
+        loader.tell(&node, about.faults());
         check_year(loader, &node, about, &model);
     }
     // Without its calendar a scenario cannot know which laws of the date hold.
@@ -333,7 +269,7 @@ fn check_species(
     match model.compile_dated(until(about.as_ref())?, dates.as_ref()) {
         Ok(compiled) => Some(Compiled { species: Species { about: about?, model }, model: compiled, tree: node }),
         Err(faults) => {
-            tell(loader, &node, faults);
+            loader.tell(&node, faults);
             None
         }
     }
@@ -355,12 +291,6 @@ fn check_year(loader: &mut Loader, node: &Node, about: &About, model: &Model) {
         "the year of the season is of {in_season} ticks, and `ticks_per_year` is {stated} ({file}:{line}:{column})"
     );
     loader.faults.push(Fault::new(node.locate(&path), &path, problem, "the same number at both places"));
-}
-
-/// Adds a model's faults, each at the place where its value was typed.
-fn tell(loader: &mut Loader, node: &Node, faults: Vec<fault::Fault>) {
-    let placed = faults.into_iter().map(|fault| meaning::place(&loader.sources, node, fault));
-    loader.faults.extend(placed.collect::<Vec<_>>());
 }
 
 impl fmt::Debug for ResolvedSpecies {

@@ -24,8 +24,8 @@ pub use bending::bends_alike_ahead_and_by_the_clock;
 pub use component::{Component, components};
 pub use cuts::a_cut_takes_what_is_above_it;
 pub use growth::{
-    ages_agree, ahead_equals_the_clock, alone_equals_among_neighbours, threads_change_nothing, limit_holds,
-    memory_is_forgotten, sown_later_is_the_same_later,
+    ages_agree, ahead_equals_the_clock, alone_equals_among_neighbours, limit_holds, memory_is_forgotten,
+    sown_later_is_the_same_later, threads_change_nothing,
 };
 pub use length::the_length_of_the_run_leaves_no_trace;
 pub use plot::two_species_share_a_plot;

@@ -30,8 +30,9 @@ pub struct D0l {
     /// The string at age 0: cells by their letters, and branches in parentheses, each behind a cell.
     #[schemars(length(min = 1, max = 10_000))]
     pub axiom: String,
-    /// What each cell becomes at a tick: a string that begins with a cell, or an empty string where the cell vanishes. A
-    /// cell that vanishes may bear no branch, and no axis may end with it. A cell without a production stays as it is.
+    /// What each cell becomes at a tick: a string that begins with a cell, or an empty string where the cell vanishes.
+    /// A cell that vanishes may bear no branch, and no axis may end with it. A cell without a production stays as it
+    /// is.
     #[serde(default)]
     pub production: BTreeMap<String, String>,
     /// The cells, each by its letter.
@@ -150,8 +151,8 @@ impl D0l {
     }
 }
 
-/// For each letter the letter that vanishes and that stands, after some ticks, at the end of what the letter has become;
-/// `None` where there is none, so that something may rest on the letter for ever.
+/// For each letter the letter that vanishes and that stands, after some ticks, at the end of what the letter has
+/// become; `None` where there is none, so that something may rest on the letter for ever.
 fn vanishing(productions: &[Option<Vec<Symbol>>]) -> Vec<Option<usize>> {
     let follow = |start: usize| {
         let mut letter = start;

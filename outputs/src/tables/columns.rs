@@ -2,9 +2,8 @@
 //!
 //! The Arrow schema, the Parquet metadata, `datapackage.json` and the documentation are made from these lists. Ids and
 //! ticks are signed, because many readers have no unsigned numbers. Null means "does not apply" or "not by the end of
-//! the run"; no number stands for it. A `tick` is the plot's, an `age` is the plant's, as is every column that ends in
-//! `_age`. The place of a component is relative to the seed of its plant, in single precision; the place of the seed is
-//! in `plants`, in double precision.
+//! the run"; no number stands for it. A `tick` is the plot's, an `age` (or `…_age`) the plant's. A component's place is
+//! relative to the seed of its plant, in single precision; that of the seed is in `plants`, in double precision.
 
 use super::schema::{Column, Encoding, Named, Rounding, Type};
 use phytomer_sim::plant::{Cause, EventKind, Kind, Origin};

@@ -83,15 +83,8 @@ pub enum Table {
 
 impl Table {
     /// Every table.
-    pub const ALL: [Self; 7] = [
-        Self::Components,
-        Self::Records,
-        Self::Events,
-        Self::Summary,
-        Self::Plants,
-        Self::Treatments,
-        Self::Site,
-    ];
+    pub const ALL: [Self; 7] =
+        [Self::Components, Self::Records, Self::Events, Self::Summary, Self::Plants, Self::Treatments, Self::Site];
 
     /// The name of the table, and of its folder in the run.
     pub const fn name(self) -> &'static str {
