@@ -1,4 +1,4 @@
-//! What people do to the plants of a plot: pruning, thinning, training and harvest, as a calendar of operations.
+//! What people do to the plants of a plot: pruning, thinning and harvest, as a calendar of operations.
 //!
 //! An operation is done between two ticks ([`timing`]), on the plants for which its condition holds, one operation
 //! after another in the order of the file and plant by plant in the order of the plot. What it takes is chosen by
