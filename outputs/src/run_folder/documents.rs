@@ -236,7 +236,7 @@ const WORLD: (&str, &str) = (
 );
 
 /// The macros of `views.sql`: the tables that each needs, its description, and its SQL.
-const MACROS: [(&[Table], &str, &str); 9] = [
+const MACROS: [(&[Table], &str, &str); 10] = [
     (
         &[Table::Records],
         "Everything that stands on plants of an age: SELECT kind, count(*) FROM at_age(10) GROUP BY kind;",
@@ -271,6 +271,13 @@ const MACROS: [(&[Table], &str, &str); 9] = [
         &[Table::Events],
         "How often each fate befell a bud, by age.",
         "fates() AS TABLE SELECT age, event, count(*) AS buds FROM events GROUP BY ALL ORDER BY ALL",
+    ),
+    (
+        &[Table::Site],
+        "What the date brought to each treatment and replicate, tick by tick, its parts together.",
+        "sites() AS TABLE SELECT treatment, replicate, tick, max(date) AS date, max(degree_days) AS degree_days, \
+         max(degree_day_sum) AS degree_day_sum, max(day_length_h) AS day_length_h, max(nitrogen_kg_ha) AS \
+         nitrogen_kg_ha, sum(plots) AS plots, sum(living_plants) AS living_plants FROM site GROUP BY ALL ORDER BY ALL",
     ),
     (
         &[Table::Summary, Table::Plants],

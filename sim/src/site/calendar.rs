@@ -114,7 +114,9 @@ impl Calendar {
         until: Tick,
         mut weather: impl FnMut(Date) -> Option<[f64; 2]>,
     ) -> Result<Self, CalendarError> {
-        let mut days = Days { terms, weather: &mut weather, date: terms.planted, sum: 0.0 };
+        let mut applied = terms.soil.as_ref().map_or_else(Vec::new, |soil| soil.applied.clone());
+        applied.sort_by_key(|(day, _)| *day);
+        let mut days = Days { terms, applied, weather: &mut weather, date: terms.planted, sum: 0.0 };
         let mut ticks = vec![days.end_of_tick(terms.planted, 0.0)];
         for tick in 1..=until {
             let (from, before) = (days.date, days.sum);
@@ -169,6 +171,8 @@ impl Dates {
 /// The days of a calendar while it is made.
 struct Days<'a, W> {
     terms: &'a Terms,
+    /// What is applied to the soil, day after day.
+    applied: Vec<(Date, f64)>,
     weather: &'a mut W,
     /// The day that begins.
     date: Date,
@@ -219,18 +223,16 @@ impl<W: FnMut(Date) -> Option<[f64; 2]>> Days<'_, W> {
             degree_days: is_known.then_some(self.sum - before),
             degree_day_sum: is_known.then_some(self.sum),
             day_length_h: terms.latitude.map(|latitude| sun::day_length_h(latitude, date.day_of_year())),
-            nitrogen_kg_ha: terms.soil.as_ref().map(|soil| soil.by(date)),
+            nitrogen_kg_ha: terms.soil.as_ref().map(|soil| soil.own + self.applied_by(soil.season_begins)),
         }
     }
-}
 
-impl Soil {
-    /// The nitrogen of the season to which the day before `date` belongs, with what was applied up to that day.
-    fn by(&self, date: Date) -> f64 {
-        let last = date.plus(-1);
-        let begins = season_of(last, self.season_begins);
-        let of_season = self.applied.iter().filter(|(day, _)| (begins..=last).contains(day));
-        self.own + of_season.map(|(_, amount)| amount).sum::<f64>()
+    /// What was applied up to the last day that has passed, since the beginning of its season, kg N/ha.
+    fn applied_by(&self, season_begins: (u32, u32)) -> f64 {
+        let last = self.date.plus(-1);
+        let begins = season_of(last, season_begins);
+        let from = self.applied.partition_point(|(day, _)| *day < begins);
+        self.applied[from..].iter().take_while(|(day, _)| *day <= last).map(|(_, amount)| amount).sum()
     }
 }
 
