@@ -21,8 +21,8 @@ const COPIES: u64 = 200;
 const THROUGH_PROGRAM: u64 = 10;
 const SHARDS: u32 = 6;
 const SCENARIO: &str = "damage.toml";
-/// Six tables of each shard, three meshes, and the three documents that `run.json` names.
-const NAMED: usize = 6 * SHARDS as usize + 3 + 3;
+/// Six tables of each shard, `treatments`, three meshes, and the three documents that `run.json` names.
+const NAMED: usize = 6 * SHARDS as usize + 1 + 3 + 3;
 
 /// Draws of SplitMix64 (Steele, Lea & Flood 2014): the draws of neighbouring seeds are unrelated.
 struct Draw(u64);

@@ -18,6 +18,7 @@ use phytomer::config::{Kind, Resolved, kind_of, validate};
 use phytomer::outputs::read::Run;
 use phytomer::outputs::{FileReport, ShardReport, Table};
 use phytomer::run::Outcome;
+use phytomer::run::plots::Plots;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -138,14 +139,16 @@ fn assert_whole(folder: &Path, resolved: &Resolved, outcome: &Outcome) {
     let run = Run::open(folder).expect("run.json");
     assert!(run.is_complete() && !outcome.is_interrupted(), "{}", run.json());
     let (scenario, report) = (&resolved.scenario, &outcome.report);
-    assert_eq!(report.living + report.dead, u64::from(scenario.plants));
+    let (trial, plots) = (resolved.trial(), Plots::of(resolved.trial(), resolved.models()));
+    let sown: Vec<u32> = (0..trial.plants()).filter(|plant| plots.germinates(*plant)).collect();
+    assert_eq!(report.living + report.dead, sown.len() as u64);
     assert_eq!(run.rows().expect("whole Parquet files"), report.rows);
     assert_eq!(report.rows.len(), scenario.written_tables().len());
     if let (Some(rows), true) = (report.rows.get(&Table::Summary), report.overgrown.is_empty()) {
         // A row a plant and recorded tick from its sowing on.
         let recorded = scenario.ages.recorded();
-        let of = |plant: u32| recorded.iter().filter(|tick| **tick >= scenario.sown_at(plant)).count() as u64;
-        assert_eq!(*rows, (0..scenario.plants).map(of).sum::<u64>());
+        let of = |plant: u32| recorded.iter().filter(|tick| **tick >= trial.sown_at(plant)).count() as u64;
+        assert_eq!(*rows, sown.into_iter().map(of).sum::<u64>());
     }
     let files = listed(run.json());
     assert_eq!(files, entered(folder, outcome.shards), "run.json and the journal name other files");

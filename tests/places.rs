@@ -169,11 +169,11 @@ fn rounded_places_hold_their_precision_however_far_the_plant() {
     }
 }
 
-/// `plants` can be written beside any other table, and alone.
+/// `plants` and `treatments` are written beside any other table.
 #[test]
 fn places_go_with_every_table() {
     let folder = tempfile::tempdir().unwrap();
-    for (tables, written) in [("[\"records\"]", 2), ("[\"plants\"]", 1), ("[]", 0)] {
+    for (tables, written) in [("[\"records\"]", 3), ("[\"plants\"]", 2), ("[]", 0)] {
         let meshes = "[meshes]\nages = \"last\"";
         scenario(folder.path(), "example1", 3, &format!("tables = {tables}\n{meshes}"));
         run(folder.path(), &["grow", "far.toml", "--quiet", "--overwrite"]).ending(0);

@@ -13,7 +13,7 @@ use crate::expansion::Expanded;
 use crate::load::{Loader, Mention, path_of};
 use crate::meaning;
 use crate::report::Fault;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, icasa};
 use crate::schema;
 use crate::source::Span;
 use crate::trial::check_size;
@@ -42,6 +42,7 @@ pub(crate) fn check(
     for expanded in all {
         let mut refused = Vec::new();
         schema::check(schema, &expanded.node, &mut refused);
+        icasa::name_keys(&mut refused);
         let scenario = loader.read(&expanded.node, &Keys::PLAIN, &refused, serde_path_to_error::deserialize);
         findings.add(&expanded, refused);
         read.push(Read { species: mentions(&expanded.node), scenario, expanded });

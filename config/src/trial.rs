@@ -270,3 +270,56 @@ pub(crate) fn check_size<'a>(run: &Scenario, treatments: impl Iterator<Item = &'
         Fault::new(&path, problem, format!("at most {MOST_PLANTS} plants in a run"))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn trial() -> Trial {
+        let text = "name = \"a\"\nspecies = \"coffee\"\nplants = 4\nages = { until = 12 }\n[experiment]\nreplicates = 3\n\
+                    [[experiment.factor]]\nname = \"stand\"\nlevel = [{ name = \"alone\" }, { name = \"pairs\", plants = 6, member = \
+                    [{}, { species = \"phlox\", sown = 5 }] }]\n";
+        let resolved =
+            crate::validate_texts("a", &[("a", text)]).unwrap_or_else(|report| panic!("{}", report.render(false)));
+        resolved.trial()
+    }
+
+    #[test]
+    fn plots_and_plants_are_numbered_treatment_by_treatment() {
+        let trial = trial();
+        assert_eq!((trial.plots(), trial.plants(), trial.most_members()), (3 * 4 + 3 * 3, 3 * 4 + 3 * 6, 2));
+        let place = |plot| {
+            let PlotPlace { treatment, replicate, number, first_plant } = trial.plot(plot);
+            (treatment, replicate, number, first_plant)
+        };
+        assert_eq!([0, 3, 4, 11].map(place), [(0, 0, 0, 0), (0, 0, 3, 3), (0, 1, 0, 4), (0, 2, 3, 11)]);
+        assert_eq!([12, 14, 15, 20].map(place), [(1, 0, 0, 12), (1, 0, 2, 16), (1, 1, 0, 18), (1, 2, 2, 28)]);
+        for plant in 0..trial.plants() {
+            let at = trial.plant(plant);
+            let plot = trial.plot(at.plot);
+            assert_eq!(plant, plot.first_plant + at.member);
+            let members = trial.scenario_of(plant).members();
+            assert_eq!((at.treatment, at.replicate), (plot.treatment, plot.replicate));
+            assert_eq!(at.number, plot.number * members + at.member);
+        }
+    }
+
+    #[test]
+    fn a_species_reaches_its_last_age_in_the_treatment_that_sows_it_first() {
+        let trial = trial();
+        assert_eq!([0, 1].map(|species| trial.last_age_of_species(species)), [12, 7]);
+        assert_eq!([0, 12, 13].map(|plant| trial.species_of_plant(plant)), [0, 0, 1]);
+        assert_eq!((trial.sown_at(13), trial.last_age_of(13)), (5, 7));
+    }
+
+    /// What the command line changes of the run holds in every treatment.
+    #[test]
+    fn what_belongs_to_the_run_is_that_of_the_scenario() {
+        let before = trial();
+        let mut scenario = before.scenario().clone();
+        (scenario.seed, scenario.ages.until) = (3, 9);
+        let after = Trial::of(&scenario, before.treatments());
+        assert!(after.treatments().iter().all(|of| (of.scenario.seed, of.scenario.ages.until) == (3, 9)));
+        assert_eq!(after.treatments()[1].scenario.member.len(), 2);
+    }
+}

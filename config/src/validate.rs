@@ -26,7 +26,7 @@ use crate::load::{Found, Loader, Mention, integer_at, path_of};
 use crate::models::{MODELS, Model, any_file};
 use crate::report::{Fault, Report};
 use crate::resolved::{OtherSpecies, Resolved, placed};
-use crate::scenario::experiment::{CONTROL, Chosen, state_levels};
+use crate::scenario::experiment::{CONTROL, Chosen, Experiment, state_levels};
 use crate::scenario::{Scenario, icasa};
 use crate::schema;
 use crate::source::{Source, Sources};
@@ -166,7 +166,7 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     schema::check(scenario_schema(), &node, &mut refused);
     icasa::name_keys(&mut refused);
     let scenario: Option<Scenario> = loader.read(&node, &Keys::PLAIN, &refused, serde_path_to_error::deserialize);
-    let expanded = expanded(loader, &node, scenario.as_ref(), &refused);
+    let expanded = expanded(loader, &node, &refused);
     loader.faults.extend(refused.iter().cloned());
     let read = treatments::check(loader, scenario_schema(), (&node, scenario.as_ref()), expanded);
     let dated = dated(loader, &node, scenario.as_ref(), &refused);
@@ -193,10 +193,8 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
 }
 
 /// The trees of all treatments; that of the scenario alone where its experiment cannot be understood.
-fn expanded(loader: &mut Loader, node: &Node, scenario: Option<&Scenario>, refused: &[Fault]) -> Vec<Expanded> {
-    let of_experiment = |fault: &Fault| fault.path.0.first() == Some(&Segment::Key("experiment".to_owned()));
-    let experiment = scenario.map(|scenario| &scenario.experiment).filter(|_| !refused.iter().any(of_experiment));
-    let chosen = experiment.cloned().unwrap_or_default().chosen().unwrap_or_else(|faults| {
+fn expanded(loader: &mut Loader, node: &Node, refused: &[Fault]) -> Vec<Expanded> {
+    let chosen = experiment_of(node, refused).unwrap_or_default().chosen().unwrap_or_else(|faults| {
         loader.tell(node, faults);
         Vec::new()
     });
@@ -221,6 +219,22 @@ fn dated(
         (true, None) => Ok(None),
         (true, Some(scenario)) => dates::of(loader, node, scenario),
     }
+}
+
+/// The experiment of a scenario. A key that it does not know is left out, as is told of it; what is refused in a level
+/// is left to the check of its treatments; `None` where anything else is refused.
+fn experiment_of(node: &Node, refused: &[Fault]) -> Option<Experiment> {
+    let mut experiment = node.get("experiment")?.clone();
+    for fault in refused {
+        match fault.path.0.as_slice() {
+            [Segment::Key(table), Segment::Key(key)] if table == "experiment" => _ = experiment.remove(key),
+            [Segment::Key(table), _, _, Segment::Key(level), _, Segment::Key(key), ..]
+                if table == "experiment" && level == "level" && key != "name" => {}
+            [Segment::Key(table), ..] if table == "experiment" => return None,
+            _ => {}
+        }
+    }
+    serde_json::from_value(experiment.to_json()).ok()
 }
 
 /// A treatment whose species are found among those of the run.

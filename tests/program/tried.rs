@@ -7,11 +7,12 @@
 #![allow(dead_code, reason = "each program uses a part of it")]
 
 use phytomer::config::scenario::{All, MeshAges, MeshPlants, Record};
-use phytomer::config::{Report, Resolved};
+use phytomer::config::{Report, Resolved, Scenario};
 use phytomer::run::{self, Outcome, Progress, Settings};
 use std::path::Path;
 
-/// The most plants, ages and components of a mutant without faults; larger numbers are lowered.
+/// The most treatments, plants, ages and components of a mutant without faults; larger numbers are lowered.
+const MOST_TREATMENTS: usize = 2;
 const MOST_PLANTS: u32 = 2;
 const MOST_AGES: u32 = 12;
 const MOST_COMPONENTS: u32 = 2_000;
@@ -34,14 +35,13 @@ pub fn assert_tells(report: &Report) {
 
 /// Shortens a long run, and stops a large plant soon. Returns whether plants or ages were too many.
 pub fn cap(resolved: &mut Resolved) -> bool {
+    resolved.treatments.truncate(MOST_TREATMENTS);
+    let of_treatments = resolved.treatments.iter_mut().map(|treatment| &mut treatment.scenario);
+    of_treatments.for_each(cap_plots);
     let scenario = &mut resolved.scenario;
     let asked_for = (scenario.plants, scenario.ages.until);
-    // Whole plots, of which the last plant is sown before the last tick.
-    let members = scenario.members();
-    scenario.plants = scenario.plants.min((MOST_PLANTS / members).max(1) * members);
-    scenario.ages.until = scenario.ages.until.min(MOST_AGES);
-    let last_sowing = scenario.ages.until - 1;
-    scenario.member.iter_mut().for_each(|member| member.sown = member.sown.min(last_sowing));
+    cap_plots(scenario);
+    scenario.experiment.replicates = scenario.experiment.replicates.min(2);
     scenario.limits.max_components = scenario.limits.max_components.min(MOST_COMPONENTS);
     if !scenario.faults().is_empty() {
         // The scenario names plants or ages that have been removed.
@@ -52,6 +52,15 @@ pub fn cap(resolved: &mut Resolved) -> bool {
     }
     assert_eq!(scenario.faults(), []);
     (scenario.plants, scenario.ages.until) != asked_for
+}
+
+/// Whole plots, of which the last plant is sown before the last tick.
+fn cap_plots(scenario: &mut Scenario) {
+    let members = scenario.members();
+    scenario.plants = scenario.plants.min((MOST_PLANTS / members).max(1) * members);
+    scenario.ages.until = scenario.ages.until.min(MOST_AGES);
+    let last_sowing = scenario.ages.until - 1;
+    scenario.member.iter_mut().for_each(|member| member.sown = member.sown.min(last_sowing));
 }
 
 /// Grows a scenario without faults, in one thread.

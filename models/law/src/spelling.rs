@@ -8,8 +8,8 @@
 use std::cmp::Reverse;
 
 /// The candidate nearest to `typed`, if any is near enough. Of candidates at equal distance, the one that shares the
-/// longest beginning with `typed`, then the first in alphabetical order. Cost: quadratic in the length of `typed`, for
-/// each candidate.
+/// longest beginning with `typed`, then the shortest, then the first in alphabetical order. Cost: quadratic in the
+/// length of `typed`, for each candidate.
 pub fn nearest<'c>(typed: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     // A longer word is no typing error, and the cost is quadratic in its length.
     const LONGEST: usize = 64;
@@ -24,10 +24,10 @@ pub fn nearest<'c>(typed: &str, candidates: impl IntoIterator<Item = &'c str>) -
             let distance = distance(&plain, &fold(candidate));
             let alike = plain.chars().zip(candidate.chars()).take_while(|(a, b)| a == b).count();
             let near = distance <= cutoff && distance < candidate.chars().count();
-            near.then_some((distance, Reverse(alike), candidate))
+            near.then_some((distance, Reverse(alike), candidate.len(), candidate))
         })
         .min()
-        .map(|(_, _, candidate)| candidate)
+        .map(|(.., candidate)| candidate)
 }
 
 /// `word` without differences that people overlook: case, hyphens and spaces.

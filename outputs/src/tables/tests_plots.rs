@@ -8,6 +8,7 @@ use super::*;
 use crate::read::Run;
 use crate::specimen::{grow_plots, plan};
 use crate::specimen_plots::{MEMBERS, SPECIES, mixed, mixed_plan, model, number_of, run_mixed, seed};
+use crate::tables::Factor;
 use crate::{Mode, RunFolder};
 use ::arrow_array::cast::AsArray;
 use ::arrow_array::types::{Date32Type, Float32Type, Float64Type, Int8Type, Int32Type, Int64Type};
@@ -76,12 +77,15 @@ fn sown() -> BTreeMap<i64, (u32, usize, Tick)> {
     plots.map(of).collect()
 }
 
+/// The tables whose rows are of plants.
+const OF_PLANTS: [Table; 5] = [Table::Components, Table::Records, Table::Events, Table::Summary, Table::Plants];
+
 #[test]
 fn rows_are_in_the_order_that_their_files_state() {
     let home = tempdir().unwrap();
     run_mixed(home.path(), mixed_plan(PLOTS, 2));
     let run = Run::open(home.path()).unwrap();
-    for table in Table::ALL {
+    for table in OF_PLANTS {
         let order = ["plot_id", "tick", "plant_id", "component_id"];
         let has = |name: &&str| table.columns(false).iter().any(|column| column.name == *name);
         let order: Vec<&str> = order.into_iter().filter(has).collect();
@@ -112,7 +116,7 @@ fn ticks_are_those_of_the_plot_and_ages_those_of_the_plant() {
     let report = run_mixed(home.path(), mixed_plan(PLOTS, 2));
     let (recorded, sown) = (mixed_plan(PLOTS, 2).recorded, sown());
     let treatments = ["control", "shade"];
-    for table in Table::ALL.into_iter().filter(|table| *table != Table::Site) {
+    for table in OF_PLANTS {
         let mut ticks: BTreeMap<i64, BTreeSet<Tick>> = BTreeMap::new();
         for row in rows(home.path(), table) {
             let (plot, _, sown) = sown[&int(&row, "plant_id")];
@@ -186,7 +190,7 @@ fn tables_in_memory_have_the_rows_of_the_files() {
         tables.end_plot(&plot, &ending).unwrap();
     }
     let batches = tables.finish().unwrap();
-    for table in Table::ALL {
+    for table in OF_PLANTS {
         assert_eq!(rows_in(&batches[&table]), rows(home.path(), table), "{table:?}");
     }
 }
@@ -298,4 +302,24 @@ fn the_site_has_the_calendar_of_its_treatment_and_counts_the_living() {
         let living = summary.iter().filter(is_here).filter(|of| of["alive"] == "true").count();
         assert_eq!(int(row, "living_plants"), living as i64, "plot {plot}, tick {tick}");
     }
+}
+
+/// The table of treatments is in part 0 alone, with a column for each factor.
+#[test]
+fn treatments_are_written_once_with_their_factors() {
+    let home = tempdir().unwrap();
+    let mut plan = mixed_plan(PLOTS, 2);
+    plan.provenance.factors =
+        vec![Factor { name: "light".to_owned(), levels: vec!["sun".to_owned(), "half".to_owned()] }];
+    run_mixed(home.path(), plan);
+    let run = Run::open(home.path()).unwrap();
+    assert!(PLOTS > 2 && run.parts(Table::Treatments).unwrap().len() == 1, "one part of several");
+    let rows = rows(home.path(), Table::Treatments);
+    let of = |row: usize| ["treatment_index", "treatment", "light"].map(|column| rows[row][column].clone());
+    assert_eq!(
+        (rows.len(), of(0), of(1)),
+        (2, ["0", "control", "sun"].map(str::to_owned), ["1", "shade", "half"].map(str::to_owned))
+    );
+    let package = std::fs::read_to_string(home.path().join("datapackage.json")).unwrap();
+    assert!(package.contains("The level of the factor `light`."));
 }
