@@ -14,8 +14,8 @@ use crate::species::Species;
 
 /// A fault where a plant is expected to have more components than the scenario allows, since it would be cut off later.
 /// The number is the exact expectation, or a lower bound of it for a species whose expectation has no closed form. An
-/// estimate or an upper bound gives no fault; the limit then holds while the plant grows. So it does after the first cut
-/// of an event, which no expectation knows.
+/// estimate or an upper bound gives no fault; the limit then holds while the plant grows. So it does after the first
+/// cut of an event, which no expectation knows.
 pub(crate) fn fault_of(
     node: &Node,
     scenario: &Scenario,
