@@ -11,10 +11,10 @@ use crate::plot::{Member, Plot};
 use crate::shed::shed;
 
 impl Plot<'_> {
-    /// Whether operations keep growth from running ahead: they look at wood that bends, which must have stood at each
-    /// tick before.
+    /// Whether operations keep growth from running ahead: they look at wood that remembers its shape, which must have
+    /// stood at each tick before.
     pub(crate) fn is_watched(&self) -> bool {
-        self.management.looks() && self.bends()
+        self.management.looks() && self.remembers()
     }
 
     /// Grows all members to the tick `until`, from operation to operation.

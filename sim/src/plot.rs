@@ -136,11 +136,6 @@ impl<'m> Plot<'m> {
         }
     }
 
-    /// Whether any of its plants bends under its load.
-    pub fn bends(&self) -> bool {
-        self.plants.iter().any(|plant| plant.habit.wood.as_ref().is_some_and(|wood| wood.bends))
-    }
-
     /// Whether the shape of its plants at an age depends on those at the ages before, so that each must be gone
     /// through.
     pub fn remembers(&self) -> bool {
