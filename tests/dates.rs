@@ -103,7 +103,9 @@ fn a_run_keeps_its_weather_and_draws_its_plants_without_the_file() {
         fs::read(home.path().join(name)).expect("a mesh")
     };
     let before = mesh("before.ply", "dated.toml");
-    ["steady.csv", "dated.toml", "species.toml"].map(|name| fs::remove_file(home.path().join(name)).expect("a file"));
+    for name in ["steady.csv", "dated.toml", "species.toml"] {
+        fs::remove_file(home.path().join(name)).expect("a file");
+    }
     assert_eq!(mesh("after.ply", "runs/dated"), before);
 }
 
