@@ -69,7 +69,7 @@ fn growth_begins_by_the_date_on_any_number_of_threads() {
     grown(home.path(), "one", "1");
     grown(home.path(), "three", "3");
     let [one, three] = ["one", "three"].map(|name| program::hashes(&home.path().join("runs").join(name)));
-    assert!(one == three && one.len() == 6 * 3);
+    assert!(one == three && one.len() == 6 * 3 + 1, "six tables of three parts, and the treatments");
     let components = Columns::of(&home.path().join("runs/one"), "components");
     let of_trunk = |at: &usize| components.words("kind")[*at] == "internode" && components.numbers("order")[*at] == 1.0;
     let births: Vec<f64> = (0..components.numbers("order").len())

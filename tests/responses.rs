@@ -40,7 +40,7 @@ fn responses_at_their_reference_change_no_byte_of_any_table() {
         hashes(&folder.path().join("runs").join(name))
     });
     let [plain, neutral, changed] = grown;
-    assert_eq!(plain.len(), 5 * 3 + 2 * 2, "five tables of three parts, two plants at two ages");
+    assert_eq!(plain.len(), 6 * 3 + 1 + 2 * 2, "six tables of three parts and the treatments, two plants at two ages");
     assert_eq!(plain, neutral);
     let moved = plain.iter().filter(|(name, hash)| changed.get(*name) != Some(hash)).count();
     assert!(moved > 12, "only {moved} files differ under a response");

@@ -144,7 +144,7 @@ fn a_run_that_cannot_fit_is_refused_and_one_that_fills_the_disk_can_be_resumed()
     assert!(too_small.free.0 == 1_000_000 && told.contains("--ignore-disk"), "{told}");
     assert!(!folder.exists());
     // This number of queries is enough for the first part with its mesh, and too small for the last.
-    let full = run(&on(9, Mode::New, true)).unwrap_err();
+    let full = run(&on(12, Mode::New, true)).unwrap_err();
     assert!(is_full(&full), "{full:?}");
     let left = check(&folder, Depth::Bytes, &Checking::default()).unwrap();
     assert_eq!(left.state, State::Unfinished);

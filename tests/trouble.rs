@@ -11,7 +11,7 @@ use std::fs;
 fn verify_tells_of_each_file_and_resume_mends() {
     let folder = grown();
     let whole = run(folder.path(), &["verify", "small"]).ending(0).stdout;
-    assert!(whole.contains("a complete run; 22 files") && whole.contains("all as they were written"), "{whole}");
+    assert!(whole.contains("a complete run; 26 files") && whole.contains("all as they were written"), "{whole}");
     assert_eq!(run(folder.path(), &["verify", "runs/small", "--quiet"]).ending(0).stdout, "");
     let missing = "runs/small/records/part-00001.parquet";
     fs::remove_file(folder.path().join(missing)).unwrap();

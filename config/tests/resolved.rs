@@ -14,7 +14,7 @@ fn a_minimal_scenario_has_its_defaults() {
     let scenario = &run.scenario;
     assert_eq!(scenario.seed, DEFAULT_SEED);
     assert_eq!(scenario.ages.recorded(), (1..=10).collect::<Vec<_>>());
-    assert_eq!(scenario.tables.len(), 6);
+    assert_eq!(scenario.tables.len(), 7);
     assert_eq!(scenario.limits.max_components, 50_000_000);
     assert!(scenario.mesh_ages().is_empty() && !scenario.draws(0));
     assert_eq!(run.expected_components(10), Some(10.0 + 10.0 + 1.0), "ten internodes, ten leaves, a bud");

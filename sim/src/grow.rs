@@ -76,8 +76,8 @@ fn follow_ticks(plot: &mut Plot<'_>, until: Tick, recorder: &mut dyn Recorder) -
 
 impl Plot<'_> {
     /// Grows all members to the tick `until` at once, or from operation to operation, where that is allowed; whether it
-    /// did. A plot in which a plant is
-    /// too large for its limit starts again by the clock, so that the ticks before the limit are kept.
+    /// did. A plot in which a plant is too large for its limit starts again by the clock, so that the ticks before the
+    /// limit are kept.
     pub fn ahead(&mut self, until: Tick) -> bool {
         let remade = self.species.iter().any(|model| !model.growth().keeps_its_past());
         if self.site.feeds_back() || remade || self.is_watched() {

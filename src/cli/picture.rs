@@ -127,7 +127,7 @@ impl Picture {
             Some(plot) => self.plot(regrown, plot, ages)?,
             None => self.plants(regrown, ages)?,
         };
-        let canvas = self.draw(&pictured, &regrown)?;
+        let canvas = self.draw(&pictured, regrown)?;
         let bytes = amounts::bytes(self.save(&canvas, &pictured.note, file)? as f64);
         out::tell(&self.out, &format!("{what}{}, {bytes}", self.breeze.in_words()))?;
         Ok(Verdict::Done)

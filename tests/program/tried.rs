@@ -54,13 +54,19 @@ pub fn cap(resolved: &mut Resolved) -> bool {
     (scenario.plants, scenario.ages.until) != asked_for
 }
 
-/// Whole plots, of which the last plant is sown before the last tick.
+/// Whole plots, of which the last plant is sown before the last tick; events and attacks begin by the last tick.
 fn cap_plots(scenario: &mut Scenario) {
     let members = scenario.members();
     scenario.plants = scenario.plants.min((MOST_PLANTS / members).max(1) * members);
     scenario.ages.until = scenario.ages.until.min(MOST_AGES);
     let last_sowing = scenario.ages.until - 1;
     scenario.member.iter_mut().for_each(|member| member.sown = member.sown.min(last_sowing));
+    let last = scenario.ages.until;
+    for event in &mut scenario.event {
+        let times = [&mut event.tick, &mut event.age, &mut event.until];
+        times.into_iter().flatten().for_each(|time| *time = (*time).min(last));
+    }
+    scenario.pest.iter_mut().for_each(|pest| pest.ages = pest.ages.map(|age| age.min(last)));
 }
 
 /// Grows a scenario without faults, in one thread.

@@ -32,8 +32,8 @@ fn a_run_folder_holds_what_it_says() {
     let report = run(&path, plan(5, 2));
     assert_eq!(
         (report.living, report.dead, report.files.len()),
-        (0, 5, 16),
-        "five tables of three parts, and `treatments`"
+        (0, 5, 19),
+        "six tables of three parts, and `treatments`"
     );
     let run = Run::open(&path).unwrap();
     assert!(run.is_complete());
@@ -240,7 +240,7 @@ fn one_process_at_a_time_has_a_folder() {
     }
     assert_eq!(contents(home.path()), before);
     let found = check(home.path(), Depth::Bytes, &Checking::default()).unwrap();
-    assert_eq!((found.state, found.findings.len(), found.files), (State::InProgress, 0, 6));
+    assert_eq!((found.state, found.findings.len(), found.files), (State::InProgress, 0, 7));
     drop(folder);
     assert_eq!(check(home.path(), Depth::Bytes, &Checking::default()).unwrap().state, State::Unfinished);
     RunFolder::create(home.path(), plan(2, 1), Mode::Overwrite).unwrap();
@@ -310,8 +310,8 @@ fn a_further_file_is_named_hashed_and_journalled() {
     let ending = grow(&mut plot, 12, &mut shard).unwrap();
     shard.end_plot(&plot, ending).unwrap();
     let report = shard.commit().unwrap();
-    assert_eq!(report.files[6].path, "meshes/plant-0.ply");
-    assert_eq!(report.files[6].sha256, durable::sha256_of(b"ply"));
+    assert_eq!(report.files[7].path, "meshes/plant-0.ply");
+    assert_eq!(report.files[7].sha256, durable::sha256_of(b"ply"));
     assert!(home.path().join("meshes/plant-0.ply").exists() && !staged.exists());
     drop(folder);
     RunFolder::create(home.path(), plan(1, 1), Mode::Resume).unwrap();

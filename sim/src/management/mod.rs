@@ -2,9 +2,9 @@
 //!
 //! An operation is done between two ticks ([`timing`]), on the plants for which its condition holds, one operation
 //! after another in the order of the file and plant by plant in the order of the plot. What it takes is chosen by
-//! conditions over columns ([`column`], [`choice`]). After the last operation of a tick the model of each plant answers
-//! the cuts, so that their order does not matter. Absent: dates, which become ticks above this crate; the language of
-//! conditions; and growth.
+//! conditions over columns ([`mod@column`], [`choice`]). After the last operation of a tick the model of each plant
+//! answers the cuts, so that their order does not matter. Absent: dates, which become ticks above this crate; the
+//! language of conditions; and growth.
 
 pub mod choice;
 pub mod column;

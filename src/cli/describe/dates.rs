@@ -6,6 +6,9 @@ use super::super::amounts;
 use phytomer_config::{Dated, WeatherRead};
 use phytomer_sim::site::calendar::{Calendar, CalendarTick, TickLength};
 
+/// A value of a tick, where it is known.
+type OfTick = fn(&CalendarTick) -> Option<f64>;
+
 /// The lines that tell the dates of a scenario: a name and its value each.
 pub fn lines(dated: &Dated) -> Vec<(&'static str, String)> {
     let mut lines = vec![("calendar", calendar_in_words(&dated.calendar))];
@@ -13,7 +16,7 @@ pub fn lines(dated: &Dated) -> Vec<(&'static str, String)> {
         lines.push(("weather", weather_in_words(weather)));
         lines.extend(notes_in_words(weather).map(|notes| ("noted", notes)));
     }
-    let ranges: [(_, _, fn(&CalendarTick) -> Option<f64>); 3] = [
+    let ranges: [(_, _, OfTick); 3] = [
         ("degree-days", "°C d a tick", |tick| tick.degree_days),
         ("day length", "h", |tick| tick.day_length_h),
         ("nitrogen", "kg/ha in a season", |tick| tick.nitrogen_kg_ha),
@@ -67,7 +70,7 @@ fn notes_in_words(weather: &WeatherRead) -> Option<String> {
 }
 
 /// The least and the largest value over the ticks from 1 on; `None` where it is not known.
-fn range_in_words(dated: &Dated, of: fn(&CalendarTick) -> Option<f64>, unit: &str) -> Option<String> {
+fn range_in_words(dated: &Dated, of: OfTick, unit: &str) -> Option<String> {
     let values: Option<Vec<f64>> = dated.calendar.ticks().iter().skip(1).map(of).collect();
     let values = values.filter(|values| !values.is_empty())?;
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);

@@ -72,7 +72,7 @@ pub struct NodeLaws {
 #[derive(Debug, Clone)]
 pub enum LeafFall {
     /// At a tick of the year, which each leaf draws: the ticks of a year, and the tick of the year.
-    OfYear(u32, Number),
+    OfYear(u32, Box<Number>),
     /// By the date: the tick at which a leaf falls, by that of its birth; `NEVER` where none of the run makes it fall.
     When(Vec<Tick>),
 }
@@ -233,7 +233,7 @@ impl LeafFall {
         let year = season.ticks_per_year.value();
         if let Some(fall) = &season.leaf_fall {
             let fall = compiler.fall_within(fall, year);
-            return Some(Self::OfYear(year, words.number(fall, leaves)));
+            return Some(Self::OfYear(year, Box::new(words.number(fall, leaves))));
         }
         season.leaf_fall_when.as_ref().map(|when| Self::When(compiler.falls_after(when)))
     }
