@@ -57,7 +57,7 @@ impl ResolvedSpecies {
         };
         let Self { species, model, sources, tree } = self;
         let treatments = vec![Treatment::control(&scenario)];
-        Resolved { scenario, treatments, species, model, others: Vec::new(), dated: None, sources, tree }
+        Resolved { scenario, treatments, species, model, others: Vec::new(), calendars: vec![None], sources, tree }
     }
 }
 

@@ -24,13 +24,13 @@ pub(crate) struct Compiled {
     pub tree: Node,
 }
 
-/// A checked scenario, its treatments, the species of all of them, and its calendar.
+/// A checked scenario, its treatments with the calendar of each, and the species of all of them.
 pub(crate) struct Checked {
     pub scenario: Scenario,
     pub treatments: Vec<Treatment>,
     pub first: Compiled,
     pub others: Vec<Compiled>,
-    pub dated: Option<Dated>,
+    pub calendars: Vec<Option<Dated>>,
 }
 
 impl Checked {
@@ -50,9 +50,9 @@ pub(crate) fn check_cuttable(loader: &mut Loader, node: &Node, checked: &Checked
     loader.tell(node, faults);
 }
 
-/// A species whose laws depend on the date has one model, and so one tick of sowing.
+/// A species whose laws depend on the date has one model in each calendar, and so one tick of sowing.
 pub(crate) fn check_sowings(loader: &mut Loader, node: &Node, checked: &Checked) {
-    if checked.dated.is_none() {
+    if checked.calendars.iter().all(Option::is_none) {
         return;
     }
     let trial = Trial::of(&checked.scenario, &checked.treatments);

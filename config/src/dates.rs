@@ -19,6 +19,7 @@ use crate::load::{Loader, path_of};
 use crate::report::Fault;
 use crate::scenario::Scenario;
 use crate::source::Span;
+use crate::treatments::Read;
 
 /// The calendar of a run, and the weather that it was made of.
 #[derive(Debug, Clone, PartialEq)]
@@ -160,6 +161,32 @@ pub(crate) fn of(loader: &mut Loader, node: &Node, scenario: &Scenario) -> Resul
             Err(Refused)
         }
     }
+}
+
+/// The calendars of treatments, one for each; treatments with the same dates share one. A fault is told once, however
+/// many treatments have it.
+pub(crate) fn of_treatments(loader: &mut Loader, read: &[Read]) -> Result<Vec<Option<Dated>>, Refused> {
+    let mut made: Vec<(&Scenario, Result<Option<Dated>, Refused>)> = Vec::new();
+    let mut calendars = Vec::with_capacity(read.len());
+    for Read { scenario, expanded, .. } in read {
+        let Some(scenario) = scenario else {
+            calendars.push(Ok(None));
+            continue;
+        };
+        let known = made.iter().find(|(other, _)| other.has_the_dates_of(scenario)).map(|(_, known)| known.clone());
+        let calendar = known.unwrap_or_else(|| {
+            let told = loader.faults.len();
+            let calendar = of(loader, &expanded.node, scenario);
+            let new = loader.faults.split_off(told);
+            let is_told = |fault: &Fault| loader.faults.iter().any(|other| other == fault);
+            let new: Vec<Fault> = new.into_iter().filter(|fault| !is_told(fault)).collect();
+            loader.faults.extend(new);
+            made.push((scenario, calendar.clone()));
+            calendar
+        });
+        calendars.push(calendar);
+    }
+    calendars.into_iter().collect()
 }
 
 /// Whether a fault is one of the keys that decide the dates, so that without them nothing can be said of laws of the

@@ -26,6 +26,7 @@ pub mod scenario;
 mod schema;
 mod source;
 mod species;
+mod species_of_run;
 mod treatments;
 mod trial;
 mod validate;

@@ -35,8 +35,8 @@ pub struct Resolved {
     pub model: Arc<dyn GrowthModel>,
     /// The other species, which members or levels name, in the order in which the treatments name them.
     pub others: Vec<OtherSpecies>,
-    /// The calendar of the plots; `None` where the scenario states none.
-    pub dated: Option<Dated>,
+    /// The calendar of the plots of each treatment; `None` where its scenario states none.
+    pub calendars: Vec<Option<Dated>>,
     /// Every text that was read, for hashes and provenance: the scenario first, then each species and its ancestors.
     pub sources: Sources,
     pub(crate) tree: Node,
@@ -96,14 +96,28 @@ impl Resolved {
         placed(&self.sources, other.map_or(&self.tree, |other| &other.tree), faults)
     }
 
-    /// All species, in the order in which the treatments name them.
+    /// All species, in the order in which the treatments name them; one whose laws depend on the date is there for each
+    /// calendar.
     pub fn all_species(&self) -> Vec<&Species> {
         [&self.species].into_iter().chain(self.others.iter().map(|other| &other.species)).collect()
     }
 
+    /// All species, each once whatever its calendars, in the order in which the treatments name them.
+    pub fn distinct_species(&self) -> Vec<&Species> {
+        let mut distinct: Vec<&Species> = Vec::new();
+        for species in self.all_species() {
+            if !distinct.contains(&species) {
+                distinct.push(species);
+            }
+        }
+        distinct
+    }
+
     /// The dates of the ages of a species, by its index in [`Resolved::all_species`]; `None` without a calendar.
     pub fn dates_of(&self, species: usize) -> Option<Dates> {
-        self.dated.as_ref().map(|dated| dated.of_sowing(self.trial().first_sowing_of_species(species)))
+        let trial = self.trial();
+        let calendar = self.calendars.get(trial.treatment_with(species)?)?.as_ref()?;
+        Some(calendar.of_sowing(trial.first_sowing_of_species(species)))
     }
 
     /// The growth models of all species, in the order of [`Resolved::all_species`].
@@ -119,7 +133,7 @@ impl Resolved {
 
     /// The whole run as JSON, for `run.json`: the scenario with its defaults, its species with inheritance resolved,
     /// under `other_species` the further species, and under `treatments` those of an experiment, each with its
-    /// scenario.
+    /// scenario and its calendar.
     ///
     /// # Errors
     /// A number that JSON cannot hold, which no checked run has.
@@ -129,13 +143,18 @@ impl Resolved {
             let others = self.others.iter().map(|other| other.species.to_json());
             json["other_species"] = others.collect::<serde_json::Result<Vec<Json>>>()?.into();
         }
-        if !self.scenario.experiment.is_control_alone() {
-            json["treatments"] = serde_json::to_value(self.trial().treatments())?;
-        }
-        if let (Some(dated), Json::Object(keys)) = (&self.dated, &mut json)
-            && let Json::Object(of_dates) = dated.to_json()
-        {
-            keys.extend(of_dates);
+        let mut dates = self.calendars.iter().map(|dated| dated.as_ref().map(Dated::to_json));
+        if self.scenario.experiment.is_control_alone() {
+            add_keys(&mut json, dates.next().flatten());
+        } else {
+            let trial = self.trial();
+            let treatments = trial.treatments().iter().map(serde_json::to_value).zip(dates);
+            let told = treatments.map(|(treatment, dates)| {
+                let mut treatment = treatment?;
+                add_keys(&mut treatment, dates);
+                Ok(treatment)
+            });
+            json["treatments"] = told.collect::<serde_json::Result<Vec<Json>>>()?.into();
         }
         Ok(json)
     }
@@ -154,6 +173,13 @@ impl Resolved {
     /// A value that TOML cannot hold, which no checked species has.
     pub fn species_toml(&self) -> Result<String, toml::ser::Error> {
         self.species.to_toml()
+    }
+}
+
+/// Adds the keys of one object to another.
+fn add_keys(object: &mut Json, more: Option<Json>) {
+    if let (Json::Object(keys), Some(Json::Object(more))) = (object, more) {
+        keys.extend(more);
     }
 }
 

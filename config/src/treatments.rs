@@ -1,4 +1,4 @@
-//! The check of each treatment as a whole scenario, and the species of all treatments together.
+//! The check of each treatment as a whole scenario, and the species that it names.
 //!
 //! A fault that several treatments have is told once. One that not every treatment has is in a level, and is told with
 //! the names of its treatments. Absent: expansion, and the check of species.
@@ -124,11 +124,4 @@ fn mentions(scenario: &Node) -> Vec<Mention> {
         }
     }
     mentions
-}
-
-/// The species of all treatments, each once: those of the first treatment first.
-pub(crate) fn species_of_all(read: &[Read]) -> Vec<Mention> {
-    let mut known = BTreeSet::new();
-    let all = read.iter().flat_map(|read| &read.species);
-    all.filter(|mention| known.insert(mention.name.clone())).cloned().collect()
 }

@@ -23,7 +23,8 @@ pub struct Treatment {
     pub levels: Vec<String>,
     /// Its scenario, without `experiment`.
     pub scenario: Scenario,
-    /// Its species: of each of [`Scenario::species_names`], the index in the species of the run.
+    /// Its species: of each of [`Scenario::species_names`], the index in the species of the run. A species whose laws
+    /// depend on the date is a species of its own in each calendar.
     pub species: Vec<usize>,
 }
 
@@ -206,6 +207,11 @@ impl Trial {
 }
 
 impl Trial {
+    /// The first treatment with a species of the run, as an index into [`Trial::treatments`].
+    pub fn treatment_with(&self, species: usize) -> Option<usize> {
+        self.treatments.iter().position(|treatment| treatment.species.contains(&species))
+    }
+
     /// The first tick of its plot at which a species of the run is sown in any treatment.
     pub fn first_sowing_of_species(&self, species: usize) -> u32 {
         self.sowings_of(species).map(|(_, sown)| sown).min().unwrap_or(0)
@@ -237,11 +243,6 @@ fn settled(run: &Scenario, treatment: &Treatment) -> Treatment {
         ages: run.ages,
         tables: run.tables,
         sample: run.sample,
-        planting_date: run.planting_date,
-        calendar: run.calendar,
-        weather: run.weather,
-        soil: run.soil,
-        fertilizer: run.fertilizer,
         meshes: run.meshes,
         limits: run.limits,
         output: run.output,

@@ -8,12 +8,10 @@ use std::fmt;
 use std::path::Path as FilePath;
 use std::sync::{Arc, OnceLock};
 
-use phytomer_law::Constant;
 use phytomer_law::fault::{self, Segment};
 use phytomer_models::parameters::Keys;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::model::GrowthModel;
-use phytomer_sim::site::calendar::Dates;
 use serde_json::Value as Json;
 
 use crate::about::About;
@@ -22,8 +20,8 @@ use crate::dates::{self, Dated};
 use crate::document::Node;
 use crate::expansion::{self, Expanded};
 use crate::library::{Kind, Library};
-use crate::load::{Found, Loader, Mention, integer_at, path_of};
-use crate::models::{MODELS, Model, any_file};
+use crate::load::{Loader, Mention, integer_at};
+use crate::models::{MODELS, any_file};
 use crate::report::{Fault, Report};
 use crate::resolved::{OtherSpecies, Resolved, placed};
 use crate::scenario::experiment::{CONTROL, Chosen, Experiment, state_levels};
@@ -31,6 +29,7 @@ use crate::scenario::{Scenario, icasa};
 use crate::schema;
 use crate::source::{Source, Sources};
 use crate::species::Species;
+use crate::species_of_run::{self, check_species};
 use crate::treatments::{self, Read};
 use crate::trial::Treatment;
 
@@ -82,11 +81,11 @@ fn validate_in(library: Library, scenario: &str) -> Result<Resolved, Report> {
     let mut loader = Loader { library, ..Loader::default() };
     let mention = Mention { name: scenario.to_owned(), place: None };
     let found = loader.find(Kind::Scenario, &mention).and_then(|source| check_scenario(&mut loader, source));
-    conclude(loader, found, |Checked { scenario, treatments, first, others, dated }, sources| {
+    conclude(loader, found, |Checked { scenario, treatments, first, others, calendars }, sources| {
         let other = |Compiled { species, model, tree }| OtherSpecies { species, model, tree };
         let others = others.into_iter().map(other).collect();
         let Compiled { species, model, tree } = first;
-        Resolved { scenario, treatments, species, model, others, dated, sources, tree }
+        Resolved { scenario, treatments, species, model, others, calendars, sources, tree }
     })
 }
 
@@ -169,23 +168,15 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let expanded = expanded(loader, &node, &refused);
     loader.faults.extend(refused.iter().cloned());
     let read = treatments::check(loader, scenario_schema(), (&node, scenario.as_ref()), expanded);
-    let dated = dated(loader, &node, scenario.as_ref(), &refused);
+    let calendars = calendars(loader, &read, &refused);
     let until = integer_at(&node, &["ages", "until"]).and_then(|n| u32::try_from(n).ok());
     let until = until.filter(|n| (1..=LAST_TICK).contains(n));
-    let mentions = treatments::species_of_all(&read);
-    let last_age = |mention: &Mention| until.map(|until| last_age_of(&read, mention).unwrap_or(until));
-    let dates = |mention: &Mention| {
-        let sown = first_sowing_of(&read, mention);
-        dated.as_ref().map(|dated| dated.as_ref().map(|dated| dated.of_sowing(sown))).map_err(|refused| *refused)
-    };
-    let check = |mention: &Mention| check_species(loader, mention, |_| last_age(mention), dates(mention));
-    let species: Vec<Option<Compiled>> = mentions.iter().map(check).collect();
-    let mut species = species.into_iter().collect::<Option<Vec<Compiled>>>()?.into_iter();
-    let scenario = scenario?;
-    let treatments = read.into_iter().map(|read| treatment(&scenario, read, &mentions));
+    let (species, places) = species_of_run::check(loader, &read, calendars.as_deref(), until)?;
+    let (mut species, scenario) = (species.into_iter(), scenario?);
+    let treatments = read.into_iter().zip(places).map(|(read, places)| treatment(&scenario, read, places));
     let treatments = treatments.collect::<Option<Vec<Treatment>>>()?;
     let (first, others) = (species.next()?, species.collect());
-    let checked = Checked { scenario, treatments, first, others, dated: dated.ok()? };
+    let checked = Checked { scenario, treatments, first, others, calendars: calendars.ok()? };
     check_sowings(loader, &node, &checked);
     check_explosions(loader, &node, &checked);
     check_cuttable(loader, &node, &checked);
@@ -202,23 +193,16 @@ fn expanded(loader: &mut Loader, node: &Node, refused: &[Fault]) -> Vec<Expanded
     expansion::expand(scenario_schema(), node, if chosen.is_empty() { control() } else { chosen })
 }
 
-/// The calendar of the run; none where the scenario could not be read for other reasons. Where the schema has refused a
-/// key of the dates, that key is missing in what was read, and no more is told of the dates.
-fn dated(
-    loader: &mut Loader,
-    node: &Node,
-    scenario: Option<&Scenario>,
-    refused: &[Fault],
-) -> Result<Option<Dated>, dates::Refused> {
+/// The calendar of each treatment; none where its scenario could not be read for other reasons. Where the schema has
+/// refused a key of the dates, that key is missing in what was read, and no more is told of the dates.
+fn calendars(loader: &mut Loader, read: &[Read], refused: &[Fault]) -> Result<Vec<Option<Dated>>, dates::Refused> {
     let is_refused = refused.iter().any(|fault| dates::is_of_dates(&fault.path));
     let told = |fault: &Fault| refused.iter().any(|other| (other.span, &other.problem) == (fault.span, &fault.problem));
     loader.faults.retain(|fault| !is_refused || !dates::is_of_dates(&fault.path) || told(fault));
-    let is_sound = !loader.faults.iter().any(|fault| dates::is_of_dates(&fault.path));
-    match (is_sound, scenario) {
-        (false, _) => Err(dates::Refused),
-        (true, None) => Ok(None),
-        (true, Some(scenario)) => dates::of(loader, node, scenario),
+    if loader.faults.iter().any(|fault| dates::is_of_dates(&fault.path)) {
+        return Err(dates::Refused);
     }
+    dates::of_treatments(loader, read)
 }
 
 /// The experiment of a scenario. A key that it does not know is left out, as is told of it; what is refused in a level
@@ -237,74 +221,11 @@ fn experiment_of(node: &Node, refused: &[Fault]) -> Option<Experiment> {
     serde_json::from_value(experiment.to_json()).ok()
 }
 
-/// A treatment whose species are found among those of the run.
-fn treatment(run: &Scenario, read: Read, species: &[Mention]) -> Option<Treatment> {
-    let scenario = read.scenario?;
-    let place = |name: &str| species.iter().position(|mention| mention.name == name);
-    let places = scenario.species_names().into_iter().map(place).collect::<Option<_>>()?;
+/// A treatment with its species among those of the run.
+fn treatment(run: &Scenario, read: Read, species: Vec<usize>) -> Option<Treatment> {
     let Chosen { name, levels } = read.expanded.chosen;
     let levels = run.experiment.level_names(&levels);
-    Some(Treatment { name, levels, scenario, species: places })
-}
-
-/// The last age that a species reaches in any treatment; `None` where none of them could be read.
-fn last_age_of(read: &[Read], species: &Mention) -> Option<u32> {
-    let ages = read.iter().filter_map(|Read { scenario, .. }| {
-        let scenario = scenario.as_ref()?;
-        let place = scenario.species_names().iter().position(|name| *name == species.name)?;
-        Some(scenario.last_age_of_species(place).clamp(1, LAST_TICK))
-    });
-    ages.max()
-}
-
-/// The first tick at which a species is sown in any treatment.
-fn first_sowing_of(read: &[Read], species: &Mention) -> u32 {
-    let sowings = read.iter().filter_map(|Read { scenario, .. }| {
-        let scenario = scenario.as_ref()?;
-        let place = scenario.species_names().iter().position(|name| *name == species.name)?;
-        Some(scenario.first_sowing_of(place))
-    });
-    sowings.min().unwrap_or(0)
-}
-
-fn check_species(
-    loader: &mut Loader,
-    mention: &Mention,
-    until: impl Fn(Option<&About>) -> Option<u32>,
-    dates: Result<Option<Dates>, dates::Refused>,
-) -> Option<Compiled> {
-    let Found { about, model, node } = loader.species(mention)?;
-    if let Some(about) = &about {
-        loader.tell(&node, about.faults());
-        check_year(loader, &node, about, &model);
-    }
-    // Without its calendar a scenario cannot know which laws of the date hold.
-    let dates = dates.ok()?;
-    match model.compile_dated(until(about.as_ref())?, dates.as_ref()) {
-        Ok(compiled) => Some(Compiled { species: Species { about: about?, model }, model: compiled, tree: node }),
-        Err(faults) => {
-            loader.tell(&node, faults);
-            None
-        }
-    }
-}
-
-/// A species has one year: where its season states the ticks of a year too, both numbers must agree.
-fn check_year(loader: &mut Loader, node: &Node, about: &About, model: &Model) {
-    let (Some(stated), Some((path, in_season))) = (about.ticks_per_year.as_ref().map(Constant::value), model.year())
-    else {
-        return;
-    };
-    if stated == f64::from(in_season) {
-        return;
-    }
-    let other = path_of(&["ticks_per_year"]);
-    let span = node.locate(&other);
-    let ((line, column), file) = (loader.sources.place(span), &loader.sources.get(span.source).name);
-    let problem = format!(
-        "the year of the season is of {in_season} ticks, and `ticks_per_year` is {stated} ({file}:{line}:{column})"
-    );
-    loader.faults.push(Fault::new(node.locate(&path), &path, problem, "the same number at both places"));
+    Some(Treatment { name, levels, scenario: read.scenario?, species })
 }
 
 impl fmt::Debug for ResolvedSpecies {

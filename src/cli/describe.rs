@@ -48,7 +48,7 @@ impl Describe {
             Named::Run(folder) => return self.tell_run(folder),
             Named::Scenario(resolved) => {
                 let mut text = scenario::as_text(&resolved);
-                for species in resolved.all_species() {
+                for species in resolved.distinct_species() {
                     text = text + "\n" + &species::as_text(species)?;
                 }
                 (text, scenario::as_json(&resolved)?)

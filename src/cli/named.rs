@@ -11,7 +11,7 @@ use phytomer_config::{
 };
 use phytomer_outputs::read::Run;
 use phytomer_sim::GrowthModel;
-use phytomer_sim::site::calendar::Dates;
+use phytomer_sim::site::calendar::{Calendar, Dates};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -123,7 +123,12 @@ impl Recorded {
 
     /// The names of all species: "a, b".
     pub fn species_in_words(&self) -> String {
-        self.all_species().map(|species| species.about.name.as_str()).collect::<Vec<_>>().join(", ")
+        let mut names: Vec<&str> = Vec::new();
+        for species in self.all_species() {
+            let name = species.about.name.as_str();
+            names.extend(Some(name).filter(|name| !names.contains(name)));
+        }
+        names.join(", ")
     }
 
     /// The models of all species, for the ages that their plants reach in the run.
@@ -131,10 +136,11 @@ impl Recorded {
     /// # Errors
     /// Where their laws do not hold, which those of a run that began do.
     pub fn compile(&self) -> Result<Vec<Arc<dyn GrowthModel>>> {
-        let calendar = calendar_of_run(&self.run.json()["resolved_scenario"]).context("the calendar of the run")?;
+        let calendars = self.calendars().context("the calendars of the run")?;
         let compiled = |(place, species): (usize, &Species)| {
             let sown = self.trial.first_sowing_of_species(place);
-            let dates = calendar.clone().map(|calendar| Dates { calendar, sown });
+            let calendar = self.trial.treatment_with(place).and_then(|treatment| calendars.get(treatment)?.clone());
+            let dates = calendar.map(|calendar| Dates { calendar, sown });
             let until = self.trial.last_age_of_species(place);
             species.model.compile_dated(until, dates.as_ref()).map_err(|faults| match faults.into_iter().next() {
                 Some(fault) => anyhow::Error::new(fault),
@@ -142,5 +148,14 @@ impl Recorded {
             })
         };
         self.all_species().enumerate().map(compiled).collect()
+    }
+
+    /// The calendar of each treatment, as `run.json` keeps it.
+    fn calendars(&self) -> serde_json::Result<Vec<Option<Arc<Calendar>>>> {
+        let resolved = &self.run.json()["resolved_scenario"];
+        match resolved["treatments"].as_array() {
+            None => Ok(vec![calendar_of_run(resolved)?]),
+            Some(treatments) => treatments.iter().map(calendar_of_run).collect(),
+        }
     }
 }

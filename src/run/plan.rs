@@ -57,7 +57,7 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunErr
         },
         precision_m: scenario.output.float_precision_m,
         mechanics: scenario.output.mechanics,
-        calendars: vec![resolved.dated.as_ref().map(|dated| Arc::clone(&dated.calendar)); trial.treatments().len()],
+        calendars: resolved.calendars.iter().map(|dated| Some(Arc::clone(&dated.as_ref()?.calendar))).collect(),
         provenance: Provenance {
             scenario: scenario.name.clone(),
             treatments: trial.treatments().iter().map(|treatment| treatment.name.clone()).collect(),
@@ -100,7 +100,9 @@ fn inputs(resolved: &Resolved) -> Result<Vec<Input>, RunError> {
         let bytes = source.bytes.as_deref().unwrap_or(source.text.as_bytes());
         Input { path: source.name.clone(), sha256: hash(bytes) }
     });
-    let mut inputs: Vec<Input> = texts.collect();
+    // A weather file may be read for several treatments.
+    let mut inputs: Vec<Input> = Vec::new();
+    texts.for_each(|input| inputs.extend(Some(input).filter(|input| !inputs.contains(input))));
     for species in resolved.all_species() {
         let own = super::forms::inputs(species)?;
         inputs.extend(own.into_iter().filter(|own| !inputs.contains(own)).collect::<Vec<_>>());

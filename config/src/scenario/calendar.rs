@@ -91,6 +91,15 @@ impl Soil {
 }
 
 impl Scenario {
+    /// Whether the dates of this scenario are those of another one of the same run.
+    pub(crate) fn has_the_dates_of(&self, other: &Self) -> bool {
+        let of = |scenario: &Self| {
+            let Self { planting_date, calendar, weather, soil, fertilizer, site, .. } = scenario.clone();
+            (planting_date, calendar, weather, soil, fertilizer, site.latitude_deg)
+        };
+        of(self) == of(other)
+    }
+
     /// The day of planting; `None` where none is stated or what is stated is no day.
     pub(crate) fn planted(&self) -> Option<Date> {
         Date::parse(self.planting_date.as_deref()?)

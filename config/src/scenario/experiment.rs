@@ -25,23 +25,8 @@ pub const MOST_TREATMENTS: u64 = 4096;
 pub const MOST_FIELD_PLOTS: u64 = 1_000_000;
 
 /// The keys of a scenario that are those of the whole run, which no level can set.
-pub const OF_THE_RUN: [&str; 15] = [
-    "name",
-    "description",
-    "seed",
-    "ages",
-    "planting_date",
-    "calendar",
-    "weather",
-    "soil",
-    "fertilizer",
-    "tables",
-    "sample",
-    "meshes",
-    "limits",
-    "output",
-    "experiment",
-];
+pub const OF_THE_RUN: [&str; 10] =
+    ["name", "description", "seed", "ages", "tables", "sample", "meshes", "limits", "output", "experiment"];
 
 /// The treatments that a run compares, and how often each is repeated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -275,7 +275,7 @@ const MACROS: [(&[Table], &str, &str); 10] = [
     (
         &[Table::Site],
         "What the date brought to each treatment and replicate, tick by tick, its parts together.",
-        "sites() AS TABLE SELECT treatment, replicate, tick, max(date) AS date, max(degree_days) AS degree_days, \
+        "sites() AS TABLE SELECT treatment, replicate, block, tick, max(date) AS date, max(degree_days) AS degree_days, \
          max(degree_day_sum) AS degree_day_sum, max(day_length_h) AS day_length_h, max(nitrogen_kg_ha) AS \
          nitrogen_kg_ha, sum(plots) AS plots, sum(living_plants) AS living_plants FROM site GROUP BY ALL ORDER BY ALL",
     ),

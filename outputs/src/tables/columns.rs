@@ -66,6 +66,8 @@ const TREATMENT: Column = Column::new(
 );
 const PLOT: Column = Column::id("plot_id", "The plot: the plants that share a site.");
 const PLANT: Column = Column::id("plant_id", "The plant's number in the run, from 0.");
+const BLOCK: Column =
+    Column::small("block", "The block of the field, from 0. Null where the experiment has no blocks.").or_null();
 /// Constant over long runs of rows; DELTA_BINARY_PACKED stores such a run in no bits per row.
 const TICK: Column = Column::id("tick", "The tick of the plot, from 0.").unit("tick");
 const AGE: Column = Column::id(
@@ -329,11 +331,7 @@ pub static PLANTS: [Column; 11] = [
         "replicate",
         "The replicate of the treatment of the plot, from 0; 0 where a run compares no treatments.",
     ),
-    Column::small(
-        "block",
-        "The block of the field that the plot stands in, from 0. Null where the experiment has no blocks.",
-    )
-    .or_null(),
+    BLOCK,
     Column::new("species", Type::Name(Named::Species), Encoding::Dictionary, "The species of the plant."),
     Column::tick(
         "sown_tick",
@@ -360,13 +358,14 @@ pub static TREATMENTS: [Column; 2] =
     [Column::id("treatment_index", "The number of the treatment, from 0, in the order of its plots."), TREATMENT];
 
 /// A row per treatment, replicate and recorded tick, in each part that has plots of them.
-pub static SITE: [Column; 11] = [
+pub static SITE: [Column; 12] = [
     TREATMENT,
     Column::id("plot_id", "The first of the plots in this part: those of one treatment and replicate."),
     Column::small(
         "replicate",
         "The replicate of the treatment of the plots, from 0; 0 where a run compares no treatments.",
     ),
+    BLOCK,
     TICK,
     Column::new(
         "date",

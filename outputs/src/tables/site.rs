@@ -6,7 +6,7 @@
 //! plots of them: the sums of `plots` and `living_plants` are those of the run. Without a calendar the columns of the
 //! date are null. Absent: what single plants are (`summary`).
 
-use super::buffers::{NO_DATE, columns};
+use super::buffers::{NO_DATE, NULL, columns};
 use phytomer_sim::site::calendar::{Calendar, CalendarTick};
 use phytomer_sim::site::date::Date;
 use phytomer_sim::{Plot, Tick};
@@ -18,6 +18,7 @@ columns! {
         treatment: Name(i32) = of.treatment as i32,
         plot: Int(i32) = of.first_plot as i32,
         replicate: Int(i32) = of.replicate as i32,
+        block: Int(i32) = of.block.map_or(NULL, |block| block as i32),
         tick: Int(i32) = at.tick as i32,
         date: Date(i32) = at.of_calendar.map_or(NO_DATE, |of| of.date.since(Date::EPOCH)),
         degree_days: Double(f64) = at.number(|of| of.degree_days),
@@ -48,6 +49,7 @@ impl SiteAt {
 pub struct Group {
     treatment: u32,
     replicate: u32,
+    block: Option<u32>,
     first_plot: u32,
     plots: u32,
     /// The plants that live at each recorded tick.
@@ -65,8 +67,8 @@ impl Group {
     pub fn count(&mut self, plot: &Plot, recorded: &[Tick], last: Tick) {
         if self.plots == 0 {
             let living = std::mem::take(&mut self.living);
-            let (treatment, replicate, first_plot) = (plot.treatment, plot.replicate, plot.id);
-            *self = Self { treatment, replicate, first_plot, plots: 0, living };
+            let Plot { treatment, replicate, block, id: first_plot, .. } = *plot;
+            *self = Self { treatment, replicate, block, first_plot, plots: 0, living };
             self.living.resize(recorded.len(), 0);
         }
         self.plots += 1;

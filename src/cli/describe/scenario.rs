@@ -34,7 +34,7 @@ pub fn as_text(resolved: &Resolved) -> String {
     let mut line = |name: &str, value: String| {
         let _ = writeln!(text, "  {name:<11} {value}");
     };
-    for species in resolved.all_species() {
+    for species in resolved.distinct_species() {
         line("species", format!("{} ({})", species.about.name, species.model.name().word()));
     }
     line("plants", plants_in_words(resolved));
@@ -49,7 +49,10 @@ pub fn as_text(resolved: &Resolved) -> String {
     }
     let ticks: BTreeSet<&str> = resolved.all_species().iter().map(|species| species.about.tick.as_str()).collect();
     line("tick", ticks.into_iter().collect::<Vec<_>>().join(", "));
-    resolved.dated.iter().flat_map(dates::lines).for_each(|(name, value)| line(name, value));
+    // Where treatments differ in their dates, each tells its own.
+    let is_one = have_one_calendar(resolved);
+    let of_all = resolved.calendars.first().into_iter().flatten().filter(|_| is_one);
+    of_all.flat_map(dates::lines).for_each(|(name, value)| line(name, value));
     line("ages", ages_in_words(&scenario.ages.recorded(), scenario.ages.until));
     line("seed", scenario.seed.to_string());
     line("tables", tables_in_words(&scenario.written_tables()));
@@ -72,6 +75,11 @@ pub fn as_text(resolved: &Resolved) -> String {
     text
 }
 
+/// Whether all treatments have the same dates.
+fn have_one_calendar(resolved: &Resolved) -> bool {
+    resolved.calendars.windows(2).all(|pair| pair[0] == pair[1])
+}
+
 /// The treatments of an experiment, a line each: its name, the plants of a replicate, and what its levels set, as typed
 /// and in SI units.
 fn treatments_in_words(resolved: &Resolved) -> String {
@@ -86,7 +94,8 @@ fn treatments_in_words(resolved: &Resolved) -> String {
     let (treatments, replicates) = (trial.treatments().len() as u64, u64::from(trial.replicates()));
     let (treatments, replicates) = (amounts::of(treatments, "treatment"), amounts::of(replicates, "replicate"));
     let mut text = format!("\n  {treatments}, {replicates} of each, {design}\n");
-    for treatment in trial.treatments() {
+    let is_one = have_one_calendar(resolved);
+    for (place, treatment) in trial.treatments().iter().enumerate() {
         let plants = amounts::of(treatment.scenario.plants.into(), "plant");
         let levels = experiment.factor.iter().zip(&treatment.levels);
         let sets = levels.filter_map(|(factor, name)| factor.level.iter().find(|level| level.name == *name));
@@ -94,8 +103,9 @@ fn treatments_in_words(resolved: &Resolved) -> String {
             sets.flat_map(|level| level.sets.iter()).map(|(key, value)| format!("{key} = {value}")).collect();
         let sets = if sets.is_empty() { "the scenario as it stands".to_owned() } else { sets.join(", ") };
         let _ = writeln!(text, "    {}: {plants} a replicate; {sets}", treatment.name);
-        for (name, value) in planting_in_words(&treatment.scenario.planting) {
-            let _ = writeln!(text, "      {name:<9} {value}");
+        let dates = resolved.calendars.get(place).into_iter().flatten().filter(|_| !is_one).flat_map(dates::lines);
+        for (name, value) in planting_in_words(&treatment.scenario.planting).into_iter().chain(dates) {
+            let _ = writeln!(text, "      {name:<11} {value}");
         }
     }
     text

@@ -232,7 +232,7 @@ fn treatments_in_words(forecast: &Forecast, trial: &Trial) -> String {
 
 /// The names of all species: "a, b".
 pub fn species_in_words(resolved: &Resolved) -> String {
-    resolved.all_species().iter().map(|species| species.about.name.as_str()).collect::<Vec<_>>().join(", ")
+    resolved.distinct_species().iter().map(|species| species.about.name.as_str()).collect::<Vec<_>>().join(", ")
 }
 
 /// What the last tick of a run is to its plants: their age, unless some are sown later.

@@ -15,7 +15,7 @@ use super::{CONTROL, Combination, Experiment, Factor, MOST_TREATMENTS};
 const COLUMNS: [&str; 2] = ["treatment", "treatment_index"];
 
 /// The lists of a scenario that levels add to, which several factors may therefore set.
-pub const JOINED: [&str; 2] = ["event", "pest"];
+pub const JOINED: [&str; 3] = ["event", "fertilizer", "pest"];
 
 /// A treatment as the levels that it is made of.
 #[derive(Debug, Clone, PartialEq, Eq)]
