@@ -1,7 +1,8 @@
 //! Treatments that differ in their dates, their weather or the nitrogen of their soil: each must be the run that it
 //! would be alone.
 //!
-//! The species has laws of the date, so it is compiled for each calendar. The files are read by the parquet crate alone.
+//! The species has laws of the date, so it is compiled for each calendar. The files are read by the parquet crate
+//! alone.
 
 mod program;
 mod read;

@@ -1,8 +1,9 @@
-//! The species of a run: each that its treatments name, read and checked once, and compiled for the dates of its plants.
+//! The species of a run: each that its treatments name, read and checked once, and compiled for the dates of its
+//! plants.
 //!
-//! What depends on the date alone is compiled away: a law of the date is a table of the age. So a species with such laws
-//! is compiled once for each calendar and first tick of sowing, and stands in the run as a species of its own for each;
-//! a species without them is compiled once. Absent: calendars (`dates`), and what must hold between species and
+//! What depends on the date alone is compiled away: a law of the date is a table of the age. So a species with such
+//! laws is compiled once for each calendar and first tick of sowing, and stands in the run as a species of its own for
+//! each; a species without them is compiled once. Absent: calendars (`dates`), and what must hold between species and
 //! scenario (`checked`).
 
 use phytomer_law::Constant;
