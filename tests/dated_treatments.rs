@@ -74,6 +74,37 @@ fn each_treatment_is_the_run_that_it_would_be_alone() {
     assert!(plants.words("species").iter().all(|species| species == "dated"), "one species, whatever its calendars");
 }
 
+/// A response to nitrogen, which stands at its reference where nothing tells the nitrogen, is of each treatment too; at
+/// the reference the plants are those of the species without it.
+#[test]
+fn responses_to_nitrogen_are_of_each_treatment() {
+    let home = home();
+    let plain = "inherits = \"coffee\"\nname = \"plain\"\n";
+    let response = "[[response]]\nacts_on = [\"leaf_area\"]\nreference = 60\n\
+                    law = { mitscherlich = { over = \"nitrogen\", rate = 0.02, offset = 20 } }\n";
+    write(home.path(), "plain.toml", plain);
+    write(home.path(), "fed.toml", &format!("{plain}{response}"));
+    let base = BASE.replace("nitrogen_kg_ha = 10", "nitrogen_kg_ha = 0").replace("until = 12", "until = 8");
+    let levels = [0, 60, 120].map(|rate| {
+        let applied = format!("fertilization_date = \"2001-02-01\", N_in_applied_fertilizer = {rate}");
+        format!("{{ name = \"{rate}\", fertilizer = [{{ {applied} }}] }}")
+    });
+    let factor = format!("[[experiment.factor]]\nname = \"nitrogen\"\nlevel = [{}]\n", levels.join(", "));
+    grown(home.path(), "fed_trial", &format!("{}{EARLY}{factor}", base.replace("species.toml", "fed.toml")));
+    grown(home.path(), "plain_run", &format!("{}{EARLY}", base.replace("species.toml", "plain.toml")));
+    let trial = home.path().join("runs/fed_trial");
+    let [poor, at_reference, rich] = [0, 3, 6].map(|first| records(&trial, first..first + 3));
+    assert_eq!(at_reference, records(&home.path().join("runs/plain_run"), 0..3));
+    let leaves = |rows: &[Vec<u64>]| -> f64 {
+        rows.iter().map(|row| f64::from_bits(row[7])).filter(|area| !area.is_nan()).sum()
+    };
+    let m = |rate: f64| (1.0 - (-0.02 * (rate + 20.0)).exp()) / (1.0 - (-0.02_f64 * 80.0).exp());
+    for (rows, rate) in [(&poor, 0.0), (&rich, 120.0)] {
+        let ratio = leaves(rows) / leaves(&at_reference);
+        assert!((ratio / m(rate) - 1.0).abs() < 1e-4, "{rate} kg: {ratio}, not {}", m(rate));
+    }
+}
+
 /// The season of the early crop has the fertilizer of 1 May from tick 9 on, that of the late crop from tick 2 on.
 #[test]
 fn the_site_has_the_calendar_of_each_treatment() {

@@ -58,7 +58,7 @@ pub(crate) fn check_sowings(loader: &mut Loader, node: &Node, checked: &Checked)
     let trial = Trial::of(&checked.scenario, &checked.treatments);
     for (place, of) in checked.species() {
         let Some(member) = trial.sown_apart(place) else { continue };
-        if of.species.model.compile(trial.last_age_of_species(place)).is_ok() {
+        if !of.species.may_know_the_date() {
             continue;
         }
         let path = path_of(&["member"]).index(member).key("sown");

@@ -78,9 +78,7 @@ impl SpeciesOfRun<'_> {
             None => check_species(loader, mention, |_| until, dates.clone()),
             Some(place) => compiled_again(loader, &self.compiled[place], until?, &dates.clone().ok()??),
         };
-        let is_undated =
-            |of: &Compiled| key.is_none() || until.is_some_and(|until| of.species.model.compile(until).is_ok());
-        let key = key.filter(|_| !compiled.as_ref().is_some_and(is_undated));
+        let key = key.filter(|_| compiled.as_ref().is_none_or(|of| of.species.may_know_the_date()));
         let place = compiled.map(|compiled| {
             self.compiled.push(compiled);
             self.compiled.len() - 1
