@@ -246,9 +246,12 @@ fn look_of(plant: &Plant, age: Tick) -> [u8; 32] {
     digest.finalize().into()
 }
 
-/// What the species that are shown are called below their picture.
+/// What the species that are shown are called below their picture, each once.
 fn titles_of(species: &[&Species], shown: &BTreeSet<usize>) -> String {
-    let titles: Vec<String> = shown.iter().map(|place| title_of(&species[*place].about)).collect();
+    let mut titles: Vec<String> = Vec::new();
+    for title in shown.iter().map(|place| title_of(&species[*place].about)) {
+        titles.extend(Some(title).filter(|title| !titles.contains(title)));
+    }
     titles.join(", ")
 }
 
