@@ -7,6 +7,7 @@
 mod program;
 mod read;
 
+use phytomer::sim::math::exp;
 use program::{run, write};
 use read::Columns;
 use std::fs;
@@ -98,7 +99,7 @@ fn responses_to_nitrogen_are_of_each_treatment() {
     let leaves = |rows: &[Vec<u64>]| -> f64 {
         rows.iter().map(|row| f64::from_bits(row[7])).filter(|area| !area.is_nan()).sum()
     };
-    let m = |rate: f64| (1.0 - (-0.02 * (rate + 20.0)).exp()) / (1.0 - (-0.02_f64 * 80.0).exp());
+    let m = |rate: f64| (1.0 - exp(-0.02 * (rate + 20.0))) / (1.0 - exp(-0.02 * 80.0));
     for (rows, rate) in [(&poor, 0.0), (&rich, 120.0)] {
         let ratio = leaves(rows) / leaves(&at_reference);
         assert!((ratio / m(rate) - 1.0).abs() < 1e-4, "{rate} kg: {ratio}, not {}", m(rate));
