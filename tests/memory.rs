@@ -8,10 +8,10 @@
 
 use peak_alloc::PeakAlloc;
 use phytomer::config::scenario::{BYTES_A_COMPONENT, Every, Record};
-use phytomer::config::validate;
+use phytomer::config::{Resolved, validate};
 use phytomer::models::buds::LivingBuds;
 use phytomer::outputs::{Mode, RunFolder, Table};
-use phytomer::run::{self, Program, Progress, Settings, plan_of, seed_of};
+use phytomer::run::{self, Outcome, Program, Progress, Settings, plan_of, seed_of};
 use phytomer::sim::mechanics::{Scratch, bend};
 use phytomer::sim::plant::{Plant, Seed};
 use phytomer::sim::{Plot, Recorder, Sowing, Tick, grow};
@@ -84,15 +84,20 @@ fn peak_of(plants: u32) -> usize {
     scenario.ages.record = Record::Every(Every { every: 12, from: None });
     scenario.meshes = None;
     scenario.output.plants_per_part = Some(100);
+    let (outcome, peak) = run_alone(&resolved);
+    println!("{plants} plants, {} components in {} parts: {peak} bytes", outcome.report.components, outcome.shards);
+    assert_eq!(outcome.shards, plants / 100);
+    peak
+}
+
+/// What came of a run by one thread, and its peak of memory above what was allocated before, bytes.
+fn run_alone(resolved: &Resolved) -> (Outcome, usize) {
     let home = tempfile::tempdir().expect("a temporary folder");
     let settings = Settings { threads: 1, ..Settings::in_folder(home.path().join("run")) };
     let before = ALLOCATED.current_usage();
     ALLOCATED.reset_peak_usage();
-    let outcome = run::run(&resolved, &settings, &Progress::default()).expect("a run");
-    let peak = ALLOCATED.peak_usage() - before;
-    println!("{plants} plants, {} components in {} parts: {peak} bytes", outcome.report.components, outcome.shards);
-    assert_eq!(outcome.shards, plants / 100);
-    peak
+    let outcome = run::run(resolved, &settings, &Progress::default()).expect("a run");
+    (outcome, ALLOCATED.peak_usage() - before)
 }
 
 /// As [`peak_of`], of the shipped million of coffee trees: their sample is of two hundred, whatever their number.
@@ -100,12 +105,7 @@ fn peak_of_million(plants: u32) -> usize {
     let mut resolved = validate("million_coffee").unwrap_or_else(|report| panic!("{}", report.render(false)));
     resolved.scenario.plants = plants;
     resolved.scenario.output.plants_per_part = Some(250);
-    let home = tempfile::tempdir().expect("a temporary folder");
-    let settings = Settings { threads: 1, ..Settings::in_folder(home.path().join("run")) };
-    let before = ALLOCATED.current_usage();
-    ALLOCATED.reset_peak_usage();
-    let outcome = run::run(&resolved, &settings, &Progress::default()).expect("a run");
-    let peak = ALLOCATED.peak_usage() - before;
+    let (outcome, peak) = run_alone(&resolved);
     println!("{plants} plants, {} components, a sample of 200: {peak} bytes", outcome.report.components);
     peak
 }

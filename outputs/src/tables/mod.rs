@@ -61,7 +61,7 @@ use serde::{Deserialize, Serialize};
 /// Rows in a row group.
 pub const ROW_GROUP: usize = 122_880;
 
-/// One of the six tables.
+/// One of the seven tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Table {
