@@ -11,7 +11,7 @@ use crate::plot::{Member, Plot};
 use crate::shed::shed;
 
 impl Plot<'_> {
-    /// Whether operations keep growth from running ahead: they look at wood that remembers its shape, which must have
+    /// Whether operations keep growth from running ahead: they depend on wood that remembers its shape, which must have
     /// stood at each tick before.
     pub(crate) fn is_watched(&self) -> bool {
         self.management.looks() && self.remembers()

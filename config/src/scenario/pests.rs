@@ -355,7 +355,7 @@ mod tests {
         assert_ne!(of(&other), of(&pest("probability = 0.2\naggregation = 0.1")));
     }
 
-    /// Of plants that are killed whole with .4 so many are, at ages of the attack.
+    /// A pest that kills whole plants with the probability 0.4 kills that share of 3,000 plants, at ages of its attack.
     #[test]
     fn whole_plants_are_killed() {
         let of = Pest { attacks: Attacked::Plant, ..pest("probability = 0.4") };

@@ -9,7 +9,7 @@
 use crate::clock::{NEVER, Tick};
 use crate::math::log1p;
 
-/// A hazard of 1 leaves this share, so that sums of logarithms are finite.
+/// The least share that survives a tick: even a hazard of 1 leaves it, so that sums of logarithms stay finite.
 const LEAST_LEFT: f64 = 1e-15;
 
 /// What pests do to one plant.
