@@ -217,7 +217,7 @@ fn grow_shards(
 ) -> Result<Vec<ShardReport>, RunError> {
     let grower = Grower::of(resolved, folder.plan(), progress);
     let grow = |shard: u32| {
-        let meshes = RunMeshes::of(resolved, forms, folder.plan().shards());
+        let meshes = RunMeshes::of(grower.plots.trial(), forms, folder.plan().shards());
         let mut keeper = FolderKeeper { grower: &grower, folder, shard: folder.shard(shard)?, meshes, plot: 0 };
         Ok(if grower.grow_shard(shard, &mut keeper)? { Some(keeper.commit()?) } else { None })
     };
@@ -231,6 +231,8 @@ struct Grower<'a> {
     plots: Plots<'a>,
     plan: &'a RunPlan,
     progress: &'a Progress,
+    /// Whether a model makes its plants anew at each tick that is looked at.
+    remakes: bool,
 }
 
 /// What keeps the plots of a shard, in files or in memory.
@@ -244,7 +246,9 @@ trait Keeper: Recorder {
 
 impl<'a> Grower<'a> {
     fn of(resolved: &'a Resolved, plan: &'a RunPlan, progress: &'a Progress) -> Self {
-        Self { plots: Plots::of(resolved.trial(), resolved.models()), plan, progress }
+        let plots = Plots::of(resolved.trial(), resolved.models());
+        let remakes = plots.models().iter().any(|model| !model.growth().keeps_its_past());
+        Self { plots, plan, progress, remakes }
     }
 
     /// Grows the plots of one shard, one after another in the same columns; `false` where it was told to stop.
@@ -288,7 +292,7 @@ impl<'a> Grower<'a> {
     /// Whether a model must make its plants at this tick whatever is recorded: one that makes them anew must at the
     /// last, of which the components are written.
     fn must_make(&self, tick: Tick) -> bool {
-        tick == self.plan.until && self.plots.models().iter().any(|model| !model.growth().keeps_its_past())
+        tick == self.plan.until && self.remakes
     }
 
     /// The threads that may grow one plant: those for which there is no shard help with the plants of other shards.

@@ -57,7 +57,18 @@ impl ResolvedSpecies {
         };
         let Self { species, model, sources, tree } = self;
         let treatments = vec![Treatment::control(&scenario)];
-        Resolved { scenario, treatments, species, model, others: Vec::new(), calendars: vec![None], sources, tree }
+        Resolved {
+            site_seed: scenario.seed,
+            scenario,
+            treatments,
+            species,
+            model,
+            others: Vec::new(),
+            other_models: Vec::new(),
+            calendars: vec![None],
+            sources,
+            tree,
+        }
     }
 }
 

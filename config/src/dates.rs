@@ -7,8 +7,8 @@
 use std::sync::Arc;
 
 use phytomer_law::fault::{Path, Segment};
-use phytomer_sim::clock::Tick;
-use phytomer_sim::site::calendar::{Calendar, CalendarError, CalendarTick, Dates, Terms, TickLength};
+use phytomer_sim::site::calendar::{Calendar, CalendarTick, TickLength};
+use phytomer_sim::site::calendars::Calendars;
 use phytomer_sim::site::date::Date;
 use phytomer_weather::{Notes, Station, Weather};
 use serde::{Deserialize, Serialize};
@@ -16,16 +16,18 @@ use serde_json::{Value as Json, json};
 
 use crate::document::Node;
 use crate::load::{Loader, path_of};
+use crate::making::Making;
 use crate::report::Fault;
 use crate::scenario::Scenario;
 use crate::source::Span;
 use crate::treatments::Read;
 
-/// The calendar of a run, and the weather that it was made of.
+/// The calendars of a treatment, and the weather that they were made of.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dated {
-    /// The ticks of the plots.
-    pub calendar: Arc<Calendar>,
+    /// The ticks of the plots: for all replicates, or for each one where they grow in different years. What blocks and
+    /// field plots shift is not in them.
+    pub calendars: Calendars,
     /// The weather file; `None` where the scenario names none.
     pub weather: Option<WeatherRead>,
 }
@@ -44,14 +46,13 @@ pub struct WeatherRead {
 }
 
 impl Dated {
-    /// The dates of a plant that is sown at a tick of its plot.
-    pub fn of_sowing(&self, sown: Tick) -> Dates {
-        Dates { calendar: Arc::clone(&self.calendar), sown }
-    }
-
-    /// The calendar and the weather as `run.json` keeps them.
+    /// The calendar, or those of the replicates, and the weather as `run.json` keeps them.
     pub(crate) fn to_json(&self) -> Json {
-        let mut json = json!({"calendar": Columns::of(&self.calendar)});
+        let columns: Vec<Columns> = self.calendars.all().iter().map(|calendar| Columns::of(calendar)).collect();
+        let mut json = match columns.as_slice() {
+            [of_all] => json!({"calendar": of_all}),
+            of_replicates => json!({"calendars": of_replicates}),
+        };
         if let Some(weather) = &self.weather {
             let [first, last] = weather.days.map(|day| day.to_string());
             let Station { name, latitude, longitude, elevation_m } = &weather.station;
@@ -65,15 +66,19 @@ impl Dated {
     }
 }
 
-/// The calendar that `run.json` keeps; `None` where it has none.
+/// The calendars that `run.json` keeps of a treatment, or of a run without treatments.
 ///
 /// # Errors
 /// A calendar that this program cannot have written.
-pub fn calendar_of_run(resolved: &Json) -> serde_json::Result<Option<Arc<Calendar>>> {
-    let Some(kept) = resolved.get("calendar") else { return Ok(None) };
-    let calendar = Columns::deserialize(kept)?.into_calendar();
-    let unknown = "the calendar has columns of different lengths, or a date that is none";
-    calendar.map(|calendar| Some(Arc::new(calendar))).ok_or_else(|| serde::de::Error::custom(unknown))
+pub fn calendars_of_run(resolved: &Json) -> serde_json::Result<Calendars> {
+    let of_replicates = resolved.get("calendars").and_then(Json::as_array).map(Vec::as_slice).unwrap_or_default();
+    let calendar = |kept: &Json| {
+        let unknown = "the calendar has columns of different lengths, or a date that is none";
+        let calendar = Columns::deserialize(kept)?.into_calendar();
+        calendar.map(Arc::new).ok_or_else(|| serde::de::Error::custom(unknown))
+    };
+    let kept = resolved.get("calendar").into_iter().chain(of_replicates);
+    Ok(Calendars::new(kept.map(calendar).collect::<serde_json::Result<_>>()?))
 }
 
 /// A calendar by its columns, one entry a tick.
@@ -130,42 +135,35 @@ impl Columns {
     }
 }
 
-/// The calendar of a scenario; `Ok(None)` where it states none. Where it cannot be made, its faults are added to those
-/// of the loader.
-pub(crate) fn of(loader: &mut Loader, node: &Node, scenario: &Scenario) -> Result<Option<Dated>, Refused> {
-    let Some(calendar) = &scenario.calendar else { return Ok(None) };
-    let read = match &scenario.weather {
-        Some(_) => Some(read_weather(loader, node, scenario)?),
-        None => None,
-    };
-    let (Some(planted), Some(tick)) = (scenario.planted(), calendar.tick.stated()) else { return Err(Refused) };
-    let station = read.as_ref().map(|(_, read)| read.station.latitude);
-    let latitude = scenario.site.latitude_deg.map(f64::to_radians).or(station.flatten());
-    let degree_days = calendar.degree_days.map(|degree_days| degree_days.felt());
-    let mut terms = Terms { planted, tick, degree_days, latitude, soil: None };
-    let weather = read.as_ref().map(|(weather, _)| weather);
-    let temperatures = |date: Date| weather?.day(date).map(|day| [day.maximum, day.minimum]);
-    let until = scenario.ages.until;
-    let made = Calendar::of(&terms, until, temperatures).and_then(|bare| {
-        // How often fertilizer comes again depends on the last day.
-        terms.soil = scenario.soil_until(planted, bare.at(until).date);
-        if terms.soil.is_some() { Calendar::of(&terms, until, temperatures) } else { Ok(bare) }
-    });
-    match made {
-        Ok(made) => {
-            check_ends(loader, node, scenario, &made)?;
-            Ok(Some(Dated { calendar: Arc::new(made), weather: read.map(|(_, read)| read) }))
-        }
-        Err(error) => {
-            loader.faults.push(placed(node, &error, weather, scenario));
-            Err(Refused)
-        }
+/// The calendars of a scenario whose experiment has so many replicates; `Ok(None)` where it states none. Where they
+/// cannot be made, the faults are added to those of the loader.
+fn of(loader: &mut Loader, node: &Node, scenario: &Scenario, replicates: u32) -> Result<Option<Dated>, Refused> {
+    if scenario.calendar.is_none() {
+        return Ok(None);
     }
+    let (weather, read) = match &scenario.weather {
+        Some(_) => read_weather(loader, node, scenario).map(|(weather, read)| (Some(weather), Some(read)))?,
+        None => (None, None),
+    };
+    let station = read.as_ref().and_then(|read| read.station.latitude);
+    let latitude = scenario.site.latitude_deg.map(f64::to_radians).or(station);
+    let made = Making { scenario, weather: weather.as_ref(), latitude }.all(replicates);
+    made.map(|calendars| Some(Dated { calendars, weather: read })).map_err(|faults| {
+        let placed = faults
+            .into_iter()
+            .map(|fault| Fault::new(node.locate(&fault.path), &fault.path, fault.problem, fault.expected));
+        loader.faults.extend(placed);
+        Refused
+    })
 }
 
 /// The calendars of treatments, one for each; treatments with the same dates share one. A fault is told once, however
 /// many treatments have it.
-pub(crate) fn of_treatments(loader: &mut Loader, read: &[Read]) -> Result<Vec<Option<Dated>>, Refused> {
+pub(crate) fn of_treatments(
+    loader: &mut Loader,
+    read: &[Read],
+    replicates: u32,
+) -> Result<Vec<Option<Dated>>, Refused> {
     let mut made: Vec<(&Scenario, Result<Option<Dated>, Refused>)> = Vec::new();
     let mut calendars = Vec::with_capacity(read.len());
     for Read { scenario, expanded, .. } in read {
@@ -176,7 +174,7 @@ pub(crate) fn of_treatments(loader: &mut Loader, read: &[Read]) -> Result<Vec<Op
         let known = made.iter().find(|(other, _)| other.has_the_dates_of(scenario)).map(|(_, known)| known.clone());
         let calendar = known.unwrap_or_else(|| {
             let told = loader.faults.len();
-            let calendar = of(loader, &expanded.node, scenario);
+            let calendar = of(loader, &expanded.node, scenario, replicates);
             let new = loader.faults.split_off(told);
             let is_told = |fault: &Fault| loader.faults.iter().any(|other| other == fault);
             let new: Vec<Fault> = new.into_iter().filter(|fault| !is_told(fault)).collect();
@@ -187,6 +185,11 @@ pub(crate) fn of_treatments(loader: &mut Loader, read: &[Read]) -> Result<Vec<Op
         calendars.push(calendar);
     }
     calendars.into_iter().collect()
+}
+
+/// The calendars of treatments, before what blocks and field plots shift.
+pub(crate) fn calendars_of(dated: &[Option<Dated>]) -> Vec<Calendars> {
+    dated.iter().map(|dated| dated.as_ref().map(|dated| dated.calendars.clone()).unwrap_or_default()).collect()
 }
 
 /// Whether a fault is one of the keys that decide the dates, so that without them nothing can be said of laws of the
@@ -239,47 +242,4 @@ fn read_weather(loader: &mut Loader, node: &Node, scenario: &Scenario) -> Result
             Err(Refused)
         }
     }
-}
-
-/// The fault of a calendar that cannot be made, at the key that decides it.
-fn placed(node: &Node, error: &CalendarError, weather: Option<&Weather>, scenario: &Scenario) -> Fault {
-    let (keys, problem, expected): (&[&str], String, String) = match (error, weather) {
-        (CalendarError::NoWeather { tick, date }, Some(weather)) => {
-            let (first, last) = (weather.first(), weather.last());
-            let problem = format!("the weather goes from {first} to {last}, and tick {tick} needs that of {date}");
-            let run = match date < &first {
-                true => "a later `planting_date`",
-                false => "an earlier `ages.until`",
-            };
-            (&["weather", "file"], problem, format!("weather for the whole run, {run}, or `beyond = \"repeat\"`"))
-        }
-        (CalendarError::Endless { .. }, _) => {
-            let expected = "a lower `calendar.degree_days.base_celsius`, or a smaller sum".to_owned();
-            (&["calendar", "tick", "degree_days"], error.to_string(), expected)
-        }
-        _ => {
-            let until = scenario.ages.until;
-            let expected = format!("an earlier `planting_date`, or shorter ticks: the run has {until}");
-            (&["planting_date"], error.to_string(), expected)
-        }
-    };
-    let path = path_of(keys);
-    Fault::new(node.locate(&path), &path, problem, expected)
-}
-
-/// Fertilizer that is applied after the last tick would have no effect.
-fn check_ends(loader: &mut Loader, node: &Node, scenario: &Scenario, calendar: &Calendar) -> Result<(), Refused> {
-    let end = calendar.at(scenario.ages.until).date;
-    let mut checked = Ok(());
-    for (number, event) in scenario.fertilizer.iter().enumerate() {
-        let late = Date::parse(&event.fertilization_date).is_some_and(|date| date >= end);
-        if !late {
-            continue;
-        }
-        let path = Path::root().key("fertilizer").index(number).key("fertilization_date");
-        let problem = format!("the run ends with {}: what is applied later has no effect", end.plus(-1));
-        loader.faults.push(Fault::new(node.locate(&path), &path, problem, format!("a day before {end}")));
-        checked = Err(Refused);
-    }
-    checked
 }

@@ -6,6 +6,7 @@
 use phytomer_sim::expectation::Certainty;
 use phytomer_sim::model::GrowthModel;
 
+use crate::cohorts::Cohort;
 use crate::document::Node;
 use crate::load::{integer_at, path_of};
 use crate::report::Fault;
@@ -40,17 +41,19 @@ pub(crate) fn fault_of(
     Some(Fault::new(node.locate(&path), &path, problem, expected))
 }
 
-/// The last age of a species of the trial, by its index, up to which its model alone decides how it grows in some
+/// The last age of a cohort of the trial, by its index, up to which its model alone decides how it grows in some
 /// treatment: a pest may keep a plant small from the first tick on, and a cut from its tick on. `None` where there is
 /// no such age.
-pub(crate) fn foreseen_until(trial: &Trial, species: usize) -> Option<u32> {
-    let of_treatment = |treatment: &Treatment| {
-        let place = treatment.species.iter().position(|known| *known == species)?;
-        let last = treatment.scenario.last_age_of_species(place);
+pub(crate) fn foreseen_until(trial: &Trial, cohort: usize) -> Option<u32> {
+    let Cohort { species, until, .. } = trial.cohorts().get(cohort)?;
+    let of_treatment = |(place, treatment): (usize, &Treatment)| {
+        trial.rows_of_cohorts(place).iter().any(|row| row.contains(&cohort)).then_some(())?;
+        let own = treatment.species.iter().position(|known| known == species)?;
+        let last = treatment.scenario.last_age_of_species(own).min(*until);
         let uncut = treatment.scenario.first_cut().map_or(last, |first| last.min(first.saturating_sub(1)));
         Some(uncut).filter(|uncut| *uncut > 0 && treatment.scenario.pest.is_empty())
     };
-    trial.treatments().iter().filter_map(of_treatment).max()
+    trial.treatments().iter().enumerate().filter_map(of_treatment).max()
 }
 
 /// A large number as text, such as "12 000" or "3.4e12".

@@ -5,6 +5,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use phytomer_law::Variable;
 use phytomer_law::fault::{Fault, Path};
 use phytomer_models::parameters::{Card, Parameters};
 use phytomer_sim::model::GrowthModel;
@@ -144,6 +145,15 @@ impl Model {
         self.parameters().model(until, dates, &Path::root())
     }
 
+    /// Whether a law may depend on the date: a parameter has the name of a variable of the date, in `over` or in an
+    /// expression. A word of the parameters' texts is enough, since to be wrong costs no more than to compile the model
+    /// once more.
+    pub(crate) fn may_know_the_date(&self) -> bool {
+        let names = Variable::ALL.into_iter().filter(|variable| variable.is_of_the_date()).map(Variable::name);
+        let names: Vec<&str> = names.collect();
+        self.to_json().map_or(true, |parameters| has_word(&parameters, &names))
+    }
+
     /// As [`Parameters::own_forms`].
     pub fn own_forms(&self) -> Vec<(Path, &str)> {
         self.parameters().own_forms()
@@ -162,6 +172,17 @@ impl Model {
     /// As [`Parameters::year`].
     pub(crate) fn year(&self) -> Option<(Path, u32)> {
         self.parameters().year()
+    }
+}
+
+/// Whether any text in a value has one of the words.
+fn has_word(value: &Json, words: &[&str]) -> bool {
+    let is_in_name = |character: char| character.is_alphanumeric() || character == '_';
+    match value {
+        Json::String(text) => text.split(|character| !is_in_name(character)).any(|word| words.contains(&word)),
+        Json::Array(items) => items.iter().any(|item| has_word(item, words)),
+        Json::Object(keys) => keys.values().any(|value| has_word(value, words)),
+        _ => false,
     }
 }
 

@@ -8,14 +8,14 @@ use std::sync::Arc;
 
 use phytomer_law::fault;
 use phytomer_sim::model::GrowthModel;
-use phytomer_sim::site::calendar::Dates;
 use serde_json::{Value as Json, json};
 
-use crate::dates::Dated;
+use crate::cohorts::Cohort;
+use crate::dates::{Dated, calendars_of};
 use crate::document::Node;
 use crate::meaning;
 use crate::report::Report;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, Soil};
 use crate::source::Sources;
 use crate::species::Species;
 use crate::trial::{Treatment, Trial, check_size};
@@ -23,7 +23,7 @@ use crate::trial::{Treatment, Trial, check_size};
 /// A run that is ready to start.
 #[derive(Clone)]
 pub struct Resolved {
-    /// The scenario: plants, plots, ages, tables and meshes.
+    /// The scenario: plants, plots, ages, tables and meshes. Its seed is changed by [`Resolved::reseed`].
     pub scenario: Scenario,
     /// Its treatments, each a scenario of its own; one, `control`, where nothing is compared. [`Resolved::trial`] has
     /// them with what was changed in `scenario` since.
@@ -31,14 +31,20 @@ pub struct Resolved {
     /// The first species of the run, with its inheritance resolved: the scenario's own, unless each level of a factor
     /// names another.
     pub species: Species,
-    /// The growth model of the first species, compiled for all ages that its plants reach.
+    /// The growth model of the first cohort, which is of the first species, compiled for all ages that its plants
+    /// reach.
     pub model: Arc<dyn GrowthModel>,
     /// The other species, which members or levels name, in the order in which the treatments name them.
     pub others: Vec<OtherSpecies>,
-    /// The calendar of the plots of each treatment; `None` where its scenario states none.
+    /// The growth models of the other cohorts, in the order of [`Trial::cohorts`].
+    pub other_models: Vec<Arc<dyn GrowthModel>>,
+    /// The calendars of the plots of each treatment; `None` where its scenario states none. What blocks and field plots
+    /// shift is not in them: [`Resolved::trial`] has it.
     pub calendars: Vec<Option<Dated>>,
     /// Every text that was read, for hashes and provenance: the scenario first, then each species and its ancestors.
     pub sources: Sources,
+    /// The seed whose draws of the site are compiled into the models.
+    pub(crate) site_seed: u64,
     pub(crate) tree: Node,
 }
 
@@ -47,10 +53,11 @@ pub struct Resolved {
 pub struct OtherSpecies {
     /// The species, with its inheritance resolved.
     pub species: Species,
-    /// The growth model of the species, compiled for all ages that its plants reach.
-    pub model: Arc<dyn GrowthModel>,
     pub(crate) tree: Node,
 }
+
+/// A species that does not compile: its index in [`Resolved::all_species`], and its faults.
+pub type Uncompiled = (usize, Vec<fault::Fault>);
 
 impl fmt::Debug for Resolved {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -59,9 +66,46 @@ impl fmt::Debug for Resolved {
 }
 
 impl Resolved {
-    /// The treatments with the numbers of their plots and plants.
+    /// The treatments with the numbers of their plots and plants, their calendars and their cohorts.
     pub fn trial(&self) -> Trial {
-        Trial::of(&self.scenario, &self.treatments)
+        let trial = Trial::of(&self.scenario, &self.treatments);
+        if self.calendars.iter().all(Option::is_none) {
+            return trial;
+        }
+        let knows: Vec<bool> = self.all_species().into_iter().map(Species::may_know_the_date).collect();
+        trial.dated(&calendars_of(&self.calendars), &knows, self.site_seed)
+    }
+
+    /// Changes the seed of the run. Where blocks or field plots shift the site, their draws are those of the new seed,
+    /// and the models are compiled for them.
+    ///
+    /// # Errors
+    /// A species whose laws do not hold under these draws.
+    pub fn reseed(&mut self, seed: u64) -> Result<(), Report> {
+        self.scenario.seed = seed;
+        if !self.is_stale() {
+            return Ok(());
+        }
+        self.compile().map_err(|(species, faults)| self.report_of(species, faults))
+    }
+
+    /// Whether the models are compiled for the draws of another seed than that of the scenario.
+    pub fn is_stale(&self) -> bool {
+        let differs = |treatment: &Treatment| treatment.scenario.soil.as_ref().is_some_and(Soil::differs);
+        self.site_seed != self.scenario.seed && self.treatments.iter().any(differs)
+    }
+
+    /// Compiles the models of all cohorts again: for other parameters of the species, or another seed of the scenario.
+    ///
+    /// # Errors
+    /// The first species that does not compile.
+    pub fn compile(&mut self) -> Result<(), Uncompiled> {
+        self.site_seed = self.scenario.seed;
+        let mut models = compiled(&self.trial(), &self.all_species())?.into_iter();
+        if let Some(first) = models.next() {
+            (self.model, self.other_models) = (first, models.collect());
+        }
+        Ok(())
     }
 
     /// Limits each replicate of each treatment to so many plants, and leaves out the meshes of plants that do not grow.
@@ -80,7 +124,8 @@ impl Resolved {
         let size = size.map(|fault| (String::new(), fault));
         let of = |treatment: &Treatment| {
             let name = treatment.name.clone();
-            treatment.scenario.faults_in_run_of(trial.plants()).into_iter().map(move |fault| (name.clone(), fault))
+            let faults = treatment.scenario.faults_in_run_of(trial.plants(), Some(&self.scenario.experiment));
+            faults.into_iter().map(move |fault| (name.clone(), fault))
         };
         size.into_iter().chain(trial.treatments().iter().flat_map(of)).collect()
     }
@@ -96,13 +141,13 @@ impl Resolved {
         placed(&self.sources, other.map_or(&self.tree, |other| &other.tree), faults)
     }
 
-    /// All species, in the order in which the treatments name them; one whose laws depend on the date is there for each
-    /// calendar.
+    /// All species, in the order in which the treatments name them.
     pub fn all_species(&self) -> Vec<&Species> {
         [&self.species].into_iter().chain(self.others.iter().map(|other| &other.species)).collect()
     }
 
-    /// All species, each once whatever its calendars, in the order in which the treatments name them.
+    /// All species, each once whatever the names by which treatments call it, in the order in which the treatments name
+    /// them.
     pub fn distinct_species(&self) -> Vec<&Species> {
         let mut distinct: Vec<&Species> = Vec::new();
         for species in self.all_species() {
@@ -113,16 +158,9 @@ impl Resolved {
         distinct
     }
 
-    /// The dates of the ages of a species, by its index in [`Resolved::all_species`]; `None` without a calendar.
-    pub fn dates_of(&self, species: usize) -> Option<Dates> {
-        let trial = self.trial();
-        let calendar = self.calendars.get(trial.treatment_with(species)?)?.as_ref()?;
-        Some(calendar.of_sowing(trial.first_sowing_of_species(species)))
-    }
-
-    /// The growth models of all species, in the order of [`Resolved::all_species`].
+    /// The growth models of all cohorts, in the order of [`Trial::cohorts`].
     pub fn models(&self) -> Vec<&dyn GrowthModel> {
-        [self.model.as_ref()].into_iter().chain(self.others.iter().map(|other| other.model.as_ref())).collect()
+        [&self.model].into_iter().chain(&self.other_models).map(AsRef::as_ref).collect()
     }
 
     /// The expected number of components that a plant of the first species has made by `age`, in ticks: the
@@ -133,7 +171,7 @@ impl Resolved {
 
     /// The whole run as JSON, for `run.json`: the scenario with its defaults, its species with inheritance resolved,
     /// under `other_species` the further species, and under `treatments` those of an experiment, each with its
-    /// scenario and its calendar.
+    /// scenario and its calendars.
     ///
     /// # Errors
     /// A number that JSON cannot hold, which no checked run has.
@@ -174,6 +212,18 @@ impl Resolved {
     pub fn species_toml(&self) -> Result<String, toml::ser::Error> {
         self.species.to_toml()
     }
+}
+
+/// The models of the cohorts of a trial of these species.
+///
+/// # Errors
+/// The first species that does not compile.
+pub fn compiled(trial: &Trial, species: &[&Species]) -> Result<Vec<Arc<dyn GrowthModel>>, Uncompiled> {
+    let compiled = |cohort: &Cohort| {
+        let of = species.get(cohort.species).ok_or((cohort.species, Vec::new()))?;
+        of.model.compile_dated(cohort.until, cohort.dates.as_ref()).map_err(|faults| (cohort.species, faults))
+    };
+    trial.cohorts().iter().map(compiled).collect()
 }
 
 /// Adds the keys of one object to another.

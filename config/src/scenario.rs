@@ -7,6 +7,7 @@
 mod calendar;
 mod events;
 pub mod experiment;
+mod field_plot;
 pub(crate) mod icasa;
 mod meshes;
 mod pests;
@@ -19,6 +20,7 @@ pub(crate) mod tables;
 pub use calendar::{Calendar, Fertilizer, Soil, TickLength};
 pub use events::{Event, Work};
 pub use experiment::{Design, Experiment};
+pub use field_plot::FieldPlot;
 pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use pests::{Attacked, Clustered, Host, Larvae, Pest, exposure};
 pub use planting::{Grid, Planting};
@@ -277,11 +279,12 @@ impl Scenario {
     /// The faults that the schema cannot state: ages after the last, plants beyond their number, a run that writes
     /// nothing.
     pub fn faults(&self) -> Vec<Fault> {
-        self.faults_in_run_of(self.plants)
+        self.faults_in_run_of(self.plants, Some(&self.experiment))
     }
 
-    /// The same for the scenario of one treatment of a run that has so many plants in all.
-    pub fn faults_in_run_of(&self, plants: u32) -> Vec<Fault> {
+    /// The same for the scenario of one treatment of a run that has so many plants in all, in this experiment; `None`
+    /// where the experiment could not be read.
+    pub fn faults_in_run_of(&self, plants: u32, experiment: Option<&Experiment>) -> Vec<Fault> {
         let mut faults = Vec::new();
         let ages = Path::root().key("ages");
         match &self.ages.record {
@@ -300,6 +303,10 @@ impl Scenario {
         self.check_planting(&mut faults);
         self.check_events(&mut faults);
         self.check_calendar(&mut faults);
+        if let Some(experiment) = experiment {
+            self.check_years(experiment, &mut faults);
+            self.check_blocks(experiment, &mut faults);
+        }
         self.site.check_planes(&Path::root().key("site"), &mut faults);
         if self.tables.is_empty() && self.meshes.is_none() {
             let problem = "this run would write nothing: no table and no mesh is asked for";

@@ -7,7 +7,7 @@
 
 use std::sync::OnceLock;
 
-use phytomer_law::{Constant, Variable};
+use phytomer_law::Constant;
 use serde_json::{Map, Value as Json};
 
 use crate::about::About;
@@ -31,13 +31,9 @@ impl Species {
         stated.or_else(|| self.model.year().map(|(_, ticks)| ticks.into()))
     }
 
-    /// Whether a law of the species may depend on the date: a parameter has the name of a variable of the date, in
-    /// `over` or in an expression. A word of its model's texts is enough, since to be wrong costs no more than to
-    /// compile the species once more.
-    pub(crate) fn may_know_the_date(&self) -> bool {
-        let names = Variable::ALL.into_iter().filter(|variable| variable.is_of_the_date()).map(Variable::name);
-        let names: Vec<&str> = names.collect();
-        self.model.to_json().map_or(true, |parameters| has_word(&parameters, &names))
+    /// Whether a law of the species may depend on the date.
+    pub fn may_know_the_date(&self) -> bool {
+        self.model.may_know_the_date()
     }
 
     /// The species as JSON, with the keys of a species file without ancestors.
@@ -72,17 +68,6 @@ impl Species {
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         let json = self.to_json().map_err(<toml::ser::Error as serde::ser::Error>::custom)?;
         toml::to_string(&json)
-    }
-}
-
-/// Whether any text in a value has one of the words.
-fn has_word(value: &Json, words: &[&str]) -> bool {
-    let is_in_name = |character: char| character.is_alphanumeric() || character == '_';
-    match value {
-        Json::String(text) => text.split(|character| !is_in_name(character)).any(|word| words.contains(&word)),
-        Json::Array(items) => items.iter().any(|item| has_word(item, words)),
-        Json::Object(keys) => keys.values().any(|value| has_word(value, words)),
-        _ => false,
     }
 }
 

@@ -1,142 +1,183 @@
-//! The species of a run: each that its treatments name, read and checked once, and compiled for the dates of its
-//! plants.
+//! The species of a run: each that its treatments name, read and checked once, and compiled for each of its cohorts.
 //!
-//! What depends on the date alone is compiled away: a law of the date is a table of the age. So a species with such
-//! laws is compiled once for each calendar and first tick of sowing, and stands in the run as a species of its own for
-//! each; a species without them is compiled once. Absent: calendars (`dates`), and what must hold between species and
-//! scenario (`checked`).
+//! Where a scenario could not be read, its species are compiled all the same, for the ages and dates that are known, so
+//! that the faults of all files are told at once. Absent: calendars (`dates`), cohorts, and what must hold between
+//! species and scenario (`checked`).
+
+use std::sync::Arc;
 
 use phytomer_law::Constant;
 use phytomer_sim::clock::LAST_TICK;
+use phytomer_sim::model::GrowthModel;
 use phytomer_sim::site::calendar::Dates;
 
 use crate::about::About;
-use crate::checked::Compiled;
-use crate::dates::{Dated, Refused};
+use crate::checked::{Compiled, Stated};
+use crate::cohorts::check_calendars;
+use crate::dates::{Dated, Refused, calendars_of};
 use crate::document::Node;
 use crate::load::{Found, Loader, Mention, path_of};
+use crate::meaning;
 use crate::models::Model;
 use crate::report::Fault;
+use crate::scenario::Scenario;
 use crate::species::Species;
 use crate::treatments::Read;
+use crate::trial::{Treatment, Trial};
 
-/// The calendars of all treatments, one for each.
-type Calendars<'a> = Result<&'a [Option<Dated>], &'a Refused>;
-
-/// The species of the run, and for each treatment the places of its species among them. `until` is the last tick.
-pub(crate) fn check(
-    loader: &mut Loader,
-    read: &[Read],
-    calendars: Calendars<'_>,
-    until: Option<u32>,
-) -> Option<(Vec<Compiled>, Vec<Vec<usize>>)> {
-    let mut run = SpeciesOfRun { read, calendars, until, known: Vec::new(), compiled: Vec::new() };
-    let mut places = Vec::with_capacity(read.len());
-    for (treatment, Read { species, .. }) in read.iter().enumerate() {
-        // All are looked at, so that the faults of all are told.
-        let of_treatment: Vec<Option<usize>> =
-            species.iter().map(|mention| run.place(loader, mention, treatment)).collect();
-        places.push(of_treatment.into_iter().collect::<Option<Vec<usize>>>());
-    }
-    Some((run.compiled, places.into_iter().collect::<Option<_>>()?))
+/// A run as far as it is known: its tree, its scenario, its last tick, and the calendars of its treatments.
+pub(crate) struct Run<'a> {
+    pub node: &'a Node,
+    pub scenario: Option<&'a Scenario>,
+    pub until: Option<u32>,
+    pub calendars: Result<&'a [Option<Dated>], &'a Refused>,
+    pub read: &'a [Read],
 }
 
-/// What the laws of a species may depend on beside the age: a calendar, as the first treatment that has it, and the
-/// first tick of sowing.
-type Key = (usize, u32);
-
-/// A species under a key.
-struct Known {
-    name: String,
-    /// `None` where no law depends on the date.
-    key: Option<Key>,
-    /// Its place in the run; `None` where it has faults, which are told.
-    place: Option<usize>,
+/// The species of a run and its treatments, with the model of each cohort of its trial.
+pub(crate) struct SpeciesOfRun {
+    pub treatments: Vec<Treatment>,
+    pub species: Vec<Stated>,
+    pub trial: Trial,
+    pub models: Vec<Arc<dyn GrowthModel>>,
 }
 
-struct SpeciesOfRun<'a> {
-    read: &'a [Read],
-    calendars: Calendars<'a>,
-    until: Option<u32>,
-    known: Vec<Known>,
-    compiled: Vec<Compiled>,
-}
-
-impl SpeciesOfRun<'_> {
-    /// The place in the run of a species of a treatment.
-    fn place(&mut self, loader: &mut Loader, mention: &Mention, treatment: usize) -> Option<usize> {
-        let key = self.key_of(mention, treatment);
-        let of_name = || self.known.iter().filter(|known| known.name == mention.name);
-        let holds = |known: &&Known| known.place.is_none() || known.key.is_none() || known.key == key;
-        if let Some(known) = of_name().find(holds) {
-            return known.place;
-        }
-        let first = of_name().find_map(|known| known.place);
-        let dates = self.calendars.map(|_| key.and_then(|key| self.dates(key))).map_err(|refused| *refused);
-        let until = self.until.map(|until| self.last_age_of(mention).unwrap_or(until));
-        let compiled = match first {
-            None => check_species(loader, mention, |_| until, dates.clone()),
-            Some(place) => compiled_again(loader, &self.compiled[place], until?, &dates.clone().ok()??),
-        };
-        let key = key.filter(|_| compiled.as_ref().is_none_or(|of| of.species.may_know_the_date()));
-        let place = compiled.map(|compiled| {
-            self.compiled.push(compiled);
-            self.compiled.len() - 1
-        });
-        self.known.push(Known { name: mention.name.clone(), key, place });
-        place
-    }
-
-    fn key_of(&self, mention: &Mention, treatment: usize) -> Option<Key> {
+impl Run<'_> {
+    /// Reads, checks and compiles the species of all treatments; `None` where there are faults, which are told.
+    pub fn check(&self, loader: &mut Loader) -> Option<SpeciesOfRun> {
+        let names = self.names();
+        let found: Vec<Option<Found>> = names.iter().map(|mention| read_species(loader, mention)).collect();
+        // Without its calendars a run cannot know which laws of the date hold.
         let calendars = self.calendars.ok()?;
-        let calendar = calendars.get(treatment)?.as_ref()?;
-        let first = calendars.iter().position(|other| other.as_ref() == Some(calendar))?;
-        let scenario = self.read[treatment].scenario.as_ref()?;
-        let place = scenario.species_names().iter().position(|name| *name == mention.name)?;
-        Some((first, scenario.first_sowing_of(place)))
+        let Some(treatments) = self.treatments(&names) else {
+            for (mention, found) in names.iter().zip(&found) {
+                self.compile_alone(loader, mention, found.as_ref(), calendars);
+            }
+            return None;
+        };
+        let trial = self.trial(loader, &treatments, calendars, &found)?;
+        let models = compile(loader, &trial, &found);
+        let stated = |of: Found| {
+            let Found { about, model, node } = of;
+            Some(Stated { species: Species { about: about?, model }, tree: node })
+        };
+        let species = found.into_iter().map(|of| stated(of?)).collect::<Option<Vec<Stated>>>()?;
+        Some(SpeciesOfRun { treatments, species, trial, models: models? })
     }
 
-    fn dates(&self, (calendar, sown): Key) -> Option<Dates> {
-        Some(self.calendars.ok()?.get(calendar)?.as_ref()?.of_sowing(sown))
+    /// The species that treatments name, each once.
+    fn names(&self) -> Vec<&Mention> {
+        let mut names: Vec<&Mention> = Vec::new();
+        for mention in self.read.iter().flat_map(|read| &read.species) {
+            if names.iter().all(|known| known.name != mention.name) {
+                names.push(mention);
+            }
+        }
+        names
     }
 
-    /// The last age that a species reaches in any treatment; `None` where none of them could be read.
-    fn last_age_of(&self, species: &Mention) -> Option<u32> {
-        let ages = self.read.iter().filter_map(|Read { scenario, .. }| {
+    /// The treatments with the places of their species; `None` where a scenario or its last tick could not be read.
+    fn treatments(&self, names: &[&Mention]) -> Option<Vec<Treatment>> {
+        let run = self.scenario.filter(|_| self.until.is_some())?;
+        let treatment = |read: &Read| {
+            let place = |mention: &Mention| names.iter().position(|known| known.name == mention.name);
+            let chosen = &read.expanded.chosen;
+            Some(Treatment {
+                name: chosen.name.clone(),
+                levels: run.experiment.level_names(&chosen.levels),
+                scenario: read.scenario.clone()?,
+                species: read.species.iter().map(place).collect::<Option<_>>()?,
+            })
+        };
+        self.read.iter().map(treatment).collect()
+    }
+
+    /// The trial of these treatments; `None` where it has more calendars or cohorts than a run can have.
+    fn trial(
+        &self,
+        loader: &mut Loader,
+        treatments: &[Treatment],
+        calendars: &[Option<Dated>],
+        found: &[Option<Found>],
+    ) -> Option<Trial> {
+        let scenario = self.scenario?;
+        let many = check_calendars(scenario, treatments.iter().map(|treatment| &treatment.scenario));
+        let trial = many.map_or_else(
+            || {
+                let knows = |found: &Option<Found>| found.as_ref().is_some_and(|of| of.model.may_know_the_date());
+                let knows: Vec<bool> = found.iter().map(knows).collect();
+                let trial = Trial::of(scenario, treatments).dated(&calendars_of(calendars), &knows, scenario.seed);
+                trial.check_cohorts().map_or(Ok(trial), Err)
+            },
+            Err,
+        );
+        trial.map_err(|fault| loader.faults.push(meaning::place(&loader.sources, self.node, fault))).ok()
+    }
+
+    /// Compiles a species whose cohorts are not known, for the faults that it has.
+    fn compile_alone(
+        &self,
+        loader: &mut Loader,
+        mention: &Mention,
+        found: Option<&Found>,
+        calendars: &[Option<Dated>],
+    ) {
+        let (Some(found), Some(until)) = (found, self.until) else { return };
+        let each = self.read.iter().zip(calendars).filter_map(|(Read { scenario, .. }, dated)| {
             let scenario = scenario.as_ref()?;
-            let place = scenario.species_names().iter().position(|name| *name == species.name)?;
-            Some(scenario.last_age_of_species(place).clamp(1, LAST_TICK))
+            let place = scenario.species_names().iter().position(|name| *name == mention.name)?;
+            Some((scenario, place, dated))
         });
-        ages.max()
-    }
-}
-
-/// A species that was checked, for other dates.
-fn compiled_again(loader: &mut Loader, of: &Compiled, until: u32, dates: &Dates) -> Option<Compiled> {
-    match of.species.model.compile_dated(until, Some(dates)) {
-        Ok(model) => Some(Compiled { species: of.species.clone(), model, tree: of.tree.clone() }),
-        Err(faults) => {
-            loader.tell(&of.tree, faults);
-            None
+        let ages = each.clone().map(|(scenario, place, _)| scenario.last_age_of_species(place).clamp(1, LAST_TICK));
+        let dates = each.clone().find_map(|(scenario, place, dated)| {
+            let calendar = Arc::clone(dated.as_ref()?.calendars.of(0)?);
+            Some(Dates { calendar, sown: scenario.first_sowing_of(place) })
+        });
+        if let Err(faults) = found.model.compile_dated(ages.max().unwrap_or(until), dates.as_ref()) {
+            loader.tell(&found.node, faults);
         }
     }
 }
 
-/// Reads, checks and compiles a species.
+/// The model of each cohort. Of a species whose laws do not hold for one cohort no other cohort is compiled, since it
+/// would have the same faults.
+fn compile(loader: &mut Loader, trial: &Trial, found: &[Option<Found>]) -> Option<Vec<Arc<dyn GrowthModel>>> {
+    let mut refused = vec![false; found.len()];
+    let mut models = Vec::with_capacity(trial.cohorts().len());
+    for cohort in trial.cohorts() {
+        let Some(of) = found.get(cohort.species).and_then(Option::as_ref) else { continue };
+        if refused[cohort.species] {
+            continue;
+        }
+        match of.model.compile_dated(cohort.until, cohort.dates.as_ref()) {
+            Ok(model) => models.push(model),
+            Err(faults) => {
+                loader.tell(&of.node, faults);
+                refused[cohort.species] = true;
+            }
+        }
+    }
+    Some(models).filter(|models| models.len() == trial.cohorts().len())
+}
+
+/// Reads a species and checks what it says of itself.
+fn read_species(loader: &mut Loader, mention: &Mention) -> Option<Found> {
+    let found = loader.species(mention)?;
+    if let Some(about) = &found.about {
+        loader.tell(&found.node, about.faults());
+        check_year(loader, &found.node, about, &found.model);
+    }
+    Some(found)
+}
+
+/// Reads, checks and compiles a species without dates.
 pub(crate) fn check_species(
     loader: &mut Loader,
     mention: &Mention,
-    until: impl Fn(Option<&About>) -> Option<u32>,
-    dates: Result<Option<Dates>, Refused>,
+    until: impl Fn(Option<&About>) -> u32,
 ) -> Option<Compiled> {
-    let Found { about, model, node } = loader.species(mention)?;
-    if let Some(about) = &about {
-        loader.tell(&node, about.faults());
-        check_year(loader, &node, about, &model);
-    }
-    // Without its calendar a scenario cannot know which laws of the date hold.
-    let dates = dates.ok()?;
-    match model.compile_dated(until(about.as_ref())?, dates.as_ref()) {
+    let Found { about, model, node } = read_species(loader, mention)?;
+    match model.compile(until(about.as_ref())) {
         Ok(compiled) => Some(Compiled { species: Species { about: about?, model }, model: compiled, tree: node }),
         Err(faults) => {
             loader.tell(&node, faults);

@@ -48,8 +48,10 @@ pub(crate) fn check(
         read.push(Read { species: mentions(&expanded.node), scenario, expanded });
     }
     let plants = plants_of(loader, (node, run), &read);
+    let experiment = run.map(|run| &run.experiment);
     for Read { expanded, scenario, .. } in &read {
-        let faults = scenario.as_ref().map(|scenario| scenario.faults_in_run_of(plants)).unwrap_or_default();
+        let faults = scenario.as_ref().map(|scenario| scenario.faults_in_run_of(plants, experiment));
+        let faults = faults.unwrap_or_default();
         let placed = faults.into_iter().map(|fault| meaning::place(&loader.sources, &expanded.node, fault)).collect();
         findings.add(expanded, placed);
     }

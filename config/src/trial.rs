@@ -6,8 +6,10 @@
 //! compared on the same draws. Absent: places on the field, and growing.
 
 use phytomer_law::fault::{Fault, Path};
+use phytomer_sim::site::calendars::Calendars;
 use serde::{Deserialize, Serialize};
 
+use crate::cohorts::{Cohort, Cohorts, shifted};
 use crate::scenario::experiment::{CONTROL, MOST_FIELD_PLOTS};
 use crate::scenario::{Member, Scenario};
 
@@ -23,8 +25,7 @@ pub struct Treatment {
     pub levels: Vec<String>,
     /// Its scenario, without `experiment`.
     pub scenario: Scenario,
-    /// Its species: of each of [`Scenario::species_names`], the index in the species of the run. A species whose laws
-    /// depend on the date is a species of its own in each calendar.
+    /// Its species: of each of [`Scenario::species_names`], the index in the species of the run.
     pub species: Vec<usize>,
 }
 
@@ -35,6 +36,11 @@ impl Treatment {
         scenario.experiment = Default::default();
         let species = (0..scenario.species_names().len()).collect();
         Self { name: CONTROL.to_owned(), levels: Vec::new(), scenario, species }
+    }
+
+    /// What grows in its plots: its scenario and its species.
+    fn grown(&self) -> (&Scenario, &[usize]) {
+        (&self.scenario, &self.species)
     }
 }
 
@@ -75,11 +81,14 @@ pub struct Trial {
     plots: Vec<u32>,
     /// The first plant of each treatment, and the number of all plants.
     plants: Vec<u32>,
+    /// The calendars of each treatment.
+    calendars: Vec<Calendars>,
+    cohorts: Cohorts,
 }
 
 impl Trial {
-    /// The trial of a scenario. What belongs to the whole run, such as the seed and the ages, is the scenario's own in
-    /// every treatment; a scenario without factors is its own treatment.
+    /// The trial of a scenario in which ticks have no dates. What belongs to the whole run, such as the seed and the
+    /// ages, is the scenario's own in every treatment; a scenario without factors is its own treatment.
     pub fn of(scenario: &Scenario, treatments: &[Treatment]) -> Self {
         let treatments: Vec<Treatment> = match treatments {
             treatments if !treatments.is_empty() && !scenario.experiment.is_control_alone() => {
@@ -96,7 +105,52 @@ impl Trial {
             plots.push(after(&plots, scenario.plots()));
             plants.push(after(&plants, scenario.plots() * scenario.members()));
         }
-        Self { scenario: scenario.clone(), treatments, plots, plants }
+        let cohorts = Cohorts::of(treatments.iter().map(Treatment::grown), &[], &[]);
+        Self { scenario: scenario.clone(), treatments, plots, plants, calendars: Vec::new(), cohorts }
+    }
+
+    /// The same where each treatment has such calendars, which its blocks and field plots shift by draws of the seed.
+    /// `knows_the_date` tells of each species of the run whether its laws may depend on the date.
+    pub fn dated(mut self, calendars: &[Calendars], knows_the_date: &[bool], seed: u64) -> Self {
+        let each = self.treatments.iter().zip(calendars);
+        let of_treatment = |(Treatment { name, scenario, .. }, calendars): (&Treatment, &Calendars)| {
+            shifted((name, scenario), calendars, &self.scenario.experiment, seed)
+        };
+        self.calendars = each.map(of_treatment).collect();
+        self.cohorts = Cohorts::of(self.treatments.iter().map(Treatment::grown), &self.calendars, knows_the_date);
+        self
+    }
+
+    /// The calendars of each treatment; none where ticks have no dates.
+    pub fn calendars(&self) -> &[Calendars] {
+        &self.calendars
+    }
+
+    /// The cohorts of the run, of each of which a model is compiled.
+    pub fn cohorts(&self) -> &[Cohort] {
+        &self.cohorts.all
+    }
+
+    /// The fault of more cohorts than a run can have.
+    pub(crate) fn check_cohorts(&self) -> Option<Fault> {
+        self.cohorts.check()
+    }
+
+    /// The cohort of each member of the plots of a treatment and replicate, as an index into [`Trial::cohorts`].
+    pub fn cohorts_of(&self, treatment: usize, replicate: u32) -> &[usize] {
+        self.cohorts.of_members(treatment, replicate)
+    }
+
+    /// The different rows of [`Trial::cohorts_of`] of the replicates of a treatment: one where all have the same, else
+    /// one for each replicate.
+    pub fn rows_of_cohorts(&self, treatment: usize) -> &[Vec<usize>] {
+        self.cohorts.rows_of(treatment)
+    }
+
+    /// The cohort of a plant.
+    pub fn cohort_of_plant(&self, plant: u32) -> usize {
+        let PlantPlace { treatment, replicate, member, .. } = self.plant(plant);
+        self.cohorts_of(treatment, replicate).get(member as usize).copied().unwrap_or(0)
     }
 
     /// The scenario, without the levels of any treatment.
@@ -195,42 +249,6 @@ impl Trial {
         let treatment = &self.treatments[self.plant(plant).treatment];
         treatment.species.get(treatment.scenario.species_of(&self.member_of(plant))).copied().unwrap_or(0)
     }
-
-    /// The last age, in ticks, that a plant of a species of the run reaches in any treatment.
-    pub fn last_age_of_species(&self, species: usize) -> u32 {
-        let ages = self.treatments.iter().filter_map(|treatment| {
-            let of_treatment = treatment.species.iter().position(|known| *known == species)?;
-            Some(treatment.scenario.last_age_of_species(of_treatment))
-        });
-        ages.max().unwrap_or(self.scenario.ages.until).max(1)
-    }
-}
-
-impl Trial {
-    /// The first treatment with a species of the run, as an index into [`Trial::treatments`].
-    pub fn treatment_with(&self, species: usize) -> Option<usize> {
-        self.treatments.iter().position(|treatment| treatment.species.contains(&species))
-    }
-
-    /// The first tick of its plot at which a species of the run is sown in any treatment.
-    pub fn first_sowing_of_species(&self, species: usize) -> u32 {
-        self.sowings_of(species).map(|(_, sown)| sown).min().unwrap_or(0)
-    }
-
-    /// A member of a species of the run that is sown at another tick than the first of the species, by its number.
-    pub(crate) fn sown_apart(&self, species: usize) -> Option<usize> {
-        let first = self.first_sowing_of_species(species);
-        self.sowings_of(species).find(|(_, sown)| *sown != first).map(|(member, _)| member)
-    }
-
-    /// The members of a species in all treatments, each with its tick of sowing.
-    fn sowings_of(&self, species: usize) -> impl Iterator<Item = (usize, u32)> {
-        self.treatments.iter().flat_map(move |Treatment { scenario, species: places, .. }| {
-            let of_species = move |member: &Member| places.get(scenario.species_of(member)) == Some(&species);
-            let members = scenario.plot_members().into_iter().enumerate();
-            members.filter(move |(_, member)| of_species(member)).map(|(number, member)| (number, member.sown))
-        })
-    }
 }
 
 /// A treatment in whose scenario all that belongs to the whole run is that of the run.
@@ -308,8 +326,10 @@ mod tests {
     #[test]
     fn a_species_reaches_its_last_age_in_the_treatment_that_sows_it_first() {
         let trial = trial();
-        assert_eq!([0, 1].map(|species| trial.last_age_of_species(species)), [12, 7]);
+        let ages: Vec<(usize, u32)> = trial.cohorts().iter().map(|cohort| (cohort.species, cohort.until)).collect();
+        assert_eq!(ages, [(0, 12), (1, 7)]);
         assert_eq!([0, 12, 13].map(|plant| trial.species_of_plant(plant)), [0, 0, 1]);
+        assert_eq!([0, 12, 13].map(|plant| trial.cohort_of_plant(plant)), [0, 0, 1]);
         assert_eq!((trial.sown_at(13), trial.last_age_of(13)), (5, 7));
     }
 

@@ -15,7 +15,7 @@ use phytomer_sim::model::GrowthModel;
 use serde_json::Value as Json;
 
 use crate::about::About;
-use crate::checked::{Checked, Compiled, check_cuttable, check_explosions, check_sowings};
+use crate::checked::{Checked, Compiled, Stated, check_cuttable, check_explosions};
 use crate::dates::{self, Dated};
 use crate::document::Node;
 use crate::expansion::{self, Expanded};
@@ -29,9 +29,8 @@ use crate::scenario::{Scenario, icasa};
 use crate::schema;
 use crate::source::{Source, Sources};
 use crate::species::Species;
-use crate::species_of_run::{self, check_species};
+use crate::species_of_run::{Run, SpeciesOfRun, check_species};
 use crate::treatments::{self, Read};
-use crate::trial::Treatment;
 
 /// The last age, in ticks, up to which a species without a scenario is checked.
 pub const SPECIES_ALONE_UNTIL: u32 = 100;
@@ -81,11 +80,25 @@ fn validate_in(library: Library, scenario: &str) -> Result<Resolved, Report> {
     let mut loader = Loader { library, ..Loader::default() };
     let mention = Mention { name: scenario.to_owned(), place: None };
     let found = loader.find(Kind::Scenario, &mention).and_then(|source| check_scenario(&mut loader, source));
-    conclude(loader, found, |Checked { scenario, treatments, first, others, calendars }, sources| {
-        let other = |Compiled { species, model, tree }| OtherSpecies { species, model, tree };
-        let others = others.into_iter().map(other).collect();
-        let Compiled { species, model, tree } = first;
-        Resolved { scenario, treatments, species, model, others, calendars, sources, tree }
+    conclude(loader, found.and_then(resolved), |resolved, sources| Resolved { sources, ..resolved })
+}
+
+/// The run of a checked scenario, without its texts.
+fn resolved(checked: Checked) -> Option<Resolved> {
+    let Checked { scenario, treatments, species, models, calendars, .. } = checked;
+    let (mut species, mut models) = (species.into_iter(), models.into_iter());
+    let (Stated { species: first, tree }, model) = (species.next()?, models.next()?);
+    Some(Resolved {
+        site_seed: scenario.seed,
+        scenario,
+        treatments,
+        species: first,
+        model,
+        others: species.map(|Stated { species, tree }| OtherSpecies { species, tree }).collect(),
+        other_models: models.collect(),
+        calendars,
+        sources: Sources::default(),
+        tree,
     })
 }
 
@@ -100,10 +113,9 @@ pub fn validate_species(species: &str, until: u32) -> Result<ResolvedSpecies, Re
 fn species_in(library: Library, species: &str, until: u32) -> Result<ResolvedSpecies, Report> {
     let mut loader = Loader { library, ..Loader::default() };
     let mention = Mention { name: species.to_owned(), place: None };
-    let until = |about: Option<&About>| {
-        Some(about.and_then(|about| about.shown_at).unwrap_or(1).max(until).clamp(1, LAST_TICK))
-    };
-    let found = check_species(&mut loader, &mention, until, Ok(None));
+    let until =
+        |about: Option<&About>| about.and_then(|about| about.shown_at).unwrap_or(1).max(until).clamp(1, LAST_TICK);
+    let found = check_species(&mut loader, &mention, until);
     conclude(loader, found, |Compiled { species, model, tree }, sources| ResolvedSpecies {
         species,
         model,
@@ -168,16 +180,13 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let expanded = expanded(loader, &node, &refused);
     loader.faults.extend(refused.iter().cloned());
     let read = treatments::check(loader, scenario_schema(), (&node, scenario.as_ref()), expanded);
-    let calendars = calendars(loader, &read, &refused);
+    let replicates = scenario.as_ref().map_or(1, |scenario| scenario.experiment.replicates);
+    let calendars = calendars(loader, (&read, replicates), &refused);
     let until = integer_at(&node, &["ages", "until"]).and_then(|n| u32::try_from(n).ok());
     let until = until.filter(|n| (1..=LAST_TICK).contains(n));
-    let (species, places) = species_of_run::check(loader, &read, calendars.as_deref(), until)?;
-    let (mut species, scenario) = (species.into_iter(), scenario?);
-    let treatments = read.into_iter().zip(places).map(|(read, places)| treatment(&scenario, read, places));
-    let treatments = treatments.collect::<Option<Vec<Treatment>>>()?;
-    let (first, others) = (species.next()?, species.collect());
-    let checked = Checked { scenario, treatments, first, others, calendars: calendars.ok()? };
-    check_sowings(loader, &node, &checked);
+    let run = Run { node: &node, scenario: scenario.as_ref(), until, calendars: calendars.as_deref(), read: &read };
+    let SpeciesOfRun { treatments, species, trial, models } = run.check(loader)?;
+    let checked = Checked { scenario: scenario?, treatments, species, trial, models, calendars: calendars.ok()? };
     check_explosions(loader, &node, &checked);
     check_cuttable(loader, &node, &checked);
     Some(checked)
@@ -195,14 +204,18 @@ fn expanded(loader: &mut Loader, node: &Node, refused: &[Fault]) -> Vec<Expanded
 
 /// The calendar of each treatment; none where its scenario could not be read for other reasons. Where the schema has
 /// refused a key of the dates, that key is missing in what was read, and no more is told of the dates.
-fn calendars(loader: &mut Loader, read: &[Read], refused: &[Fault]) -> Result<Vec<Option<Dated>>, dates::Refused> {
+fn calendars(
+    loader: &mut Loader,
+    (read, replicates): (&[Read], u32),
+    refused: &[Fault],
+) -> Result<Vec<Option<Dated>>, dates::Refused> {
     let is_refused = refused.iter().any(|fault| dates::is_of_dates(&fault.path));
     let told = |fault: &Fault| refused.iter().any(|other| (other.span, &other.problem) == (fault.span, &fault.problem));
     loader.faults.retain(|fault| !is_refused || !dates::is_of_dates(&fault.path) || told(fault));
     if loader.faults.iter().any(|fault| dates::is_of_dates(&fault.path)) {
         return Err(dates::Refused);
     }
-    dates::of_treatments(loader, read)
+    dates::of_treatments(loader, read, replicates)
 }
 
 /// The experiment of a scenario. A key that it does not know is left out, as is told of it; what is refused in a level
@@ -219,13 +232,6 @@ fn experiment_of(node: &Node, refused: &[Fault]) -> Option<Experiment> {
         }
     }
     serde_json::from_value(experiment.to_json()).ok()
-}
-
-/// A treatment with its species among those of the run.
-fn treatment(run: &Scenario, read: Read, species: Vec<usize>) -> Option<Treatment> {
-    let Chosen { name, levels } = read.expanded.chosen;
-    let levels = run.experiment.level_names(&levels);
-    Some(Treatment { name, levels, scenario: read.scenario?, species })
 }
 
 impl fmt::Debug for ResolvedSpecies {

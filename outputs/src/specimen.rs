@@ -11,6 +11,7 @@ use phytomer_sim::plant::{
     Plant, Seed, Shape, Trend, key::Place,
 };
 use phytomer_sim::site::View;
+use phytomer_sim::site::calendars::Calendars;
 use phytomer_sim::{Ending, Grow, Growth, GrowthModel, NEVER, Plot, Tick, grow};
 use std::path::Path;
 use std::sync::Arc;
@@ -173,7 +174,8 @@ pub fn plan(plots: u32, plots_per_part: u32) -> RunPlan {
         compression_level: 1,
         precision_m: None,
         mechanics: false,
-        calendars: vec![None],
+        calendars: vec![Calendars::default()],
+        species_of_models: Vec::new(),
         provenance: Provenance {
             scenario: "Sapling".to_owned(),
             treatments: vec!["control".to_owned()],

@@ -4,9 +4,11 @@
 //! see the site unchanged ([`View`]), and what they did is gathered in the order of the plot. So no result depends on
 //! the threads. Two things feed back today: planes that kill the buds that reach them, and cells of space that plants
 //! claim in the first half of a tick and are granted or refused in the second. Light and events of the date belong
-//! here. What the date alone decides is the [`calendar`], made of [`date`], [`sun`] and [`degree_days`].
+//! here. What the date alone decides is the [`calendar`], made of [`date`], [`sun`] and [`degree_days`];
+//! replicates may have [`calendars`] of their own.
 
 pub mod calendar;
+pub mod calendars;
 pub mod date;
 pub mod degree_days;
 pub mod sun;

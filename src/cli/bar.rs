@@ -39,10 +39,16 @@ fn in_words(now: &Reading) -> String {
 pub fn checking<T>(checking: &Checking, hidden: bool, work: impl FnOnce() -> T) -> T {
     let state = |_: &ProgressBar| {
         let (read, in_all) = (checking.bytes() as f64, checking.in_all() as f64);
-        let message = format!("{} of {} checked", amounts::bytes(read), amounts::bytes(in_all));
-        (read / in_all.max(1.0), message)
+        (read / in_all.max(1.0), read_in_words(checking))
     };
     beside(hidden, state, work)
+}
+
+/// "1.2 MB of 30 MB checked", or "copied" while a merge writes them.
+fn read_in_words(checking: &Checking) -> String {
+    let [read, in_all] = [checking.bytes(), checking.in_all()].map(|bytes| amounts::bytes(bytes as f64));
+    let done = if checking.copies() { "copied" } else { "checked" };
+    format!("{read} of {in_all} {done}")
 }
 
 /// Does `work` while a bar shows a share in [0, 1] and a message.

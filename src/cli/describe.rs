@@ -4,6 +4,7 @@
 //! before it is told as complete. Absent: what each of them tells, in a file each.
 
 mod dates;
+mod levels;
 mod run;
 mod scenario;
 mod species;

@@ -102,7 +102,12 @@ impl Grow {
         if let Err(report) = forms::settle(&mut resolved) {
             return refuse(&report, self.json);
         }
-        self.override_scenario(&mut resolved)?;
+        if let Some(seed) = self.seed
+            && let Err(report) = resolved.reseed(seed)
+        {
+            return refuse(&report, self.json);
+        }
+        self.override_plants(&mut resolved)?;
         let settings = self.settings(&resolved)?;
         if self.dry_run {
             let parts = run::plan_of(&resolved, &settings.program)?.shards();
@@ -142,9 +147,8 @@ impl Grow {
         self.tell(&telling::Told { resolved, settings, outcome: &outcome, found })
     }
 
-    /// The seed and the number of plants as the command line has them.
-    fn override_scenario(&self, resolved: &mut Resolved) -> Result<()> {
-        resolved.scenario.seed = self.seed.unwrap_or(resolved.scenario.seed);
+    /// The number of plants as the command line has it.
+    fn override_plants(&self, resolved: &mut Resolved) -> Result<()> {
         let Some(plants) = self.plants else { return Ok(()) };
         let left_out = resolved.grow_only(plants);
         if left_out > 0 && !self.quiet {

@@ -6,12 +6,12 @@
 use anyhow::{Context, Result};
 use phytomer::run::forms;
 use phytomer_config::{
-    Kind, Report, Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, Scenario, Species, Treatment, Trial, calendar_of_run,
-    kind_of, presets, validate, validate_species,
+    Kind, Report, Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, Scenario, Species, Treatment, Trial,
+    calendars_of_run, compiled, kind_of, presets, validate, validate_species,
 };
 use phytomer_outputs::read::Run;
 use phytomer_sim::GrowthModel;
-use phytomer_sim::site::calendar::{Calendar, Dates};
+use phytomer_sim::site::calendars::Calendars;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -108,12 +108,16 @@ impl Recorded {
         let scenario = Scenario::deserialize(&resolved["scenario"]).with_context(doing)?;
         let species = Species::from_json(&resolved["species"]).with_context(doing)?;
         let others = resolved["other_species"].as_array().map(Vec::as_slice).unwrap_or_default();
-        let others = others.iter().map(Species::from_json).collect::<serde_json::Result<_>>().with_context(doing)?;
+        let others = others.iter().map(Species::from_json);
+        let others = others.collect::<serde_json::Result<Vec<Species>>>().with_context(doing)?;
         let treatments = match &resolved["treatments"] {
             serde_json::Value::Null => Vec::new(),
             treatments => Vec::<Treatment>::deserialize(treatments).with_context(doing)?,
         };
-        Ok(Self { trial: Trial::of(&scenario, &treatments), scenario, species, others, run })
+        let calendars = calendars(resolved).with_context(doing)?;
+        let knows: Vec<bool> = [&species].into_iter().chain(&others).map(Species::may_know_the_date).collect();
+        let trial = Trial::of(&scenario, &treatments).dated(&calendars, &knows, scenario.seed);
+        Ok(Self { trial, scenario, species, others, run })
     }
 
     /// All species, in the order of the run.
@@ -131,31 +135,23 @@ impl Recorded {
         names.join(", ")
     }
 
-    /// The models of all species, for the ages that their plants reach in the run.
+    /// The models of all cohorts, for the ages that their plants reach in the run.
     ///
     /// # Errors
     /// Where their laws do not hold, which those of a run that began do.
     pub fn compile(&self) -> Result<Vec<Arc<dyn GrowthModel>>> {
-        let calendars = self.calendars().context("the calendars of the run")?;
-        let compiled = |(place, species): (usize, &Species)| {
-            let sown = self.trial.first_sowing_of_species(place);
-            let calendar = self.trial.treatment_with(place).and_then(|treatment| calendars.get(treatment)?.clone());
-            let dates = calendar.map(|calendar| Dates { calendar, sown });
-            let until = self.trial.last_age_of_species(place);
-            species.model.compile_dated(until, dates.as_ref()).map_err(|faults| match faults.into_iter().next() {
-                Some(fault) => anyhow::Error::new(fault),
-                None => anyhow::anyhow!("the species of the run cannot be compiled"),
-            })
-        };
-        self.all_species().enumerate().map(compiled).collect()
+        let species: Vec<&Species> = self.all_species().collect();
+        compiled(&self.trial, &species).map_err(|(_, faults)| match faults.into_iter().next() {
+            Some(fault) => anyhow::Error::new(fault),
+            None => anyhow::anyhow!("the species of the run cannot be compiled"),
+        })
     }
+}
 
-    /// The calendar of each treatment, as `run.json` keeps it.
-    fn calendars(&self) -> serde_json::Result<Vec<Option<Arc<Calendar>>>> {
-        let resolved = &self.run.json()["resolved_scenario"];
-        match resolved["treatments"].as_array() {
-            None => Ok(vec![calendar_of_run(resolved)?]),
-            Some(treatments) => treatments.iter().map(calendar_of_run).collect(),
-        }
+/// The calendars of each treatment, as `run.json` keeps them.
+fn calendars(resolved: &serde_json::Value) -> serde_json::Result<Vec<Calendars>> {
+    match resolved["treatments"].as_array() {
+        None => Ok(vec![calendars_of_run(resolved)?]),
+        Some(treatments) => treatments.iter().map(calendars_of_run).collect(),
     }
 }

@@ -34,7 +34,7 @@ pub struct Regrown {
     pub trial: Trial,
     /// What they are: the species in the order of the run.
     species: Vec<Species>,
-    /// Their models, compiled for all ages that their plants reach.
+    /// The models of the cohorts of the trial, compiled for all ages that their plants reach.
     models: Vec<Arc<dyn GrowthModel>>,
     /// The forms of its own that each species names.
     pub forms: Vec<Arc<OwnForms>>,
@@ -77,8 +77,7 @@ impl Regrown {
                 let species: Vec<Species> = resolved.all_species().into_iter().cloned().collect();
                 let trial = resolved.trial();
                 let forms = species.iter().map(forms::of).collect::<std::result::Result<_, _>>()?;
-                let others = resolved.others.into_iter().map(|other| other.model);
-                let models = [resolved.model].into_iter().chain(others).collect();
+                let models = [resolved.model].into_iter().chain(resolved.other_models).collect();
                 Self { scenario: resolved.scenario, trial, species, models, forms }
             }
             Named::Species(found) => Self::alone(name, *found, ages)?,
@@ -117,7 +116,8 @@ impl Regrown {
     /// Where wind cannot move a species.
     pub fn regrowth(&self, breeze: &Breeze) -> Result<Regrowth<'_>> {
         let air = breeze.air();
-        for (species, model) in self.species.iter().zip(&self.models).filter(|_| air.is_some()) {
+        for (cohort, model) in self.trial.cohorts().iter().zip(&self.models).filter(|_| air.is_some()) {
+            let species = &self.species[cohort.species];
             yielding(&model.habit()).map_err(|unmoved| self.unmoved(species, unmoved, breeze))?;
         }
         Ok(Regrowth::new(self.trial.clone(), self.models.iter().map(AsRef::as_ref).collect(), air))

@@ -6,7 +6,7 @@
 
 use super::RunError;
 use phytomer_config::scenario::{MeshFile, Meshes};
-use phytomer_config::{Resolved, Scenario, Trial};
+use phytomer_config::{Scenario, Trial};
 use phytomer_outputs::Shard;
 use phytomer_outputs::meshes::{Collection, MeshOptions, MeshWriter, OwnForms, Ply, Scene};
 use phytomer_sim::plant::Plant;
@@ -22,7 +22,7 @@ const MOST_VERTICES: u64 = i32::MAX as u64;
 /// What is drawn of the plants of one shard.
 pub struct RunMeshes<'a> {
     scenario: &'a Scenario,
-    trial: Trial,
+    trial: &'a Trial,
     meshes: &'a Meshes,
     ticks: Vec<Tick>,
     /// The options of each species.
@@ -64,19 +64,11 @@ pub fn write_mesh(
 impl<'a> RunMeshes<'a> {
     /// What is drawn of a run of so many parts, whose species have such forms of their own; `None` where the scenario
     /// asks for no meshes.
-    pub fn of(resolved: &'a Resolved, own: &[Arc<OwnForms>], parts: u32) -> Option<Self> {
-        let scenario = &resolved.scenario;
+    pub fn of(trial: &'a Trial, own: &[Arc<OwnForms>], parts: u32) -> Option<Self> {
+        let scenario = trial.scenario();
         let meshes = scenario.meshes.as_ref()?;
         let options = own.iter().map(|own| options_of(meshes.sides, own)).collect();
-        Some(Self {
-            scenario,
-            trial: resolved.trial(),
-            meshes,
-            ticks: scenario.mesh_ages(),
-            options,
-            parts,
-            open: BTreeMap::new(),
-        })
+        Some(Self { scenario, trial, meshes, ticks: scenario.mesh_ages(), options, parts, open: BTreeMap::new() })
     }
 
     /// Whether a plant of this plot is drawn at this tick.
@@ -95,7 +87,7 @@ impl<'a> RunMeshes<'a> {
     pub fn draw(&mut self, tick: Tick, plot: &Plot, shard: &mut Shard) -> Result<(), RunError> {
         for (plant, member) in plot.plants.iter().zip(&plot.members) {
             if let (true, Some(age)) = (self.scenario.draws(plant.id), member.age_at(tick)) {
-                self.draw_plant(tick, (plant, age), member.species, shard)?;
+                self.draw_plant(tick, (plant, age), self.trial.cohorts()[member.species].species, shard)?;
             }
         }
         Ok(())

@@ -108,7 +108,7 @@ impl Forecast {
         let plots = plots_of(resolved, &trial)?;
         let treatments: Vec<OfTreatment> =
             trial.treatments().iter().zip(&plots).map(|(treatment, plot)| plot.of_all(&trial, treatment)).collect();
-        let mean = PlotForecast::mean(&trial, &plots);
+        let mean = PlotForecast::of_trial(&trial, &plots);
         let sum = |of: fn(&OfTreatment) -> f64| treatments.iter().map(of).fold(0.0, |sum, more| sum + more);
         let records_rows = sum(|of| of.records_rows);
         let most = |of: fn(&PlotForecast) -> f64| plots.iter().map(of).fold(0.0, f64::max);
@@ -146,14 +146,22 @@ fn sampled_share(scenario: &Scenario) -> f64 {
 
 /// What is expected of a plot of each treatment.
 fn plots_of(resolved: &Resolved, trial: &Trial) -> Option<Vec<PlotForecast>> {
-    let models = resolved.models().into_iter().enumerate();
-    let expected = models.map(|(place, model)| model.expectation(trial.last_age_of_species(place)));
-    let expected: Vec<Expectation> = expected.collect::<Option<_>>()?;
+    let models = trial.cohorts().iter().zip(resolved.models());
+    let expected: Vec<Expectation> =
+        models.map(|(cohort, model)| model.expectation(cohort.until)).collect::<Option<_>>()?;
     let recorded = resolved.scenario.ages.recorded();
-    Some(trial.treatments().iter().map(|treatment| PlotForecast::of(treatment, &expected, &recorded)).collect())
+    let plot = |(place, treatment): (usize, &Treatment)| {
+        let rows = trial.rows_of_cohorts(place);
+        let weight = 1.0 / rows.len().max(1) as f64;
+        let of_rows =
+            rows.iter().map(|cohorts| (weight, PlotForecast::of(&treatment.scenario, cohorts, &expected, &recorded)));
+        PlotForecast::mean(&of_rows.collect::<Vec<_>>())
+    };
+    Some(trial.treatments().iter().enumerate().map(plot).collect())
 }
 
 /// What is expected of one plot: the sums over its members, each at its own age.
+#[derive(Clone)]
 struct PlotForecast {
     /// Components by the last tick.
     components: f64,
@@ -178,14 +186,14 @@ impl PlotForecast {
         certainty: Certainty::Exact,
     };
 
-    fn of(Treatment { scenario, species, .. }: &Treatment, expected: &[Expectation], recorded: &[u32]) -> Self {
+    /// The plot of a scenario whose members are of these cohorts.
+    fn of(scenario: &Scenario, cohorts: &[usize], expected: &[Expectation], recorded: &[u32]) -> Self {
         // No closed form knows which plants a pest attacks, or what events take off.
         let foreseen = scenario.pest.is_empty() && scenario.event.is_empty();
         let certainty = if foreseen { Certainty::Exact } else { Certainty::About };
         let mut plot = Self { certainty, ..Self::NOTHING };
-        for member in scenario.plot_members() {
-            let of_member = species.get(scenario.species_of(&member)).and_then(|species| expected.get(*species));
-            let Some(expected) = of_member else { continue };
+        for (member, cohort) in scenario.plot_members().into_iter().zip(cohorts) {
+            let Some(expected) = expected.get(*cohort) else { continue };
             plot.add(expected, scenario.ages.until.saturating_sub(member.sown), || {
                 recorded.iter().filter_map(|tick| tick.checked_sub(member.sown))
             });
@@ -203,13 +211,22 @@ impl PlotForecast {
     }
 
     /// The mean plot of a trial: that of each treatment weighs as many as it has.
-    fn mean(trial: &Trial, plots: &[Self]) -> Self {
-        let mut mean = Self::NOTHING;
-        for (treatment, plot) in trial.treatments().iter().zip(plots) {
+    fn of_trial(trial: &Trial, plots: &[Self]) -> Self {
+        let weighed = trial.treatments().iter().zip(plots).map(|(treatment, plot)| {
             let of_treatment = u64::from(treatment.scenario.plots()) * u64::from(trial.replicates());
-            let weight = of_treatment as f64 / f64::from(trial.plots().max(1));
+            (of_treatment as f64 / f64::from(trial.plots().max(1)), plot.clone())
+        });
+        Self::mean(&weighed.collect::<Vec<_>>())
+    }
+
+    /// The mean of plots with their weights; its largest member is that of all.
+    fn mean(plots: &[(f64, Self)]) -> Self {
+        let mut mean = Self::NOTHING;
+        for (weight, plot) in plots {
             mean.components += weight * plot.components;
             mean.shown += weight * plot.shown;
+            mean.summary_rows += weight * plot.summary_rows;
+            mean.largest = mean.largest.max(plot.largest);
             mean.by_order.resize(mean.by_order.len().max(plot.by_order.len()), 0.0);
             mean.by_order.iter_mut().zip(&plot.by_order).for_each(|(sum, more)| *sum += weight * more);
             mean.certainty = mean.certainty.max(plot.certainty);

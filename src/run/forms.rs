@@ -6,7 +6,7 @@
 //! `phytomer_outputs::meshes`'.
 
 use super::RunError;
-use phytomer_config::{Report, Resolved, Species};
+use phytomer_config::{Report, Resolved, Species, Uncompiled};
 use phytomer_models::fault::{Fault, Path};
 use phytomer_outputs::meshes::{OwnForms, check_form};
 use phytomer_outputs::{Input, read::Run};
@@ -65,21 +65,20 @@ pub fn settle(resolved: &mut Resolved) -> Result<Vec<Arc<OwnForms>>, Report> {
 }
 
 /// The same; the faults with the place of the species that has them.
-fn settle_all(resolved: &mut Resolved) -> Result<Vec<Arc<OwnForms>>, (usize, Vec<Fault>)> {
-    let trial = resolved.trial();
-    let dates: Vec<_> = (0..=resolved.others.len()).map(|place| resolved.dates_of(place)).collect();
-    let Resolved { species, model, others, .. } = resolved;
-    let others = others.iter_mut().map(|other| (&mut other.species, &mut other.model));
-    let all = [(species, model)].into_iter().chain(others).enumerate();
-    let settled = all.map(|(place, (species, model))| {
+fn settle_all(resolved: &mut Resolved) -> Result<Vec<Arc<OwnForms>>, Uncompiled> {
+    let others = resolved.others.iter_mut().map(|other| &mut other.species);
+    let all = [&mut resolved.species].into_iter().chain(others).enumerate();
+    let mut states_any = false;
+    let settled = all.map(|(place, species)| {
         let forms = read(species).map_err(|faults| (place, faults))?;
-        if state_shares(species, &forms) {
-            let compiled = species.model.compile_dated(trial.last_age_of_species(place), dates[place].as_ref());
-            *model = compiled.map_err(|faults| (place, faults))?;
-        }
+        states_any |= state_shares(species, &forms);
         Ok(forms)
     });
-    settled.collect()
+    let forms = settled.collect::<Result<_, Uncompiled>>()?;
+    if states_any || resolved.is_stale() {
+        resolved.compile()?;
+    }
+    Ok(forms)
 }
 
 /// States the area share that its own meshes have where leaves state none; whether there is any, so that the species is
@@ -88,7 +87,8 @@ pub fn state_shares(species: &mut Species, forms: &OwnForms) -> bool {
     species.model.state_area_shares(|place| forms.area_share(place))
 }
 
-/// The same for a scenario that was checked before: the scenario as it is grown, and the forms of its species.
+/// The same for a scenario that was checked before: the scenario as it is grown, and the forms of its species. Where
+/// its seed has changed since, and the site depends on it, its models are compiled for the new one.
 ///
 /// # Errors
 /// The first of its faults.
@@ -96,7 +96,8 @@ pub fn settled(resolved: &Resolved) -> Result<(Cow<'_, Resolved>, Vec<Arc<OwnFor
     let species = resolved.all_species();
     let forms = species.iter().map(|species| of(species)).collect::<Result<Vec<_>, _>>()?;
     let states = |(species, forms): (&&Species, &Arc<OwnForms>)| state_shares(&mut (*species).clone(), forms);
-    if !species.iter().zip(&forms).map(states).fold(false, |any, states| any | states) {
+    let states_any = species.iter().zip(&forms).map(states).fold(false, |any, states| any | states);
+    if !states_any && !resolved.is_stale() {
         return Ok((Cow::Borrowed(resolved), forms));
     }
     let mut settled = resolved.clone();

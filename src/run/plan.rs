@@ -9,7 +9,6 @@ use phytomer_config::{Resolved, Treatment, Trial, scenario};
 use phytomer_outputs::tables::Factor;
 use phytomer_outputs::{Input, Provenance, RunPlan, Sample, Table};
 use sha2::{Digest, Sha256};
-use std::sync::Arc;
 
 /// The work of a part file, in components shown to a table: about 60 MB of `records`, some seconds of one core.
 const WORK_A_PART: f64 = 2e6;
@@ -57,7 +56,8 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunErr
         },
         precision_m: scenario.output.float_precision_m,
         mechanics: scenario.output.mechanics,
-        calendars: resolved.calendars.iter().map(|dated| Some(Arc::clone(&dated.as_ref()?.calendar))).collect(),
+        calendars: trial.calendars().to_vec(),
+        species_of_models: trial.cohorts().iter().map(|cohort| cohort.species).collect(),
         provenance: Provenance {
             scenario: scenario.name.clone(),
             treatments: trial.treatments().iter().map(|treatment| treatment.name.clone()).collect(),

@@ -6,7 +6,7 @@
 //! Where no plant can feel another one, or a plane, a single plant can be sown without its plot. Absent: growing.
 
 use super::field::Field;
-use phytomer_config::scenario::{Host, Member, Table, exposure};
+use phytomer_config::scenario::{FieldPlot, Host, Member, Table, exposure};
 use phytomer_config::{PlantPlace, PlotPlace, Scenario, Treatment, Trial};
 use phytomer_sim::management::Management;
 use phytomer_sim::plant::{Seed, ThreadBudget};
@@ -21,16 +21,17 @@ pub struct Plots<'a> {
     field: Field,
     /// What people do to the plants of each treatment.
     management: Vec<Management>,
+    /// The models of the cohorts of the trial.
     models: Vec<&'a dyn GrowthModel>,
-    /// Each member of the plots of each treatment with its species, as a place in `models`.
-    members: Vec<Vec<(Member, usize)>>,
+    /// The members of the plots of each treatment.
+    members: Vec<Vec<Member>>,
 }
 
 impl<'a> Plots<'a> {
-    /// The plots of a trial whose species, in the order of the run, have these models.
+    /// The plots of a trial whose cohorts have these models.
     pub fn of(trial: Trial, models: Vec<&'a dyn GrowthModel>) -> Self {
         let field = Field::of(&trial);
-        let members = trial.treatments().iter().map(members_of).collect();
+        let members = trial.treatments().iter().map(|treatment| treatment.scenario.plot_members()).collect();
         let management = trial.treatments().iter().map(|treatment| treatment.scenario.management()).collect();
         Self { trial, field, management, models, members }
     }
@@ -40,7 +41,7 @@ impl<'a> Plots<'a> {
         &self.trial
     }
 
-    /// The models of its species.
+    /// The models of its cohorts.
     pub fn models(&self) -> &[&'a dyn GrowthModel] {
         &self.models
     }
@@ -55,9 +56,13 @@ impl<'a> Plots<'a> {
         sown
     }
 
-    /// Makes a plot that was grown another one. The memory of its columns is kept where both are of one treatment.
+    /// Makes a plot that was grown another one. The memory of its columns is kept where both are of one treatment and
+    /// have members of the same cohorts.
     pub fn sow_again(&self, grown: &mut Plot<'a>, plot: u32) {
-        if self.trial.plot(plot).treatment == grown.treatment as usize {
+        let PlotPlace { treatment, replicate, .. } = self.trial.plot(plot);
+        let cohorts = self.trial.cohorts_of(treatment, replicate);
+        let is_alike = grown.members.iter().map(|member| member.species).eq(cohorts.iter().copied());
+        if treatment == grown.treatment as usize && is_alike {
             grown.sow_again(plot, &self.sowings(plot));
             self.settle(grown, plot);
             self.expose(grown);
@@ -70,7 +75,7 @@ impl<'a> Plots<'a> {
     /// A plant by itself in a plot of one, sown at tick 0, so that tick and age are the same.
     pub fn sow_alone(&self, plant: u32) -> Plot<'a> {
         let plot = self.trial.plant(plant).plot;
-        let species = self.trial.species_of_plant(plant);
+        let species = self.trial.cohort_of_plant(plant);
         let (seed, place) = (self.seed_of(plant), self.place_of(plant));
         let sown = if self.germinates(plant) { 0 } else { NEVER };
         let mut alone = Plot::new(plot, self.models.clone(), &[Sowing { species, seed, place, sown }]);
@@ -84,10 +89,10 @@ impl<'a> Plots<'a> {
     fn expose(&self, plot: &mut Plot) {
         for (plant, member) in plot.plants.iter_mut().zip(&plot.members) {
             let PlantPlace { treatment, replicate, number, .. } = self.trial.plant(plant.id);
-            let scenario = &self.trial.treatments()[treatment].scenario;
+            let Treatment { name, scenario, .. } = &self.trial.treatments()[treatment];
+            let block = self.trial.block_of(replicate);
             let host = Host {
-                seed: scenario.seed,
-                replicate,
+                field_plot: FieldPlot { seed: scenario.seed, treatment: name, replicate, block },
                 plot: plot.number,
                 plant: number,
                 place: [plant.place[0], plant.place[1]],
@@ -137,16 +142,17 @@ impl<'a> Plots<'a> {
     fn sowings(&self, plot: u32) -> Vec<Sowing> {
         let of = self.trial.plot(plot);
         let place = self.plot_place(plot);
-        let sowing = |((member, species), plant): (&(Member, usize), u32)| {
+        let cohorts = self.trial.cohorts_of(of.treatment, of.replicate);
+        let sowing = |((member, cohort), plant): ((&Member, &usize), u32)| {
             let beside = member.place();
             Sowing {
-                species: *species,
+                species: *cohort,
                 seed: self.seed_of(plant),
                 place: [0, 1, 2].map(|axis| place[axis] + beside[axis]),
                 sown: if self.germinates(plant) { member.sown } else { NEVER },
             }
         };
-        self.members[of.treatment].iter().zip(of.first_plant..).map(sowing).collect()
+        self.members[of.treatment].iter().zip(cohorts).zip(of.first_plant..).map(sowing).collect()
     }
 
     /// Whether the seed of a plant germinates.
@@ -162,13 +168,6 @@ impl<'a> Plots<'a> {
         let PlantPlace { replicate, number, .. } = self.trial.plant(plant);
         Seed { draws: draw_key(replicate, number), ..seed_of(self.trial.scenario(), plant) }
     }
-}
-
-/// The members of the plots of a treatment, each with its species in the run.
-fn members_of(treatment: &Treatment) -> Vec<(Member, usize)> {
-    let members = treatment.scenario.plot_members().into_iter();
-    let species = |member: &Member| treatment.species.get(treatment.scenario.species_of(member)).copied();
-    members.map(|member| (member.clone(), species(&member).unwrap_or(0))).collect()
 }
 
 /// The most components of a plant.

@@ -52,7 +52,7 @@ pub struct Standing<'p> {
 }
 
 impl<'a> Regrowth<'a> {
-    /// The plants of a trial whose species, in the order of the run, have these models, compiled for all their ages.
+    /// The plants of a trial whose cohorts have these models.
     pub fn new(trial: Trial, models: Vec<&'a dyn GrowthModel>, air: Option<Air>) -> Self {
         Self { plots: Plots::of(trial, models), air }
     }
@@ -107,7 +107,7 @@ impl<'a> Regrowth<'a> {
         ticks: &[Tick],
         show: &mut ShowPlot<'_>,
     ) -> Result<(), RunError> {
-        let mut shown = ShownTicks { ticks, air: self.air, show };
+        let mut shown = ShownTicks { ticks, air: self.air, trial: self.trial(), show };
         // To the last tick of the run, not to the last that is shown: that is what numbers the components.
         let ending = grow(&mut plot, until, &mut shown).map_err(RunError::of_recorder)?;
         match (ending, ticks.iter().max()) {
@@ -144,7 +144,7 @@ impl<'a> Regrowth<'a> {
             return Err(RunError::NotGerminated { plant });
         }
         let mut sown = self.sown(plant);
-        let model = self.plots.models()[self.trial().species_of_plant(plant)];
+        let model = self.plots.models()[self.trial().cohort_of_plant(plant)];
         let mut last = sown.until;
         if !model.growth().keeps_its_past() {
             return Ok(last - sown.at);
@@ -235,6 +235,7 @@ fn last_of_most(lives: impl Iterator<Item = (Tick, Tick, f64)>, last: Tick, year
 struct ShownTicks<'a, 's> {
     ticks: &'a [Tick],
     air: Option<Air>,
+    trial: &'a Trial,
     show: &'a mut ShowPlot<'s>,
 }
 
@@ -251,7 +252,7 @@ impl Recorder for ShownTicks<'_, '_> {
             if let Some(Air { wind, time }) = self.air {
                 sway(plant.to_mut(), age, &plot.site, wind, time, &mut Scratch::default())?;
             }
-            standing.push(Standing { plant, age, species: member.species });
+            standing.push(Standing { plant, age, species: self.trial.cohorts()[member.species].species });
         }
         (self.show)(tick, &standing)
     }

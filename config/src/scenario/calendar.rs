@@ -5,13 +5,17 @@
 //! `N_in_applied_fertilizer` kg[N]/ha). Absent: weather files (`phytomer_weather`), and the calendar that is made of
 //! all this (`dates`).
 
-use super::Scenario;
+use super::field_plot::{FieldPlot, Spread};
+use super::{Experiment, Scenario};
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::site::calendar::{Soil as SimSoil, TickLength as SimTick, season_of};
 use phytomer_sim::site::date::Date;
-use phytomer_weather::DegreeDays;
+use phytomer_weather::{DegreeDays, Years};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// The most nitrogen that a soil supplies or that is applied, kg N/ha.
+const MOST_NITROGEN: f64 = 10_000.0;
 
 /// How a day is written.
 const A_DAY: &str = "a day as YYYY-MM-DD, such as \"2001-09-03\"";
@@ -46,8 +50,18 @@ pub struct TickLength {
 #[serde(deny_unknown_fields)]
 pub struct Soil {
     /// What the soil supplies by itself in a season, kg N/ha.
-    #[schemars(range(min = 0, max = 10_000))]
+    #[schemars(range(min = 0, max = MOST_NITROGEN))]
     pub nitrogen_kg_ha: f64,
+    /// The standard deviation of this supply between the blocks of the experiment, kg N/ha: the treatments of a block
+    /// share its soil. 0 if not given.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    #[schemars(range(min = 0, max = MOST_NITROGEN))]
+    pub block_sd_kg_ha: f64,
+    /// The standard deviation of this supply between field plots, each one replicate of one treatment, kg N/ha. 0 if
+    /// not given.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    #[schemars(range(min = 0, max = MOST_NITROGEN))]
+    pub field_plot_sd_kg_ha: f64,
     /// The day with which each season begins, as MM-DD such as `"09-01"`: what was applied before counts no more. The
     /// day of the year of planting if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -62,11 +76,15 @@ pub struct Fertilizer {
     pub fertilization_date: String,
     /// The nitrogen that is applied, kg N/ha.
     #[serde(rename = "N_in_applied_fertilizer")]
-    #[schemars(range(min = 0, max = 10_000))]
+    #[schemars(range(min = 0, max = MOST_NITROGEN))]
     pub nitrogen: f64,
     /// Whether the same is applied on the same day of each later year. Once if not given.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub yearly: bool,
+}
+
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
 }
 
 impl TickLength {
@@ -81,6 +99,21 @@ impl TickLength {
 }
 
 impl Soil {
+    /// Whether the supply differs between the replicates of a treatment.
+    pub(crate) fn differs(&self) -> bool {
+        self.spread().is_any()
+    }
+
+    fn spread(&self) -> Spread {
+        Spread { block_sd: self.block_sd_kg_ha, field_plot_sd: self.field_plot_sd_kg_ha }
+    }
+
+    /// What the soil of a field plot supplies beyond `nitrogen_kg_ha`, kg N/ha; the whole supply is never below 0.
+    pub(crate) fn shift_in(&self, field_plot: &FieldPlot) -> f64 {
+        let mean = self.nitrogen_kg_ha;
+        field_plot.shifted("nitrogen of the soil", mean, self.spread(), [0.0, MOST_NITROGEN]) - mean
+    }
+
     /// Month and day with which a season begins: those that are stated, else those of planting. `None` where what is
     /// stated is no day.
     fn season(&self, planted: Date) -> Option<(u32, u32)> {
@@ -105,11 +138,26 @@ impl Scenario {
         Date::parse(self.planting_date.as_deref()?)
     }
 
-    /// The nitrogen of the soil on the days up to `last`; `None` without `[soil]`. Dates are those of a scenario
-    /// without faults.
-    pub(crate) fn soil_until(&self, planted: Date, last: Date) -> Option<SimSoil> {
+    /// How many years after `planting_date` each replicate is planted; `None` where all are planted on that day.
+    pub(crate) fn years_later(&self, replicates: u32) -> Option<Vec<i32>> {
+        let planted = self.planted()?;
+        match self.weather.as_ref()?.years.as_ref()? {
+            Years::Word(_) => {
+                Some((0..replicates).map(|replicate| i32::try_from(replicate).unwrap_or(i32::MAX)).collect())
+            }
+            Years::List(years) => Some(years.iter().map(|year| year - planted.year()).collect()),
+        }
+    }
+
+    /// The nitrogen of the soil on the days up to `last` of plants that are planted on the day `planted`, so many years
+    /// later than the scenario says: fertilizer is applied as much later. `None` without `[soil]`. Dates are those of a
+    /// scenario without faults.
+    pub(crate) fn soil_until(&self, planted: Date, last: Date, years_later: i32) -> Option<SimSoil> {
         let soil = self.soil.as_ref()?;
-        let applied = self.fertilizer.iter().filter_map(|event| Some((Date::parse(&event.fertilization_date)?, event)));
+        let applied = self.fertilizer.iter().filter_map(|event| {
+            let stated = Date::parse(&event.fertilization_date)?;
+            Some((stated.years_later(years_later), event))
+        });
         let applied = applied.flat_map(|(first, event)| {
             let years = if event.yearly { last.year().saturating_sub(first.year()).max(0) } else { 0 };
             (0..=years).map(move |year| (first.years_later(year), event.nitrogen))
@@ -155,6 +203,30 @@ impl Scenario {
             faults.extend(degree_days.faults(&Path::root().key("calendar").key("degree_days")));
         }
         self.check_soil(faults);
+    }
+
+    /// Years of the weather are those of replicates, and need what asks for the weather.
+    pub(super) fn check_years(&self, experiment: &Experiment, faults: &mut Vec<Fault>) {
+        let path = Path::root().key("weather").key("years");
+        let mut tell = |problem: String, expected: String| faults.push(Fault::new(&path, problem, expected));
+        let Some(years) = self.weather.as_ref().and_then(|weather| weather.years.as_ref()) else { return };
+        let replicates = experiment.replicates;
+        match years {
+            Years::List(years) if years.len() != replicates as usize => {
+                let noun = if years.len() == 1 { "year" } else { "years" };
+                let problem = format!("{} {noun} for {replicates} replicates", years.len());
+                tell(problem, "the year of planting of each replicate (`experiment.replicates`)".to_owned());
+            }
+            Years::Word(_) if replicates < 2 => tell(
+                "there is one replicate, which grows in the year of `planting_date`".to_owned(),
+                "`replicates` of at least 2 in `[experiment]`, or no `years`".to_owned(),
+            ),
+            _ => {}
+        }
+        if self.calendar.as_ref().is_some_and(|calendar| calendar.degree_days.is_none()) {
+            let problem = "the years have no effect: nothing asks for the temperatures of the weather".to_owned();
+            tell(problem, "`calendar.degree_days` with `method` and `base_celsius`".to_owned());
+        }
     }
 
     fn check_degree_days(&self, tell: &mut impl FnMut(&str, String, &str)) {
@@ -239,10 +311,31 @@ mod tests {
              { fertilization_date = \"2000-10-01\", N_in_applied_fertilizer = 50 }]",
         );
         assert_eq!(of.faults(), []);
-        let soil = of.soil_until(date("2000-02-29"), date("2002-06-01")).expect("a soil");
+        let soil = of.soil_until(date("2000-02-29"), date("2002-06-01"), 0).expect("a soil");
         let days = ["2000-02-29", "2001-02-28", "2002-02-28"].map(|day| (date(day), 30.0));
         assert_eq!(soil.applied, [days.as_slice(), &[(date("2000-10-01"), 50.0)]].concat());
         assert_eq!((soil.own, soil.season_begins), (20.0, (9, 1)));
+        let later = of.soil_until(date("2001-02-28"), date("2001-12-01"), 1).expect("a soil");
+        assert_eq!(later.applied, [(date("2001-02-28"), 30.0), (date("2001-10-01"), 50.0)]);
+    }
+
+    #[test]
+    fn replicates_may_grow_in_years_of_their_own() {
+        let of = |years: &str| {
+            let weather = format!("weather = {{ file = \"a.csv\"{years} }}");
+            scenario(&format!("planting_date = \"1990-04-01\"\ncalendar = {{ tick = {{ days = 30 }} }}\n{weather}"))
+        };
+        assert_eq!(of("").years_later(3), None);
+        assert_eq!(of(", years = \"replicates\"").years_later(3), Some(vec![0, 1, 2]));
+        assert_eq!(of(", years = [1995, 1988]").years_later(2), Some(vec![5, -2]));
+    }
+
+    #[test]
+    fn the_soil_of_a_field_plot_supplies_no_less_than_nothing() {
+        let of = scenario("soil = { nitrogen_kg_ha = 5, field_plot_sd_kg_ha = 20 }").soil.expect("a soil");
+        let in_plot = |replicate| FieldPlot { seed: 1, treatment: "control", replicate, block: None };
+        let shifts: Vec<f64> = (0..50).map(|replicate| of.shift_in(&in_plot(replicate))).collect();
+        assert!(of.differs() && shifts.contains(&-5.0) && shifts.iter().all(|shift| *shift >= -5.0), "{shifts:?}");
     }
 
     #[test]

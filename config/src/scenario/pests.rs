@@ -7,6 +7,7 @@
 //! the hazard 1 − (1 − s)^(1/n). Absent: what an attack does to a plant (`sim::plant::Exposure`, `models::buds`), and
 //! dates.
 
+use super::field_plot::{FieldPlot, Spread};
 use phytomer_draws::{Aggregation, Clusters, Draws, Event, Key, NONE};
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::math::{expm1, log1p};
@@ -53,7 +54,18 @@ pub struct Pest {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Clustered")]
     pub clusters: Option<Clustered>,
-    /// The standard deviation by which the severity differs between plots. 0 if not given.
+    /// The standard deviation by which the severity differs between the blocks of the experiment: the treatments of a
+    /// block share its pests, in all seasons. 0 if not given.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    #[schemars(range(min = 0, max = 1))]
+    pub block_sd: f64,
+    /// The standard deviation by which it differs between field plots, each one replicate of one treatment, in all
+    /// seasons. 0 if not given.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    #[schemars(range(min = 0, max = 1))]
+    pub field_plot_sd: f64,
+    /// The standard deviation by which it differs between plots, which share a site (often a single plant), in each
+    /// season anew. 0 if not given.
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(range(min = 0, max = 1))]
     pub plot_sd: f64,
@@ -109,11 +121,9 @@ pub struct Clustered {
 
 /// A plant as pests find it.
 #[derive(Debug, Clone, Copy)]
-pub struct Host {
-    /// The seed of the run.
-    pub seed: u64,
-    /// The replicate.
-    pub replicate: u32,
+pub struct Host<'a> {
+    /// The field plot in which it stands.
+    pub field_plot: FieldPlot<'a>,
     /// Its plot, counted within the treatment and replicate.
     pub plot: u32,
     /// The plant, counted within the treatment and replicate.
@@ -151,10 +161,15 @@ impl Pest {
 
     /// The severity for one plant in one season.
     fn of_plant(&self, host: &Host, season: u32) -> f64 {
-        let Host { seed, replicate, plot, plant, place, .. } = *host;
+        let Host { field_plot, plot, plant, place, .. } = *host;
+        let FieldPlot { seed, replicate, .. } = field_plot;
         let event = Event::named("pest", &self.name);
         let of = |plot, event, plant| Key { seed, replicate, plot, event, plant, season };
         let mut severity = self.severity();
+        let spread = Spread { block_sd: self.block_sd, field_plot_sd: self.field_plot_sd };
+        if spread.is_any() {
+            severity = field_plot.shifted(&format!("pest {}", self.name), severity, spread, [0.0, 1.0]);
+        }
         if self.plot_sd > 0.0 {
             let mut draws = Draws::of(&of(plot, Event::named("pest of plot", &self.name), NONE));
             severity = draws.shifted(severity, self.plot_sd, [0.0, 1.0]).unwrap_or(severity);
@@ -181,11 +196,12 @@ impl Pest {
             Attacked::Flower => &mut exposed.flower,
             Attacked::Fruit => &mut exposed.fruit,
             Attacked::Plant => {
-                let Host { seed, replicate, plot, plant, .. } = *host;
+                let Host { field_plot: FieldPlot { seed, replicate, .. }, plot, plant, .. } = *host;
                 let event = Event::named("death by pest", &self.name);
                 let mut draws = Draws::of(&Key { seed, replicate, plot, event, plant, season });
                 let killed = (from..=until).find(|_| draws.happens(each));
                 exposed.death = exposed.death.min(killed.unwrap_or(exposed.death));
+                (from..=until).for_each(|age| exposed.plant.join(age, each));
                 return;
             }
         };
@@ -241,6 +257,7 @@ struct Exposed {
     leaf: Hazard,
     flower: Hazard,
     fruit: Hazard,
+    plant: Hazard,
     growth: Vec<f64>,
     death: u32,
 }
@@ -264,13 +281,14 @@ pub fn exposure(pests: &[Pest], host: &Host) -> Option<Arc<Exposure>> {
     }
     let none = Hazard::default;
     let (death, growth) = (phytomer_sim::NEVER, Vec::new());
-    let mut exposed = Exposed { apex: none(), leaf: none(), flower: none(), fruit: none(), growth, death };
+    let [apex, leaf, flower, fruit, plant] = [none(), none(), none(), none(), none()];
+    let mut exposed = Exposed { apex, leaf, flower, fruit, plant, growth, death };
     for pest in pests {
         pest.seasons(host.until).for_each(|season| pest.attack(host, season, &mut exposed));
     }
-    let Exposed { apex, leaf, flower, fruit, growth, death } = exposed;
+    let Exposed { apex, leaf, flower, fruit, plant, growth, death } = exposed;
     let [leaf, flower, fruit] = [leaf, flower, fruit].map(|hazard| Survival::under(&hazard));
-    Some(Arc::new(Exposure { apex, leaf, flower, fruit, growth, death }))
+    Some(Arc::new(Exposure { apex, leaf, flower, fruit, plant, growth, death }))
 }
 
 /// The faults of the pests of a run that ends at `until`.
@@ -294,8 +312,9 @@ mod tests {
         toml::from_str(&format!("name = \"borer\"\nattacks = \"leaf\"\nages = [11, 14]\n{toml}")).expect("a pest")
     }
 
-    fn host(plant: u32) -> Host {
-        Host { seed: 7, replicate: 0, plot: plant, plant, place: [3.0 * f64::from(plant), 0.0], until: 40 }
+    fn host(plant: u32) -> Host<'static> {
+        let field_plot = FieldPlot { seed: 7, treatment: "control", replicate: 0, block: None };
+        Host { field_plot, plot: plant, plant, place: [3.0 * f64::from(plant), 0.0], until: 40 }
     }
 
     /// Ten larvae a m² that eat .00144 m² a day for ten days eat .144 m²/m²: so many of the leaves that stand through

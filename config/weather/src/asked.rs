@@ -26,6 +26,10 @@ pub struct WeatherFile {
     /// What the weather is beyond the days of the file. `"refuse"` if not given.
     #[serde(default)]
     pub beyond: Beyond,
+    /// The years in which the replicates of an experiment grow: `"replicates"`, the first in that of `planting_date`
+    /// and each other one a year later, or a list of years, one for each replicate. All in the same year if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub years: Option<Years>,
     /// The latitude of the site in degrees, north positive. That of the file if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -90, max = 90))]
@@ -72,6 +76,24 @@ pub enum Beyond {
     Refuse,
     /// That of the same day of an earlier or a later year of the file, which must hold a whole year.
     Repeat,
+}
+
+/// The years in which the replicates of an experiment grow.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Years {
+    /// Each replicate a year after the one before, by the word `replicates`.
+    Word(YearsWord),
+    /// The year of planting of each replicate.
+    List(#[schemars(length(min = 1), inner(range(min = 1700, max = 2200)))] Vec<i32>),
+}
+
+/// The word for years.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum YearsWord {
+    /// Each replicate a year after the one before.
+    Replicates,
 }
 
 /// Degree-days: `degree_days = { method = "sine", base_celsius = 10 }`.

@@ -32,7 +32,7 @@ mod station;
 mod text;
 mod weather;
 
-pub use asked::{Asked, Beyond, DegreeDays, Format, Gaps, Method, WeatherFile};
+pub use asked::{Asked, Beyond, DegreeDays, Format, Gaps, Method, WeatherFile, Years, YearsWord};
 pub use fault::{Fault, Kind, MOST_FAULTS, Refused};
 pub use quantity::Quantity;
 pub use reading::{read, read_text};

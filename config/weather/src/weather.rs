@@ -169,7 +169,7 @@ impl Weather {
     }
 
     /// Whole years that the file holds.
-    fn whole_years(&self) -> i32 {
+    pub fn whole_years(&self) -> i32 {
         let end = self.last().plus(1);
         let years = end.year() - self.first.year();
         let anniversary = self.first.years_later(years);

@@ -34,11 +34,12 @@ pub enum Depth {
     Bytes,
 }
 
-/// The progress of a check, and the switch that stops it; shared between threads.
+/// The progress of a check or of a merge, and the switch that stops it; shared between threads.
 #[derive(Debug, Default)]
 pub struct Checking {
     bytes: AtomicU64,
     in_all: AtomicU64,
+    copies: AtomicBool,
     stop: AtomicBool,
 }
 
@@ -57,6 +58,17 @@ impl Checking {
     pub(super) fn begin(&self, in_all: u64) {
         self.bytes.store(0, Relaxed);
         self.in_all.store(in_all, Relaxed);
+    }
+
+    /// The same for files that are copied while they are checked.
+    pub(super) fn begin_copying(&self, in_all: u64) {
+        self.copies.store(true, Relaxed);
+        self.begin(in_all);
+    }
+
+    /// Whether files are copied, and not checked alone.
+    pub fn copies(&self) -> bool {
+        self.copies.load(Relaxed)
     }
 
     /// The number of bytes read so far.

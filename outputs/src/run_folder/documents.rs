@@ -11,6 +11,7 @@ use super::seal::DOCUMENT;
 use super::share::{SHARE, Share};
 use crate::storage::durable;
 use crate::tables::arrow::plant_ontology;
+use crate::tables::columns::SITE;
 use crate::tables::schema::{Column, Type};
 use crate::tables::{Factor, RunPlan, Table, treatments};
 use serde::Serialize;
@@ -277,7 +278,8 @@ const MACROS: [(&[Table], &str, &str); 10] = [
         "What the date brought to each treatment and replicate, tick by tick, its parts together.",
         "sites() AS TABLE SELECT treatment, replicate, block, tick, max(date) AS date, max(degree_days) AS degree_days, \
          max(degree_day_sum) AS degree_day_sum, max(day_length_h) AS day_length_h, max(nitrogen_kg_ha) AS \
-         nitrogen_kg_ha, sum(plots) AS plots, sum(living_plants) AS living_plants FROM site GROUP BY ALL ORDER BY ALL",
+         nitrogen_kg_ha, sum(plots) AS plots, sum(living_plants) AS living_plants, {pressures} FROM site GROUP BY ALL ORDER \
+         BY ALL",
     ),
     (
         &[Table::Summary, Table::Plants],
@@ -311,6 +313,16 @@ const MECHANICS: (&str, &str) = (
      GROUP BY ALL ORDER BY ALL",
 );
 
+/// The means of the pressures of pests over the rows of several parts, each row with the weight of its living plants.
+fn mean_pressures() -> String {
+    let pressures = SITE.iter().map(|column| column.name).filter(|name| name.starts_with("pest_pressure"));
+    let mean = |name: &str| {
+        let living = format!("sum(living_plants) FILTER ({name} IS NOT NULL)");
+        format!("sum({name} * living_plants) / nullif({living}, 0) AS {name}")
+    };
+    pressures.map(mean).collect::<Vec<_>>().join(", ")
+}
+
 fn views(plan: &RunPlan) -> String {
     let mut sql =
         String::from("-- For DuckDB. Paths are relative: start DuckDB in this folder, then `.read views.sql`.\n");
@@ -329,6 +341,7 @@ fn views(plan: &RunPlan) -> String {
     let mechanics = plan.mechanics && has(&[Table::Records]);
     for (comment, body) in wanted.chain(mechanics.then_some(MECHANICS)) {
         let body = body.replace("{records}", if located { "records_world" } else { "records" });
+        let body = body.replace("{pressures}", &mean_pressures());
         sql += &format!("\n-- {comment}\nCREATE OR REPLACE MACRO {body};\n");
     }
     sql

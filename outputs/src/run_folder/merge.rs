@@ -62,7 +62,7 @@ pub fn merge(into: &Path, parts: &[PathBuf], mode: Mode, opening: &Opening) -> R
     let all: Vec<(&Path, &ShardReport)> = of_sources.collect();
     let is_missing = |(_, shard): &&(&Path, &ShardReport)| !target.journal().done().contains_key(&shard.shard);
     let missing: Vec<_> = all.iter().filter(is_missing).collect();
-    opening.checking.begin(missing.iter().map(|(_, shard)| shard.bytes()).sum());
+    opening.checking.begin_copying(missing.iter().map(|(_, shard)| shard.bytes()).sum());
     missing.par_iter().try_for_each(|(from, shard)| target.adopt(from, shard, opening.checking))?;
     let timings = timings_of(&sources);
     let timings: Vec<(&str, f64)> = timings.iter().map(|(name, seconds)| (name.as_str(), *seconds)).collect();

@@ -5,6 +5,10 @@
 //! the run"; no number stands for it. A `tick` is the plot's, an `age` (or `…_age`) the plant's. A component's place is
 //! relative to the seed of its plant, in single precision; that of the seed is in `plants`, in double precision.
 
+mod site;
+
+pub use site::SITE;
+
 use super::schema::{Column, Encoding, Named, Rounding, Type};
 use phytomer_sim::plant::{Cause, EventKind, Kind, Origin};
 
@@ -356,44 +360,3 @@ pub static PLANTS: [Column; 11] = [
 /// A row per treatment. A column for each factor follows, with the name of the level.
 pub static TREATMENTS: [Column; 2] =
     [Column::id("treatment_index", "The number of the treatment, from 0, in the order of its plots."), TREATMENT];
-
-/// A row per treatment, replicate and recorded tick, in each part that has plots of them.
-pub static SITE: [Column; 12] = [
-    TREATMENT,
-    Column::id("plot_id", "The first of the plots in this part: those of one treatment and replicate."),
-    Column::small(
-        "replicate",
-        "The replicate of the treatment of the plots, from 0; 0 where a run compares no treatments.",
-    ),
-    BLOCK,
-    TICK,
-    Column::new(
-        "date",
-        Type::Date,
-        Encoding::Dictionary,
-        "The day that begins when the tick ends. Null where the scenario has no calendar, as are the next four columns.",
-    )
-    .or_null(),
-    Column::double(
-        "degree_days",
-        "°C d",
-        "The degree-days of the days of the tick. Null where the scenario does not state how they are taken.",
-    )
-    .or_null(),
-    Column::double("degree_day_sum", "°C d", "The degree-days since planting. Null as `degree_days`.").or_null(),
-    Column::double(
-        "day_length_h",
-        "h",
-        "The hours from sunrise to sunset on the date. Null where the latitude is not known.",
-    )
-    .or_null(),
-    Column::double(
-        "nitrogen_kg_ha",
-        "kg/ha",
-        "The nitrogen of the season: the soil's own supply and what was applied since the season began. Null where the \
-         scenario states no soil.",
-    )
-    .or_null(),
-    Column::small("plots", "The number of plots of the treatment and replicate in this part."),
-    Column::small("living_plants", "The plants of these plots that live at the tick."),
-];

@@ -17,7 +17,8 @@ pub struct Membership {
     pub replicate: u32,
     /// The block of the field that the plot stands in.
     pub block: Option<u32>,
-    /// The species of the plant, as an index into the run's list of species.
+    /// The model of the plant, as an index into the run's list of models; in the rows of `plants` its species, as an
+    /// index into the run's list of species.
     pub species: usize,
     /// The tick of the plot at which the plant was sown.
     pub sown: Tick,

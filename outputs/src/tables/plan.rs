@@ -7,11 +7,10 @@ use super::Table;
 use super::sample::Sample;
 use super::schema::Column;
 use phytomer_sim::Tick;
-use phytomer_sim::site::calendar::Calendar;
+use phytomer_sim::site::calendars::Calendars;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// The plan of a run.
 #[derive(Debug, Clone)]
@@ -34,8 +33,10 @@ pub struct RunPlan {
     pub precision_m: Option<f64>,
     /// Whether `records` has the columns of mechanics.
     pub mechanics: bool,
-    /// The calendar of the plots of each treatment, in the order of the treatments; `None` where ticks have no dates.
-    pub calendars: Vec<Option<Arc<Calendar>>>,
+    /// The calendars of the plots of each treatment, in the order of the treatments.
+    pub calendars: Vec<Calendars>,
+    /// The species of each model, as an index into [`Provenance::species`]; a species is its own model beyond the list.
+    pub species_of_models: Vec<usize>,
     /// The origin of the figures.
     pub provenance: Provenance,
 }
@@ -49,7 +50,7 @@ pub struct Provenance {
     pub treatments: Vec<String>,
     /// The factors of the experiment, with the level of each treatment; empty for a run without factors.
     pub factors: Vec<Factor>,
-    /// The names of the species of the run, to which plants refer by index.
+    /// The names of the species of the run, each once.
     pub species: Vec<String>,
     /// The seed of all random draws.
     pub seed: u64,

@@ -13,9 +13,8 @@ use super::{
     RecordColumns, RecordRow, RunPlan, Sample, SiteColumns, SortedEvents, SummaryColumns, Table, TableError, by_number,
     summarise,
 };
-use phytomer_sim::site::calendar::Calendar;
+use phytomer_sim::site::calendars::Calendars;
 use phytomer_sim::{Ending, Plot, Tick};
-use std::sync::Arc;
 
 /// The tables of a run, each `None` where the plan does not have it.
 struct Tables<S> {
@@ -41,7 +40,8 @@ pub struct Recording<S> {
     rows: Vec<RecordRow>,
     lives: Vec<ComponentRow>,
     sorted: SortedEvents,
-    calendars: Vec<Option<Arc<Calendar>>>,
+    calendars: Vec<Calendars>,
+    species_of_models: Vec<usize>,
     /// The present treatment and replicate.
     group: Group,
 }
@@ -79,6 +79,7 @@ impl<S: Sink> Recording<S> {
             lives: Vec::new(),
             sorted: SortedEvents::default(),
             calendars: plan.calendars.clone(),
+            species_of_models: plan.species_of_models.clone(),
             group: Group::default(),
         })
     }
@@ -158,7 +159,9 @@ impl<S: Sink> Recording<S> {
     fn write_plants(&mut self, plot: &Plot) -> Result<(), TableError> {
         let Some(table) = &mut self.tables.plants else { return Ok(()) };
         for at in by_number(plot) {
-            let of = Membership { sampled: has(self.sample, plot, at), ..Membership::of(plot, at) };
+            let of = Membership::of(plot, at);
+            let species = self.species_of_models.get(of.species).copied().unwrap_or(of.species);
+            let of = Membership { sampled: has(self.sample, plot, at), species, ..of };
             table.columns.add(of, &plot.plants[at]);
             table.flush_if_full()?;
         }
@@ -180,11 +183,10 @@ impl<S: Sink> Recording<S> {
     fn write_site(&mut self) -> Result<(), TableError> {
         let Some(table) = &mut self.tables.site else { return Ok(()) };
         let mut next = 0;
-        while next < self.group.living().len() {
-            let some = next..(next + table.room()).min(self.group.living().len());
+        while next < self.group.rows() {
+            let some = next..(next + table.room()).min(self.group.rows());
             next = some.end;
-            let rows = (&self.recorded[some.clone()], &self.group.living()[some]);
-            table.columns.add(&self.group, rows, &self.calendars);
+            table.columns.add(&self.group, (&self.recorded, some), &self.calendars);
             table.flush_if_full()?;
         }
         self.group.clear();

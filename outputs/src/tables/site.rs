@@ -1,5 +1,5 @@
-//! The rows of `site`: what the date brought to the plots of a treatment and replicate at a recorded tick, and how many
-//! of their plants lived.
+//! The rows of `site`: what the date brought to the plots of a treatment and replicate at a recorded tick, how many of
+//! their plants lived, and what pests did to these.
 //!
 //! Plots of one treatment and replicate follow one another, so their plants are counted together and their rows are
 //! written when the next ones begin, or the part ends. A run of several parts has the rows of each part that has
@@ -7,10 +7,12 @@
 //! date are null. Absent: what single plants are (`summary`).
 
 use super::buffers::{NO_DATE, NULL, columns};
-use phytomer_sim::site::calendar::{Calendar, CalendarTick};
+use phytomer_sim::plant::Exposure;
+use phytomer_sim::site::calendar::CalendarTick;
+use phytomer_sim::site::calendars::Calendars;
 use phytomer_sim::site::date::Date;
 use phytomer_sim::{Plot, Tick};
-use std::sync::Arc;
+use std::ops::Range;
 
 columns! {
     /// The buffers of `site`.
@@ -27,6 +29,11 @@ columns! {
         nitrogen: Double(f64) = at.number(|of| of.nitrogen_kg_ha),
         plots: Int(i32) = of.plots as i32,
         living: Int(i32) = at.living as i32,
+        apex: Double(f64) = at.pressures[0],
+        leaf: Double(f64) = at.pressures[1],
+        flower: Double(f64) = at.pressures[2],
+        fruit: Double(f64) = at.pressures[3],
+        plant: Double(f64) = at.pressures[4],
     }
 }
 
@@ -36,6 +43,8 @@ struct SiteAt {
     tick: Tick,
     of_calendar: Option<CalendarTick>,
     living: u32,
+    /// The means of [`Exposure::pressures`] over the living plants; NaN where there is none.
+    pressures: [f64; 5],
 }
 
 impl SiteAt {
@@ -54,6 +63,10 @@ pub struct Group {
     plots: u32,
     /// The plants that live at each recorded tick.
     living: Vec<u32>,
+    /// The sums of their [`Exposure::pressures`]; empty without pests.
+    pressures: Vec<[f64; 5]>,
+    /// What a pest attacks on any of the plants.
+    attacked: [bool; 5],
 }
 
 impl Group {
@@ -66,9 +79,9 @@ impl Group {
     /// group one of its treatment and replicate.
     pub fn count(&mut self, plot: &Plot, recorded: &[Tick], last: Tick) {
         if self.plots == 0 {
-            let living = std::mem::take(&mut self.living);
             let Plot { treatment, replicate, block, id: first_plot, .. } = *plot;
-            *self = Self { treatment, replicate, block, first_plot, plots: 0, living };
+            (self.treatment, self.replicate, self.block, self.first_plot) = (treatment, replicate, block, first_plot);
+            self.living.clear();
             self.living.resize(recorded.len(), 0);
         }
         self.plots += 1;
@@ -76,32 +89,60 @@ impl Group {
             for (living, tick) in self.living.iter_mut().zip(recorded).take_while(|(_, tick)| **tick <= last) {
                 *living += u32::from(member.age_at(*tick).is_some_and(|age| plant.lives(age)));
             }
+            if let Some(exposure) = &plant.exposure {
+                let ages = recorded.iter().take_while(|tick| **tick <= last).map(|tick| member.age_at(*tick));
+                let living = |age: Option<Tick>| age.filter(|age| plant.lives(*age));
+                self.press(exposure, ages.map(living));
+            }
         }
     }
 
-    /// The plants that live at each recorded tick; none where the group has no plot.
-    pub fn living(&self) -> &[u32] {
-        if self.plots == 0 { &[] } else { &self.living }
+    /// Adds what pests do to a plant at its age at each recorded tick; no age where it does not live.
+    fn press(&mut self, exposure: &Exposure, ages: impl Iterator<Item = Option<Tick>>) {
+        self.pressures.resize(self.living.len(), [0.0; 5]);
+        for (sums, age) in self.pressures.iter_mut().zip(ages) {
+            let Some(age) = age else { continue };
+            for (place, pressure) in exposure.pressures(age).into_iter().enumerate() {
+                self.attacked[place] |= pressure.is_some();
+                sums[place] += pressure.unwrap_or(0.0);
+            }
+        }
+    }
+
+    /// The means of the pressures at a recorded tick, by its place.
+    fn mean_pressures(&self, place: usize) -> [f64; 5] {
+        let living = self.living.get(place).copied().unwrap_or(0);
+        let sums = self.pressures.get(place).copied().unwrap_or([f64::NAN; 5]);
+        let mean = |at: usize| if self.attacked[at] && living > 0 { sums[at] / f64::from(living) } else { f64::NAN };
+        [0, 1, 2, 3, 4].map(mean)
+    }
+
+    /// The number of its rows: one for each recorded tick; none where the group has no plot.
+    pub fn rows(&self) -> usize {
+        if self.plots == 0 { 0 } else { self.living.len() }
     }
 
     /// Forgets the plots, keeping the memory.
     pub fn clear(&mut self) {
         self.plots = 0;
         self.living.clear();
+        self.pressures.clear();
+        self.attacked = [false; 5];
     }
 }
 
 impl SiteColumns {
-    /// Adds the rows of a group at some of the recorded ticks; beside each tick its living plants.
-    /// `calendars` has one for each treatment.
-    pub fn add(&mut self, group: &Group, recorded: (&[Tick], &[u32]), calendars: &[Option<Arc<Calendar>>]) {
-        let calendar = calendars.get(group.treatment as usize).and_then(Option::as_ref);
-        let at = |(tick, living): (&Tick, &u32)| SiteAt {
-            tick: *tick,
-            of_calendar: calendar.map(|calendar| *calendar.at(*tick)),
-            living: *living,
+    /// Adds the rows of a group at some of the recorded ticks, by their places. `calendars` has those of each
+    /// treatment.
+    pub fn add(&mut self, group: &Group, (recorded, some): (&[Tick], Range<usize>), calendars: &[Calendars]) {
+        let calendar = calendars.get(group.treatment as usize).and_then(|of| of.of(group.replicate));
+        let at = |place: usize| SiteAt {
+            tick: recorded[place],
+            of_calendar: calendar.map(|calendar| *calendar.at(recorded[place])),
+            living: group.living[place],
+            pressures: group.mean_pressures(place),
         };
-        let rows: Vec<SiteAt> = recorded.0.iter().zip(recorded.1).map(at).collect();
+        let rows: Vec<SiteAt> = some.map(at).collect();
         self.extend(&rows, group);
     }
 }

@@ -16,11 +16,11 @@ use ::arrow_array::{Array, RecordBatch};
 use ::arrow_schema::DataType;
 use phytomer_sim::plant::{AxisId, EventKind, NewAxis};
 use phytomer_sim::site::calendar::{Calendar, CalendarTick, TickLength};
+use phytomer_sim::site::calendars::Calendars;
 use phytomer_sim::site::date::Date;
 use phytomer_sim::{Ending, Plot, Tick, grow};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use std::sync::Arc;
 use tempfile::tempdir;
 
 const PLOTS: u32 = 5;
@@ -286,7 +286,7 @@ fn dated(until: Tick) -> Calendar {
 fn the_site_has_the_calendar_of_its_treatment_and_counts_the_living() {
     let home = tempdir().unwrap();
     let mut plan = mixed_plan(PLOTS, 2);
-    plan.calendars = vec![None, Some(Arc::new(dated(plan.until)))];
+    plan.calendars = vec![Calendars::default(), Calendars::from(dated(plan.until))];
     run_mixed(home.path(), plan.clone());
     let (site, summary) = (rows(home.path(), Table::Site), rows(home.path(), Table::Summary));
     assert_eq!(site.len(), PLOTS as usize * plan.recorded.len());

@@ -7,7 +7,7 @@
 //! from, and the growth that they act on, which is the model's.
 
 use crate::clock::{NEVER, Tick};
-use crate::math::log1p;
+use crate::math::{expm1, log1p};
 
 /// The least share that survives a tick: even a hazard of 1 leaves it, so that sums of logarithms stay finite.
 const LEAST_LEFT: f64 = 1e-15;
@@ -23,6 +23,8 @@ pub struct Exposure {
     pub flower: Survival,
     /// As for a leaf, for a fruit.
     pub fruit: Survival,
+    /// The probability, by age, that every bud of the plant is killed. [`Exposure::death`] is drawn by it.
+    pub plant: Hazard,
     /// The factor, by age, of the nodes of a growth unit.
     pub growth: Vec<f64>,
     /// The age at which every bud of the plant is killed; [`NEVER`] where none is.
@@ -37,6 +39,7 @@ impl Default for Exposure {
             leaf: none.clone(),
             flower: none.clone(),
             fruit: none,
+            plant: Hazard::default(),
             growth: vec![],
             death: NEVER,
         }
@@ -44,6 +47,15 @@ impl Default for Exposure {
 }
 
 impl Exposure {
+    /// The probabilities that an apical bud, a leaf, a flower, a fruit and the whole plant are attacked at an age;
+    /// `None` where no pest attacks such a thing at any age.
+    pub fn pressures(&self, age: Tick) -> [Option<f64>; 5] {
+        let hazard = |hazard: &Hazard| (!hazard.0.is_empty()).then(|| hazard.at(age));
+        let survival = |survival: &Survival| (!survival.sum.is_empty()).then(|| survival.hazard_at(age));
+        let Self { apex, leaf, flower, fruit, plant, .. } = self;
+        [hazard(apex), survival(leaf), survival(flower), survival(fruit), hazard(plant)]
+    }
+
     /// The factor of the nodes of a growth unit that is made at an age; 1 at ages that are not told.
     #[inline]
     pub fn growth_at(&self, age: Tick) -> f64 {
@@ -90,6 +102,13 @@ impl Survival {
         Self { sum: sums.collect() }
     }
 
+    /// The probability at an age that a thing which stands is eaten; 0 at ages that are not told.
+    pub fn hazard_at(&self, age: Tick) -> f64 {
+        let sum = |age: Option<usize>| age.and_then(|age| self.sum.get(age)).copied().unwrap_or(0.0);
+        let age = age as usize;
+        if age < self.sum.len() { -expm1(sum(age.checked_sub(1)) - sum(Some(age))) } else { 0.0 }
+    }
+
     /// The tick at which a thing that appears at `birth` is eaten, by a word that stands for its draw; [`NEVER`] where
     /// none of the ages told reaches it. It stands for one tick at least. Logarithmic in the ages.
     pub fn end(&self, birth: Tick, word: u32) -> Tick {
@@ -130,6 +149,13 @@ mod tests {
         ] {
             assert!((share(birth, end) - expected).abs() < 2e-4, "{birth} to {end}: {}", share(birth, end));
         }
+        for (age, expected) in [(2, 0.0), (3, 0.2), (4, 0.6), (5, 0.0), (7, 0.0)] {
+            assert!((survival.hazard_at(age) - expected).abs() < 1e-15, "{age}: {}", survival.hazard_at(age));
+        }
+        assert!((1.0 - survival.hazard_at(6)).abs() < 1e-14);
+        let exposure = Exposure { leaf: survival.clone(), apex: hazard, ..Exposure::default() };
+        let [apex, leaf, others @ ..] = exposure.pressures(4);
+        assert!(apex.zip(leaf).is_some_and(|(apex, leaf)| (apex - leaf).abs() < 1e-15) && others == [None; 3]);
         assert!([0, 1, u32::MAX].iter().all(|&word| Survival::default().end(0, word) == NEVER));
         assert!([0, 1, u32::MAX].iter().all(|&word| survival.end(5, word) == 6 && survival.end(1, word) >= 3));
     }

@@ -131,6 +131,14 @@ impl Calendar {
         (!ticks.is_empty()).then_some(Self { ticks, length })
     }
 
+    /// The same calendar over a soil that supplies so much more in each season, kg N/ha; less where that is negative.
+    pub fn supplied(mut self, more: f64) -> Self {
+        for nitrogen in self.ticks.iter_mut().filter_map(|tick| tick.nitrogen_kg_ha.as_mut()) {
+            *nitrogen += more;
+        }
+        self
+    }
+
     /// A tick; beyond the last, the last one.
     pub fn at(&self, tick: Tick) -> &CalendarTick {
         &self.ticks[(tick as usize).min(self.ticks.len() - 1)]

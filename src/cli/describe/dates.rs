@@ -5,13 +5,18 @@
 use super::super::amounts;
 use phytomer_config::{Dated, WeatherRead};
 use phytomer_sim::site::calendar::{Calendar, CalendarTick, TickLength};
+use phytomer_sim::site::calendars::Calendars;
+use std::sync::Arc;
+
+/// The most replicates whose days are told.
+const SHOWN: usize = 4;
 
 /// A value of a tick, where it is known.
 type OfTick = fn(&CalendarTick) -> Option<f64>;
 
 /// The lines that tell the dates of a scenario: a name and its value each.
 pub fn lines(dated: &Dated) -> Vec<(&'static str, String)> {
-    let mut lines = vec![("calendar", calendar_in_words(&dated.calendar))];
+    let mut lines = vec![("calendar", calendars_in_words(&dated.calendars))];
     if let Some(weather) = &dated.weather {
         lines.push(("weather", weather_in_words(weather)));
         lines.extend(notes_in_words(weather).map(|notes| ("noted", notes)));
@@ -26,14 +31,22 @@ pub fn lines(dated: &Dated) -> Vec<(&'static str, String)> {
     lines
 }
 
-fn calendar_in_words(calendar: &Calendar) -> String {
-    let ticks = calendar.ticks();
-    let length = match calendar.tick_length() {
-        TickLength::Days(days) => amounts::of(days.into(), "day"),
-        TickLength::DegreeDays(sum) => format!("{sum} °C d"),
+/// The days of the run, or of each replicate where they grow in years of their own, and the length of a tick.
+fn calendars_in_words(calendars: &Calendars) -> String {
+    let length = match calendars.of(0).map(|calendar| calendar.tick_length()) {
+        Some(TickLength::Days(days)) => amounts::of(days.into(), "day"),
+        Some(TickLength::DegreeDays(sum)) => format!("{sum} °C d"),
+        None => String::new(),
     };
-    let last = ticks.last().map_or_else(String::new, |tick| format!(" to {}", tick.date));
-    format!("from {}{last}, in ticks of {length}", calendar.at(0).date)
+    let days = |calendar: &Arc<Calendar>| {
+        let last = calendar.ticks().last().map_or_else(String::new, |tick| format!(" to {}", tick.date));
+        format!("{}{last}", calendar.at(0).date)
+    };
+    let each: Vec<String> = calendars.all().iter().take(SHOWN).map(days).collect();
+    let more = calendars.all().len().saturating_sub(SHOWN);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let replicates = if each.len() > 1 { "replicates " } else { "" };
+    format!("{replicates}from {}{more}, in ticks of {length}", each.join(", "))
 }
 
 fn weather_in_words(weather: &WeatherRead) -> String {
@@ -71,7 +84,8 @@ fn notes_in_words(weather: &WeatherRead) -> Option<String> {
 
 /// The least and the largest value over the ticks from 1 on; `None` where it is not known.
 fn range_in_words(dated: &Dated, of: OfTick, unit: &str) -> Option<String> {
-    let values: Option<Vec<f64>> = dated.calendar.ticks().iter().skip(1).map(of).collect();
+    let ticks = dated.calendars.all().iter().flat_map(|calendar| calendar.ticks().iter().skip(1));
+    let values: Option<Vec<f64>> = ticks.map(of).collect();
     let values = values.filter(|values| !values.is_empty())?;
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -4,11 +4,12 @@
 
 use super::super::amounts;
 use super::dates;
+use super::levels;
 use super::run::ages_in_words;
 use anyhow::Result;
 use phytomer::run::forecast::{Figure, Forecast};
 use phytomer_config::Resolved;
-use phytomer_config::scenario::{Design, Planting, Table};
+use phytomer_config::scenario::{Design, Planting, Soil, Table};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -53,6 +54,9 @@ pub fn as_text(resolved: &Resolved) -> String {
     let is_one = have_one_calendar(resolved);
     let of_all = resolved.calendars.first().into_iter().flatten().filter(|_| is_one);
     of_all.flat_map(dates::lines).for_each(|(name, value)| line(name, value));
+    if let Some(soil) = soil_in_words(scenario.soil.as_ref()) {
+        line("soil", soil);
+    }
     line("ages", ages_in_words(&scenario.ages.recorded(), scenario.ages.until));
     line("seed", scenario.seed.to_string());
     line("tables", tables_in_words(&scenario.written_tables()));
@@ -80,8 +84,8 @@ fn have_one_calendar(resolved: &Resolved) -> bool {
     resolved.calendars.windows(2).all(|pair| pair[0] == pair[1])
 }
 
-/// The treatments of an experiment, a line each: its name, the plants of a replicate, and what its levels set, as typed
-/// and in SI units.
+/// The treatments of an experiment: the name of each, the plants of a replicate, and what its levels set, as given and
+/// in SI units.
 fn treatments_in_words(resolved: &Resolved) -> String {
     let (trial, experiment) = (resolved.trial(), &resolved.scenario.experiment);
     if trial.treatments().len() == 1 && trial.replicates() == 1 {
@@ -99,16 +103,27 @@ fn treatments_in_words(resolved: &Resolved) -> String {
         let plants = amounts::of(treatment.scenario.plants.into(), "plant");
         let levels = experiment.factor.iter().zip(&treatment.levels);
         let sets = levels.filter_map(|(factor, name)| factor.level.iter().find(|level| level.name == *name));
-        let sets: Vec<String> =
-            sets.flat_map(|level| level.sets.iter()).map(|(key, value)| format!("{key} = {value}")).collect();
-        let sets = if sets.is_empty() { "the scenario as it stands".to_owned() } else { sets.join(", ") };
-        let _ = writeln!(text, "    {}: {plants} a replicate; {sets}", treatment.name);
+        let sets: Vec<String> = sets.flat_map(|level| levels::lines(&level.sets)).collect();
+        let alike = if sets.is_empty() { "; the scenario as it stands" } else { "" };
+        let _ = writeln!(text, "    {}: {plants} a replicate{alike}", treatment.name);
+        sets.iter().for_each(|set| _ = writeln!(text, "      {set}"));
         let dates = resolved.calendars.get(place).into_iter().flatten().filter(|_| !is_one).flat_map(dates::lines);
-        for (name, value) in planting_in_words(&treatment.scenario.planting).into_iter().chain(dates) {
+        for (name, value) in dates {
             let _ = writeln!(text, "      {name:<11} {value}");
         }
     }
     text
+}
+
+/// How the nitrogen of the soil differs between blocks and field plots; `None` where it does not.
+fn soil_in_words(soil: Option<&Soil>) -> Option<String> {
+    let differs = |between: &str, sd: f64| {
+        (sd > 0.0).then(|| format!("between {between} with a standard deviation of {sd} kg/ha"))
+    };
+    let Soil { nitrogen_kg_ha, block_sd_kg_ha, field_plot_sd_kg_ha, .. } = soil?;
+    let each = [differs("blocks", *block_sd_kg_ha), differs("field plots", *field_plot_sd_kg_ha)];
+    let each: Vec<String> = each.into_iter().flatten().collect();
+    (!each.is_empty()).then(|| format!("supplies {nitrogen_kg_ha} kg N/ha, which differs {}", each.join(" and ")))
 }
 
 /// What is said of planting, in the units of ICASA and in SI.
