@@ -25,7 +25,7 @@ pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use pests::{Attacked, Clustered, Host, Larvae, Pest, exposure};
 pub use planting::{Grid, Planting};
 pub use plots::Member;
-pub use site::{Plane, Site, Wind};
+pub use site::{Kills, Obstacle, Plane, Site, Wind};
 pub use tables::Table;
 
 use std::collections::BTreeSet;
@@ -79,7 +79,7 @@ pub struct Scenario {
     /// The treatments that are compared, and their replicates. One treatment, `control`, if not given.
     #[serde(default, skip_serializing_if = "Experiment::is_default")]
     pub experiment: Experiment,
-    /// External influences on the plants: gravity, wind, and planes that kill buds.
+    /// External influences on the plants: gravity, wind, and shapes that kill buds.
     #[serde(default, skip_serializing_if = "Site::is_default")]
     pub site: Site,
     /// The pests of the run, as `[[pest]]`. None if not given.
@@ -301,13 +301,14 @@ impl Scenario {
         self.check_sample(&mut faults);
         pests::check(&self.pest, self.ages.until, self.spacing_m.is_some(), &Path::root().key("pest"), &mut faults);
         self.check_planting(&mut faults);
-        self.check_events(&mut faults);
+        let shapes = self.site.shapes(&mut faults);
+        self.check_events(&shapes, &mut faults);
         self.check_calendar(&mut faults);
         if let Some(experiment) = experiment {
             self.check_years(experiment, &mut faults);
             self.check_blocks(experiment, &mut faults);
         }
-        self.site.check_planes(&Path::root().key("site"), &mut faults);
+        self.site.check_obstacles(&shapes, &Path::root().key("site"), &mut faults);
         if self.tables.is_empty() && self.meshes.is_none() {
             let problem = "this run would write nothing: no table and no mesh is asked for";
             faults.push(Fault::new(&Path::root().key("tables"), problem, "at least one table, or `[meshes]`"));

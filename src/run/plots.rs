@@ -1,9 +1,9 @@
 //! The plots of a trial as they are sown: each member with its species, its draws, its place and its tick of sowing.
 //!
-//! Plots stand on the field of the trial (`field`), members beside the place of their plot, and planes that kill buds
-//! with their plot: so a plot differs from the others of its treatment by its place and by the draws of its plants
+//! Plots stand on the field of the trial (`field`), members beside the place of their plot, and obstacles that kill
+//! buds with their plot: so a plot differs from the others of its treatment by its place and by the draws of its plants
 //! alone. Draws are keyed by replicate and number, not by treatment, so treatments are compared on the same draws.
-//! Where no plant can feel another one, or a plane, a single plant can be sown without its plot. Absent: growing.
+//! Where no plant can feel another one, or an obstacle, a single plant can be sown without its plot. Absent: growing.
 
 use super::field::Field;
 use phytomer_config::scenario::{FieldPlot, Host, Member, Table, exposure};
@@ -21,6 +21,8 @@ pub struct Plots<'a> {
     field: Field,
     /// What people do to the plants of each treatment.
     management: Vec<Management>,
+    /// The site of each treatment, of a plot at the origin.
+    sites: Vec<Site>,
     /// The models of the cohorts of the trial.
     models: Vec<&'a dyn GrowthModel>,
     /// The members of the plots of each treatment.
@@ -33,7 +35,8 @@ impl<'a> Plots<'a> {
         let field = Field::of(&trial);
         let members = trial.treatments().iter().map(|treatment| treatment.scenario.plot_members()).collect();
         let management = trial.treatments().iter().map(|treatment| treatment.scenario.management()).collect();
-        Self { trial, field, management, models, members }
+        let sites = trial.treatments().iter().map(|treatment| treatment.scenario.site.felt()).collect();
+        Self { trial, field, management, sites, models, members }
     }
 
     /// The trial.
@@ -135,8 +138,7 @@ impl<'a> Plots<'a> {
     }
 
     fn site(&self, plot: u32) -> Site {
-        let treatment = &self.trial.treatments()[self.trial.plot(plot).treatment];
-        treatment.scenario.site.felt_at(self.plot_place(plot))
+        self.sites[self.trial.plot(plot).treatment].moved(self.plot_place(plot))
     }
 
     fn sowings(&self, plot: u32) -> Vec<Sowing> {

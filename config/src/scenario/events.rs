@@ -10,9 +10,11 @@ use super::Scenario;
 use super::site::Plane;
 use phytomer_law::condition::formula;
 use phytomer_law::fault::{Fault, Path};
+use phytomer_models::shapes::{Named, ShapeOrName, one};
 use phytomer_sim::management::{Act, Choice, Kept, Management, Operation, Region, SharedFormula, Start, Thing, When};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// The share of its life on the plant from which a fruit is ripe, where a harvest states none.
 const RIPE: f64 = 0.9;
@@ -91,6 +93,10 @@ pub struct Event {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0.001, max = 1000)))]
     pub box_m: Option<[f64; 3]>,
+    /// The shape of a hedge around the seed of each plant, metres from the seed: a table, or the name of a shape of the
+    /// site. Nothing is left outside it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shape: Option<ShapeOrName>,
     /// The share of its life on the plant that a fruit has behind it when it is ripe. 0.9 if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 1))]
@@ -107,7 +113,7 @@ pub enum Work {
     Thinning,
     /// Everything above a height is taken.
     Topping,
-    /// Everything beyond planes, or outside a box, is taken.
+    /// Everything beyond planes, outside a box or outside a shape is taken.
     Hedging,
     /// The trunk, and every other axis of its order, is cut above a height or above a node.
     Stumping,
@@ -150,7 +156,7 @@ impl Work {
             Self::Heading => (&["keep_nodes", "keep_share", "keep_length_m"], CHOICE),
             Self::Thinning | Self::FruitThinning => (&[], CHOICE),
             Self::Topping => (&["height_m"], CHOICE),
-            Self::Hedging => (&["planes", "box_m"], CHOICE),
+            Self::Hedging => (&["planes", "box_m", "shape"], CHOICE),
             Self::Stumping => (&["height_m", "keep_nodes"], &["protect"]),
             Self::Removal => (&[], &["protect", "first", "share", "at_most"]),
             Self::Harvest => {
@@ -197,6 +203,7 @@ impl Event {
             ("keep_length_m", self.keep_length_m.is_some()),
             ("planes", !self.planes.is_empty()),
             ("box_m", self.box_m.is_some()),
+            ("shape", self.shape.is_some()),
             ("ripe_share", self.ripe_share.is_some()),
         ];
         all.into_iter().filter(|(_, stated)| *stated).map(|(key, _)| key).collect()
@@ -205,8 +212,8 @@ impl Event {
     /// The operation that the event asks for.
     ///
     /// # Errors
-    /// The faults of its keys, of its times in a run to the tick `until`, and of its conditions.
-    fn operation(&self, until: u32, path: &Path) -> Result<Operation, Vec<Fault>> {
+    /// The faults of its keys, of its times in a run to the tick `until`, of its conditions and of its shape.
+    fn operation(&self, until: u32, shapes: &Named, path: &Path) -> Result<Operation, Vec<Fault>> {
         let mut faults = Vec::new();
         self.check_keys(path, &mut faults);
         self.check_times(until, path, &mut faults);
@@ -219,20 +226,23 @@ impl Event {
         let thing = if self.harvest_cut_height.is_some() { Thing::Wood } else { self.operation.thing() };
         let [only, protect, first] =
             [(&self.only, "only"), (&self.protect, "protect"), (&self.first, "first")].map(|(t, k)| read(t, k, thing));
-        if !faults.is_empty() {
+        let shape = self.shape.as_ref().map(|shape| one(shape, shapes, &path.key("shape"), &mut faults));
+        // A named shape with faults is told where it is stated.
+        if !faults.is_empty() || shape == Some(None) {
             return Err(faults);
         }
+        let hedged = shape.flatten().map_or_else(|| self.hedged(), Region::Outside);
         let start = match (self.tick, self.age) {
             (Some(tick), _) => Start::Tick(tick),
             (None, age) => Start::Age(age.unwrap_or(1)),
         };
         let when = When { start, condition, every: self.every, last: self.until };
         let choice = Choice { only, protect, first, share: self.share, most: self.at_most };
-        Ok(Operation { act: self.act(), when, plants, choice })
+        Ok(Operation { act: self.act(hedged), when, plants, choice })
     }
 
-    /// What a checked event does.
-    fn act(&self) -> Act {
+    /// What a checked event does; as a hedge it clears `hedged`.
+    fn act(&self, hedged: Region) -> Act {
         let above = |height: Option<f64>| Region::Above(height.unwrap_or(f64::MAX));
         match self.operation {
             Work::Heading => Act::Head(match (self.keep_nodes, self.keep_share, self.keep_length_m) {
@@ -242,7 +252,7 @@ impl Event {
             }),
             Work::Thinning => Act::Thin,
             Work::Topping => Act::Clear(above(self.height_m), u8::MAX),
-            Work::Hedging => Act::Clear(self.box_m.map_or_else(|| self.beyond_planes(), Region::Outside), u8::MAX),
+            Work::Hedging => Act::Clear(hedged, u8::MAX),
             Work::Stumping => match self.keep_nodes {
                 Some(nodes) => Act::Stump(nodes),
                 None => Act::Clear(above(self.height_m), 1),
@@ -256,16 +266,18 @@ impl Event {
         }
     }
 
-    fn beyond_planes(&self) -> Region {
-        Region::Beyond(self.planes.iter().map(Plane::around_seed).collect())
+    /// What a hedge without a shape of its own clears.
+    fn hedged(&self) -> Region {
+        let planes = || Region::Outside(Arc::new(Plane::before_all(&self.planes)));
+        self.box_m.map_or_else(planes, Region::outside_box)
     }
 }
 
 impl Scenario {
     /// What people do to the plants of each plot. What a fault was told of is left out.
     pub fn management(&self) -> Management {
-        let path = Path::root();
-        let operations = self.event.iter().filter_map(|event| event.operation(self.ages.until, &path).ok());
+        let (path, shapes) = (Path::root(), self.site.shapes(&mut Vec::new()));
+        let operations = self.event.iter().filter_map(|event| event.operation(self.ages.until, &shapes, &path).ok());
         Management::of(operations.collect())
     }
 
@@ -281,10 +293,10 @@ impl Scenario {
     }
 
     /// Adds the faults of events that the schema cannot state.
-    pub(super) fn check_events(&self, faults: &mut Vec<Fault>) {
+    pub(super) fn check_events(&self, shapes: &Named, faults: &mut Vec<Fault>) {
         for (number, event) in self.event.iter().enumerate() {
             let path = Path::root().key("event").index(number);
-            faults.extend(event.operation(self.ages.until, &path).err().into_iter().flatten());
+            faults.extend(event.operation(self.ages.until, shapes, &path).err().into_iter().flatten());
         }
     }
 
@@ -326,7 +338,7 @@ event = [
             Act::Head(Kept::Share(0.5)),
             Act::Thin,
             Act::Clear(Region::Above(1.8), u8::MAX),
-            Act::Clear(Region::Outside([1.0, 2.0, 3.0]), u8::MAX),
+            Act::Clear(Region::outside_box([1.0, 2.0, 3.0]), u8::MAX),
             Act::Stump(4),
             Act::Remove,
             Act::ThinFruits,

@@ -47,7 +47,8 @@ fn plague() -> Exposure {
     let eaten = survival(&[(5, 0.3), (6, 0.3), (9, 0.2)]);
     let growth = vec![1.0, 1.0, 1.0, 1.0, 0.5, 0.8];
     let apex = hazard(&[(4, 0.1), (6, 0.2), (8, 0.1)]);
-    Exposure { apex, leaf: eaten.clone(), flower: eaten.clone(), fruit: eaten, growth, death: 11 }
+    let (leaf, flower, fruit) = (eaten.clone(), eaten.clone(), eaten);
+    Exposure { apex, leaf, flower, fruit, growth, death: 11, ..Exposure::default() }
 }
 
 #[test]
