@@ -1,6 +1,6 @@
 //! The card of the L-systems: their name and their source.
 //!
-//! Absent: their parameters (`d0l`).
+//! Absent: their parameters (`parameters`).
 
 use super::D0l;
 use crate::fault::{Fault, Path};
