@@ -5,12 +5,20 @@
 //! ([`Derived`]). A module has an identity that lasts as long as nothing rewrites it. Absent: files, turtles, plants, and
 //! the meaning of any symbol but brackets, the cut `%`, and queries.
 
+mod code;
+mod compile;
 mod derived;
+mod draws;
+mod engine;
+mod evaluate;
 mod fault;
+mod letters;
 mod outside;
 mod program;
 mod string;
 mod symbol;
+mod syntax;
+mod text;
 
 pub use derived::{Derived, Drawn};
 pub use fault::{Fault, MOST_FAULTS, Place, Refused, Stopped};

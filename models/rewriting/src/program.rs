@@ -2,11 +2,18 @@
 //!
 //! One program serves any number of plants, on any threads; what a plant has come to is its [`Derived`].
 
-use crate::derived::{Derived, Drawn};
-use crate::fault::{Fault, Place, Refused, Stopped};
+use crate::code::Script;
+use crate::compile::{Compiled, compile};
+use crate::derived::{Derived, Drawn, Variables};
+use crate::draws::{Draws, For};
+use crate::engine::{self, Anchor, Bounds, Expansion, Pieces, Root};
+use crate::evaluate::{Halt, Machine};
+use crate::fault::{Fault, Refused, Stopped};
 use crate::outside::{Nothing, Outside};
-use crate::string::Slot;
-use crate::symbol::SymbolTable;
+use crate::string::{ModuleString, Slot};
+use crate::symbol::{Symbol, SymbolTable};
+use crate::syntax::parse;
+use crate::text::{Asked, prepare};
 use phytomer_sim::random::PlantRandom;
 use std::sync::Arc;
 
@@ -51,23 +58,27 @@ pub struct Settings {
 pub struct Limits {
     /// Modules of a string, and parameters of all its modules by eight.
     pub modules: usize,
-    /// Rounds of loops in a step.
+    /// Modules that contexts pass over in a step; a round of a loop counts as 16 of them.
     pub rounds: u64,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { modules: 50_000_000, rounds: 100_000_000 }
+        Self { modules: 50_000_000, rounds: 2_000_000_000 }
     }
 }
 
 /// A program, read and checked.
 #[derive(Debug)]
 pub struct Program {
-    pub(crate) files: Vec<String>,
-    pub(crate) symbols: SymbolTable,
-    pub(crate) settings: Settings,
-    pub(crate) warnings: Vec<Fault>,
+    files: Vec<String>,
+    symbols: SymbolTable,
+    settings: Settings,
+    warnings: Vec<Fault>,
+    script: Script,
+    outside: Arc<dyn Outside>,
+    /// The most that a derivation may come to.
+    pub limits: Limits,
 }
 
 impl Program {
@@ -75,9 +86,23 @@ impl Program {
     ///
     /// # Errors
     /// Everything that is wrong with the text.
-    pub fn read(_text: &str, reading: &Reading<'_>) -> Result<Self, Refused> {
-        let fault = Fault::new(Place::default(), "L-systems are not read yet", "a later version");
-        Err(Refused::new(vec![reading.name.to_owned()], vec![fault]))
+    pub fn read(text: &str, reading: &Reading<'_>) -> Result<Self, Refused> {
+        let mut faults = Vec::new();
+        let asked = Asked { name: reading.name, include: reading.include, define: reading.define };
+        let (letters, files) = prepare(text, &asked, &mut faults);
+        if !faults.is_empty() {
+            return Err(Refused::new(files, faults));
+        }
+        let file = parse(&letters, &mut faults);
+        drop(letters);
+        let compiled = compile(&file, reading.outside.as_ref(), reading.continues_last, &mut faults);
+        if !faults.is_empty() {
+            return Err(Refused::new(files, faults));
+        }
+        let Compiled { script, symbols, steps, seed, angle_deg, warnings } = compiled;
+        let settings = Settings { steps, seed, ring: script.ring, angle_deg };
+        let (outside, limits) = (Arc::clone(&reading.outside), Limits::default());
+        Ok(Self { files, symbols, settings, warnings, script, outside, limits })
     }
 
     /// The names of its modules.
@@ -95,44 +120,108 @@ impl Program {
         &self.warnings
     }
 
-    /// The names of the files, by the numbers in [`Place`].
+    /// The names of the files, by the numbers in [`Place`](crate::Place).
     pub fn files(&self) -> &[String] {
         &self.files
     }
 
     /// Whether a string of it may hold queries, so that it must be interpreted after each step.
     pub fn has_queries(&self) -> bool {
-        let names = (0..self.symbols.len()).map(|number| self.symbols.name(crate::symbol::Symbol(number as u16)));
-        names.into_iter().any(|name| name.starts_with('?'))
+        (0..self.symbols.len()).any(|number| self.symbols.name(Symbol(number as u16)).starts_with('?'))
     }
 
     /// A plant at its axiom.
     ///
     /// # Errors
     /// Why it cannot be made.
-    pub fn sow(&self, _random: PlantRandom, _interpreter: &mut dyn Interpreter) -> Result<Derived, Stopped> {
-        Err(self.unready())
+    pub fn sow(&self, random: PlantRandom, interpreter: &mut dyn Interpreter) -> Result<Derived, Stopped> {
+        let arrays = self.script.arrays.iter().map(|array| array.values.clone()).collect();
+        let seed = self.settings.seed.unwrap_or(0);
+        let variables = Variables { values: vec![0.0; self.script.globals], arrays, seed };
+        let string = ModuleString::new(self.symbols.kinds());
+        let mut derived = Derived { string, active: Vec::new(), variables, step: 0, random };
+        let result = engine::sow(&self.script, &mut derived, self.outside.as_ref(), self.bounds());
+        result.map_err(|halt| self.stopped(0, *halt))?;
+        self.answer(&mut derived, interpreter)?;
+        Ok(derived)
     }
 
     /// Makes one step.
     ///
     /// # Errors
     /// Why it cannot be made; the plant is then in no certain state.
-    pub fn step(&self, _derived: &mut Derived, _interpreter: &mut dyn Interpreter) -> Result<(), Stopped> {
-        Err(self.unready())
+    pub fn step(&self, derived: &mut Derived, interpreter: &mut dyn Interpreter) -> Result<(), Stopped> {
+        let result = engine::step(&self.script, derived, self.outside.as_ref(), self.bounds());
+        result.map_err(|halt| self.stopped(derived.step, *halt))?;
+        self.answer(derived, interpreter)
     }
 
-    /// Shows `visit` every module as it is drawn, in the order of the string.
+    /// Has the queries answered.
+    fn answer(&self, derived: &mut Derived, interpreter: &mut dyn Interpreter) -> Result<(), Stopped> {
+        if !self.has_queries() {
+            return Ok(());
+        }
+        let mut answers = Answers::default();
+        let result = interpreter.answer(self, derived, &mut answers);
+        let halt = |(problem, expected)| Halt { place: crate::Place::default(), problem, expected };
+        result.map_err(|why| self.stopped(derived.step, halt(why)))?;
+        for (slot, values) in answers.values {
+            derived.string.set_parameters(slot, &values);
+        }
+        Ok(())
+    }
+
+    /// Shows `visit` every module as it is drawn, in the order of the string. What the homomorphism assigns is forgotten
+    /// afterwards: drawing changes no plant. Its draws depend on module and path and not on the step, so that what stays
+    /// is drawn as it was.
     ///
     /// # Errors
     /// Why the homomorphism cannot be applied.
-    pub fn draw(&self, _derived: &Derived, _visit: impl FnMut(Drawn<'_>)) -> Result<(), Stopped> {
-        Err(self.unready())
+    pub fn draw(&self, derived: &Derived, mut visit: impl FnMut(Drawn<'_>)) -> Result<(), Stopped> {
+        let (script, string, rules) = (&self.script, &derived.string, &self.script.homomorphism);
+        let mut variables = derived.variables.clone();
+        variables.seed ^= rules.seed;
+        let mut machine = Machine {
+            functions: &script.functions,
+            arrays: &script.arrays,
+            outside: self.outside.as_ref(),
+            variables: &mut variables,
+            draws: Draws::new(&derived.random),
+            step: derived.step,
+            rounds: self.limits.rounds,
+        };
+        let (mut expansion, mut roots) = (Expansion::default(), Pieces::default());
+        for slot in string.slots_in_order() {
+            let module = string.module(slot);
+            let kind = string.kind(slot);
+            if rules.of(kind).is_empty() {
+                let (symbol, parameters, key) = (module.symbol, module.parameters, module.identity.key);
+                visit(Drawn { symbol, parameters, key, of: slot, depth: 0 });
+                continue;
+            }
+            roots.clear();
+            roots.push(kind, module.parameters, module.identity);
+            expansion.begin(&roots);
+            let anchor = Anchor { script, string, first: slot, last: slot };
+            let root = Root { anchor, purpose: For::Homomorphism, step: derived.step, most: self.limits.modules };
+            let shown = expansion.run(rules, &root, &mut machine, |piece, parameters, depth| {
+                let symbol = self.symbols.kinds().get(usize::from(piece.kind.0)).map_or(module.symbol, |kind| kind.0);
+                visit(Drawn { symbol, parameters, key: piece.identity.key, of: slot, depth });
+                Ok(())
+            });
+            shown.map_err(|halt| self.stopped(derived.step, *halt))?;
+        }
+        Ok(())
     }
 
-    fn unready(&self) -> Stopped {
-        let (file, problem, expected) = (String::new(), "nothing is derived yet".to_owned(), "a later version".to_owned());
-        Stopped { file, place: Place::default(), step: 0, problem, expected }
+    fn bounds(&self) -> Bounds {
+        Bounds { modules: self.limits.modules, rounds: self.limits.rounds }
+    }
+
+    fn stopped(&self, step: u32, halt: Halt) -> Stopped {
+        let Halt { place, problem, expected } = halt;
+        let file = self.files.get(place.file as usize).cloned().unwrap_or_default();
+        Stopped { file, place, step, problem, expected }
     }
 }
 
@@ -166,9 +255,5 @@ impl Answers {
     /// A query module takes the first of these values, as many as it has parameters.
     pub fn give(&mut self, query: Slot, values: [f64; 3]) {
         self.values.push((query, values));
-    }
-
-    pub(crate) fn values(&self) -> &[(Slot, [f64; 3])] {
-        &self.values
     }
 }

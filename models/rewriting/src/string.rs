@@ -191,6 +191,22 @@ impl ModuleString {
         (self.tail != NONE).then_some(Slot(self.tail))
     }
 
+    /// How many parameters all modules have.
+    pub(crate) fn parameter_count(&self) -> usize {
+        let free = self.free_parameters.iter().enumerate().map(|(arity, list)| arity * list.len()).sum();
+        self.parameters.len().saturating_sub(free)
+    }
+
+    /// Makes room for so many modules.
+    pub(crate) fn reserve(&mut self, modules: usize) {
+        let more = modules.saturating_sub(self.kind.len());
+        self.kind.reserve_exact(more);
+        self.next.reserve_exact(more);
+        self.previous.reserve_exact(more);
+        self.first.reserve_exact(more);
+        self.identity.reserve_exact(more);
+    }
+
     /// Makes two brackets partners.
     pub(crate) fn pair(&mut self, open: Slot, close: Slot) {
         self.first[open.index()] = close.0;
@@ -307,7 +323,8 @@ mod tests {
     #[test]
     fn a_string_is_a_list() {
         let mut table = SymbolTable::new();
-        let kinds: Vec<Kind> = (0..3).map(|arity| (table.add("A"), arity)).map(|(a, n)| table.kind(a, n)).collect();
+        let symbol = table.add("A");
+        let kinds: Vec<Kind> = (0..3).map(|arity| table.kind(symbol, arity)).collect();
         let mut string = ModuleString::new(table.kinds());
         let mut list: Vec<(Slot, Vec<f64>)> = Vec::new();
         let mut state = 1_u64;
