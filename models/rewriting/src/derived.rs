@@ -1,6 +1,7 @@
 //! The state of one plant between two steps: its string, the variables of the program, and the source of its draws.
 
 use crate::string::{ModuleString, Slot};
+use phytomer_sim::key::LineageKey;
 use phytomer_sim::random::PlantRandom;
 
 /// What a derivation has come to.
@@ -10,6 +11,8 @@ pub struct Derived {
     /// The modules that a production may rewrite, in the order of the string.
     pub(crate) active: Vec<Slot>,
     pub(crate) variables: Variables,
+    /// The modules that the last step has cut off, by their keys.
+    pub(crate) cut: Vec<LineageKey>,
     pub(crate) step: u32,
     pub(crate) random: PlantRandom,
 }
@@ -27,6 +30,11 @@ impl Derived {
     /// The string, with the answers to its queries.
     pub fn string(&self) -> &ModuleString {
         &self.string
+    }
+
+    /// The keys of the modules that `%` has cut off in the last step, in the order of the string.
+    pub fn cut(&self) -> &[LineageKey] {
+        &self.cut
     }
 
     /// How many steps have been made; 0 at the axiom.

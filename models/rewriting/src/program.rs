@@ -139,7 +139,7 @@ impl Program {
         let seed = self.settings.seed.unwrap_or(0);
         let variables = Variables { values: vec![0.0; self.script.globals], arrays, seed };
         let string = ModuleString::new(self.symbols.kinds());
-        let mut derived = Derived { string, active: Vec::new(), variables, step: 0, random };
+        let mut derived = Derived { string, active: Vec::new(), variables, cut: Vec::new(), step: 0, random };
         let result = engine::sow(&self.script, &mut derived, self.outside.as_ref(), self.bounds());
         result.map_err(|halt| self.stopped(0, *halt))?;
         self.answer(&mut derived, interpreter)?;

@@ -164,8 +164,9 @@ fn rewrite(script: &Script, derived: &mut Derived, outside: &dyn Outside, bounds
         if looks { rewriting.all_at_once(&before, &mut string, &mut machine) } else { rewriting.one_by_one(&before, &mut string, &mut machine) }
     });
     let Rewriting { mut active, cuts, .. } = rewriting;
+    derived.cut.clear();
     if !cuts.is_empty() {
-        cut(&mut string, &cuts);
+        cut(&mut string, &cuts, &mut derived.cut);
         active.retain(|&slot| !string.is_free(slot));
     }
     derived.string = string;
