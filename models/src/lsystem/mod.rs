@@ -2,12 +2,14 @@
 //!
 //! [`d0l`] holds the deterministic systems of Aono & Kunii 1984, stated in the species file. [`view`] reads the files
 //! that lie beside an L-system of a text of its own: how the turtle draws, surfaces, functions, colours; [`turtle`]
-//! draws by them what the modules of a string tell, and [`text`] makes plants of that. Absent on purpose: the language of
-//! such texts and the rewriting of their strings (`phytomer_rewriting`), and reading files (`config`).
+//! draws by them what the modules of a string tell, and [`text`] makes plants of that. [`Lsystem`] holds
+//! the keys of a species. Absent on purpose: the language of such texts and the rewriting of their strings (`phytomer_rewriting`), and reading files (`config`).
 
 pub mod d0l;
+mod parameters;
 pub mod text;
 pub mod turtle;
 pub mod view;
 
 pub use d0l::{Cell, D0l, D0lModel};
+pub use parameters::{Continues, Lsystem, digits_of, is_map};

@@ -6,7 +6,6 @@
 //! Nothing in them is random. Absent on purpose: context, parameters of modules, a turtle, the environment, which the
 //! systems of a text have.
 
-mod card;
 mod count;
 mod draw;
 mod model;

@@ -108,6 +108,11 @@ impl Interpreter for Drawing<'_> {
 }
 
 impl TextModel {
+    /// How many steps the file asks for.
+    pub fn derivation_length(&self) -> Option<Tick> {
+        self.program.settings().steps
+    }
+
     /// Draws a plant's string and writes its columns, at `age`; what stood before and stands no more departs.
     fn stand(&self, age: Tick, plant: &mut Plant, life: &mut Life) -> Result<(), Overgrown> {
         let Life { derived: Some(derived), numbers, scratch } = life else { return Ok(()) };

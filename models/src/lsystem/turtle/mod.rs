@@ -14,18 +14,18 @@
 
 mod command;
 mod frame;
+mod settings;
 #[cfg(test)]
 mod tests;
 
 pub use command::{Axis, Change, Command, Counter, Mark, Query, Spline};
 pub use frame::{Frame, Vector};
 
-use super::view::{Tropism, View};
+use super::view::View;
 use frame::{cross, dot, unit};
 use phytomer_sim::math::sincos;
+use settings::{Settings, bounded};
 
-/// The largest number that a parameter or a length is taken for.
-const MOST: f64 = 1e30;
 /// Colours are counted around so many.
 const COLOURS: i32 = 256;
 
@@ -44,6 +44,19 @@ pub struct State {
     elasticity: f64,
     /// The point from which a generalised cylinder goes on.
     spline: Option<(Vector, f64)>,
+}
+
+impl State {
+    fn first(settings: &Settings) -> Self {
+        Self {
+            frame: Frame::START,
+            width: settings.width,
+            colour: settings.colour,
+            scale: settings.scale,
+            elasticity: settings.elasticity,
+            spline: None,
+        }
+    }
 }
 
 /// What a module has drawn.
@@ -94,39 +107,11 @@ pub struct Turtle {
     elasticities_before: Vec<f64>,
 }
 
-/// What a turtle takes from a view file.
-#[derive(Debug, Clone)]
-struct Settings {
-    angle: f64,
-    width: f64,
-    width_increment: f64,
-    colour: [i32; 2],
-    colour_increment: [i32; 2],
-    tropism: Vector,
-    elasticity: f64,
-    elasticity_increment: f64,
-    tropisms: Vec<Tropism>,
-    scale: f64,
-    scale_multiplier: f64,
-}
-
 impl Turtle {
     /// A turtle at its beginning.
     pub fn new(view: &View) -> Self {
-        let settings = Settings {
-            angle: bounded(view.angle_deg).to_radians(),
-            width: bounded(view.line_width).max(0.0),
-            width_increment: bounded(view.line_width_increment),
-            colour: view.colour,
-            colour_increment: view.colour_increment,
-            tropism: view.tropism.map(bounded),
-            elasticity: bounded(view.elasticity),
-            elasticity_increment: bounded(view.elasticity_increment),
-            tropisms: view.tropisms.clone(),
-            scale: bounded(view.scale),
-            scale_multiplier: bounded(view.scale_multiplier),
-        };
-        let state = settings.state();
+        let settings = Settings::of(view);
+        let state = State::first(&settings);
         let mut turtle = Self {
             state,
             stack: Vec::new(),
@@ -143,7 +128,7 @@ impl Turtle {
 
     /// Goes back to the beginning.
     pub fn restart(&mut self) {
-        self.state = self.settings.state();
+        self.state = State::first(&self.settings);
         self.stack.clear();
         self.corners.clear();
         self.polygons.clear();
@@ -375,19 +360,6 @@ impl Turtle {
     }
 }
 
-impl Settings {
-    fn state(&self) -> State {
-        State {
-            frame: Frame::START,
-            width: self.width,
-            colour: self.colour,
-            scale: self.scale,
-            elasticity: self.elasticity,
-            spline: None,
-        }
-    }
-}
-
 /// A line of a length, which may be negative: the turtle then goes backwards, and the line is told from its other end.
 fn line_of(from: Frame, length: f64, width: f64) -> Drawing<'static> {
     if length >= 0.0 {
@@ -407,16 +379,4 @@ fn of_spline(parameters: &[f64]) -> bool {
 #[inline]
 fn first(parameters: &[f64]) -> Option<f64> {
     parameters.first().copied().map(bounded)
-}
-
-/// A finite number of a size that leaves room for sums.
-#[inline]
-fn bounded(number: f64) -> f64 {
-    if number.abs() <= MOST {
-        number
-    } else if number.is_nan() {
-        0.0
-    } else {
-        number.clamp(-MOST, MOST)
-    }
 }
