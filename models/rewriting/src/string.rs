@@ -162,11 +162,6 @@ impl ModuleString {
     }
 
     #[inline]
-    pub(crate) fn symbol(&self, slot: Slot) -> Symbol {
-        self.kinds[usize::from(self.kind[slot.index()].0)].0
-    }
-
-    #[inline]
     pub(crate) fn identity(&self, slot: Slot) -> Identity {
         self.identity[slot.index()]
     }

@@ -13,7 +13,7 @@ fn l_system_1_has_its_four_outcomes() {
          p2 : A(x) → B(x−1) : 0.6\n\
          p3 : A(x) < B(y) > A(z) : y < 4 → B(x+z)[A(y)]\n",
     );
-    const PLANTS: u64 = 20_000;
+    const PLANTS: u64 = 8000;
     let mut outcomes = BTreeMap::new();
     for plant in 0..PLANTS {
         let derived = derive_program(&program, plant, 1, &mut phytomer_rewriting::Unanswered);
@@ -151,7 +151,7 @@ fn l_system_5_has_tips_as_the_crown_has_room() {
          p1 : A(k) → /(φ)[+(α)FA(k+1)] −(β)FA(k+1) :\n    min{1, (2k+1)/k^2}\n\
          p2 : A(k) → /(φ)B −(β)FA(k+1) :\n    max{0, 1 − (2k+1)/k^2}\n",
     );
-    const PLANTS: u64 = 2000;
+    const PLANTS: u64 = 1000;
     let (mut sums, mut all) = ([0.0; 2], 0.0);
     for plant in 0..PLANTS {
         let derived = derive_program(&program, plant, 18, &mut phytomer_rewriting::Unanswered);
@@ -188,7 +188,7 @@ const SIXTH: &str = "#define φ 90\n#define α 32\n#define β 20\n#define E 6\n\
 /// infinite, min{1, ∞} is 1, and a weight below 0 is 0. Nothing stands a whole internode outside the cube.
 #[test]
 fn l_system_6_fills_its_cube() {
-    const PLANTS: u64 = 150;
+    const PLANTS: u64 = 100;
     for ((a, b, c), (expected, known)) in [((1, 0, -5), (675.0, 11.0)), ((0, 1, -5), (878.0, 15.0)), ((0, 0, 1), (1874.0, 35.0_f64))] {
         let program = read(&format!("#define a {a}\n#define b {b}\n#define c ({c})\n{SIXTH}"));
         let mut sums = [0.0; 2];

@@ -38,6 +38,10 @@ pub(crate) fn sow(script: &Script, derived: &mut Derived, outside: &dyn Outside,
     let seed = Identity { key: LineageKey::SEED, birth: 0, predecessor: LineageKey::SEED };
     let axiom = axiom_rule(script);
     pieces.make(&axiom, &mut machine, &[], &[seed], Moment { step: 0, depth: 0 })?;
+    if pieces.pieces.len() > bounds.modules {
+        let place = script.axiom.first().map_or(Place::default(), |made| made.place);
+        return halt(place, format!("the axiom has more than {} modules", bounds.modules), "a shorter axiom");
+    }
     let Derived { string, active, .. } = derived;
     let mut last = None;
     let mut brackets = Vec::new();

@@ -112,15 +112,20 @@ impl Macros {
     }
 
     fn keep(&mut self, letters: &[Letter], out: &mut Vec<Letter>) -> Result<(), Broken> {
-        self.made += letters.len();
-        if self.made > MOST_LETTERS {
-            let problem = format!("the text has more than {MOST_LETTERS} letters when its macros are expanded");
-            let place = letters.first().map_or(Place::default(), |letter| letter.place);
-            let fault = Fault::new(place, problem, "macros that do not multiply one another");
-            return Err(Broken { fault, exhausted: true });
-        }
+        self.count(letters.len(), letters)?;
         out.extend_from_slice(letters);
         Ok(())
+    }
+
+    /// Counts what is made, and calls, which may make nothing.
+    fn count(&mut self, more: usize, at: &[Letter]) -> Result<(), Broken> {
+        self.made += more;
+        if self.made <= MOST_LETTERS {
+            return Ok(());
+        }
+        let problem = format!("the text has more than {MOST_LETTERS} letters when its macros are expanded");
+        let place = at.first().map_or(Place::default(), |letter| letter.place);
+        Err(Broken { fault: Fault::new(place, problem, "macros that do not multiply one another"), exhausted: true })
     }
 
     /// Expands the macro `name`, which stands at a range of the letters; returns where to go on.
@@ -136,7 +141,7 @@ impl Macros {
         let place = letters[start].place;
         let broken = |problem: String, expected: String| Broken { fault: Fault::new(place, problem, expected), exhausted: false };
         self.met.insert(name.to_owned());
-        self.made += 1;
+        self.count(1, &letters[start..end])?;
         if hidden.len() >= DEEPEST {
             return Err(broken(format!("`{name}` stands within {DEEPEST} macros"), "fewer".to_owned()));
         }
