@@ -90,7 +90,7 @@ macro_rules! registry {
 registry! {
     Buds: phytomer_models::buds::Buds,
     Gmt1: phytomer_models::geometric::Gmt1,
-    Lsystem: phytomer_models::lsystem::D0l,
+    Lsystem: phytomer_models::lsystem::Lsystem,
     Parametric: phytomer_models::parametric::Tree,
 }
 

@@ -19,7 +19,7 @@ use crate::checked::{Checked, Compiled, Stated, check_cuttable, check_explosions
 use crate::dates::{self, Dated};
 use crate::document::Node;
 use crate::expansion::{self, Expanded};
-use crate::library::{Kind, Library};
+use crate::library::{Kind, Library, is_lsystem};
 use crate::load::{Loader, Mention, integer_at};
 use crate::models::{MODELS, any_file};
 use crate::report::{Fault, Report};
@@ -133,6 +133,9 @@ pub fn kind_of(name: &str) -> Kind {
 fn kind_in(library: &Library, name: &str) -> Kind {
     let mut loader = Loader::default();
     let is_path = matches!(library, Library::Disk) && FilePath::new(name).is_file();
+    if is_path && is_lsystem(name) {
+        return Kind::Species;
+    }
     let found = library.find(Kind::Scenario, name, None);
     let Ok(source) = found else { return if is_path { Kind::Scenario } else { Kind::Species } };
     let (_, node) = loader.parse(source);

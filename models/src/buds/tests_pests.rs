@@ -102,7 +102,7 @@ fn a_bud_dies_of_itself_or_is_attacked_in_one_draw() {
         let event = plant.events.as_ref().and_then(|events| events.last().map(|event| event.kind));
         let fate = plant.axes.apex_fate[0];
         assert_eq!(fate == ApexFate::Attacked, event == Some(EventKind::Attacked));
-        assert_eq!(phytomer_sim::shed::cause_of(fate) == Cause::Attacked, fate == ApexFate::Attacked);
+        assert_eq!(fate.cause() == Cause::Attacked, fate == ApexFate::Attacked);
         fate
     };
     for (death, attack, died, killed) in [(0.1, 0.2, 0.1, 0.18), (0.0, 0.2, 0.0, 0.2), (0.3, 1.0, 0.3, 0.7)] {

@@ -11,7 +11,6 @@ use phytomer_sim::plant::{Cause, Plant};
 use phytomer_sim::plot::{Plot, Sowing};
 use phytomer_sim::pose::bud_frame;
 use phytomer_sim::shape::{HalfSpace, Shape};
-use phytomer_sim::shed::cause_of;
 use phytomer_sim::site::{Obstacle, Side};
 use std::sync::Arc;
 
@@ -92,8 +91,8 @@ fn stays_under(plant: &Plant, height: f64) {
             let end = plant.axes.apex_end[k];
             assert!(end <= reached + 1, "a bud dies at the tick after it has reached the plane: axis {k}, {end}");
         }
-        killed += u32::from(cause_of(fate) == Cause::Killed);
-        let below = cause_of(fate) == Cause::Killed && at < height - 1e-6;
+        killed += u32::from(fate.cause() == Cause::Killed);
+        let below = fate.cause() == Cause::Killed && at < height - 1e-6;
         assert!(!below, "no bud is killed below the plane: axis {k} at {at} m");
     }
     assert!(killed > 0 || plant.age == 0, "buds of plant {} reach the plane", plant.id);

@@ -9,7 +9,7 @@ use super::string::{Born, Living, Rewriting, Rules};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::expectation::Expectation;
 use phytomer_sim::model::{Grow, Growth, Overgrown};
-use phytomer_sim::plant::{Habit, Looks, NodeId, Plant, Shape, Trend};
+use phytomer_sim::plant::{Cause, Habit, Looks, NodeId, Plant, Shape, Trend};
 use phytomer_sim::site::View;
 use std::sync::Arc;
 
@@ -48,7 +48,7 @@ impl D0lModel {
             }
         }
         // The internodes of the columns are the cells of the string, in their order.
-        vanished.into_iter().for_each(|cell| plant.depart(NodeId(cell), age));
+        vanished.into_iter().for_each(|cell| plant.depart(NodeId(cell), age, Cause::Rewritten));
         let last = plant.age;
         plant.begin_rewriting();
         draw(living, TRUNK, &self.sizes, self.angle, plant);
