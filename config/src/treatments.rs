@@ -5,6 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use phytomer_law::fault::Segment;
 use phytomer_models::parameters::Keys;
 use serde_json::Value as Json;
 
@@ -48,7 +49,7 @@ pub(crate) fn check(
         read.push(Read { species: mentions(&expanded.node), scenario, expanded });
     }
     let plants = plants_of(loader, (node, run), &read);
-    let experiment = run.map(|run| &run.experiment);
+    let experiment = run.map(|run| &run.experiment).filter(|_| !loader.faults.iter().any(is_of_experiment));
     for Read { expanded, scenario, .. } in &read {
         let faults = scenario.as_ref().map(|scenario| scenario.faults_in_run_of(plants, experiment));
         let faults = faults.unwrap_or_default();
@@ -57,6 +58,11 @@ pub(crate) fn check(
     }
     loader.faults.extend(findings.told(read.len(), &told));
     read
+}
+
+/// Whether a fault is one of the experiment itself, so that its design and its replicates are not known.
+fn is_of_experiment(fault: &Fault) -> bool {
+    matches!(fault.path.0.as_slice(), [Segment::Key(table), Segment::Key(_)] if table == "experiment")
 }
 
 /// The plants of the whole run; of a run that could not be read, as many as there can be.
