@@ -6,6 +6,7 @@
 //! which is [`law`] here. Shapes as people state them are the same for all models too ([`shapes`]).
 
 pub mod buds;
+pub mod cellular;
 pub mod contract;
 pub mod geometric;
 pub mod lsystem;
