@@ -5,12 +5,17 @@
 //! it arises. Absent: dates, which need a calendar, and what an operation does (`phytomer_sim::management`).
 
 mod faults;
+mod work;
+
+pub use work::Work;
 
 use super::Scenario;
 use super::site::Plane;
 use phytomer_law::condition::formula;
 use phytomer_law::fault::{Fault, Path};
+use phytomer_sim::NEVER;
 use phytomer_sim::management::{Act, Choice, Kept, Management, Operation, Region, SharedFormula, Start, Thing, When};
+use phytomer_sim::management::{Support, Training};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -95,69 +100,26 @@ pub struct Event {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 1))]
     pub ripe_share: Option<f64>,
-}
-
-/// What is done to plants.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Work {
-    /// Axes are shortened.
-    Heading,
-    /// Branches are taken off where they arise.
-    Thinning,
-    /// Everything above a height is taken.
-    Topping,
-    /// Everything beyond planes, or outside a box, is taken.
-    Hedging,
-    /// The trunk, and every other axis of its order, is cut above a height or above a node.
-    Stumping,
-    /// Whole plants are taken.
-    Removal,
-    /// Fruits are picked so that the others have more.
-    FruitThinning,
-    /// Ripe fruits are picked, or everything above a height is taken.
-    Harvest,
-}
-
-impl Work {
-    /// The word in files.
-    const fn word(self) -> &'static str {
-        match self {
-            Self::Heading => "heading",
-            Self::Thinning => "thinning",
-            Self::Topping => "topping",
-            Self::Hedging => "hedging",
-            Self::Stumping => "stumping",
-            Self::Removal => "removal",
-            Self::FruitThinning => "fruit_thinning",
-            Self::Harvest => "harvest",
-        }
-    }
-
-    /// What its conditions choose among.
-    const fn thing(self) -> Thing {
-        match self {
-            Self::FruitThinning | Self::Harvest => Thing::Fruit,
-            Self::Removal => Thing::Plant,
-            _ => Thing::Wood,
-        }
-    }
-
-    /// Lists of keys of which each asks for exactly one, and the keys that are allowed beside them.
-    const fn keys(self) -> (&'static [&'static str], &'static [&'static str]) {
-        const CHOICE: &[&str] = &["only", "protect", "first", "share", "at_most"];
-        match self {
-            Self::Heading => (&["keep_nodes", "keep_share", "keep_length_m"], CHOICE),
-            Self::Thinning | Self::FruitThinning => (&[], CHOICE),
-            Self::Topping => (&["height_m"], CHOICE),
-            Self::Hedging => (&["planes", "box_m"], CHOICE),
-            Self::Stumping => (&["height_m", "keep_nodes"], &["protect"]),
-            Self::Removal => (&[], &["protect", "first", "share", "at_most"]),
-            Self::Harvest => {
-                (&[], &["only", "protect", "first", "share", "at_most", "ripe_share", "harvest_cut_height"])
-            }
-        }
-    }
+    /// The angle to the upward vertical at which each chosen branch stands from then on, degrees. The angle that it has
+    /// if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0, max = 180))]
+    pub angle_deg: Option<f64>,
+    /// The direction of each chosen branch from then on, or of the wires, degrees from north to east: 90 is east. If not
+    /// given, a branch keeps its direction, and wires run along the rows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0, max = 360))]
+    pub azimuth_deg: Option<f64>,
+    /// The heights of the horizontal wires above the seed, metres. Each chosen branch is tied along the wire that is
+    /// nearest in height to its base.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 100), inner(range(min = 0, max = 1000)))]
+    pub wires_m: Vec<f64>,
+    /// The ticks for which the support of trained wood stays. It is not taken away if not given. Of effect on wood that
+    /// bends: when the support is gone, it sags under its load.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 65_535))]
+    pub stays: Option<u32>,
 }
 
 impl Event {
@@ -198,6 +160,10 @@ impl Event {
             ("planes", !self.planes.is_empty()),
             ("box_m", self.box_m.is_some()),
             ("ripe_share", self.ripe_share.is_some()),
+            ("angle_deg", self.angle_deg.is_some()),
+            ("azimuth_deg", self.azimuth_deg.is_some()),
+            ("wires_m", !self.wires_m.is_empty()),
+            ("stays", self.stays.is_some()),
         ];
         all.into_iter().filter(|(_, stated)| *stated).map(|(key, _)| key).collect()
     }
@@ -205,11 +171,11 @@ impl Event {
     /// The operation that the event asks for.
     ///
     /// # Errors
-    /// The faults of its keys, of its times in a run to the tick `until`, and of its conditions.
-    fn operation(&self, until: u32, path: &Path) -> Result<Operation, Vec<Fault>> {
+    /// The faults of its keys, of its times in the run of the scenario, and of its conditions.
+    fn operation(&self, of: &Scenario, path: &Path) -> Result<Operation, Vec<Fault>> {
         let mut faults = Vec::new();
         self.check_keys(path, &mut faults);
-        self.check_times(until, path, &mut faults);
+        self.check_times(of.ages.until, path, &mut faults);
         let mut read = |text: &Option<String>, key: &str, thing: Thing| -> Option<SharedFormula> {
             let read = formula(text.as_deref()?, thing, &path.key(key));
             read.map_err(|fault| faults.push(fault)).ok()
@@ -228,11 +194,11 @@ impl Event {
         };
         let when = When { start, condition, every: self.every, last: self.until };
         let choice = Choice { only, protect, first, share: self.share, most: self.at_most };
-        Ok(Operation { act: self.act(), when, plants, choice })
+        Ok(Operation { act: self.act(of.planting.row_direction), when, plants, choice })
     }
 
-    /// What a checked event does.
-    fn act(&self) -> Act {
+    /// What a checked event does, on plants whose rows run in a direction, degrees from north.
+    fn act(&self, row_direction: f64) -> Act {
         let above = |height: Option<f64>| Region::Above(height.unwrap_or(f64::MAX));
         match self.operation {
             Work::Heading => Act::Head(match (self.keep_nodes, self.keep_share, self.keep_length_m) {
@@ -253,6 +219,22 @@ impl Event {
                 Some(height) => Act::Mow(height / 100.0),
                 None => Act::Harvest(self.ripe_share.unwrap_or(RIPE)),
             },
+            Work::Bending | Work::Staking | Work::Tying => {
+                Act::Train(Training { support: self.support(row_direction), stays: self.stays.unwrap_or(NEVER) })
+            }
+        }
+    }
+
+    /// What wood that is trained is held by.
+    fn support(&self, row_direction: f64) -> Support {
+        let azimuth = self.azimuth_deg.map(f64::to_radians);
+        match self.operation {
+            Work::Staking => Support::Stake(self.height_m.unwrap_or(0.0)),
+            Work::Tying => {
+                let azimuth = azimuth.unwrap_or(row_direction.to_radians());
+                Support::Wires { heights: self.wires_m.clone(), azimuth }
+            }
+            _ => Support::Spreader { inclination: self.angle_deg.map(f64::to_radians), azimuth },
         }
     }
 
@@ -265,26 +247,26 @@ impl Scenario {
     /// What people do to the plants of each plot. What a fault was told of is left out.
     pub fn management(&self) -> Management {
         let path = Path::root();
-        let operations = self.event.iter().filter_map(|event| event.operation(self.ages.until, &path).ok());
+        let operations = self.event.iter().filter_map(|event| event.operation(self, &path).ok());
         Management::of(operations.collect())
     }
 
     /// The first age of a plant at which an event may cut it; `None` where no event cuts.
     pub(crate) fn first_cut(&self) -> Option<u32> {
         let last_sown = self.member.iter().map(|member| member.sown).max().unwrap_or(0);
-        let fruits = |event: &&Event| event.operation.thing() == Thing::Fruit && event.harvest_cut_height.is_none();
+        let cuts = |event: &&Event| event.operation.cuts() || event.harvest_cut_height.is_some();
         let age = |event: &Event| match (event.tick, event.age) {
             (Some(tick), _) => tick.saturating_sub(last_sown),
             (None, age) => age.unwrap_or(1),
         };
-        self.event.iter().filter(|event| !fruits(event)).map(age).min()
+        self.event.iter().filter(cuts).map(age).min()
     }
 
     /// Adds the faults of events that the schema cannot state.
     pub(super) fn check_events(&self, faults: &mut Vec<Fault>) {
         for (number, event) in self.event.iter().enumerate() {
             let path = Path::root().key("event").index(number);
-            faults.extend(event.operation(self.ages.until, &path).err().into_iter().flatten());
+            faults.extend(event.operation(self, &path).err().into_iter().flatten());
         }
     }
 
@@ -299,6 +281,11 @@ impl Scenario {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
+
+    fn train(support: Support, stays: u32) -> Act {
+        Act::Train(Training { support, stays })
+    }
 
     #[test]
     fn every_operation_becomes_what_its_keys_say() {
@@ -317,7 +304,12 @@ event = [
   { operation = "fruit_thinning", age = 9, only = "position > 0" },
   { operation = "harvest", age = 9, every = 1 },
   { operation = "harvest", age = 9, harvest_cut_height = 25 },
-]"#;
+  { operation = "bending", age = 9, angle_deg = 60, only = "order == 2", stays = 12 },
+  { operation = "staking", age = 1, every = 1, height_m = 2 },
+  { operation = "tying", age = 9, wires_m = [0.5, 1], every = 6 },
+  { operation = "tying", age = 9, wires_m = [0.5], azimuth_deg = 90 },
+]
+planting = { row_direction = 180 }"#;
         let scenario: Scenario = toml::from_str(text).unwrap();
         assert_eq!(scenario.faults(), []);
         let management = scenario.management();
@@ -332,6 +324,10 @@ event = [
             Act::ThinFruits,
             Act::Harvest(RIPE),
             Act::Mow(0.25),
+            train(Support::Spreader { inclination: Some(60_f64.to_radians()), azimuth: None }, 12),
+            train(Support::Stake(2.0), NEVER),
+            train(Support::Wires { heights: vec![0.5, 1.0], azimuth: PI }, NEVER),
+            train(Support::Wires { heights: vec![0.5], azimuth: PI / 2.0 }, NEVER),
         ];
         assert_eq!(acts, expected);
         let starts: Vec<Start> = management.operations().iter().map(|operation| operation.when.start).collect();

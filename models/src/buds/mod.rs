@@ -32,6 +32,8 @@ mod tests_responses;
 #[cfg(test)]
 mod tests_sets;
 #[cfg(test)]
+mod tests_training;
+#[cfg(test)]
 mod tests_variables;
 
 pub use bud::{ApicalBud, LivingBuds};

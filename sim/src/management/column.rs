@@ -130,6 +130,8 @@ columns! {
     Insertion = "insertion_deg", [Wood], Numbers, growth;
     /// The angle between the first internode of the axis and the upward vertical, degrees.
     Inclination = "inclination_deg", [Wood], Numbers, pose;
+    /// The compass direction of the first internode of the axis, degrees from north to east, from 0 to 360.
+    Azimuth = "azimuth_deg", [Wood], Numbers, pose;
     /// Components that the plant ever had.
     Components = "components", [Plant], Numbers, growth;
     /// Internodes that stand.

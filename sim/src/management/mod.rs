@@ -1,4 +1,4 @@
-//! What people do to the plants of a plot: pruning, thinning and harvest, as a calendar of operations.
+//! What people do to the plants of a plot: pruning, training, thinning and harvest, as a calendar of operations.
 //!
 //! An operation is done between two ticks ([`timing`]), on the plants for which its condition holds, one operation
 //! after another in the order of the file and plant by plant in the order of the plot. What it takes is chosen by
@@ -12,12 +12,14 @@ mod fruits;
 mod plants;
 pub mod region;
 pub mod timing;
+mod training;
 mod wood;
 
 pub use choice::{Choice, Formula, SharedFormula};
 pub use column::{Column, Thing, Values};
 pub use region::Region;
 pub use timing::{Due, Start, When};
+pub use training::{Support, Training};
 pub use wood::Kept;
 
 use crate::clock::Tick;
@@ -48,6 +50,8 @@ pub enum Act {
     Harvest(f64),
     /// Cuts and takes what stands above a height, as forage and cane are harvested.
     Mow(f64),
+    /// Bends branches, or the trunk, to a support that holds them.
+    Train(Training),
 }
 
 /// An operation: what is done, when, on which plants and to which of their parts.
@@ -66,14 +70,14 @@ pub struct Operation {
 impl Operation {
     /// Whether the plants must stand for it: be thickened, bent and posed.
     pub fn looks(&self) -> bool {
-        let by_place = matches!(self.act, Act::Clear(..) | Act::Mow(_));
+        let by_place = matches!(self.act, Act::Clear(..) | Act::Mow(_) | Act::Train(_));
         let formulas = self.choice.formulas().chain(&self.plants).chain(&self.when.condition);
         by_place || formulas.flat_map(|formula| formula.columns()).any(Column::is_of_the_pose)
     }
 
     /// Whether it cuts wood, so that dormant buds may be released.
     fn cuts(&self) -> bool {
-        !matches!(self.act, Act::ThinFruits | Act::Harvest(_) | Act::Remove)
+        !matches!(self.act, Act::ThinFruits | Act::Harvest(_) | Act::Remove | Act::Train(_))
     }
 
     /// Does it to one plant, as it stood at the end of the tick before its age `tick`.
@@ -91,6 +95,10 @@ impl Operation {
             }
             Act::Stump(rank) => branches(plant, &|all| all.stump(choice, *rank, Taking::Pruning)),
             Act::Remove => vec![Cut { axis: AxisId::TRUNK, rank: 0, tick, by: Taking::Pruning }],
+            Act::Train(training) => {
+                let chosen = Branches::find(plant, tick).of_height(height).trained(choice);
+                return training.apply(plant, &chosen, tick);
+            }
             Act::ThinFruits => return fruits::pick(plant, choice, 0.0, Cause::Pruned, tick, height),
             Act::Harvest(ripe) => return fruits::pick(plant, choice, *ripe, Cause::Harvested, tick, height),
         };

@@ -7,25 +7,30 @@ use phytomer_law::fault::{Fault, Path};
 
 impl Event {
     pub(super) fn check_keys(&self, path: &Path, faults: &mut Vec<Fault>) {
-        let ((needed, allowed), word) = (self.operation.keys(), self.operation.word());
+        let (keys, word) = (self.operation.keys(), self.operation.word());
         let stated = self.stated();
-        for key in stated.iter().filter(|key| !needed.contains(key) && !allowed.contains(key)) {
-            let known = needed.iter().chain(allowed).map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
+        for key in stated.iter().filter(|key| keys.all().all(|known| known != **key)) {
+            let known = keys.all().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
             let problem = format!("`{key}` has no effect on the operation `{word}`");
             faults.push(Fault::new(&path.key(key), problem, format!("one of {known}")));
         }
-        let given: Vec<&&str> = stated.iter().filter(|key| needed.contains(key)).collect();
-        let list = needed.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(" or ");
-        match given[..] {
-            [] if !needed.is_empty() => {
-                let problem = format!("the operation `{word}` does not say what it leaves");
-                faults.push(Fault::new(&path.key("operation"), problem, list));
+        let of = |needed: &[&str]| stated.iter().copied().filter(|key| needed.contains(key)).collect::<Vec<&str>>();
+        let list = |needed: &[&str]| needed.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(" or ");
+        match of(keys.one)[..] {
+            [] if !keys.one.is_empty() => {
+                let what = if self.operation.trains() { "where the wood is held" } else { "what it leaves" };
+                let problem = format!("the operation `{word}` does not say {what}");
+                faults.push(Fault::new(&path.key("operation"), problem, list(keys.one)));
             }
             [first, second, ..] => {
                 let problem = format!("`{first}` and `{second}` say the same twice");
-                faults.push(Fault::new(&path.key(second), problem, format!("{list}, one of them")));
+                faults.push(Fault::new(&path.key(second), problem, format!("{}, one of them", list(keys.one))));
             }
             _ => {}
+        }
+        if of(keys.some).is_empty() && !keys.some.is_empty() {
+            let problem = format!("the operation `{word}` does not say how the wood stands from then on");
+            faults.push(Fault::new(&path.key("operation"), problem, format!("{}, or both", list(keys.some))));
         }
         if self.first.is_some() && self.share.is_none() && self.at_most.is_none() {
             let problem = "`first` ranks what is taken, and all of it is taken";
