@@ -56,7 +56,7 @@ fn outside(plant: &Plant, tick: Tick, shape: &Shape) -> (Vec<Tick>, usize) {
 fn a_hedge_that_is_clipped_to_a_shape_stands_in_it() {
     let event = "[[event]]\noperation = \"hedging\"\ntick = 2\nevery = 1\nshape = \"form\"\n";
     let clipped = resolved(event);
-    let shape = clipped.scenario.management().operations()[0].act.clone();
+    let shape = clipped.scenario.management(None).operations()[0].act.clone();
     let phytomer::sim::management::Act::Clear(phytomer::sim::management::Region::Outside(shape), _) = shape else {
         panic!("a hedge clears what is outside a shape: {shape:?}");
     };

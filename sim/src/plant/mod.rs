@@ -60,7 +60,7 @@ pub use organ::{NewOrgan, Organs};
 pub use outline::StatedOrgans;
 pub use own_look::OwnLooks;
 pub use stated::{Part, Rest, StatedFrames};
-pub use strain::Strain;
+pub use strain::{Hold, Strain};
 pub use wood::{Drag, OrganMass, Thickening, Tissue, Uprighting, Wood};
 
 pub use crate::key::{self, LineageKey};
