@@ -33,8 +33,8 @@ pub struct Site {
     /// Shapes by their names, as `[site.shape.NAME]`, for obstacles and events. None if not given.
     #[serde(skip_serializing_if = "Shapes::is_empty")]
     pub shape: Shapes,
-    /// Shapes that kill buds, as `[[site.obstacle]]`: a house, or a form that is clipped all the time. None if not given.
-    /// Each plot has these obstacles, placed relative to the plot.
+    /// Shapes that kill buds, as `[[site.obstacle]]`: a house, or a form that is clipped all the time. None if not
+    /// given. Each plot has these obstacles, placed relative to the plot.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub obstacle: Vec<Obstacle>,
 }

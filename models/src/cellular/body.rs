@@ -1,6 +1,7 @@
 //! The internodes and axes of a plant that grows into space: each internode a straight segment with a stated heading.
 //!
-//! A tip that goes straight on continues its axis; what leaves it is an axis of the next order. Absent: where a tip goes.
+//! A tip that goes straight on continues its axis; what leaves it is an axis of the next order. Absent: where a tip
+//! goes.
 
 use phytomer_sim::clock::Tick;
 use phytomer_sim::model::Overgrown;

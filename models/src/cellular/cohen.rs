@@ -1,9 +1,9 @@
 //! Growth through a field of density (Cohen 1967, "Computer simulation of biological pattern generation processes";
 //! ABOP ch. 2): tips that keep their way, turn from what already stands there, and follow a tropism.
 //!
-//! All tips see the field as it was at the end of the last tick. A tip grows along inertia · its heading −
-//! avoidance · R ∇ρ + tropism, R being the reach of the field. Its room is 1 at the density of its own straight trail and 0
-//! where others add `crowding` to it; the length of the segment and the probability to branch are proportional to the room,
+//! All tips see the field as it was at the end of the last tick. A tip grows along inertia · its heading − avoidance ·
+//! R ∇ρ + tropism, R being the reach of the field. Its room is 1 at the density of its own straight trail and 0 where
+//! others add `crowding` to it; the length of the segment and the probability to branch are proportional to the room,
 //! and a tip without room waits. A tip that branches divides: one arm continues its axis, the other begins an axis of
 //! the next order, at equal angles to either side. Cohen's program had these influences on flat arrays; his numbers are
 //! not printed with ABOP, so the formula is ours. Absent: obstacles.

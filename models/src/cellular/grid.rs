@@ -2,8 +2,8 @@
 //!
 //! In a grid of triangles the cell that faces another is the one opposite at a corner, which is the other cell turned
 //! about that corner by half a turn; in a grid of squares it is the one beyond an edge. Directions are numbered
-//! counter-clockwise from the first: of triangles those at 30° + 60° k, of which a cell has each second, of squares those at
-//! 90° k. Absent: which cells are coloured.
+//! counter-clockwise from the first: of triangles those at 30° + 60° k, of which a cell has each second, of squares
+//! those at 90° k. Absent: which cells are coloured.
 
 use phytomer_sim::math::sincos;
 use std::f64::consts::PI;
@@ -19,14 +19,6 @@ pub(super) enum Tiling {
 }
 
 impl Tiling {
-    /// The number of all directions.
-    pub fn directions(self) -> u8 {
-        match self {
-            Self::Triangles => 6,
-            Self::Squares => 4,
-        }
-    }
-
     /// The directions in which other cells face a cell, the upward one first.
     pub fn around(self, cell: Cell) -> &'static [u8] {
         match (self, cell[2]) {
@@ -106,7 +98,8 @@ mod tests {
                         let led = from[k] + tiling.step() * vector[k];
                         assert!((led - to[k]).abs() < 1e-12, "{tiling:?} {cell:?} {direction}: {led} {to:?}");
                     }
-                    let back = (direction + tiling.directions() / 2) % tiling.directions();
+                    let all = if tiling == Tiling::Triangles { 6 } else { 4 };
+                    let back = (direction + all / 2) % all;
                     assert!(tiling.around(facing).contains(&back));
                     assert_eq!(tiling.facing(facing, back), cell);
                 }

@@ -43,8 +43,8 @@ impl Sky {
 mod tests {
     use super::*;
 
-    /// A wall that covers half of the horizon shuts half of the sky; a cone about the zenith with the cosine c the share
-    /// 1 − c; nothing shuts nothing.
+    /// A wall that covers half of the horizon shuts half of the sky; a cone about the zenith with the cosine c the
+    /// share 1 − c; nothing shuts nothing.
     #[test]
     fn shares_are_those_of_areas() {
         let sky = Sky::new();

@@ -77,8 +77,8 @@ fn two_tips_part_symmetrically() {
     assert!(apart[10] > 1.5 * straight[10], "they turn away: {apart:?}, not {straight:?}");
 }
 
-/// Lengths and divisions fall with density: a crowded plant has far fewer segments than one with room everywhere, and most
-/// of them are short.
+/// Lengths and divisions fall with density: a crowded plant has far fewer segments than one with room everywhere, and
+/// most of them are short.
 #[test]
 fn what_is_crowded_grows_less() {
     let crowded = |crowding: f64| {

@@ -1,12 +1,12 @@
 //! Ulam's branching patterns (Ulam 1962, "On some mathematical problems connected with patterns of growth of figures";
 //! ABOP ch. 2): one cell is coloured at each tick for each that a coloured cell alone faces.
 //!
-//! ABOP colours the cells that touch one and only one vertex of a cell coloured before. Read literally this stops at ten
-//! cells, since the three that meet at a corner touch one another. Here, as in Ulam's figures, a cell is coloured if of
-//! the cells that face it (the ones opposite at its corners, or beyond its edges) exactly one is coloured. Each cell is
-//! an internode that ends in its middle. The axis of a cell goes straight on in a grid of squares; in one of triangles,
-//! where growth turns by 60° at each cell, the turn that undoes the last one continues the axis. The other cells begin
-//! axes of the next order. Absent: patterns in space.
+//! ABOP colours the cells that touch one and only one vertex of a cell coloured before. Read literally this stops at
+//! ten cells, since the three that meet at a corner touch one another. Here, as in Ulam's figures, a cell is coloured
+//! if of the cells that face it (the ones opposite at its corners, or beyond its edges) exactly one is coloured. Each
+//! cell is an internode that ends in its middle. The axis of a cell goes straight on in a grid of squares; in one of
+//! triangles, where growth turns by 60° at each cell, the turn that undoes the last one continues the axis. The other
+//! cells begin axes of the next order. Absent: patterns in space.
 
 use super::body::{Segment, Tip, branch, habit, keep_diameters, lengthen};
 use super::grid::{Cell, Tiling};
@@ -38,8 +38,8 @@ pub struct Ulam {
     /// The edge of a cell, metres.
     #[schemars(with = "Constant", extend("minimum" = 0.000_001, "maximum" = 1000))]
     pub cell_m: Constant,
-    /// The height of the middle of the first cell above the seed, metres: the length of the first internode. The distance
-    /// between two cells if not given.
+    /// The height of the middle of the first cell above the seed, metres: the length of the first internode. The
+    /// distance between two cells if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Constant", extend("minimum" = 0.000_001, "maximum" = 1000))]
     pub stem_m: Option<Constant>,
@@ -160,8 +160,8 @@ impl UlamModel {
         Ok(())
     }
 
-    /// Colours the cells of a tick. Each of them is faced by one cell alone, so no two cells of the last tick colour the
-    /// same.
+    /// Colours the cells of a tick. Each of them is faced by one cell alone, so no two cells of the last tick colour
+    /// the same.
     fn generation(&self, plant: &mut Plant, pattern: &mut Pattern, birth: Tick) -> Result<(), Overgrown> {
         let Pattern { coloured, last } = pattern;
         let faces_one = |cell: Cell| {

@@ -2,8 +2,8 @@
 //!
 //! A point is inside where the mesh winds about it (Jacobson, Kavan & Sorkine-Hornung 2013, "Robust inside-outside
 //! segmentation using generalized winding numbers"): the solid angles of the triangles (Van Oosterom & Strackee 1983)
-//! add up to 4π within and to 0 outside, wherever the point lies, so that no ray can slip through an edge. Triangles far
-//! from the point count together as one dipole (Barill et al. 2018, "Fast winding numbers for soups and clouds", of
+//! add up to 4π within and to 0 outside, wherever the point lies, so that no ray can slip through an edge. Triangles
+//! far from the point count together as one dipole (Barill et al. 2018, "Fast winding numbers for soups and clouds", of
 //! the first order). Absent: files, and making a mesh closed.
 
 use super::bounds::Bounds;

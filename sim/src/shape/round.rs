@@ -1,7 +1,7 @@
 //! Round solids: spheres, ellipsoids, capsules and tori.
 //!
-//! Distances are exact but for those of ellipsoids, which are of the first order: exact on the surface, and of the right
-//! sign everywhere. Absent: turned solids (`placed`).
+//! Distances are exact but for those of ellipsoids, which are of the first order: exact on the surface, and of the
+//! right sign everywhere. Absent: turned solids (`placed`).
 
 use super::bounds::Bounds;
 use super::{Point, Solid, along_line, from, length};

@@ -67,7 +67,7 @@ impl Shell {
     }
 
     /// The distance to the flat disc that closes the shell after so many turns.
-    fn to_disc(&self, turns: f64, at: Point) -> f64 {
+    fn beyond_disc(&self, turns: f64, at: Point) -> f64 {
         let [centre, height, radius] = self.circle(turns);
         let (sin, cos) = sincos(turns * TAU);
         let out = at[0] * cos + at[1] * sin;
@@ -90,7 +90,7 @@ impl Solid for Shell {
         // A circle that is larger than its distance from the axis reaches over into the half plane opposite.
         let opposite = if self.tube > self.spiral { self.within(angle + PI, -across, at[2]) } else { f64::INFINITY };
         let body = own.min(opposite);
-        if body <= 0.0 { body } else { body.min(self.to_disc(0.0, at)).min(self.to_disc(self.last(), at)) }
+        if body <= 0.0 { body } else { body.min(self.beyond_disc(0.0, at)).min(self.beyond_disc(self.last(), at)) }
     }
 
     fn bounds(&self) -> Bounds {

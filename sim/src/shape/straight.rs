@@ -122,7 +122,8 @@ impl Solid for Cone {
         0.0 <= z && z <= self.height && radius >= 0.0 && x * x + y * y <= radius * radius
     }
 
-    /// The smaller of the distances to the nearer of base and top and to the mantle, in the half plane through the axis.
+    /// The smaller of the distances to the nearer of base and top and to the mantle, in the half plane through the
+    /// axis.
     fn distance(&self, point: Point) -> f64 {
         let [x, y, z] = from(self.base, point);
         let across = (x * x + y * y).sqrt();

@@ -1,7 +1,7 @@
 //! Volumes of shapes against closed forms: points drawn evenly in the bounds, counted where they are inside.
 //!
-//! With n points in a box of volume B, a shape of volume V has the standard error B √(p (1 − p) / n) with p = V / B; the
-//! bound is four of these. Sources: Archimedes for balls, Pappus for what turns about an axis. Absent: fields.
+//! With n points in a box of volume B, a shape of volume V has the standard error B √(p (1 − p) / n) with p = V / B;
+//! the bound is four of these. Sources: Archimedes for balls, Pappus for what turns about an axis. Absent: fields.
 
 use super::*;
 use crate::rotation::Rotation;

@@ -100,7 +100,8 @@ impl Tree {
         false
     }
 
-    /// An item that is likely to be near a point: that of the leaf to which the nearer bounds lead. `None` without items.
+    /// An item that is likely to be near a point: that of the leaf to which the nearer bounds lead. `None` without
+    /// items.
     pub fn near(&self, point: Point) -> Option<usize> {
         let mut place = 0;
         let mut node = self.nodes.first()?;
