@@ -33,8 +33,8 @@ pub struct TextModel {
 /// What is remembered of a plant between ticks: its string, and the numbers of what stands.
 #[derive(Debug, Clone)]
 pub struct Life {
-    /// `None` where the string came to a stop.
-    derived: Option<Derived>,
+    /// The string, or why it came to a stop.
+    derived: Result<Derived, Arc<str>>,
     numbers: Numbers,
     scratch: Scratch,
 }
@@ -55,8 +55,8 @@ impl PartialEq for Life {
             modules(one) == modules(other)
         };
         let strings = match (&self.derived, &other.derived) {
-            (Some(one), Some(other)) => same(one, other),
-            (one, other) => one.is_none() && other.is_none(),
+            (Ok(one), Ok(other)) => same(one, other),
+            (one, other) => one.as_ref().err() == other.as_ref().err(),
         };
         strings && self.numbers == other.numbers
     }
@@ -115,11 +115,11 @@ impl TextModel {
 
     /// Draws a plant's string and writes its columns, at `age`; what stood before and stands no more departs.
     fn stand(&self, age: Tick, plant: &mut Plant, life: &mut Life) -> Result<(), Overgrown> {
-        let Life { derived: Some(derived), numbers, scratch } = life else { return Ok(()) };
+        let Life { derived: Ok(derived), numbers, scratch } = life else { return Ok(()) };
         let Scratch { draft, numbered, .. } = scratch;
         numbers.number(draft, age, plant, numbered);
         if plant.is_overgrown() {
-            return Err(Overgrown { plant: plant.id, limit: plant.component_limit() });
+            return Err(Overgrown::of(plant));
         }
         let lost = Lost::of(draft, derived);
         let mut noted = Noted::before(plant);
@@ -253,10 +253,14 @@ impl Grow for TextModel {
             }
             Ok(derived)
         });
-        let mut life = Life { derived: derived.ok(), numbers: Numbers::default(), scratch };
-        // A seed that passes its limit does so again at the first tick.
-        if self.stand(0, plant, &mut life).is_err() || life.derived.is_none() {
-            life.derived = None;
+        let derived = derived.map_err(|stopped| stopped.to_string().into());
+        let mut life = Life { derived, numbers: Numbers::default(), scratch };
+        if life.derived.is_ok()
+            && let Err(overgrown) = self.stand(0, plant, &mut life)
+        {
+            life.derived = Err(overgrown.to_string().into());
+        }
+        if life.derived.is_err() {
             plant.begin_rewriting();
             events::sow_alone(plant);
         }
@@ -265,16 +269,17 @@ impl Grow for TextModel {
 
     fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Life, _: &View<'_>) -> Result<(), Overgrown> {
         while plant.age < age {
-            let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
-            let Life { derived: Some(derived), scratch, .. } = &mut *life else { return Err(limit) };
+            let Life { derived, scratch, .. } = &mut *life;
+            let derived = derived.as_mut().map_err(|why| Overgrown::stopped(plant, why))?;
             let mut drawing = Drawing { model: self, scratch, drawn: false };
             let mut done = self.program.step(derived, &mut drawing);
             if done.is_ok() && !drawing.drawn {
                 done = drawing.draw(&self.program, derived, |_, _, _| ());
             }
-            if done.is_err() {
-                life.derived = None;
-                return Err(limit);
+            if let Err(stopped) = done {
+                let why: Arc<str> = stopped.to_string().into();
+                life.derived = Err(Arc::clone(&why));
+                return Err(Overgrown::stopped(plant, &why));
             }
             self.stand(plant.age + 1, plant, life)?;
         }

@@ -191,6 +191,16 @@ fn a_tree_of_ternary_branching() {
     assert!(mean.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3), "{mean:?}");
 }
 
+/// A number that is none stops the string at its production, and the plant says where.
+#[test]
+fn a_string_that_comes_to_a_stop_says_why() {
+    let model = model("Axiom: F(2)\nF(x) --> F(1/(x-x))\n", "", &[]);
+    let mut plot = contract::sown(&model, &contract::seed_of(1, 0));
+    let stopped = plot.grow_to(1).expect_err("it stops");
+    assert!(stopped.to_string().starts_with("plant 0 came to a stop: plant.l:2:"), "{stopped}");
+    assert_eq!(plot.grow_to(2).expect_err("it stays so"), stopped);
+}
+
 #[test]
 fn systems_of_texts_keep_the_contract() {
     let apices = [("A", Kind::ApicalBud), ("B", Kind::ApicalBud), ("@o", Kind::AxillaryBud)];
