@@ -56,11 +56,17 @@ pub(crate) fn check_sowings(loader: &mut Loader, node: &Node, checked: &Checked)
         return;
     }
     let trial = Trial::of(&checked.scenario, &checked.treatments);
-    for (place, of) in checked.species() {
-        let Some(member) = trial.sown_apart(place) else { continue };
-        if !of.species.may_know_the_date() {
-            continue;
+    for (place, of) in checked.species().filter(|(_, of)| of.species.may_know_the_date()) {
+        if let Some(successor) = trial.successor_of(place) {
+            let path = path_of(&["member"]).index(successor).key("replaces");
+            let problem = format!(
+                "`{}` has laws of the date, and when a successor is planted is not known before the run",
+                of.species.about.name
+            );
+            let expected = "a successor of a species without laws of the date";
+            loader.faults.push(Fault::new(node.locate(&path), &path, problem, expected));
         }
+        let Some(member) = trial.sown_apart(place) else { continue };
         let path = path_of(&["member"]).index(member).key("sown");
         let problem =
             format!("`{}` has laws of the date, and its members are sown at different ticks", of.species.about.name);

@@ -47,7 +47,8 @@ pub(crate) fn foreseen_until(trial: &Trial, species: usize) -> Option<u32> {
     let of_treatment = |treatment: &Treatment| {
         let place = treatment.species.iter().position(|known| *known == species)?;
         let last = treatment.scenario.last_age_of_species(place);
-        let uncut = treatment.scenario.first_cut().map_or(last, |first| last.min(first.saturating_sub(1)));
+        let first_cut = treatment.scenario.first_cut(treatment.calendar.as_deref());
+        let uncut = first_cut.map_or(last, |first| last.min(first.saturating_sub(1)));
         Some(uncut).filter(|uncut| *uncut > 0 && treatment.scenario.pest.is_empty())
     };
     trial.treatments().iter().filter_map(of_treatment).max()

@@ -5,6 +5,7 @@
 //! Absent: the species, which is a file of its own, and the place of the run folder, which the command line states.
 
 mod calendar;
+mod days;
 mod events;
 pub mod experiment;
 pub(crate) mod icasa;
@@ -30,6 +31,7 @@ use std::collections::BTreeSet;
 
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::clock::LAST_TICK;
+use phytomer_sim::site::calendar::Calendar as Ticks;
 use phytomer_weather::WeatherFile;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -296,7 +298,12 @@ impl Scenario {
         self.check_mesh_plants(plants, &meshes.key("plants"), &mut faults);
         self.check_members(&mut faults);
         self.check_sample(&mut faults);
-        pests::check(&self.pest, self.ages.until, self.spacing_m.is_some(), &Path::root().key("pest"), &mut faults);
+        let run = pests::Run {
+            until: self.ages.until,
+            has_places: self.spacing_m.is_some(),
+            has_calendar: self.calendar.is_some(),
+        };
+        pests::check(&self.pest, run, &Path::root().key("pest"), &mut faults);
         self.check_planting(&mut faults);
         self.check_events(&mut faults);
         self.check_calendar(&mut faults);
@@ -309,6 +316,14 @@ impl Scenario {
             let problem = "the columns of mechanics belong to the table `records`, which is not written";
             faults.push(Fault::new(&Path::root().key("output").key("mechanics"), problem, "\"records\" in `tables`"));
         }
+        faults
+    }
+
+    /// The faults of days that do not lie in the calendar of its ticks.
+    pub(crate) fn faults_of_days(&self, calendar: &Ticks) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        self.check_days_of_events(calendar, &mut faults);
+        pests::check_days(&self.pest, calendar, &Path::root().key("pest"), &mut faults);
         faults
     }
 

@@ -5,7 +5,10 @@
 //! What is drawn is keyed by the replicate and the number within it, never by the treatment, so that treatments are
 //! compared on the same draws. Absent: places on the field, and growing.
 
+use std::sync::Arc;
+
 use phytomer_law::fault::{Fault, Path};
+use phytomer_sim::site::calendar::Calendar;
 use serde::{Deserialize, Serialize};
 
 use crate::scenario::experiment::{CONTROL, MOST_FIELD_PLOTS};
@@ -26,6 +29,9 @@ pub struct Treatment {
     /// Its species: of each of [`Scenario::species_names`], the index in the species of the run. A species whose laws
     /// depend on the date is a species of its own in each calendar.
     pub species: Vec<usize>,
+    /// The calendar of its plots; `None` where its scenario states none. A run keeps it apart.
+    #[serde(skip)]
+    pub calendar: Option<Arc<Calendar>>,
 }
 
 impl Treatment {
@@ -34,7 +40,7 @@ impl Treatment {
         let mut scenario = scenario.clone();
         scenario.experiment = Default::default();
         let species = (0..scenario.species_names().len()).collect();
-        Self { name: CONTROL.to_owned(), levels: Vec::new(), scenario, species }
+        Self { name: CONTROL.to_owned(), levels: Vec::new(), scenario, species, calendar: None }
     }
 }
 
@@ -85,7 +91,10 @@ impl Trial {
             treatments if !treatments.is_empty() && !scenario.experiment.is_control_alone() => {
                 treatments.iter().map(|treatment| settled(scenario, treatment)).collect()
             }
-            _ => vec![Treatment::control(scenario)],
+            treatments => {
+                let calendar = treatments.first().and_then(|treatment| treatment.calendar.clone());
+                vec![Treatment { calendar, ..Treatment::control(scenario) }]
+            }
         };
         let replicates = scenario.experiment.replicates;
         let (mut plots, mut plants) = (vec![0_u32], vec![0_u32]);
@@ -177,7 +186,22 @@ impl Trial {
     /// What a plant is in its plot.
     pub fn member_of(&self, plant: u32) -> Member {
         let PlantPlace { treatment, member, .. } = self.plant(plant);
-        self.treatments[treatment].scenario.member.get(member as usize).cloned().unwrap_or_default()
+        self.treatments[treatment].scenario.plot_members().get(member as usize).cloned().unwrap_or_default()
+    }
+
+    /// Whether a plant is planted by an event alone, so that it is not known before when.
+    pub fn is_successor(&self, plant: u32) -> bool {
+        let PlantPlace { treatment, member, .. } = self.plant(plant);
+        let stated = self.treatments[treatment].scenario.member.get(member as usize);
+        stated.is_some_and(|member| member.replaces.is_some())
+    }
+
+    /// A member of a species of the run that is planted by an event alone, by its number.
+    pub(crate) fn successor_of(&self, species: usize) -> Option<usize> {
+        self.treatments.iter().find_map(|Treatment { scenario, species: places, .. }| {
+            let of_species = |member: &Member| places.get(scenario.species_of(member)) == Some(&species);
+            scenario.member.iter().position(|member| member.replaces.is_some() && of_species(member))
+        })
     }
 
     /// The tick of its plot at which a plant is sown.

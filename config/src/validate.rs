@@ -173,10 +173,16 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let until = until.filter(|n| (1..=LAST_TICK).contains(n));
     let (species, places) = species_of_run::check(loader, &read, calendars.as_deref(), until)?;
     let (mut species, scenario) = (species.into_iter(), scenario?);
-    let treatments = read.into_iter().zip(places).map(|(read, places)| treatment(&scenario, read, places));
+    let calendars = calendars.ok()?;
+    treatments::tell_each(loader, &read, |place, scenario| {
+        let dated = calendars.get(place).and_then(Option::as_ref);
+        dated.map(|dated| scenario.faults_of_days(&dated.calendar)).unwrap_or_default()
+    });
+    let placed = read.into_iter().zip(places).zip(&calendars);
+    let treatments = placed.map(|((read, places), dated)| treatment(&scenario, read, places, dated.as_ref()));
     let treatments = treatments.collect::<Option<Vec<Treatment>>>()?;
     let (first, others) = (species.next()?, species.collect());
-    let checked = Checked { scenario, treatments, first, others, calendars: calendars.ok()? };
+    let checked = Checked { scenario, treatments, first, others, calendars };
     check_sowings(loader, &node, &checked);
     check_explosions(loader, &node, &checked);
     check_cuttable(loader, &node, &checked);
@@ -221,11 +227,12 @@ fn experiment_of(node: &Node, refused: &[Fault]) -> Option<Experiment> {
     serde_json::from_value(experiment.to_json()).ok()
 }
 
-/// A treatment with its species among those of the run.
-fn treatment(run: &Scenario, read: Read, species: Vec<usize>) -> Option<Treatment> {
+/// A treatment with its species among those of the run, and its calendar.
+fn treatment(run: &Scenario, read: Read, species: Vec<usize>, dated: Option<&Dated>) -> Option<Treatment> {
     let Chosen { name, levels } = read.expanded.chosen;
     let levels = run.experiment.level_names(&levels);
-    Some(Treatment { name, levels, scenario: read.scenario?, species })
+    let calendar = dated.map(|dated| Arc::clone(&dated.calendar));
+    Some(Treatment { name, levels, scenario: read.scenario?, species, calendar })
 }
 
 impl fmt::Debug for ResolvedSpecies {

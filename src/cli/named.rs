@@ -109,10 +109,13 @@ impl Recorded {
         let species = Species::from_json(&resolved["species"]).with_context(doing)?;
         let others = resolved["other_species"].as_array().map(Vec::as_slice).unwrap_or_default();
         let others = others.iter().map(Species::from_json).collect::<serde_json::Result<_>>().with_context(doing)?;
-        let treatments = match &resolved["treatments"] {
-            serde_json::Value::Null => Vec::new(),
+        let mut treatments = match &resolved["treatments"] {
+            serde_json::Value::Null => vec![Treatment::control(&scenario)],
             treatments => Vec::<Treatment>::deserialize(treatments).with_context(doing)?,
         };
+        for (treatment, calendar) in treatments.iter_mut().zip(calendars(resolved).with_context(doing)?) {
+            treatment.calendar = calendar;
+        }
         Ok(Self { trial: Trial::of(&scenario, &treatments), scenario, species, others, run })
     }
 
@@ -136,10 +139,10 @@ impl Recorded {
     /// # Errors
     /// Where their laws do not hold, which those of a run that began do.
     pub fn compile(&self) -> Result<Vec<Arc<dyn GrowthModel>>> {
-        let calendars = self.calendars().context("the calendars of the run")?;
         let compiled = |(place, species): (usize, &Species)| {
             let sown = self.trial.first_sowing_of_species(place);
-            let calendar = self.trial.treatment_with(place).and_then(|treatment| calendars.get(treatment)?.clone());
+            let treatment = self.trial.treatment_with(place).map(|treatment| &self.trial.treatments()[treatment]);
+            let calendar = treatment.and_then(|treatment| treatment.calendar.clone());
             let dates = calendar.map(|calendar| Dates { calendar, sown });
             let until = self.trial.last_age_of_species(place);
             species.model.compile_dated(until, dates.as_ref()).map_err(|faults| match faults.into_iter().next() {
@@ -149,13 +152,12 @@ impl Recorded {
         };
         self.all_species().enumerate().map(compiled).collect()
     }
+}
 
-    /// The calendar of each treatment, as `run.json` keeps it.
-    fn calendars(&self) -> serde_json::Result<Vec<Option<Arc<Calendar>>>> {
-        let resolved = &self.run.json()["resolved_scenario"];
-        match resolved["treatments"].as_array() {
-            None => Ok(vec![calendar_of_run(resolved)?]),
-            Some(treatments) => treatments.iter().map(calendar_of_run).collect(),
-        }
+/// The calendar of each treatment, as `run.json` keeps it.
+fn calendars(resolved: &serde_json::Value) -> serde_json::Result<Vec<Option<Arc<Calendar>>>> {
+    match resolved["treatments"].as_array() {
+        None => Ok(vec![calendar_of_run(resolved)?]),
+        Some(treatments) => treatments.iter().map(calendar_of_run).collect(),
     }
 }

@@ -31,7 +31,8 @@ impl<'a> Plots<'a> {
     pub fn of(trial: Trial, models: Vec<&'a dyn GrowthModel>) -> Self {
         let field = Field::of(&trial);
         let members = trial.treatments().iter().map(members_of).collect();
-        let management = trial.treatments().iter().map(|treatment| treatment.scenario.management()).collect();
+        let managed = |treatment: &Treatment| treatment.scenario.management(treatment.calendar.as_ref());
+        let management = trial.treatments().iter().map(managed).collect();
         Self { trial, field, management, models, members }
     }
 
@@ -84,14 +85,17 @@ impl<'a> Plots<'a> {
     fn expose(&self, plot: &mut Plot) {
         for (plant, member) in plot.plants.iter_mut().zip(&plot.members) {
             let PlantPlace { treatment, replicate, number, .. } = self.trial.plant(plant.id);
-            let scenario = &self.trial.treatments()[treatment].scenario;
+            let Treatment { scenario, calendar, .. } = &self.trial.treatments()[treatment];
+            let sown = if self.trial.is_successor(plant.id) { 0 } else { member.sown };
             let host = Host {
                 seed: scenario.seed,
                 replicate,
                 plot: plot.number,
                 plant: number,
                 place: [plant.place[0], plant.place[1]],
-                until: scenario.ages.until.saturating_sub(member.sown),
+                until: scenario.ages.until.saturating_sub(sown),
+                sown,
+                calendar: calendar.as_deref(),
             };
             plant.exposure = exposure(&scenario.pest, &host);
         }
@@ -143,7 +147,8 @@ impl<'a> Plots<'a> {
                 species: *species,
                 seed: self.seed_of(plant),
                 place: [0, 1, 2].map(|axis| place[axis] + beside[axis]),
-                sown: if self.germinates(plant) { member.sown } else { NEVER },
+                // A successor waits for its event.
+                sown: if member.replaces.is_none() && self.germinates(plant) { member.sown } else { NEVER },
             }
         };
         self.members[of.treatment].iter().zip(of.first_plant..).map(sowing).collect()

@@ -28,6 +28,8 @@ mod tests_faults;
 #[cfg(test)]
 mod tests_pests;
 #[cfg(test)]
+mod tests_replanting;
+#[cfg(test)]
 mod tests_responses;
 #[cfg(test)]
 mod tests_sets;

@@ -64,6 +64,11 @@ fn ahead(model: &BudModel, operations: &[Operation], threads: usize) -> Vec<Plan
     plot.plants
 }
 
+/// What a plant is but for its frames at rest, which training states.
+fn fates(plant: &Plant) -> Vec<(u64, Tick, Tick, Vec<u32>)> {
+    components(plant).into_iter().map(|of| (of.key.0, of.birth, of.death, of.state)).collect()
+}
+
 /// The frame of each internode at an age, to the bit, by its lineage key.
 fn frames(plant: &Plant, age: Tick) -> BTreeMap<u64, Vec<u32>> {
     let mut plant = plant.clone();
@@ -93,7 +98,7 @@ fn growth_ahead_and_by_the_clock_give_one_trained_plant_on_any_number_of_threads
             clock.grow_to(tick).expect("no limit");
         }
         for (k, plant) in clock.plants.iter().enumerate() {
-            assert_eq!(components(plant), components(&free[k]), "training changes the pose alone");
+            assert!(fates(plant) == fates(&free[k]), "training changes the pose alone");
             assert!(plant.nodes.len() > 10 || plant.death < LAST);
             for age in [2, 5, 6, 11, LAST - 1] {
                 let by_the_clock = frames(plant, age);

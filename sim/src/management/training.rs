@@ -5,10 +5,10 @@
 //! palmette or of an espalier are tied along horizontal wires. Decided here: a limb turns at its crotch and keeps its
 //! form, and its angle is that of the straight line from its base to its tip; what is tied to a stake or a wire is
 //! straight from tie to tie. Lengths stay. What trained wood bears goes along with it, and keeps its form too. The rest
-//! frames change from the tick on ([`Plant::change_rests`]): what grows later leaves the tip and follows its trend. Wood
-//! that bends is held where it was trained for as long as the support stays; a stake and a wire, which stand on the
-//! ground, also bear its weight. Absent: the stress of the bending itself, so that wood which is let go sags under its
-//! load and does not spring back; and breakage.
+//! frames change from the tick on ([`Plant::change_rests`]): what grows later leaves the tip and follows its trend.
+//! Wood that bends is held where it was trained for as long as the support stays; a stake and a wire, which stand on
+//! the ground, also bear its weight. Absent: the stress of the bending itself, so that wood which is let go sags under
+//! its load and does not spring back; and breakage.
 
 use crate::clock::Tick;
 use crate::math::{acos, atan2, sincos};
@@ -17,8 +17,8 @@ use crate::rotation::Rotation;
 use crate::vector::Vector;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// The share of its length by which an internode that is led to its wire leaves the direction of the wire: it runs at 45
-/// degrees to it.
+/// The share of its length by which an internode that is led to its wire leaves the direction of the wire: it runs at
+/// 45 degrees to it.
 const LED: f64 = FRAC_1_SQRT_2;
 
 /// A tip that lies at a height but for rounding lies within it.
@@ -27,8 +27,8 @@ const WITHIN: f64 = 1.0 + 1e-6;
 /// What trained wood is held by.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Support {
-    /// A spreader, a tie or a weight: the branch stands at an angle to the upward vertical, or in a direction from north
-    /// to east, radians. Where one of them is not stated, it stays as it was.
+    /// A spreader, a tie or a weight: the branch stands at an angle to the upward vertical, or in a direction from
+    /// north to east, radians. Where one of them is not stated, it stays as it was.
     Spreader {
         /// The angle to the upward vertical.
         inclination: Option<f64>,
@@ -37,8 +37,8 @@ pub enum Support {
     },
     /// A stake beside the trunk, of a height in metres: the trunk is straight and upright up to it.
     Stake(f64),
-    /// Horizontal wires above one another, which pass over the seed: each branch is led to the wire nearest in height to
-    /// its base, and lies along it on the side to which it points.
+    /// Horizontal wires above one another, which pass over the seed: each branch is led to the wire nearest in height
+    /// to its base, and lies along it on the side to which it points.
     Wires {
         /// The heights, metres.
         heights: Vec<f64>,

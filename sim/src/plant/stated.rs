@@ -251,8 +251,8 @@ impl Plant {
         self.frames.clear();
     }
 
-    /// Changes many rest frames from `tick` on, each part once, as [`Plant::change_rest`] does one by one. The frames of
-    /// the plant stay as they are until it is posed again.
+    /// Changes many rest frames from `tick` on, each part once, as [`Plant::change_rest`] does one by one. The frames
+    /// of the plant stay as they are until it is posed again.
     pub fn change_rests(&mut self, tick: Tick, rests: impl IntoIterator<Item = (Part, Rest)>) {
         let nodes = &self.nodes;
         let change = |(part, rest)| Change { part: one_entry(nodes, part), tick, rest };

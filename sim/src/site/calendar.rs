@@ -136,6 +136,13 @@ impl Calendar {
         &self.ticks[(tick as usize).min(self.ticks.len() - 1)]
     }
 
+    /// The tick that spans a day: what is done on that day is done at that tick. `None` where the day lies before
+    /// planting or after the last tick.
+    pub fn tick_of(&self, day: Date) -> Option<Tick> {
+        let tick = self.ticks.partition_point(|tick| tick.date <= day);
+        (tick > 0 && tick < self.ticks.len()).then_some(tick as Tick)
+    }
+
     /// All ticks, from 0.
     pub fn ticks(&self) -> &[CalendarTick] {
         &self.ticks
@@ -284,6 +291,18 @@ mod tests {
             assert_eq!(at.degree_day_sum, Some(450.0 * f64::from(tick)));
             assert_eq!((at.day_length_h, at.nitrogen_kg_ha), (None, None));
         }
+    }
+
+    /// A tick of 30 days spans the days from the date of the tick before up to the day before its own.
+    #[test]
+    fn a_day_lies_in_the_tick_that_spans_it() {
+        let calendar = Calendar::of(&terms(TickLength::Days(30)), 3, steady).expect("a calendar");
+        let planted = date(2001, 3, 1);
+        let ticks = [-1, 0, 29, 30, 59, 60, 89, 90].map(|days| calendar.tick_of(planted.plus(days)));
+        assert_eq!(ticks, [None, Some(1), Some(1), Some(2), Some(2), Some(3), Some(3), None]);
+        // Of two ticks that a hot day ends the first spans it.
+        let hot = Calendar::of(&terms(TickLength::DegreeDays(5.0)), 6, steady).expect("a calendar");
+        assert_eq!(hot.tick_of(planted.plus(1)), Some(4));
     }
 
     /// At 15 °C d a day, tick t of 100 °C d ends at the first midnight by which 15 d ≥ 100 t: after ⌈20 t/3⌉ days.

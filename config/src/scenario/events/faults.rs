@@ -1,6 +1,8 @@
-//! The faults of events that the schema cannot state: keys that belong to other operations, and times that never come.
+//! The faults of the keys of an event that the schema cannot state: keys that belong to other operations, and keys that
+//! are missing.
 //!
-//! Absent: the faults of conditions, which the reading of a condition finds (`phytomer_law::condition`).
+//! Absent: the faults of times (`times`), and those of conditions, which the reading of a condition finds
+//! (`phytomer_law::condition`).
 
 use super::Event;
 use phytomer_law::fault::{Fault, Path};
@@ -12,7 +14,12 @@ impl Event {
         for key in stated.iter().filter(|key| keys.all().all(|known| known != **key)) {
             let known = keys.all().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
             let problem = format!("`{key}` has no effect on the operation `{word}`");
-            faults.push(Fault::new(&path.key(key), problem, format!("one of {known}")));
+            let expected = if known.is_empty() {
+                "no keys beside those of its times".to_owned()
+            } else {
+                format!("one of {known}")
+            };
+            faults.push(Fault::new(&path.key(key), problem, expected));
         }
         let of = |needed: &[&str]| stated.iter().copied().filter(|key| needed.contains(key)).collect::<Vec<&str>>();
         let list = |needed: &[&str]| needed.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(" or ");
@@ -46,35 +53,4 @@ impl Event {
             faults.push(Fault::new(&path, problem, "a direction, such as [0, 1, 0]"));
         }
     }
-
-    pub(super) fn check_times(&self, until: u32, path: &Path, faults: &mut Vec<Fault>) {
-        let first = self.tick.or(self.age);
-        if let (Some(_), Some(_)) = (self.tick, self.age) {
-            let problem = "the event is stated by a tick of the plot and by an age of the plant";
-            faults.push(Fault::new(&path.key("age"), problem, "`tick` or `age`"));
-        }
-        if first.is_none() && self.when.is_none() {
-            faults.push(Fault::new(path, "the event has no time", "`tick`, `age` or `when`"));
-        }
-        let key = if self.tick.is_some() { "tick" } else { "age" };
-        if let Some(first) = first.filter(|first| *first > until) {
-            let problem = format!("the event is of {key} {first}, and the run ends at tick {until}");
-            faults.push(Fault::new(&path.key(key), problem, format!("{} in [1, {until}]", article(key))));
-        }
-        match self.until {
-            Some(last) if first.is_some_and(|first| last < first) => {
-                let problem = format!("the event ends at {last}, before it begins at {}", first.unwrap_or(1));
-                faults.push(Fault::new(&path.key("until"), problem, format!("at least {}", first.unwrap_or(1))));
-            }
-            Some(_) if self.every.is_none() && self.when.is_none() => {
-                let problem = "`until` ends what is done once";
-                faults.push(Fault::new(&path.key("until"), problem, "`every` beside it, the ticks between two times"));
-            }
-            _ => {}
-        }
-    }
-}
-
-fn article(key: &str) -> &'static str {
-    if key == "age" { "an age" } else { "a tick" }
 }

@@ -32,6 +32,8 @@ pub enum Work {
     Staking,
     /// Branches are tied along horizontal wires.
     Tying,
+    /// Successors are planted where plants are dead, were taken or did not germinate.
+    Replanting,
 }
 
 /// The keys of an operation beside those of its times and its plants.
@@ -66,6 +68,7 @@ impl Work {
             Self::Bending => "bending",
             Self::Staking => "staking",
             Self::Tying => "tying",
+            Self::Replanting => "replanting",
         }
     }
 
@@ -73,7 +76,7 @@ impl Work {
     pub(super) const fn thing(self) -> Thing {
         match self {
             Self::FruitThinning | Self::Harvest => Thing::Fruit,
-            Self::Removal => Thing::Plant,
+            Self::Removal | Self::Replanting => Thing::Plant,
             _ => Thing::Wood,
         }
     }
@@ -85,7 +88,7 @@ impl Work {
 
     /// Whether it takes wood, so that plants grow otherwise than by their laws alone.
     pub(super) const fn cuts(self) -> bool {
-        !matches!(self, Self::FruitThinning | Self::Harvest) && !self.trains()
+        !matches!(self, Self::FruitThinning | Self::Harvest | Self::Replanting) && !self.trains()
     }
 
     /// Its keys.
@@ -93,7 +96,16 @@ impl Work {
         const CHOICE: &[&str] = &["only", "protect", "first", "share", "at_most"];
         const TRAINED: &[&str] = &["only", "protect", "first", "share", "at_most", "stays"];
         const TIED: &[&str] = &["only", "protect", "first", "share", "at_most", "azimuth_deg", "stays"];
-        const PICKED: &[&str] = &["only", "protect", "first", "share", "at_most", "ripe_share", "harvest_cut_height"];
+        const PICKED: &[&str] = &[
+            "only",
+            "protect",
+            "first",
+            "share",
+            "at_most",
+            "ripe_share",
+            "harvest_cut_height",
+            "harvest_operations_date",
+        ];
         let (one, some, also): (&[&str], &[&str], &[&str]) = match self {
             Self::Heading => (&["keep_nodes", "keep_share", "keep_length_m"], &[], CHOICE),
             Self::Thinning | Self::FruitThinning => (&[], &[], CHOICE),
@@ -105,6 +117,7 @@ impl Work {
             Self::Bending => (&[], &["angle_deg", "azimuth_deg"], TRAINED),
             Self::Staking => (&["height_m"], &[], &["stays"]),
             Self::Tying => (&["wires_m"], &[], TIED),
+            Self::Replanting => (&[], &[], &[]),
         };
         Keys { one, some, also }
     }
