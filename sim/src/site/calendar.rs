@@ -181,6 +181,15 @@ impl Dates {
     pub fn degree_days_by(&self, age: Tick) -> Option<f64> {
         Some(self.at_age(age).degree_day_sum? - self.at_age(0).degree_day_sum?)
     }
+
+    /// The degree-days a day in the tick of an age, °C d/d: how warm its days were. A tick that a hot day has ended with
+    /// the tick before it has no days of its own, and is as warm as that one; tick 0 is as warm as tick 1.
+    pub fn degree_days_per_day(&self, age: Tick) -> Option<f64> {
+        let ticks = self.calendar.ticks();
+        let last = (self.sown.saturating_add(age) as usize).clamp(1, ticks.len().max(2) - 1);
+        let spanning = ticks.get(1..=last)?.iter().rev().find(|tick| tick.days > 0)?;
+        Some(spanning.degree_days? / f64::from(spanning.days))
+    }
 }
 
 /// The days of a calendar while it is made.
@@ -327,6 +336,24 @@ mod tests {
             "15 °C d a day: the sums 6, 12, 18, 24 and 30 after 1, 1, 2, 2 and 2 days"
         );
         assert_eq!(calendar.at(99), calendar.at(5), "beyond the last tick, the last");
+        let dates = Dates { calendar: Arc::new(calendar), sown: 1 };
+        let warm = [0, 1, 2, 4, 99].map(|age| dates.degree_days_per_day(age));
+        assert_eq!(warm, [Some(15.0); 5], "a tick without days is as warm as the one before it");
+    }
+
+    /// Days of 20 °C and of 14 °C in turn: ten of them are on average 7 °C d a day above 10 °C, a single one 10 or 4.
+    #[test]
+    fn a_tick_is_as_warm_as_the_mean_of_its_days() {
+        let in_turn = |day: Date| Some([if day.since(date(2001, 3, 1)) % 2 == 0 { 20.0 } else { 14.0 }; 2]);
+        let of = |days| {
+            let calendar = Calendar::of(&terms(TickLength::Days(days)), 9, in_turn).expect("a calendar");
+            let dates = Dates { calendar: Arc::new(calendar), sown: 0 };
+            [0, 1, 2, 3].map(|age| dates.degree_days_per_day(age).expect("degree-days"))
+        };
+        assert_eq!((of(10), of(1)), ([7.0; 4], [10.0, 10.0, 4.0, 10.0]), "tick 0 is as warm as tick 1");
+        let without = Terms { degree_days: None, ..terms(TickLength::Days(1)) };
+        let calendar = Arc::new(Calendar::of(&without, 3, |_| None).expect("a calendar"));
+        assert_eq!(Dates { calendar, sown: 0 }.degree_days_per_day(1), None);
     }
 
     #[test]
