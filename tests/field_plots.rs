@@ -190,8 +190,8 @@ fn members_of_a_dated_species_are_sown_at_several_ticks() {
     assert!(!told.contains("other_species"), "one species, whatever its dates");
 }
 
-/// A pest of severity s over n ticks attacks with the hazard 1 − (1 − s)^(1/n) at each of them. Its shift by a field plot
-/// is the same for all plants of the plot, and what nothing attacks has no pressure.
+/// A pest of severity s over n ticks attacks with the hazard 1 − (1 − s)^(1/n) at each of them. Its shift by a field
+/// plot is the same for all plants of the plot, and what nothing attacks has no pressure.
 #[test]
 fn the_site_has_the_pressure_of_pests() {
     let home = home();
