@@ -4,11 +4,12 @@
 //! cargo run --release --example kill_campaign [KILLS [SCENARIO]]
 //! ```
 //!
-//! Two hundred kills of `tests/data/runs/parts.toml` if nothing is given. By turns a whole run is killed, or each of
-//! its three shards and then their merge; each is killed until it ends, on 1, 2, 3 and 8 threads by turns. Then every
-//! file of the folder must be that of the undisturbed run, `run.json` but for its timings. The processes are this
-//! program itself (`child`). It ends with exit code 1 at the first difference, and keeps the folders. `tests/resume.rs`
-//! and `tests/shards.rs` do the same in short with the program. Absent: kills of the machine, of which the disk knows.
+//! Two hundred kills of `tests/data/runs/orchard.toml`, with cuts and pests, if nothing is given. By turns a whole run
+//! is killed, or each of its three shards and then their merge; each is killed until it ends, on 1, 2, 3 and 8 threads
+//! by turns. Then every file of the folder must be that of the undisturbed run, `run.json` but for its timings. The
+//! processes are this program itself (`child`). It ends with exit code 1 at the first difference, and keeps the
+//! folders. `tests/resume.rs` and `tests/shards.rs` do the same in short with the program. Absent: kills of the
+//! machine, of which the disk knows.
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use phytomer::config::validate;
@@ -34,7 +35,7 @@ fn main() -> Result<()> {
         return child(&words[1..]);
     }
     let kills = words.first().map_or(Ok(KILLS), |word| word.parse()).context("the number of kills is expected")?;
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/runs/parts.toml");
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/runs/orchard.toml");
     let scenario = words.get(1).cloned().unwrap_or_else(|| shipped.display().to_string());
     let home = env::temp_dir().join(format!("phytomer-kills-{}", std::process::id()));
     fs::create_dir_all(&home)?;

@@ -91,7 +91,7 @@ fn shipped(folder: &Path, name: &str, plants: &str) -> BTreeMap<String, String> 
     std::fs::write(&file, format!("{text}\n[output]\nplants_per_part = 2\n")).unwrap();
     let file = file.to_str().unwrap();
     let grown = ["1", "2", "7"].map(|threads| {
-        let run = format!("{name}-{threads}");
+        let run = format!("{}-{threads}", name.replace('/', "-"));
         phytomer(folder, &["grow", file, "--plants", plants, "--threads", threads, "--name", &run]).ending(0);
         hashes(&folder.join("runs").join(run))
     });
@@ -118,6 +118,14 @@ fn the_shipped_gmt1_is_the_same_on_any_number_of_threads() {
         6 * 3 + 1 + 1,
         "three parts, the table of treatments, one plant at its last age"
     );
+}
+
+/// A vine follows the clock around a house; its plants, and those of a plot, are the same on any number of threads.
+#[test]
+fn the_shipped_vine_is_the_same_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("greene")).unwrap();
+    assert_eq!(shipped(folder.path(), "greene/vine", "5").len(), 6 * 3 + 1, "three parts, the table of treatments");
 }
 
 #[test]

@@ -18,7 +18,7 @@ use std::path::Path;
 /// Bytes of a vertex.
 const VERTEX: usize = 49;
 
-/// Apples and coffees of two sowings, pruned by a calendar, by height and by strength, and harvested.
+/// Apples and coffees of two sowings, pruned by a calendar, by height and by strength, trained and harvested.
 const ORCHARD: &str = r#"name = "orchard"
 species = "apple"
 plants = 8
@@ -45,6 +45,29 @@ operation = "heading"
 age = 11
 only = "order == 1"
 keep_share = 0.8
+
+[[event]]
+operation = "staking"
+tick = 4
+every = 5
+height_m = 0.8
+
+[[event]]
+operation = "bending"
+age = 8
+every = 6
+only = "order == 2 and inclination_deg < 70"
+first = "length_m"
+at_most = 3
+angle_deg = 75
+stays = 5
+
+[[event]]
+operation = "tying"
+tick = 15
+only = "order == 2 and height_m < 0.5"
+wires_m = [0.3, 0.6]
+azimuth_deg = 90
 
 [[event]]
 operation = "removal"

@@ -15,8 +15,8 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 const KILLS: u32 = 20;
-/// The number of kills for the scenario whose plants bend.
-const KILLS_OF_BENDING: u32 = 6;
+/// The number of kills for a scenario without cuts and pests, and for the one whose plants bend.
+const FEWER_KILLS: u32 = 6;
 
 /// The files of an undisturbed run, and the time that it takes.
 fn undisturbed(folder: &Path, scenario: &str) -> (BTreeMap<String, String>, Duration) {
@@ -34,14 +34,20 @@ fn moments() -> impl Iterator<Item = f64> {
     })
 }
 
+/// Plants that are cut, trained, replaced and attacked.
 #[test]
 fn killed_at_twenty_moments_and_resumed() {
-    kill_and_resume("parts.toml", 6 * 6 + 1 + 3, KILLS);
+    kill_and_resume("orchard.toml", 6 * 6 + 1 + 3, KILLS);
+}
+
+#[test]
+fn plants_that_nobody_touches_are_resumed_too() {
+    kill_and_resume("parts.toml", 6 * 6 + 1 + 3, FEWER_KILLS);
 }
 
 #[test]
 fn plants_that_bend_are_resumed_too() {
-    kill_and_resume("bending.toml", 6 * 3 + 1 + 2 * 2, KILLS_OF_BENDING);
+    kill_and_resume("bending.toml", 6 * 3 + 1 + 2 * 2, FEWER_KILLS);
 }
 
 fn kill_and_resume(scenario: &str, files: usize, kills: u32) {

@@ -11,7 +11,8 @@ use phytomer_sim::model::GrowthModel;
 use crate::dates::Dated;
 use crate::document::Node;
 use crate::explosion;
-use crate::load::Loader;
+use crate::load::{Loader, path_of};
+use crate::report::Fault;
 use crate::scenario::Scenario;
 use crate::species::Species;
 use crate::trial::{Treatment, Trial};
@@ -57,6 +58,24 @@ pub(crate) fn check_cuttable(loader: &mut Loader, node: &Node, checked: &Checked
     let remade = managed.filter(|(_, _, model)| !model.growth().keeps_its_past());
     let faults = remade.map(|(_, species, _)| Scenario::fault_of_uncuttable(&species.about.name)).collect();
     loader.tell(node, faults);
+}
+
+/// A successor of a species whose laws depend on the date would need a model for each tick at which it may be planted.
+pub(crate) fn check_successors(loader: &mut Loader, node: &Node, checked: &Checked) {
+    if checked.calendars.iter().all(Option::is_none) {
+        return;
+    }
+    let known = checked.species.iter().enumerate().filter(|(_, of)| of.species.may_know_the_date());
+    for (place, of) in known {
+        let Some(successor) = checked.trial.successor_of(place) else { continue };
+        let path = path_of(&["member"]).index(successor).key("replaces");
+        let problem = format!(
+            "`{}` has laws of the date, and when a successor is planted is not known before the run",
+            of.species.about.name
+        );
+        let expected = "a successor of a species without laws of the date";
+        loader.faults.push(Fault::new(node.locate(&path), &path, problem, expected));
+    }
 }
 
 /// A species that explodes in one cohort is told once.

@@ -2,7 +2,8 @@
 //!
 //! Every value keeps its span, so that a fault in a level is shown at the level's line. Tables are merged key by key; a
 //! list, and a value with several forms, is replaced whole; the lists that several factors add to are joined, the
-//! scenario's own items first. Absent: which treatments there are (`scenario::experiment`), and reading the trees.
+//! scenario's own items first. An item with the name of an item before it, as pests have them, is laid over that one.
+//! Absent: which treatments there are (`scenario::experiment`), and reading the trees.
 
 use phytomer_law::fault::Path;
 use serde_json::Value as Json;
@@ -48,10 +49,44 @@ fn laid_over(schema: &Json, below: Node, mut level: Node) -> Node {
     for entry in entries.iter_mut().filter(|entry| JOINED.contains(&entry.key.as_str())) {
         let before = below.get(&entry.key).map(Node::items).unwrap_or_default();
         if let Value::Array(items) = &mut entry.node.value {
-            items.splice(0..0, before.iter().cloned());
+            *items = joined(before, std::mem::take(items));
         }
     }
     let span = below.span;
     let laid = merge_chain(schema, None, vec![below.clone(), level]).unwrap_or(below);
     Node { span, ..laid }
+}
+
+/// The items of a list with those that a level adds: an item of the same name as one before it changes the keys that it
+/// states, any other is put at the end.
+fn joined(before: &[Node], added: Vec<Node>) -> Vec<Node> {
+    let name = |item: &Node| item.get("name").and_then(Node::text).map(str::to_owned);
+    let mut items = before.to_vec();
+    for item in added {
+        let known = name(&item).and_then(|named| items.iter().position(|known| name(known) == Some(named.clone())));
+        match known.filter(|place| *place < before.len()) {
+            Some(place) => items[place] = changed(items[place].clone(), item),
+            None => items.push(item),
+        }
+    }
+    items
+}
+
+/// A table with the keys of another over its own, tables in it likewise.
+fn changed(mut below: Node, over: Node) -> Node {
+    match (&mut below.value, over.value) {
+        (Value::Table(entries), Value::Table(news)) => {
+            for new in news {
+                match entries.iter_mut().find(|known| known.key == new.key) {
+                    Some(known) => {
+                        known.key_span = new.key_span;
+                        known.node = changed(known.node.clone(), new.node);
+                    }
+                    None => entries.push(new),
+                }
+            }
+        }
+        (_, value) => return Node { span: over.span, value },
+    }
+    Node { span: over.span, ..below }
 }

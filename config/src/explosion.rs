@@ -50,7 +50,7 @@ pub(crate) fn foreseen_until(trial: &Trial, cohort: usize) -> Option<u32> {
         trial.rows_of_cohorts(place).iter().any(|row| row.contains(&cohort)).then_some(())?;
         let own = treatment.species.iter().position(|known| known == species)?;
         let last = treatment.scenario.last_age_of_species(own).min(*until);
-        let uncut = treatment.scenario.first_cut().map_or(last, |first| last.min(first.saturating_sub(1)));
+        let uncut = trial.first_cut(place).map_or(last, |first| last.min(first.saturating_sub(1)));
         Some(uncut).filter(|uncut| *uncut > 0 && treatment.scenario.pest.is_empty())
     };
     trial.treatments().iter().enumerate().filter_map(of_treatment).max()

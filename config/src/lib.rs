@@ -8,6 +8,7 @@
 mod about;
 mod alone;
 mod architectural_model;
+mod beside;
 mod checked;
 mod cohorts;
 mod dates;

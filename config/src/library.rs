@@ -11,13 +11,17 @@ use std::io::{self, Read};
 use std::path::{Component, Path as FilePath, PathBuf};
 use std::sync::Arc;
 
+use crate::beside::{folder_of, stays_inside};
 use crate::source::{Origin, Source};
 use phytomer_models::law::spelling::nearest;
+use phytomer_models::lsystem::is_map;
 
 include!(concat!(env!("OUT_DIR"), "/presets.rs"));
 
 /// The largest size of a parameter file; a longer file is refused, so that it does not fill the memory.
 const MAX_BYTES: u64 = 4 << 20;
+/// How many files of a folder are looked at.
+const LOOKED_AT: usize = 1000;
 /// The largest size of a weather file: a century of days is 2 MB.
 const MAX_WEATHER_BYTES: u64 = 64 << 20;
 
@@ -125,6 +129,92 @@ impl Library {
     }
 }
 
+impl Library {
+    /// A file in the folder of the text that names it: beside a file and not outside its folder, among the texts in
+    /// memory, or among the files that ship beside a preset. The bytes of what is no UTF-8 text come with it.
+    pub fn beside(&self, name: &str, beside: &Origin) -> Result<Source, NotFound> {
+        let missing = |problem: String| NotFound {
+            problem,
+            expected: "a file in the folder of the species".to_owned(),
+            suggestion: nearest(name, self.names_beside(beside).iter().map(String::as_str)).map(str::to_owned),
+        };
+        if !stays_inside(name) {
+            return Err(missing(format!("the file `{name}` may lie outside the folder")));
+        }
+        match (self, beside) {
+            (Self::Memory(texts), Origin::Memory(_)) => {
+                let found = texts.iter().find(|text| text.name == name).cloned();
+                found.ok_or_else(|| missing(format!("there is no file `{name}` among the texts")))
+            }
+            (_, Origin::File(file)) => {
+                let folder = file.parent().unwrap_or(FilePath::new(""));
+                read_beside(folder, name)
+                    .map_err(|error| missing(format!("cannot read the file `{name}`: {}", reason(&error))))
+            }
+            _ => {
+                let own = format!("{}/{name}", folder_of(beside));
+                let found =
+                    TEXTS.iter().find(|(known, _)| known.trim_start_matches('/') == own.trim_start_matches('/'));
+                let (known, text) = found.ok_or_else(|| missing(format!("there is no file `{name}`")))?;
+                let origin = Origin::Preset((*known).to_owned());
+                Ok(Source { name: format!("preset:{known}"), origin, text: (*text).into(), bytes: None })
+            }
+        }
+    }
+
+    /// The names of the files in the folder of a text, as far as [`Library::beside`] finds them; of a folder of very
+    /// many files the first that the system names.
+    pub fn names_beside(&self, beside: &Origin) -> Vec<String> {
+        match (self, beside) {
+            (Self::Memory(texts), Origin::Memory(_)) => texts.iter().map(|text| text.name.clone()).collect(),
+            (_, Origin::File(file)) => {
+                let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+                let entries = std::fs::read_dir(folder.unwrap_or(FilePath::new("."))).into_iter().flatten();
+                let entries = entries.take(LOOKED_AT).filter_map(Result::ok);
+                entries.filter_map(|entry| entry.file_name().into_string().ok()).collect()
+            }
+            _ => {
+                let folder = folder_of(beside);
+                let own = TEXTS.iter().filter_map(|(known, _)| known.rsplit_once('/').or(Some(("", known))));
+                own.filter(|(known, _)| *known == folder).map(|(_, name)| name.to_owned()).collect()
+            }
+        }
+    }
+}
+
+/// Reads a file in a folder; a link that leads out of it is refused.
+fn read_beside(folder: &FilePath, name: &str) -> io::Result<Source> {
+    let folder = if folder.as_os_str().is_empty() { FilePath::new(".") } else { folder };
+    let path = folder.join(name);
+    if !path.canonicalize()?.starts_with(folder.canonicalize()?) {
+        return Err(io::Error::other("it lies outside the folder"));
+    }
+    let bytes = read_bytes(&path, MAX_BYTES)?;
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    let differs = text.as_bytes() != bytes.as_slice() || is_map(name);
+    let (text, shown) = (Arc::from(text), shown(&path));
+    Ok(Source { name: shown, origin: Origin::File(path), text, bytes: differs.then(|| Arc::from(bytes)) })
+}
+
+/// An L-system that is named itself, as a species: the file, and nothing stated of it.
+fn alone(path: &FilePath) -> io::Result<Source> {
+    File::open(path)?;
+    let file = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let stem = file.trim_end_matches(".l");
+    let name: String = stem.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+    let text = format!(
+        "name = {:?}\nmodel = \"lsystem\"\ntick = \"a step\"\nfile = {:?}\n",
+        if name.is_empty() { "lsystem" } else { &name },
+        file
+    );
+    Ok(Source { name: shown(path), origin: Origin::File(path.to_owned()), text: text.into(), bytes: None })
+}
+
+/// Whether a name is that of the file of an L-system.
+pub(crate) fn is_lsystem(name: &str) -> bool {
+    name.ends_with(".l")
+}
+
 /// A weather file that ships, by its name.
 fn shipped_weather(name: &str) -> Result<Source, NotFound> {
     let found = WEATHER.iter().find(|(known, _)| *known == name);
@@ -157,6 +247,9 @@ pub fn find(kind: Kind, name: &str, beside: Option<&Origin>) -> Result<Source, N
         let path = folder.map_or_else(|| PathBuf::from(name), |folder| folder.join(name));
         let with_end = PathBuf::from(format!("{}.toml", path.display()));
         let may_be_file = as_path || folder.is_some();
+        if is_lsystem(name) && matches!(kind, Kind::Species) {
+            return alone(&path).map_err(|error| unreadable(kind, name, &path, &error));
+        }
         if name.ends_with(".toml") || (as_path && path.is_file()) {
             return read(&path).map_err(|error| unreadable(kind, name, &path, &error));
         }
@@ -234,7 +327,6 @@ fn unknown(kind: Kind, name: &str) -> NotFound {
 
 /// The TOML file of the same folder that is nearest in spelling, written as `name` is.
 fn near_file(name: &str, path: &FilePath) -> Option<String> {
-    const LOOKED_AT: usize = 1000;
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(FilePath::new("."));
     let entries = std::fs::read_dir(folder).ok()?.take(LOOKED_AT).filter_map(Result::ok);
     let mut stems: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();

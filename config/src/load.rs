@@ -9,6 +9,7 @@ use phytomer_models::parameters::Keys;
 use serde_json::Value as Json;
 
 use crate::about::About;
+use crate::beside;
 use crate::document::{self, Node};
 use crate::forms;
 use crate::inherit::merge_chain;
@@ -125,6 +126,7 @@ impl Loader {
         let mut refused = Vec::new();
         woods::fill(&mut node, keys, &mut self.sources, &mut refused);
         forms::resolve(&mut node, keys, &self.sources, &mut refused);
+        beside::fill(&mut node, keys, &self.library, &mut self.sources, &mut refused);
         schema::check(name.schema(), &node, &mut refused);
         self.faults.extend(refused.iter().cloned());
         let about = self.read(&node, keys, &refused, |json| serde_path_to_error::deserialize(split(json).0));

@@ -79,10 +79,34 @@ pub fn place(sources: &Sources, node: &Node, fault: fault::Fault) -> Fault {
     let near = typed.and_then(|typed| nearest(typed, quoted(&expected)).filter(|near| *near != typed));
     let near = near.map(str::to_owned);
     let span = at_key.unwrap_or_else(|| node.locate(&path));
+    if let Some(fault) = in_text(sources, node, &path, &problem, &expected) {
+        return fault;
+    }
     match in_expression(sources, node, &path, &problem) {
         Some((span, problem)) => Fault::new(span, &path, problem, expected).suggest(near),
         None => Fault::new(span, &path, problem, expected).suggest(near),
     }
+}
+
+/// A fault at a line and a column of a text of the species, which are the last two steps of its path. Where the text is
+/// written in the species file so that its lines cannot be found, they stand in the message.
+fn in_text(sources: &Sources, node: &Node, path: &Path, problem: &str, expected: &str) -> Option<Fault> {
+    let [above @ .., Segment::Index(line), Segment::Index(column)] = path.0.as_slice() else { return None };
+    let above = Path(above.to_vec());
+    let (text, span) = node.at(&above).and_then(|node| Some((node.text()?, node.span)))?;
+    let typed = sources.get(span.source).text.get(span.start..span.end).unwrap_or_default();
+    let Some(first) = typed.find(text) else {
+        let problem = format!("line {line}, column {column}: {problem}");
+        return Some(Fault::new(span, &above, problem, expected));
+    };
+    let start = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum::<usize>();
+    let rest = text.get(start..).unwrap_or_default();
+    let within: usize = rest.chars().take(column.saturating_sub(1)).map(char::len_utf8).sum();
+    let at = &rest[within..];
+    let ends = |c: char| c.is_whitespace() || ",:()[]{}".contains(c);
+    let word = at.find(ends).unwrap_or(at.len()).max(at.chars().next().map_or(0, char::len_utf8));
+    let start = span.start + first + start + within;
+    Some(Fault::new(Span { start, end: start + word, ..span }, &above, problem, expected))
 }
 
 /// The names that a text offers: the words in quotes or backticks, or those after "one of".

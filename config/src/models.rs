@@ -89,9 +89,12 @@ macro_rules! registry {
 
 registry! {
     Buds: phytomer_models::buds::Buds,
+    Cohen: phytomer_models::cellular::Cohen,
     Gmt1: phytomer_models::geometric::Gmt1,
-    Lsystem: phytomer_models::lsystem::D0l,
+    Greene: phytomer_models::cellular::Greene,
+    Lsystem: phytomer_models::lsystem::Lsystem,
     Parametric: phytomer_models::parametric::Tree,
+    Ulam: phytomer_models::cellular::Ulam,
 }
 
 impl ModelName {

@@ -5,6 +5,7 @@
 //! Absent: the species, which is a file of its own, and the place of the run folder, which the command line states.
 
 mod calendar;
+mod days;
 mod events;
 pub mod experiment;
 mod field_plot;
@@ -25,13 +26,14 @@ pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use pests::{Attacked, Clustered, Host, Larvae, Pest, exposure};
 pub use planting::{Grid, Planting};
 pub use plots::Member;
-pub use site::{Plane, Site, Wind};
+pub use site::{Kills, Obstacle, Plane, Site, Wind};
 pub use tables::Table;
 
 use std::collections::BTreeSet;
 
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::clock::LAST_TICK;
+use phytomer_sim::site::calendar::Calendar as Ticks;
 use phytomer_weather::WeatherFile;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -79,7 +81,7 @@ pub struct Scenario {
     /// The treatments that are compared, and their replicates. One treatment, `control`, if not given.
     #[serde(default, skip_serializing_if = "Experiment::is_default")]
     pub experiment: Experiment,
-    /// External influences on the plants: gravity, wind, and planes that kill buds.
+    /// External influences on the plants: gravity, wind, and shapes that kill buds.
     #[serde(default, skip_serializing_if = "Site::is_default")]
     pub site: Site,
     /// The pests of the run, as `[[pest]]`. None if not given.
@@ -299,15 +301,21 @@ impl Scenario {
         self.check_mesh_plants(plants, &meshes.key("plants"), &mut faults);
         self.check_members(&mut faults);
         self.check_sample(&mut faults);
-        pests::check(&self.pest, self.ages.until, self.spacing_m.is_some(), &Path::root().key("pest"), &mut faults);
+        let run = pests::Run {
+            until: self.ages.until,
+            has_places: self.spacing_m.is_some(),
+            has_calendar: self.calendar.is_some(),
+        };
+        pests::check(&self.pest, run, &Path::root().key("pest"), &mut faults);
         self.check_planting(&mut faults);
-        self.check_events(&mut faults);
+        let shapes = self.site.shapes(&mut faults);
+        self.check_events(&shapes, &mut faults);
         self.check_calendar(&mut faults);
         if let Some(experiment) = experiment {
             self.check_years(experiment, &mut faults);
             self.check_blocks(experiment, &mut faults);
         }
-        self.site.check_planes(&Path::root().key("site"), &mut faults);
+        self.site.check_obstacles(&shapes, &Path::root().key("site"), &mut faults);
         if self.tables.is_empty() && self.meshes.is_none() {
             let problem = "this run would write nothing: no table and no mesh is asked for";
             faults.push(Fault::new(&Path::root().key("tables"), problem, "at least one table, or `[meshes]`"));
@@ -316,6 +324,14 @@ impl Scenario {
             let problem = "the columns of mechanics belong to the table `records`, which is not written";
             faults.push(Fault::new(&Path::root().key("output").key("mechanics"), problem, "\"records\" in `tables`"));
         }
+        faults
+    }
+
+    /// The faults of days that do not lie in the calendar of its ticks.
+    pub(crate) fn faults_of_days(&self, calendar: &Ticks) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        self.check_days_of_events(calendar, &mut faults);
+        pests::check_days(&self.pest, calendar, &Path::root().key("pest"), &mut faults);
         faults
     }
 

@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use phytomer_law::fault::Segment;
+use phytomer_law::fault::{self, Segment};
 use phytomer_models::parameters::Keys;
 use serde_json::Value as Json;
 
@@ -63,6 +63,18 @@ pub(crate) fn check(
 /// Whether a fault is one of the experiment itself, so that its design and its replicates are not known.
 fn is_of_experiment(fault: &Fault) -> bool {
     matches!(fault.path.0.as_slice(), [Segment::Key(table), Segment::Key(_)] if table == "experiment")
+}
+
+/// Tells what is wrong with the treatments beyond what their scenarios tell by themselves; `faults_of` gets the place
+/// of a treatment with its scenario.
+pub(crate) fn tell_each(loader: &mut Loader, read: &[Read], faults_of: impl Fn(usize, &Scenario) -> Vec<fault::Fault>) {
+    let mut findings = Findings::default();
+    for (place, Read { scenario, expanded, .. }) in read.iter().enumerate() {
+        let faults = scenario.as_ref().map(|scenario| faults_of(place, scenario)).unwrap_or_default();
+        let placed = faults.into_iter().map(|fault| meaning::place(&loader.sources, &expanded.node, fault)).collect();
+        findings.add(expanded, placed);
+    }
+    loader.faults.extend(findings.told(read.len(), &BTreeSet::new()));
 }
 
 /// The plants of the whole run; of a run that could not be read, as many as there can be.

@@ -5,7 +5,10 @@
 //! What is drawn is keyed by the replicate and the number within it, never by the treatment, so that treatments are
 //! compared on the same draws. Absent: places on the field, and growing.
 
+use std::sync::Arc;
+
 use phytomer_law::fault::{Fault, Path};
+use phytomer_sim::site::calendar::Calendar;
 use phytomer_sim::site::calendars::Calendars;
 use serde::{Deserialize, Serialize};
 
@@ -126,6 +129,25 @@ impl Trial {
         &self.calendars
     }
 
+    /// The calendar of a replicate of a treatment; `None` where ticks have no dates.
+    pub fn calendar_of(&self, treatment: usize, replicate: u32) -> Option<&Arc<Calendar>> {
+        self.calendars.get(treatment)?.of(replicate)
+    }
+
+    /// The calendars of a treatment that may differ, by their replicates: one if all replicates have the same one, or
+    /// ticks have no dates.
+    pub fn calendars_of(&self, treatment: usize) -> Vec<Option<&Arc<Calendar>>> {
+        let all = self.calendars.get(treatment).map(Calendars::all).unwrap_or_default();
+        if all.is_empty() { vec![None] } else { all.iter().map(Some).collect() }
+    }
+
+    /// The first age at which an event of a treatment may cut a plant in some replicate; `None` where none cuts.
+    pub(crate) fn first_cut(&self, treatment: usize) -> Option<u32> {
+        let scenario = &self.treatments[treatment].scenario;
+        let of = |calendar: Option<&Arc<Calendar>>| scenario.first_cut(calendar.map(Arc::as_ref));
+        self.calendars_of(treatment).into_iter().filter_map(of).min()
+    }
+
     /// The cohorts of the run, of each of which a model is compiled.
     pub fn cohorts(&self) -> &[Cohort] {
         &self.cohorts.all
@@ -231,7 +253,22 @@ impl Trial {
     /// What a plant is in its plot.
     pub fn member_of(&self, plant: u32) -> Member {
         let PlantPlace { treatment, member, .. } = self.plant(plant);
-        self.treatments[treatment].scenario.member.get(member as usize).cloned().unwrap_or_default()
+        self.treatments[treatment].scenario.plot_members().get(member as usize).cloned().unwrap_or_default()
+    }
+
+    /// Whether a plant is planted by an event alone, so that it is not known before when.
+    pub fn is_successor(&self, plant: u32) -> bool {
+        let PlantPlace { treatment, member, .. } = self.plant(plant);
+        let stated = self.treatments[treatment].scenario.member.get(member as usize);
+        stated.is_some_and(|member| member.replaces.is_some())
+    }
+
+    /// A member of a species of the run that is planted by an event alone, by its number.
+    pub(crate) fn successor_of(&self, species: usize) -> Option<usize> {
+        self.treatments.iter().find_map(|Treatment { scenario, species: places, .. }| {
+            let of_species = |member: &Member| places.get(scenario.species_of(member)) == Some(&species);
+            scenario.member.iter().position(|member| member.replaces.is_some() && of_species(member))
+        })
     }
 
     /// The tick of its plot at which a plant is sown.

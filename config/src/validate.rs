@@ -12,14 +12,15 @@ use phytomer_law::fault::{self, Segment};
 use phytomer_models::parameters::Keys;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::model::GrowthModel;
+use phytomer_sim::site::calendar::Calendar;
 use serde_json::Value as Json;
 
 use crate::about::About;
-use crate::checked::{Checked, Compiled, Stated, check_cuttable, check_explosions};
+use crate::checked::{Checked, Compiled, Stated, check_cuttable, check_explosions, check_successors};
 use crate::dates::{self, Dated};
 use crate::document::Node;
 use crate::expansion::{self, Expanded};
-use crate::library::{Kind, Library};
+use crate::library::{Kind, Library, is_lsystem};
 use crate::load::{Loader, Mention, integer_at};
 use crate::models::{MODELS, any_file};
 use crate::report::{Fault, Report};
@@ -133,6 +134,9 @@ pub fn kind_of(name: &str) -> Kind {
 fn kind_in(library: &Library, name: &str) -> Kind {
     let mut loader = Loader::default();
     let is_path = matches!(library, Library::Disk) && FilePath::new(name).is_file();
+    if is_path && is_lsystem(name) {
+        return Kind::Species;
+    }
     let found = library.find(Kind::Scenario, name, None);
     let Ok(source) = found else { return if is_path { Kind::Scenario } else { Kind::Species } };
     let (_, node) = loader.parse(source);
@@ -186,7 +190,14 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let until = until.filter(|n| (1..=LAST_TICK).contains(n));
     let run = Run { node: &node, scenario: scenario.as_ref(), until, calendars: calendars.as_deref(), read: &read };
     let SpeciesOfRun { treatments, species, trial, models } = run.check(loader)?;
-    let checked = Checked { scenario: scenario?, treatments, species, trial, models, calendars: calendars.ok()? };
+    let calendars = calendars.ok()?;
+    treatments::tell_each(loader, &read, |place, scenario| {
+        let dated = calendars.get(place).and_then(Option::as_ref);
+        let of = |calendar: &Arc<Calendar>| scenario.faults_of_days(calendar);
+        dated.and_then(|dated| dated.calendars.all().iter().map(of).find(|faults| !faults.is_empty())).unwrap_or_default()
+    });
+    let checked = Checked { scenario: scenario?, treatments, species, trial, models, calendars };
+    check_successors(loader, &node, &checked);
     check_explosions(loader, &node, &checked);
     check_cuttable(loader, &node, &checked);
     Some(checked)

@@ -35,6 +35,8 @@ pub struct Keys {
     pub wood: Option<Together>,
     /// The parts of each table by place that may be drawn with a user's mesh.
     pub formed: &'static [&'static str],
+    /// The key that names a file whose text, with those of the files beside it, the table `texts` holds.
+    pub texts: Option<&'static str>,
 }
 
 /// A list of tables that merge by their place, and the table of what holds for each of them.
@@ -58,7 +60,7 @@ pub struct Together {
 
 impl Keys {
     /// No key has a role.
-    pub const PLAIN: Self = Self { by_place: None, referred_to: &[], wood: None, formed: &[] };
+    pub const PLAIN: Self = Self { by_place: None, referred_to: &[], wood: None, formed: &[], texts: None };
 }
 
 /// The parameters of a growth model, as people state them.
@@ -92,7 +94,7 @@ pub trait Parameters {
         None
     }
 
-    /// The age from which nothing more grows, where the parameters determine it.
+    /// The age from which nothing more grows, or at which it is meant to be looked at, where the parameters determine it.
     fn full_grown_at(&self) -> Option<Tick> {
         None
     }

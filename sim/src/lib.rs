@@ -18,6 +18,7 @@ pub mod pose;
 pub mod random;
 pub mod record;
 pub mod rotation;
+pub mod shape;
 pub mod shed;
 pub mod site;
 mod vector;

@@ -4,9 +4,10 @@
 //! tick before an operation that looks at where their wood is. Then the cuts are made, the models answer them, and what
 //! is dead is shed. Absent: what an operation does ([`crate::management`]), and the loop.
 
-use crate::clock::Tick;
-use crate::management::Worked;
+use crate::clock::{NEVER, Tick};
+use crate::management::{Successor, Worked};
 use crate::model::Overgrown;
+use crate::plant::{AxisId, Plant};
 use crate::plot::{Member, Plot};
 use crate::shed::shed;
 
@@ -22,9 +23,8 @@ impl Plot<'_> {
     /// # Errors
     /// [`Overgrown`], as [`Plot::grow_to`].
     pub(crate) fn grow_managed(&mut self, until: Tick) -> Result<(), Overgrown> {
-        let members = self.worked();
         let mut now = self.site.tick;
-        while let Some(tick) = self.management.next(now, &members).filter(|tick| *tick <= until) {
+        while let Some(tick) = self.management.next(now, &self.worked()).filter(|tick| *tick <= until) {
             self.grow_to(tick - 1)?;
             self.operate(tick)?;
             now = tick;
@@ -45,6 +45,7 @@ impl Plot<'_> {
         if self.management.looks_at(tick, &members) && !self.is_looked_at() {
             self.stand(tick - 1);
         }
+        let replants = self.management.replants(tick, &members);
         let Self { species, plants, lives, members: all, management, .. } = self;
         management.work(tick, &members, plants);
         for ((plant, life), (member, worked)) in plants.iter_mut().zip(lives).zip(all.iter().zip(&members)) {
@@ -53,7 +54,33 @@ impl Plot<'_> {
                 shed(plant);
             }
         }
+        if replants {
+            self.replant(tick);
+        }
         Ok(())
+    }
+
+    /// Plants each successor whose place is free at `tick`: it has the age 0 then. What still stands of the plant that
+    /// it follows is taken. A seed that did not germinate has left its place free.
+    fn replant(&mut self, tick: Tick) {
+        let Self { plants, members, management, .. } = self;
+        let free = |plants: &[Plant], members: &[Member], place: usize, is_successor: bool| match members[place].sown {
+            NEVER => !is_successor,
+            sown => sown < tick && plants[place].death <= tick - sown,
+        };
+        let successors = management.successors();
+        let is_successor = |place: usize| successors.iter().any(|other| other.member == place);
+        for Successor { member, follows } in successors.iter().copied() {
+            let there = member < members.len() && follows < members.len();
+            if !there || members[member].sown != NEVER || !free(plants, members, follows, is_successor(follows)) {
+                continue;
+            }
+            if let Some(age) = members[follows].age_at(tick).filter(|age| plants[follows].axes.shed[0] > *age) {
+                plants[follows].cut(AxisId::TRUNK, 0, age);
+                shed(&mut plants[follows]);
+            }
+            members[member].sown = tick;
+        }
     }
 
     fn worked(&self) -> Vec<Worked> {

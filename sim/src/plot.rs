@@ -1,10 +1,10 @@
 //! A plot: the plants that share a site; the unit of parallel work, of resuming and of distribution.
 //!
 //! A plot has a tick of its own, and each member an age: the ticks since it was sown. So later sowing, gaps and
-//! replanting are data, not special cases. Where nothing is shared a plot is one plant. Growth and standing of all
-//! members stand in `sim::grow`.
+//! replanting are data, not special cases: a successor is a member from the start, which is sown when its place is
+//! free. Where nothing is shared a plot is one plant. Growth and standing of all members stand in `sim::grow`.
 
-use crate::clock::Tick;
+use crate::clock::{NEVER, Tick};
 use crate::management::Management;
 use crate::mechanics::Wood;
 use crate::model::{GrowthModel, Life};
@@ -131,6 +131,11 @@ impl<'m> Plot<'m> {
         let Self { species, plants, lives, members, site, management, .. } = self;
         site.restart();
         management.restart();
+        for successor in &**management.successors() {
+            if let Some(member) = members.get_mut(successor.member) {
+                member.sown = NEVER;
+            }
+        }
         for ((plant, life), member) in plants.iter_mut().zip(lives).zip(members) {
             *life = species[member.species].sow(plant);
         }

@@ -33,6 +33,8 @@ pub enum Purpose {
     Field = 7,
     /// Whether the seed of a plant germinates, in the stream of the seed's axis.
     Germination = 8,
+    /// What the productions of an L-system decide, in a stream of the module and the step.
+    Rewriting = 9,
 }
 
 /// The words of one ChaCha block.

@@ -62,6 +62,24 @@ impl Rotation {
         Self { scalar, vector }.normalized()
     }
 
+    /// The rotation that takes one direction to another and turns no more than that, both in the coordinates of one
+    /// frame; nothing where either has no direction. Of half a turn any of the axes across is taken.
+    pub(crate) fn between(from: Vector, to: Vector) -> Self {
+        let (Some(from), Some(to)) = (from.unit(), to.unit()) else { return Self::NONE };
+        let scalar = 1.0 + from.dot(to);
+        if scalar > 1e-12 {
+            return Self { scalar, vector: from.cross(to) }.normalized();
+        }
+        let level = Vector::new(0.0, 0.0, 1.0).cross(from);
+        let axis = level.unit().unwrap_or(Vector::new(1.0, 0.0, 0.0));
+        Self { scalar: 0.0, vector: axis }
+    }
+
+    /// The rotation that takes this one back.
+    pub(crate) fn inverse(self) -> Self {
+        Self { scalar: self.scalar, vector: self.vector * -1.0 }
+    }
+
     fn shortest(x: Vector) -> Self {
         let scalar = 1.0 + x.x;
         if scalar > 1e-12 {
@@ -180,6 +198,24 @@ mod tests {
                 near(found.turned([0.2, -0.7, 1.1]), rotation.turned([0.2, -0.7, 1.1]));
             }
         }
+    }
+
+    #[test]
+    fn the_turn_between_two_directions_is_the_shortest_and_goes_back() {
+        let [x, z] = [Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 0.0, 1.0)];
+        for to in [[0.0, 0.6, 0.8], [-1.0, 0.0, 0.0], [0.5, -0.1, 3.0], [1.0, 0.0, 0.0]].map(Vector::of) {
+            for from in [x, z, z * -1.0, to * -2.0] {
+                let turn = Rotation::between(from, to);
+                let (found, expected) = (turn.of(from).unit().unwrap(), to.unit().unwrap());
+                near([found.x, found.y, found.z], [expected.x, expected.y, expected.z]);
+                let back = turn.then(turn.inverse());
+                near(back.turned([0.3, -0.2, 0.5]), [0.3, -0.2, 0.5]);
+                // What lies across both stays where it is.
+                let across = from.cross(to);
+                near(turn.turned([across.x, across.y, across.z]), [across.x, across.y, across.z]);
+            }
+        }
+        assert_eq!(Rotation::between(Vector::default(), x), Rotation::NONE);
     }
 
     #[test]

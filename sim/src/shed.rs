@@ -7,7 +7,7 @@
 //! the stump lives as long as a bud of what it still bears.
 
 use crate::clock::{NEVER, Tick};
-use crate::plant::{ApexFate, AxisId, Cause, Event, EventKind, Plant};
+use crate::plant::{AxisId, Cause, Event, EventKind, Plant};
 
 /// Writes the death and the fall of every branch of `plant` whose buds are all dead, and of what it bears.
 pub fn shed(plant: &mut Plant) {
@@ -72,18 +72,4 @@ pub fn note_falls(plant: &mut Plant, age: Tick) {
 
 fn fall(death: Tick, after: Tick) -> Tick {
     if death == NEVER { NEVER } else { death.saturating_add(after) }
-}
-
-/// Why an apex ended, as a cause of death.
-pub fn cause_of(fate: ApexFate) -> Cause {
-    match fate {
-        ApexFate::Alive => Cause::None,
-        ApexFate::Died => Cause::Mortality,
-        ApexFate::Flowered => Cause::Flowered,
-        ApexFate::Completed => Cause::Completed,
-        ApexFate::Killed => Cause::Killed,
-        ApexFate::Pruned => Cause::Pruned,
-        ApexFate::Harvested => Cause::Harvested,
-        ApexFate::Attacked => Cause::Attacked,
-    }
 }

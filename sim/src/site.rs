@@ -2,10 +2,10 @@
 //!
 //! At each tick the site reads all plants as they stood at the end of the last one, the plants grow side by side and
 //! see the site unchanged ([`View`]), and what they did is gathered in the order of the plot. So no result depends on
-//! the threads. Two things feed back today: planes that kill the buds that reach them, and cells of space that plants
-//! claim in the first half of a tick and are granted or refused in the second. Light and events of the date belong
-//! here. What the date alone decides is the [`calendar`], made of [`date`], [`sun`] and [`degree_days`];
-//! replicates may have [`calendars`] of their own.
+//! the threads. Two things feed back today: obstacles, shapes that kill the buds that are in them or out of them, and
+//! cells of space that plants claim in the first half of a tick and are granted or refused in the second. Light and
+//! events of the date belong here. What the date alone decides is the [`calendar`], made of [`date`], [`sun`] and
+//! [`degree_days`]; replicates may have [`calendars`] of their own.
 
 pub mod calendar;
 pub mod calendars;
@@ -17,7 +17,9 @@ use crate::cells::Cells;
 use crate::clock::Tick;
 use crate::math::{pow, sincos};
 use crate::plant::Drag;
+use crate::shape::Shape;
 use crate::vector::Vector;
+use std::sync::Arc;
 
 /// The acceleration of gravity by convention, m/s².
 pub const STANDARD_GRAVITY: f64 = 9.80665;
@@ -34,34 +36,34 @@ pub struct Site {
     pub gravity: f64,
     /// The steady wind.
     pub wind: Wind,
-    /// Planes that kill every bud that reaches them.
-    pub planes: Vec<Plane>,
+    /// Shapes that kill buds.
+    pub obstacles: Vec<Obstacle>,
     /// The cells of space that plants claim, where they do.
     pub cells: Cells,
 }
 
-/// A plane through the plot that kills buds: a roof, a wall, a mown height.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plane {
-    /// A point on it, metres.
-    pub point: [f64; 3],
-    /// The direction of the side on which no bud lives; of any length but 0.
-    pub normal: [f64; 3],
+/// A shape in the plot that kills buds: a roof, a wall, a mown height, a form that is clipped all the time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Obstacle {
+    /// The shape, in the coordinates of the plot, metres.
+    pub shape: Arc<Shape>,
+    /// Where buds die.
+    pub kills: Side,
 }
 
-impl Plane {
-    /// Whether a point of the plot, metres, lies on the plane or beyond it.
-    pub fn is_reached_by(&self, point: [f64; 3]) -> bool {
-        self.beyond(point) >= 0.0
-    }
+/// A side of the surface of a shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// Within the shape and on its surface.
+    Inside,
+    /// Outside the shape.
+    Outside,
+}
 
-    /// Whether a point, metres, lies beyond the plane.
-    pub fn is_passed_by(&self, point: [f64; 3]) -> bool {
-        self.beyond(point) > 0.0
-    }
-
-    fn beyond(&self, point: [f64; 3]) -> f64 {
-        (0..3).map(|k| (point[k] - self.point[k]) * self.normal[k]).sum::<f64>()
+impl Obstacle {
+    /// Whether it kills a bud at this point of the plot, metres.
+    pub fn kills_at(&self, point: [f64; 3]) -> bool {
+        self.shape.inside(point) == (self.kills == Side::Inside)
     }
 }
 
@@ -101,7 +103,13 @@ pub(crate) struct Fields {
 
 impl Default for Site {
     fn default() -> Self {
-        Self { tick: 0, gravity: STANDARD_GRAVITY, wind: Wind::default(), planes: Vec::new(), cells: Cells::default() }
+        Self {
+            tick: 0,
+            gravity: STANDARD_GRAVITY,
+            wind: Wind::default(),
+            obstacles: Vec::new(),
+            cells: Cells::default(),
+        }
     }
 }
 
@@ -124,12 +132,18 @@ impl Site {
 
     /// Whether growth depends on where buds stand, so that plants must be posed at every tick.
     pub fn sees_buds(&self) -> bool {
-        !self.planes.is_empty()
+        !self.obstacles.is_empty()
     }
 
     /// Whether a bud at this point of the plot, metres, is killed by what it has reached.
     pub fn kills_at(&self, point: [f64; 3]) -> bool {
-        self.planes.iter().any(|plane| plane.is_reached_by(point))
+        self.obstacles.iter().any(|obstacle| obstacle.kills_at(point))
+    }
+
+    /// The site of a plot at another place: its obstacles stand `by` metres farther.
+    pub fn moved(&self, by: [f64; 3]) -> Self {
+        let moved = |obstacle: &Obstacle| Obstacle { shape: Arc::new(obstacle.shape.moved(by)), ..*obstacle };
+        Self { obstacles: self.obstacles.iter().map(moved).collect(), ..self.clone() }
     }
 
     /// Gravity, and the drag of the wind: ½ ρ C_d U² a square metre with C_d = c U⁻ⁿ.

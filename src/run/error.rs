@@ -76,6 +76,14 @@ pub enum RunError {
         /// The plant's number.
         plant: u32,
     },
+    /// A plant that an event plants at a tick that is known when its plot has grown.
+    #[error("plant {plant} is a successor that an event plants: its plot shows it, with --plot {plot}")]
+    Successor {
+        /// The plant's number.
+        plant: u32,
+        /// The number of its plot.
+        plot: u32,
+    },
     /// The run was told to stop.
     #[error("the run was told to stop")]
     Stopped,

@@ -163,7 +163,7 @@ pub fn pictured_plot(
     let of_members = |mut stand: PicturedStand, tick: Tick| {
         for member in &mut stand.members {
             let of_plot = trial.member_of(member.number);
-            (member.plot, member.sown, member.place) = (plot, of_plot.sown, of_plot.place());
+            (member.plot, member.sown, member.place) = (plot, tick.saturating_sub(member.age), of_plot.place());
             member.treatment = trial.plot(plot).treatment as u32;
         }
         stand.label = format!("tick {tick}{}", years_of(species, tick));

@@ -1,9 +1,9 @@
 //! The plots of a trial as they are sown: each member with its species, its draws, its place and its tick of sowing.
 //!
-//! Plots stand on the field of the trial (`field`), members beside the place of their plot, and planes that kill buds
-//! with their plot: so a plot differs from the others of its treatment by its place and by the draws of its plants
+//! Plots stand on the field of the trial (`field`), members beside the place of their plot, and obstacles that kill
+//! buds with their plot: so a plot differs from the others of its treatment by its place and by the draws of its plants
 //! alone. Draws are keyed by replicate and number, not by treatment, so treatments are compared on the same draws.
-//! Where no plant can feel another one, or a plane, a single plant can be sown without its plot. Absent: growing.
+//! Where no plant can feel another one, or an obstacle, a single plant can be sown without its plot. Absent: growing.
 
 use super::field::Field;
 use phytomer_config::scenario::{FieldPlot, Host, Member, Table, exposure};
@@ -13,14 +13,17 @@ use phytomer_sim::plant::{Seed, ThreadBudget};
 use phytomer_sim::random::{PlantRandom, draw_key};
 use phytomer_sim::site::Site;
 use phytomer_sim::{GrowthModel, NEVER, Plot, Sowing};
+use std::sync::Arc;
 
 /// The plots of a run, to be sown. Costs a few words a member and treatment.
 #[derive(Clone)]
 pub struct Plots<'a> {
     trial: Trial,
     field: Field,
-    /// What people do to the plants of each treatment.
-    management: Vec<Management>,
+    /// What people do to the plants of each treatment: for all replicates, or for each one.
+    management: Vec<Vec<Management>>,
+    /// The site of each treatment, of a plot at the origin.
+    sites: Vec<Site>,
     /// The models of the cohorts of the trial.
     models: Vec<&'a dyn GrowthModel>,
     /// The members of the plots of each treatment.
@@ -32,8 +35,9 @@ impl<'a> Plots<'a> {
     pub fn of(trial: Trial, models: Vec<&'a dyn GrowthModel>) -> Self {
         let field = Field::of(&trial);
         let members = trial.treatments().iter().map(|treatment| treatment.scenario.plot_members()).collect();
-        let management = trial.treatments().iter().map(|treatment| treatment.scenario.management()).collect();
-        Self { trial, field, management, models, members }
+        let management = (0..trial.treatments().len()).map(|treatment| managed(&trial, treatment)).collect();
+        let sites = trial.treatments().iter().map(|treatment| treatment.scenario.site.felt()).collect();
+        Self { trial, field, management, sites, models, members }
     }
 
     /// The trial.
@@ -91,12 +95,15 @@ impl<'a> Plots<'a> {
             let PlantPlace { treatment, replicate, number, .. } = self.trial.plant(plant.id);
             let Treatment { name, scenario, .. } = &self.trial.treatments()[treatment];
             let block = self.trial.block_of(replicate);
+            let sown = if self.trial.is_successor(plant.id) { 0 } else { member.sown };
             let host = Host {
                 field_plot: FieldPlot { seed: scenario.seed, treatment: name, replicate, block },
                 plot: plot.number,
                 plant: number,
                 place: [plant.place[0], plant.place[1]],
-                until: scenario.ages.until.saturating_sub(member.sown),
+                until: scenario.ages.until.saturating_sub(sown),
+                sown,
+                calendar: self.trial.calendar_of(treatment, replicate).map(Arc::as_ref),
             };
             plant.exposure = exposure(&scenario.pest, &host);
         }
@@ -111,7 +118,9 @@ impl<'a> Plots<'a> {
 
     /// What people do to the plants of a plot.
     fn management_of(&self, plot: u32) -> &Management {
-        &self.management[self.trial.plot(plot).treatment]
+        let PlotPlace { treatment, replicate, .. } = self.trial.plot(plot);
+        let of_treatment = &self.management[treatment];
+        &of_treatment[(replicate as usize).min(of_treatment.len() - 1)]
     }
 
     /// The place of a plot, metres.
@@ -135,8 +144,7 @@ impl<'a> Plots<'a> {
     }
 
     fn site(&self, plot: u32) -> Site {
-        let treatment = &self.trial.treatments()[self.trial.plot(plot).treatment];
-        treatment.scenario.site.felt_at(self.plot_place(plot))
+        self.sites[self.trial.plot(plot).treatment].moved(self.plot_place(plot))
     }
 
     fn sowings(&self, plot: u32) -> Vec<Sowing> {
@@ -149,7 +157,8 @@ impl<'a> Plots<'a> {
                 species: *cohort,
                 seed: self.seed_of(plant),
                 place: [0, 1, 2].map(|axis| place[axis] + beside[axis]),
-                sown: if self.germinates(plant) { member.sown } else { NEVER },
+                // A successor waits for its event.
+                sown: if member.replaces.is_none() && self.germinates(plant) { member.sown } else { NEVER },
             }
         };
         self.members[of.treatment].iter().zip(cohorts).zip(of.first_plant..).map(sowing).collect()
@@ -184,6 +193,12 @@ pub fn seed_of(scenario: &Scenario, plant: u32) -> Seed {
         component_limit: component_limit(scenario),
         keep_events: scenario.tables.contains(&Table::Events),
     }
+}
+
+/// What people do to the plants of a treatment, by its calendars.
+fn managed(trial: &Trial, treatment: usize) -> Vec<Management> {
+    let scenario = &trial.treatments()[treatment].scenario;
+    trial.calendars_of(treatment).into_iter().map(|calendar| scenario.management(calendar)).collect()
 }
 
 #[cfg(test)]

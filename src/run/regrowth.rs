@@ -81,9 +81,7 @@ impl<'a> Regrowth<'a> {
     /// # Errors
     /// What `show` says; a plant that comes to its limit before the last of the ages.
     pub fn show(&self, plant: u32, ages: &[Tick], show: &mut Show<'_>) -> Result<(), RunError> {
-        if !self.plots.germinates(plant) {
-            return Err(RunError::NotGerminated { plant });
-        }
+        self.check_sown(plant)?;
         let sown = self.sown(plant);
         let ticks: Vec<Tick> = ages.iter().map(|age| age.saturating_add(sown.at)).collect();
         self.show_ticks(sown.plot, sown.until, &ticks, &mut |_, standing| {
@@ -140,9 +138,7 @@ impl<'a> Regrowth<'a> {
     /// # Errors
     /// Where it comes to its limit at its first age.
     pub fn prime(&self, plant: u32, year: Tick) -> Result<Tick, RunError> {
-        if !self.plots.germinates(plant) {
-            return Err(RunError::NotGerminated { plant });
-        }
+        self.check_sown(plant)?;
         let mut sown = self.sown(plant);
         let model = self.plots.models()[self.trial().cohort_of_plant(plant)];
         let mut last = sown.until;
@@ -160,6 +156,14 @@ impl<'a> Regrowth<'a> {
         }
         let grown = sown.plot.plants.iter().find(|grown| grown.id == plant);
         Ok(grown.map_or(1, |grown| prime_of(grown, last - sown.at, year)))
+    }
+
+    /// Refuses a plant that is not sown, or of which only its plot tells when it is.
+    fn check_sown(&self, plant: u32) -> Result<(), RunError> {
+        if self.trial().is_successor(plant) {
+            return Err(RunError::Successor { plant, plot: self.trial().plant(plant).plot });
+        }
+        if self.plots.germinates(plant) { Ok(()) } else { Err(RunError::NotGerminated { plant }) }
     }
 
     /// A plant before its first tick, by itself where that gives the same plant.

@@ -66,7 +66,7 @@ fn cap_plots(scenario: &mut Scenario) {
         let times = [&mut event.tick, &mut event.age, &mut event.until];
         times.into_iter().flatten().for_each(|time| *time = (*time).min(last));
     }
-    scenario.pest.iter_mut().for_each(|pest| pest.ages = pest.ages.map(|age| age.min(last)));
+    scenario.pest.iter_mut().for_each(|pest| pest.ages = pest.ages.map(|ages| ages.map(|age| age.min(last))));
 }
 
 /// Grows a scenario without faults, in one thread.

@@ -81,8 +81,9 @@ pub struct Factor {
 
 /// A level of a factor: its name, and the keys that it lays over the scenario.
 ///
-/// Tables are merged key by key; any other value, and a list, takes the place of the scenario's. Only `event` is joined
-/// with the events of the scenario and of other factors.
+/// Tables are merged key by key; any other value, and a list, takes the place of the scenario's. Only `event`,
+/// `fertilizer` and `pest` are joined with those of the scenario and of other factors, and a pest with the name of one of
+/// these changes the keys that it states.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Level {
     /// The name of the level.
@@ -143,8 +144,8 @@ impl Experiment {
     }
 }
 
-/// States in the JSON Schema of a scenario which keys a level may set. A table is merged with the scenario's, and is
-/// checked as a whole in its treatments.
+/// States in the JSON Schema of a scenario which keys a level may set. A table is merged with the scenario's, and a pest
+/// with one of its name, so both are checked as a whole in their treatments.
 pub(crate) fn state_levels(schema: &mut Json) {
     let Some(keys) = schema["properties"].as_object().cloned() else { return };
     let is_table = |property: &Json| {
@@ -158,6 +159,8 @@ pub(crate) fn state_levels(schema: &mut Json) {
     };
     let settable = keys.into_iter().filter(|(key, _)| !OF_THE_RUN.contains(&key.as_str()));
     let settable: Map<String, Json> = settable.map(of_level).collect();
+    let mut changed_pest = schema["definitions"]["Pest"].clone();
+    changed_pest["required"] = serde_json::json!(["name"]);
     let mut genotype = settable.get("species").cloned().unwrap_or_default();
     genotype["description"] = "The species of the level, by the name that ICASA gives this key.".into();
     let Some(level) = schema.pointer_mut("/definitions/Level").and_then(Json::as_object_mut) else { return };
@@ -165,5 +168,8 @@ pub(crate) fn state_levels(schema: &mut Json) {
     if let Some(properties) = level.get_mut("properties").and_then(Json::as_object_mut) {
         properties.extend(settable);
         properties.insert("genotype_name".to_owned(), genotype);
+        if let Some(pests) = properties.get_mut("pest") {
+            pests["items"] = changed_pest;
+        }
     }
 }

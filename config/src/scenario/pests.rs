@@ -4,14 +4,18 @@
 //! A severity is the probability that a thing which stands through the attack is attacked: stated as such, as the
 //! percentage that scouts have found, or, for leaves, by what larvae eat: larvae a m² × m² a larva and day × days, m²
 //! of leaf a m² of leaf (10 × 0.00144 × 10 = 0.144). It is spread evenly over the ticks of an attack, so that each has
-//! the hazard 1 − (1 − s)^(1/n). Absent: what an attack does to a plant (`sim::plant::Exposure`, `models::buds`), and
-//! dates.
+//! the hazard 1 − (1 − s)^(1/n). An attack has ages of the plants, or days of the calendar (`attack`). Absent: what an
+//! attack does to a plant (`sim::plant::Exposure`, `models::buds`).
+
+mod attack;
 
 use super::field_plot::{FieldPlot, Spread};
+use attack::Attack;
 use phytomer_draws::{Aggregation, Clusters, Draws, Event, Key, NONE};
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::math::{expm1, log1p};
 use phytomer_sim::plant::{Exposure, Hazard, Survival};
+use phytomer_sim::site::calendar::Calendar;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -38,8 +42,16 @@ pub struct Pest {
     #[schemars(with = "Larvae")]
     pub larvae: Option<Larvae>,
     /// The first and the last age of the plants, ticks, at which it attacks.
-    #[schemars(inner(range(min = 1, max = 65_535)))]
-    pub ages: [u32; 2],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "[u32; 2]", inner(range(min = 1, max = 65_535)))]
+    pub ages: Option<[u32; 2]>,
+    /// The first and the last day on which it attacks, as YYYY-MM-DD, instead of `ages`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "[String; 2]")]
+    pub dates: Option<[String; 2]>,
+    /// Whether it attacks on the same days of each later year, where `dates` are given. Once if not given.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub yearly: bool,
     /// The ticks of a season: it attacks again after so many. Once if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "u32", range(min = 1, max = 65_535))]
@@ -132,6 +144,10 @@ pub struct Host<'a> {
     pub place: [f64; 2],
     /// The last age that it reaches.
     pub until: u32,
+    /// The tick of its plot at which it is sown.
+    pub sown: u32,
+    /// The dates of the ticks of its plot, where they have dates.
+    pub calendar: Option<&'a Calendar>,
 }
 
 fn is_zero(number: &f64) -> bool {
@@ -153,14 +169,8 @@ impl Pest {
         stated.unwrap_or(0.0).clamp(0.0, 1.0)
     }
 
-    /// The first ages of the seasons up to an age, each with its number.
-    fn seasons(&self, until: u32) -> impl Iterator<Item = (u32, u32)> {
-        let every = self.every.unwrap_or(u32::MAX).max(1) as usize;
-        (0..).zip((self.ages[0]..=until).step_by(every))
-    }
-
     /// The severity for one plant in one season.
-    fn of_plant(&self, host: &Host, season: u32) -> f64 {
+    fn of_plant(&self, host: &Host<'_>, season: u32) -> f64 {
         let Host { field_plot, plot, plant, place, .. } = *host;
         let FieldPlot { seed, replicate, .. } = field_plot;
         let event = Event::named("pest", &self.name);
@@ -184,12 +194,11 @@ impl Pest {
     }
 
     /// Adds one season of attacks on a plant.
-    fn attack(&self, host: &Host, (season, from): (u32, u32), exposed: &mut Exposed) {
+    fn attack(&self, host: &Host<'_>, attack: &Attack, exposed: &mut Exposed) {
+        let Attack { season, from, ticks, .. } = *attack;
         let severity = self.of_plant(host, season);
-        let [first, last] = self.ages;
-        let ticks = last.saturating_sub(first) + 1;
         let each = -expm1(log1p(-severity) / f64::from(ticks));
-        let until = from.saturating_add(ticks - 1).min(host.until);
+        let until = attack.until.min(host.until);
         let hazard = match self.attacks {
             Attacked::Apex => &mut exposed.apex,
             Attacked::Leaf => &mut exposed.leaf,
@@ -206,18 +215,17 @@ impl Pest {
             }
         };
         (from..=until).for_each(|age| hazard.join(age, each));
-        if let Some(every) = self.every.filter(|_| self.next_season > 0.0 && self.attacks == Attacked::Leaf) {
-            let next = from.saturating_add(every);
-            exposed.weaken(next..next.saturating_add(every).min(host.until + 1), 1.0 - self.next_season * severity);
+        if let Some([next, end]) = attack.next.filter(|_| self.next_season > 0.0 && self.attacks == Attacked::Leaf) {
+            exposed.weaken(next..end.min(host.until + 1), 1.0 - self.next_season * severity);
         }
     }
 
-    /// Adds the faults that the schema cannot state. `run` has the last tick and whether plants have places.
-    fn check(&self, path: &Path, (until, has_places): (u32, bool), faults: &mut Vec<Fault>) {
+    /// Adds the faults that the schema cannot state.
+    fn check(&self, path: &Path, run: Run, faults: &mut Vec<Fault>) {
+        self.check_times(path, run, faults);
         let mut fault = |key: &str, problem: String, expected: &str| {
             faults.push(Fault::new(&path.key(key), problem, expected));
         };
-        let [first, last] = self.ages;
         let given = [self.probability.is_some(), self.scouted_percent.is_some(), self.larvae.is_some()];
         let (count, kinds) = (given.iter().filter(|given| **given).count(), "probability, scouted_percent, larvae");
         if count != 1 {
@@ -228,23 +236,15 @@ impl Pest {
         if self.larvae.is_some() && self.attacks != Attacked::Leaf {
             fault("larvae", "larvae eat leaves, and the pest attacks something else".into(), "attacks = \"leaf\"");
         }
-        if first > last {
-            fault("ages", format!("the attack ends at age {last} before it begins at {first}"), "[first, last]");
-        } else if first > until {
-            fault("ages", format!("the attack begins at age {first}, after the run"), &format!("an age up to {until}"));
-        }
-        if let Some(every) = self.every.filter(|every| first <= last && *every <= last - first) {
-            let problem = format!("an attack of {} ticks begins again after {every}", last - first + 1);
-            fault("every", problem, &format!("at least {} ticks", last - first + 1));
-        }
-        if self.next_season > 0.0 && (self.attacks != Attacked::Leaf || self.every.is_none()) {
+        let comes_again = self.every.is_some() || self.yearly;
+        if self.next_season > 0.0 && (self.attacks != Attacked::Leaf || !comes_again) {
             let problem = "growth of the next season is lost with leaves, and a season has a length".to_owned();
-            fault("next_season", problem, "attacks = \"leaf\", and `every`");
+            fault("next_season", problem, "attacks = \"leaf\", and `every` or `yearly`");
         }
         if let Some(Clustered { per_m2, spread_m }) = self.clusters {
             if let Err(error) = Clusters::new(per_m2, spread_m) {
                 fault("clusters", error.to_string(), "fewer or narrower clusters");
-            } else if !has_places {
+            } else if !run.has_places {
                 fault("clusters", "plants have no places in a field".into(), "`spacing_m`, the distance between plots");
             }
         }
@@ -275,7 +275,7 @@ impl Exposed {
 
 /// What the pests of a run do to one plant; `None` without pests. A plant of the same replicate and number meets the
 /// same draws in every treatment.
-pub fn exposure(pests: &[Pest], host: &Host) -> Option<Arc<Exposure>> {
+pub fn exposure(pests: &[Pest], host: &Host<'_>) -> Option<Arc<Exposure>> {
     if pests.is_empty() {
         return None;
     }
@@ -284,22 +284,40 @@ pub fn exposure(pests: &[Pest], host: &Host) -> Option<Arc<Exposure>> {
     let [apex, leaf, flower, fruit, plant] = [none(), none(), none(), none(), none()];
     let mut exposed = Exposed { apex, leaf, flower, fruit, plant, growth, death };
     for pest in pests {
-        pest.seasons(host.until).for_each(|season| pest.attack(host, season, &mut exposed));
+        pest.attacks_on(host).iter().for_each(|attack| pest.attack(host, attack, &mut exposed));
     }
     let Exposed { apex, leaf, flower, fruit, plant, growth, death } = exposed;
     let [leaf, flower, fruit] = [leaf, flower, fruit].map(|hazard| Survival::under(&hazard));
     Some(Arc::new(Exposure { apex, leaf, flower, fruit, plant, growth, death }))
 }
 
-/// The faults of the pests of a run that ends at `until`.
-pub(super) fn check(pests: &[Pest], until: u32, has_places: bool, path: &Path, faults: &mut Vec<Fault>) {
+/// What the faults of pests depend on in their scenario.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Run {
+    /// The last tick.
+    pub until: u32,
+    /// Whether plants have places in a field.
+    pub has_places: bool,
+    /// Whether ticks have dates.
+    pub has_calendar: bool,
+}
+
+/// The faults of the pests of a run.
+pub(super) fn check(pests: &[Pest], run: Run, path: &Path, faults: &mut Vec<Fault>) {
     for (number, pest) in pests.iter().enumerate() {
         let path = path.index(number);
         if pests[..number].iter().any(|other| other.name == pest.name) {
             let problem = format!("two pests are named `{}`", pest.name);
             faults.push(Fault::new(&path.key("name"), problem, "a name of its own, to which its draws belong"));
         }
-        pest.check(&path, (until, has_places), faults);
+        pest.check(&path, run, faults);
+    }
+}
+
+/// The faults of days that do not lie in the calendar.
+pub(super) fn check_days(pests: &[Pest], calendar: &Calendar, path: &Path, faults: &mut Vec<Fault>) {
+    for (number, pest) in pests.iter().enumerate() {
+        faults.extend(pest.fault_of_days(calendar, &path.index(number)));
     }
 }
 
@@ -314,7 +332,8 @@ mod tests {
 
     fn host(plant: u32) -> Host<'static> {
         let field_plot = FieldPlot { seed: 7, treatment: "control", replicate: 0, block: None };
-        Host { field_plot, plot: plant, plant, place: [3.0 * f64::from(plant), 0.0], until: 40 }
+        let place = [3.0 * f64::from(plant), 0.0];
+        Host { field_plot, plot: plant, plant, place, until: 40, sown: 0, calendar: None }
     }
 
     /// Ten larvae a m² that eat .00144 m² a day for ten days eat .144 m²/m²: so many of the leaves that stand through

@@ -6,9 +6,12 @@
 //! Absent: growth.
 
 use super::Scenario;
+use super::events::Work;
 use phytomer_law::fault::{Fault, Path};
+use phytomer_sim::management::Successor;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// One of the plants of each plot.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -28,6 +31,11 @@ pub struct Member {
     #[serde(default, skip_serializing_if = "is_first")]
     #[schemars(range(min = 0, max = 65_534))]
     pub sown: u32,
+    /// The number of another member of the list, from 0, of which this one is the successor: an event with the
+    /// operation `replanting` plants it where the other one is dead, was taken or did not germinate.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0, max = 65_534))]
+    pub replaces: Option<u32>,
 }
 
 fn is_first(sown: &u32) -> bool {
@@ -53,8 +61,31 @@ impl Scenario {
     }
 
     /// The members of one plot, in their order. A scenario without members has one: a plant of the scenario's species.
+    /// A successor that states no place stands at that of the member that it replaces.
     pub fn plot_members(&self) -> Vec<Member> {
-        if self.member.is_empty() { vec![Member::default()] } else { self.member.clone() }
+        if self.member.is_empty() {
+            return vec![Member::default()];
+        }
+        let mut members = self.member.clone();
+        for number in 0..members.len() {
+            let replaced = members[number].replaces.and_then(|replaced| members.get(replaced as usize));
+            if let (true, Some(replaced)) = (members[number].at_m.is_empty(), replaced) {
+                members[number].at_m = replaced.at_m.clone();
+            }
+        }
+        members
+    }
+
+    /// The last tick at which a member may be sown.
+    pub(super) fn last_sowing(&self) -> u32 {
+        let sown = |member: &Member| if member.replaces.is_some() { self.ages.until } else { member.sown };
+        self.member.iter().map(sown).max().unwrap_or(0)
+    }
+
+    /// The members that are planted by an event alone.
+    pub(super) fn successors(&self) -> Arc<[Successor]> {
+        let of = |(member, stated): (usize, &Member)| Some(Successor { member, follows: stated.replaces? as usize });
+        self.member.iter().enumerate().filter_map(of).collect()
     }
 
     /// The number of the plot of a plant, and the index of the plant among the members of the plot.
@@ -107,8 +138,60 @@ impl Scenario {
         of_species.map(|member| member.sown).min().unwrap_or(0)
     }
 
+    /// Adds the faults of successors, and of their absence.
+    fn check_successors(&self, faults: &mut Vec<Fault>) {
+        let replants = self.event.iter().any(|event| event.operation == Work::Replanting);
+        let mut replaced_by: Vec<Option<usize>> = vec![None; self.member.len()];
+        for (number, member) in self.member.iter().enumerate() {
+            let Some(replaced) = member.replaces else { continue };
+            let path = Path::root().key("member").index(number);
+            let mut fault = |key: &str, problem: String, expected: String| {
+                faults.push(Fault::new(&path.key(key), problem, expected));
+            };
+            if replaced as usize >= number {
+                let problem =
+                    format!("member {number} replaces {replaced}, which does not stand before it in the list");
+                let expected = match number {
+                    0 => "no `replaces` at the first member".to_owned(),
+                    _ => format!("the number of an earlier member, from 0 to {}", number - 1),
+                };
+                fault("replaces", problem, expected);
+            } else if let Some(other) = replaced_by[replaced as usize].replace(number) {
+                let problem = format!("the members {other} and {number} both replace {replaced}");
+                fault("replaces", problem, format!("{other}, so that they follow one another"));
+            }
+            if member.sown > 0 {
+                let problem = "a successor is planted when its place is free, at no stated tick".to_owned();
+                fault("sown", problem, "`replaces` or `sown`".to_owned());
+            }
+            if !replants {
+                let problem = "no event plants the successor".to_owned();
+                fault("replaces", problem, "`[[event]]` with the operation `replanting`".to_owned());
+            }
+        }
+        if replants && self.member.iter().all(|member| member.replaces.is_none()) {
+            let path = Path::root().key("event");
+            let problem = "`replanting` has no effect: no member is the successor of another";
+            faults.push(Fault::new(&path, problem, "a `[[member]]` with `replaces`, the number of the other member"));
+        }
+        self.check_pests_of_successors(faults);
+    }
+
+    /// When a successor is planted is not known before the run, so that it meets pests by its age alone.
+    fn check_pests_of_successors(&self, faults: &mut Vec<Fault>) {
+        if self.member.iter().all(|member| member.replaces.is_none()) {
+            return;
+        }
+        for (number, _) in self.pest.iter().enumerate().filter(|(_, pest)| pest.dates.is_some()) {
+            let path = Path::root().key("pest").index(number).key("dates");
+            let problem = "when a successor is planted is not known before the run, nor its age on a day";
+            faults.push(Fault::new(&path, problem, "`ages` of the plants"));
+        }
+    }
+
     /// Adds the faults of members that the schema cannot state.
     pub(super) fn check_members(&self, faults: &mut Vec<Fault>) {
+        self.check_successors(faults);
         let members = self.members();
         if !self.plants.is_multiple_of(members) {
             let problem = format!("{} plants cannot be dealt into plots of {members}", self.plants);

@@ -1,11 +1,15 @@
-//! External influences on the plants of a run: gravity, a steady wind, and planes that kill the buds that reach them.
+//! External influences on the plants of a run: gravity, a steady wind, and shapes that kill buds.
 //!
-//! Gravity and wind act only on species whose wood bends. Absent: light and soil.
+//! Gravity and wind act only on species whose wood bends. A plane that kills is the shorter way to state a half space.
+//! The shapes that have names here also serve the events of the scenario. Absent: light and soil.
 
 use phytomer_law::fault::{Fault, Path};
-use phytomer_sim::site::{Plane as SimPlane, STANDARD_GRAVITY, Wind as SimWind};
+use phytomer_models::shapes::{Named, ShapeOrName, Shapes, one};
+use phytomer_sim::shape::{HalfSpace, Intersection, Shape};
+use phytomer_sim::site::{Obstacle as SimObstacle, STANDARD_GRAVITY, Side, Wind as SimWind};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// The site of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -26,6 +30,41 @@ pub struct Site {
     /// given. Each plot has these planes, placed relative to the plot.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub plane: Vec<Plane>,
+    /// Shapes by their names, as `[site.shape.NAME]`, for obstacles and events. None if not given.
+    #[serde(skip_serializing_if = "Shapes::is_empty")]
+    pub shape: Shapes,
+    /// Shapes that kill buds, as `[[site.obstacle]]`: a house, or a form that is clipped all the time. None if not
+    /// given. Each plot has these obstacles, placed relative to the plot.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub obstacle: Vec<Obstacle>,
+}
+
+/// A shape that kills buds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Obstacle {
+    /// The shape, metres from the place of the plot: a table, or the name of a shape of the site.
+    pub shape: ShapeOrName,
+    /// Where buds die; inside if not given.
+    #[serde(default, skip_serializing_if = "Kills::is_inside")]
+    pub kills: Kills,
+}
+
+/// Where an obstacle kills buds.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Kills {
+    /// Within the shape and on its surface.
+    #[default]
+    Inside,
+    /// Outside the shape.
+    Outside,
+}
+
+impl Kills {
+    fn is_inside(&self) -> bool {
+        *self == Self::Inside
+    }
 }
 
 /// A plane that kills the buds on it and beyond it.
@@ -55,7 +94,14 @@ pub struct Wind {
 
 impl Default for Site {
     fn default() -> Self {
-        Self { gravity_m_s2: STANDARD_GRAVITY, wind: None, latitude_deg: None, plane: Vec::new() }
+        Self {
+            gravity_m_s2: STANDARD_GRAVITY,
+            wind: None,
+            latitude_deg: None,
+            plane: Vec::new(),
+            shape: Shapes::new(),
+            obstacle: Vec::new(),
+        }
     }
 }
 
@@ -65,15 +111,28 @@ impl Site {
         *self == Self::default()
     }
 
-    /// The site of the plants of a plot at `place`, metres: its planes are moved with the plot.
-    pub fn felt_at(&self, place: [f64; 3]) -> phytomer_sim::site::Site {
+    /// The site of the plants of a plot at the origin. An obstacle that a fault was told of is left out.
+    pub fn felt(&self) -> phytomer_sim::site::Site {
         let wind = self.wind.as_ref().map_or_else(SimWind::default, Wind::felt);
-        let planes = self.plane.iter().map(|plane| plane.moved(place)).collect();
-        phytomer_sim::site::Site { gravity: self.gravity_m_s2, wind, planes, ..phytomer_sim::site::Site::default() }
+        let beyond =
+            |plane: &Plane| SimObstacle { shape: Arc::new(Shape::HalfSpace(plane.side(-1.0))), kills: Side::Inside };
+        let mut obstacles: Vec<SimObstacle> = self.plane.iter().map(beyond).collect();
+        let none = &mut Vec::new();
+        let named = self.shapes(none);
+        obstacles.extend(self.obstacle.iter().filter_map(|obstacle| obstacle.felt(&named, &Path::root(), none)));
+        phytomer_sim::site::Site { gravity: self.gravity_m_s2, wind, obstacles, ..phytomer_sim::site::Site::default() }
     }
 
-    /// Adds the faults of planes that the schema cannot state.
-    pub(super) fn check_planes(&self, path: &Path, faults: &mut Vec<Fault>) {
+    /// The shapes that have names, and their faults.
+    pub(super) fn shapes(&self, faults: &mut Vec<Fault>) -> Named {
+        Named::of(&self.shape, &Path::root().key("site").key("shape"), faults)
+    }
+
+    /// Adds the faults of planes and obstacles that the schema cannot state.
+    pub(super) fn check_obstacles(&self, named: &Named, path: &Path, faults: &mut Vec<Fault>) {
+        for (number, obstacle) in self.obstacle.iter().enumerate() {
+            obstacle.felt(named, &path.key("obstacle").index(number), faults);
+        }
         for (number, plane) in self.plane.iter().enumerate().filter(|(_, plane)| plane.normal == [0.0; 3]) {
             let path = path.key("plane").index(number).key("normal");
             let problem = format!("the normal of the plane through {:?} has the length 0", plane.point_m);
@@ -83,14 +142,26 @@ impl Site {
 }
 
 impl Plane {
-    /// The plane as it lies around the seed of a plant.
-    pub(super) fn around_seed(&self) -> SimPlane {
-        self.moved([0.0; 3])
+    /// The half space from which the normal points out, if `way` is 1; that on the side of the normal, if it is −1.
+    fn side(&self, way: f64) -> HalfSpace {
+        HalfSpace { point: self.point_m, normal: self.normal.map(|x| way * x) }
     }
 
-    /// The plane of a plot at `place`, metres.
-    fn moved(&self, place: [f64; 3]) -> SimPlane {
-        SimPlane { point: [0, 1, 2].map(|k| self.point_m[k] + place[k]), normal: self.normal }
+    /// What lies beyond none of some planes.
+    pub(super) fn before_all(planes: &[Self]) -> Shape {
+        let halves = planes.iter().map(|plane| Shape::HalfSpace(plane.side(1.0)));
+        Shape::Intersection(Intersection::of(halves.collect()))
+    }
+}
+
+impl Obstacle {
+    /// The obstacle as `phytomer_sim` takes it; `None` where its shape has faults.
+    fn felt(&self, named: &Named, path: &Path, faults: &mut Vec<Fault>) -> Option<SimObstacle> {
+        let kills = match self.kills {
+            Kills::Inside => Side::Inside,
+            Kills::Outside => Side::Outside,
+        };
+        Some(SimObstacle { shape: one(&self.shape, named, &path.key("shape"), faults)?, kills })
     }
 }
 

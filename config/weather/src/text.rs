@@ -4,6 +4,7 @@
 //! character; lines end with LF, CR LF, or CR alone; a byte order mark is passed over; ^Z ends the text, as CP/M and
 //! DOS had it, and only blanks may follow it. Every control character is a blank. Absent: UTF-16, which is told.
 
+use memchr::memchr;
 use std::borrow::Cow;
 
 /// The characters of a file: UTF-8 where it is that, else Latin-1.
@@ -48,14 +49,14 @@ pub(crate) struct Lines<'t> {
     text: &'t str,
     at: usize,
     number: u32,
-    end: char,
+    end: u8,
 }
 
 impl<'t> Lines<'t> {
     /// Those of a text.
     pub fn of(text: &'t str) -> Self {
         let at = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
-        Self { text, at, number: 0, end: if text.contains('\n') { '\n' } else { '\r' } }
+        Self { text, at, number: 0, end: if text.contains('\n') { b'\n' } else { b'\r' } }
     }
 }
 
@@ -65,7 +66,8 @@ impl<'t> Iterator for Lines<'t> {
     #[inline]
     fn next(&mut self) -> Option<Line<'t>> {
         let rest = self.text.get(self.at..).filter(|rest| !rest.is_empty())?;
-        let (line, taken) = rest.find(self.end).map_or((rest, rest.len()), |end| (&rest[..end], end + 1));
+        let end = memchr(self.end, rest.as_bytes());
+        let (line, taken) = end.map_or((rest, rest.len()), |end| (&rest[..end], end + 1));
         let start = self.at;
         self.at += taken;
         self.number = self.number.saturating_add(1);

@@ -29,7 +29,7 @@ pub(super) fn fault_of(variable: Variable, domain: &Domain, path: &Path) -> Opti
 fn teller(variable: Variable) -> &'static str {
     match variable {
         Variable::Nitrogen => "`[soil]`",
-        Variable::DegreeDays => "`[weather]` and `calendar.degree_days`",
+        Variable::DegreeDays | Variable::DegreeDaysPerDay => "`[weather]` and `calendar.degree_days`",
         Variable::DayLengthH => "`site.latitude_deg`, or a weather file that states its latitude",
         _ => "",
     }

@@ -211,6 +211,7 @@ impl Domain {
         match variable {
             Variable::Nitrogen => dates.at_age(age).nitrogen_kg_ha,
             Variable::DegreeDays => dates.degree_days_by(age),
+            Variable::DegreeDaysPerDay => dates.degree_days_per_day(age),
             Variable::DayLengthH => dates.at_age(age).day_length_h,
             Variable::Date => Some(f64::from(dates.at_age(age).date.day_of_year())),
             _ => None,

@@ -42,7 +42,13 @@ fn told(text: &str, domain: &Domain) -> Vec<String> {
 
 #[test]
 fn a_law_of_the_date_is_one_of_the_age() {
-    let values = [("nitrogen", 0.0, 10.0), ("degree_days", 0.0, 15.0), ("day_length_h", 12.0, 0.0), ("date", 1.0, 1.0)];
+    let values = [
+        ("nitrogen", 0.0, 10.0),
+        ("degree_days", 0.0, 15.0),
+        ("degree_days_per_day", 15.0, 0.0),
+        ("day_length_h", 12.0, 0.0),
+        ("date", 1.0, 1.0),
+    ];
     for (name, at_sowing, a_tick) in values {
         for sown in [0, 7] {
             let table = expression(name).compile_value(&dated(sown), &root(), ANY).expect("compiles");

@@ -6,8 +6,8 @@
 //! `bud_birth` and `bud_dimension` here; `age` and `dimension` are read from the clock at the moment of the draw and
 //! move with every tick. For a node that is being made both meanings agree, because it is born at that tick.
 //!
-//! `nitrogen`, `degree_days`, `day_length_h` and `date` are known where the scenario has a calendar that tells them; a
-//! law reads them for the tick at which it is drawn (`dates`).
+//! `nitrogen`, `degree_days`, `degree_days_per_day`, `day_length_h` and `date` are known where the scenario has a
+//! calendar that tells them; a law reads them for the tick at which it is drawn (`dates`).
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
@@ -38,6 +38,8 @@ pub enum Variable {
     Nitrogen,
     /// Degree-days since the plant was sown, °C d.
     DegreeDays,
+    /// Degree-days a day in the tick, °C d/d: how warm its days were, above the base.
+    DegreeDaysPerDay,
     /// Hours from sunrise to sunset.
     DayLengthH,
     /// The day of the year, from 1 (1 January).
@@ -46,7 +48,7 @@ pub enum Variable {
 
 impl Variable {
     /// Every variable, in the order of the lists that people see.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Age,
         Self::Dimension,
         Self::Cycle,
@@ -56,12 +58,14 @@ impl Variable {
         Self::Unit,
         Self::Nitrogen,
         Self::DegreeDays,
+        Self::DegreeDaysPerDay,
         Self::DayLengthH,
         Self::Date,
     ];
 
     /// The variables that the date alone decides.
-    pub const OF_THE_DATE: [Self; 4] = [Self::Nitrogen, Self::DegreeDays, Self::DayLengthH, Self::Date];
+    pub const OF_THE_DATE: [Self; 5] =
+        [Self::Nitrogen, Self::DegreeDays, Self::DegreeDaysPerDay, Self::DayLengthH, Self::Date];
 
     /// The name in files and expressions.
     pub const fn name(self) -> &'static str {
@@ -75,6 +79,7 @@ impl Variable {
             Self::Unit => "unit",
             Self::Nitrogen => "nitrogen",
             Self::DegreeDays => "degree_days",
+            Self::DegreeDaysPerDay => "degree_days_per_day",
             Self::DayLengthH => "day_length_h",
             Self::Date => "date",
         }
@@ -102,6 +107,7 @@ impl Variable {
                 "the nitrogen of the season, kg/ha: the soil's own supply and what was applied since the season began"
             }
             Self::DegreeDays => "degree-days since the plant was sown, °C d",
+            Self::DegreeDaysPerDay => "degree-days a day in the tick, °C d/d: how warm its days were, above the base",
             Self::DayLengthH => "hours from sunrise to sunset on the date, from 0 to 24",
             Self::Date => "the day of the year, from 1 (1 January) to 366",
         }
@@ -112,6 +118,7 @@ impl Variable {
         match self {
             Self::Nitrogen => Some((0.0, 100_000.0)),
             Self::DegreeDays => Some((0.0, 1e9)),
+            Self::DegreeDaysPerDay => Some((0.0, 200.0)),
             Self::DayLengthH => Some((0.0, 24.0)),
             Self::Date => Some((1.0, 366.0)),
             _ => None,

@@ -23,6 +23,7 @@ impl Buds {
             referred_to: &["order", "states"],
             wood: Some(Together { table: "wood", apart: &BESIDE_STIFFNESS }),
             formed: &["internode", "leaf", "flower", "fruit"],
+            texts: None,
         },
     };
 }

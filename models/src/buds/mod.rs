@@ -28,9 +28,13 @@ mod tests_faults;
 #[cfg(test)]
 mod tests_pests;
 #[cfg(test)]
+mod tests_replanting;
+#[cfg(test)]
 mod tests_responses;
 #[cfg(test)]
 mod tests_sets;
+#[cfg(test)]
+mod tests_training;
 #[cfg(test)]
 mod tests_variables;
 

@@ -47,7 +47,8 @@ fn plague() -> Exposure {
     let eaten = survival(&[(5, 0.3), (6, 0.3), (9, 0.2)]);
     let growth = vec![1.0, 1.0, 1.0, 1.0, 0.5, 0.8];
     let apex = hazard(&[(4, 0.1), (6, 0.2), (8, 0.1)]);
-    Exposure { apex, leaf: eaten.clone(), flower: eaten.clone(), fruit: eaten, growth, death: 11 }
+    let (leaf, flower, fruit) = (eaten.clone(), eaten.clone(), eaten);
+    Exposure { apex, leaf, flower, fruit, growth, death: 11, ..Exposure::default() }
 }
 
 #[test]
@@ -101,7 +102,7 @@ fn a_bud_dies_of_itself_or_is_attacked_in_one_draw() {
         let event = plant.events.as_ref().and_then(|events| events.last().map(|event| event.kind));
         let fate = plant.axes.apex_fate[0];
         assert_eq!(fate == ApexFate::Attacked, event == Some(EventKind::Attacked));
-        assert_eq!(phytomer_sim::shed::cause_of(fate) == Cause::Attacked, fate == ApexFate::Attacked);
+        assert_eq!(fate.cause() == Cause::Attacked, fate == ApexFate::Attacked);
         fate
     };
     for (death, attack, died, killed) in [(0.1, 0.2, 0.1, 0.18), (0.0, 0.2, 0.0, 0.2), (0.3, 1.0, 0.3, 0.7)] {

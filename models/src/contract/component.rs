@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::fmt::Debug;
 
 use phytomer_sim::clock::Tick;
-use phytomer_sim::plant::{AxisId, Departed, LineageKey, NodeId, OrganId, Plant, Rest};
+use phytomer_sim::plant::{AxisId, Class, Departed, Kind, LineageKey, NodeId, OrganId, Plant, Rest};
 
 /// One component of a plant.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -126,18 +126,22 @@ fn node(plant: &Plant, i: usize) -> Component {
     }
 }
 
-/// An internode of the ledger. Its parent is known by its number alone.
+/// A component of the ledger. Its parent is known by its number alone.
 fn departed(gone: &Departed) -> Component {
     Component {
         key: gone.key,
-        what: "node",
+        what: match gone.kind {
+            Kind::ApicalBud => "axis",
+            kind if kind.class() == Class::Internode => "node",
+            _ => "organ",
+        },
         birth: gone.birth,
-        death: gone.death,
-        shed: gone.death,
+        death: gone.left,
+        shed: gone.left,
         parent: None,
         state: vec![
-            gone.rank,
-            gone.unit_rank.into(),
+            gone.rank.unwrap_or_default(),
+            gone.unit_rank.unwrap_or_default().into(),
             gone.parent.map_or(0, |parent| parent + 1),
             gone.axis,
             gone.order.into(),
@@ -175,7 +179,9 @@ pub(super) type KeyedEvent = (Tick, LineageKey, &'static str, u32);
 
 /// The events of a plant, sorted; empty where the plant keeps no events.
 pub(super) fn events(plant: &Plant) -> Vec<KeyedEvent> {
-    let key = |axis: AxisId| plant.axes.key[axis.index()];
+    // An axis that is gone has its number alone.
+    let gone = |axis: AxisId| LineageKey(plant.bud_number(axis).into());
+    let key = |axis: AxisId| plant.axes.key.get(axis.index()).copied().unwrap_or_else(|| gone(axis));
     let mut events: Vec<_> =
         plant.events.iter().flatten().map(|e| (e.tick, key(e.axis), e.kind.tag(), e.count)).collect();
     events.sort_unstable();

@@ -10,8 +10,9 @@ use phytomer_sim::model::{Growth, GrowthModel};
 use phytomer_sim::plant::{Cause, Plant};
 use phytomer_sim::plot::{Plot, Sowing};
 use phytomer_sim::pose::bud_frame;
-use phytomer_sim::shed::cause_of;
-use phytomer_sim::site::Plane;
+use phytomer_sim::shape::{HalfSpace, Shape};
+use phytomer_sim::site::{Obstacle, Side};
+use std::sync::Arc;
 
 /// Two species in one plot, sown at several ticks, grow as each does alone where they share nothing. Under a plane that
 /// kills the buds that reach it no bud grows beyond it. On 1, 2 and 7 threads either plot is the same in every number.
@@ -27,7 +28,8 @@ pub fn two_species_share_a_plot(models: [&dyn GrowthModel; 2], until: Tick, seed
         let rule = "a plant of a plot of two species is that plant alone";
         assert_same(rule, &components(&alone), &components(&open.plants[k]));
     }
-    let roof = Plane { point: [0.0, 0.0, height], normal: [0.0, 0.0, 1.0] };
+    let above = HalfSpace { point: [0.0, 0.0, height], normal: [0.0, 0.0, -1.0] };
+    let roof = Obstacle { shape: Arc::new(Shape::HalfSpace(above)), kills: Side::Inside };
     let under = on_threads(&models, &sowings, until, &[roof]);
     for (plant, member) in under.plants.iter().zip(&under.members) {
         if models[member.species].growth() == Growth::Extends {
@@ -44,12 +46,17 @@ fn sowing(k: u32, seed: u64) -> Sowing {
 }
 
 /// The plot grown tick by tick on 1, 2 and 7 threads, with results that must agree. Returns the last plot.
-fn on_threads<'m>(models: &[&'m dyn GrowthModel; 2], sowings: &[Sowing], until: Tick, planes: &[Plane]) -> Plot<'m> {
+fn on_threads<'m>(
+    models: &[&'m dyn GrowthModel; 2],
+    sowings: &[Sowing],
+    until: Tick,
+    obstacles: &[Obstacle],
+) -> Plot<'m> {
     let grown = [1, 2, 7].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
         pool.install(|| {
             let mut plot = Plot::new(0, models.to_vec(), sowings);
-            plot.site.planes = planes.to_vec();
+            plot.site.obstacles = obstacles.to_vec();
             for tick in 1..=until {
                 super::grow(&mut plot, tick);
                 plot.stand(tick);
@@ -84,8 +91,8 @@ fn stays_under(plant: &Plant, height: f64) {
             let end = plant.axes.apex_end[k];
             assert!(end <= reached + 1, "a bud dies at the tick after it has reached the plane: axis {k}, {end}");
         }
-        killed += u32::from(cause_of(fate) == Cause::Killed);
-        let below = cause_of(fate) == Cause::Killed && at < height - 1e-6;
+        killed += u32::from(fate.cause() == Cause::Killed);
+        let below = fate.cause() == Cause::Killed && at < height - 1e-6;
         assert!(!below, "no bud is killed below the plane: axis {k} at {at} m");
     }
     assert!(killed > 0 || plant.age == 0, "buds of plant {} reach the plane", plant.id);

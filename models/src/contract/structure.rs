@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use phytomer_sim::clock::{NEVER, Tick};
 use phytomer_sim::model::{Growth, GrowthModel};
-use phytomer_sim::plant::{ApexFate, Cause, EventKind, NodeId, OrganId, Origin, Plant, Rest};
+use phytomer_sim::plant::{ApexFate, Cause, Class, EventKind, Kind, NodeId, OrganId, Origin, Plant, Rest};
 use phytomer_sim::pose::{organ_frame, pose};
 
 /// Topology, ticks, keys and rest geometry of a plant grown to `until` and shed.
@@ -20,13 +20,14 @@ pub fn structure(plant: &Plant, growth: Growth, until: Tick) {
     numbers(plant);
     keys(plant);
     ledger(plant, growth, until);
+    bearers_at_birth(plant);
     (0..plant.axes.len()).for_each(|i| axis(plant, i, growth, until));
     (0..plant.nodes.len()).for_each(|i| node(plant, i, growth, until));
     if growth != Growth::Rewrites {
         (0..plant.axes.len()).for_each(|i| axis_comes_after(plant, i));
         (0..plant.nodes.len()).for_each(|i| node_comes_after(plant, i));
     }
-    (0..plant.organs.len()).for_each(|i| organ(plant, i, until));
+    (0..plant.organs.len()).for_each(|i| organ(plant, i, growth, until));
     ranks(plant);
     headings(plant);
 }
@@ -60,15 +61,33 @@ fn keys(plant: &Plant) {
 }
 
 /// Only a model that rewrites takes components out of the columns; each stood for a tick at least, by the age of the
-/// plant, and with a cause.
+/// plant, and with a cause. An axis may never have had an apex of its own: its bud then ends as it appears.
 fn ledger(plant: &Plant, growth: Growth, until: Tick) {
     assert!(growth == Growth::Rewrites || plant.ledger.is_empty(), "only what is rewritten has a ledger");
+    let gone_axes = plant.ledger.iter().filter(|gone| gone.kind == Kind::ApicalBud).map(|gone| gone.component);
+    let axes: BTreeSet<u32> = plant.axes.component.iter().copied().chain(gone_axes).collect();
     for gone in &plant.ledger {
         let number = gone.component;
-        assert!(gone.birth < gone.death, "a component stands before it goes: component {number}");
-        assert!(gone.death <= until, "a component of the ledger is gone by age {until}: component {number}");
-        assert_eq!(gone.cause, Cause::Rewritten, "a component of the ledger has a cause: component {number}");
-        assert!(plant.axes.component.contains(&gone.axis), "its axis stays: component {number}");
+        let is_bud = gone.kind == Kind::ApicalBud;
+        assert!(gone.birth < gone.left, "a component stands before it goes: component {number}");
+        assert!(
+            gone.death == gone.left || is_bud && gone.death < gone.left,
+            "it ends when it goes: component {number}"
+        );
+        assert!(gone.birth < gone.death || is_bud, "a component has lived for a tick: component {number}");
+        assert!(gone.left <= until, "a component of the ledger is gone by age {until}: component {number}");
+        let causes = [Cause::Rewritten, Cause::Pruned, Cause::Flowered];
+        assert!(causes.contains(&gone.cause), "a component of the ledger has a cause: component {number}");
+        assert!(axes.contains(&gone.axis), "its axis is one of the plant: component {number}");
+    }
+}
+
+/// Where a plant keeps what bore each component at its birth, that has a smaller number.
+fn bearers_at_birth(plant: &Plant) {
+    for number in 0..plant.components() {
+        if let Some(Some(bearer)) = plant.bearer_at_birth(number) {
+            assert!(bearer < number, "what bears a component at its birth has a smaller number: component {number}");
+        }
     }
 }
 
@@ -155,13 +174,16 @@ fn node(plant: &Plant, i: usize, growth: Growth, until: Tick) {
     );
 }
 
-fn organ(plant: &Plant, i: usize, until: Tick) {
+fn organ(plant: &Plant, i: usize, growth: Growth, until: Tick) {
     let organs = &plant.organs;
     let node = organs.node[i].index();
     assert!(node < plant.nodes.len(), "an organ stands on a node of its plant: organ {i}");
-    let number = plant.nodes.component[node];
-    assert!(number < organs.component[i], "a node's number comes before its organs': organ {i}");
-    assert!(plant.nodes.birth[node] <= organs.birth[i], "an organ appears no sooner than its node: organ {i}");
+    // A model that rewrites may put a node below an organ later.
+    if growth != Growth::Rewrites {
+        let number = plant.nodes.component[node];
+        assert!(number < organs.component[i], "a node's number comes before its organs': organ {i}");
+        assert!(plant.nodes.birth[node] <= organs.birth[i], "an organ appears no sooner than its node: organ {i}");
+    }
     assert!(plant.nodes.birth[node] <= until, "an organ's node appears by age {until}: organ {i}");
     let measures = [organs.length[i], organs.width[i], organs.area[i]];
     finite(&measures, "the measures of organ", i);
@@ -208,9 +230,13 @@ pub fn events_tell_the_plant(plant: &Plant, until: Tick) {
     let mut appeared = vec![0; plant.axes.len()];
     for event in events {
         let axis = event.axis.index();
-        assert!(axis < plant.axes.len(), "an event happens on an axis of its plant: {event:?}");
+        let known = axis < plant.axes.len() || plant.bud_number(event.axis) > 0;
+        assert!(known, "an event happens on an axis of its plant, or on one that is gone: {event:?}");
         let past = event.kind == EventKind::Shed || event.tick <= until;
         assert!(event.tick >= 1 && past, "events other than a fall lie in 1..={until}: {event:?}");
+        if axis >= plant.axes.len() {
+            continue;
+        }
         match event.kind {
             EventKind::Grew => nodes[axis] += event.count,
             EventKind::Branched | EventKind::Relayed | EventKind::Reiterated | EventKind::Forked => {
@@ -222,7 +248,7 @@ pub fn events_tell_the_plant(plant: &Plant, until: Tick) {
         }
     }
     let mut gone = vec![0; plant.axes.len()];
-    for departed in &plant.ledger {
+    for departed in plant.ledger.iter().filter(|gone| gone.kind.class() == Class::Internode) {
         let axis = plant.axes.component.iter().position(|bud| *bud == departed.axis);
         axis.into_iter().for_each(|axis| {
             gone[axis] += 1;

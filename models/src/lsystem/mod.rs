@@ -1,20 +1,15 @@
 //! L-systems: strings of modules that are rewritten in parallel at each tick, and the plants that the strings describe.
 //!
-//! Implemented are the deterministic systems without interaction of Aono & Kunii 1984 ("L-system model") with the
-//! paper's drawing rules: [`D0l`] is the parameter struct, `text` reads its strings, `string` rewrites them and keeps
-//! the number of each cell, `draw` makes the plant of a string, `count` computes its size without a string, `model`
-//! goes from tick to tick. Nothing in them is random. Absent on purpose: context, parameters of modules, the turtle's
-//! other commands, death of cells, the environment.
+//! [`d0l`] holds the deterministic systems of Aono & Kunii 1984, stated in the species file. [`view`] reads the files
+//! that lie beside an L-system of a text of its own: how the turtle draws, surfaces, functions, colours; [`turtle`]
+//! draws by them what the modules of a string tell, and [`text`] makes plants of that. [`Lsystem`] holds
+//! the keys of a species. Absent on purpose: the language of such texts and the rewriting of their strings (`phytomer_rewriting`), and reading files (`config`).
 
-mod card;
-mod count;
-mod d0l;
-mod draw;
-mod model;
-mod string;
-#[cfg(test)]
-mod tests;
-mod text;
+pub mod d0l;
+mod parameters;
+pub mod text;
+pub mod turtle;
+pub mod view;
 
-pub use d0l::{Cell, D0l};
-pub use model::D0lModel;
+pub use d0l::{Cell, D0l, D0lModel};
+pub use parameters::{Continues, Lsystem, digits_of, is_map};

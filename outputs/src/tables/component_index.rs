@@ -25,7 +25,7 @@ pub enum Component {
     Organ(OrganId),
     /// The apical bud of an axis.
     Bud(AxisId),
-    /// An internode that a model that rewrites has taken out of the plant: its place in the ledger.
+    /// A component that a model that rewrites has taken out of the plant: its place in the ledger.
     Departed(usize),
 }
 

@@ -7,8 +7,7 @@ use super::component_index::{Component, ComponentIndex, inclination};
 use super::membership::Membership;
 use super::records::{area_of, number_of};
 use phytomer_sim::Tick;
-use phytomer_sim::plant::{AxisId, Cause, Departed, Kind, LineageKey, NodeId, OrganId, Origin, Plant};
-use phytomer_sim::shed::cause_of;
+use phytomer_sim::plant::{AxisId, Cause, Class, Departed, Kind, LineageKey, NodeId, OrganId, Origin, Plant};
 use std::ops::Range;
 
 columns! {
@@ -96,11 +95,15 @@ impl ComponentColumns {
         rows: &mut Vec<ComponentRow>,
     ) {
         rows.clear();
-        let row_of = |number| match index.component(number) {
-            Component::Node(node) => of_node(plant, node, index),
-            Component::Organ(organ) => of_organ(plant, organ),
-            Component::Bud(axis) => of_bud(plant, axis),
-            Component::Departed(place) => of_departed(&plant.ledger[place]),
+        let row_of = |number| {
+            let row = match index.component(number) {
+                Component::Node(node) => of_node(plant, node, index),
+                Component::Organ(organ) => of_organ(plant, organ),
+                Component::Bud(axis) => of_bud(plant, axis),
+                Component::Departed(place) => of_departed(&plant.ledger[place]),
+            };
+            let parent = plant.bearer_at_birth(number).map(number_or_null);
+            ComponentRow { parent: parent.unwrap_or(row.parent), ..row }
         };
         let lived = |row: &ComponentRow| row.birth <= last && (row.kind == Kind::ApicalBud || row.birth < row.death);
         rows.extend(numbers.map(row_of).filter(lived));
@@ -193,41 +196,47 @@ fn of_bud(plant: &Plant, axis: AxisId) -> ComponentRow {
         area: f32::NAN,
         death: end,
         shed: end,
-        cause: cause_of(axes.apex_fate[i]),
+        cause: axes.apex_fate[i].cause(),
         trend: f32::NAN,
     }
 }
 
-/// The row of an internode of the ledger, as it last stood.
+/// The row of a component of the ledger, as it last stood: of an internode, an organ, or the apical bud of an axis.
 fn of_departed(departed: &Departed) -> ComponentRow {
-    let number = |component: Option<u32>| component.map_or(NULL, |component| component as i32);
+    let is_bud = departed.kind == Kind::ApicalBud;
+    let size = |size: f32| if is_bud { f32::NAN } else { size };
+    let is_internode = departed.kind.class() == Class::Internode;
     ComponentRow {
         component: departed.component,
         key: departed.key,
-        parent: number(departed.parent),
+        parent: number_or_null(departed.parent),
         axis: OfAxis {
             component: departed.axis,
-            bearing: number(departed.bearing_axis),
+            bearing: number_or_null(departed.bearing_axis),
             order: departed.order,
             origin: departed.origin,
             state: departed.state,
         },
         kind: departed.kind,
-        position: NULL,
-        rank: departed.rank as i32,
-        unit_rank: i32::from(departed.unit_rank),
-        neoformed: i8::from(departed.neoformed),
+        position: departed.position.map_or(NULL, i32::from),
+        rank: number_or_null(departed.rank),
+        unit_rank: departed.unit_rank.map_or(NULL, i32::from),
+        neoformed: departed.neoformed.map_or(-1, i8::from),
         birth: departed.birth,
-        birth_dimension: departed.birth_dimension as i32,
-        delay: NULL,
-        length: departed.length,
-        birth_diameter: departed.birth_diameter,
-        area: f32::NAN,
+        birth_dimension: number_or_null(departed.birth_dimension),
+        delay: if is_bud { 0 } else { NULL },
+        length: size(departed.length),
+        birth_diameter: size(departed.birth_diameter),
+        area: if is_bud || is_internode { f32::NAN } else { area_of(departed.area) },
         death: departed.death,
         shed: departed.death,
         cause: departed.cause,
         trend: departed.trend.as_ref().map_or(f32::NAN, inclination),
     }
+}
+
+fn number_or_null(number: Option<u32>) -> i32 {
+    number.map_or(NULL, |number| number as i32)
 }
 
 #[inline]

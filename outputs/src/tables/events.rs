@@ -17,7 +17,7 @@ columns! {
         plant: Int(i32) = of.1.id as i32,
         tick: Int(i32) = of.0.tick_at(event.tick) as i32,
         age: Int(i32) = event.tick as i32,
-        component: Int(i32) = of.1.axes.component[event.axis.index()] as i32,
+        component: Int(i32) = of.1.bud_number(event.axis) as i32,
         axis: Int(i32),
         event: Word(i8) = event.kind as i8,
         count: Int(i32) = event.count as i32,
@@ -83,11 +83,11 @@ impl SortedEvents {
             self.events[next[tick]] = *event;
             next[tick] += 1;
         }
-        let numbers = &plot.plants[at].axes.component;
+        let plant = &plot.plants[at];
         // Where axes are in the order of the numbers of their buds, the numbers need not be looked up.
-        let climb = numbers.is_sorted();
+        let climb = plant.axes.component.is_sorted() && plant.ledger.is_empty();
         for (start, end) in starts.into_iter().zip(&*next).filter(|(start, end)| start < *end) {
-            let number = |axis: AxisId| if climb { axis.0 } else { numbers[axis.index()] };
+            let number = |axis: AxisId| if climb { axis.0 } else { plant.bud_number(axis) };
             self.events[start..*end].sort_by_key(|event| (number(event.axis), event.kind));
             self.stretches.push(Stretch { start, end: *end, at });
         }

@@ -130,6 +130,8 @@ columns! {
     Insertion = "insertion_deg", [Wood], Numbers, growth;
     /// The angle between the first internode of the axis and the upward vertical, degrees.
     Inclination = "inclination_deg", [Wood], Numbers, pose;
+    /// The compass direction of the first internode of the axis, degrees from north to east, from 0 to 360.
+    Azimuth = "azimuth_deg", [Wood], Numbers, pose;
     /// Components that the plant ever had.
     Components = "components", [Plant], Numbers, growth;
     /// Internodes that stand.
@@ -142,10 +144,23 @@ columns! {
     LeafArea = "leaf_area_m2", [Plant], Numbers, growth;
     /// The number of the plant among those of its plot, from 0.
     Member = "member", [Plant], Numbers, growth;
+    /// The day of the year, from 1, that begins when the operation is done.
+    Date = "date", [Plant], Numbers, growth;
+    /// The degree-days since the plant was sown.
+    DegreeDays = "degree_days", [Plant], Numbers, growth;
+    /// The hours from sunrise to sunset on that day.
+    DayLength = "day_length_h", [Plant], Numbers, growth;
     /// The age of the whole plant, ticks.
     PlantAge = "plant_age", [Wood, Fruit], Numbers, growth;
     /// The height of the whole plant, metres.
     PlantHeight = "plant_height_m", [Wood, Fruit], Numbers, pose;
+}
+
+impl Column {
+    /// Whether the calendar of the plot tells it.
+    pub const fn is_of_the_date(self) -> bool {
+        matches!(self, Self::Date | Self::DegreeDays | Self::DayLength)
+    }
 }
 
 #[cfg(test)]

@@ -1,27 +1,31 @@
-//! What people do to the plants of a plot: pruning, thinning and harvest, as a calendar of operations.
+//! What people do to the plants of a plot: pruning, training, thinning and harvest, as a calendar of operations.
 //!
 //! An operation is done between two ticks ([`timing`]), on the plants for which its condition holds, one operation
 //! after another in the order of the file and plant by plant in the order of the plot. What it takes is chosen by
 //! conditions over columns ([`mod@column`], [`choice`]). After the last operation of a tick the model of each plant
-//! answers the cuts, so that their order does not matter. Absent: dates, which become ticks above this crate; the
-//! language of conditions; and growth.
+//! answers the cuts, so that their order does not matter. Absent: the days at which operations are done, which become
+//! ticks above this crate; the language of conditions; and growth.
 
 pub mod choice;
 pub mod column;
+mod dates;
 mod fruits;
 mod plants;
 pub mod region;
 pub mod timing;
+mod training;
 mod wood;
 
 pub use choice::{Choice, Formula, SharedFormula};
 pub use column::{Column, Thing, Values};
 pub use region::Region;
 pub use timing::{Due, Start, When};
+pub use training::{Support, Training};
 pub use wood::Kept;
 
 use crate::clock::Tick;
 use crate::plant::{AxisId, Cause, Cut, Plant, Taking};
+use crate::site::calendar::Calendar;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
 use std::sync::Arc;
 use wood::Branches;
@@ -48,6 +52,10 @@ pub enum Act {
     Harvest(f64),
     /// Cuts and takes what stands above a height, as forage and cane are harvested.
     Mow(f64),
+    /// Bends branches, or the trunk, to a support that holds them.
+    Train(Training),
+    /// Plants successors where plants of the plot are dead or were taken; the work of the plot (`sim::managed`).
+    Replant,
 }
 
 /// An operation: what is done, when, on which plants and to which of their parts.
@@ -66,14 +74,14 @@ pub struct Operation {
 impl Operation {
     /// Whether the plants must stand for it: be thickened, bent and posed.
     pub fn looks(&self) -> bool {
-        let by_place = matches!(self.act, Act::Clear(..) | Act::Mow(_));
+        let by_place = matches!(self.act, Act::Clear(..) | Act::Mow(_) | Act::Train(_));
         let formulas = self.choice.formulas().chain(&self.plants).chain(&self.when.condition);
         by_place || formulas.flat_map(|formula| formula.columns()).any(Column::is_of_the_pose)
     }
 
     /// Whether it cuts wood, so that dormant buds may be released.
     fn cuts(&self) -> bool {
-        !matches!(self.act, Act::ThinFruits | Act::Harvest(_) | Act::Remove)
+        !matches!(self.act, Act::ThinFruits | Act::Harvest(_) | Act::Remove | Act::Train(_) | Act::Replant)
     }
 
     /// Does it to one plant, as it stood at the end of the tick before its age `tick`.
@@ -90,7 +98,12 @@ impl Operation {
                 branches(plant, &|all| all.clear(choice, &Region::Above(*height), u8::MAX, Taking::Harvest))
             }
             Act::Stump(rank) => branches(plant, &|all| all.stump(choice, *rank, Taking::Pruning)),
+            Act::Replant => Vec::new(),
             Act::Remove => vec![Cut { axis: AxisId::TRUNK, rank: 0, tick, by: Taking::Pruning }],
+            Act::Train(training) => {
+                let chosen = Branches::find(plant, tick).of_height(height).trained(choice);
+                return training.apply(plant, &chosen, tick);
+            }
             Act::ThinFruits => return fruits::pick(plant, choice, 0.0, Cause::Pruned, tick, height),
             Act::Harvest(ripe) => return fruits::pick(plant, choice, *ripe, Cause::Harvested, tick, height),
         };
@@ -108,6 +121,19 @@ pub struct Management {
     operations: Arc<[Operation]>,
     /// For each operation with a condition and each plant, plant by plant, the tick at which it first held.
     begun: Vec<Option<Tick>>,
+    /// The ticks with their dates, where a condition may ask them.
+    calendar: Option<Arc<Calendar>>,
+    /// The members of the plot that are planted by an operation alone.
+    successors: Arc<[Successor]>,
+}
+
+/// A member of a plot that is planted where another one is dead or was taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Successor {
+    /// Its place among the members.
+    pub member: usize,
+    /// The place of the member that it follows.
+    pub follows: usize,
 }
 
 /// A plant of a plot, as an operation meets it.
@@ -122,7 +148,29 @@ pub struct Worked {
 impl Management {
     /// A calendar of operations, in the order in which they are done within a tick.
     pub fn of(operations: Arc<[Operation]>) -> Self {
-        Self { operations, begun: Vec::new() }
+        Self { operations, begun: Vec::new(), calendar: None, successors: Arc::new([]) }
+    }
+
+    /// Tells which members are planted by an operation alone. They are sown at no tick before it.
+    pub fn with_successors(self, successors: Arc<[Successor]>) -> Self {
+        Self { successors, ..self }
+    }
+
+    /// The members that are planted by an operation alone.
+    pub fn successors(&self) -> &Arc<[Successor]> {
+        &self.successors
+    }
+
+    /// Whether successors are planted at `tick`.
+    pub(crate) fn replants(&self, tick: Tick, members: &[Worked]) -> bool {
+        let of_replanting = self.operations.iter().filter(|operation| operation.act == Act::Replant);
+        let due = |operation: &Operation, member: &Worked| operation.when.due(tick, member.sown, None) == Due::Yes;
+        of_replanting.into_iter().any(|operation| members.iter().any(|member| due(operation, member)))
+    }
+
+    /// Tells the dates of the ticks, for conditions that ask them.
+    pub fn dated(self, calendar: Option<Arc<Calendar>>) -> Self {
+        Self { calendar, ..self }
     }
 
     /// Whether nothing is ever done.
@@ -187,7 +235,8 @@ impl Management {
     /// Does what is due at `tick`, one operation after another, each on all plants that it concerns.
     pub fn work(&mut self, tick: Tick, members: &[Worked], plants: &mut [Plant]) {
         let operations = Arc::clone(&self.operations);
-        for (number, operation) in operations.iter().enumerate() {
+        let of_plants = operations.iter().enumerate().filter(|(_, operation)| operation.act != Act::Replant);
+        for (number, operation) in of_plants {
             let concerned = self.concerned(number, operation, tick, members, plants);
             if concerned.is_empty() {
                 continue;
@@ -213,7 +262,11 @@ impl Management {
         members: &[Worked],
         all: &[Plant],
     ) -> Vec<usize> {
-        let of = |plant: usize, column: Column| plants::value(&all[plant], plant, tick - members[plant].sown, column);
+        let calendar = self.calendar.clone();
+        let of = |plant: usize, column: Column| match column.is_of_the_date() {
+            true => dates::value(calendar.as_deref(), column, tick, members[plant].sown),
+            false => plants::value(&all[plant], plant, tick - members[plant].sown, column),
+        };
         let mut concerned = Vec::new();
         for (plant, member) in members.iter().enumerate().filter(|(_, member)| member.can_be_cut) {
             let due = operation.when.due(tick, member.sown, self.begun(number, plant));

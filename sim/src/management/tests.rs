@@ -7,8 +7,8 @@ use super::*;
 use crate::plant::{Class, EventKind, NewOrgan, NodeId, Trend};
 use crate::pose::pose;
 use crate::pose::specimen::{Branch, Growth, Specimen};
+use crate::shape::{Capsule, HalfSpace, Shape};
 use crate::shed::shed;
-use crate::site::Plane;
 use std::f32::consts::FRAC_PI_2;
 
 const TICK: Tick = 40;
@@ -78,11 +78,15 @@ fn heading_keeps_a_number_a_share_or_a_length() {
 fn topping_and_hedging_cut_where_an_axis_enters_a_region() {
     assert_eq!(left(Act::Clear(Region::Above(0.75), u8::MAX), all()), [7, 5, 5, 0, 5]);
     assert_eq!(left(Act::Clear(Region::Above(0.45), 1), all()), [4, 5, 0, 0, 5], "of the trunk alone");
-    let plane = Plane { point: [0.25, 0.0, 0.0], normal: [1.0, 0.0, 0.0] };
-    let hedged = left(Act::Clear(Region::Beyond(vec![plane]), u8::MAX), all());
-    let boxed = left(Act::Clear(Region::Outside([0.5, 0.5, 0.95]), u8::MAX), all());
+    let outside = |shape: Shape| left(Act::Clear(Region::Outside(Arc::new(shape)), u8::MAX), all());
+    let hedged = outside(Shape::HalfSpace(HalfSpace { point: [0.25, 0.0, 0.0], normal: [1.0, 0.0, 0.0] }));
+    let boxed = left(Act::Clear(Region::outside_box([0.5, 0.5, 0.95]), u8::MAX), all());
     assert!(hedged[0] == 10 && boxed[0] == 9, "{hedged:?} {boxed:?}");
     assert!((1..4).all(|axis| boxed[axis] == 2), "{boxed:?}: branches of 0.5 m in a box of 0.25 m to each side");
+    // Within a rod about the trunk that ends in half a ball: of branches at 0.2, 0.5 and 0.8 m the last is shorter.
+    let rod = Capsule { start: [0.0; 3], end: [0.0, 0.0, 0.6], radius: 0.35 };
+    let rounded = outside(Shape::Capsule(rod));
+    assert!(rounded[..4] == [9, 3, 3, 2], "{rounded:?}");
 }
 
 #[test]

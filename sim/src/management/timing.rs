@@ -7,14 +7,17 @@
 
 use super::choice::SharedFormula;
 use crate::clock::Tick;
+use std::sync::Arc;
 
 /// From when on an operation is done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Start {
     /// From a tick of the plot.
     Tick(Tick),
     /// From an age of each plant.
     Age(Tick),
+    /// At each of these ticks of the plot, which rise: those of a day of each year, which are not equally far apart.
+    Each(Arc<[Tick]>),
 }
 
 /// When an operation is done.
@@ -51,14 +54,22 @@ impl When {
     /// worked on before its age 1.
     fn tick(&self, time: Tick, sown: Tick) -> Tick {
         match self.start {
-            Start::Tick(_) => time,
+            Start::Tick(_) | Start::Each(_) => time,
             Start::Age(_) => sown.saturating_add(time),
         }
     }
 
     fn first(&self, sown: Tick) -> Tick {
-        let (Start::Tick(time) | Start::Age(time)) = self.start;
-        self.tick(time, sown)
+        match &self.start {
+            Start::Tick(time) | Start::Age(time) => self.tick(*time, sown),
+            Start::Each(times) => times.first().copied().unwrap_or(Tick::MAX),
+        }
+    }
+
+    /// The first of listed ticks after `after`; `None` where the ticks are not listed, or none is left.
+    fn listed(&self, after: Tick) -> Option<Option<Tick>> {
+        let Start::Each(times) = &self.start else { return None };
+        Some(times.get(times.partition_point(|time| *time <= after)).copied())
     }
 
     /// The first tick after `after` at which the operation is done, or its condition asked, for a plant that was sown
@@ -66,6 +77,9 @@ impl When {
     pub fn next(&self, after: Tick, sown: Tick, begun: Option<Tick>) -> Option<Tick> {
         // A tick of the plot at or before the sowing is passed over, not put off.
         let after = after.max(sown);
+        if let (None, Some(next)) = (&self.condition, self.listed(after)) {
+            return next.filter(|next| *next <= self.end(sown));
+        }
         let origin = if self.condition.is_some() { begun } else { Some(self.first(sown)) };
         let next = match (origin, self.every) {
             (None, _) => self.first(sown).max(after.checked_add(1)?),
@@ -95,6 +109,9 @@ impl When {
             (Some(_), Some(begun)) => begun,
             (None, _) => self.first(sown),
         };
+        if let (None, Some(next)) = (&self.condition, self.listed(tick - 1)) {
+            return if next == Some(tick) { Due::Yes } else { Due::No };
+        }
         let again = self.every.is_some_and(|every| tick > origin && (tick - origin).is_multiple_of(every.max(1)));
         if tick == origin || again { Due::Yes } else { Due::No }
     }
@@ -131,13 +148,14 @@ mod tests {
     #[test]
     fn the_next_time_is_the_next_that_is_due() {
         let condition: SharedFormula = Arc::new(Never);
-        for start in [Start::Tick(1), Start::Tick(7), Start::Age(1), Start::Age(5)] {
+        let listed = Start::Each([3, 4, 11, 30].into());
+        for start in [Start::Tick(1), Start::Tick(7), Start::Age(1), Start::Age(5), listed] {
             for every in [None, Some(1), Some(6)] {
                 for (condition, begun) in
                     [(None, None), (Some(condition.clone()), None), (Some(condition.clone()), Some(11))]
                 {
                     for (last, sown) in [(None, 0), (Some(20), 0), (None, 9), (Some(18), 9)] {
-                        let when = When { start, condition: condition.clone(), every, last };
+                        let when = When { start: start.clone(), condition: condition.clone(), every, last };
                         let due: Vec<Tick> = (1..=40).filter(|tick| when.due(*tick, sown, begun) != Due::No).collect();
                         assert_eq!(ticks(&when, sown, begun), due, "{when:?} of a plant sown at {sown}, {begun:?}");
                     }
@@ -153,5 +171,7 @@ mod tests {
         assert_eq!(ticks(&when, 3, None), [17, 27, 37]);
         let once = When::once(Start::Tick(5));
         assert_eq!((ticks(&once, 0, None), ticks(&once, 5, None)), (vec![5], vec![]), "not sown yet");
+        let yearly = When::once(Start::Each([5, 17, 30].into()));
+        assert_eq!((ticks(&yearly, 0, None), ticks(&yearly, 5, None)), (vec![5, 17, 30], vec![17, 30]));
     }
 }

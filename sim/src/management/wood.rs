@@ -3,7 +3,7 @@
 //! A branch is an axis with all that it bears; it counts while an internode of its axis stands. Cuts are made at nodes.
 //! What is protected is not cut, and nothing is cut that bears it. Sources of the terms: heading shortens an axis,
 //! thinning takes a branch off where it arises (Forshey, Elfving & Stebbins 1992, *Training and Pruning Apple and Pear
-//! Trees*). Absent: what the plant makes of a cut.
+//! Trees*). Absent: what the plant makes of a cut, and how branches are trained (`training`).
 
 use super::choice::Choice;
 use super::column::Column;
@@ -112,6 +112,11 @@ impl<'a> Branches<'a> {
             Column::TipHeight => tip[2],
             Column::Reach => (tip[0] * tip[0] + tip[1] * tip[1]).sqrt(),
             Column::Inclination => crate::math::acos(f64::from(base.heading[2]).clamp(-1.0, 1.0)).to_degrees(),
+            Column::Azimuth => {
+                let [east, north, _] = base.heading.map(f64::from);
+                let turned = crate::math::atan2(east, north).to_degrees();
+                if turned < 0.0 { turned + 360.0 } else { turned }
+            }
             _ => f64::NAN,
         }
     }
@@ -176,6 +181,19 @@ impl<'a> Branches<'a> {
             bearer.is_some_and(|bearer| plant.nodes.rank[bearer] > left[plant.nodes.axis[bearer].index()])
         };
         cuts.into_iter().filter(|cut| !goes_along(cut)).collect()
+    }
+
+    /// The branches that a choice trains, in the order of their axes. The trunk is no branch; what is protected is not
+    /// trained itself, but goes along with its bearer.
+    pub fn trained(&self, choice: &Choice) -> Vec<AxisId> {
+        let known = |place: usize, column| self.value(&self.branches[place], column);
+        let free = |place: usize| {
+            let branch = &self.branches[place];
+            let is_branch = self.plant.axes.bearer[branch.axis.index()].some().is_some();
+            is_branch && !choice.protects(&mut |column| self.value(branch, column))
+        };
+        let chosen = choice.of(self.branches.len(), free, known);
+        chosen.into_iter().map(|place| self.branches[place].axis).collect()
     }
 
     /// Heading: each chosen axis keeps a part. An axis that is no longer than that is left as it is.

@@ -201,9 +201,10 @@ impl Scan<'_> {
 
     #[inline]
     fn weigh_run<const WINDY: bool>(&mut self, run: &Run, laterals: &mut Down<'_>, organs: &mut Down<'_>) -> bool {
-        let Plant { own_looks, stated, .. } = self.plant;
+        let Plant { own_looks, stated, strain, .. } = self.plant;
         let section = Section::of(self.plant.look_of(run.axis));
-        let plain = section == Section::Round && own_looks.is_empty() && !stated.has_starts_of_axes();
+        let free = !stated.has_starts_of_axes() && !strain.has_holds();
+        let plain = section == Section::Round && own_looks.is_empty() && free;
         // Most plants: a scan that knows it in advance makes a tenth fewer steps.
         if plain {
             self.weigh_along::<WINDY, true>(run, Section::Round, laterals, organs)
@@ -212,7 +213,8 @@ impl Scan<'_> {
         }
     }
 
-    /// `PLAIN`: the internodes are round, none has a look of its own, and each axis begins at the tip of its bearer.
+    /// `PLAIN`: the internodes are round, none has a look of its own or is held, and each axis begins at the tip of its
+    /// bearer.
     #[inline(always)]
     fn weigh_along<const WINDY: bool, const PLAIN: bool>(
         &mut self,
@@ -242,9 +244,15 @@ impl Scan<'_> {
             let felt = piece.pass::<WINDY>(&mut load, &self.fields);
             let modulus = tissue.modulus(own_age);
             let flexural = section.second_moments(piece.diameters[1]).map(|moment| modulus * moment);
+            let hold = if PLAIN { None } else { self.plant.strain.hold_of(node, self.age) };
+            // What is held turns with its base, as what has no stiffness of its own does.
+            let flexural = if hold.is_some() { [0.0; 2] } else { flexural };
             let answered;
             (load, answered) = self.answer::<PLAIN>(load, node, &felt, flexural, piece.length);
             holds &= answered;
+            if hold.is_some_and(|hold| hold.bears) {
+                load = Load::default();
+            }
             if starts {
                 low.drain(..).for_each(|axis| load.add(&self.loads[axis]));
             }

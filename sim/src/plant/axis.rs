@@ -6,6 +6,7 @@
 use super::columns::columns;
 use super::handle::{AxisId, NodeId};
 use super::joint::Joint;
+use super::kind::Cause;
 use crate::clock::{NEVER, Tick};
 use crate::key::LineageKey;
 
@@ -64,6 +65,25 @@ pub enum ApexFate {
     Harvested = 6,
     /// A pest killed it.
     Attacked = 7,
+    /// The rules of its model replaced it by something else, or by nothing.
+    Rewritten = 8,
+}
+
+impl ApexFate {
+    /// Why the apex ended, as a cause of death.
+    pub const fn cause(self) -> Cause {
+        match self {
+            Self::Alive => Cause::None,
+            Self::Died => Cause::Mortality,
+            Self::Flowered => Cause::Flowered,
+            Self::Completed => Cause::Completed,
+            Self::Killed => Cause::Killed,
+            Self::Pruned => Cause::Pruned,
+            Self::Harvested => Cause::Harvested,
+            Self::Attacked => Cause::Attacked,
+            Self::Rewritten => Cause::Rewritten,
+        }
+    }
 }
 
 /// The values of a new axis.

@@ -45,11 +45,14 @@ pub enum EventKind {
     Thinned = 15,
     /// A pest killed the bud.
     Attacked = 16,
+    /// The rules of the model replaced internodes of the axis, its bud or organs that it bore by something else, or by
+    /// nothing; `count` is their number.
+    Rewritten = 17,
 }
 
 impl EventKind {
     /// Every kind, in the order of their numbers.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Grew,
         Self::Paused,
         Self::Died,
@@ -67,6 +70,7 @@ impl EventKind {
         Self::Harvested,
         Self::Thinned,
         Self::Attacked,
+        Self::Rewritten,
     ];
 
     /// The event as it stands in tables.
@@ -89,6 +93,7 @@ impl EventKind {
             Self::Harvested => "harvested",
             Self::Thinned => "thinned",
             Self::Attacked => "attacked",
+            Self::Rewritten => "rewritten",
         }
     }
 }

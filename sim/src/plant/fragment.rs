@@ -81,6 +81,8 @@ impl Plant {
             own_looks: Default::default(),
             cuts: Default::default(),
             ledger: Vec::new(),
+            gone_buds: Vec::new(),
+            bearers: Vec::new(),
             dormant: self.dormant.begun(),
             budget: self.budget,
             components: 0,

@@ -42,9 +42,14 @@ impl Frames {
     /// Forgets every frame, so that the next pose makes all of them. The columns keep their length, so that the next
     /// pose need not fill new memory.
     pub fn clear(&mut self) {
+        self.make_anew();
+        self.lengths.clear();
+    }
+
+    /// Lets the next pose make every frame, and keeps the frames and the lengths that are there until then.
+    pub(crate) fn make_anew(&mut self) {
         self.posed = 0;
         self.courses.clear();
-        self.lengths.clear();
     }
 
     /// The lengths of internodes at the age of the frames.

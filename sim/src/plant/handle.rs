@@ -10,6 +10,12 @@ impl AxisId {
     /// The axis that grew out of the seed.
     pub const TRUNK: Self = Self(0);
 
+    /// The axis that left the columns as the `nth`, from 0, of a plant whose model rewrites; events name it so.
+    #[inline]
+    pub const fn gone(nth: usize) -> Self {
+        Self(u32::MAX - nth as u32)
+    }
+
     /// As an index into the columns.
     #[inline]
     pub const fn index(self) -> usize {

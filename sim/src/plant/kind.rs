@@ -80,6 +80,8 @@ macro_rules! kinds {
                 ShortInternode = 1, "short_internode", Internode, Shoot, "PO:0005005";
                 /// The bud at the tip of an axis, growing or waiting.
                 ApicalBud = 5, "apical_bud", Bud, Shoot, "PO:0000055";
+                /// A bud in the axil of a leaf, waiting, where a model states such buds as components.
+                AxillaryBud = 31, "axillary_bud", Bud, Shoot, "PO:0004709";
             }
         }
     };
@@ -198,7 +200,7 @@ pub enum Cause {
     Harvested = 10,
     /// A pest killed it.
     Attacked = 11,
-    /// The rules of its model replaced it by nothing.
+    /// The rules of its model replaced it by something else, or by nothing.
     Rewritten = 12,
 }
 
@@ -265,6 +267,7 @@ mod tests {
             (Kind::StigmaInternode, 17),
             (Kind::Leaflet, 18),
             (Kind::Strobilus, 30),
+            (Kind::AxillaryBud, 31),
         ];
         assert!(told.into_iter().all(|(kind, number)| kind as u8 == number));
     }

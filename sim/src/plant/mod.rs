@@ -31,6 +31,7 @@ mod node;
 mod organ;
 mod outline;
 mod own_look;
+mod placed;
 mod rare;
 pub(crate) mod standing;
 pub(crate) mod stated;
@@ -59,7 +60,7 @@ pub use organ::{NewOrgan, Organs};
 pub use outline::StatedOrgans;
 pub use own_look::OwnLooks;
 pub use stated::{Part, Rest, StatedFrames};
-pub use strain::Strain;
+pub use strain::{Hold, Strain};
 pub use wood::{Drag, OrganMass, Thickening, Tissue, Uprighting, Wood};
 
 pub use crate::key::{self, LineageKey};
@@ -119,6 +120,10 @@ pub struct Plant {
     pub cuts: Cuts,
     /// What a model that rewrites has taken out of the columns, in the order of departure; empty for other models.
     pub ledger: Vec<Departed>,
+    /// The apical buds of axes that have left the columns, by their numbers, in the order of departure.
+    gone_buds: Vec<u32>,
+    /// The component that bore each component at its birth; empty where nothing ever changes its bearer.
+    bearers: Vec<u32>,
     /// The axillary buds that lie dormant, where a cut may release them.
     pub dormant: DormantBuds,
     /// Thread budget of its growth; never changes the result.
@@ -170,6 +175,8 @@ impl Plant {
             own_looks: OwnLooks::default(),
             cuts: Cuts::default(),
             ledger: Vec::new(),
+            gone_buds: Vec::new(),
+            bearers: Vec::new(),
             dormant: DormantBuds::default(),
             budget: ThreadBudget::default(),
             components: 0,
@@ -192,6 +199,8 @@ impl Plant {
     pub fn clear(&mut self) {
         self.begin_rewriting();
         self.ledger.clear();
+        self.gone_buds.clear();
+        self.bearers.clear();
         self.age = 0;
         self.components = 0;
         if let Some(events) = &mut self.events {
@@ -240,7 +249,7 @@ impl Plant {
     }
 
     /// The number of components that have lived by `age`. A flower planned for a branch that died before it opened is
-    /// not counted; an internode of the ledger is. Linear in the components.
+    /// not counted; what is in the ledger is. Linear in the components.
     pub fn lived_by(&self, age: Tick) -> u64 {
         let by = |births: &[Tick]| births.iter().filter(|&&birth| birth <= age).count() as u64;
         let organs = self.organs.birth.iter().zip(&self.organs.death);
@@ -270,29 +279,6 @@ impl Plant {
     pub fn add_organ(&mut self, organ: NewOrgan) -> OrganId {
         let component = self.number();
         self.organs.push(organ, component)
-    }
-
-    /// Names the components of this plant by their numbers from now on: a node that a model inserts in mid-axis changes
-    /// the ranks of others, but not their numbers.
-    pub fn name_by_number(&mut self) {
-        self.named_by_number = true;
-    }
-
-    /// A new component number.
-    pub fn next_number(&mut self) -> u32 {
-        self.number()
-    }
-
-    /// Adds an axis with a component number that was given before; its key follows from the number.
-    pub fn place_axis(&mut self, axis: NewAxis, component: u32) -> AxisId {
-        self.axes.push(NewAxis { key: numbered(component), ..axis }, component)
-    }
-
-    /// Adds an internode with its node at the tip of its axis, with a component number that was given before.
-    pub fn place_node(&mut self, node: NewNode, component: u32) -> NodeId {
-        let id = self.nodes.push(node, component);
-        self.axes.grown(node.axis, id);
-        id
     }
 
     /// Adds an event, where the run keeps events.

@@ -251,6 +251,21 @@ impl Plant {
         self.frames.clear();
     }
 
+    /// Changes many rest frames from `tick` on, each part once, as [`Plant::change_rest`] does one by one. The frames
+    /// of the plant stay as they are until it is posed again.
+    pub fn change_rests(&mut self, tick: Tick, rests: impl IntoIterator<Item = (Part, Rest)>) {
+        let nodes = &self.nodes;
+        let change = |(part, rest)| Change { part: one_entry(nodes, part), tick, rest };
+        let mut new: Vec<Change> = rests.into_iter().map(change).collect();
+        new.sort_by_key(|change| change.part);
+        let is_new = |part: &Part| new.binary_search_by_key(part, |change| change.part).is_ok();
+        let changes = &mut self.stated.changes;
+        changes.retain(|change| change.tick != tick || !is_new(&change.part));
+        changes.append(&mut new);
+        changes.sort_by_key(|change| (change.part, change.tick));
+        self.frames.make_anew();
+    }
+
     /// The statement of the rest frame of a node or an axis at `age`; for the first node of an axis that of the axis.
     pub fn rest_of(&self, part: impl Into<Part>, age: Tick) -> Rest {
         self.stated.rest(one_entry(&self.nodes, part.into()), age)

@@ -144,6 +144,13 @@ impl Calendar {
         &self.ticks[(tick as usize).min(self.ticks.len() - 1)]
     }
 
+    /// The tick that spans a day: what is done on that day is done at that tick. `None` where the day lies before
+    /// planting or after the last tick.
+    pub fn tick_of(&self, day: Date) -> Option<Tick> {
+        let tick = self.ticks.partition_point(|tick| tick.date <= day);
+        (tick > 0 && tick < self.ticks.len()).then_some(tick as Tick)
+    }
+
     /// All ticks, from 0.
     pub fn ticks(&self) -> &[CalendarTick] {
         &self.ticks
@@ -173,6 +180,15 @@ impl Dates {
     /// The degree-days from its sowing to an age, °C d; `None` where they are not known.
     pub fn degree_days_by(&self, age: Tick) -> Option<f64> {
         Some(self.at_age(age).degree_day_sum? - self.at_age(0).degree_day_sum?)
+    }
+
+    /// The degree-days a day in the tick of an age, °C d/d: how warm its days were. A tick that a hot day has ended with
+    /// the tick before it has no days of its own, and is as warm as that one; tick 0 is as warm as tick 1.
+    pub fn degree_days_per_day(&self, age: Tick) -> Option<f64> {
+        let ticks = self.calendar.ticks();
+        let last = (self.sown.saturating_add(age) as usize).clamp(1, ticks.len().max(2) - 1);
+        let spanning = ticks.get(1..=last)?.iter().rev().find(|tick| tick.days > 0)?;
+        Some(spanning.degree_days? / f64::from(spanning.days))
     }
 }
 
@@ -285,6 +301,18 @@ mod tests {
         }
     }
 
+    /// A tick of 30 days spans the days from the date of the tick before up to the day before its own.
+    #[test]
+    fn a_day_lies_in_the_tick_that_spans_it() {
+        let calendar = Calendar::of(&terms(TickLength::Days(30)), 3, steady).expect("a calendar");
+        let planted = date(2001, 3, 1);
+        let ticks = [-1, 0, 29, 30, 59, 60, 89, 90].map(|days| calendar.tick_of(planted.plus(days)));
+        assert_eq!(ticks, [None, Some(1), Some(1), Some(2), Some(2), Some(3), Some(3), None]);
+        // Of two ticks that a hot day ends the first spans it.
+        let hot = Calendar::of(&terms(TickLength::DegreeDays(5.0)), 6, steady).expect("a calendar");
+        assert_eq!(hot.tick_of(planted.plus(1)), Some(4));
+    }
+
     /// At 15 °C d a day, tick t of 100 °C d ends at the first midnight by which 15 d ≥ 100 t: after ⌈20 t/3⌉ days.
     #[test]
     fn ticks_of_degree_days_end_at_the_midnight_that_reaches_their_sum() {
@@ -308,6 +336,24 @@ mod tests {
             "15 °C d a day: the sums 6, 12, 18, 24 and 30 after 1, 1, 2, 2 and 2 days"
         );
         assert_eq!(calendar.at(99), calendar.at(5), "beyond the last tick, the last");
+        let dates = Dates { calendar: Arc::new(calendar), sown: 1 };
+        let warm = [0, 1, 2, 4, 99].map(|age| dates.degree_days_per_day(age));
+        assert_eq!(warm, [Some(15.0); 5], "a tick without days is as warm as the one before it");
+    }
+
+    /// Days of 20 °C and of 14 °C in turn: ten of them are on average 7 °C d a day above 10 °C, a single one 10 or 4.
+    #[test]
+    fn a_tick_is_as_warm_as_the_mean_of_its_days() {
+        let in_turn = |day: Date| Some([if day.since(date(2001, 3, 1)) % 2 == 0 { 20.0 } else { 14.0 }; 2]);
+        let of = |days| {
+            let calendar = Calendar::of(&terms(TickLength::Days(days)), 9, in_turn).expect("a calendar");
+            let dates = Dates { calendar: Arc::new(calendar), sown: 0 };
+            [0, 1, 2, 3].map(|age| dates.degree_days_per_day(age).expect("degree-days"))
+        };
+        assert_eq!((of(10), of(1)), ([7.0; 4], [10.0, 10.0, 4.0, 10.0]), "tick 0 is as warm as tick 1");
+        let without = Terms { degree_days: None, ..terms(TickLength::Days(1)) };
+        let calendar = Arc::new(Calendar::of(&without, 3, |_| None).expect("a calendar"));
+        assert_eq!(Dates { calendar, sown: 0 }.degree_days_per_day(1), None);
     }
 
     #[test]

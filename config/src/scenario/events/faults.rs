@@ -1,31 +1,43 @@
-//! The faults of events that the schema cannot state: keys that belong to other operations, and times that never come.
+//! The faults of the keys of an event that the schema cannot state: keys that belong to other operations, and keys that
+//! are missing.
 //!
-//! Absent: the faults of conditions, which the reading of a condition finds (`phytomer_law::condition`).
+//! Absent: the faults of times (`times`), and those of conditions, which the reading of a condition finds
+//! (`phytomer_law::condition`).
 
 use super::Event;
 use phytomer_law::fault::{Fault, Path};
 
 impl Event {
     pub(super) fn check_keys(&self, path: &Path, faults: &mut Vec<Fault>) {
-        let ((needed, allowed), word) = (self.operation.keys(), self.operation.word());
+        let (keys, word) = (self.operation.keys(), self.operation.word());
         let stated = self.stated();
-        for key in stated.iter().filter(|key| !needed.contains(key) && !allowed.contains(key)) {
-            let known = needed.iter().chain(allowed).map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
+        for key in stated.iter().filter(|key| keys.all().all(|known| known != **key)) {
+            let known = keys.all().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
             let problem = format!("`{key}` has no effect on the operation `{word}`");
-            faults.push(Fault::new(&path.key(key), problem, format!("one of {known}")));
+            let expected = if known.is_empty() {
+                "no keys beside those of its times".to_owned()
+            } else {
+                format!("one of {known}")
+            };
+            faults.push(Fault::new(&path.key(key), problem, expected));
         }
-        let given: Vec<&&str> = stated.iter().filter(|key| needed.contains(key)).collect();
-        let list = needed.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(" or ");
-        match given[..] {
-            [] if !needed.is_empty() => {
-                let problem = format!("the operation `{word}` does not say what it leaves");
-                faults.push(Fault::new(&path.key("operation"), problem, list));
+        let of = |needed: &[&str]| stated.iter().copied().filter(|key| needed.contains(key)).collect::<Vec<&str>>();
+        let list = |needed: &[&str]| needed.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(" or ");
+        match of(keys.one)[..] {
+            [] if !keys.one.is_empty() => {
+                let what = if self.operation.trains() { "where the wood is held" } else { "what it leaves" };
+                let problem = format!("the operation `{word}` does not say {what}");
+                faults.push(Fault::new(&path.key("operation"), problem, list(keys.one)));
             }
             [first, second, ..] => {
                 let problem = format!("`{first}` and `{second}` say the same twice");
-                faults.push(Fault::new(&path.key(second), problem, format!("{list}, one of them")));
+                faults.push(Fault::new(&path.key(second), problem, format!("{}, one of them", list(keys.one))));
             }
             _ => {}
+        }
+        if of(keys.some).is_empty() && !keys.some.is_empty() {
+            let problem = format!("the operation `{word}` does not say how the wood stands from then on");
+            faults.push(Fault::new(&path.key("operation"), problem, format!("{}, or both", list(keys.some))));
         }
         if self.first.is_some() && self.share.is_none() && self.at_most.is_none() {
             let problem = "`first` ranks what is taken, and all of it is taken";
@@ -41,35 +53,4 @@ impl Event {
             faults.push(Fault::new(&path, problem, "a direction, such as [0, 1, 0]"));
         }
     }
-
-    pub(super) fn check_times(&self, until: u32, path: &Path, faults: &mut Vec<Fault>) {
-        let first = self.tick.or(self.age);
-        if let (Some(_), Some(_)) = (self.tick, self.age) {
-            let problem = "the event is stated by a tick of the plot and by an age of the plant";
-            faults.push(Fault::new(&path.key("age"), problem, "`tick` or `age`"));
-        }
-        if first.is_none() && self.when.is_none() {
-            faults.push(Fault::new(path, "the event has no time", "`tick`, `age` or `when`"));
-        }
-        let key = if self.tick.is_some() { "tick" } else { "age" };
-        if let Some(first) = first.filter(|first| *first > until) {
-            let problem = format!("the event is of {key} {first}, and the run ends at tick {until}");
-            faults.push(Fault::new(&path.key(key), problem, format!("{} in [1, {until}]", article(key))));
-        }
-        match self.until {
-            Some(last) if first.is_some_and(|first| last < first) => {
-                let problem = format!("the event ends at {last}, before it begins at {}", first.unwrap_or(1));
-                faults.push(Fault::new(&path.key("until"), problem, format!("at least {}", first.unwrap_or(1))));
-            }
-            Some(_) if self.every.is_none() && self.when.is_none() => {
-                let problem = "`until` ends what is done once";
-                faults.push(Fault::new(&path.key("until"), problem, "`every` beside it, the ticks between two times"));
-            }
-            _ => {}
-        }
-    }
-}
-
-fn article(key: &str) -> &'static str {
-    if key == "age" { "an age" } else { "a tick" }
 }

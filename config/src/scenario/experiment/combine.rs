@@ -82,7 +82,7 @@ impl Experiment {
         let mut set: BTreeMap<String, usize> = BTreeMap::new();
         for (f, factor) in self.factor.iter().enumerate() {
             for (l, level) in factor.level.iter().enumerate() {
-                for key in keys_of(&level.sets) {
+                for key in keys_of(&level.sets).into_iter().chain(keys_of_pests(&level.sets)) {
                     let first = *set.entry(key.join(".")).or_insert(f);
                     if first == f {
                         continue;
@@ -288,6 +288,18 @@ fn keys_of(sets: &Map<String, Json>) -> Vec<Vec<String>> {
             }
             _ => keys.push(vec![key.to_owned()]),
         }
+    }
+    keys
+}
+
+/// The keys that a level sets of pests, which it may share with other factors as long as each sets other keys: `pest`,
+/// the name and the key.
+fn keys_of_pests(sets: &Map<String, Json>) -> Vec<Vec<String>> {
+    let mut keys = Vec::new();
+    for pest in sets.get("pest").and_then(Json::as_array).into_iter().flatten().filter_map(Json::as_object) {
+        let Some(name) = pest.get("name").and_then(Json::as_str) else { continue };
+        let others = pest.keys().filter(|key| *key != "name");
+        keys.extend(others.map(|key| vec!["pest".to_owned(), name.to_owned(), key.clone()]));
     }
     keys
 }

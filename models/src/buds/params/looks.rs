@@ -144,6 +144,6 @@ mod tests {
         }
         let unstated =
             Kind::ALL.into_iter().filter(|kind| !KindName::ALL.iter().any(|name| Kind::from(*name) == *kind));
-        assert!(unstated.eq([Kind::ShortInternode, Kind::ApicalBud]));
+        assert!(unstated.eq([Kind::ShortInternode, Kind::ApicalBud, Kind::AxillaryBud]));
     }
 }

@@ -7,6 +7,7 @@ mod columns;
 mod elastica;
 mod freezing;
 mod habit;
+mod held;
 mod secondary;
 mod small;
 

@@ -9,7 +9,7 @@ use super::string::{Born, Living, Rewriting, Rules};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::expectation::Expectation;
 use phytomer_sim::model::{Grow, Growth, Overgrown};
-use phytomer_sim::plant::{Habit, Looks, NodeId, Plant, Shape, Trend};
+use phytomer_sim::plant::{Cause, Habit, Looks, NodeId, Plant, Shape, Trend};
 use phytomer_sim::site::View;
 use std::sync::Arc;
 
@@ -37,7 +37,7 @@ impl D0lModel {
 impl D0lModel {
     /// Rewrites the string up to the age `age`, and draws the plant.
     fn rewrite(&self, age: Tick, plant: &mut Plant, living: &mut Living) -> Result<(), Overgrown> {
-        let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
+        let limit = Overgrown::of(plant);
         // Each component is at least one module of the string, and a branch two.
         let most = 2 * limit.limit as usize;
         let mut vanished = Vec::new();
@@ -48,7 +48,7 @@ impl D0lModel {
             }
         }
         // The internodes of the columns are the cells of the string, in their order.
-        vanished.into_iter().for_each(|cell| plant.depart(NodeId(cell), age));
+        vanished.into_iter().for_each(|cell| plant.depart(NodeId(cell), age, Cause::Rewritten));
         let last = plant.age;
         plant.begin_rewriting();
         draw(living, TRUNK, &self.sizes, self.angle, plant);

@@ -1,0 +1,164 @@
+//! The files of a species whose model has texts of its own: an L-system, and what lies beside it in the folder of the
+//! species file.
+//!
+//! Each file becomes an entry of the table `texts`, in which a fault is shown at its line and column. Read are the file
+//! that the species names, what it includes, its view file, the surfaces and functions that the view file names, and a
+//! map of colours. Nothing outside the folder is read. Absent: what the texts mean (`phytomer_models::lsystem`).
+
+use crate::document::{Entry, Node, Value};
+use crate::library::Library;
+use crate::report::Fault;
+use crate::source::{Origin, Sources, Span};
+use phytomer_models::fault::Path;
+use phytomer_models::lsystem::is_map;
+use phytomer_models::lsystem::view::View;
+use phytomer_models::parameters::Keys;
+
+/// The most files of a species.
+const MOST_FILES: usize = 256;
+
+/// The key of the table of texts.
+const TEXTS: &str = "texts";
+
+/// Reads the files of a species into its table `texts`, and states the names of the view file and of the map of colours
+/// where they are found.
+pub(crate) fn fill(species: &mut Node, keys: &Keys, library: &Library, sources: &mut Sources, faults: &mut Vec<Fault>) {
+    let Some(key) = keys.texts else { return };
+    let Some((name, span)) = species.get(key).and_then(|file| Some((file.text()?.to_owned(), file.span))) else {
+        return;
+    };
+    let mut files = Files { species, library, sources, faults, span, path: Path::root().key(key) };
+    files.add(&name);
+    let view = files.stated_or_found("view", &name, &[".v"]);
+    view.iter().for_each(|view| files.add(view));
+    let colours = files.stated_or_found("colours", &name, &[".map", ".mat"]);
+    colours.iter().for_each(|colours| files.add(colours));
+    let named = view.and_then(|view| files.text(&view)).map(|view| View::read(&view).unwrap_or_default());
+    let named = named.unwrap_or_default();
+    let surfaces = named.surfaces.iter().map(|surface| &surface.file);
+    surfaces.chain(&named.functions).chain(&named.function_set).for_each(|file| files.add(file));
+}
+
+/// The files of a species while they are read.
+struct Files<'f> {
+    species: &'f mut Node,
+    library: &'f Library,
+    sources: &'f mut Sources,
+    faults: &'f mut Vec<Fault>,
+    /// Where the species names its file.
+    span: Span,
+    path: Path,
+}
+
+impl Files<'_> {
+    /// The text of a file that was read, or that the species states.
+    fn text(&self, name: &str) -> Option<String> {
+        self.species.get(TEXTS).and_then(|texts| texts.get(name)).and_then(Node::text).map(str::to_owned)
+    }
+
+    /// Adds a file, and what it includes.
+    fn add(&mut self, name: &str) {
+        let mut waiting = vec![name.to_owned()];
+        let mut read = 0;
+        while let Some(name) = waiting.pop() {
+            if !self.read(&name) {
+                continue;
+            }
+            read += 1;
+            if read > MOST_FILES {
+                let problem = format!("more than {MOST_FILES} files are included");
+                return self.faults.push(Fault::new(self.span, &self.path, problem, "fewer files"));
+            }
+            let text = self.text(&name).unwrap_or_default();
+            waiting.extend(included(&text).map(str::to_owned));
+        }
+    }
+
+    /// Reads a file into the table; false where it stands there already, or cannot be read.
+    fn read(&mut self, name: &str) -> bool {
+        if name.is_empty() || self.text(name).is_some() {
+            return false;
+        }
+        let beside = self.sources.get(self.span.source).origin.clone();
+        let source = match self.library.beside(name, &beside) {
+            Ok(source) => source,
+            Err(missing) => {
+                let fault = Fault::new(self.span, &self.path, missing.problem, missing.expected);
+                self.faults.push(fault.suggest(missing.suggestion));
+                return false;
+            }
+        };
+        let text = match &source.bytes {
+            Some(bytes) if is_map(name) => phytomer_models::lsystem::digits_of(bytes),
+            _ => source.text.to_string(),
+        };
+        let end = source.text.len();
+        let id = self.sources.add(source);
+        let span = Span { source: id, start: 0, end };
+        let node = Node { span, value: Value::Text(text) };
+        self.put(Some(TEXTS), Entry { key: name.to_owned(), key_span: self.span, node });
+        true
+    }
+
+    /// The name that the species states under a key; else the file of an ending that has the name of the L-system, or
+    /// that is alone in the folder, which is then stated.
+    fn stated_or_found(&mut self, key: &str, file: &str, endings: &[&str]) -> Option<String> {
+        if let Some(stated) = self.species.get(key) {
+            return stated.text().map(str::to_owned);
+        }
+        let beside = self.sources.get(self.span.source).origin.clone();
+        let inline = self.species.get(TEXTS).map(|texts| texts.entries().iter().map(|entry| entry.key.clone()));
+        let mut names: Vec<String> = inline.into_iter().flatten().collect();
+        names.extend(self.library.names_beside(&beside));
+        names.retain(|name| endings.iter().any(|ending| name.ends_with(ending)));
+        names.sort_unstable();
+        names.dedup();
+        let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+        let same = endings.iter().find_map(|ending| {
+            let own = format!("{stem}{ending}");
+            names.iter().find(|name| **name == own)
+        });
+        let found = same.or(if let [only] = &names[..] { Some(only) } else { None })?.clone();
+        let node = Node { span: self.span, value: Value::Text(found.clone()) };
+        self.put(None, Entry { key: key.to_owned(), key_span: self.span, node });
+        Some(found)
+    }
+
+    /// Adds an entry to the species, or to a table of it.
+    fn put(&mut self, table: Option<&str>, entry: Entry) {
+        let span = self.span;
+        let Value::Table(entries) = &mut self.species.value else { return };
+        let Some(table) = table else { return entries.push(entry) };
+        if !entries.iter().any(|known| known.key == table) {
+            let node = Node { span, value: Value::Table(Vec::new()) };
+            entries.push(Entry { key: table.to_owned(), key_span: span, node });
+        }
+        let own = entries.iter_mut().find(|known| known.key == table);
+        if let Some(Value::Table(inner)) = own.map(|known| &mut known.node.value) {
+            inner.push(entry);
+        }
+    }
+}
+
+/// The names that a text includes: `#include "name"` or `#include <name>` at the beginning of a line.
+fn included(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter_map(|line| {
+        let rest = line.trim_start().strip_prefix('#')?.trim_start().strip_prefix("include")?.trim();
+        let inside = rest.strip_prefix(['"', '<'])?;
+        inside.split(['"', '>']).next()
+    })
+}
+
+/// The name of a folder and a file in it, where the file lies in the folder.
+pub(crate) fn stays_inside(name: &str) -> bool {
+    let path = std::path::Path::new(name);
+    path.components().all(|part| matches!(part, std::path::Component::Normal(_) | std::path::Component::CurDir))
+}
+
+/// The folder of the species that an origin names; of a preset the part of its name before the last `/`.
+pub(crate) fn folder_of(origin: &Origin) -> &str {
+    match origin {
+        Origin::Preset(name) => name.rsplit_once('/').map_or("", |(folder, _)| folder),
+        _ => "",
+    }
+}

@@ -1,0 +1,177 @@
+//! The shipped L-systems as plants: numbers of *Synthetic Topiary* and of *The Algorithmic Beauty of Plants*, and what is
+//! told of a species whose files are wrong.
+
+use phytomer_config::{Report, ResolvedSpecies, validate_species, validate_texts};
+use phytomer_sim::plant::{NodeId, Plant, Seed};
+use phytomer_sim::plot::Plot;
+use phytomer_sim::pose::{node_frame, pose};
+
+fn species(name: &str) -> ResolvedSpecies {
+    validate_species(name, 1).unwrap_or_else(|report| panic!("{}", report.render(false)))
+}
+
+fn grown(name: &str, age: u32, seed: u64) -> Plant {
+    let species = species(name);
+    let seed = Seed { plant: 0, draws: 0, run_seed: seed, component_limit: 1_000_000, keep_events: true };
+    let mut plot = Plot::of_one(species.model.as_ref(), &seed);
+    plot.grow_to(age).expect("room to grow");
+    let mut plant = plot.plants.remove(0);
+    pose(&mut plant, age);
+    plant
+}
+
+/// The tips of the internodes that bear none, in the coordinates of the turtle: the plant is (x, −z, y) in steps.
+fn tips(plant: &Plant, step_m: f64) -> Vec<[f64; 3]> {
+    let mut bears = vec![false; plant.nodes.len()];
+    plant.nodes.parent.iter().filter_map(|parent| parent.some()).for_each(|parent| bears[parent.index()] = true);
+    let ends = (0..plant.nodes.len()).filter(|node| !bears[*node]);
+    let tip = |node: usize| {
+        let [x, y, z] = node_frame(plant, NodeId(node as u32)).base.map(|x| f64::from(x) / step_m);
+        [x, z, -y]
+    };
+    ends.map(tip).collect()
+}
+
+fn mean(points: &[[f64; 3]]) -> [f64; 3] {
+    [0, 1, 2].map(|i| points.iter().map(|point| point[i]).sum::<f64>() / points.len() as f64)
+}
+
+#[test]
+fn every_shipped_l_system_can_be_read() {
+    let names = phytomer_config::presets(phytomer_config::Kind::Species).iter().map(|(name, _)| *name);
+    let own: Vec<&str> = names.filter(|name| name.starts_with("topiary/") || name.starts_with("abop/")).collect();
+    assert_eq!(own.len(), 18);
+    own.iter().for_each(|name| _ = species(name));
+}
+
+/// Figs. 2.6 and 2.7: 2ⁿ − 1 segments after n steps, and the mean tip of Fig. 2.6a.
+#[test]
+fn trees_of_two_daughters() {
+    for figure in ["2.6a", "2.6b", "2.6c", "2.6d", "2.7a", "2.7b", "2.7c", "2.7d"] {
+        for age in [1, 4, 8] {
+            let plant = grown(&format!("abop/{figure}"), age, 1);
+            assert_eq!(plant.nodes.len(), (1 << age) - 1, "{figure}, step {age}");
+            assert!(plant.ledger.is_empty(), "{figure}: nothing vanishes");
+        }
+    }
+    // The apices of step 10 stand on the segments that they have made: those of the last step.
+    let plant = grown("abop/2.6a", 10, 1);
+    let tips = tips(&plant, 1.0);
+    // Each of the 512 last segments bears two apices.
+    assert_eq!((tips.len(), plant.nodes.len()), (512, 1023));
+    let (found, expected) = (mean(&tips), [-0.023129, 2.911796, -0.508310]);
+    assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 2e-6), "{found:?}");
+}
+
+/// Fig. 2.7 is GMT1 of Aono & Kunii 1984 with h1 = a1 and h2 = −a2, turned by 90° about the trunk, point for point.
+#[test]
+fn sympodial_trees_are_gmt1() {
+    use phytomer_models::fault::Path;
+    use phytomer_models::geometric::Gmt1;
+    for (figure, r2, a1, a2) in [("a", 0.7, 5.0, 65.0), ("b", 0.7, 10.0, 60.0), ("c", 0.8, 20.0, 50.0), ("d", 0.8, 35.0, 35.0)] {
+        let gmt1 = Gmt1 {
+            h1_deg: a1.into(),
+            h2_deg: (-a2).into(),
+            r1: 0.9.into(),
+            r2: r2.into(),
+            diameter_ratio: 0.707.into(),
+            divergence_deg: 0.0.into(),
+            levels: 7.into(),
+            first_length_m: 1.0.into(),
+            first_diameter_m: 0.1.into(),
+        };
+        let model = gmt1.compile(8, &Path::root()).expect("a sound tree");
+        let seed = Seed { plant: 0, draws: 0, run_seed: 1, component_limit: 100_000, keep_events: false };
+        let mut plot = Plot::of_one(&model, &seed);
+        plot.grow_to(8).expect("room to grow");
+        let mut tree = plot.plants.remove(0);
+        pose(&mut tree, 8);
+        let points = |plant: &Plant, turned: bool| {
+            let nodes = (0..plant.nodes.len() as u32).map(|node| node_frame(plant, NodeId(node)).base);
+            let mut points: Vec<[f32; 3]> = nodes.map(|[x, y, z]| if turned { [-y, x, z] } else { [x, y, z] }).collect();
+            points.sort_by(|one, other| one.partial_cmp(other).expect("numbers"));
+            points
+        };
+        let plant = grown(&format!("abop/2.7{figure}"), 8, 1);
+        let (own, theirs) = (points(&plant, true), points(&tree, false));
+        assert_eq!(own.len(), theirs.len());
+        let far = |point: &[f32; 3]| {
+            let distance = |other: &[f32; 3]| (0..3).map(|i| (point[i] - other[i]).abs()).fold(0.0, f32::max);
+            theirs.iter().map(distance).fold(f32::INFINITY, f32::min)
+        };
+        let furthest = own.iter().map(far).fold(0.0, f32::max);
+        assert!(furthest < 1e-5, "2.7{figure}: {furthest}");
+    }
+}
+
+/// Fig. 2.8: 2·3ⁿ − 1 segments; the widths that a step has made hold the square of the first: w² sums up to 3ⁿ.
+#[test]
+fn trees_of_three_daughters() {
+    for figure in ["2.8a", "2.8b", "2.8c", "2.8d"] {
+        let plant = grown(&format!("abop/{figure}"), 5, 1);
+        assert_eq!(plant.nodes.len(), 2 * 243 - 1, "{figure}");
+    }
+    let plant = grown("abop/2.8a", 6, 1);
+    let (found, expected) = (mean(&tips(&plant, 0.01)), [-43.179219, 784.271207, 3.687640]);
+    assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3), "{found:?}");
+}
+
+/// L-system 1: one of four outcomes, whose modules stand as buds.
+#[test]
+fn l_system_1_stands_as_buds() {
+    for seed in 0..20 {
+        let plant = grown("topiary/1", 1, seed);
+        assert_eq!(plant.organs.len() + plant.nodes.len(), 5, "four modules, and the foot that they stand on");
+    }
+}
+
+/// L-system 6: nothing stands a whole internode outside its cube, and what grew outside is gone.
+#[test]
+fn l_system_6_fills_its_cube() {
+    let plant = grown("topiary/6", 27, 2);
+    for node in 0..plant.nodes.len() as u32 {
+        let [x, y, z] = node_frame(&plant, NodeId(node)).base;
+        assert!(x.abs() < 7.001 && y.abs() < 7.001 && (-1.001..13.001).contains(&z), "{x} {y} {z}");
+    }
+    assert!(plant.nodes.len() > 300 && !plant.ledger.is_empty(), "{} internodes", plant.nodes.len());
+}
+
+fn told(report: Report) -> String {
+    report.render(false)
+}
+
+const SPECIES: &str = "name = \"own\"\nmodel = \"lsystem\"\ntick = \"a step\"\nfile = \"own.l\"\n";
+
+#[test]
+fn what_is_wrong_in_a_file_is_told_at_its_line_and_column() {
+    let texts = |l: &'static str, v: &'static str| [("own", SPECIES), ("own.l", l), ("own.v", v)];
+    let grown = validate_texts("own", &texts("Axiom: F(1)\nF(x) --> F(2*x)\n", "angle increment: 30\n"));
+    assert!(grown.is_ok(), "{}", grown.err().map(told).unwrap_or_default());
+    let wrong = validate_texts("own", &texts("Axiom: F(1)\nF(x) --> F(2*y)\n", "angle increment: many\n"));
+    let report = told(wrong.err().expect("it is wrong"));
+    assert!(report.contains("own.v:1:18"), "{report}");
+    assert!(report.contains("own.l:2:"), "{report}");
+    let unknown = format!("{SPECIES}[kinds]\nA = \"bud\"\n");
+    let report = told(validate_texts("own", &[("own", &unknown), ("own.l", "Axiom: FA\n")]).err().expect("it is wrong"));
+    assert!(report.contains("unknown kind `bud`"), "{report}");
+    let report = told(validate_texts("own", &[("own", SPECIES)]).err().expect("it is wrong"));
+    assert!(report.contains("there is no file `own.l`"), "{report}");
+    let outside = SPECIES.replace("own.l", "../own.l");
+    let report = told(validate_texts("own", &[("own", &outside)]).err().expect("it is wrong"));
+    assert!(report.contains("may lie outside the folder"), "{report}");
+}
+
+#[test]
+fn includes_and_constants_are_read() {
+    let species = format!("{SPECIES}[define]\nn = 3\n");
+    let texts = [
+        ("own", species.as_str()),
+        ("own.l", "#include \"more.h\"\nAxiom: X\nX --> TWICE\n"),
+        ("more.h", "#define n 1\n#define TWICE F(n)F(n)\n"),
+    ];
+    let resolved = validate_texts("own", &texts).unwrap_or_else(|report| panic!("{}", told(report)));
+    let seed = Seed { plant: 0, draws: 0, run_seed: 1, component_limit: 100, keep_events: false };
+    let mut plot = Plot::of_one(resolved.model.as_ref(), &seed);
+    plot.grow_to(1).expect("room to grow");
+    assert_eq!(plot.plants[0].nodes.length, [3.0, 3.0]);
+}

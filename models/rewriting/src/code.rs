@@ -1,0 +1,163 @@
+//! A program as it is carried out: names have become numbers of variables, symbols kinds of modules.
+
+use crate::fault::Place;
+use crate::symbol::Kind;
+use crate::syntax::Operator;
+
+/// An expression.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Code {
+    Number(f64),
+    /// A parameter of the predecessor or its contexts, or a variable of the production.
+    Local(u16),
+    /// A variable of the blocks.
+    Global(u16),
+    /// How many steps have begun.
+    Step,
+    Negative(Box<Code>),
+    Not(Box<Code>),
+    Binary(Operator, Box<(Code, Code)>),
+    Choice(Box<(Code, Code, Code)>),
+    Call(Builtin, Box<[Code]>),
+    /// The key of further draws changes.
+    Seed(Box<Code>),
+    Element(u16, Box<[Code]>, Place),
+    /// A function that the file defines.
+    Function(u16, Box<[Code]>, Place),
+    /// A function that stands outside the file.
+    Outside(u32, Box<[Code]>, Place),
+}
+
+/// A function that every program knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Builtin {
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Atan2,
+    Exp,
+    Log,
+    Sqrt,
+    Floor,
+    Ceil,
+    Round,
+    Absolute,
+    Sign,
+    Min,
+    Max,
+    Uniform,
+    Normal,
+    Beta,
+    Binomial,
+    /// Does nothing and is 0.
+    Silent,
+}
+
+/// A statement.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Act {
+    Local(u16, Code),
+    Global(u16, Code),
+    Element(u16, Box<[Code]>, Code, Place),
+    Do(Code),
+    If(Code, Box<[Act]>, Box<[Act]>),
+    While(Code, Box<[Act]>, Place),
+    Repeat(Box<[Act]>, Code, Place),
+}
+
+/// An array: its dimensions and first values.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Array {
+    pub name: String,
+    pub dimensions: Vec<usize>,
+    pub values: Vec<f64>,
+}
+
+/// A part of a predecessor or a context.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Item {
+    /// A module of a kind, whose parameters become variables from this one on.
+    Module(Kind, u16),
+    /// What is left of a branch.
+    Rest,
+}
+
+/// A module of a successor.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Made {
+    pub kind: Kind,
+    pub arguments: Box<[Code]>,
+    pub place: Place,
+    /// The module of the predecessor that goes on as this one.
+    pub continues: Option<u8>,
+}
+
+/// A production.
+#[derive(Debug, Clone)]
+pub(crate) struct Rule {
+    pub place: Place,
+    /// From the right to the left.
+    pub left: Box<[Item]>,
+    pub strict: Box<[Item]>,
+    pub right: Box<[Item]>,
+    pub before: Box<[Act]>,
+    pub condition: Option<Code>,
+    pub after: Box<[Act]>,
+    pub successor: Box<[Made]>,
+    pub weight: Option<Code>,
+    /// How many variables it has.
+    pub locals: u16,
+}
+
+impl Rule {
+    /// Whether it rewrites every module of its kind, whatever stands around it.
+    pub fn is_certain(&self) -> bool {
+        let alone = self.left.is_empty() && self.right.is_empty() && self.strict.len() == 1;
+        alone && self.condition.is_none() && self.before.is_empty() && self.weight.is_none()
+    }
+}
+
+/// Productions of one section.
+#[derive(Debug, Default)]
+pub(crate) struct Rules {
+    pub rules: Vec<Rule>,
+    /// For each kind the productions of which it is the first module, in their order.
+    pub by_kind: Vec<Vec<u32>>,
+    /// Whether all productions that apply compete by their weights.
+    pub compete: bool,
+    /// Whether any production looks at contexts.
+    pub looks: bool,
+    /// The most productions within one another.
+    pub depth: u32,
+    /// What `seed:` of the section adds to the key of its draws.
+    pub seed: u64,
+}
+
+impl Rules {
+    #[inline]
+    pub fn of(&self, kind: Kind) -> &[u32] {
+        self.by_kind.get(usize::from(kind.0)).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// Everything that a derivation needs.
+#[derive(Debug)]
+pub(crate) struct Script {
+    pub axiom: Box<[Made]>,
+    pub rewriting: Rules,
+    pub decomposition: Rules,
+    pub homomorphism: Rules,
+    pub start: Box<[Act]>,
+    pub start_each: Box<[Act]>,
+    pub end_each: Box<[Act]>,
+    /// The functions of the file: expressions over their parameters.
+    pub functions: Vec<Code>,
+    pub globals: usize,
+    pub arrays: Vec<Array>,
+    /// For each kind whether contexts see it.
+    pub visible: Vec<bool>,
+    pub ring: bool,
+}

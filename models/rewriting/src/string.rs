@@ -1,0 +1,352 @@
+//! The string of modules of one plant: symbols, parameters in one flat column, the identity of each module, and the
+//! order in which modules stand, as links.
+//!
+//! A module keeps its [`Slot`] as long as it lives, so that a step touches what it rewrites and nothing else, and a
+//! closing bracket knows its opening one. A slot that is free is used again. Absent: which module becomes what.
+
+use crate::symbol::{CLOSE, Kind, OPEN, Symbol};
+use phytomer_sim::key::LineageKey;
+
+/// Where a module is kept while it lives; no order of the string.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Slot(pub(crate) u32);
+
+impl Slot {
+    /// A number below [`ModuleString::slots`], for tables of what is known of modules.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// No slot: before the first module and after the last.
+pub(crate) const NONE: u32 = u32::MAX;
+/// The kind of a slot that holds no module.
+const FREE: Kind = Kind(u16::MAX);
+
+/// Whence a module comes, and since when it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Identity {
+    /// Names the module at every step, as long as it lasts.
+    pub key: LineageKey,
+    /// The step in which it was made; 0 for the axiom.
+    pub birth: u32,
+    /// The key of the module that was rewritten into it at its birth; that of the seed for the axiom.
+    pub predecessor: LineageKey,
+}
+
+/// A module of a string.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Module<'s> {
+    /// Where it is kept.
+    pub slot: Slot,
+    /// Its name.
+    pub symbol: Symbol,
+    /// Its parameters.
+    pub parameters: &'s [f64],
+    /// Its key, its birth and its predecessor.
+    pub identity: Identity,
+}
+
+/// A string of modules in its order.
+#[derive(Debug, Clone)]
+pub struct ModuleString {
+    /// The symbol and the number of parameters of each kind.
+    kinds: Box<[(Symbol, u16)]>,
+    kind: Vec<Kind>,
+    next: Vec<u32>,
+    previous: Vec<u32>,
+    /// Where the parameters begin; at a bracket the slot of its partner.
+    first: Vec<u32>,
+    identity: Vec<Identity>,
+    parameters: Vec<f64>,
+    free: Vec<u32>,
+    /// Where parameters may begin that belong to no module, by their number.
+    free_parameters: Vec<Vec<u32>>,
+    head: u32,
+    tail: u32,
+    length: usize,
+}
+
+impl ModuleString {
+    pub(crate) fn new(kinds: &[(Symbol, u16)]) -> Self {
+        let most = kinds.iter().map(|&(_, arity)| usize::from(arity)).max().unwrap_or(0);
+        Self {
+            kinds: kinds.into(),
+            kind: Vec::new(),
+            next: Vec::new(),
+            previous: Vec::new(),
+            first: Vec::new(),
+            identity: Vec::new(),
+            parameters: Vec::new(),
+            free: Vec::new(),
+            free_parameters: vec![Vec::new(); most + 1],
+            head: NONE,
+            tail: NONE,
+            length: 0,
+        }
+    }
+
+    /// How many modules there are.
+    pub fn len(&self) -> usize {
+        self.length
+    }
+
+    /// Whether there is no module.
+    pub fn is_empty(&self) -> bool {
+        self.length == 0
+    }
+
+    /// One more than the greatest index of a slot so far.
+    pub fn slots(&self) -> usize {
+        self.kind.len()
+    }
+
+    /// The modules in their order.
+    pub fn modules(&self) -> impl Iterator<Item = Module<'_>> {
+        self.slots_in_order().map(|slot| self.module(slot))
+    }
+
+    /// The slots of the modules in their order.
+    pub fn slots_in_order(&self) -> impl Iterator<Item = Slot> {
+        let mut at = self.head;
+        std::iter::from_fn(move || {
+            let slot = (at != NONE).then_some(Slot(at))?;
+            at = self.next[at as usize];
+            Some(slot)
+        })
+    }
+
+    /// The module in a slot that [`ModuleString::modules`] has told.
+    pub fn module(&self, slot: Slot) -> Module<'_> {
+        let index = slot.index();
+        let (symbol, _) = self.kinds[usize::from(self.kind[index].0)];
+        Module { slot, symbol, parameters: self.parameters(slot), identity: self.identity[index] }
+    }
+
+    /// The closing bracket of an opening one and the reverse; `None` for what is no bracket.
+    pub fn partner(&self, slot: Slot) -> Option<Slot> {
+        let kind = self.kind[slot.index()];
+        (kind == OPEN || kind == CLOSE).then(|| Slot(self.first[slot.index()]))
+    }
+
+    /// Sets the first parameters of a module, as many as it has.
+    pub fn set_parameters(&mut self, slot: Slot, values: &[f64]) {
+        let range = self.parameter_range(slot);
+        for (parameter, value) in self.parameters[range].iter_mut().zip(values) {
+            *parameter = *value;
+        }
+    }
+
+    #[inline]
+    pub(crate) fn parameters(&self, slot: Slot) -> &[f64] {
+        &self.parameters[self.parameter_range(slot)]
+    }
+
+    #[inline]
+    fn parameter_range(&self, slot: Slot) -> std::ops::Range<usize> {
+        let index = slot.index();
+        let (_, arity) = self.kinds[usize::from(self.kind[index].0)];
+        let first = if arity == 0 { 0 } else { self.first[index] as usize };
+        first..first + usize::from(arity)
+    }
+
+    #[inline]
+    pub(crate) fn kind(&self, slot: Slot) -> Kind {
+        self.kind[slot.index()]
+    }
+
+    /// Whether no module is kept in the slot any more.
+    #[inline]
+    pub(crate) fn is_free(&self, slot: Slot) -> bool {
+        self.kind[slot.index()] == FREE
+    }
+
+    #[inline]
+    pub(crate) fn identity(&self, slot: Slot) -> Identity {
+        self.identity[slot.index()]
+    }
+
+    #[inline]
+    pub(crate) fn after(&self, slot: Slot) -> Option<Slot> {
+        let next = self.next[slot.index()];
+        (next != NONE).then_some(Slot(next))
+    }
+
+    #[inline]
+    pub(crate) fn before(&self, slot: Slot) -> Option<Slot> {
+        let previous = self.previous[slot.index()];
+        (previous != NONE).then_some(Slot(previous))
+    }
+
+    pub(crate) fn first_slot(&self) -> Option<Slot> {
+        (self.head != NONE).then_some(Slot(self.head))
+    }
+
+    pub(crate) fn last_slot(&self) -> Option<Slot> {
+        (self.tail != NONE).then_some(Slot(self.tail))
+    }
+
+    /// How many parameters all modules have.
+    pub(crate) fn parameter_count(&self) -> usize {
+        let free = self.free_parameters.iter().enumerate().map(|(arity, list)| arity * list.len()).sum();
+        self.parameters.len().saturating_sub(free)
+    }
+
+    /// Makes room for so many modules.
+    pub(crate) fn reserve(&mut self, modules: usize) {
+        let more = modules.saturating_sub(self.kind.len());
+        self.kind.reserve_exact(more);
+        self.next.reserve_exact(more);
+        self.previous.reserve_exact(more);
+        self.first.reserve_exact(more);
+        self.identity.reserve_exact(more);
+    }
+
+    /// Makes two brackets partners.
+    pub(crate) fn pair(&mut self, open: Slot, close: Slot) {
+        self.first[open.index()] = close.0;
+        self.first[close.index()] = open.0;
+    }
+
+    /// Rewrites a module where it stands: another kind, parameters and identity.
+    #[inline]
+    pub(crate) fn rewrite(&mut self, slot: Slot, kind: Kind, values: &[f64], identity: Identity) {
+        let index = slot.index();
+        if self.arity(self.kind[index]) != values.len() {
+            self.release_parameters(slot);
+            self.first[index] = self.claim_parameters(values.len());
+        }
+        self.kind[index] = kind;
+        self.identity[index] = identity;
+        if !values.is_empty() {
+            let first = self.first[index] as usize;
+            self.parameters[first..first + values.len()].copy_from_slice(values);
+        }
+    }
+
+    /// Puts a new module behind `slot`, or before all others.
+    pub(crate) fn insert(&mut self, after: Option<Slot>, kind: Kind, values: &[f64], identity: Identity) -> Slot {
+        let next = after.map_or(self.head, |slot| self.next[slot.index()]);
+        let previous = after.map_or(NONE, |slot| slot.0);
+        let first = self.claim_parameters(values.len());
+        self.parameters[first as usize..first as usize + values.len()].copy_from_slice(values);
+        let slot = match self.free.pop() {
+            Some(free) => free,
+            None => {
+                self.kind.push(FREE);
+                self.next.push(NONE);
+                self.previous.push(NONE);
+                self.first.push(0);
+                self.identity.push(identity);
+                (self.kind.len() - 1) as u32
+            }
+        };
+        let index = slot as usize;
+        (self.kind[index], self.first[index], self.identity[index]) = (kind, first, identity);
+        (self.next[index], self.previous[index]) = (next, previous);
+        self.link(previous, slot);
+        self.link(slot, next);
+        self.length += 1;
+        Slot(slot)
+    }
+
+    /// Takes a module out; returns the slot before it.
+    pub(crate) fn remove(&mut self, slot: Slot) -> Option<Slot> {
+        let index = slot.index();
+        let (previous, next) = (self.previous[index], self.next[index]);
+        match (previous, next) {
+            (NONE, NONE) => (self.head, self.tail) = (NONE, NONE),
+            (NONE, next) => (self.head, self.previous[next as usize]) = (next, NONE),
+            (previous, NONE) => (self.tail, self.next[previous as usize]) = (previous, NONE),
+            _ => self.link(previous, next),
+        }
+        self.release_parameters(slot);
+        self.kind[index] = FREE;
+        self.free.push(slot.0);
+        self.length -= 1;
+        (previous != NONE).then_some(Slot(previous))
+    }
+
+    fn link(&mut self, before: u32, after: u32) {
+        match before {
+            NONE => self.head = after,
+            before => self.next[before as usize] = after,
+        }
+        match after {
+            NONE => self.tail = before,
+            after => self.previous[after as usize] = before,
+        }
+    }
+
+    #[inline]
+    fn arity(&self, kind: Kind) -> usize {
+        self.kinds.get(usize::from(kind.0)).map_or(0, |&(_, arity)| usize::from(arity))
+    }
+
+    fn claim_parameters(&mut self, arity: usize) -> u32 {
+        if arity == 0 {
+            return 0;
+        }
+        if let Some(first) = self.free_parameters.get_mut(arity).and_then(Vec::pop) {
+            return first;
+        }
+        let first = self.parameters.len();
+        self.parameters.resize(first + arity, 0.0);
+        first as u32
+    }
+
+    fn release_parameters(&mut self, slot: Slot) {
+        let arity = self.arity(self.kind[slot.index()]);
+        if arity > 0
+            && let Some(free) = self.free_parameters.get_mut(arity)
+        {
+            free.push(self.first[slot.index()]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::symbol::SymbolTable;
+
+    fn identity(key: u64) -> Identity {
+        Identity { key: LineageKey(key), birth: 0, predecessor: LineageKey::SEED }
+    }
+
+    /// Modules put in, rewritten and taken out at any place are those of a plain list.
+    #[test]
+    fn a_string_is_a_list() {
+        let mut table = SymbolTable::new();
+        let symbol = table.add("A");
+        let kinds: Vec<Kind> = (0..3).map(|arity| table.kind(symbol, arity)).collect();
+        let mut string = ModuleString::new(table.kinds());
+        let mut list: Vec<(Slot, Vec<f64>)> = Vec::new();
+        let mut state = 1_u64;
+        for step in 0..20_000_u64 {
+            state = phytomer_sim::key::scramble(state);
+            let place = (state >> 8) as usize % (list.len() + 1);
+            let values: Vec<f64> = (0..(state >> 40) % 3).map(|value| (value + step) as f64).collect();
+            let kind = kinds[values.len()];
+            match state % 5 {
+                0 | 1 if list.len() < 50 => {
+                    let before = place.checked_sub(1).map(|place| list[place].0);
+                    list.insert(place, (string.insert(before, kind, &values, identity(step)), values));
+                }
+                2 if place < list.len() => {
+                    string.rewrite(list[place].0, kind, &values, identity(step));
+                    list[place].1 = values;
+                }
+                _ if place < list.len() => {
+                    let before = string.remove(list.remove(place).0);
+                    assert_eq!(before, place.checked_sub(1).map(|place| list[place].0));
+                }
+                _ => {}
+            }
+            assert_eq!(string.len(), list.len());
+            let told: Vec<(Slot, Vec<f64>)> = string.modules().map(|m| (m.slot, m.parameters.to_vec())).collect();
+            assert_eq!(told, list);
+        }
+        assert!(string.slots() <= 50 && string.parameters.len() <= 50 * 3, "what is free is used again");
+    }
+}

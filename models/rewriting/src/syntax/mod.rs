@@ -1,0 +1,16 @@
+//! From letters to a tree: what the text says, in its own words. Names are names here; what they mean is the matter of
+//! `compile`.
+
+mod expression;
+mod file;
+mod keyword;
+mod lines;
+mod module;
+mod production;
+mod statement;
+
+pub(crate) use expression::{Expression, Name, Operator, Parser};
+pub(crate) use file::{File, Section, parse};
+pub(crate) use module::{Formal, MOST_PARAMETERS, ModuleText};
+pub(crate) use production::Production;
+pub(crate) use statement::Statement;

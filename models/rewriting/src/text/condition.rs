@@ -1,0 +1,56 @@
+//! The expressions of `#if` and `#elif`: numbers, operators and `defined(NAME)`; a name that is no macro is 0.
+
+use super::macros::{Broken, Macros, word_end};
+use crate::fault::Place;
+use crate::letters::Letter;
+use crate::syntax::{Expression, Parser};
+
+/// Whether the expression in these letters is not 0.
+pub(super) fn holds(letters: &[Letter], place: Place, macros: &mut Macros) -> Result<bool, Broken> {
+    let mut expanded = Vec::new();
+    let asked = with_defined(letters, macros);
+    macros.expand(&asked, &mut expanded)?;
+    expanded.retain(|letter| letter.c != '\n');
+    let mut parser = Parser::new(&expanded, place);
+    let broken = |fault| Broken { fault, exhausted: false };
+    let expression = parser.expression().map_err(broken)?;
+    parser.ends().map_err(broken)?;
+    Ok(value(&expression) != 0.0)
+}
+
+/// The letters with `defined NAME` and `defined(NAME)` replaced by 1 or 0.
+fn with_defined(letters: &[Letter], macros: &mut Macros) -> Vec<Letter> {
+    let (mut out, mut at) = (Vec::new(), 0);
+    while at < letters.len() {
+        let end = word_end(letters, at);
+        let word: String = letters[at..end].iter().map(|letter| letter.c).collect();
+        if word != "defined" {
+            out.extend_from_slice(&letters[at..end]);
+            at = end;
+            continue;
+        }
+        let is_outside = |letter: &&Letter| letter.c.is_whitespace() || letter.c == '(';
+        let start = end + letters[end..].iter().take_while(is_outside).count();
+        let inside: String = letters[start..].iter().map(|letter| letter.c).collect();
+        let name: String = inside.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+        let c = if macros.is_defined(&name) { '1' } else { '0' };
+        out.push(Letter { c, place: letters[at].place });
+        at = start + name.chars().count();
+        let opened = letters[end..start.min(letters.len())].iter().any(|letter| letter.c == '(');
+        if opened && let Some(close) = letters[at..].iter().position(|letter| letter.c == ')') {
+            at += close + 1;
+        }
+    }
+    out
+}
+
+fn value(expression: &Expression) -> f64 {
+    match expression {
+        Expression::Number(number) => *number,
+        Expression::Negative(inner) => -value(inner),
+        Expression::Not(inner) => f64::from(value(inner) == 0.0),
+        Expression::Binary(operator, pair) => operator.apply(value(&pair.0), value(&pair.1)),
+        Expression::Choice(three) => value(if value(&three.0) != 0.0 { &three.1 } else { &three.2 }),
+        _ => 0.0,
+    }
+}

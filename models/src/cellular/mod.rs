@@ -1,0 +1,32 @@
+//! Cellular branching (Prusinkiewicz & Lindenmayer 1990, *The Algorithmic Beauty of Plants*, ch. 2): plants that grow
+//! into space and heed what already stands there.
+//!
+//! Three models, each its parameters and its rule: [`Ulam`] colours the cells of a plane grid, [`Greene`] grows a vine
+//! by trials in voxels, [`Cohen`] sends tips through a field of density. Each adds internodes to the plant by `body`,
+//! and keeps its own picture of space in the plant's life. They make their plants anew from the seed where an earlier
+//! age is asked; what was cut off would leave its space to others, so that the rest would not grow on as it did, and
+//! plants of these models are not cut. Absent: secondary growth, organs, and space that several plants share.
+
+mod around;
+mod body;
+mod card;
+mod cohen;
+mod density;
+mod greene;
+mod grid;
+mod sky;
+mod thicket;
+mod ulam;
+mod voxels;
+
+pub use cohen::{Cohen, CohenModel};
+pub use greene::{Greene, Preferences};
+pub use thicket::GreeneModel;
+pub use ulam::{Grid, Plane, Ulam, UlamModel};
+
+#[cfg(test)]
+mod tests_cohen;
+#[cfg(test)]
+mod tests_greene;
+#[cfg(test)]
+mod tests_ulam;

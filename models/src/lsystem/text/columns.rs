@@ -1,0 +1,246 @@
+//! The columns of a plant, written from a draft: the turtle's (x, y, z), y up, are the plant's (x, −z, y).
+//!
+//! The internode that bears what stands at the base comes first, the others in the order of the string; so do axes, so
+//! that a bearer comes before what it bears at each age. Every part states how it is turned in the frame of its bearer,
+//! and where it begins. Absent: what departs (`model`).
+
+use super::draft::{BASE, Draft, Internode};
+use super::numbers::{Born, Bud, Numbered};
+use crate::lsystem::turtle::{Frame, Vector};
+use phytomer_looks::FormName;
+use phytomer_sim::clock::NEVER;
+use phytomer_sim::plant::{
+    ApexFate, AxisId, Cause, Class, Kind, LineageKey, NewAxis, NewNode, NewOrgan, NodeId, Origin, Part, Plant, Rest,
+};
+use phytomer_sim::rotation::Rotation;
+
+/// How units of the turtle become metres, and colours looks.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Measures {
+    /// The length of a step of 1, metres.
+    pub step: f64,
+    /// The diameter of a line of width 1, metres.
+    pub width: f64,
+    /// The kinds of internodes that lines are, with the place of the first look of each; a look for each colour.
+    pub looks: Vec<(Kind, u16)>,
+    /// Whether looks depend on colours.
+    pub coloured: bool,
+}
+
+/// The frame of the ground in the coordinates of the turtle: upright, its upper side along x.
+const GROUND: Frame =
+    Frame { position: [0.0; 3], heading: [0.0, 1.0, 0.0], left: [0.0, 0.0, 1.0], up: [1.0, 0.0, 0.0] };
+
+/// Writes the columns of `plant`, which are empty, at `age`; `bud` tells of the bud of an axis by its number.
+pub(super) fn write(
+    draft: &Draft,
+    numbered: &Numbered,
+    measures: &Measures,
+    plant: &mut Plant,
+    mut bud: impl FnMut(u32) -> Bud,
+) {
+    let to = Places { first: draft.first.filter(|_| draft.has_base) };
+    let mut borne = vec![0_u16; draft.nodes.len()];
+    for (axis, born) in draft.axes.iter().zip(&numbered.axes) {
+        let bearer = (born.number > 0).then(|| to.place(axis.on));
+        let new = NewAxis {
+            bearer: bearer.map(|place| NodeId(place as u32)),
+            key: LineageKey::SEED,
+            order: axis.order,
+            origin: if bearer.is_some() { Origin::Axillary } else { Origin::Seed },
+            position: bearer.map_or(0, |place| next(&mut borne[place])),
+            appearance: born.at,
+            birth: born.at,
+            insertion: 0.0,
+            ..NewAxis::OF_THE_SEED
+        };
+        let id = plant.place_axis(new, born.number);
+        let (tick, fate) = bud(born.number).end;
+        if fate != ApexFate::Alive {
+            plant.axes.end_apex(id, tick.max(born.at).max(1), fate);
+            // Wood lives as long as the string has it, whatever became of the apex.
+            plant.axes.spent[id.index()] = NEVER;
+        }
+    }
+    let mut ranks = vec![0_u32; draft.axes.len()];
+    for place in to.order(draft.nodes.len()) {
+        write_node(draft, place, numbered.nodes[place], &to, &mut ranks, measures, plant);
+    }
+    for (place, axis) in draft.axes.iter().enumerate().filter(|(place, _)| ranks[*place] == 0) {
+        if let Some((_, frame)) = axis.apex {
+            let part = Part::Axis(AxisId(place as u32));
+            state(plant, part, &bearing(draft, axis.on, &to), frame, measures.step);
+        }
+    }
+    let mut borne = vec![0_u16; draft.nodes.len()];
+    for place in 0..draft.organs.len() {
+        write_organ(draft, place, numbered.organs[place], &to, &mut borne, measures, plant);
+    }
+}
+
+/// Where the internodes of a draft stand in the columns: the one that bears the base comes first.
+struct Places {
+    first: Option<usize>,
+}
+
+impl Places {
+    /// The place of an internode in the columns.
+    fn place(&self, node: u32) -> usize {
+        match self.first {
+            _ if node == BASE => 0,
+            Some(first) if node as usize == first => 0,
+            Some(first) if (node as usize) < first => node as usize + 1,
+            _ => node as usize,
+        }
+    }
+
+    /// The internodes of a draft in the order of the columns.
+    fn order(&self, nodes: usize) -> impl Iterator<Item = usize> + use<> {
+        let first = self.first;
+        first.into_iter().chain((0..nodes).filter(move |node| Some(*node) != first))
+    }
+}
+
+fn next(count: &mut u16) -> u16 {
+    let position = *count;
+    *count = count.saturating_add(1).min(u16::MAX - 1);
+    position
+}
+
+fn write_node(
+    draft: &Draft,
+    place: usize,
+    born: Born,
+    to: &Places,
+    ranks: &mut [u32],
+    measures: &Measures,
+    plant: &mut Plant,
+) {
+    let node = &draft.nodes[place];
+    let rank = &mut ranks[node.axis as usize];
+    *rank += 1;
+    let is_first = node.axis == 0 && *rank == 1;
+    let new = NewNode {
+        parent: if is_first { NodeId::NONE } else { NodeId(to.place(node.below) as u32) },
+        axis: AxisId(node.axis),
+        birth: born.at,
+        rank: *rank,
+        unit_rank: 1,
+        short: false,
+        neoformed: false,
+        trend: 0,
+        length: (node.length * measures.step) as f32,
+        diameter: (node.width * measures.width) as f32,
+        azimuth: 0.0,
+    };
+    let id = plant.place_node(new, born.number);
+    let bearer = if is_first { Bearer { frame: GROUND, tip: [0.0; 3] } } else { bearing(draft, node.below, to) };
+    state(plant, Part::Node(id), &bearer, node.frame, measures.step);
+    if let Some(look) = measures.look(node) {
+        plant.give_look(id, look);
+    }
+}
+
+impl Measures {
+    /// The look of an internode that is not the habit's.
+    fn look(&self, node: &Internode) -> Option<u16> {
+        if !self.coloured && node.kind == Kind::Internode {
+            return None;
+        }
+        let (_, first) = self.looks.iter().find(|(kind, _)| *kind == node.kind)?;
+        Some(if self.coloured { first + node.colour.rem_euclid(256) as u16 } else { *first })
+    }
+}
+
+/// The frame of a bearer, and its tip.
+struct Bearer {
+    frame: Frame,
+    tip: Vector,
+}
+
+fn bearing(draft: &Draft, node: u32, to: &Places) -> Bearer {
+    let place = if node == BASE { to.first } else { Some(node as usize) };
+    let Some(node) = place.map(|place| &draft.nodes[place]) else { return Bearer { frame: GROUND, tip: [0.0; 3] } };
+    let mut end = node.frame;
+    end.go(node.length);
+    Bearer { frame: node.frame, tip: end.position }
+}
+
+/// A vector in the coordinates of a frame.
+fn within(frame: &Frame, vector: Vector) -> Vector {
+    [frame.heading, frame.left, frame.up].map(|axis| axis[0] * vector[0] + axis[1] * vector[1] + axis[2] * vector[2])
+}
+
+/// How a frame is turned in that of its bearer, and where it begins from the tip of that, metres.
+fn relative(bearer: &Bearer, frame: Frame, step: f64) -> (Rotation, [f32; 3]) {
+    let turned = Rotation::to(within(&bearer.frame, frame.heading), within(&bearer.frame, frame.up));
+    let beside = [0, 1, 2].map(|i| frame.position[i] - bearer.tip[i]);
+    (turned, within(&bearer.frame, beside).map(|along| (along * step) as f32))
+}
+
+fn state(plant: &mut Plant, part: Part, bearer: &Bearer, frame: Frame, step: f64) {
+    let (turned, start) = relative(bearer, frame, step);
+    plant.state_rest(part, Rest::Turned(turned));
+    plant.state_start(part, start);
+}
+
+fn write_organ(
+    draft: &Draft,
+    place: usize,
+    born: Born,
+    to: &Places,
+    borne: &mut [u16],
+    measures: &Measures,
+    plant: &mut Plant,
+) {
+    let organ = &draft.organs[place];
+    let node = to.place(organ.on);
+    let corners: Vec<[f32; 3]> = draft.corners[organ.outline.clone()]
+        .iter()
+        .map(|corner| [0, 1, 2].map(|i| corner[i] - organ.frame.position[i]))
+        .map(|beside| within(&organ.frame, beside).map(|along| (along * measures.step) as f32))
+        .collect();
+    let size = (organ.size * measures.width) as f32;
+    let [length, width] = if corners.len() < 3 { [size; 2] } else { [extent(&corners, 0), extent(&corners, 1)] };
+    let new = NewOrgan {
+        node: NodeId(node as u32),
+        kind: organ.kind,
+        position: next(&mut borne[node]),
+        birth: born.at,
+        death: NEVER,
+        cause: Cause::None,
+        form: form_of(organ.kind).form(),
+        length,
+        width,
+        area: 0.0,
+        azimuth: 0.0,
+        insertion: 0.0,
+    };
+    let id = plant.place_organ(new, born.number);
+    let (turned, start) = relative(&bearing(draft, organ.on, to), organ.frame, measures.step);
+    plant.state_organ(id, turned, start);
+    if corners.len() >= 3 {
+        plant.state_outline(id, &corners);
+    } else if organ.kind.class() == Class::Leaf {
+        plant.organs.area[id.index()] = length * width * form_of(organ.kind).area_share();
+    }
+    if measures.coloured {
+        plant.give_organ_look(id, organ.colour.rem_euclid(256) as u16);
+    }
+}
+
+/// The extent of an outline along an axis of its frame.
+fn extent(corners: &[[f32; 3]], axis: usize) -> f32 {
+    let along = corners.iter().map(|corner| corner[axis]);
+    let (least, most) = along.fold((0.0_f32, 0.0_f32), |(least, most), x| (least.min(x), most.max(x)));
+    most - least
+}
+
+/// What an organ without an outline is drawn as.
+fn form_of(kind: Kind) -> FormName {
+    match kind.class() {
+        Class::Leaf => FormName::Elliptic,
+        Class::Flower => FormName::Corolla,
+        Class::Fruit | Class::Bud | Class::Internode => FormName::Berry,
+    }
+}

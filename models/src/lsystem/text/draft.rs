@@ -1,0 +1,342 @@
+//! The plant that a string describes, in the order of the string and in the coordinates of the turtle.
+//!
+//! A bracket is an axis once it holds an internode or an apex; what it bears stands on the internode that was drawn last
+//! before it, also where that is of an axis further down. What stands before the first internode of the trunk stands on
+//! the base of that internode; where the trunk has none, on a foot of length 0, which is an internode. Absent: numbers and
+//! ages (`numbers`), and the columns of a plant (`columns`).
+
+use super::role::{Role, Roles};
+use crate::lsystem::turtle::{Command, Drawing, Frame, Turtle, Vector};
+use phytomer_rewriting::{Derived, Drawn, Module, Slot};
+use phytomer_sim::key::LineageKey;
+use phytomer_sim::plant::Kind;
+use std::ops::Range;
+
+/// The place of what stands before the first internode of the trunk.
+pub(super) const BASE: u32 = u32::MAX;
+
+/// An internode.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Internode {
+    pub key: LineageKey,
+    pub axis: u32,
+    /// The internode below it, or [`BASE`].
+    pub below: u32,
+    pub frame: Frame,
+    pub length: f64,
+    pub width: f64,
+    pub kind: Kind,
+    pub colour: i32,
+}
+
+/// A leaf, a flower, a fruit, or a bud in an axil.
+#[derive(Debug, Clone)]
+pub(super) struct Organ {
+    pub key: LineageKey,
+    /// The internode that bears it, or [`BASE`].
+    pub on: u32,
+    pub frame: Frame,
+    pub kind: Kind,
+    /// The size of what has no outline.
+    pub size: f64,
+    /// Its outline, among the corners.
+    pub outline: Range<usize>,
+    pub colour: i32,
+    /// The module that was rewritten into its module.
+    pub predecessor: LineageKey,
+}
+
+/// An axis.
+#[derive(Debug, Clone)]
+pub(super) struct Axis {
+    /// The key of its bracket; that of the seed for the trunk.
+    pub key: LineageKey,
+    /// The internode that bears it, or [`BASE`].
+    pub on: u32,
+    pub order: u8,
+    /// Its last apex, where it has one: its key and its frame.
+    pub apex: Option<(LineageKey, Frame)>,
+}
+
+/// A component, by its class and its place there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Item {
+    Axis(usize),
+    Node(usize),
+    Organ(usize),
+}
+
+/// All that a string describes.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Draft {
+    pub nodes: Vec<Internode>,
+    pub organs: Vec<Organ>,
+    /// The trunk first.
+    pub axes: Vec<Axis>,
+    /// The corners of outlines, in the coordinates of the turtle.
+    pub corners: Vec<Vector>,
+    /// Every component but the trunk, in the order of the string.
+    pub order: Vec<Item>,
+    /// The internode that bears what stands at the base: the first of the trunk, or a foot.
+    pub first: Option<usize>,
+    /// Whether anything stands at the base before the first internode of the trunk.
+    pub has_base: bool,
+}
+
+/// What a bracket holds: its key, its axis once it is one, and the internode drawn last.
+#[derive(Debug, Clone, Copy)]
+struct Bracket {
+    key: LineageKey,
+    axis: Option<u32>,
+    last: u32,
+}
+
+/// The outlines of surfaces, by their symbols: corners along H, L and U, of the size of the view.
+pub(super) type Outlines = Vec<(char, Vec<Vector>)>;
+
+/// A walk along the modules of a string.
+pub(super) struct Walk<'w> {
+    roles: &'w Roles,
+    outlines: &'w Outlines,
+    turtle: &'w mut Turtle,
+    draft: &'w mut Draft,
+    open: Vec<Bracket>,
+    at: Bracket,
+    /// The modules that come next in the string itself.
+    following: Box<dyn Iterator<Item = Module<'w>> + 'w>,
+    /// The module whose drawing is walked along, and whether the species names its kind, with its organ if it is one.
+    of: Option<Slot>,
+    named: Option<Option<usize>>,
+    predecessor: LineageKey,
+}
+
+impl<'w> Walk<'w> {
+    /// A walk from the beginning of the string, for a draft that forgets what it held.
+    pub fn begin(
+        roles: &'w Roles,
+        outlines: &'w Outlines,
+        turtle: &'w mut Turtle,
+        draft: &'w mut Draft,
+        derived: &'w Derived,
+    ) -> Self {
+        turtle.restart();
+        draft.clear();
+        let at = Bracket { key: LineageKey::SEED, axis: Some(0), last: BASE };
+        let following = Box::new(derived.string().modules());
+        let predecessor = LineageKey::SEED;
+        Self { roles, outlines, turtle, draft, open: Vec::new(), at, following, of: None, named: None, predecessor }
+    }
+
+    /// Goes on by a module as it is drawn; what a query that stands there asks for.
+    pub fn go_on(&mut self, drawn: &Drawn<'_>) -> Option<crate::lsystem::turtle::Query> {
+        if self.of != Some(drawn.of) {
+            self.come_to(drawn);
+        }
+        let (command, role) = self.roles.get(drawn.symbol);
+        match command {
+            Command::Open => {
+                self.open.push(self.at);
+                self.at = Bracket { key: drawn.key, axis: None, last: self.at.last };
+            }
+            Command::Close => self.at = self.open.pop().unwrap_or(self.at),
+            _ => {}
+        }
+        // What is drawn for a module of a stated kind is its form, and no component.
+        let silent = self.named.is_some() && drawn.depth > 0;
+        if !silent {
+            self.state_of(role, drawn.key);
+        }
+        let Self { turtle, draft, outlines, .. } = self;
+        let colour = turtle.state().colour[0];
+        let frame = turtle.state().frame;
+        match turtle.follow(command, drawn.parameters)? {
+            Drawing::Line { from, length, width } if !silent => {
+                let kind = if let Role::Internode(kind) = role { kind } else { Kind::Internode };
+                let node = Internode { key: drawn.key, axis: 0, below: BASE, frame: from, length, width, kind, colour };
+                self.add_node(node);
+            }
+            Drawing::Polygon { from, corners } => {
+                let outline = draft.add_outline(corners.iter().copied());
+                self.drawn_as_outline(silent, role, drawn.key, from, outline, colour);
+            }
+            Drawing::Surface { symbol, scale } => {
+                let outline = outlines.iter().find(|(known, _)| *known == symbol).map(|(_, corners)| corners);
+                let placed = outline.into_iter().flatten().map(|corner| placed(&frame, *corner, scale));
+                let outline = draft.add_outline(placed);
+                self.drawn_as_outline(silent, role, drawn.key, frame, outline, colour);
+            }
+            Drawing::Query(query) => return Some(query),
+            Drawing::Mark(_, size) => self.size_last(role, drawn.key, size),
+            Drawing::Line { .. } => {}
+        }
+        None
+    }
+
+    /// The turtle as it is now.
+    pub fn turtle(&self) -> &Turtle {
+        self.turtle
+    }
+
+    /// Ends the walk: what stands at the base is borne by the first internode of the trunk, or by a foot.
+    pub fn end(mut self) {
+        self.pass_to(None);
+        let draft = self.draft;
+        draft.first = draft.nodes.iter().position(|node| node.axis == 0);
+        draft.has_base = draft.stands_at_base();
+        if draft.first.is_none() && draft.has_base {
+            let frame = Frame::START;
+            let foot = Internode {
+                key: foot_key(),
+                axis: 0,
+                below: BASE,
+                frame,
+                length: 0.0,
+                width: 0.0,
+                kind: Kind::Internode,
+                colour: 0,
+            };
+            draft.nodes.push(foot);
+            draft.first = Some(draft.nodes.len() - 1);
+        }
+    }
+
+    /// Comes to the first module that is drawn for another module of the string.
+    fn come_to(&mut self, drawn: &Drawn<'_>) {
+        self.of = Some(drawn.of);
+        self.named = None;
+        let Some(module) = self.pass_to(Some(drawn.of)) else { return };
+        self.predecessor = module.identity.predecessor;
+        let role = self.roles.get(module.symbol).1;
+        if drawn.depth > 0 && matches!(role, Role::Apex | Role::Organ(_)) {
+            let before = self.draft.organs.len();
+            self.state_of(role, module.identity.key);
+            self.named = Some((self.draft.organs.len() > before).then_some(before));
+        }
+    }
+
+    /// Passes modules of the string up to one, or to the end: those of a stated kind stand where nothing is drawn too.
+    fn pass_to(&mut self, slot: Option<Slot>) -> Option<Module<'w>> {
+        loop {
+            let module = self.following.next()?;
+            if Some(module.slot) == slot {
+                return Some(module);
+            }
+            self.predecessor = module.identity.predecessor;
+            let role = self.roles.get(module.symbol).1;
+            self.state_of(role, module.identity.key);
+        }
+    }
+
+    /// The component that a module of a stated kind is, beside what it draws; organs that draw an outline come with it.
+    fn state_of(&mut self, role: Role, key: LineageKey) {
+        let state = self.turtle.state();
+        let (frame, size, colour) = (state.frame, state.width, state.colour[0]);
+        match role {
+            Role::Apex => {
+                let axis = self.axis();
+                self.draft.axes[axis as usize].apex = Some((key, frame));
+            }
+            Role::Organ(kind) => self.add_organ(key, kind, frame, size, 0..0, colour),
+            Role::AsDrawn | Role::Internode(_) => {}
+        }
+    }
+
+    /// The axis of the bracket, which it becomes now if it was none.
+    fn axis(&mut self) -> u32 {
+        if let Some(axis) = self.at.axis {
+            return axis;
+        }
+        let axis = self.draft.axes.len() as u32;
+        let bearing = if self.at.last == BASE { 0 } else { self.draft.nodes[self.at.last as usize].axis };
+        let order = self.draft.axes[bearing as usize].order.saturating_add(1);
+        self.draft.axes.push(Axis { key: self.at.key, on: self.at.last, order, apex: None });
+        self.draft.order.push(Item::Axis(axis as usize));
+        self.at.axis = Some(axis);
+        axis
+    }
+
+    fn add_node(&mut self, node: Internode) {
+        let axis = self.axis();
+        let place = self.draft.nodes.len();
+        self.draft.nodes.push(Internode { axis, below: self.at.last, ..node });
+        self.draft.order.push(Item::Node(place));
+        self.at.last = place as u32;
+    }
+
+    fn add_organ(&mut self, key: LineageKey, kind: Kind, frame: Frame, size: f64, outline: Range<usize>, colour: i32) {
+        self.draft.order.push(Item::Organ(self.draft.organs.len()));
+        let predecessor = self.predecessor;
+        self.draft.organs.push(Organ { key, on: self.at.last, frame, kind, size, outline, colour, predecessor });
+    }
+
+    /// A polygon or a surface: of the module of a stated kind that it is drawn for, its form; else a leaf.
+    fn drawn_as_outline(
+        &mut self,
+        silent: bool,
+        role: Role,
+        key: LineageKey,
+        frame: Frame,
+        outline: Range<usize>,
+        colour: i32,
+    ) {
+        let named = if silent { self.named.flatten() } else { None };
+        let own = self.draft.organs.len().checked_sub(1).filter(|last| self.draft.organs[*last].key == key);
+        match (named.or(own.filter(|_| matches!(role, Role::Organ(_)))), silent) {
+            (Some(organ), _) => {
+                let organ = &mut self.draft.organs[organ];
+                // The first outline is the form.
+                if organ.outline.is_empty() {
+                    (organ.outline, organ.frame, organ.colour) = (outline, frame, colour);
+                }
+            }
+            (None, true) => {}
+            (None, false) => self.add_organ(key, Kind::Leaf, frame, 0.0, outline, colour),
+        }
+    }
+
+    /// A mark gives its size to the organ that it is.
+    fn size_last(&mut self, role: Role, key: LineageKey, size: f64) {
+        let last = self.draft.organs.last_mut().filter(|last| last.key == key);
+        if let (Role::Organ(_), Some(organ)) = (role, last) {
+            organ.size = size;
+        }
+    }
+}
+
+impl Draft {
+    fn clear(&mut self) {
+        self.nodes.clear();
+        self.organs.clear();
+        self.axes.clear();
+        self.corners.clear();
+        self.order.clear();
+        self.first = None;
+        self.has_base = false;
+        self.axes.push(Axis { key: LineageKey::SEED, on: BASE, order: 1, apex: None });
+    }
+
+    fn add_outline(&mut self, corners: impl Iterator<Item = Vector>) -> Range<usize> {
+        let first = self.corners.len();
+        self.corners.extend(corners);
+        first..self.corners.len()
+    }
+
+    /// Whether anything but the first internode of the trunk stands at the base.
+    fn stands_at_base(&self) -> bool {
+        self.nodes.iter().any(|node| node.below == BASE && node.axis != 0)
+            || self.axes.iter().skip(1).any(|axis| axis.on == BASE)
+            || self.organs.iter().any(|organ| organ.on == BASE)
+    }
+}
+
+/// The key of the foot of a plant whose trunk has no internode.
+fn foot_key() -> LineageKey {
+    LineageKey::SEED.child(u64::MAX)
+}
+
+/// A corner of a surface where the turtle is: along H, L and U, scaled across, along and above.
+fn placed(frame: &Frame, corner: Vector, scale: [f64; 3]) -> Vector {
+    let [across, along, above] = scale;
+    let [h, l, u] = [corner[0] * along, corner[1] * across, corner[2] * above];
+    [0, 1, 2].map(|i| frame.position[i] + h * frame.heading[i] + l * frame.left[i] + u * frame.up[i])
+}

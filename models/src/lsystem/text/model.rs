@@ -1,0 +1,330 @@
+//! An L-system of a text as a growth model: a step a tick, each string drawn, and the plant written anew from it.
+//!
+//! The axiom is age 0. Queries are answered by drawing the string after each step. Absent: the language
+//! (`phytomer_rewriting`), drawing (`draft`), numbers (`numbers`).
+
+use super::columns::{Measures, write};
+use super::draft::{Draft, Outlines, Walk};
+use super::events::{self, Noted};
+use super::numbers::{Bud, Numbered, Numbers};
+use super::role::Roles;
+use crate::lsystem::turtle::{Query, Turtle};
+use phytomer_rewriting::{Answers, Derived, Interpreter, Program, Stopped};
+use phytomer_sim::clock::Tick;
+use phytomer_sim::key::LineageKey;
+use phytomer_sim::model::{Grow, Growth, Overgrown};
+use phytomer_sim::plant::{ApexFate, AxisId, Class, EventKind, Habit, NodeId, OrganId, Plant, Shape};
+use phytomer_sim::random::PlantRandom;
+use phytomer_sim::site::View;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// An L-system of a text, read and checked.
+#[derive(Debug)]
+pub struct TextModel {
+    pub(super) program: Program,
+    pub(super) roles: Roles,
+    pub(super) turtle: Turtle,
+    pub(super) outlines: Outlines,
+    pub(super) measures: Measures,
+    pub(super) tapered: bool,
+    pub(super) habit: Arc<Habit>,
+}
+
+/// What is remembered of a plant between ticks: its string, and the numbers of what stands.
+#[derive(Debug, Clone)]
+pub struct Life {
+    /// The string, or why it came to a stop.
+    derived: Result<Derived, Arc<str>>,
+    numbers: Numbers,
+    scratch: Scratch,
+}
+
+/// Memory that is used again at each tick.
+#[derive(Debug, Clone)]
+struct Scratch {
+    turtle: Turtle,
+    draft: Draft,
+    numbered: Numbered,
+}
+
+impl PartialEq for Life {
+    fn eq(&self, other: &Self) -> bool {
+        let same = |one: &Derived, other: &Derived| {
+            let modules =
+                |derived: &Derived| derived.string().modules().map(|m| (m.symbol, m.identity)).collect::<Vec<_>>();
+            modules(one) == modules(other)
+        };
+        let strings = match (&self.derived, &other.derived) {
+            (Ok(one), Ok(other)) => same(one, other),
+            (one, other) => one.as_ref().err() == other.as_ref().err(),
+        };
+        strings && self.numbers == other.numbers
+    }
+}
+
+/// Draws a string, and answers its queries by where they stand.
+struct Drawing<'d> {
+    model: &'d TextModel,
+    scratch: &'d mut Scratch,
+    /// Whether the string as it is now was drawn.
+    drawn: bool,
+}
+
+impl Drawing<'_> {
+    fn draw(
+        &mut self,
+        program: &Program,
+        derived: &Derived,
+        mut answer: impl FnMut(&phytomer_rewriting::Drawn<'_>, Query, &Turtle),
+    ) -> Result<(), Stopped> {
+        let Scratch { turtle, draft, .. } = &mut *self.scratch;
+        let mut walk = Walk::begin(&self.model.roles, &self.model.outlines, turtle, draft, derived);
+        program.draw(derived, |drawn| {
+            if let Some(query) = walk.go_on(&drawn) {
+                answer(&drawn, query, walk.turtle());
+            }
+        })?;
+        walk.end();
+        self.drawn = true;
+        Ok(())
+    }
+}
+
+impl Interpreter for Drawing<'_> {
+    fn answer(&mut self, program: &Program, derived: &Derived, answers: &mut Answers) -> Result<(), (String, String)> {
+        let told = self.draw(program, derived, |drawn, query, turtle| {
+            let frame = &turtle.state().frame;
+            let values = match query {
+                Query::Position => frame.position,
+                Query::Axis(axis) => frame.axis(axis),
+                Query::Environment => return,
+            };
+            if drawn.depth == 0 {
+                answers.give(drawn.of, values);
+            }
+        });
+        told.map_err(|stopped| (stopped.problem, stopped.expected))
+    }
+}
+
+impl TextModel {
+    /// How many steps the file asks for.
+    pub fn derivation_length(&self) -> Option<Tick> {
+        self.program.settings().steps
+    }
+
+    /// What the text says, as it is derived.
+    pub fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// Derives the string of a plant without making the plant: its queries are answered as in a plant that grows.
+    ///
+    /// # Errors
+    /// Why a step cannot be made.
+    pub fn derive(&self, random: PlantRandom, steps: Tick) -> Result<Derived, Stopped> {
+        let (draft, numbered) = (Draft::default(), Numbered::default());
+        let mut scratch = Scratch { turtle: self.turtle.clone(), draft, numbered };
+        let mut drawing = Drawing { model: self, scratch: &mut scratch, drawn: false };
+        let mut derived = self.program.sow(random, &mut drawing)?;
+        for _ in 0..steps {
+            self.program.step(&mut derived, &mut drawing)?;
+        }
+        Ok(derived)
+    }
+
+    /// Draws a plant's string and writes its columns, at `age`; what stood before and stands no more departs.
+    fn stand(&self, age: Tick, plant: &mut Plant, life: &mut Life) -> Result<(), Overgrown> {
+        let Life { derived: Ok(derived), numbers, scratch } = life else { return Ok(()) };
+        let Scratch { draft, numbered, .. } = scratch;
+        numbers.number(draft, age, plant, numbered);
+        if plant.is_overgrown() {
+            return Err(Overgrown::of(plant));
+        }
+        let lost = Lost::of(draft, derived);
+        let mut noted = Noted::before(plant);
+        self.end_buds(draft, numbered, numbers, &lost, age, &mut noted);
+        depart(plant, numbered, numbers, &lost, age, &mut noted);
+        plant.begin_rewriting();
+        write(draft, numbered, &self.measures, plant, |number| *numbers.bud(number));
+        plant.age = age;
+        events::note(plant, age, noted);
+        Ok(())
+    }
+
+    /// The buds of axes that have lost their last apex end; without stated apices every bud lives on.
+    fn end_buds(
+        &self,
+        draft: &Draft,
+        numbered: &Numbered,
+        numbers: &mut Numbers,
+        lost: &Lost,
+        age: Tick,
+        noted: &mut Noted,
+    ) {
+        if !self.roles.states_apices {
+            return;
+        }
+        for (axis, born) in draft.axes.iter().zip(&numbered.axes) {
+            let bud = numbers.bud(born.number);
+            if bud.end.1 != ApexFate::Alive {
+                continue;
+            }
+            match (axis.apex, bud.apex) {
+                (Some((key, _)), _) => bud.apex = Some(key),
+                (None, before) => {
+                    bud.end = (age, before.map_or(ApexFate::Completed, |key| lost.fate_of(key)));
+                    if age > 0 {
+                        noted.add(born.number, event_of(bud.end.1), 1);
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn event_of(fate: ApexFate) -> EventKind {
+    match fate {
+        ApexFate::Flowered => EventKind::Flowered,
+        ApexFate::Pruned => EventKind::Pruned,
+        ApexFate::Completed => EventKind::Completed,
+        _ => EventKind::Rewritten,
+    }
+}
+
+/// Why modules are lost: which have become flowers, and which were cut off; all others were rewritten.
+struct Lost {
+    flowered: BTreeSet<LineageKey>,
+    cut: BTreeSet<LineageKey>,
+}
+
+impl Lost {
+    fn of(draft: &Draft, derived: &Derived) -> Self {
+        let flowers = draft.organs.iter().filter(|organ| organ.kind.class() == Class::Flower);
+        let flowered = flowers.map(|organ| organ.predecessor).collect();
+        Self { flowered, cut: derived.cut().iter().copied().collect() }
+    }
+
+    fn fate_of(&self, key: LineageKey) -> ApexFate {
+        if self.cut.contains(&key) {
+            ApexFate::Pruned
+        } else if self.flowered.contains(&key) {
+            ApexFate::Flowered
+        } else {
+            ApexFate::Rewritten
+        }
+    }
+}
+
+/// Enters into the ledger what stands in the columns and stands no more.
+fn depart(plant: &mut Plant, numbered: &Numbered, numbers: &mut Numbers, lost: &Lost, age: Tick, noted: &mut Noted) {
+    let stands = |number: u32| numbered.stands.get(number as usize).copied().unwrap_or(false);
+    for organ in (0..plant.organs.len()).map(|place| OrganId(place as u32)) {
+        let number = plant.organs.component[organ.index()];
+        if !stands(number) {
+            let cause = lost.fate_of(numbers.forget(number)).cause();
+            let axis = plant.nodes.axis[plant.organs.node[organ.index()].index()];
+            noted.add(plant.axes.component[axis.index()], EventKind::Rewritten, 1);
+            plant.depart_organ(organ, age, cause);
+        }
+    }
+    for node in (0..plant.nodes.len()).map(|place| NodeId(place as u32)) {
+        let number = plant.nodes.component[node.index()];
+        if !stands(number) {
+            let cause = lost.fate_of(numbers.forget(number)).cause();
+            noted.add(plant.axes.component[plant.nodes.axis[node.index()].index()], EventKind::Rewritten, 1);
+            plant.depart(node, age, cause);
+        }
+    }
+    for axis in (0..plant.axes.len()).map(|place| AxisId(place as u32)) {
+        let number = plant.axes.component[axis.index()];
+        if !stands(number) {
+            let bracket = numbers.forget(number);
+            let bud: Bud = *numbers.bud(number);
+            let fate = lost.fate_of(bud.apex.unwrap_or(bracket));
+            if bud.end.1 == ApexFate::Alive {
+                noted.add(number, event_of(fate), 1);
+            }
+            plant.depart_axis(axis, age, fate.cause());
+        }
+    }
+}
+
+impl Grow for TextModel {
+    type Life = Life;
+
+    fn growth(&self) -> Growth {
+        Growth::Rewrites
+    }
+
+    fn habit(&self) -> Arc<Habit> {
+        Arc::clone(&self.habit)
+    }
+
+    fn sow(&self, plant: &mut Plant) -> Life {
+        plant.name_by_number();
+        let (draft, numbered) = (Draft::default(), Numbered::default());
+        let mut scratch = Scratch { turtle: self.turtle.clone(), draft, numbered };
+        let mut drawing = Drawing { model: self, scratch: &mut scratch, drawn: false };
+        let sown = self.program.sow(plant.random.clone(), &mut drawing);
+        let derived = sown.and_then(|derived| {
+            if !drawing.drawn {
+                drawing.draw(&self.program, &derived, |_, _, _| ())?;
+            }
+            Ok(derived)
+        });
+        let derived = derived.map_err(|stopped| stopped.to_string().into());
+        let mut life = Life { derived, numbers: Numbers::default(), scratch };
+        if life.derived.is_ok()
+            && let Err(overgrown) = self.stand(0, plant, &mut life)
+        {
+            life.derived = Err(overgrown.to_string().into());
+        }
+        if life.derived.is_err() {
+            plant.begin_rewriting();
+            events::sow_alone(plant);
+        }
+        life
+    }
+
+    fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Life, _: &View<'_>) -> Result<(), Overgrown> {
+        while plant.age < age {
+            let Life { derived, scratch, .. } = &mut *life;
+            let derived = derived.as_mut().map_err(|why| Overgrown::stopped(plant, why))?;
+            let mut drawing = Drawing { model: self, scratch, drawn: false };
+            let mut done = self.program.step(derived, &mut drawing);
+            if done.is_ok() && !drawing.drawn {
+                done = drawing.draw(&self.program, derived, |_, _, _| ());
+            }
+            if let Err(stopped) = done {
+                let why: Arc<str> = stopped.to_string().into();
+                life.derived = Err(Arc::clone(&why));
+                return Err(Overgrown::stopped(plant, &why));
+            }
+            self.stand(plant.age + 1, plant, life)?;
+        }
+        Ok(())
+    }
+
+    /// A line has its own width where it begins; where lines are tapered it ends with the width of the line that follows
+    /// on its axis.
+    fn thicken(&self, _age: Tick, plant: &mut Plant) {
+        let nodes = &mut plant.nodes;
+        nodes.diameter.copy_from_slice(&nodes.primary_diameter);
+        nodes.diameter_tip.copy_from_slice(&nodes.primary_diameter);
+        if self.tapered {
+            for node in 0..nodes.len() {
+                let below = nodes.parent[node].some().map(NodeId::index);
+                if let Some(below) = below.filter(|below| nodes.axis[*below] == nodes.axis[node]) {
+                    nodes.diameter_tip[below] = nodes.primary_diameter[node];
+                }
+            }
+        }
+    }
+}
+
+/// The shape of internodes.
+pub(super) fn shape(tapered: bool) -> Shape {
+    if tapered { Shape::Cone } else { Shape::Cylinder }
+}

@@ -1,0 +1,241 @@
+//! An L-system of a text with the files beside it, and what a species states of it; read, checked and compiled.
+//!
+//! Every text is handed over by its name: nothing is read here from a disk. Absent: which keys of a species these are
+//! (`parameters`).
+
+use super::columns::Measures;
+use super::curves::Curves;
+use super::draft::Outlines;
+use super::model::{TextModel, shape};
+use super::role::Roles;
+use crate::lsystem::turtle::Turtle;
+use crate::lsystem::view::{Colours, Function, Surface, TextFault, View};
+use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints};
+use phytomer_rewriting::{Program, Reading};
+use phytomer_sim::plant::{Class, Habit, InternodeLook, Kind, Looks, OrganLook, Trend};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// How many points a side the outline of a surface has.
+const OUTLINE: usize = 6;
+/// The diameter of a line of a pixel in lengths of a step, where a view file counts widths in pixels. Assumed.
+const PIXEL: f64 = 0.02;
+
+/// An L-system of a text, and what is stated of it.
+#[derive(Debug, Clone, Default)]
+pub struct TextSystem {
+    /// The name of its file.
+    pub file: String,
+    /// The name of its view file; `None` for the values of cpfg.
+    pub view: Option<String>,
+    /// The name of its map of colours (`.map`) or of materials (`.mat`).
+    pub colours: Option<String>,
+    /// Every text, by its name.
+    pub texts: BTreeMap<String, String>,
+    /// The bytes of maps, by their names.
+    pub maps: BTreeMap<String, Vec<u8>>,
+    /// The constants that are set, by their names.
+    pub define: Vec<(String, f64)>,
+    /// The kinds of modules, by their names.
+    pub kinds: BTreeMap<String, Kind>,
+    /// The modules that go on as the last of their symbol in a successor.
+    pub continues_last: Vec<String>,
+    /// The length of a step of 1, metres.
+    pub step_m: f64,
+    /// The diameter of a line of width 1, metres; `None`: as the view file counts widths.
+    pub width_m: Option<f64>,
+}
+
+/// What is wrong with a text or with what is stated of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Wrong {
+    /// A place in a text.
+    Text {
+        /// The name of the text.
+        file: String,
+        /// What is wrong in it, and where.
+        fault: TextFault,
+    },
+    /// The kind of a module.
+    Kind {
+        /// The name of the module.
+        module: String,
+        /// What is wrong.
+        problem: String,
+        /// What would be right.
+        expected: String,
+    },
+}
+
+impl TextSystem {
+    /// Reads and compiles it.
+    ///
+    /// # Errors
+    /// Everything that is wrong with its texts and with what is stated of it.
+    pub fn compile(&self) -> Result<TextModel, Vec<Wrong>> {
+        let mut wrong = Vec::new();
+        let view = self.view(&mut wrong);
+        let outlines = self.outlines(&view, &mut wrong);
+        let curves = self.curves(&view, &mut wrong);
+        let colours = self.colours(&mut wrong);
+        let program = self.program(curves, &mut wrong);
+        let roles = program.as_ref().map(|program| Roles::of(program.symbols(), &self.kinds));
+        match (program, roles) {
+            (Some(program), Some(Ok(roles))) if wrong.is_empty() => {
+                Ok(self.model(program, roles, &view, outlines, colours.as_ref()))
+            }
+            (_, Some(Err(refused))) => {
+                let kind = |(module, problem, expected)| Wrong::Kind { module, problem, expected };
+                Err(wrong.into_iter().chain(refused.into_iter().map(kind)).collect())
+            }
+            _ => Err(wrong),
+        }
+    }
+
+    fn model(
+        &self,
+        program: Program,
+        roles: Roles,
+        view: &View,
+        outlines: Outlines,
+        colours: Option<&Colours>,
+    ) -> TextModel {
+        let angle_deg = program.settings().angle_deg.unwrap_or(view.angle_deg);
+        let turtle = Turtle::new(&View { angle_deg, ..view.clone() });
+        let width = self.width_m.unwrap_or(if view.width_in_units { self.step_m } else { self.step_m * PIXEL });
+        let mut kinds: Vec<Kind> = self.kinds.values().copied().filter(|k| k.class() == Class::Internode).collect();
+        kinds.push(Kind::Internode);
+        kinds.sort_unstable();
+        kinds.dedup();
+        let (looks, places, paints) = looks(&kinds, view.tapered_lines, colours);
+        let measures = Measures { step: self.step_m, width, looks: places, coloured: colours.is_some() };
+        let for_drawing = paints.into_habit();
+        let habit = Habit { trends: vec![Trend::STRAIGHT], looks, for_drawing, ..Habit::default() };
+        let tapered = view.tapered_lines;
+        TextModel { program, roles, turtle, outlines, measures, tapered, habit: Arc::new(habit) }
+    }
+
+    fn view(&self, wrong: &mut Vec<Wrong>) -> View {
+        let Some((name, text)) = self.view.as_ref().and_then(|name| self.text(name, wrong)) else {
+            // Without a view file a width is a length, as in the book.
+            return View { width_in_units: false, ..View::default() };
+        };
+        View::read(text).unwrap_or_else(|faults| {
+            wrong.extend(faults.into_iter().map(|fault| in_text(name, fault)));
+            View::default()
+        })
+    }
+
+    /// The text with a name; where there is none that is wrong.
+    fn text<'t>(&'t self, name: &'t str, wrong: &mut Vec<Wrong>) -> Option<(&'t str, &'t str)> {
+        let text = self.texts.get(name).map(|text| (name, text.as_str()));
+        if text.is_none() {
+            wrong.push(in_text(name, missing()));
+        }
+        text
+    }
+
+    fn outlines(&self, view: &View, wrong: &mut Vec<Wrong>) -> Outlines {
+        let mut outlines = Outlines::new();
+        for named in &view.surfaces {
+            let Some((name, text)) = self.text(&named.file, wrong) else { continue };
+            match Surface::read(text) {
+                Ok(surface) => {
+                    let corners = surface.outline(OUTLINE).into_iter().map(|corner| corner.map(|x| x * named.size));
+                    outlines.push((named.symbol, corners.collect()));
+                }
+                Err(fault) => wrong.push(in_text(name, fault)),
+            }
+        }
+        outlines
+    }
+
+    fn curves(&self, view: &View, wrong: &mut Vec<Wrong>) -> Curves {
+        let mut curves = Vec::new();
+        if let Some((name, text)) = view.function_set.as_ref().and_then(|name| self.text(name, wrong)) {
+            match Function::read_set(text) {
+                Ok(functions) => curves = functions,
+                Err(fault) => wrong.push(in_text(name, fault)),
+            }
+        }
+        for name in &view.functions {
+            let Some((name, text)) = self.text(name, wrong) else { continue };
+            match Function::read(text) {
+                Ok(function) => curves.push(function),
+                Err(fault) => wrong.push(in_text(name, fault)),
+            }
+        }
+        Curves(curves)
+    }
+
+    fn colours(&self, wrong: &mut Vec<Wrong>) -> Option<Colours> {
+        let name = self.colours.as_ref()?;
+        let Some(bytes) = self.maps.get(name) else {
+            wrong.push(in_text(name, missing()));
+            return None;
+        };
+        let read = if name.ends_with(".mat") { Colours::of_materials(bytes) } else { Colours::of_map(bytes) };
+        read.map_err(|fault| wrong.push(in_text(name, fault))).ok()
+    }
+
+    fn program(&self, curves: Curves, wrong: &mut Vec<Wrong>) -> Option<Program> {
+        let (_, text) = self.text(&self.file, wrong)?;
+        let include = |name: &str| {
+            self.texts
+                .get(name)
+                .cloned()
+                .ok_or_else(|| "there is no such file in the folder of the L-system".to_owned())
+        };
+        let reading = Reading {
+            define: &self.define,
+            outside: Arc::new(curves),
+            include: &include,
+            continues_last: &self.continues_last,
+            ..Reading::of(&self.file)
+        };
+        match Program::read(text, &reading) {
+            Ok(program) => Some(program),
+            Err(refused) => {
+                wrong.extend(refused.faults.iter().map(|fault| {
+                    let (line, column) = (fault.place.line, fault.place.column);
+                    let (problem, expected) = (fault.problem.clone(), fault.expected.clone());
+                    in_text(refused.file(fault), TextFault { line, column, problem, expected })
+                }));
+                None
+            }
+        }
+    }
+}
+
+fn in_text(file: &str, fault: TextFault) -> Wrong {
+    Wrong::Text { file: file.to_owned(), fault }
+}
+
+fn missing() -> TextFault {
+    let problem = "there is no such file".to_owned();
+    TextFault { line: 1, column: 1, problem, expected: "a file in the folder of the L-system".to_owned() }
+}
+
+/// The looks of internodes, by kinds and, where there are colours, by colour; the place of the first of each kind; and
+/// how they are drawn.
+fn looks(kinds: &[Kind], tapered: bool, colours: Option<&Colours>) -> (Looks, Vec<(Kind, u16)>, Paints) {
+    let plain = Looks::of_shape(shape(tapered));
+    let mut paints = Paints::default();
+    let (mut apart, mut organs_apart, mut places) = (Vec::new(), Vec::new(), Vec::new());
+    let numbers = if colours.is_some() { 0..256 } else { 0..1 };
+    for &kind in kinds {
+        places.push((kind, apart.len() as u16));
+        for number in numbers.clone() {
+            let colour = colours.and_then(|colours| colours.get(number));
+            let bark = Bark { shoot: colour, young: colour, old: colour, ..Bark::default() };
+            let paint = paints.add_internode(InternodePaint { bark, ..InternodePaint::default() });
+            apart.push(InternodeLook { kind, paint, ..InternodeLook::of_shape(shape(tapered)) });
+        }
+    }
+    for number in numbers.filter(|_| colours.is_some()) {
+        let colour = colours.and_then(|colours| colours.get(number));
+        let paint = paints.add_organ(OrganPaint { young: colour, old: colour, ..OrganPaint::default() });
+        organs_apart.push(OrganLook { paint, expansion: Vec::new() });
+    }
+    (Looks { apart, organs_apart, ..plain }, places, paints)
+}

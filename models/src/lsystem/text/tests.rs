@@ -1,0 +1,214 @@
+//! Plants of L-systems against the numbers of the papers: Synthetic Topiary (Prusinkiewicz, James & Měch 1994) and The
+//! Algorithmic Beauty of Plants (Prusinkiewicz & Lindenmayer 1990 ch. 2), their life tables, and the contract.
+
+use super::{TextModel, TextSystem};
+use crate::contract;
+use phytomer_sim::clock::Tick;
+use phytomer_sim::model::Grow as _;
+use phytomer_sim::plant::{Cause, Kind, Plant};
+use phytomer_sim::pose::{node_frame, pose};
+use std::collections::BTreeMap;
+
+/// L-system 3: a structure pruned to an ellipse.
+pub(super) const ELLIPSE: &str = "\
+lsystem: 1
+Axiom: A
+A --> [+B][-B]F?P(0,0)A
+B --> F?P(0,0)@oB
+?P(x,y) : 4*x*x + (y-10)*(y-10) > 100 --> [+(2*y)F][-(2*y)F]%
+endlsystem
+";
+
+/// L-system 4 with T → ε and contexts that see past brackets and turns.
+pub(super) const BOX: &str = "\
+lsystem: 1
+#define L 5.2
+#define prune(x,y) ((x < -L/2) || (x > L/2) || (y < 0) || (y > L))
+consider: F A ?P S T @o
+Axiom: FA?P(0,0)
+A > ?P(x,y) : !prune(x,y) --> @oF/(180)A
+A > ?P(x,y) : prune(x,y) --> T%
+F > T --> S
+F > S --> SF
+S --> *
+T --> *
+@o > S --> [+FA?P(0,0)]
+endlsystem
+";
+
+/// L-system 5: a stochastic tree.
+pub(super) const TREE: &str = "\
+lsystem: 1
+Axiom: FA(1)
+A(k) : k < 3 --> /(90)[+(32)FA(k+1)]-(20)FA(k+1)
+A(k) : k >= 3 --> /(90)[+(32)FA(k+1)]-(20)FA(k+1) : (2*k+1)/(k*k)
+A(k) : k >= 3 --> /(90)B-(20)FA(k+1) : 1-(2*k+1)/(k*k)
+endlsystem
+";
+
+/// Fig. 2.8a.
+pub(super) const TERNARY: &str = "\
+lsystem: 1
+#define d1 94.74
+#define d2 132.63
+#define a 18.95
+#define lr 1.109
+#define vr 1.732
+Axiom: !(1)F(200)/(45)A
+A --> !(vr)F(50)[&(a)F(50)A]/(d1)[&(a)F(50)A]/(d2)[&(a)F(50)A]
+F(l) --> F(l*lr)
+!(w) --> !(w*vr)
+endlsystem
+";
+
+pub(super) fn model(text: &str, view: &str, kinds: &[(&str, Kind)]) -> TextModel {
+    let texts = [("plant.l", text), ("plant.v", view)].map(|(name, text)| (name.to_owned(), text.to_owned()));
+    let system = TextSystem {
+        file: "plant.l".to_owned(),
+        view: Some("plant.v".to_owned()),
+        texts: texts.into(),
+        kinds: kinds.iter().map(|(name, kind)| ((*name).to_owned(), *kind)).collect(),
+        step_m: 1.0,
+        ..TextSystem::default()
+    };
+    system.compile().unwrap_or_else(|wrong| panic!("{wrong:#?}"))
+}
+
+pub(super) fn grown(model: &TextModel, age: Tick) -> Plant {
+    let mut plot = contract::sown(model, &contract::seed_of(1, 0));
+    if age > 0 {
+        plot.grow_to(age).expect("room to grow");
+    }
+    let mut plant = plot.plants.remove(0);
+    pose(&mut plant, age);
+    plant
+}
+
+/// The tip of an internode in the coordinates of the turtle: the plant is (x, −z, y).
+fn tip(plant: &Plant, node: usize) -> [f64; 3] {
+    let [x, y, z] = node_frame(plant, phytomer_sim::plant::NodeId(node as u32)).base.map(f64::from);
+    [x, z, -y]
+}
+
+fn count(plant: &Plant, kind: Kind) -> usize {
+    plant.organs.kind.iter().filter(|of| **of == kind).count()
+}
+
+/// F → FF, three steps: births along the axis 0 3 2 3 1 3 2 3; numbers 0 4 2 5 1 6 3 7 behind that of the bud.
+#[test]
+fn what_is_put_in_mid_axis_is_numbered_after_what_was_there() {
+    let doubling = model("Axiom: F\nF --> FF\n", "", &[]);
+    let plant = grown(&doubling, 3);
+    assert_eq!(plant.nodes.birth, [0, 3, 2, 3, 1, 3, 2, 3]);
+    assert_eq!(plant.nodes.component.iter().map(|n| n - 1).collect::<Vec<_>>(), [0, 4, 2, 5, 1, 6, 3, 7]);
+    let bearers: Vec<Option<Option<u32>>> = (0..9).map(|number| plant.bearer_at_birth(number)).collect();
+    // Born: the bud; F; F on F; then one on each of both; then one on each of the four.
+    let expected = [None, None, Some(1), Some(1), Some(2), Some(1), Some(3), Some(2), Some(4)];
+    assert_eq!(bearers, expected.map(Some));
+    let axes: Vec<f32> = plant.frames.base.iter().map(|base| base[2]).collect();
+    assert!(axes.iter().zip(0..).all(|(z, i)| (z - i as f32).abs() < 1e-6), "{axes:?}");
+}
+
+/// L-system 3: from step 23 on 313 internodes, of which 21 are of the stem and 43 pairs are tentacles.
+#[test]
+fn a_structure_is_pruned_to_an_ellipse() {
+    let ellipse = model(ELLIPSE, "angle increment: 60", &[("A", Kind::ApicalBud), ("B", Kind::ApicalBud)]);
+    for (step, internodes) in [(1, 1), (2, 4), (3, 9)] {
+        assert_eq!(grown(&ellipse, step).nodes.len(), internodes, "step {step}");
+    }
+    for step in [23, 25] {
+        let plant = grown(&ellipse, step);
+        let on_stem = plant.nodes.axis.iter().filter(|axis| axis.0 == 0).count();
+        assert_eq!((plant.nodes.len(), on_stem), (313, 21), "step {step}");
+        assert!(plant.axes.apex_end.iter().all(|end| *end <= 23), "no apex grows on");
+    }
+}
+
+/// Fig. 4 and the life table of L-system 4.
+#[test]
+fn a_simple_tree_responds_to_pruning() {
+    let kinds = [("A", Kind::ApicalBud), ("@o", Kind::AxillaryBud)];
+    let pruned = model(BOX, "angle increment: 32", &kinds);
+    let steps = [6, 7, 8, 10, 12, 13, 14, 17, 20, 40, 75, 94];
+    let found: Vec<(usize, usize)> = steps
+        .iter()
+        .map(|step| grown(&pruned, *step))
+        .map(|plant| (plant.nodes.len(), count(&plant, Kind::AxillaryBud)))
+        .collect();
+    let internodes = [6, 5, 6, 5, 6, 7, 7, 7, 6, 12, 18, 20];
+    let buds = [5, 5, 4, 4, 3, 4, 4, 3, 3, 3, 2, 0];
+    assert_eq!(found, internodes.into_iter().zip(buds).collect::<Vec<_>>());
+    assert!(count(&grown(&pruned, 93), Kind::AxillaryBud) > 0, "step 94 is the first without a dormant bud");
+    let plant = grown(&pruned, 94);
+    let gone = |kind| plant.ledger.iter().filter(move |gone| gone.kind == kind);
+    let short_lived: Vec<Tick> = gone(Kind::Internode).map(|gone| gone.death - gone.birth).collect();
+    assert_eq!(plant.nodes.len() + short_lived.len(), 39, "internodes born");
+    assert_eq!(short_lived, vec![2; 19]);
+    let mut waited: BTreeMap<Tick, usize> = BTreeMap::new();
+    gone(Kind::AxillaryBud).for_each(|gone| *waited.entry(gone.death - gone.birth).or_default() += 1);
+    let expected = [(3, 10), (8, 4), (13, 1), (18, 1), (23, 1), (48, 1), (93, 1)];
+    assert_eq!(waited, expected.into());
+    assert!(plant.ledger.iter().all(|gone| gone.cause == Cause::Rewritten));
+}
+
+/// What follows `%` is cut off and pruned; what becomes a flower has flowered.
+#[test]
+fn what_vanishes_has_a_cause() {
+    let text = "Axiom: FAF[+F~l]\nA --> K\nF > [ --> F\nK --> F%\n";
+    let kinds = [("A", Kind::ApicalBud), ("K", Kind::Flower)];
+    let flowering = model(text, "angle increment: 90", &kinds);
+    let plant = grown(&flowering, 1);
+    assert_eq!((plant.axes.apex_end[0], plant.axes.apex_fate[0]), (1, phytomer_sim::plant::ApexFate::Flowered));
+    assert_eq!((plant.nodes.len(), count(&plant, Kind::Flower), count(&plant, Kind::Leaf)), (3, 1, 1));
+    let plant = grown(&flowering, 2);
+    let causes: Vec<(Kind, Cause)> = plant.ledger.iter().map(|gone| (gone.kind, gone.cause)).collect();
+    let pruned = |kind| (kind, Cause::Pruned);
+    assert!(causes.contains(&(Kind::Flower, Cause::Rewritten)), "{causes:?}");
+    let all = [Kind::Leaf, Kind::Internode, Kind::Internode].map(pruned);
+    assert!(all.iter().all(|one| causes.contains(one)), "{causes:?}");
+    assert_eq!(plant.nodes.len(), 2, "the first internode, and that which the flower became");
+}
+
+/// Fig. 2.8: 2·3ⁿ − 1 internodes; the squares of the widths of the last generation sum up to 3ⁿ; the mean tip.
+#[test]
+fn a_tree_of_ternary_branching() {
+    let view = "tropism direction: 0.00,-1.00,0.00\ninitial elasticity: 0.22\ninitial line width: 1";
+    let ternary = model(TERNARY, view, &[]);
+    for step in 0..=6 {
+        let plant = grown(&ternary, step);
+        let tips = 3_usize.pow(step);
+        assert_eq!(plant.nodes.len(), 2 * tips - 1, "step {step}");
+    }
+    let plant = grown(&ternary, 6);
+    let is_last: Vec<bool> = (0..plant.nodes.len() as u32)
+        .map(|node| !plant.nodes.parent.contains(&phytomer_sim::plant::NodeId(node)))
+        .collect();
+    let tips: Vec<[f64; 3]> =
+        (0..plant.nodes.len()).filter(|node| is_last[*node]).map(|node| tip(&plant, node)).collect();
+    assert_eq!(tips.len(), 729);
+    let mean = [0, 1, 2].map(|i| tips.iter().map(|tip| tip[i]).sum::<f64>() / 729.0);
+    let expected = [-43.179219, 784.271207, 3.687640];
+    assert!(mean.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3), "{mean:?}");
+}
+
+/// A number that is none stops the string at its production, and the plant says where.
+#[test]
+fn a_string_that_comes_to_a_stop_says_why() {
+    let model = model("Axiom: F(2)\nF(x) --> F(1/(x-x))\n", "", &[]);
+    let mut plot = contract::sown(&model, &contract::seed_of(1, 0));
+    let stopped = plot.grow_to(1).expect_err("it stops");
+    assert!(stopped.to_string().starts_with("plant 0 came to a stop: plant.l:2:"), "{stopped}");
+    assert_eq!(plot.grow_to(2).expect_err("it stays so"), stopped);
+}
+
+#[test]
+fn systems_of_texts_keep_the_contract() {
+    let apices = [("A", Kind::ApicalBud), ("B", Kind::ApicalBud), ("@o", Kind::AxillaryBud)];
+    contract::check(&model(ELLIPSE, "angle increment: 60", &apices), 6, 3);
+    contract::check(&model(BOX, "angle increment: 32", &[apices[0], apices[2]]), 24, 3);
+    contract::check(&model(TREE, "", &[apices[0]]), 7, 3);
+    contract::check(&model(TERNARY, "initial elasticity: 0.22", &[]), 4, 3);
+    contract::check(&model("Axiom: F\nF --> FF\n", "", &[]), 6, 3);
+    let model = model("Axiom: F\nF --> FF\n", "", &[]);
+    assert_eq!(model.growth(), phytomer_sim::model::Growth::Rewrites);
+}

@@ -1,0 +1,382 @@
+//! The turtle: it reads the modules of a string one by one, moves, turns, and says what each module draws.
+//!
+//! Prusinkiewicz & Lindenmayer 1990 (§1.5, ch. 2, §5.1, App. C), and what the files of cpfg use beyond it. Angles are in
+//! degrees, lengths and widths in units of the turtle, in double precision; the frame is that of [`Frame`]. Absent: which
+//! modules are components of a plant (`components`), and the meaning of colours and surfaces (`view`).
+//!
+//! Decided where the book and cpfg are silent or differ:
+//! - The tropism turns after each `F` and `f` (`G`, `g`), by the angle e |H × T| about H × T, T as given; L and U turn
+//!   with H. The numbered tropisms of cpfg (`tropism:`) turn before the line, as there.
+//! - Between `{` and `}` lines are edges of the polygon, and are not drawn. Between `@Gs` and `@Ge` a line is drawn from
+//!   each point to the next, at `@Gc` and `@Ge`, and `F` only moves. `{(1)` and `}(1)` are `@Gs` and `@Ge`.
+//! - A parameter that is no number counts as 0, and none is larger than 10³⁰ in size, so that no position overflows.
+//! - A bracket that closes nothing is passed over.
+
+mod command;
+mod frame;
+mod settings;
+#[cfg(test)]
+mod tests;
+
+pub use command::{Axis, Change, Command, Counter, Mark, Query, Spline};
+pub use frame::{Frame, Vector};
+
+use super::view::View;
+use frame::{cross, dot, unit};
+use phytomer_sim::math::sincos;
+use settings::{Settings, bounded};
+
+/// Colours are counted around so many.
+const COLOURS: i32 = 256;
+
+/// What a turtle carries and a bracket gives back.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct State {
+    /// Where it is.
+    pub frame: Frame,
+    /// The width of lines.
+    pub width: f64,
+    /// The colour of the front and of the back.
+    pub colour: [i32; 2],
+    /// The scale of lengths.
+    pub scale: f64,
+    /// The susceptibility e to the tropism.
+    elasticity: f64,
+    /// The point from which a generalised cylinder goes on.
+    spline: Option<(Vector, f64)>,
+}
+
+impl State {
+    fn first(settings: &Settings) -> Self {
+        Self {
+            frame: Frame::START,
+            width: settings.width,
+            colour: settings.colour,
+            scale: settings.scale,
+            elasticity: settings.elasticity,
+            spline: None,
+        }
+    }
+}
+
+/// What a module has drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Drawing<'t> {
+    /// A line from the position of a frame along its heading.
+    Line {
+        /// Where it begins.
+        from: Frame,
+        /// Its length, at least 0.
+        length: f64,
+        /// Its width where it begins.
+        width: f64,
+    },
+    /// A polygon, in the frame where it began.
+    Polygon {
+        /// Where it began.
+        from: Frame,
+        /// Its corners, in the coordinates of the turtle.
+        corners: &'t [Vector],
+    },
+    /// A surface at the turtle, scaled across, along and above.
+    Surface {
+        /// Its symbol.
+        symbol: char,
+        /// Factors of its size along L, H and U.
+        scale: [f64; 3],
+    },
+    /// A round mark at the turtle, of a diameter.
+    Mark(Mark, f64),
+    /// A query asks at the turtle.
+    Query(Query),
+}
+
+/// A turtle.
+#[derive(Debug, Clone)]
+pub struct Turtle {
+    state: State,
+    stack: Vec<State>,
+    /// The corners of open polygons, all in one list; where the corners of each begin, and where the turtle was.
+    corners: Vec<Vector>,
+    polygons: Vec<(usize, Frame)>,
+    /// The corners of the polygon that ended last.
+    ended: Vec<Vector>,
+    settings: Settings,
+    /// The susceptibilities to the numbered tropisms, and those that open brackets give back.
+    elasticities: Vec<f64>,
+    elasticities_before: Vec<f64>,
+}
+
+impl Turtle {
+    /// A turtle at its beginning.
+    pub fn new(view: &View) -> Self {
+        let settings = Settings::of(view);
+        let state = State::first(&settings);
+        let mut turtle = Self {
+            state,
+            stack: Vec::new(),
+            corners: Vec::new(),
+            polygons: Vec::new(),
+            ended: Vec::new(),
+            settings,
+            elasticities: Vec::new(),
+            elasticities_before: Vec::new(),
+        };
+        turtle.restart();
+        turtle
+    }
+
+    /// Goes back to the beginning.
+    pub fn restart(&mut self) {
+        self.state = State::first(&self.settings);
+        self.stack.clear();
+        self.corners.clear();
+        self.polygons.clear();
+        self.ended.clear();
+        self.elasticities.clear();
+        self.elasticities.extend(self.settings.tropisms.iter().map(|tropism| tropism.elasticity));
+        self.elasticities_before.clear();
+    }
+
+    /// Its state.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Whether a polygon is open.
+    pub fn in_polygon(&self) -> bool {
+        !self.polygons.is_empty()
+    }
+
+    /// Does what a module tells; what the module draws.
+    #[inline]
+    pub fn follow(&mut self, command: Command, parameters: &[f64]) -> Option<Drawing<'_>> {
+        match command {
+            Command::Turn { about, positive } => self.turn(about, positive, parameters),
+            Command::Line { corner } => return self.line(corner, parameters),
+            Command::Open => self.open(),
+            Command::Close => self.close(),
+            Command::Step { corner } => self.go(self.length(parameters), corner),
+            Command::Nothing => {}
+            other => return self.follow_rare(other, parameters),
+        }
+        None
+    }
+
+    /// The commands that are less frequent.
+    fn follow_rare(&mut self, command: Command, parameters: &[f64]) -> Option<Drawing<'_>> {
+        match command {
+            Command::TurnAround => self.state.frame.turn_around(),
+            Command::RollUpright => self.state.frame.roll_upright(),
+            Command::Head => self.head(parameters),
+            Command::Place => self.place(parameters),
+            Command::Count { what, up } => self.count(what, up, parameters),
+            Command::Scale => self.state.scale = first(parameters).unwrap_or(self.state.scale),
+            Command::ScaleBy { multiplies } => self.scale_by(multiplies, parameters),
+            Command::PolygonStart if of_spline(parameters) => self.spline(Spline::Start)?,
+            Command::PolygonEnd if of_spline(parameters) => return self.cylinder(Spline::End),
+            Command::PolygonStart => self.polygons.push((self.corners.len(), self.state.frame)),
+            Command::PolygonEnd => return self.polygon(),
+            Command::Corner => self.corner(),
+            Command::Spline(part) => return self.cylinder(part),
+            Command::Elasticity => {
+                let more = self.state.elasticity + self.settings.elasticity_increment;
+                self.state.elasticity = first(parameters).unwrap_or(more);
+            }
+            Command::ElasticityOf(change) => self.elasticity_of(change, parameters),
+            Command::Mark(mark) => return Some(self.mark(mark, parameters)),
+            Command::Surface(symbol) => return Some(self.surface(symbol, parameters)),
+            Command::Query(query) => return Some(Drawing::Query(query)),
+            _ => {}
+        }
+        None
+    }
+
+    fn turn(&mut self, about: Axis, positive: bool, parameters: &[f64]) {
+        let angle = first(parameters).map_or(self.settings.angle, f64::to_radians);
+        self.state.frame.turn(about, if positive { angle } else { -angle });
+    }
+
+    /// The length of a step: its parameter, or 1, in the scale.
+    fn length(&self, parameters: &[f64]) -> f64 {
+        bounded(first(parameters).unwrap_or(1.0) * self.state.scale)
+    }
+
+    fn line(&mut self, corner: bool, parameters: &[f64]) -> Option<Drawing<'_>> {
+        self.bend_by_numbers();
+        let (from, length) = (self.state.frame, self.length(parameters));
+        self.move_by(length, corner);
+        let drawn = self.polygons.is_empty() && self.state.spline.is_none();
+        drawn.then(|| line_of(from, length, self.state.width))
+    }
+
+    /// A step that draws nothing.
+    fn go(&mut self, length: f64, corner: bool) {
+        self.bend_by_numbers();
+        self.move_by(length, corner);
+    }
+
+    fn move_by(&mut self, length: f64, corner: bool) {
+        self.state.frame.go(length);
+        self.state.frame.position = self.state.frame.position.map(bounded);
+        if corner && !self.polygons.is_empty() {
+            self.corners.push(self.state.frame.position);
+        }
+        if self.state.elasticity != 0.0 {
+            self.state.frame.bend(self.settings.tropism, self.state.elasticity);
+        }
+    }
+
+    fn open(&mut self) {
+        self.stack.push(self.state);
+        self.elasticities_before.extend_from_slice(&self.elasticities);
+    }
+
+    fn close(&mut self) {
+        let Some(state) = self.stack.pop() else { return };
+        self.state = state;
+        let first = self.elasticities_before.len() - self.elasticities.len();
+        self.elasticities.copy_from_slice(&self.elasticities_before[first..]);
+        self.elasticities_before.truncate(first);
+    }
+
+    fn head(&mut self, parameters: &[f64]) {
+        let [x, y, rest @ ..] = parameters else { return };
+        let heading = [*x, *y, rest.first().copied().unwrap_or(0.0)];
+        self.state.frame.head(heading.map(bounded));
+        if let [_, u, v, w, ..] = *rest {
+            self.state.frame.roll_to([u, v, w].map(bounded));
+        }
+    }
+
+    fn place(&mut self, parameters: &[f64]) {
+        if let [x, y, rest @ ..] = parameters {
+            self.state.frame.position = [*x, *y, rest.first().copied().unwrap_or(0.0)].map(bounded);
+        }
+    }
+
+    fn count(&mut self, what: Counter, up: bool, parameters: &[f64]) {
+        let sign = if up { 1 } else { -1 };
+        let place = match what {
+            Counter::Width => {
+                let more = self.state.width + f64::from(sign) * self.settings.width_increment * self.state.scale;
+                let width = first(parameters).map_or(more, |width| width * self.state.scale);
+                self.state.width = bounded(width).max(0.0);
+                return;
+            }
+            Counter::Colour => 0,
+            Counter::BackColour => 1,
+        };
+        let more = self.state.colour[place].wrapping_add(sign * self.settings.colour_increment[place]);
+        self.state.colour[place] = first(parameters).map_or(more, |colour| colour as i32).rem_euclid(COLOURS);
+    }
+
+    fn scale_by(&mut self, multiplies: bool, parameters: &[f64]) {
+        let factor = first(parameters).unwrap_or(self.settings.scale_multiplier);
+        if factor != 0.0 {
+            let scale = if multiplies { self.state.scale * factor } else { self.state.scale / factor };
+            self.state.scale = bounded(scale);
+        }
+    }
+
+    fn corner(&mut self) {
+        if !self.polygons.is_empty() {
+            self.corners.push(self.state.frame.position);
+        }
+    }
+
+    fn polygon(&mut self) -> Option<Drawing<'_>> {
+        let (start, from) = self.polygons.pop()?;
+        self.ended.clear();
+        self.ended.extend(self.corners.drain(start..));
+        Some(Drawing::Polygon { from, corners: &self.ended })
+    }
+
+    fn spline(&mut self, part: Spline) -> Option<()> {
+        let here = (self.state.frame.position, self.state.width);
+        self.state.spline = (part != Spline::End).then_some(here);
+        Some(())
+    }
+
+    /// The line of a generalised cylinder from its last point to here.
+    fn cylinder(&mut self, part: Spline) -> Option<Drawing<'_>> {
+        let before = self.state.spline.filter(|_| part != Spline::Start);
+        self.spline(part);
+        let (position, width) = before?;
+        let along = [0, 1, 2].map(|i| self.state.frame.position[i] - position[i]);
+        unit(along)?;
+        let mut from = Frame { position, ..self.state.frame };
+        from.head(along);
+        Some(line_of(from, dot(along, along).sqrt(), width))
+    }
+
+    fn elasticity_of(&mut self, change: Change, parameters: &[f64]) {
+        let place = first(parameters).unwrap_or(1.0) - 1.0;
+        let number = (place >= 0.0 && place < self.elasticities.len() as f64).then_some(place as usize);
+        let Some(number) = number else { return };
+        let by = parameters.get(1).copied().map(bounded);
+        let increment = self.settings.tropisms[number].elasticity_increment;
+        let elasticity = &mut self.elasticities[number];
+        match change {
+            Change::Up => *elasticity += by.unwrap_or(increment),
+            Change::Down => *elasticity -= by.unwrap_or(increment),
+            Change::Set => *elasticity = by.unwrap_or(0.0),
+        }
+    }
+
+    /// The numbered tropisms turn H by |H × D|, at most 1 rad, towards D = Σ e (cos γ T + sin γ T × (H × T) / |H × T|), of
+    /// the angle γ to T (cpfg).
+    fn bend_by_numbers(&mut self) {
+        if self.elasticities.iter().all(|elasticity| *elasticity == 0.0) {
+            return;
+        }
+        let frame = &mut self.state.frame;
+        let mut towards = [0.0; 3];
+        for (tropism, elasticity) in self.settings.tropisms.iter().zip(&self.elasticities) {
+            let (sin, cos) = sincos(tropism.angle_deg.to_radians());
+            let torque = unit(cross(frame.heading, tropism.direction)).unwrap_or(frame.left);
+            let across = cross(tropism.direction, torque);
+            (0..3).for_each(|i| towards[i] += elasticity * (cos * tropism.direction[i] + sin * across[i]));
+        }
+        let torque = cross(frame.heading, towards);
+        let size = dot(torque, torque).sqrt();
+        frame.bend(towards, if size > 1.0 { 1.0 / size } else { 1.0 });
+    }
+
+    fn mark(&self, mark: Mark, parameters: &[f64]) -> Drawing<'static> {
+        let diameter = first(parameters).map_or(self.state.width, |diameter| diameter * self.state.scale);
+        Drawing::Mark(mark, bounded(diameter).abs())
+    }
+
+    /// A surface without parameters has its size; of one or two the first scales it as a whole; of three each scales
+    /// one axis: across, along, above.
+    fn surface(&self, symbol: char, parameters: &[f64]) -> Drawing<'static> {
+        let scale = match *parameters {
+            [across, along, above, ..] => [across, along, above],
+            [scale, ..] => [scale; 3],
+            [] => [1.0; 3],
+        };
+        Drawing::Surface { symbol, scale: scale.map(|scale| bounded(bounded(scale) * self.state.scale)) }
+    }
+}
+
+/// A line of a length, which may be negative: the turtle then goes backwards, and the line is told from its other end.
+fn line_of(from: Frame, length: f64, width: f64) -> Drawing<'static> {
+    if length >= 0.0 {
+        return Drawing::Line { from, length, width };
+    }
+    let mut end = from;
+    end.turn_around();
+    Drawing::Line { from: end, length: -length, width }
+}
+
+/// Whether the parameter of a brace asks for a generalised cylinder.
+fn of_spline(parameters: &[f64]) -> bool {
+    parameters.first().is_some_and(|kind| *kind != 0.0)
+}
+
+/// The first parameter, if there is one.
+#[inline]
+fn first(parameters: &[f64]) -> Option<f64> {
+    parameters.first().copied().map(bounded)
+}
