@@ -82,7 +82,7 @@ pub(super) fn branch(plant: &mut Plant, tip: &Tip, position: u16, segment: &Segm
 }
 
 fn room(plant: &Plant, more: u32) -> Result<(), Overgrown> {
-    let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
+    let limit = Overgrown::of(plant);
     plant.has_room_for(more).then_some(()).ok_or(limit)
 }
 
