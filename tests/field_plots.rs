@@ -160,6 +160,36 @@ fn replicates_grow_in_years_of_their_own() {
     assert_ne!(of("early", 1), of("late", 1), "a colder year");
 }
 
+/// Days of events and of pests are those of the year in which a replicate grows, and belong to the ticks of its own
+/// calendar, also where the species has no laws of the date: 300 °C d take 20 days at 25 °C and 30 at 20 °C.
+#[test]
+fn days_of_events_and_pests_move_with_the_years_of_replicates() {
+    let home = home();
+    let done = "[[event]]\noperation = \"removal\"\ndate = \"2001-05-12\"\n\
+                [[pest]]\nname = \"caterpillar\"\nattacks = \"leaf\"\nprobability = 0.5\ndates = [\"2001-03-23\", \"2001-03-23\"]\n";
+    let scenario = BASE.replace("species.toml", "coffee").replace("until = 12", "until = 10");
+    let scenario =
+        scenario.replace("days = 10", "degree_days = 300").replace("plants_per_part = 4", "plants_per_part = 8");
+    let weather = "weather = { file = \"years.csv\", years = \"replicates\" }\nexperiment = { replicates = 2 }\n";
+    grown(home.path(), "years", &format!("{scenario}{weather}{done}"), &[]);
+    let site = Columns::of(&home.path().join("runs/years"), "site");
+    let mut rows = [0; 2];
+    for (row, tick) in site.numbers("tick").iter().enumerate() {
+        let replicate = site.numbers("replicate")[row] as usize;
+        // Days 50 and 100 after planting.
+        let (attacked, removed) = ([3.0, 2.0][replicate], [6.0, 4.0][replicate]);
+        let (living, pressure) = (site.numbers("living_plants")[row], site.numbers("pest_pressure_leaf")[row]);
+        assert_eq!(living, if *tick < removed { 3.0 } else { 0.0 }, "replicate {replicate}, tick {tick}");
+        let expected = if *tick == attacked { 0.5 } else { 0.0 };
+        assert!(
+            *tick >= removed || (pressure - expected).abs() < 1e-12,
+            "replicate {replicate}, tick {tick}: {pressure}"
+        );
+        rows[replicate] += 1;
+    }
+    assert_eq!(rows, [10, 10]);
+}
+
 /// A member grows as one of a species of its own that is sown at the same tick, by the calendar from its sowing on.
 #[test]
 fn members_of_a_dated_species_are_sown_at_several_ticks() {
@@ -190,8 +220,8 @@ fn members_of_a_dated_species_are_sown_at_several_ticks() {
     assert!(!told.contains("other_species"), "one species, whatever its dates");
 }
 
-/// A pest of severity s over n ticks attacks with the hazard 1 − (1 − s)^(1/n) at each of them. Its shift by a field plot
-/// is the same for all plants of the plot, and what nothing attacks has no pressure.
+/// A pest of severity s over n ticks attacks with the hazard 1 − (1 − s)^(1/n) at each of them. Its shift by a field
+/// plot is the same for all plants of the plot, and what nothing attacks has no pressure.
 #[test]
 fn the_site_has_the_pressure_of_pests() {
     let home = home();

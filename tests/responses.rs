@@ -73,8 +73,8 @@ probability = 0.3
 ages = [12, 18]
 "#;
 
-/// A pest that attacks nothing changes no byte of a plant; plants under pests are the same on any number of threads, and grown
-/// again for a mesh.
+/// A pest that attacks nothing changes no byte of a plant; plants under pests are the same on any number of threads,
+/// and grown again for a mesh.
 #[test]
 fn pests_are_the_same_on_any_number_of_threads() {
     let folder = tempfile::tempdir().expect("a temporary folder");

@@ -92,6 +92,12 @@ struct Columns {
     degree_day_sum: Option<Vec<f64>>,
     day_length_h: Option<Vec<f64>>,
     nitrogen_kg_ha: Option<Vec<f64>>,
+    #[serde(default, skip_serializing_if = "is_zero")]
+    years_later: i32,
+}
+
+fn is_zero(years: &i32) -> bool {
+    *years == 0
 }
 
 impl Columns {
@@ -109,6 +115,7 @@ impl Columns {
             degree_day_sum: column(|tick| tick.degree_day_sum),
             day_length_h: column(|tick| tick.day_length_h),
             nitrogen_kg_ha: column(|tick| tick.nitrogen_kg_ha),
+            years_later: calendar.years_later(),
         }
     }
 
@@ -131,7 +138,8 @@ impl Columns {
                 nitrogen_kg_ha: at(&self.nitrogen_kg_ha),
             }
         };
-        Calendar::of_ticks(length, dates.iter().enumerate().map(tick).collect())
+        let calendar = Calendar::of_ticks(length, dates.iter().enumerate().map(tick).collect());
+        calendar.map(|calendar| calendar.lying_later(self.years_later))
     }
 }
 

@@ -2,8 +2,8 @@
 //! of their own.
 //!
 //! A replicate that grows some years later is planted on the same day of its year, and its fertilizer is applied as
-//! much later: so replicates differ in their weather alone. Absent: reading the weather, and what `run.json` keeps
-//! (`dates`).
+//! much later, as are the days of events and pests: so replicates differ in their weather alone. Absent: reading the
+//! weather, and what `run.json` keeps (`dates`).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -71,7 +71,7 @@ impl Making<'_> {
             terms.soil = scenario.soil_until(planted, bare.at(until).date, later);
             if terms.soil.is_some() { Calendar::of(&terms, until, temperatures) } else { Ok(bare) }
         });
-        made.map_err(|error| vec![self.fault_of(&error, own)])
+        made.map(|calendar| calendar.lying_later(later)).map_err(|error| vec![self.fault_of(&error, own)])
     }
 
     /// Weather that comes again gives replicates that are a multiple of its whole years apart the same weather.

@@ -194,7 +194,8 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     treatments::tell_each(loader, &read, |place, scenario| {
         let dated = calendars.get(place).and_then(Option::as_ref);
         let of = |calendar: &Arc<Calendar>| scenario.faults_of_days(calendar);
-        dated.and_then(|dated| dated.calendars.all().iter().map(of).find(|faults| !faults.is_empty())).unwrap_or_default()
+        let all = dated.map(|dated| dated.calendars.all()).unwrap_or_default();
+        all.iter().map(of).find(|faults| !faults.is_empty()).unwrap_or_default()
     });
     let checked = Checked { scenario: scenario?, treatments, species, trial, models, calendars };
     check_successors(loader, &node, &checked);

@@ -60,13 +60,14 @@ impl<'a> Plots<'a> {
         sown
     }
 
-    /// Makes a plot that was grown another one. The memory of its columns is kept where both are of one treatment and
-    /// have members of the same cohorts.
+    /// Makes a plot that was grown another one. The memory of its columns is kept where both are of one treatment, have
+    /// members of the same cohorts, and the same is done to them at the same ticks.
     pub fn sow_again(&self, grown: &mut Plot<'a>, plot: u32) {
         let PlotPlace { treatment, replicate, .. } = self.trial.plot(plot);
         let cohorts = self.trial.cohorts_of(treatment, replicate);
         let is_alike = grown.members.iter().map(|member| member.species).eq(cohorts.iter().copied());
-        if treatment == grown.treatment as usize && is_alike {
+        let is_managed_alike = self.management[treatment].len() == 1 || replicate == grown.replicate;
+        if treatment == grown.treatment as usize && is_alike && is_managed_alike {
             grown.sow_again(plot, &self.sowings(plot));
             self.settle(grown, plot);
             self.expose(grown);

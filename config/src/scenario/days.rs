@@ -1,6 +1,7 @@
 //! Days of a scenario that become ticks of its calendar: those of events and of pests.
 //!
-//! A day belongs to the tick that spans it ([`Calendar::tick_of`]). A day that comes again each year belongs to a tick
+//! A day belongs to the tick that spans it ([`Calendar::tick_of`]); in a replicate that grows some years later it is as
+//! many years later. A day that comes again each year belongs to a tick
 //! of each year; 29 February is 28 February in a year without it. Absent: how a calendar is made.
 
 use phytomer_law::fault::{Fault, Path};
@@ -21,9 +22,14 @@ pub(super) fn ticks(day: Date, yearly: bool, calendar: &Calendar) -> Vec<Tick> {
 
 /// A day, and the same day of each later year up to the end of the calendar where it comes again.
 pub(super) fn years(day: Date, yearly: bool, calendar: &Calendar) -> impl Iterator<Item = Date> {
-    let [_, last] = span(calendar);
+    let ([_, last], day) = (span(calendar), lying_in(day, calendar));
     let later = if yearly { last.year().saturating_sub(day.year()).max(0) } else { 0 };
     years_on(day).take(later as usize + 1)
+}
+
+/// The day of a calendar that is meant by a day of the scenario.
+pub(super) fn lying_in(day: Date, calendar: &Calendar) -> Date {
+    day.years_later(calendar.years_later())
 }
 
 /// A day, and the same day of each later year.
@@ -52,7 +58,7 @@ pub(super) fn fault_of(day: Date, yearly: bool, calendar: &Calendar, path: &Path
     if !ticks(day, yearly, calendar).is_empty() {
         return None;
     }
-    let [first, last] = span(calendar);
+    let ([first, last], day) = (span(calendar), lying_in(day, calendar));
     let problem = match (yearly, day < first) {
         (true, _) => format!("the day {day} and the same day of later years lie outside the run"),
         (_, true) => format!("the day {day} lies before the run, which begins with {first}"),

@@ -8,13 +8,15 @@
 //! attack does to a plant (`sim::plant::Exposure`, `models::buds`).
 
 mod attack;
+mod exposed;
 
 use super::field_plot::{FieldPlot, Spread};
 use attack::Attack;
+use exposed::Exposed;
 use phytomer_draws::{Aggregation, Clusters, Draws, Event, Key, NONE};
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::math::{expm1, log1p};
-use phytomer_sim::plant::{Exposure, Hazard, Survival};
+use phytomer_sim::plant::Exposure;
 use phytomer_sim::site::calendar::Calendar;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -251,44 +253,17 @@ impl Pest {
     }
 }
 
-/// What is gathered of the attacks on one plant.
-struct Exposed {
-    apex: Hazard,
-    leaf: Hazard,
-    flower: Hazard,
-    fruit: Hazard,
-    plant: Hazard,
-    growth: Vec<f64>,
-    death: u32,
-}
-
-impl Exposed {
-    fn weaken(&mut self, ages: std::ops::Range<u32>, factor: f64) {
-        let end = ages.end as usize;
-        if self.growth.len() < end {
-            self.growth.resize(end, 1.0);
-        }
-        let weakened = self.growth.get_mut(ages.start as usize..end).unwrap_or_default();
-        weakened.iter_mut().for_each(|growth| *growth *= factor);
-    }
-}
-
 /// What the pests of a run do to one plant; `None` without pests. A plant of the same replicate and number meets the
 /// same draws in every treatment.
 pub fn exposure(pests: &[Pest], host: &Host<'_>) -> Option<Arc<Exposure>> {
     if pests.is_empty() {
         return None;
     }
-    let none = Hazard::default;
-    let (death, growth) = (phytomer_sim::NEVER, Vec::new());
-    let [apex, leaf, flower, fruit, plant] = [none(), none(), none(), none(), none()];
-    let mut exposed = Exposed { apex, leaf, flower, fruit, plant, growth, death };
+    let mut exposed = Exposed::default();
     for pest in pests {
         pest.attacks_on(host).iter().for_each(|attack| pest.attack(host, attack, &mut exposed));
     }
-    let Exposed { apex, leaf, flower, fruit, plant, growth, death } = exposed;
-    let [leaf, flower, fruit] = [leaf, flower, fruit].map(|hazard| Survival::under(&hazard));
-    Some(Arc::new(Exposure { apex, leaf, flower, fruit, plant, growth, death }))
+    Some(Arc::new(exposed.into_exposure()))
 }
 
 /// What the faults of pests depend on in their scenario.

@@ -5,16 +5,16 @@
 //! tick is a fixed number of days, or it ends at the first midnight by which the degree-days since planting reach so
 //! many times their sum; a hot day can then end two ticks, which have the same date. Degree-days are added up from
 //! planting on; nitrogen is what the soil supplies in a season, and what was applied in it by then. Growth at tick t
-//! reads the values of tick t. Absent: weather files, which the caller reads; water.
+//! reads the values of tick t. Days become ticks in `making`. Absent: weather files, which the caller reads; water.
+
+mod making;
+
+pub use making::season_of;
 
 use crate::clock::Tick;
 use crate::site::date::Date;
 use crate::site::degree_days::DegreeDays;
-use crate::site::sun;
 use std::sync::Arc;
-
-/// A tick that is a sum of degree-days and needs more days than ten years is refused.
-const MOST_DAYS_OF_A_TICK: u32 = 3_660;
 
 /// How long a tick is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,6 +101,8 @@ pub enum CalendarError {
 pub struct Calendar {
     ticks: Vec<CalendarTick>,
     length: TickLength,
+    /// How many years later it lies than the days that its scenario states.
+    years_later: i32,
 }
 
 impl Calendar {
@@ -114,21 +116,25 @@ impl Calendar {
         until: Tick,
         mut weather: impl FnMut(Date) -> Option<[f64; 2]>,
     ) -> Result<Self, CalendarError> {
-        let mut applied = terms.soil.as_ref().map_or_else(Vec::new, |soil| soil.applied.clone());
-        applied.sort_by_key(|(day, _)| *day);
-        let mut days = Days { terms, applied, weather: &mut weather, date: terms.planted, sum: 0.0 };
-        let mut ticks = vec![days.end_of_tick(terms.planted, 0.0)];
-        for tick in 1..=until {
-            let (from, before) = (days.date, days.sum);
-            days.go_through(tick)?;
-            ticks.push(days.end_of_tick(from, before));
-        }
-        Ok(Self { ticks, length: terms.tick })
+        let ticks = making::ticks(terms, until, &mut weather)?;
+        Ok(Self { ticks, length: terms.tick, years_later: 0 })
     }
 
     /// A calendar of these ticks, as another one had them; `None` without any.
     pub fn of_ticks(length: TickLength, ticks: Vec<CalendarTick>) -> Option<Self> {
-        (!ticks.is_empty()).then_some(Self { ticks, length })
+        (!ticks.is_empty()).then_some(Self { ticks, length, years_later: 0 })
+    }
+
+    /// The same calendar as one that lies so many years later than the days that its scenario states, since its plants
+    /// are planted as much later.
+    pub fn lying_later(mut self, years: i32) -> Self {
+        self.years_later = years;
+        self
+    }
+
+    /// How many years later it lies than the days that its scenario states.
+    pub fn years_later(&self) -> i32 {
+        self.years_later
     }
 
     /// The same calendar over a soil that supplies so much more in each season, kg N/ha; less where that is negative.
@@ -182,90 +188,14 @@ impl Dates {
         Some(self.at_age(age).degree_day_sum? - self.at_age(0).degree_day_sum?)
     }
 
-    /// The degree-days a day in the tick of an age, °C d/d: how warm its days were. A tick that a hot day has ended with
-    /// the tick before it has no days of its own, and is as warm as that one; tick 0 is as warm as tick 1.
+    /// The degree-days a day in the tick of an age, °C d/d: how warm its days were. A tick that a hot day has ended
+    /// with the tick before it has no days of its own, and is as warm as that one; tick 0 is as warm as tick 1.
     pub fn degree_days_per_day(&self, age: Tick) -> Option<f64> {
         let ticks = self.calendar.ticks();
         let last = (self.sown.saturating_add(age) as usize).clamp(1, ticks.len().max(2) - 1);
         let spanning = ticks.get(1..=last)?.iter().rev().find(|tick| tick.days > 0)?;
         Some(spanning.degree_days? / f64::from(spanning.days))
     }
-}
-
-/// The days of a calendar while it is made.
-struct Days<'a, W> {
-    terms: &'a Terms,
-    /// What is applied to the soil, day after day.
-    applied: Vec<(Date, f64)>,
-    weather: &'a mut W,
-    /// The day that begins.
-    date: Date,
-    /// The degree-days since planting.
-    sum: f64,
-}
-
-impl<W: FnMut(Date) -> Option<[f64; 2]>> Days<'_, W> {
-    /// Goes to the midnight at which a tick ends.
-    fn go_through(&mut self, tick: Tick) -> Result<(), CalendarError> {
-        let from = self.date;
-        match self.terms.tick {
-            TickLength::Days(days) => (0..days.max(1)).try_for_each(|_| self.pass_day(tick)),
-            TickLength::DegreeDays(wanted) => {
-                // A product and not a sum, so that ticks do not drift.
-                let end = wanted * f64::from(tick);
-                while self.sum < end {
-                    if self.date.since(from) >= MOST_DAYS_OF_A_TICK as i32 {
-                        return Err(CalendarError::Endless { tick, from });
-                    }
-                    self.pass_day(tick)?;
-                }
-                Ok(())
-            }
-        }
-    }
-
-    fn pass_day(&mut self, tick: Tick) -> Result<(), CalendarError> {
-        let date = self.date;
-        if date == Date::LAST {
-            return Err(CalendarError::BeyondDates { tick });
-        }
-        if let Some(how) = self.terms.degree_days {
-            let [maximum, minimum] = (self.weather)(date).ok_or(CalendarError::NoWeather { tick, date })?;
-            self.sum += how.of_day(maximum, minimum);
-        }
-        self.date = date.plus(1);
-        Ok(())
-    }
-
-    /// The tick that began with the day `from`, at the sum `before`, and ends now.
-    fn end_of_tick(&self, from: Date, before: f64) -> CalendarTick {
-        let (terms, date) = (self.terms, self.date);
-        let is_known = terms.degree_days.is_some();
-        CalendarTick {
-            date,
-            days: date.since(from).unsigned_abs(),
-            degree_days: is_known.then_some(self.sum - before),
-            degree_day_sum: is_known.then_some(self.sum),
-            day_length_h: terms.latitude.map(|latitude| sun::day_length_h(latitude, date.day_of_year())),
-            nitrogen_kg_ha: terms.soil.as_ref().map(|soil| soil.own + self.applied_by(soil.season_begins)),
-        }
-    }
-
-    /// What was applied up to the last day that has passed, since the beginning of its season, kg N/ha.
-    fn applied_by(&self, season_begins: (u32, u32)) -> f64 {
-        let last = self.date.plus(-1);
-        let begins = season_of(last, season_begins);
-        let from = self.applied.partition_point(|(day, _)| *day < begins);
-        self.applied[from..].iter().take_while(|(day, _)| *day <= last).map(|(_, amount)| amount).sum()
-    }
-}
-
-/// The first day of the season to which a day belongs, where seasons begin on this month and day of each year; 29
-/// February is 28 February in a year without it.
-pub fn season_of(day: Date, (month, of_month): (u32, u32)) -> Date {
-    let beginning = |year| Date::new(year, month, of_month).or_else(|| Date::new(year, month, of_month.min(28)));
-    let this_year = beginning(day.year()).filter(|first| *first <= day);
-    this_year.or_else(|| beginning(day.year() - 1)).unwrap_or(Date::FIRST)
 }
 
 #[cfg(test)]

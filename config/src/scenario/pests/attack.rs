@@ -64,7 +64,8 @@ impl Pest {
     fn seasons_of(&self, calendar: &Calendar) -> Vec<[u32; 3]> {
         let Some([first, last]) = self.days() else { return Vec::new() };
         let mut seasons: Vec<[u32; 3]> = Vec::new();
-        let years = days::years(first, self.yearly, calendar).zip(days::years_on(last));
+        let lasts = days::years_on(days::lying_in(last, calendar));
+        let years = days::years(first, self.yearly, calendar).zip(lasts);
         for (season, (first, last)) in (0..).zip(years) {
             let Some(first) = calendar.tick_of(first) else { continue };
             let as_before = || seasons.last().map_or(first, |[_, from, until]| first + (until - from));
@@ -142,8 +143,8 @@ impl Pest {
 
 #[cfg(test)]
 mod tests {
-    use super::super::exposure;
     use super::super::super::field_plot::FieldPlot;
+    use super::super::exposure;
     use super::*;
     use phytomer_sim::site::calendar::{Terms, TickLength};
 
