@@ -9,8 +9,8 @@ use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 10] =
-    ["init", "grow", "merge", "validate", "verify", "describe", "list", "schema", "mesh", "picture"];
+const VERBS: [&str; 11] =
+    ["init", "grow", "merge", "validate", "derive", "verify", "describe", "list", "schema", "mesh", "picture"];
 
 /// A scenario of one fast plant, with these lines added.
 fn scenario(folder: &Path, lines: &str) {

@@ -5,7 +5,8 @@
 
 mod amounts;
 mod bar;
-pub mod causes;
+pub pub mod causes;
+mod derive;
 mod describe;
 mod events;
 mod findings;
@@ -37,6 +38,7 @@ Examples:
   phytomer grow coffee                          grow a shipped scenario into runs/coffee
   phytomer merge whole runs/coffee-shard-1-of-2 runs/coffee-shard-2-of-2
   phytomer validate my_plant/scenario.toml      every fault at once
+  phytomer derive topiary/4 --step 94           the string of an L-system
   phytomer verify runs/coffee                   whether every file of a run is as it was written
   phytomer describe coffee                      what a run, a scenario or a species holds
   phytomer list                                 everything that ships
@@ -60,6 +62,7 @@ enum Verb {
     Grow(grow::Grow),
     Merge(merge::Merge),
     Validate(validate::Validate),
+    Derive(derive::Derive),
     Verify(verify::Verify),
     Describe(describe::Describe),
     List(list::List),
@@ -105,6 +108,7 @@ impl Cli {
             Verb::Grow(verb) => verb.obey(),
             Verb::Merge(verb) => verb.obey(),
             Verb::Validate(verb) => verb.obey(),
+            Verb::Derive(verb) => verb.obey(),
             Verb::Verify(verb) => verb.obey(),
             Verb::Describe(verb) => verb.obey(),
             Verb::List(verb) => verb.obey(),

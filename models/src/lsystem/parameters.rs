@@ -5,7 +5,7 @@
 //! wherever it goes. Absent: what the keys do.
 
 use super::d0l::{Cell, D0l};
-use super::text::{TextSystem, Wrong};
+use super::text::{TextModel, TextSystem, Wrong};
 use crate::fault::{Fault, Path, Segment};
 use crate::law::{Constant, Domain, ValueRange, Variate, VariateTable};
 use crate::parameters::{Card, Keys, Parameters};
@@ -127,6 +127,16 @@ impl Lsystem {
         }
     }
 
+    /// The L-system of the file that this names, compiled; `None` where cells are stated. The parameters stand at `top`.
+    ///
+    /// # Errors
+    /// Every fault of the file, of what lies beside it, and of what is stated of it.
+    pub fn text_model(&self, top: &Path) -> Option<Result<TextModel, Vec<Fault>>> {
+        let system = self.of_file(self.file.as_ref()?, top);
+        let placed = |wrong: Vec<Wrong>| wrong.into_iter().map(|wrong| Self::placed(wrong, top)).collect::<Vec<_>>();
+        Some(system.and_then(|system| system.compile().map_err(placed)))
+    }
+
     /// The L-system of a file.
     fn of_file(&self, file: &str, top: &Path) -> Result<TextSystem, Vec<Fault>> {
         let mut faults = Vec::new();
@@ -230,22 +240,22 @@ impl Parameters for Lsystem {
     }
 
     fn model(&self, until: Tick, _: Option<&Dates>, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
-        let Some(file) = &self.file else {
+        if self.file.is_none() {
             return Ok(Arc::new(self.stated(top)?.compile(until, top)?));
-        };
+        }
         if until > LAST_TICK {
             let fault = Fault::new(top, format!("the last age is {until}"), format!("at most {LAST_TICK}"));
             return Err(vec![fault]);
         }
-        let model = self.of_file(file, top)?.compile();
-        let placed = |wrong: Vec<Wrong>| wrong.into_iter().map(|wrong| Self::placed(wrong, top)).collect::<Vec<_>>();
-        Ok(Arc::new(model.map_err(placed)?))
+        match self.text_model(top) {
+            Some(model) => Ok(Arc::new(model?)),
+            None => Err(Vec::new()),
+        }
     }
 
     /// The derivation length that the file states.
     fn full_grown_at(&self) -> Option<Tick> {
-        let file = self.file.as_ref()?;
-        let model = self.of_file(file, &Path::root()).ok()?.compile().ok()?;
+        let model = self.text_model(&Path::root())?.ok()?;
         model.derivation_length().filter(|steps| (1..=LAST_TICK).contains(steps))
     }
 }

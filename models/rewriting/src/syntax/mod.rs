@@ -11,6 +11,6 @@ mod statement;
 
 pub(crate) use expression::{Expression, Name, Operator, Parser};
 pub(crate) use file::{File, Section, parse};
-pub(crate) use module::{Formal, ModuleText};
+pub(crate) use module::{Formal, MOST_PARAMETERS, ModuleText};
 pub(crate) use production::Production;
 pub(crate) use statement::Statement;

@@ -41,7 +41,7 @@ pub(crate) fn prepare(text: &str, asked: &Asked<'_>, faults: &mut Vec<Fault>) ->
     reader.file(text, 0);
     for (name, _) in asked.define {
         if !reader.macros.met.contains(name) {
-            let fault = Fault::new(Place::default(), format!("no constant is named `{name}`"), "a name of the file");
+            let fault = Fault::new(Place { line: 1, column: 1, file: 0 }, format!("no constant is named `{name}`"), "a name of the file");
             reader.faults.push(fault);
         }
     }

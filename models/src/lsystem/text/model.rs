@@ -14,6 +14,7 @@ use phytomer_sim::clock::Tick;
 use phytomer_sim::key::LineageKey;
 use phytomer_sim::model::{Grow, Growth, Overgrown};
 use phytomer_sim::plant::{ApexFate, AxisId, Class, EventKind, Habit, NodeId, OrganId, Plant, Shape};
+use phytomer_sim::random::PlantRandom;
 use phytomer_sim::site::View;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -132,6 +133,26 @@ impl TextModel {
     /// How many steps the file asks for.
     pub fn derivation_length(&self) -> Option<Tick> {
         self.script.program.settings().steps
+    }
+
+    /// What the text says, as it is derived.
+    pub fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// Derives the string of a plant without making the plant: its queries are answered as in a plant that grows.
+    ///
+    /// # Errors
+    /// Why a step cannot be made.
+    pub fn derive(&self, random: PlantRandom, steps: Tick) -> Result<Derived, Stopped> {
+        let (draft, numbered) = (Draft::default(), Numbered::default());
+        let mut scratch = Scratch { turtle: self.turtle.clone(), draft, numbered };
+        let mut drawing = Drawing { model: self, scratch: &mut scratch, drawn: false };
+        let mut derived = self.program.sow(random, &mut drawing)?;
+        for _ in 0..steps {
+            self.program.step(&mut derived, &mut drawing)?;
+        }
+        Ok(derived)
     }
 
     /// Draws a plant's string and writes its columns, at `age`; what stood before and stands no more departs.

@@ -1,0 +1,89 @@
+//! What a step has made takes its place in the string.
+
+use super::pieces::Pieces;
+use crate::string::{ModuleString, Slot};
+use crate::symbol::{CLOSE, CUT, OPEN};
+
+/// What is to become of a module and, with several in a predecessor, of those behind it.
+pub(super) struct Change {
+    pub slot: Slot,
+    /// How many modules are rewritten; 0 where the module stays as it is.
+    pub rewritten: u32,
+    pub pieces: std::ops::Range<u32>,
+}
+
+/// What is noted of a string while its modules take their places.
+#[derive(Debug, Default)]
+pub(super) struct Places {
+    /// For each kind whether a step visits its modules.
+    pub is_active: Vec<bool>,
+    /// The modules that the next step visits.
+    pub active: Vec<Slot>,
+    /// The modules `%`.
+    pub cuts: Vec<Slot>,
+    /// The branches that are open.
+    pub open: Vec<Slot>,
+}
+
+impl Places {
+    /// Notes a module that is new in its place.
+    #[inline]
+    pub fn note(&mut self, string: &mut ModuleString, slot: Slot) {
+        let kind = string.kind(slot);
+        match kind {
+            OPEN => self.open.push(slot),
+            CLOSE => {
+                if let Some(partner) = self.open.pop() {
+                    string.pair(partner, slot);
+                }
+            }
+            CUT => self.cuts.push(slot),
+            _ => {}
+        }
+        if self.is_active.get(usize::from(kind.0)) == Some(&true) {
+            self.active.push(slot);
+        }
+    }
+
+    /// Puts what a module has become in its place.
+    #[inline]
+    pub fn carry_out(&mut self, change: &Change, made: &Pieces, string: &mut ModuleString) {
+        let slot = change.slot;
+        if change.rewritten == 0 {
+            self.active.push(slot);
+            return;
+        }
+        for _ in 1..change.rewritten {
+            if let Some(next) = string.after(slot) {
+                string.remove(next);
+            }
+        }
+        let mut last = None;
+        for piece in &made.pieces[change.pieces.start as usize..change.pieces.end as usize] {
+            let values = made.of(piece);
+            let at = match last {
+                None => {
+                    string.rewrite(slot, piece.kind, values, piece.identity);
+                    slot
+                }
+                Some(_) => string.insert(last, piece.kind, values, piece.identity),
+            };
+            last = Some(at);
+            self.note(string, at);
+        }
+        if last.is_none() {
+            string.remove(slot);
+        }
+    }
+}
+
+/// How many of the next modules to visit are rewritten with this one.
+pub(super) fn also_rewritten(change: &Change, next: &[Slot], string: &ModuleString) -> usize {
+    let (mut at, mut count) = (change.slot, 0);
+    for _ in 1..change.rewritten {
+        let Some(after) = string.after(at) else { break };
+        at = after;
+        count += usize::from(next.get(count) == Some(&at));
+    }
+    count
+}

@@ -1,0 +1,263 @@
+//! The string of a step from that before it.
+//!
+//! Only modules that a production may rewrite are visited. Where no production looks at contexts, what a module becomes
+//! takes its place at once, for nothing looks back at it; else all successors are made first. A step's length is summed
+//! before it is made where it is known beforehand, and as it is made elsewhere, and a string that would be too long is
+//! told. `%` cuts at the end.
+
+use super::bounds::{Bounds, machine};
+use super::choose::{Frames, choose};
+use super::context::Anchor;
+use super::cut::cut;
+use super::expand::{Expansion, Root};
+use super::pieces::{Moment, Pieces};
+use super::placing::{Change, Places, also_rewritten};
+use super::predecessor::{fits, predecessors};
+use crate::code::{Rule, Rules, Script};
+use crate::derived::Derived;
+use crate::draws::For;
+use crate::evaluate::{Machine, Result, halt};
+use crate::fault::Place;
+use crate::outside::Outside;
+use crate::string::{ModuleString, Slot};
+use crate::syntax::MOST_PARAMETERS;
+
+/// For each kind whether a step visits its modules.
+pub(super) fn active_kinds(script: &Script) -> Vec<bool> {
+    let rules = [&script.rewriting, &script.decomposition];
+    let most = rules.iter().map(|rules| rules.by_kind.len()).max().unwrap_or(0);
+    let of = |kind: usize| rules.iter().any(|rules: &&Rules| rules.by_kind.get(kind).is_some_and(|list| !list.is_empty()));
+    (0..most).map(of).collect()
+}
+
+/// What is done to a string.
+pub(super) enum Pass {
+    /// Productions rewrite it.
+    Rewrites,
+    /// It is the axiom, which is decomposed alone; its cuts.
+    Decomposes(Vec<Slot>),
+}
+
+/// A step on its way.
+struct Rewriting<'r> {
+    script: &'r Script,
+    /// For each kind the production that only changes its parameters, whatever stands around it.
+    updates: Vec<Option<&'r Rule>>,
+    /// Whether productions rewrite, or the axiom is decomposed alone.
+    rewrites: bool,
+    expansion: Expansion,
+    frames: Frames,
+    own: Pieces,
+    made: Pieces,
+    places: Places,
+    /// The length to which the string comes, and the most.
+    length: usize,
+    parameters: usize,
+    most: usize,
+}
+
+pub(super) fn rewrite(script: &Script, derived: &mut Derived, outside: &dyn Outside, bounds: Bounds, pass: Pass) -> Result<()> {
+    let (rewrites, cuts) = match pass {
+        Pass::Rewrites => (true, Vec::new()),
+        Pass::Decomposes(cuts) => (false, cuts),
+    };
+    let random = derived.random.clone();
+    let before = std::mem::take(&mut derived.active);
+    let looks = script.rewriting.looks || script.decomposition.looks;
+    let mut rewriting = Rewriting {
+        script,
+        updates: updates(script, rewrites && !looks),
+        rewrites,
+        expansion: Expansion::default(),
+        frames: Frames::default(),
+        own: Pieces::default(),
+        made: Pieces::default(),
+        places: Places { is_active: active_kinds(script), active: Vec::with_capacity(before.len()), cuts, ..Places::default() },
+        length: derived.string.len(),
+        parameters: derived.string.parameter_count(),
+        most: bounds.modules,
+    };
+    let mut string = std::mem::replace(&mut derived.string, ModuleString::new(&[]));
+    let mut machine = machine(script, derived, outside, &random, bounds);
+    let result = rewriting.reserve(&before, &mut string).and_then(|()| {
+        if looks { rewriting.all_at_once(&before, &mut string, &mut machine) } else { rewriting.one_by_one(&before, &mut string, &mut machine) }
+    });
+    let Places { mut active, cuts, .. } = rewriting.places;
+    derived.cut.clear();
+    if !cuts.is_empty() {
+        cut(&mut string, &cuts, &mut derived.cut);
+        active.retain(|&slot| !string.is_free(slot));
+    }
+    derived.string = string;
+    derived.active = active;
+    result
+}
+
+impl Rewriting<'_> {
+    /// Sums the length of the step, where each module has one production that always applies, and makes room for it.
+    fn reserve(&self, before: &[Slot], string: &mut ModuleString) -> Result<()> {
+        let rules = &self.script.rewriting;
+        if !self.rewrites || !self.script.decomposition.rules.is_empty() {
+            return Ok(());
+        }
+        let by_kind: Vec<Option<&Rule>> = (0..rules.by_kind.len()).map(|kind| certain(rules, kind)).collect();
+        let mut length = string.len();
+        for &slot in before {
+            let Some(Some(rule)) = by_kind.get(usize::from(string.kind(slot).0)) else { return Ok(()) };
+            length = (length + rule.successor.len()).saturating_sub(1);
+            if length > self.most.saturating_add(rule.successor.len()) {
+                return self.too_long(rule);
+            }
+        }
+        string.reserve(length);
+        Ok(())
+    }
+
+    fn too_long<T>(&self, rule: &Rule) -> Result<T> {
+        let problem = format!("the string has more than {} modules, or eight times as many parameters", self.most);
+        halt(rule.place, problem, "fewer steps, or fewer modules in a successor")
+    }
+
+    fn one_by_one(&mut self, before: &[Slot], string: &mut ModuleString, machine: &mut Machine<'_>) -> Result<()> {
+        let mut skipped = 0;
+        for (number, &slot) in before.iter().enumerate() {
+            if skipped > 0 {
+                skipped -= 1;
+                continue;
+            }
+            if let Some(Some(rule)) = self.updates.get(usize::from(string.kind(slot).0)) {
+                update(rule, slot, string, machine)?;
+                self.places.active.push(slot);
+                continue;
+            }
+            self.made.clear();
+            let change = self.change(slot, string, machine)?;
+            skipped = also_rewritten(&change, &before[number + 1..], string);
+            self.places.carry_out(&change, &self.made, string);
+        }
+        Ok(())
+    }
+
+    fn all_at_once(&mut self, before: &[Slot], string: &mut ModuleString, machine: &mut Machine<'_>) -> Result<()> {
+        self.made.clear();
+        let (mut changes, mut skipped) = (Vec::with_capacity(before.len()), 0);
+        for (number, &slot) in before.iter().enumerate() {
+            if skipped > 0 {
+                skipped -= 1;
+                continue;
+            }
+            let change = self.change(slot, string, machine)?;
+            skipped = also_rewritten(&change, &before[number + 1..], string);
+            changes.push(change);
+        }
+        for change in &changes {
+            self.places.carry_out(change, &self.made, string);
+        }
+        Ok(())
+    }
+
+    /// Finds what becomes of a module: a production first, and then the decomposition of what that makes.
+    #[inline]
+    fn change(&mut self, slot: Slot, string: &ModuleString, machine: &mut Machine<'_>) -> Result<Change> {
+        let start = self.made.pieces.len() as u32;
+        let (rules, identity) = (&self.script.rewriting, string.identity(slot));
+        let step = machine.step;
+        let mut rewritten = 0;
+        self.own.clear();
+        let decomposes = !self.script.decomposition.rules.is_empty();
+        let mut last = slot;
+        if self.rewrites {
+            machine.draws.turn_to(identity.key, step, For::Rewriting);
+            let script = self.script;
+            let fits = |rule: &Rule, machine: &mut Machine<'_>, frame: &mut [f64]| fits(rule, script, string, slot, machine, frame);
+            if let Some(rule) = choose(rules, rules.of(string.kind(slot)), machine, &mut self.frames, fits)? {
+                self.length = (self.length + rule.successor.len()).saturating_sub(rule.strict.len());
+                self.parameters += rule.successor.iter().map(|made| made.arguments.len()).sum::<usize>();
+                if self.length > self.most || self.parameters > 8 * self.most {
+                    return self.too_long(rule);
+                }
+                machine.run(&rule.after, &mut self.frames.frame)?;
+                rewritten = rule.strict.len() as u32;
+                let into = if decomposes { &mut self.own } else { &mut self.made };
+                let moment = Moment { step, depth: 0 };
+                let predecessors = predecessors(rule, string, slot, &mut last, &mut self.parameters);
+                match &predecessors[..] {
+                    [] => into.make(rule, machine, &self.frames.frame, &[identity], moment)?,
+                    several => into.make(rule, machine, &self.frames.frame, several, moment)?,
+                }
+            }
+        }
+        if decomposes {
+            if rewritten == 0 {
+                self.own.push(string.kind(slot), string.parameters(slot), identity);
+            }
+            let anchor = Anchor { script: self.script, string, first: slot, last };
+            let replaced = self.decompose(anchor, machine)?;
+            // A module that neither production nor decomposition touches stays as it is.
+            if rewritten == 0 && !replaced {
+                self.made.pieces.truncate(start as usize);
+                return Ok(Change { slot, rewritten: 0, pieces: start..start });
+            }
+            rewritten = rewritten.max(1);
+        }
+        Ok(Change { slot, rewritten, pieces: start..self.made.pieces.len() as u32 })
+    }
+
+    /// Appends the decomposition of what a production has made; tells whether anything was decomposed.
+    fn decompose(&mut self, anchor: Anchor<'_>, machine: &mut Machine<'_>) -> Result<bool> {
+        let root = Root { anchor, purpose: For::Decomposition, step: machine.step, most: self.most };
+        let (before, start) = (self.own.pieces.len(), self.made.pieces.len());
+        self.expansion.begin(&self.own);
+        let (length, parameters, most) = (&mut self.length, &mut self.parameters, self.most);
+        *length = length.saturating_sub(before);
+        let (made, mut replaced) = (&mut self.made, false);
+        self.expansion.run(&self.script.decomposition, &root, machine, |piece, values, depth| {
+            replaced |= depth > 0;
+            *length += 1;
+            *parameters += if depth > 0 { values.len() } else { 0 };
+            if *length > most || *parameters > 8 * most {
+                let problem = format!("the string has more than {most} modules, or eight times as many parameters");
+                return halt(Place::default(), problem, "a decomposition that ends sooner");
+            }
+            made.push(piece.kind, values, piece.identity);
+            Ok(())
+        })?;
+        Ok(replaced || self.made.pieces.len() - start != before)
+    }
+}
+
+/// The production of a kind, where it has one that always applies.
+fn certain(rules: &Rules, kind: usize) -> Option<&Rule> {
+    let list = rules.by_kind.get(kind)?;
+    let rule = list.first().map(|&rule| &rules.rules[rule as usize])?;
+    (rule.is_certain() && (list.len() == 1 || !rules.compete)).then_some(rule)
+}
+
+/// For each kind the production that only changes its parameters; none where contexts may look at them.
+fn updates(script: &Script, wanted: bool) -> Vec<Option<&Rule>> {
+    if !wanted || !script.decomposition.rules.is_empty() {
+        return Vec::new();
+    }
+    let of = |kind: usize| {
+        let rule = certain(&script.rewriting, kind).filter(|rule| rule.after.is_empty())?;
+        let [made] = &rule.successor[..] else { return None };
+        (usize::from(made.kind.0) == kind && made.continues == Some(0)).then_some(rule)
+    };
+    (0..script.rewriting.by_kind.len()).map(of).collect()
+}
+
+/// Changes the parameters of a module where it stands.
+#[inline]
+fn update(rule: &Rule, slot: Slot, string: &mut ModuleString, machine: &mut Machine<'_>) -> Result<()> {
+    let mut values = [0.0; MOST_PARAMETERS];
+    let [made] = &rule.successor[..] else { return Ok(()) };
+    machine.draws.turn_to(string.identity(slot).key, machine.step, For::Rewriting);
+    for (value, argument) in values.iter_mut().zip(&made.arguments) {
+        *value = machine.value(argument, string.parameters(slot))?;
+        if !value.is_finite() {
+            return halt(made.place, format!("a parameter of a module becomes {value}"), "a finite number");
+        }
+    }
+    string.set_parameters(slot, &values);
+    Ok(())
+}

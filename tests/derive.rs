@@ -1,0 +1,62 @@
+//! `derive`: the strings of L-systems on the two streams, with the exit codes of what goes wrong.
+
+mod program;
+
+use program::{run, write};
+use tempfile::tempdir;
+
+const DRAGON: &str = "Lsystem: 1\nderivation length: 2\nAxiom: L\nL --> +L--R+\nR --> -L++R-\nhomomorphism\nL --> F\nR --> F\nendlsystem\n";
+
+#[test]
+fn strings_and_counts_are_told() {
+    let folder = tempdir().unwrap();
+    write(folder.path(), "dragon.l", DRAGON);
+    let string = |words: &[&str]| run(folder.path(), words).ending(0).stdout;
+    assert_eq!(string(&["derive", "dragon.l", "--step", "1"]), "+L--R+\n");
+    assert_eq!(string(&["derive", "dragon.l"]), "++L--R+---L++R-+\n", "the steps that the file states");
+    let counts = string(&["derive", "dragon.l", "--step", "8", "--counts"]);
+    assert_eq!(counts, "step\t8\nmodules\t1276\ndrawn\t1276\n+\t510\n-\t510\nL\t128\nR\t128\n");
+}
+
+/// μ3 of L-system 2 and the counts of L-system 4 (Prusinkiewicz, James & Měch 1994), whose queries the turtle answers.
+#[test]
+fn queries_are_answered_as_in_a_plant_that_grows() {
+    let folder = tempdir().unwrap();
+    let string = run(folder.path(), &["derive", "topiary/2", "--step", "3"]).ending(0).stdout;
+    assert_eq!(string, "F(3)?P(0,3)-F(2)?P(2,3)-F(1)?P(2,2)-A\n");
+    let told = run(folder.path(), &["derive", "topiary/4", "--step", "75", "--json"]).ending(0).json();
+    assert_eq!((&told["counts"]["F"], &told["counts"]["@o"]), (&18.into(), &2.into()));
+    let modules = told["modules"].as_array().unwrap();
+    assert_eq!(modules.len(), 84);
+    let keys: std::collections::BTreeSet<&str> = modules.iter().map(|module| module["key"].as_str().unwrap()).collect();
+    assert_eq!(keys.len(), 84, "a key names one module");
+}
+
+#[test]
+fn constants_are_set() {
+    let folder = tempdir().unwrap();
+    write(folder.path(), "f.l", "#define N 2\nAxiom: F(N)\nF(x) --> F(x+N)\n");
+    let told = run(folder.path(), &["derive", "f.l", "--step", "1", "-D", "N=1.5"]).ending(0);
+    assert_eq!(told.stdout, "F(3)\n");
+    run(folder.path(), &["derive", "f.l", "-D", "N"]).ending(2);
+    let told = run(folder.path(), &["derive", "f.l", "-D", "M=1"]).ending(3);
+    assert!(told.stderr.contains("no constant is named `M`"), "{}", told.stderr);
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_place() {
+    let folder = tempdir().unwrap();
+    write(folder.path(), "wrong.l", "Axiom: A[\nA --> B(x)\n");
+    let told = run(folder.path(), &["derive", "wrong.l"]).ending(3);
+    assert!(told.stdout.is_empty());
+    for words in ["wrong.l:1:9", "wrong.l:2:9", "nothing is named `x`"] {
+        assert!(told.stderr.contains(words), "`{words}` is missing in\n{}", told.stderr);
+    }
+    let told = run(folder.path(), &["derive", "wrong.l", "--json"]).ending(3).json();
+    assert_eq!(told["status"], "invalid");
+    write(folder.path(), "endless.l", "Axiom: A(1)\nA(x) --> A(1/(x-2))A(x+1)\n");
+    let told = run(folder.path(), &["derive", "endless.l", "--step", "5"]).ending(1);
+    assert!(told.stderr.contains("endless.l:2:10: step 2: a parameter of a module becomes inf"), "{}", told.stderr);
+    run(folder.path(), &["derive", "coffee"]).ending(2);
+    run(folder.path(), &["derive", "nothing.l"]).ending(3);
+}
