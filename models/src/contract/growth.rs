@@ -193,8 +193,9 @@ fn same_plant(rule: &str, one: &Plant, other: &Plant) {
     assert_same(&format!("{rule}, event for event"), &events(one), &events(other));
 }
 
-/// A plant with room for its last component grows to `until`. With less room the model returns [`Overgrown`](phytomer_sim::model::Overgrown), ahead or
-/// by the clock; a plant that is not overgrown has at most as many components as its limit.
+/// A plant with room for its last component grows to `until`. With less room the model returns
+/// [`Overgrown`](phytomer_sim::model::Overgrown), ahead or by the clock; a plant that is not overgrown has at most as
+/// many components as its limit.
 ///
 /// # Panics
 /// Where a plant is overgrown with enough room, or is not with too little.
