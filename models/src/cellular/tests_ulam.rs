@@ -6,6 +6,7 @@
 use super::{Grid, Plane, Ulam, UlamModel};
 use crate::contract;
 use crate::fault::Path;
+use phytomer_sim::Grow;
 use phytomer_sim::plant::{NodeId, Plant};
 use phytomer_sim::pose::{node_frame, pose};
 
@@ -86,6 +87,18 @@ fn axes_go_straight_on() {
 fn patterns_keep_the_contract_of_growth_models() {
     contract::check(&compiled(&ulam(Grid::Triangles)), 9, 3);
     contract::check(&compiled(&Ulam { stem_m: None, plane: Plane::Level, ..ulam(Grid::Squares) }), 8, 3);
+}
+
+#[test]
+fn the_forecast_counts_every_cell() {
+    let model = compiled(&ulam(Grid::Squares));
+    let foretold = model.expectation(12).expect("a forecast");
+    for age in 0..=12 {
+        let plant = contract::grown(&model, age.max(1), &contract::seed_of(1, 0));
+        let expected = if age == 0 { 1.0 } else { f64::from(plant.components()) };
+        assert_eq!(foretold.components(age), expected, "age {age}");
+    }
+    assert!(model.expectation(60_000).is_none(), "billions of cells are not grown to be foretold");
 }
 
 #[test]

@@ -13,9 +13,10 @@ use super::grid::{Cell, Tiling};
 use crate::fault::{Fault, Path};
 use crate::law::{Constant, ConstantForm, ValueRange};
 use phytomer_sim::clock::{LAST_TICK, Tick};
+use phytomer_sim::expectation::{Certainty, Expectation, OrderExpectation};
 use phytomer_sim::model::{Grow, Growth, Overgrown};
-use phytomer_sim::plant::{Habit, NewAxis, Plant};
-use phytomer_sim::site::View;
+use phytomer_sim::plant::{Habit, NewAxis, Plant, Seed};
+use phytomer_sim::site::{Site, View};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -23,6 +24,9 @@ use std::sync::Arc;
 
 const SIZE: ValueRange = ValueRange { min: 1e-6, max: 1000.0, what: "a length in m" };
 const DIAMETER: ValueRange = ValueRange { min: 0.0, max: 1e6, what: "a diameter in mm" };
+
+/// The most components of a pattern that is foretold by growing it.
+const MOST_FORETOLD: u32 = 300_000;
 
 /// A branching pattern on a plane grid: at each tick every cell is coloured that exactly one coloured cell faces.
 ///
@@ -225,5 +229,26 @@ impl Grow for UlamModel {
 
     fn thicken(&self, _age: Tick, plant: &mut Plant) {
         keep_diameters(plant);
+    }
+
+    /// Nothing is random here, so these are the numbers of a plant; none where it is large.
+    fn expectation(&self, until: Tick) -> Option<Expectation> {
+        let limit = MOST_FORETOLD;
+        let seed = Seed { plant: 0, draws: 0, run_seed: 0, component_limit: limit, keep_events: false };
+        let mut plant = Plant::new(&seed, self.habit());
+        let mut life = self.sow(&mut plant);
+        self.grow_to(until, &mut plant, &mut life, &View::of(&Site::default())).ok()?;
+        let last = plant.axes.order.iter().copied().max().unwrap_or(1);
+        let mut orders: Vec<OrderExpectation> = (0..last).map(|_| OrderExpectation::zero(until)).collect();
+        for axis in 0..plant.axes.len() {
+            orders[usize::from(plant.axes.order[axis]) - 1].axes[plant.axes.appearance[axis] as usize] += 1.0;
+        }
+        for node in 0..plant.nodes.len() {
+            let order = &mut orders[usize::from(plant.axes.order[plant.nodes.axis[node].index()]) - 1];
+            order.nodes[plant.nodes.birth[node] as usize] += 1.0;
+            order.units[plant.nodes.birth[node] as usize] += 1.0;
+        }
+        orders.iter_mut().for_each(OrderExpectation::accumulate);
+        Some(Expectation { orders, axes: Certainty::Exact, organs: Certainty::Exact })
     }
 }
