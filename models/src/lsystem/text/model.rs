@@ -135,9 +135,9 @@ impl TextModel {
         self.script.program.settings().steps
     }
 
-    /// What the text says, as it is derived.
+    /// What the text says, as it is derived, with the constants that all plants have.
     pub fn program(&self) -> &Program {
-        &self.program
+        &self.script.program
     }
 
     /// Derives the string of a plant without making the plant: its queries are answered as in a plant that grows.
@@ -147,10 +147,10 @@ impl TextModel {
     pub fn derive(&self, random: PlantRandom, steps: Tick) -> Result<Derived, Stopped> {
         let (draft, numbered) = (Draft::default(), Numbered::default());
         let mut scratch = Scratch { turtle: self.turtle.clone(), draft, numbered };
-        let mut drawing = Drawing { model: self, scratch: &mut scratch, drawn: false };
-        let mut derived = self.program.sow(random, &mut drawing)?;
+        let mut drawing = Drawing { model: self, script: &self.script, scratch: &mut scratch, drawn: false };
+        let mut derived = self.program().sow(random, &mut drawing)?;
         for _ in 0..steps {
-            self.program.step(&mut derived, &mut drawing)?;
+            self.program().step(&mut derived, &mut drawing)?;
         }
         Ok(derived)
     }
