@@ -2,7 +2,7 @@
 //! spread, and plants that have lost their tip make others.
 //!
 //! Each boll lives for 17 ticks and is exposed to the ticks of the attack in which it stands, so its chance follows from
-//! its age alone. Absent: the distributions themselves (`sim/draws`).
+//! its age alone; pickers come after the attack. Absent: the distributions themselves (`sim/draws`).
 
 use super::grown;
 use super::read::Columns;
@@ -13,7 +13,7 @@ use std::path::Path;
 /// The plants of a treatment.
 const PLANTS: usize = 60;
 /// The ticks in which bollworms eat, and the ticks that a boll stands.
-const EATING: std::ops::RangeInclusive<u32> = 28..=40;
+const EATING: std::ops::RangeInclusive<u32> = 18..=26;
 const BOLL: u32 = 17;
 
 /// What insects did to one plant.
