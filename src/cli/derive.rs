@@ -9,7 +9,7 @@ use anyhow::Result;
 use clap::Args;
 use phytomer_config::{Model, ResolvedSpecies};
 use phytomer_models::fault::Path;
-use phytomer_models::law::Constant;
+use phytomer_models::law::Variate;
 use phytomer_models::lsystem::Lsystem;
 use phytomer_models::lsystem::text::TextModel;
 use phytomer_rewriting::{Derived, Program};
@@ -91,7 +91,10 @@ impl Derive {
         for warning in program.warnings() {
             let file = program.files().get(warning.place.file as usize).map_or("", String::as_str);
             let (line, column) = (warning.place.line, warning.place.column);
-            terminal::say(&format!("{file}:{line}:{column}: warning: {}; expected {}", warning.problem, warning.expected));
+            terminal::say(&format!(
+                "{file}:{line}:{column}: warning: {}; expected {}",
+                warning.problem, warning.expected
+            ));
         }
         let steps = self.step.or(model.derivation_length()).unwrap_or(1);
         let derived = model.derive(PlantRandom::new(self.seed, self.plant), steps);
@@ -134,7 +137,7 @@ fn model(
 ) -> Option<Result<TextModel, Vec<phytomer_models::fault::Fault>>> {
     let Model::Lsystem(stated) = &species.species.model else { return None };
     let mut stated: Lsystem = stated.clone();
-    stated.define.extend(define.iter().map(|(name, value)| (name.clone(), Constant::from(*value))));
+    stated.define.extend(define.iter().map(|(name, value)| (name.clone(), Variate::from(*value))));
     stated.text_model(&Path::root())
 }
 
