@@ -135,22 +135,24 @@ impl TextModel {
         self.script.program.settings().steps
     }
 
-    /// What the text says, as it is derived, with the constants that all plants have.
+    /// What the text says, as it is derived.
     pub fn program(&self) -> &Program {
         &self.script.program
     }
 
     /// Derives the string of a plant without making the plant: its queries are answered as in a plant that grows.
+    /// Constants that plants draw have the middle of what they draw.
     ///
     /// # Errors
     /// Why a step cannot be made.
     pub fn derive(&self, random: PlantRandom, steps: Tick) -> Result<Derived, Stopped> {
         let (draft, numbered) = (Draft::default(), Numbered::default());
         let mut scratch = Scratch { turtle: self.turtle.clone(), draft, numbered };
+        let Script { program, .. } = &*self.script;
         let mut drawing = Drawing { model: self, script: &self.script, scratch: &mut scratch, drawn: false };
-        let mut derived = self.program().sow(random, &mut drawing)?;
+        let mut derived = program.sow(random, &mut drawing)?;
         for _ in 0..steps {
-            self.program().step(&mut derived, &mut drawing)?;
+            program.step(&mut derived, &mut drawing)?;
         }
         Ok(derived)
     }
