@@ -7,7 +7,7 @@ mod ply;
 mod program;
 mod read;
 
-use ply::{count, mesh};
+use ply::{count, mesh, place_in};
 use program::{hashes, run};
 use read::Columns;
 use std::collections::BTreeSet;
@@ -62,6 +62,7 @@ fn runs_of_plants_that_see_their_height_have_the_same_bytes_however_they_are_gro
     run(folder.path(), &["mesh", "runs/1", "--plant", "5", "--age", "12", "--sides", "3", "--out", "one.ply"])
         .ending(0);
     let (header, bytes) = mesh(&folder.path().join("one.ply"));
+    assert_eq!(place_in(&header), [0.0; 3], "plants without a spacing stand at the origin");
     let drawn: BTreeSet<u32> = (0..count(&header, "vertex"))
         .map(|vertex| u32::from_le_bytes(bytes[VERTEX * vertex + 44..][..4].try_into().unwrap()))
         .collect();
