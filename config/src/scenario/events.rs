@@ -324,7 +324,7 @@ event = [
   { operation = "tying", age = 9, wires_m = [0.5, 1], every = 6 },
   { operation = "tying", age = 9, wires_m = [0.5], azimuth_deg = 90 },
 ]
-planting = { row_direction = 180 }"#;
+planting = { row_spacing = 300, plant_spacing = 200, row_direction = 180 }"#;
         let scenario: Scenario = toml::from_str(text).unwrap();
         assert_eq!(scenario.faults(), []);
         let management = scenario.management(None);
