@@ -42,7 +42,7 @@ fn trees_are_alike_before_the_first_cut_and_keep_the_bounds_of_their_system() {
     let (_, text) = presets(Kind::Scenario).iter().find(|(name, _)| *name == "apple_pruning").expect("it ships");
     let short =
         text.replace("until = 48\n", "until = 36\n").replace("record = [8, 16, 24, 32, 40, 48]", "record = [36]");
-    assert!(short.matches("36").count() >= 3 && !short.contains("48]"), "the shorter run is made by these keys");
+    assert!(short.contains("until = 36\n") && short.contains("record = [36]"), "the shorter run is made by these keys");
     let home = tempfile::tempdir().expect("a temporary folder");
     write(home.path(), "short.toml", &short);
     run(home.path(), &["grow", "short.toml", "--name", "short", "--quiet"]).ending(0);
