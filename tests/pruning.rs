@@ -23,6 +23,8 @@ const ORCHARD: &str = r#"name = "orchard"
 species = "apple"
 plants = 8
 ages = { until = 24, record = { every = 4 } }
+planting_date = "2000-03-01"
+calendar = { tick = { days = 30 } }
 member = [{}, { at_m = [2, 0], sown = 3 }, { species = "coffee", at_m = [0, 2] }, { species = "london_plane", at_m = [4, 0] }]
 
 [[event]]
@@ -42,7 +44,7 @@ share = 0.3
 
 [[event]]
 operation = "heading"
-age = 11
+date = "2001-02-01"
 only = "order == 1"
 keep_share = 0.8
 

@@ -186,7 +186,7 @@ impl Trial {
     /// What a plant is in its plot.
     pub fn member_of(&self, plant: u32) -> Member {
         let PlantPlace { treatment, member, .. } = self.plant(plant);
-        self.treatments[treatment].scenario.plot_members().get(member as usize).cloned().unwrap_or_default()
+        self.treatments[treatment].scenario.member_at(member as usize).unwrap_or_default()
     }
 
     /// Whether a plant is planted by an event alone, so that it is not known before when.

@@ -13,6 +13,7 @@ use crate::mechanics::{Scratch, Thickening, bend, thicken};
 use crate::model::{GrowthModel, Life, Overgrown};
 use crate::plant::Plant;
 use crate::plot::{Member, Plot};
+use crate::pose::height;
 use crate::record::{RecordError, Recorder};
 use crate::shed::{note_falls, shed};
 use crate::site::{Site, View};
@@ -80,7 +81,7 @@ impl Plot<'_> {
     /// limit are kept.
     pub fn ahead(&mut self, until: Tick) -> bool {
         let remade = self.species.iter().any(|model| !model.growth().keeps_its_past());
-        if self.site.feeds_back() || remade || self.is_watched() {
+        if self.site.feeds_back() || remade || self.is_watched() || self.sees_heights() {
             return false;
         }
         let fits = self.grow_managed(until).is_ok();
@@ -145,9 +146,15 @@ impl Plot<'_> {
         }
     }
 
-    /// Whether plants must stand at every tick: wood remembers its shape, or the site sees where buds are.
+    /// Whether plants must stand at every tick: wood remembers its shape, the site sees where buds are, or growth
+    /// depends on the height.
     pub(crate) fn is_looked_at(&self) -> bool {
-        self.remembers() || self.site.sees_buds()
+        self.remembers() || self.site.sees_buds() || self.sees_heights()
+    }
+
+    /// Whether the growth of a member depends on its height.
+    fn sees_heights(&self) -> bool {
+        self.members.iter().any(|member| self.species[member.species].sees_height())
     }
 
     /// A model that makes the plant anew has work only at ticks that are recorded.
@@ -174,4 +181,7 @@ pub fn stand(model: &dyn GrowthModel, plant: &mut Plant, age: Tick, site: &Site)
     }
     bend(plant, age, site, &mut scratch);
     SCRATCH.set(scratch);
+    if model.sees_height() {
+        plant.height = height(plant, age);
+    }
 }

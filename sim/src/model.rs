@@ -67,6 +67,12 @@ pub trait Grow: Send + Sync {
     /// [`Overgrown`] where the plant would pass its limit of components; it then holds part of its growth.
     fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Self::Life, view: &View<'_>) -> Result<(), Overgrown>;
 
+    /// Whether growth depends on the height of the plant at the end of the last tick ([`Plant::height`]). The plant
+    /// then grows tick by tick, and stands at each.
+    fn sees_height(&self) -> bool {
+        false
+    }
+
     /// Writes the diameters of each internode as they are at `age`, by the model's law; where the species states
     /// another rule of secondary growth, the loop applies that one after it.
     fn thicken(&self, age: Tick, plant: &mut Plant);
@@ -112,6 +118,8 @@ pub trait GrowthModel: Send + Sync {
     /// Where `life` is that of another model's plant.
     fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Life, view: &View<'_>) -> Result<(), Overgrown>;
 
+    fn sees_height(&self) -> bool;
+
     fn thicken(&self, age: Tick, plant: &mut Plant);
 
     /// As [`Grow::claim`].
@@ -147,6 +155,10 @@ impl<M: Grow> GrowthModel for M {
 
     fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Life, view: &View<'_>) -> Result<(), Overgrown> {
         Grow::grow_to(self, age, plant, life.get_mut(), view)
+    }
+
+    fn sees_height(&self) -> bool {
+        Grow::sees_height(self)
     }
 
     fn thicken(&self, age: Tick, plant: &mut Plant) {

@@ -75,6 +75,17 @@ impl Rotation {
         Self { scalar: 0.0, vector: axis }
     }
 
+    /// Whether another rotation is the same but for rounding in single precision: both turn by angles that differ by
+    /// less than 10⁻⁶ rad, about.
+    pub(crate) fn is_near(self, other: Self) -> bool {
+        let cosine = self.scalar * other.scalar + self.vector.dot(other.vector);
+        let apart = |sign: f64| {
+            let (scalar, vector) = (self.scalar - sign * other.scalar, self.vector - other.vector * sign);
+            scalar * scalar + vector.dot(vector)
+        };
+        apart(if cosine < 0.0 { -1.0 } else { 1.0 }) < 2.5e-13
+    }
+
     /// The rotation that takes this one back.
     pub(crate) fn inverse(self) -> Self {
         Self { scalar: self.scalar, vector: self.vector * -1.0 }

@@ -66,14 +66,21 @@ impl Scenario {
         if self.member.is_empty() {
             return vec![Member::default()];
         }
-        let mut members = self.member.clone();
-        for number in 0..members.len() {
-            let replaced = members[number].replaces.and_then(|replaced| members.get(replaced as usize));
-            if let (true, Some(replaced)) = (members[number].at_m.is_empty(), replaced) {
-                members[number].at_m = replaced.at_m.clone();
-            }
+        (0..self.member.len()).filter_map(|number| self.member_at(number)).collect()
+    }
+
+    /// A member by its number; one that states no place, and is the successor of another, has the place of that one.
+    pub(crate) fn member_at(&self, number: usize) -> Option<Member> {
+        let mut member = self.member.get(number)?.clone();
+        let mut last = number;
+        while member.at_m.is_empty()
+            && let Some(replaced) = self.member[last].replaces.map(|replaced| replaced as usize)
+            && replaced < last
+        {
+            member.at_m.clone_from(&self.member[replaced].at_m);
+            last = replaced;
         }
-        members
+        Some(member)
     }
 
     /// The last tick at which a member may be sown.

@@ -195,6 +195,11 @@ impl CountTable {
         self.grid.asks_the_bud()
     }
 
+    /// Whether the distribution depends on the height of the plant.
+    pub fn asks_height(&self) -> bool {
+        self.grid.asks_height()
+    }
+
     /// The mean at a point.
     #[inline]
     pub fn mean(&self, at: At) -> f64 {

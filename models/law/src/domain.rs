@@ -27,6 +27,8 @@ pub struct At {
     pub bud_dimension: u32,
     /// The growth units that the axis has made.
     pub unit: u32,
+    /// The height of the plant at the end of the last tick, in steps of [`HEIGHT_STEP`].
+    pub height: u32,
     /// Index of the physiological state in [`Domain::states`].
     pub state: u8,
 }
@@ -71,11 +73,22 @@ pub struct Longest {
 }
 
 /// The number of variables of a grid: those of [`Variable`] that the date does not decide, and the state.
-const AXES: usize = 8;
+const AXES: usize = 9;
 /// The place of the state among the variables of a grid.
-const STATE: usize = 7;
-/// The place of the first of the variables of the bud, which few laws name.
-const OF_THE_BUD: usize = 4;
+const STATE: usize = 8;
+/// The place of the first of the variables that few laws name: those of the bud, and the height of the plant.
+const RARE: usize = 4;
+
+/// The steps in which laws know the height of a plant, metres: a table has a cell for each.
+pub const HEIGHT_STEP: f64 = 0.05;
+/// The greatest height that laws know, metres; the tallest tree known has 116 m.
+const MOST_HEIGHT: u32 = 125;
+
+/// The last step that a height has reached, but for rounding.
+pub fn height_in_steps(metres: f64) -> u32 {
+    // The cast saturates, and takes 0 where there is no number.
+    (metres / HEIGHT_STEP + 1e-3).floor() as u32
+}
 
 /// Which variables a law depends on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -128,7 +141,8 @@ fn place_among_dates(variable: Variable) -> Option<usize> {
 }
 
 impl At {
-    /// The value of `variable` at this point; of a variable of the date the age, which decides it.
+    /// The value of `variable` at this point, of the height its steps; of a variable of the date the age, which decides
+    /// it.
     pub fn get(&self, variable: Variable) -> u32 {
         self.all()[axis_of(variable)]
     }
@@ -136,7 +150,8 @@ impl At {
     #[inline]
     fn all(&self) -> [u32; AXES] {
         let (bud_birth, bud_dimension) = (self.bud_birth, self.bud_dimension);
-        [self.age, self.dimension, self.cycle, self.rank, bud_birth, bud_dimension, self.unit, u32::from(self.state)]
+        let state = u32::from(self.state);
+        [self.age, self.dimension, self.cycle, self.rank, bud_birth, bud_dimension, self.unit, self.height, state]
     }
 
     /// The variables in `uses` with their values, such as "age 3, dimension 27, state adult"; empty where there are
@@ -179,7 +194,16 @@ impl Domain {
             Variable::Cycle => (0, self.max_cycle),
             Variable::Rank => (self.max_rank.min(1), self.max_rank),
             Variable::Unit => (0, self.max_unit),
+            Variable::HeightM => (0, MOST_HEIGHT),
             _ => self.range_of_dates(variable),
+        }
+    }
+
+    /// The first and the last cell of `variable` in a grid.
+    fn cells(&self, variable: Variable) -> (u32, u32) {
+        match variable {
+            Variable::HeightM => (0, height_in_steps(f64::from(MOST_HEIGHT))),
+            _ => self.range(variable),
         }
     }
 
@@ -196,9 +220,10 @@ impl Domain {
         if let Some(held) = self.held {
             return held;
         }
-        match variable.is_of_the_date() {
-            true => self.on_date(variable, at.age).unwrap_or(f64::NAN),
-            false => f64::from(at.get(variable)),
+        match variable {
+            Variable::HeightM => f64::from(at.height) * HEIGHT_STEP,
+            _ if variable.is_of_the_date() => self.on_date(variable, at.age).unwrap_or(f64::NAN),
+            _ => f64::from(at.get(variable)),
         }
     }
 
@@ -244,6 +269,8 @@ pub(super) struct Grid {
     len: u32,
     /// Whether one of its variables moves only when the bud makes a growth unit.
     asks_the_bud: bool,
+    /// Whether one of its variables is among those that few laws name.
+    asks_rare: bool,
 }
 
 impl Grid {
@@ -258,9 +285,9 @@ impl Grid {
         let mut cells: u64 = 1;
         let states = (0, u32::try_from(domain.states.len().saturating_sub(1)).unwrap_or(u32::MAX));
         // The rank runs fastest and the state slowest.
-        use Variable::{Age, BudBirth, BudDimension, Cycle, Dimension, Rank, Unit};
-        let of_time = [Rank, Cycle, Unit, BudDimension, Dimension, BudBirth, Age];
-        let ranges = of_time.map(|variable| (axis_of(variable), domain.range(variable)));
+        use Variable::{Age, BudBirth, BudDimension, Cycle, Dimension, HeightM, Rank, Unit};
+        let of_time = [Rank, HeightM, Cycle, Unit, BudDimension, Dimension, BudBirth, Age];
+        let ranges = of_time.map(|variable| (axis_of(variable), domain.cells(variable)));
         for (axis, (first, last)) in ranges.into_iter().chain([(STATE, states)]) {
             if !uses.axes[axis] {
                 continue;
@@ -272,6 +299,7 @@ impl Grid {
         }
         grid.len = u32::try_from(cells).unwrap_or(0);
         grid.asks_the_bud = uses.variables().any(Variable::is_of_the_bud);
+        grid.asks_rare = (RARE..STATE).any(|axis| uses.axes[axis]);
         if cells > MAX_CELLS { Err(cells) } else { Ok(grid) }
     }
 
@@ -282,6 +310,11 @@ impl Grid {
     /// Whether one of its variables moves only when the bud makes a growth unit.
     pub fn asks_the_bud(&self) -> bool {
         self.asks_the_bud
+    }
+
+    /// Whether one of its variables is the height of the plant.
+    pub fn asks_height(&self) -> bool {
+        self.stride[Variable::HeightM as usize] != 0
     }
 
     /// Whether the rank does not matter.
@@ -310,9 +343,9 @@ impl Grid {
         let at = at.all();
         let along = |axis: usize| at[axis].saturating_sub(self.first[axis]).min(self.span[axis]) * self.stride[axis];
         let mut cell = along(STATE);
-        (0..OF_THE_BUD).for_each(|axis| cell += along(axis));
-        if self.asks_the_bud {
-            (OF_THE_BUD..STATE).for_each(|axis| cell += along(axis));
+        (0..RARE).for_each(|axis| cell += along(axis));
+        if self.asks_rare {
+            (RARE..STATE).for_each(|axis| cell += along(axis));
         }
         cell as usize
     }
@@ -326,7 +359,7 @@ impl Grid {
             stride => self.first[axis] + cell / stride % (self.span[axis] + 1),
         };
         let used = |variable: Variable| self.stride[variable as usize] != 0;
-        let [age, mut dimension, cycle, rank, mut bud_birth, mut bud_dimension, unit, state] =
+        let [age, mut dimension, cycle, rank, mut bud_birth, mut bud_dimension, unit, height, state] =
             std::array::from_fn(value);
         if used(Variable::Age) {
             dimension = dimension.min(age);
@@ -342,6 +375,6 @@ impl Grid {
             bud_dimension = bud_dimension.min(bud_birth);
         }
         let state = u8::try_from(state).unwrap_or(u8::MAX);
-        At { age, dimension, cycle, rank, bud_birth, bud_dimension, unit, state }
+        At { age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height, state }
     }
 }

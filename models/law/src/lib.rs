@@ -46,7 +46,7 @@ pub use constant::{Constant, ConstantForm};
 pub use count::{Binomial, Count, CountComponent, CountForm, NegativeBinomial, Poisson};
 pub use count_table::CountTable;
 pub use curves::{Beyond, ExponentialLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw};
-pub use domain::{At, Domain, Longest};
+pub use domain::{At, Domain, HEIGHT_STEP, Longest, height_in_steps};
 pub use form::{Law, LawForm};
 pub use quantity::{Quantity, QuantityForm};
 pub use range::ValueRange;

@@ -123,6 +123,11 @@ impl ProbabilityTable {
         self.grid.asks_the_bud()
     }
 
+    /// Whether the law depends on the height of the plant.
+    pub fn asks_height(&self) -> bool {
+        self.grid.asks_height()
+    }
+
     /// Whether the event happens at no point of a run of any length, so that no draw is needed.
     #[inline]
     pub fn is_never(&self) -> bool {

@@ -7,7 +7,8 @@
 //! move with every tick. For a node that is being made both meanings agree, because it is born at that tick.
 //!
 //! `nitrogen`, `degree_days`, `day_length_h` and `date` are known where the scenario has a calendar that tells them; a
-//! law reads them for the tick at which it is drawn (`dates`).
+//! law reads them for the tick at which it is drawn (`dates`). `height_m` is what the plant has become: where a species
+//! names it, growth goes tick by tick and the plant stands at each of them.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
@@ -34,6 +35,8 @@ pub enum Variable {
     BudDimension,
     /// The growth units that the axis has made before the one that is being made, from 0.
     Unit,
+    /// The height of the plant at the end of the last tick, metres.
+    HeightM,
     /// The nitrogen of the season, kg/ha: the soil's own supply and what was applied since the season began.
     Nitrogen,
     /// Degree-days since the plant was sown, °C d.
@@ -46,7 +49,7 @@ pub enum Variable {
 
 impl Variable {
     /// Every variable, in the order of the lists that people see.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Age,
         Self::Dimension,
         Self::Cycle,
@@ -54,6 +57,7 @@ impl Variable {
         Self::BudBirth,
         Self::BudDimension,
         Self::Unit,
+        Self::HeightM,
         Self::Nitrogen,
         Self::DegreeDays,
         Self::DayLengthH,
@@ -73,6 +77,7 @@ impl Variable {
             Self::BudBirth => "bud_birth",
             Self::BudDimension => "bud_dimension",
             Self::Unit => "unit",
+            Self::HeightM => "height_m",
             Self::Nitrogen => "nitrogen",
             Self::DegreeDays => "degree_days",
             Self::DayLengthH => "day_length_h",
@@ -98,6 +103,10 @@ impl Variable {
                  a bud in de Reffye 1988 §3"
             }
             Self::Unit => "growth units that the axis has made before this one, from 0",
+            Self::HeightM => {
+                "the height of the plant at the end of the last tick, metres, in steps of 5 cm: that of the highest tip of \
+                 an internode above the seed"
+            }
             Self::Nitrogen => {
                 "the nitrogen of the season, kg/ha: the soil's own supply and what was applied since the season began"
             }

@@ -172,6 +172,11 @@ impl VariateTable {
         self.grid.asks_the_bud()
     }
 
+    /// Whether a parameter depends on the height of the plant.
+    pub fn asks_height(&self) -> bool {
+        self.grid.asks_height()
+    }
+
     /// Whether two draws at the same point can differ, in a run of some length.
     pub fn is_random(&self) -> bool {
         let spread = |&[a, b]: &[f64; 2]| match &self.kind {

@@ -13,7 +13,7 @@ use super::bud::ApicalBud;
 use super::compile::{BudModel, OrderLaws, Passage};
 use super::params::ApexEnd;
 use super::record::Words;
-use crate::law::At;
+use crate::law::{At, height_in_steps};
 use phytomer_sim::clock::{NEVER, Speed, Tick};
 use phytomer_sim::plant::{ApexFate, AxisId, EventKind, NewAxis, NodeId, Plant};
 use phytomer_sim::random::Purpose;
@@ -27,6 +27,8 @@ pub(super) struct Axis<'a> {
     pub bud: ApicalBud,
     pub tick: Tick,
     dimension: u32,
+    /// The height of the plant, in the steps in which laws know it; 0 where none asks.
+    height: u32,
     speed: Speed,
     /// The growth units after which the apex ends.
     last_unit: u32,
@@ -46,6 +48,7 @@ impl<'a> Axis<'a> {
     pub fn new(model: &'a BudModel, plant: &'a mut Plant, words: &'a mut Words, bud: ApicalBud) -> Self {
         let laws = model.laws(plant.axes.order[bud.axis.index()]);
         words.of(laws);
+        let height = if laws.asks_height { height_in_steps(f64::from(plant.height)) } else { 0 };
         let mut axis = Self {
             model,
             laws,
@@ -54,6 +57,7 @@ impl<'a> Axis<'a> {
             bud,
             tick: bud.age,
             dimension: 0,
+            height,
             speed: Speed::ONE,
             last_unit: u32::MAX,
             leads: false,
@@ -121,7 +125,8 @@ impl<'a> Axis<'a> {
     pub fn at(&self, rank: u32) -> At {
         let ApicalBud { cycle, units: unit, birth: bud_birth, state, .. } = self.bud;
         let bud_dimension = bud_birth.saturating_sub(self.birth);
-        At { age: self.tick, dimension: self.dimension, cycle, rank, bud_birth, bud_dimension, unit, state }
+        let height = self.height;
+        At { age: self.tick, dimension: self.dimension, cycle, rank, bud_birth, bud_dimension, unit, height, state }
     }
 
     /// One clock step of the apical bud; false where it ended.

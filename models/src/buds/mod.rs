@@ -26,6 +26,8 @@ mod tests_drawn;
 #[cfg(test)]
 mod tests_faults;
 #[cfg(test)]
+mod tests_height;
+#[cfg(test)]
 mod tests_pests;
 #[cfg(test)]
 mod tests_replanting;

@@ -39,6 +39,11 @@ impl BudModel {
         self.orders.iter().any(|laws| laws.asks_the_bud)
     }
 
+    /// Whether some law depends on the height of the plant.
+    fn asks_height(&self) -> bool {
+        self.orders.iter().any(|laws| laws.asks_height)
+    }
+
     pub(super) fn has_order(&self, order: u8) -> bool {
         (1..=self.orders.len()).contains(&usize::from(order))
     }
@@ -237,7 +242,7 @@ impl Grow for BudModel {
     }
 
     fn expectation(&self, until: Tick) -> Option<Expectation> {
-        if self.asks_the_bud() {
+        if self.asks_the_bud() || self.asks_height() {
             return None;
         }
         match until.min(self.until) {
@@ -247,6 +252,10 @@ impl Grow for BudModel {
     }
 
     /// Diameter at birth plus the thickening of the internode's order at the plant's age and its own.
+    fn sees_height(&self) -> bool {
+        self.asks_height()
+    }
+
     fn thicken(&self, age: Tick, plant: &mut Plant) {
         let added = self.thickening_at(age);
         let Plant { axes, nodes, appeared, .. } = plant;

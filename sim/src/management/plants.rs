@@ -6,7 +6,7 @@
 use super::column::Column;
 use crate::clock::Tick;
 use crate::plant::{Class, Kind, NodeId, OrganId, Plant};
-use crate::pose::node_frame;
+use crate::pose;
 
 /// The value of a column of a plant that is number `member` of its plot, at its age `tick`; NaN for columns that plants
 /// do not have. Linear in the plant.
@@ -39,15 +39,9 @@ pub fn value(plant: &Plant, member: usize, tick: Tick, column: Column) -> f64 {
     }
 }
 
-/// The height of the highest tip of an internode that stands, above the seed, metres; 0 where none does.
+/// The height of the plant, metres.
 pub fn height(plant: &Plant, tick: Tick) -> f64 {
-    let mut highest = 0.0_f32;
-    plant.each_standing(tick, |stretch| {
-        for node in stretch.nodes() {
-            highest = highest.max(node_frame(plant, NodeId(node as u32)).base[2]);
-        }
-    });
-    f64::from(highest)
+    f64::from(pose::height(plant, tick))
 }
 
 /// The first internode of the trunk that stands.

@@ -182,7 +182,8 @@ impl<'a> Scan<'a> {
         let frame = Frame { base: base.single(), heading: heading.single(), up: chord.of(Z).single() };
         let turned = matches!(self.guides[axis], Guide::Turned(_));
         let states = straight || turned || self.must_be_stated(node, begins);
-        let rest = states.then(|| Rest::Turned(below.turned.inverse().then(start).normalized()));
+        let rest = states.then(|| below.turned.inverse().then(start).normalized());
+        let rest = rest.filter(|rest| !self.is_stated(node, *rest)).map(Rest::Turned);
         if turned {
             self.guides[axis] = Guide::Free;
         }
@@ -251,6 +252,15 @@ impl<'a> Scan<'a> {
         let axis = self.plant.nodes.axis[node];
         let node = NodeId(node as u32);
         Vector::from(if begins { self.plant.start_of(axis) } else { self.plant.start_of(node) })
+    }
+
+    /// Whether this is how an internode is stated, but for rounding: what is tied again where it is tied takes no
+    /// further memory.
+    fn is_stated(&self, node: usize, rest: Rotation) -> bool {
+        match self.plant.rest_of(NodeId(node as u32), self.tick) {
+            Rest::Turned(stated) => stated.is_near(rest),
+            _ => false,
+        }
     }
 
     /// Whether an internode that goes along would not, unless its frame were stated: its direction follows a trend, or

@@ -73,6 +73,7 @@ impl Plant {
             habit: self.habit.clone(),
             own_trends: OwnTrends::default(),
             exposure: self.exposure.clone(),
+            height: self.height,
             random: self.random.clone(),
             place: self.place,
             stated: Default::default(),

@@ -102,6 +102,9 @@ pub struct Plant {
     pub own_trends: OwnTrends,
     /// What pests do to it; `None` where no pest is.
     pub exposure: Option<Arc<Exposure>>,
+    /// Its height at the end of the last tick, metres above the seed, where its model asks
+    /// ([`crate::Grow::sees_height`]); else 0.
+    pub height: f32,
     /// The source of its random words.
     pub random: PlantRandom,
     /// The place of its seed in the plot, metres. All other positions of a plant are relative to its seed, so that a
@@ -162,6 +165,7 @@ impl Plant {
             habit,
             own_trends: OwnTrends::default(),
             exposure: None,
+            height: 0.0,
             random: PlantRandom::new(seed.run_seed, seed.draws),
             place: [0.0; 3],
             stated: StatedFrames::default(),
@@ -193,6 +197,7 @@ impl Plant {
         self.begin_rewriting();
         self.ledger.clear();
         self.age = 0;
+        self.height = 0.0;
         self.components = 0;
         if let Some(events) = &mut self.events {
             events.clear();

@@ -91,6 +91,18 @@ pub fn node_frame(plant: &Plant, node: NodeId) -> Frame {
     plant.frames.at(node).advanced(plant.posed_length(node))
 }
 
+/// The height of the highest tip of an internode that stands at `age`, above the seed, metres; 0 where none does. The
+/// internodes must be posed.
+pub fn height(plant: &Plant, age: Tick) -> f32 {
+    let mut highest = 0.0_f32;
+    plant.each_standing(age, |stretch| {
+        for node in stretch.nodes() {
+            highest = highest.max(node_frame(plant, NodeId(node as u32)).base[2]);
+        }
+    });
+    highest
+}
+
 /// The pose of the bud of an axis before its first node: on its bearing node, in the direction of its insertion, or as
 /// its rest frame is stated. In a plant that is bent the bearer counts as straight.
 pub fn start_frame(plant: &Plant, axis: AxisId) -> Frame {

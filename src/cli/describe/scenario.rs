@@ -137,7 +137,13 @@ fn plants_in_words(resolved: &Resolved) -> String {
     let plots = amounts::of(trial.plots().into(), "plot");
     let later = scenario.member.iter().filter(|member| member.sown > 0).count();
     let sown = if later > 0 { format!(", {later} of them sown later") } else { String::new() };
-    format!("{plants}, in {plots} of {}{sown}", amounts::of(scenario.members().into(), "plant"))
+    let successors = scenario.member.iter().filter(|member| member.replaces.is_some()).count();
+    let waiting = match successors {
+        0 => String::new(),
+        1 => ", 1 of them a successor".to_owned(),
+        _ => format!(", {successors} of them successors"),
+    };
+    format!("{plants}, in {plots} of {}{sown}{waiting}", amounts::of(scenario.members().into(), "plant"))
 }
 
 /// A number of the forecast with what it is.

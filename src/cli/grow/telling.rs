@@ -7,6 +7,7 @@ use super::shown;
 use anyhow::Result;
 use phytomer::run::forecast::{Figure, Forecast};
 use phytomer::run::{Outcome, Settings};
+use phytomer_config::scenario::Member;
 use phytomer_config::{Resolved, Trial};
 use phytomer_outputs::{Space, Table};
 use serde_json::{Value, json};
@@ -243,7 +244,8 @@ pub fn clock(resolved: &Resolved) -> &'static str {
 /// Whether a plant of any treatment is sown after tick 0.
 fn is_sown_later(resolved: &Resolved) -> bool {
     let trial = resolved.trial();
-    trial.treatments().iter().any(|treatment| treatment.scenario.member.iter().any(|member| member.sown > 0))
+    let later = |member: &Member| member.sown > 0 || member.replaces.is_some();
+    trial.treatments().iter().any(|treatment| treatment.scenario.member.iter().any(later))
 }
 
 fn in_words(forecast: &Forecast, members: u32) -> String {

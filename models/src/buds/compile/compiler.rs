@@ -51,6 +51,8 @@ pub struct Compiler<'a> {
     pub speeds: SpeedTable,
     /// Whether some compiled law depends on a variable that moves with growth units alone, and not with the clock.
     pub asks_the_bud: bool,
+    /// Whether some compiled law depends on the height of the plant.
+    pub asks_height: bool,
     /// The faults found so far.
     pub faults: Vec<Fault>,
     /// The faults of keys that are compiled in several domains, for each domain: other orders may find the same faults.
@@ -78,6 +80,7 @@ impl<'a> Compiler<'a> {
             orders_path,
             speeds,
             asks_the_bud: false,
+            asks_height: false,
             faults,
             asked_again: Vec::new(),
         }
@@ -144,6 +147,7 @@ impl<'a> Compiler<'a> {
         let compiled = law.compile_probability(&self.domain, &self.at(keys));
         let table = self.accept(compiled).unwrap_or_else(|| ProbabilityTable::certain_or_never(false));
         self.asks_the_bud |= table.asks_the_bud();
+        self.asks_height |= table.asks_height();
         table
     }
 
@@ -177,6 +181,7 @@ impl<'a> Compiler<'a> {
         let (least, most) = (*within.start(), *within.end());
         let table = self.accept(compiled).unwrap_or_else(|| CountTable::always(least));
         self.asks_the_bud |= table.asks_the_bud();
+        self.asks_height |= table.asks_height();
         let (outside, expected) = match (table.min() < least, table.max() > most) {
             (true, _) => (table.min(), format!("at least {least}")),
             (_, true) => (table.max(), format!("at most {most}")),
@@ -193,6 +198,7 @@ impl<'a> Compiler<'a> {
         let compiled = fall.compile(&self.domain, &path);
         let table = self.accept_again(compiled).unwrap_or_else(|| CountTable::always(0));
         self.asks_the_bud |= table.asks_the_bud();
+        self.asks_height |= table.asks_height();
         if year > 0 && table.max() >= year {
             let found = format!("the tick {} is not in a year of {year} ticks", table.max());
             let expected = format!("a tick of the year from 0 to {}", year.saturating_sub(1));
@@ -260,6 +266,7 @@ impl<'a> Compiler<'a> {
     fn accept_variate_again(&mut self, compiled: Result<VariateTable, Vec<Fault>>) -> VariateTable {
         let table = self.accept_again(compiled).unwrap_or_else(|| VariateTable::always(0.0));
         self.asks_the_bud |= table.asks_the_bud();
+        self.asks_height |= table.asks_height();
         table
     }
 
@@ -277,6 +284,7 @@ impl<'a> Compiler<'a> {
     fn accept_variate(&mut self, compiled: Result<VariateTable, Vec<Fault>>) -> VariateTable {
         let table = self.accept(compiled).unwrap_or_else(|| VariateTable::always(0.0));
         self.asks_the_bud |= table.asks_the_bud();
+        self.asks_height |= table.asks_height();
         table
     }
 

@@ -66,6 +66,8 @@ pub(super) struct OrderLaws {
     pub end: EndLaws,
     /// Whether some law depends on a variable that moves with growth units alone.
     pub asks_the_bud: bool,
+    /// Whether some law depends on the height of the plant.
+    pub asks_height: bool,
     /// Metres added to a diameter; a law of the plant's age and the internode's own.
     pub thickening: ValueTable,
 }
@@ -162,6 +164,7 @@ impl OrderLaws {
             end,
             thickening: compiler.thickening(&order.internode.thickening_mm),
             asks_the_bud: compiler.asks_the_bud,
+            asks_height: compiler.asks_height,
             step,
         }
     }

@@ -115,6 +115,21 @@ fn a_limb_and_a_twig_on_it_are_trained_at_once() {
     assert_keep_form(&before, &after, &nodes_of(&after, &[4]));
 }
 
+/// What is tied again where it is tied is not stated again.
+#[test]
+fn a_stake_that_stays_takes_no_more_memory() {
+    let mut plant = standing(Growth::AxisByAxis);
+    training(Support::Stake(0.75)).apply(&mut plant, &[], TICK);
+    pose(&mut plant, TICK);
+    let (once, stands) = (plant.stated.clone(), plant.frames.base.clone());
+    for tick in TICK + 1..TICK + 9 {
+        training(Support::Stake(0.75)).apply(&mut plant, &[], tick);
+        pose(&mut plant, tick);
+    }
+    assert_eq!(plant.stated, once);
+    assert!(plant.frames.base.iter().zip(&stands).all(|(now, then)| apart(*now, *then) < 1e-6));
+}
+
 #[test]
 fn earlier_ages_keep_their_frames() {
     for growth in [Growth::AxisByAxis, Growth::TickByTick] {
