@@ -19,6 +19,8 @@ pub(super) const BASE: u32 = u32::MAX;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Internode {
     pub key: LineageKey,
+    /// The key of the module of the string that it is, or that is drawn as it.
+    pub module: LineageKey,
     pub axis: u32,
     /// The internode below it, or [`BASE`].
     pub below: u32,
@@ -33,6 +35,8 @@ pub(super) struct Internode {
 #[derive(Debug, Clone)]
 pub(super) struct Organ {
     pub key: LineageKey,
+    /// The key of the module of the string that it is, or that is drawn as it.
+    pub module: LineageKey,
     /// The internode that bears it, or [`BASE`].
     pub on: u32,
     pub frame: Frame,
@@ -51,10 +55,12 @@ pub(super) struct Organ {
 pub(super) struct Axis {
     /// The key of its bracket; that of the seed for the trunk.
     pub key: LineageKey,
+    /// The key of the module of the string that the bracket is, or that is drawn with it.
+    pub module: LineageKey,
     /// The internode that bears it, or [`BASE`].
     pub on: u32,
     pub order: u8,
-    /// Its last apex, where it has one: its key and its frame.
+    /// Its last apex, where it has one: the key of its module and its frame.
     pub apex: Option<(LineageKey, Frame)>,
 }
 
@@ -87,6 +93,7 @@ pub(super) struct Draft {
 #[derive(Debug, Clone, Copy)]
 struct Bracket {
     key: LineageKey,
+    module: LineageKey,
     axis: Option<u32>,
     last: u32,
 }
@@ -107,6 +114,7 @@ pub(super) struct Walk<'w> {
     /// The module whose drawing is walked along, and whether the species names its kind, with its organ if it is one.
     of: Option<Slot>,
     named: Option<Option<usize>>,
+    module: LineageKey,
     predecessor: LineageKey,
 }
 
@@ -121,10 +129,23 @@ impl<'w> Walk<'w> {
     ) -> Self {
         turtle.restart();
         draft.clear();
-        let at = Bracket { key: LineageKey::SEED, axis: Some(0), last: BASE };
+        let module = LineageKey::SEED;
+        let at = Bracket { key: LineageKey::SEED, module, axis: Some(0), last: BASE };
         let following = Box::new(derived.string().modules());
         let predecessor = LineageKey::SEED;
-        Self { roles, outlines, turtle, draft, open: Vec::new(), at, following, of: None, named: None, predecessor }
+        Self {
+            roles,
+            outlines,
+            turtle,
+            draft,
+            open: Vec::new(),
+            at,
+            following,
+            of: None,
+            named: None,
+            module,
+            predecessor,
+        }
     }
 
     /// Goes on by a module as it is drawn; what a query that stands there asks for.
@@ -136,7 +157,7 @@ impl<'w> Walk<'w> {
         match command {
             Command::Open => {
                 self.open.push(self.at);
-                self.at = Bracket { key: drawn.key, axis: None, last: self.at.last };
+                self.at = Bracket { key: drawn.key, module: self.module, axis: None, last: self.at.last };
             }
             Command::Close => self.at = self.open.pop().unwrap_or(self.at),
             _ => {}
@@ -152,7 +173,18 @@ impl<'w> Walk<'w> {
         match turtle.follow(command, drawn.parameters)? {
             Drawing::Line { from, length, width } if !silent => {
                 let kind = if let Role::Internode(kind) = role { kind } else { Kind::Internode };
-                let node = Internode { key: drawn.key, axis: 0, below: BASE, frame: from, length, width, kind, colour };
+                let module = drawn.key;
+                let node = Internode {
+                    key: drawn.key,
+                    module,
+                    axis: 0,
+                    below: BASE,
+                    frame: from,
+                    length,
+                    width,
+                    kind,
+                    colour,
+                };
                 self.add_node(node);
             }
             Drawing::Polygon { from, corners } => {
@@ -187,6 +219,7 @@ impl<'w> Walk<'w> {
             let frame = Frame::START;
             let foot = Internode {
                 key: foot_key(),
+                module: foot_key(),
                 axis: 0,
                 below: BASE,
                 frame,
@@ -205,7 +238,7 @@ impl<'w> Walk<'w> {
         self.of = Some(drawn.of);
         self.named = None;
         let Some(module) = self.pass_to(Some(drawn.of)) else { return };
-        self.predecessor = module.identity.predecessor;
+        self.look_at(&module);
         let role = self.roles.get(module.symbol).1;
         if drawn.depth > 0 && matches!(role, Role::Apex | Role::Organ(_)) {
             let before = self.draft.organs.len();
@@ -221,10 +254,16 @@ impl<'w> Walk<'w> {
             if Some(module.slot) == slot {
                 return Some(module);
             }
-            self.predecessor = module.identity.predecessor;
+            self.look_at(&module);
             let role = self.roles.get(module.symbol).1;
             self.state_of(role, module.identity.key);
         }
+    }
+
+    /// Remembers whose drawing comes.
+    fn look_at(&mut self, module: &Module<'_>) {
+        self.module = module.identity.key;
+        self.predecessor = module.identity.predecessor;
     }
 
     /// The component that a module of a stated kind is, beside what it draws; organs that draw an outline come with it.
@@ -234,7 +273,7 @@ impl<'w> Walk<'w> {
         match role {
             Role::Apex => {
                 let axis = self.axis();
-                self.draft.axes[axis as usize].apex = Some((key, frame));
+                self.draft.axes[axis as usize].apex = Some((self.module, frame));
             }
             Role::Organ(kind) => self.add_organ(key, kind, frame, size, 0..0, colour),
             Role::AsDrawn | Role::Internode(_) => {}
@@ -249,7 +288,8 @@ impl<'w> Walk<'w> {
         let axis = self.draft.axes.len() as u32;
         let bearing = if self.at.last == BASE { 0 } else { self.draft.nodes[self.at.last as usize].axis };
         let order = self.draft.axes[bearing as usize].order.saturating_add(1);
-        self.draft.axes.push(Axis { key: self.at.key, on: self.at.last, order, apex: None });
+        let Bracket { key, module, last: on, .. } = self.at;
+        self.draft.axes.push(Axis { key, module, on, order, apex: None });
         self.draft.order.push(Item::Axis(axis as usize));
         self.at.axis = Some(axis);
         axis
@@ -258,15 +298,25 @@ impl<'w> Walk<'w> {
     fn add_node(&mut self, node: Internode) {
         let axis = self.axis();
         let place = self.draft.nodes.len();
-        self.draft.nodes.push(Internode { axis, below: self.at.last, ..node });
+        self.draft.nodes.push(Internode { axis, below: self.at.last, module: self.module, ..node });
         self.draft.order.push(Item::Node(place));
         self.at.last = place as u32;
     }
 
     fn add_organ(&mut self, key: LineageKey, kind: Kind, frame: Frame, size: f64, outline: Range<usize>, colour: i32) {
         self.draft.order.push(Item::Organ(self.draft.organs.len()));
-        let predecessor = self.predecessor;
-        self.draft.organs.push(Organ { key, on: self.at.last, frame, kind, size, outline, colour, predecessor });
+        let Self { module, predecessor, .. } = *self;
+        self.draft.organs.push(Organ {
+            key,
+            module,
+            on: self.at.last,
+            frame,
+            kind,
+            size,
+            outline,
+            colour,
+            predecessor,
+        });
     }
 
     /// A polygon or a surface: of the module of a stated kind that it is drawn for, its form; else a leaf.
@@ -312,7 +362,7 @@ impl Draft {
         self.order.clear();
         self.first = None;
         self.has_base = false;
-        self.axes.push(Axis { key: LineageKey::SEED, on: BASE, order: 1, apex: None });
+        self.axes.push(Axis { key: LineageKey::SEED, module: LineageKey::SEED, on: BASE, order: 1, apex: None });
     }
 
     fn add_outline(&mut self, corners: impl Iterator<Item = Vector>) -> Range<usize> {

@@ -26,7 +26,7 @@ impl Born {
 /// What is known of the bud of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Bud {
-    /// The key of its last apex; `None` where it never had one.
+    /// The key of the module of its last apex; `None` where it never had one.
     pub apex: Option<LineageKey>,
     /// When and how the last apex ended.
     pub end: (Tick, ApexFate),
@@ -39,8 +39,8 @@ pub(super) struct Numbers {
     by_key: HashMap<u64, Born, BuildHasherDefault<OwnHash>>,
     /// The bud of each axis, by the number of the bud; in the order of the numbers.
     buds: Vec<(u32, Bud)>,
-    /// By their numbers.
-    keys: Vec<LineageKey>,
+    /// By their numbers: their keys, and those of the modules of the string that they are or that are drawn as them.
+    keys: Vec<[LineageKey; 2]>,
 }
 
 /// The numbers of the components of a draft, in its order.
@@ -67,7 +67,7 @@ impl Numbers {
         }
         if self.keys.is_empty() {
             plant.next_number_on(None);
-            self.keys.push(LineageKey::SEED);
+            self.keys.push([LineageKey::SEED; 2]);
             self.buds.push((0, Bud { apex: None, end: (NEVER, ApexFate::Alive) }));
         }
         numbered.axes[0] = Born::TRUNK;
@@ -85,10 +85,10 @@ impl Numbers {
     }
 
     fn number_item(&mut self, item: Item, draft: &Draft, age: Tick, plant: &mut Plant, numbered: &mut Numbered) {
-        let (key, on) = match item {
-            Item::Axis(place) => (draft.axes[place].key, draft.axes[place].on),
-            Item::Node(place) => (draft.nodes[place].key, draft.nodes[place].below),
-            Item::Organ(place) => (draft.organs[place].key, draft.organs[place].on),
+        let (key, module, on) = match item {
+            Item::Axis(place) => (draft.axes[place].key, draft.axes[place].module, draft.axes[place].on),
+            Item::Node(place) => (draft.nodes[place].key, draft.nodes[place].module, draft.nodes[place].below),
+            Item::Organ(place) => (draft.organs[place].key, draft.organs[place].module, draft.organs[place].on),
         };
         let born = match self.by_key.get(&key.0) {
             Some(born) => *born,
@@ -98,7 +98,7 @@ impl Numbers {
                 let number = plant.next_number_on(on.map(|node| numbered.nodes[node].number));
                 let born = Born { number, at: age };
                 self.by_key.insert(key.0, born);
-                self.keys.push(key);
+                self.keys.push([key, module]);
                 if let Item::Axis(_) = item {
                     self.buds.push((number, Bud { apex: None, end: (NEVER, ApexFate::Alive) }));
                 }
@@ -112,16 +112,11 @@ impl Numbers {
         }
     }
 
-    /// Forgets a component that has gone, so that what comes back is new; its key.
+    /// Forgets a component that has gone, so that what comes back is new; the key of its module.
     pub fn forget(&mut self, number: u32) -> LineageKey {
-        let key = self.key(number);
+        let [key, module] = self.keys[number as usize];
         self.by_key.remove(&key.0);
-        key
-    }
-
-    /// The key of the module that a component is, standing or gone.
-    pub fn key(&self, number: u32) -> LineageKey {
-        self.keys[number as usize]
+        module
     }
 
     /// The bud of an axis by its number.

@@ -186,6 +186,17 @@ fn what_vanishes_has_a_cause() {
     assert_eq!(plant.nodes.len(), 2, "the first internode, and that which the flower became");
 }
 
+/// What a homomorphism draws goes as its module goes.
+#[test]
+fn what_is_drawn_for_a_module_is_cut_with_it() {
+    let text = "Lsystem: 1\nAxiom: FXMM\nX --> Y\nY --> %\nhomomorphism\nM --> F[+F]\nendlsystem\n";
+    let model = model(text, "angle increment: 90", &[]);
+    assert_eq!((grown(&model, 0).nodes.len(), grown(&model, 1).nodes.len()), (5, 5));
+    let plant = grown(&model, 2);
+    assert_eq!((plant.nodes.len(), plant.axes.len(), plant.ledger.len()), (1, 1, 6));
+    assert!(plant.ledger.iter().all(|gone| gone.cause == Cause::Pruned && gone.birth == 0), "{:?}", plant.ledger);
+}
+
 /// Fig. 2.8: 2·3ⁿ − 1 internodes; the squares of the widths of the last generation sum up to 3ⁿ; the mean tip.
 #[test]
 fn a_tree_of_ternary_branching() {
