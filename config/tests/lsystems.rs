@@ -68,7 +68,9 @@ fn trees_of_two_daughters() {
 fn sympodial_trees_are_gmt1() {
     use phytomer_models::fault::Path;
     use phytomer_models::geometric::Gmt1;
-    for (figure, r2, a1, a2) in [("a", 0.7, 5.0, 65.0), ("b", 0.7, 10.0, 60.0), ("c", 0.8, 20.0, 50.0), ("d", 0.8, 35.0, 35.0)] {
+    for (figure, r2, a1, a2) in
+        [("a", 0.7, 5.0, 65.0), ("b", 0.7, 10.0, 60.0), ("c", 0.8, 20.0, 50.0), ("d", 0.8, 35.0, 35.0)]
+    {
         let gmt1 = Gmt1 {
             h1_deg: a1.into(),
             h2_deg: (-a2).into(),
@@ -88,7 +90,8 @@ fn sympodial_trees_are_gmt1() {
         pose(&mut tree, 8);
         let points = |plant: &Plant, turned: bool| {
             let nodes = (0..plant.nodes.len() as u32).map(|node| node_frame(plant, NodeId(node)).base);
-            let mut points: Vec<[f32; 3]> = nodes.map(|[x, y, z]| if turned { [-y, x, z] } else { [x, y, z] }).collect();
+            let mut points: Vec<[f32; 3]> =
+                nodes.map(|[x, y, z]| if turned { [-y, x, z] } else { [x, y, z] }).collect();
             points.sort_by(|one, other| one.partial_cmp(other).expect("numbers"));
             points
         };
@@ -152,7 +155,8 @@ fn what_is_wrong_in_a_file_is_told_at_its_line_and_column() {
     assert!(report.contains("own.v:1:18"), "{report}");
     assert!(report.contains("own.l:2:"), "{report}");
     let unknown = format!("{SPECIES}[kinds]\nA = \"bud\"\n");
-    let report = told(validate_texts("own", &[("own", &unknown), ("own.l", "Axiom: FA\n")]).err().expect("it is wrong"));
+    let report =
+        told(validate_texts("own", &[("own", &unknown), ("own.l", "Axiom: FA\n")]).err().expect("it is wrong"));
     assert!(report.contains("unknown kind `bud`"), "{report}");
     let report = told(validate_texts("own", &[("own", SPECIES)]).err().expect("it is wrong"));
     assert!(report.contains("there is no file `own.l`"), "{report}");

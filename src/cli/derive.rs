@@ -91,7 +91,10 @@ impl Derive {
         for warning in program.warnings() {
             let file = program.files().get(warning.place.file as usize).map_or("", String::as_str);
             let (line, column) = (warning.place.line, warning.place.column);
-            terminal::say(&format!("{file}:{line}:{column}: warning: {}; expected {}", warning.problem, warning.expected));
+            terminal::say(&format!(
+                "{file}:{line}:{column}: warning: {}; expected {}",
+                warning.problem, warning.expected
+            ));
         }
         let steps = self.step.or(model.derivation_length()).unwrap_or(1);
         let derived = model.derive(PlantRandom::new(self.seed, self.plant), steps);

@@ -5,7 +5,7 @@
 
 mod amounts;
 mod bar;
-pub pub mod causes;
+pub mod causes;
 mod derive;
 mod describe;
 mod events;
