@@ -1,5 +1,5 @@
-//! The shipped L-systems as plants: numbers of *Synthetic Topiary* and of *The Algorithmic Beauty of Plants*, and what is
-//! told of a species whose files are wrong.
+//! The shipped L-systems as plants: numbers of *Synthetic Topiary* and of *The Algorithmic Beauty of Plants*, and what
+//! is told of a species whose files are wrong.
 
 use phytomer_config::{Report, ResolvedSpecies, validate_species, validate_texts};
 use phytomer_sim::plant::{NodeId, Plant, Seed};

@@ -94,7 +94,8 @@ pub trait Parameters {
         None
     }
 
-    /// The age from which nothing more grows, or at which it is meant to be looked at, where the parameters determine it.
+    /// The age from which nothing more grows, or at which it is meant to be looked at, where the parameters determine
+    /// it.
     fn full_grown_at(&self) -> Option<Tick> {
         None
     }

@@ -79,7 +79,7 @@ impl Grow for Wooden {
 fn step(plant: &mut Plant, tick: Tick) -> Result<(), Overgrown> {
     let axes = plant.axes.len();
     if !plant.has_room_for(4 * axes as u32) {
-        return Err(Overgrown { plant: plant.id, limit: plant.component_limit() });
+        return Err(Overgrown::of(plant));
     }
     for axis in 0..axes {
         grow_axis(plant, AxisId(axis as u32), tick);
@@ -216,7 +216,7 @@ pub fn grow_plots<'m>(folder: &RunFolder, shard: u32, sow: impl Fn(u32) -> Plot<
     for id in folder.plan().plots_of(shard) {
         let mut plot = sow(id);
         let ending = grow(&mut plot, folder.plan().until, &mut open).unwrap();
-        open.end_plot(&plot, ending).unwrap();
+        open.end_plot(&plot, ending.clone()).unwrap();
         endings.push(ending);
     }
     (open.commit().unwrap(), endings)

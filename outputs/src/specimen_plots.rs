@@ -49,7 +49,7 @@ impl Grow for Doubling {
     fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Self::Life, _: &View<'_>) -> Result<(), Overgrown> {
         for tick in plant.age + 1..=age.min(DOUBLES_UNTIL) {
             if !plant.has_room_for(life.len() as u32) {
-                return Err(Overgrown { plant: plant.id, limit: plant.component_limit() });
+                return Err(Overgrown::of(plant));
             }
             plant.note(tick, AxisId::TRUNK, EventKind::Grew, life.len() as u32);
             *life = life.iter().flat_map(|&old| [old, (plant.next_number(), tick)]).collect();

@@ -20,11 +20,11 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelI
 use std::cell::Cell;
 
 /// How a plot came to its end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Ending {
     /// It reached the last tick.
     Complete,
-    /// A plant came to its limit; the ticks before `age` are recorded.
+    /// A plant came to its limit, or to a stop; the ticks before `age` are recorded.
     Overgrown {
         /// The tick of the plot that it could not finish.
         age: Tick,

@@ -11,7 +11,7 @@ use crate::expectation::Expectation;
 use crate::plant::{Habit, Plant};
 use crate::site::View;
 use std::any::Any;
-use std::fmt::Debug;
+use std::fmt::{self, Debug};
 use std::sync::Arc;
 
 /// How a model goes from one age to the next.
@@ -34,15 +34,39 @@ impl Growth {
     }
 }
 
-/// A plant came to its limit of components.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("plant {plant} came to its limit of {limit} components")]
+/// A plant cannot be grown on: it came to its limit of components, or its model came to a stop.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Overgrown {
     /// The plant's number in the run.
     pub plant: u32,
     /// The limit.
     pub limit: u32,
+    /// Why its model came to a stop; `None` where the plant came to its limit.
+    pub stopped: Option<Arc<str>>,
 }
+
+impl Overgrown {
+    /// A plant came to its limit.
+    pub fn of(plant: &Plant) -> Self {
+        Self { plant: plant.id, limit: plant.component_limit(), stopped: None }
+    }
+
+    /// The model of a plant came to a stop, for this reason.
+    pub fn stopped(plant: &Plant, why: &str) -> Self {
+        Self { stopped: Some(why.into()), ..Self::of(plant) }
+    }
+}
+
+impl fmt::Display for Overgrown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.stopped {
+            Some(why) => write!(f, "plant {} came to a stop: {why}", self.plant),
+            None => write!(f, "plant {} came to its limit of {} components", self.plant, self.limit),
+        }
+    }
+}
+
+impl std::error::Error for Overgrown {}
 
 /// A growth model with its parameters, compiled and checked: what the author of a model writes.
 ///

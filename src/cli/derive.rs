@@ -9,7 +9,7 @@ use anyhow::Result;
 use clap::Args;
 use phytomer_config::{Model, ResolvedSpecies};
 use phytomer_models::fault::Path;
-use phytomer_models::law::Constant;
+use phytomer_models::law::Variate;
 use phytomer_models::lsystem::Lsystem;
 use phytomer_models::lsystem::text::TextModel;
 use phytomer_rewriting::{Derived, Program};
@@ -137,7 +137,7 @@ fn model(
 ) -> Option<Result<TextModel, Vec<phytomer_models::fault::Fault>>> {
     let Model::Lsystem(stated) = &species.species.model else { return None };
     let mut stated: Lsystem = stated.clone();
-    stated.define.extend(define.iter().map(|(name, value)| (name.clone(), Constant::from(*value))));
+    stated.define.extend(define.iter().map(|(name, value)| (name.clone(), Variate::from(*value))));
     stated.text_model(&Path::root())
 }
 

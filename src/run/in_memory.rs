@@ -89,7 +89,9 @@ impl Keeper for MemoryKeeper<'_> {
     fn end_plot(&mut self, plot: &Plot, ending: Ending) -> Result<(), RunError> {
         self.tables.end_plot(plot, &ending).map_err(phytomer_outputs::Error::from)?;
         if let Ending::Overgrown { age, limit } = ending {
-            self.overgrown.push(OvergrownPlot { plot: plot.id, plant: limit.plant, tick: age, limit: limit.limit });
+            let stopped = limit.stopped.as_deref().map(str::to_owned);
+            let (plant, limit) = (limit.plant, limit.limit);
+            self.overgrown.push(OvergrownPlot { plot: plot.id, plant, tick: age, limit, stopped });
         }
         Ok(())
     }

@@ -25,7 +25,7 @@ impl BudModel {
         living: &mut Vec<ApicalBud>,
     ) -> Result<(), Overgrown> {
         living.retain(|bud| plant.axes.apex_fate[bud.axis.index()] == ApexFate::Alive);
-        let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
+        let limit = Overgrown::of(plant);
         let mut words = Words::default();
         let first_new = plant.axes.len();
         for node in plant.stumps(age) {

@@ -83,7 +83,7 @@ impl BudModel {
         age: Tick,
         words: &mut Words,
     ) -> Result<Option<ApicalBud>, Overgrown> {
-        let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
+        let limit = Overgrown::of(plant);
         Axis::new(self, plant, words, bud).grow(age).map_err(|Full| limit)
     }
 
@@ -117,7 +117,7 @@ impl BudModel {
         site: &Site,
     ) -> Result<(), Overgrown> {
         let mut words = Words::default();
-        let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
+        let limit = Overgrown::of(plant);
         let first_new = plant.axes.len();
         keep(living, |bud| {
             let at = bud_frame(plant, bud.axis).base;
@@ -125,7 +125,7 @@ impl BudModel {
             if !site.kills_at(at) {
                 return Ok(Some(bud));
             }
-            Axis::new(self, plant, &mut words, bud).kill(age).map_err(|Full| limit)?;
+            Axis::new(self, plant, &mut words, bud).kill(age).map_err(|Full| limit.clone())?;
             Ok(None)
         })?;
         let new = first_new..plant.axes.len();
@@ -146,7 +146,7 @@ impl BudModel {
             return self.grow_in_turn(plant, waiting, age);
         }
         let (first, second) = budget.parted();
-        let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
+        let limit = Overgrown::of(plant);
         let middle = middle_of(&plant.axes.birth, waiting.clone(), age);
         let mut fragment = plant.fragment(middle..waiting.end);
         let rest = fragment.waiting();
@@ -155,7 +155,7 @@ impl BudModel {
             || self.grow_waiting(&mut fragment.plant, rest, age, second),
         );
         // The limit of a fragment is the room that the whole plant has left.
-        let (mut living, others) = mine.and_then(|mine| Ok((mine, theirs?))).map_err(|_| limit)?;
+        let (mut living, others) = mine.and_then(|mine| Ok((mine, theirs?))).map_err(|_| limit.clone())?;
         let joint = plant.join(fragment);
         living.extend(others.into_iter().map(|bud| bud.joined(&joint)));
         if plant.is_overgrown() { Err(limit) } else { Ok(living) }

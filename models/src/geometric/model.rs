@@ -46,7 +46,7 @@ impl Gmt1Model {
         self.sow(plant);
         let limit = plant.component_limit();
         if self.parameters.components_at(age) > u64::from(limit) {
-            return Err(Overgrown { plant: plant.id, limit });
+            return Err(Overgrown::of(plant));
         }
         if let Some(last) = self.parameters.level_at(age) {
             let tree = self.laws.draw(&plant.random);

@@ -2,8 +2,9 @@
 //!
 //! [`d0l`] holds the deterministic systems of Aono & Kunii 1984, stated in the species file. [`view`] reads the files
 //! that lie beside an L-system of a text of its own: how the turtle draws, surfaces, functions, colours; [`turtle`]
-//! draws by them what the modules of a string tell, and [`text`] makes plants of that. [`Lsystem`] holds
-//! the keys of a species. Absent on purpose: the language of such texts and the rewriting of their strings (`phytomer_rewriting`), and reading files (`config`).
+//! draws by them what the modules of a string tell, and [`text`] makes plants of that. [`Lsystem`] holds the keys of a
+//! species. Absent on purpose: the language of such texts and the rewriting of their strings (`phytomer_rewriting`),
+//! and reading files (`config`).
 
 pub mod d0l;
 mod parameters;

@@ -7,7 +7,7 @@
 use super::d0l::{Cell, D0l};
 use super::text::{TextModel, TextSystem, Wrong};
 use crate::fault::{Fault, Path, Segment};
-use crate::law::{Constant, ValueRange};
+use crate::law::{Constant, Domain, ValueRange, Variate, VariateTable};
 use crate::parameters::{Card, Keys, Parameters};
 use phytomer_sim::Tick;
 use phytomer_sim::clock::LAST_TICK;
@@ -22,6 +22,9 @@ use std::sync::Arc;
 /// The length of a step, and the diameter of a line of width 1.
 const MEASURE: ValueRange = ValueRange { min: 1e-9, max: 1000.0, what: "a length in m" };
 
+/// A constant of a file.
+const CONSTANT: ValueRange = ValueRange { min: -1e30, max: 1e30, what: "a number" };
+
 /// An L-system: of a file of its own, or a D0L-system of cells that are stated here.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -30,9 +33,9 @@ pub struct Lsystem {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String", length(min = 1, max = 10_000))]
     pub axiom: Option<String>,
-    /// Of a D0L-system: what each cell becomes at a tick: a string that begins with a cell, or an empty string where the
-    /// cell vanishes. A cell that vanishes may bear no branch, and no axis may end with it. A cell without a production
-    /// stays as it is.
+    /// Of a D0L-system: what each cell becomes at a tick: a string that begins with a cell, or an empty string where
+    /// the cell vanishes. A cell that vanishes may bear no branch, and no axis may end with it. A cell without a
+    /// production stays as it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "BTreeMap<String, String>")]
     pub production: Option<BTreeMap<String, String>>,
@@ -44,7 +47,8 @@ pub struct Lsystem {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Constant", extend("minimum" = 0, "maximum" = 180))]
     pub branching_deg: Option<Constant>,
-    /// The file of an L-system (`.l`) in the folder of the species file, in the dialect of cpfg or in that of the papers.
+    /// The file of an L-system (`.l`) in the folder of the species file, in the dialect of cpfg or in that of the
+    /// papers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String", length(min = 1, max = 255))]
     pub file: Option<String>,
@@ -52,8 +56,8 @@ pub struct Lsystem {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String", length(min = 1, max = 255))]
     pub view: Option<String>,
-    /// Its map of colours (`.map`) or of materials (`.mat`); if not given, that of the same name, or the only one of the
-    /// folder.
+    /// Its map of colours (`.map`) or of materials (`.mat`); if not given, that of the same name, or the only one of
+    /// the folder.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String", length(min = 1, max = 255))]
     pub colours: Option<String>,
@@ -61,14 +65,15 @@ pub struct Lsystem {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Constant", extend("exclusiveMinimum" = 0, "maximum" = 1000))]
     pub step_m: Option<Constant>,
-    /// The diameter of a line of width 1, metres; if not given, `step_m`, or a fiftieth of it where the view file counts
-    /// widths in pixels.
+    /// The diameter of a line of width 1, metres; if not given, `step_m`, or a fiftieth of it where the view file
+    /// counts widths in pixels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Constant", extend("exclusiveMinimum" = 0, "maximum" = 1000))]
     pub width_m: Option<Constant>,
-    /// Constants of the file: they stand for its `#define` of the same names.
+    /// Constants of the file: they stand for its `#define` of the same names. A plant draws a random one once for its
+    /// whole life.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub define: BTreeMap<String, Constant>,
+    pub define: BTreeMap<String, Variate>,
     /// What modules are, by their names: `A = "apical_bud"`, `"@o" = "axillary_bud"`, `"~p" = "petal"`. A line is an
     /// internode and a surface or a polygon a leaf where nothing is stated.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -77,8 +82,8 @@ pub struct Lsystem {
     /// growth is intercalary.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub continues: BTreeMap<String, Continues>,
-    /// The texts of the L-system and of the files beside it, by their names; what is not given is read from the folder of
-    /// the species file. Maps of colours and materials are written as hexadecimal digits.
+    /// The texts of the L-system and of the files beside it, by their names; what is not given is read from the folder
+    /// of the species file. Maps of colours and materials are written as hexadecimal digits.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub texts: BTreeMap<String, String>,
 }
@@ -152,6 +157,7 @@ impl Lsystem {
         let (step_m, width_m) = (measure("step_m", &self.step_m), measure("width_m", &self.width_m));
         let kinds = self.kinds(top, &mut faults);
         let (texts, maps) = self.texts(top, &mut faults);
+        let define = self.constants(top, &mut faults);
         let last = self.continues.iter().filter(|(_, which)| **which == Continues::Last);
         let system = TextSystem {
             file: file.to_owned(),
@@ -159,13 +165,24 @@ impl Lsystem {
             colours: self.colours.clone(),
             texts,
             maps,
-            define: self.define.iter().map(|(name, value)| (name.clone(), value.value())).collect(),
+            define,
             kinds,
             continues_last: last.map(|(name, _)| name.clone()).collect(),
             step_m: step_m.unwrap_or(1.0),
             width_m,
         };
         if faults.is_empty() { Ok(system) } else { Err(faults) }
+    }
+
+    fn constants(&self, top: &Path, faults: &mut Vec<Fault>) -> Vec<(String, VariateTable)> {
+        let mut constants = Vec::new();
+        for (name, law) in &self.define {
+            match law.compile(&Domain::ONCE, &top.key("define").key(name), CONSTANT) {
+                Ok(law) => constants.push((name.clone(), law)),
+                Err(found) => faults.extend(found),
+            }
+        }
+        constants
     }
 
     fn kinds(&self, top: &Path, faults: &mut Vec<Fault>) -> BTreeMap<String, Kind> {

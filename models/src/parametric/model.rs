@@ -69,7 +69,7 @@ impl TreeModel {
 fn add(stem: &Stem, parent: Option<NodeId>, plant: &mut Plant) -> Result<NodeId, Overgrown> {
     let (limit, new) = (plant.component_limit(), stem.turns.len() as u64 + u64::from(parent.is_some()));
     if u64::from(plant.components()) + new > u64::from(limit) {
-        return Err(Overgrown { plant: plant.id, limit });
+        return Err(Overgrown::of(plant));
     }
     let bearer = parent.map(|first| NodeId(first.0 + stem.rank - 1));
     let axis = bearer.map_or(AxisId::TRUNK, |bearer| add_axis(stem, bearer, plant));

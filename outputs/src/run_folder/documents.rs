@@ -61,7 +61,7 @@ impl RunReport {
                 }
             }
             run.files.extend(shard.files.iter().cloned());
-            run.overgrown.extend(&shard.overgrown);
+            run.overgrown.extend(shard.overgrown.iter().cloned());
         }
         run
     }

@@ -54,8 +54,8 @@ pub struct FileReport {
     pub sha256: String,
 }
 
-/// A plot that ended because a plant reached its limit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+/// A plot that ended because a plant reached its limit, or because its model came to a stop.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct OvergrownPlot {
     /// The number of the plot.
     pub plot: u32,
@@ -66,6 +66,9 @@ pub struct OvergrownPlot {
     pub tick: Tick,
     /// The limit, in components.
     pub limit: u32,
+    /// Why the model of the plant came to a stop; `None` where the plant reached its limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stopped: Option<String>,
 }
 
 impl ShardReport {
@@ -266,7 +269,7 @@ mod tests {
     #[test]
     fn the_limits_of_older_runs_are_read() {
         let read = serde_json::from_str::<OvergrownPlot>;
-        let now = OvergrownPlot { plot: 3, plant: 4, tick: 5, limit: 6 };
+        let now = OvergrownPlot { plot: 3, plant: 4, tick: 5, limit: 6, stopped: None };
         assert_eq!(read(r#"{"plot":3,"plant":4,"age":5,"limit":6}"#).unwrap(), now);
         assert_eq!(read(&serde_json::to_string(&now).unwrap()).unwrap(), now);
     }

@@ -77,7 +77,13 @@ impl<'a> Shard<'a> {
         let last = tables.last_tick(&ending);
         tables.end_plot(plot, last)?;
         if let Ending::Overgrown { age, limit } = ending {
-            let overgrown = OvergrownPlot { plot: plot.id, plant: limit.plant, tick: age, limit: limit.limit };
+            let overgrown = OvergrownPlot {
+                plot: plot.id,
+                plant: limit.plant,
+                tick: age,
+                limit: limit.limit,
+                stopped: limit.stopped.as_deref().map(str::to_owned),
+            };
             self.report.overgrown.push(overgrown);
         }
         for (plant, member) in plot.plants.iter().zip(&plot.members) {

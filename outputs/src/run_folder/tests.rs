@@ -287,7 +287,7 @@ fn an_overgrown_plot_keeps_the_ages_before_its_limit() {
     let folder = RunFolder::create(home.path(), plan(2, 1), Mode::New).unwrap();
     let report = grow_shard(&folder, 0, 40);
     let tick = report.overgrown[0].tick;
-    assert_eq!(report.overgrown, [OvergrownPlot { plot: 0, plant: 0, tick, limit: 40 }]);
+    assert_eq!(report.overgrown, [OvergrownPlot { plot: 0, plant: 0, tick, limit: 40, stopped: None }]);
     assert_eq!((report.living, report.dead), (1, 0));
     grow_shard(&folder, 1, 100_000);
     folder.finish(&[]).unwrap();

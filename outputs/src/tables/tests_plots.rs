@@ -203,7 +203,7 @@ fn a_plot_that_outgrows_its_limit_keeps_the_ticks_before_of_all_its_plants() {
     let folder = RunFolder::create(home.path(), mixed_plan(1, 1), Mode::New).unwrap();
     let (report, endings) = grow_plots(&folder, 0, |id| mixed(id, 1, 30));
     folder.finish(&[]).unwrap();
-    let Ending::Overgrown { age: tick, limit } = endings[0] else { panic!("{endings:?}") };
+    let Ending::Overgrown { age: tick, limit } = endings[0].clone() else { panic!("{endings:?}") };
     assert!(limit.plant == 2 && (4..=5).contains(&tick), "{endings:?}");
     assert_eq!((report.overgrown[0].plant, report.overgrown[0].tick), (2, tick));
     assert_eq!((report.living, report.dead), (2, 0), "the third is not sown");

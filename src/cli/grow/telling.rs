@@ -159,15 +159,19 @@ impl Told<'_> {
         const SHOWN: usize = 5;
         let overgrown = &self.outcome.report.overgrown;
         let plots = amounts::of(overgrown.len() as u64, "plant");
-        let mut text = format!("error: {plots} came to the limit; the ages before it are recorded, the others grew on");
+        let came_to = if overgrown.iter().any(|plot| plot.stopped.is_some()) { "a stop" } else { "the limit" };
+        let mut text = format!("error: {plots} came to {came_to}; the ages before it are recorded, the others grew on");
         for plot in overgrown.iter().take(SHOWN) {
-            let limit = amounts::count(plot.limit.into());
-            let _ = write!(text, "\n  plant {} at tick {}: more than {limit} components", plot.plant, plot.tick);
+            let limit = || format!("more than {} components", amounts::count(plot.limit.into()));
+            let why = plot.stopped.clone().unwrap_or_else(limit);
+            let _ = write!(text, "\n  plant {} at tick {}: {why}", plot.plant, plot.tick);
         }
         if overgrown.len() > SHOWN {
             let _ = write!(text, "\n  … and {} more (run.json has them all)", overgrown.len() - SHOWN);
         }
-        text + "\nraise limits.max_components or limits.max_memory_mb, or end the run earlier (ages.until)"
+        let by_limit = overgrown.iter().any(|plot| plot.stopped.is_none());
+        let remedy = "\nraise limits.max_components or limits.max_memory_mb, or end the run earlier (ages.until)";
+        if by_limit { text + remedy } else { text }
     }
 
     /// How to go on with what was stopped.

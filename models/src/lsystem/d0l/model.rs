@@ -37,7 +37,7 @@ impl D0lModel {
 impl D0lModel {
     /// Rewrites the string up to the age `age`, and draws the plant.
     fn rewrite(&self, age: Tick, plant: &mut Plant, living: &mut Living) -> Result<(), Overgrown> {
-        let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
+        let limit = Overgrown::of(plant);
         // Each component is at least one module of the string, and a branch two.
         let most = 2 * limit.limit as usize;
         let mut vanished = Vec::new();

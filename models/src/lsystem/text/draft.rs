@@ -1,9 +1,9 @@
 //! The plant that a string describes, in the order of the string and in the coordinates of the turtle.
 //!
-//! A bracket is an axis once it holds an internode or an apex; what it bears stands on the internode that was drawn last
-//! before it, also where that is of an axis further down. What stands before the first internode of the trunk stands on
-//! the base of that internode; where the trunk has none, on a foot of length 0, which is an internode. Absent: numbers and
-//! ages (`numbers`), and the columns of a plant (`columns`).
+//! A bracket is an axis once it holds an internode or an apex; what it bears stands on the internode that was drawn
+//! last before it, also where that is of an axis further down. What stands before the first internode of the trunk
+//! stands on the base of that internode; where the trunk has none, on a foot of length 0, which is an internode.
+//! Absent: numbers and ages (`numbers`), and the columns of a plant (`columns`).
 
 use super::role::{Role, Roles};
 use crate::lsystem::turtle::{Command, Drawing, Frame, Turtle, Vector};

@@ -7,7 +7,7 @@ use super::columns::{Measures, write};
 use super::draft::{Draft, Outlines, Walk};
 use super::events::{self, Noted};
 use super::numbers::{Bud, Numbered, Numbers};
-use super::role::Roles;
+use super::system::{OfEachPlant, Script};
 use crate::lsystem::turtle::{Query, Turtle};
 use phytomer_rewriting::{Answers, Derived, Interpreter, Program, Stopped};
 use phytomer_sim::clock::Tick;
@@ -22,8 +22,9 @@ use std::sync::Arc;
 /// An L-system of a text, read and checked.
 #[derive(Debug)]
 pub struct TextModel {
-    pub(super) program: Program,
-    pub(super) roles: Roles,
+    pub(super) script: Arc<Script>,
+    /// Where plants draw constants: the script is then of one plant each.
+    pub(super) drawn: Option<OfEachPlant>,
     pub(super) turtle: Turtle,
     pub(super) outlines: Outlines,
     pub(super) measures: Measures,
@@ -34,8 +35,9 @@ pub struct TextModel {
 /// What is remembered of a plant between ticks: its string, and the numbers of what stands.
 #[derive(Debug, Clone)]
 pub struct Life {
-    /// `None` where the string came to a stop.
-    derived: Option<Derived>,
+    /// The string, or why it came to a stop.
+    derived: Result<Derived, Arc<str>>,
+    script: Arc<Script>,
     numbers: Numbers,
     scratch: Scratch,
 }
@@ -56,8 +58,8 @@ impl PartialEq for Life {
             modules(one) == modules(other)
         };
         let strings = match (&self.derived, &other.derived) {
-            (Some(one), Some(other)) => same(one, other),
-            (one, other) => one.is_none() && other.is_none(),
+            (Ok(one), Ok(other)) => same(one, other),
+            (one, other) => one.as_ref().err() == other.as_ref().err(),
         };
         strings && self.numbers == other.numbers
     }
@@ -66,12 +68,31 @@ impl PartialEq for Life {
 /// Draws a string, and answers its queries by where they stand.
 struct Drawing<'d> {
     model: &'d TextModel,
+    script: &'d Script,
     scratch: &'d mut Scratch,
     /// Whether the string as it is now was drawn.
     drawn: bool,
 }
 
 impl Drawing<'_> {
+    /// Makes the axiom of a plant, and draws it.
+    fn sow(&mut self, plant: &Plant) -> Result<Derived, Stopped> {
+        let derived = self.script.program.sow(plant.random.clone(), self)?;
+        if !self.drawn {
+            self.draw(&self.script.program, &derived, |_, _, _| ())?;
+        }
+        Ok(derived)
+    }
+
+    /// Makes a step, and draws the string.
+    fn step(&mut self, derived: &mut Derived) -> Result<(), Stopped> {
+        self.script.program.step(derived, self)?;
+        if !self.drawn {
+            self.draw(&self.script.program, derived, |_, _, _| ())?;
+        }
+        Ok(())
+    }
+
     fn draw(
         &mut self,
         program: &Program,
@@ -79,7 +100,7 @@ impl Drawing<'_> {
         mut answer: impl FnMut(&phytomer_rewriting::Drawn<'_>, Query, &Turtle),
     ) -> Result<(), Stopped> {
         let Scratch { turtle, draft, .. } = &mut *self.scratch;
-        let mut walk = Walk::begin(&self.model.roles, &self.model.outlines, turtle, draft, derived);
+        let mut walk = Walk::begin(&self.script.roles, &self.model.outlines, turtle, draft, derived);
         program.draw(derived, |drawn| {
             if let Some(query) = walk.go_on(&drawn) {
                 answer(&drawn, query, walk.turtle());
@@ -111,40 +132,45 @@ impl Interpreter for Drawing<'_> {
 impl TextModel {
     /// How many steps the file asks for.
     pub fn derivation_length(&self) -> Option<Tick> {
-        self.program.settings().steps
+        self.script.program.settings().steps
     }
 
     /// What the text says, as it is derived.
     pub fn program(&self) -> &Program {
-        &self.program
+        &self.script.program
     }
 
     /// Derives the string of a plant without making the plant: its queries are answered as in a plant that grows.
+    /// Constants that plants draw have the middle of what they draw.
     ///
     /// # Errors
     /// Why a step cannot be made.
     pub fn derive(&self, random: PlantRandom, steps: Tick) -> Result<Derived, Stopped> {
         let (draft, numbered) = (Draft::default(), Numbered::default());
         let mut scratch = Scratch { turtle: self.turtle.clone(), draft, numbered };
-        let mut drawing = Drawing { model: self, scratch: &mut scratch, drawn: false };
-        let mut derived = self.program.sow(random, &mut drawing)?;
+        let Script { program, .. } = &*self.script;
+        let mut drawing = Drawing { model: self, script: &self.script, scratch: &mut scratch, drawn: false };
+        let mut derived = program.sow(random, &mut drawing)?;
         for _ in 0..steps {
-            self.program.step(&mut derived, &mut drawing)?;
+            program.step(&mut derived, &mut drawing)?;
         }
         Ok(derived)
     }
 
     /// Draws a plant's string and writes its columns, at `age`; what stood before and stands no more departs.
     fn stand(&self, age: Tick, plant: &mut Plant, life: &mut Life) -> Result<(), Overgrown> {
-        let Life { derived: Some(derived), numbers, scratch } = life else { return Ok(()) };
+        let Life { derived: Ok(derived), script, numbers, scratch } = life else { return Ok(()) };
         let Scratch { draft, numbered, .. } = scratch;
         numbers.number(draft, age, plant, numbered);
         if plant.is_overgrown() {
-            return Err(Overgrown { plant: plant.id, limit: plant.component_limit() });
+            return Err(Overgrown::of(plant));
         }
         let lost = Lost::of(draft, derived);
         let mut noted = Noted::before(plant);
-        self.end_buds(draft, numbered, numbers, &lost, age, &mut noted);
+        // Without stated apices every bud lives on.
+        if script.roles.states_apices {
+            end_buds(draft, numbered, numbers, &lost, age, &mut noted);
+        }
         depart(plant, numbered, numbers, &lost, age, &mut noted);
         plant.begin_rewriting();
         write(draft, numbered, &self.measures, plant, |number| *numbers.bud(number));
@@ -153,31 +179,28 @@ impl TextModel {
         Ok(())
     }
 
-    /// The buds of axes that have lost their last apex end; without stated apices every bud lives on.
-    fn end_buds(
-        &self,
-        draft: &Draft,
-        numbered: &Numbered,
-        numbers: &mut Numbers,
-        lost: &Lost,
-        age: Tick,
-        noted: &mut Noted,
-    ) {
-        if !self.roles.states_apices {
-            return;
+    /// The script of a plant: its own where plants draw constants.
+    fn script_of(&self, plant: &Plant) -> Result<Arc<Script>, Arc<str>> {
+        match &self.drawn {
+            Some(drawn) => drawn.script(&plant.random).map(Arc::new).map_err(Arc::from),
+            None => Ok(Arc::clone(&self.script)),
         }
-        for (axis, born) in draft.axes.iter().zip(&numbered.axes) {
-            let bud = numbers.bud(born.number);
-            if bud.end.1 != ApexFate::Alive {
-                continue;
-            }
-            match (axis.apex, bud.apex) {
-                (Some((key, _)), _) => bud.apex = Some(key),
-                (None, before) => {
-                    bud.end = (age, before.map_or(ApexFate::Completed, |key| lost.fate_of(key)));
-                    if age > 0 {
-                        noted.add(born.number, event_of(bud.end.1), 1);
-                    }
+    }
+}
+
+/// The buds of axes that have lost their last apex end.
+fn end_buds(draft: &Draft, numbered: &Numbered, numbers: &mut Numbers, lost: &Lost, age: Tick, noted: &mut Noted) {
+    for (axis, born) in draft.axes.iter().zip(&numbered.axes) {
+        let bud = numbers.bud(born.number);
+        if bud.end.1 != ApexFate::Alive {
+            continue;
+        }
+        match (axis.apex, bud.apex) {
+            (Some((key, _)), _) => bud.apex = Some(key),
+            (None, before) => {
+                bud.end = (age, before.map_or(ApexFate::Completed, |key| lost.fate_of(key)));
+                if age > 0 {
+                    noted.add(born.number, event_of(bud.end.1), 1);
                 }
             }
         }
@@ -266,18 +289,19 @@ impl Grow for TextModel {
         plant.name_by_number();
         let (draft, numbered) = (Draft::default(), Numbered::default());
         let mut scratch = Scratch { turtle: self.turtle.clone(), draft, numbered };
-        let mut drawing = Drawing { model: self, scratch: &mut scratch, drawn: false };
-        let sown = self.program.sow(plant.random.clone(), &mut drawing);
-        let derived = sown.and_then(|derived| {
-            if !drawing.drawn {
-                drawing.draw(&self.program, &derived, |_, _, _| ())?;
-            }
-            Ok(derived)
-        });
-        let mut life = Life { derived: derived.ok(), numbers: Numbers::default(), scratch };
-        // A seed that passes its limit does so again at the first tick.
-        if self.stand(0, plant, &mut life).is_err() || life.derived.is_none() {
-            life.derived = None;
+        let own = self.script_of(plant);
+        let script = own.as_ref().unwrap_or(&self.script);
+        let mut drawing = Drawing { model: self, script, scratch: &mut scratch, drawn: false };
+        let sown = drawing.sow(plant).map_err(|stopped| stopped.to_string().into());
+        let derived = own.clone().and(sown);
+        let script = Arc::clone(script);
+        let mut life = Life { derived, script, numbers: Numbers::default(), scratch };
+        if life.derived.is_ok()
+            && let Err(overgrown) = self.stand(0, plant, &mut life)
+        {
+            life.derived = Err(overgrown.to_string().into());
+        }
+        if life.derived.is_err() {
             plant.begin_rewriting();
             events::sow_alone(plant);
         }
@@ -286,24 +310,21 @@ impl Grow for TextModel {
 
     fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Life, _: &View<'_>) -> Result<(), Overgrown> {
         while plant.age < age {
-            let limit = Overgrown { plant: plant.id, limit: plant.component_limit() };
-            let Life { derived: Some(derived), scratch, .. } = &mut *life else { return Err(limit) };
-            let mut drawing = Drawing { model: self, scratch, drawn: false };
-            let mut done = self.program.step(derived, &mut drawing);
-            if done.is_ok() && !drawing.drawn {
-                done = drawing.draw(&self.program, derived, |_, _, _| ());
-            }
-            if done.is_err() {
-                life.derived = None;
-                return Err(limit);
+            let Life { derived, script, scratch, .. } = &mut *life;
+            let derived = derived.as_mut().map_err(|why| Overgrown::stopped(plant, why))?;
+            let done = Drawing { model: self, script, scratch, drawn: false }.step(derived);
+            if let Err(stopped) = done {
+                let why: Arc<str> = stopped.to_string().into();
+                life.derived = Err(Arc::clone(&why));
+                return Err(Overgrown::stopped(plant, &why));
             }
             self.stand(plant.age + 1, plant, life)?;
         }
         Ok(())
     }
 
-    /// A line has its own width where it begins; where lines are tapered it ends with the width of the line that follows
-    /// on its axis.
+    /// A line has its own width where it begins; where lines are tapered it ends with the width of the line that
+    /// follows on its axis.
     fn thicken(&self, _age: Tick, plant: &mut Plant) {
         let nodes = &mut plant.nodes;
         nodes.diameter.copy_from_slice(&nodes.primary_diameter);

@@ -1,8 +1,8 @@
 //! The numbers and the births of components, by the keys of their modules, from one age to the next.
 //!
-//! A component is numbered when it appears, in the order of the string; the internode that bears what stands at the base
-//! is numbered before that. A component that has gone loses its key: what comes back is new. So every number is alive
-//! for one unbroken span of ages. Absent: the columns.
+//! A component is numbered when it appears, in the order of the string; the internode that bears what stands at the
+//! base is numbered before that. A component that has gone loses its key: what comes back is new. So every number is
+//! alive for one unbroken span of ages. Absent: the columns.
 
 use super::draft::{BASE, Draft, Item};
 use phytomer_sim::clock::{NEVER, Tick};

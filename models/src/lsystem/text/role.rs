@@ -1,7 +1,7 @@
 //! What each module is to a plant: the kinds that a species names, and what a turtle draws.
 //!
-//! A line is an internode; a polygon or a surface is a leaf. A module that the species names is a component of that kind,
-//! whatever is drawn for it. Absent: drawing (`turtle`).
+//! A line is an internode; a polygon or a surface is a leaf. A module that the species names is a component of that
+//! kind, whatever is drawn for it. Absent: drawing (`turtle`).
 
 use crate::lsystem::turtle::{Command, Spline};
 use phytomer_rewriting::{Symbol, SymbolTable};

@@ -8,12 +8,16 @@ use super::curves::Curves;
 use super::draft::Outlines;
 use super::model::{TextModel, shape};
 use super::role::Roles;
+use crate::law::{At, VariateTable};
 use crate::lsystem::turtle::Turtle;
 use crate::lsystem::view::{Colours, Function, Surface, TextFault, View};
 use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints};
-use phytomer_rewriting::{Program, Reading};
+use phytomer_rewriting::{Outside, Program, Reading};
+use phytomer_sim::key::{LineageKey, mix};
 use phytomer_sim::plant::{Class, Habit, InternodeLook, Kind, Looks, OrganLook, Trend};
+use phytomer_sim::random::{PlantRandom, Purpose};
 use std::collections::BTreeMap;
+use std::fmt;
 use std::sync::Arc;
 
 /// How many points a side the outline of a surface has.
@@ -34,8 +38,8 @@ pub struct TextSystem {
     pub texts: BTreeMap<String, String>,
     /// The bytes of maps, by their names.
     pub maps: BTreeMap<String, Vec<u8>>,
-    /// The constants that are set, by their names.
-    pub define: Vec<(String, f64)>,
+    /// The constants that are set, by their names; a plant draws each that is drawn once for its whole life.
+    pub define: Vec<(String, VariateTable)>,
     /// The kinds of modules, by their names.
     pub kinds: BTreeMap<String, Kind>,
     /// The modules that go on as the last of their symbol in a successor.
@@ -76,31 +80,41 @@ impl TextSystem {
         let mut wrong = Vec::new();
         let view = self.view(&mut wrong);
         let outlines = self.outlines(&view, &mut wrong);
-        let curves = self.curves(&view, &mut wrong);
+        let curves = Arc::new(self.curves(&view, &mut wrong));
         let colours = self.colours(&mut wrong);
-        let program = self.program(curves, &mut wrong);
-        let roles = program.as_ref().map(|program| Roles::of(program.symbols(), &self.kinds));
-        match (program, roles) {
-            (Some(program), Some(Ok(roles))) if wrong.is_empty() => {
-                Ok(self.model(program, roles, &view, outlines, colours.as_ref()))
-            }
-            (_, Some(Err(refused))) => {
-                let kind = |(module, problem, expected)| Wrong::Kind { module, problem, expected };
-                Err(wrong.into_iter().chain(refused.into_iter().map(kind)).collect())
-            }
-            _ => Err(wrong),
+        let middle: Vec<(String, f64)> = self.constants(|_| u32::MAX / 2);
+        match self.script(&middle, &curves) {
+            Ok(script) if wrong.is_empty() => Ok(self.model(script, &curves, &view, outlines, colours.as_ref())),
+            Ok(_) => Err(wrong),
+            Err(more) => Err(wrong.into_iter().chain(more).collect()),
+        }
+    }
+
+    /// The constants, each drawn by the word that `word` has for its name.
+    fn constants(&self, word: impl Fn(&str) -> u32) -> Vec<(String, f64)> {
+        let drawn = |(name, law): &(String, VariateTable)| (name.clone(), law.draw_f64(word(name), At::default()));
+        self.define.iter().map(drawn).collect()
+    }
+
+    /// The program with these constants, and what its modules are.
+    fn script(&self, define: &[(String, f64)], curves: &Arc<Curves>) -> Result<Script, Vec<Wrong>> {
+        let program = self.program(define, curves)?;
+        let kind = |(module, problem, expected)| Wrong::Kind { module, problem, expected };
+        match Roles::of(program.symbols(), &self.kinds) {
+            Ok(roles) => Ok(Script { program, roles }),
+            Err(refused) => Err(refused.into_iter().map(kind).collect()),
         }
     }
 
     fn model(
         &self,
-        program: Program,
-        roles: Roles,
+        script: Script,
+        curves: &Arc<Curves>,
         view: &View,
         outlines: Outlines,
         colours: Option<&Colours>,
     ) -> TextModel {
-        let angle_deg = program.settings().angle_deg.unwrap_or(view.angle_deg);
+        let angle_deg = script.program.settings().angle_deg.unwrap_or(view.angle_deg);
         let turtle = Turtle::new(&View { angle_deg, ..view.clone() });
         let width = self.width_m.unwrap_or(if view.width_in_units { self.step_m } else { self.step_m * PIXEL });
         let mut kinds: Vec<Kind> = self.kinds.values().copied().filter(|k| k.class() == Class::Internode).collect();
@@ -112,7 +126,9 @@ impl TextSystem {
         let for_drawing = paints.into_habit();
         let habit = Habit { trends: vec![Trend::STRAIGHT], looks, for_drawing, ..Habit::default() };
         let tapered = view.tapered_lines;
-        TextModel { program, roles, turtle, outlines, measures, tapered, habit: Arc::new(habit) }
+        let is_drawn = self.define.iter().any(|(_, law)| law.is_random());
+        let drawn = is_drawn.then(|| OfEachPlant { system: self.clone(), curves: Arc::clone(curves) });
+        TextModel { script: Arc::new(script), drawn, turtle, outlines, measures, tapered, habit: Arc::new(habit) }
     }
 
     fn view(&self, wrong: &mut Vec<Wrong>) -> View {
@@ -178,8 +194,9 @@ impl TextSystem {
         read.map_err(|fault| wrong.push(in_text(name, fault))).ok()
     }
 
-    fn program(&self, curves: Curves, wrong: &mut Vec<Wrong>) -> Option<Program> {
-        let (_, text) = self.text(&self.file, wrong)?;
+    fn program(&self, define: &[(String, f64)], curves: &Arc<Curves>) -> Result<Program, Vec<Wrong>> {
+        let mut wrong = Vec::new();
+        let Some((_, text)) = self.text(&self.file, &mut wrong) else { return Err(wrong) };
         let include = |name: &str| {
             self.texts
                 .get(name)
@@ -187,22 +204,56 @@ impl TextSystem {
                 .ok_or_else(|| "there is no such file in the folder of the L-system".to_owned())
         };
         let reading = Reading {
-            define: &self.define,
-            outside: Arc::new(curves),
+            define,
+            outside: Arc::clone(curves) as Arc<dyn Outside>,
             include: &include,
             continues_last: &self.continues_last,
             ..Reading::of(&self.file)
         };
-        match Program::read(text, &reading) {
-            Ok(program) => Some(program),
-            Err(refused) => {
-                wrong.extend(refused.faults.iter().map(|fault| {
-                    let (line, column) = (fault.place.line, fault.place.column);
-                    let (problem, expected) = (fault.problem.clone(), fault.expected.clone());
-                    in_text(refused.file(fault), TextFault { line, column, problem, expected })
-                }));
-                None
+        Program::read(text, &reading).map_err(|refused| {
+            let of = |fault: &phytomer_rewriting::Fault| {
+                let (line, column) = (fault.place.line, fault.place.column);
+                let (problem, expected) = (fault.problem.clone(), fault.expected.clone());
+                in_text(refused.file(fault), TextFault { line, column, problem, expected })
+            };
+            refused.faults.iter().map(of).collect()
+        })
+    }
+}
+
+/// A program, and what its modules are.
+#[derive(Debug)]
+pub(super) struct Script {
+    pub program: Program,
+    pub roles: Roles,
+}
+
+/// A system of which each plant has constants of its own.
+#[derive(Debug)]
+pub(super) struct OfEachPlant {
+    system: TextSystem,
+    curves: Arc<Curves>,
+}
+
+impl OfEachPlant {
+    /// The script of a plant. Each constant has a word of its own by its name, whether it is drawn or not.
+    pub fn script(&self, random: &PlantRandom) -> Result<Script, String> {
+        let word = |name: &str| {
+            let key = name.bytes().fold(LineageKey::SEED.0, |key, byte| mix(key, byte.into()));
+            random.stream(LineageKey(key), Purpose::Plant).word()
+        };
+        let told = |wrong: Vec<Wrong>| wrong.iter().map(Wrong::to_string).collect::<Vec<_>>().join("; ");
+        self.system.script(&self.system.constants(word), &self.curves).map_err(told)
+    }
+}
+
+impl fmt::Display for Wrong {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Text { file, fault: TextFault { line, column, problem, expected } } => {
+                write!(f, "{file}:{line}:{column}: {problem}; expected {expected}")
             }
+            Self::Kind { module, problem, expected } => write!(f, "`{module}`: {problem}; expected {expected}"),
         }
     }
 }

@@ -46,6 +46,23 @@ A(k) : k >= 3 --> /(90)B-(20)FA(k+1) : 1-(2*k+1)/(k*k)
 endlsystem
 ";
 
+/// L-system 6 in a cube of four internodes, with T → ε and contexts that see past brackets and turns.
+pub(super) const CUBE: &str = "\
+#define a 0\n#define b 1\n#define c (-5)
+consider: F A B ?P S T @o
+prune(x, y, z) = (x < −2) ‖ (x > 2) ‖ (y < 0) ‖ (y > 4) ‖ (z < −2) ‖ (z > 2)
+ω : FA(1)?P(x, y, z)
+p1 : A(k) > ?P(x, y, z) : !prune(x, y, z) → /(90)[+(32)FA(k+1)?P(x, y, z)]−(20)FA(k+1) : min{1, (2k+1)/k^2}
+p2 : A(k) > ?P(x, y, z) : !prune(x, y, z) → /(90)B(k+1, k+1)−(20)FA(k+1) : max{0, 1 − (2k+1)/k^2}
+p3 : A(k) > ?P(x, y, z) : prune(x, y, z) → T%
+p4 : F > T → S
+p5 : F > S → SF
+p6 : S → ε
+p7 : B(m, n) > S → [+(32)FA(a*m+b*n+c)?P(x, y, z)]
+p8 : B(m, n) > F → B(m+1, n)
+p9 : T → ε
+";
+
 /// Fig. 2.8a.
 pub(super) const TERNARY: &str = "\
 lsystem: 1
@@ -191,12 +208,54 @@ fn a_tree_of_ternary_branching() {
     assert!(mean.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3), "{mean:?}");
 }
 
+/// A plant draws a constant once for its whole life; a constant that is drawn changes no other.
+#[test]
+fn plants_draw_constants() {
+    use crate::fault::Path;
+    use crate::law::{Domain, ValueRange, Variate};
+    let law = |json: &str| {
+        let law: Variate = serde_json::from_str(json).expect("a law");
+        let range = ValueRange { min: 0.0, max: 100.0, what: "a number" };
+        law.compile(&Domain::ONCE, &Path::root(), range).expect("a sound law")
+    };
+    let lengths = |define: &[(&str, &str)]| {
+        let texts = BTreeMap::from([("plant.l".to_owned(), "Axiom: F(a)\nF(x) --> F(x)F(b)\n".to_owned())]);
+        let define = define.iter().map(|(name, json)| ((*name).to_owned(), law(json))).collect();
+        let system = TextSystem { file: "plant.l".to_owned(), texts, define, step_m: 1.0, ..TextSystem::default() };
+        let model = system.compile().unwrap_or_else(|wrong| panic!("{wrong:?}"));
+        contract::check(&model, 3, 5);
+        let grown = |number| contract::grown(&model, 2, &contract::seed_of(1, number)).nodes.length;
+        (0..40).map(grown).collect::<Vec<_>>()
+    };
+    let spread = r#"{ "uniform": { "min": 1, "max": 3 } }"#;
+    let (one, both) = (lengths(&[("a", spread), ("b", "5")]), lengths(&[("a", spread), ("b", spread)]));
+    let firsts: Vec<f32> = one.iter().map(|lengths| lengths[0]).collect();
+    assert!(firsts.iter().all(|first| (1.0..=3.0).contains(first)), "{firsts:?}");
+    assert!(firsts.windows(2).any(|pair| pair[0] != pair[1]), "{firsts:?}");
+    assert!(one.iter().all(|lengths| lengths[1..] == [5.0; 3][..lengths.len() - 1]));
+    assert_eq!(firsts, both.iter().map(|lengths| lengths[0]).collect::<Vec<_>>());
+    assert!(both.iter().all(|lengths| lengths[0] != lengths[1] && lengths[1] == lengths[2]));
+}
+
+/// A number that is none stops the string at its production, and the plant says where.
+#[test]
+fn a_string_that_comes_to_a_stop_says_why() {
+    let model = model("Axiom: F(2)\nF(x) --> F(1/(x-x))\n", "", &[]);
+    let mut plot = contract::sown(&model, &contract::seed_of(1, 0));
+    let stopped = plot.grow_to(1).expect_err("it stops");
+    assert!(stopped.to_string().starts_with("plant 0 came to a stop: plant.l:2:"), "{stopped}");
+    assert_eq!(plot.grow_to(2).expect_err("it stays so"), stopped);
+}
+
 #[test]
 fn systems_of_texts_keep_the_contract() {
     let apices = [("A", Kind::ApicalBud), ("B", Kind::ApicalBud), ("@o", Kind::AxillaryBud)];
     contract::check(&model(ELLIPSE, "angle increment: 60", &apices), 6, 3);
     contract::check(&model(BOX, "angle increment: 32", &[apices[0], apices[2]]), 24, 3);
     contract::check(&model(TREE, "", &[apices[0]]), 7, 3);
+    let pruned = model(CUBE, "", &[apices[0], ("B", Kind::AxillaryBud)]);
+    contract::check(&pruned, 12, 3);
+    assert!(grown(&pruned, 12).ledger.len() > 10, "the cube cuts");
     contract::check(&model(TERNARY, "initial elasticity: 0.22", &[]), 4, 3);
     contract::check(&model("Axiom: F\nF --> FF\n", "", &[]), 6, 3);
     let model = model("Axiom: F\nF --> FF\n", "", &[]);

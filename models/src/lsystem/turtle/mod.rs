@@ -1,14 +1,14 @@
 //! The turtle: it reads the modules of a string one by one, moves, turns, and says what each module draws.
 //!
-//! Prusinkiewicz & Lindenmayer 1990 (§1.5, ch. 2, §5.1, App. C), and what the files of cpfg use beyond it. Angles are in
-//! degrees, lengths and widths in units of the turtle, in double precision; the frame is that of [`Frame`]. Absent: which
-//! modules are components of a plant (`components`), and the meaning of colours and surfaces (`view`).
+//! Prusinkiewicz & Lindenmayer 1990 (§1.5, ch. 2, §5.1, App. C), and what the files of cpfg use beyond it. Angles are
+//! in degrees, lengths and widths in units of the turtle, in double precision; the frame is that of [`Frame`]. Absent:
+//! which modules are components of a plant (`components`), and the meaning of colours and surfaces (`view`).
 //!
 //! Decided where the book and cpfg are silent or differ:
 //! - The tropism turns after each `F` and `f` (`G`, `g`), by the angle e |H × T| about H × T, T as given; L and U turn
 //!   with H. The numbered tropisms of cpfg (`tropism:`) turn before the line, as there.
-//! - Between `{` and `}` lines are edges of the polygon, and are not drawn. Between `@Gs` and `@Ge` a line is drawn from
-//!   each point to the next, at `@Gc` and `@Ge`, and `F` only moves. `{(1)` and `}(1)` are `@Gs` and `@Ge`.
+//! - Between `{` and `}` lines are edges of the polygon, and are not drawn. Between `@Gs` and `@Ge` a line is drawn
+//!   from each point to the next, at `@Gc` and `@Ge`, and `F` only moves. `{(1)` and `}(1)` are `@Gs` and `@Ge`.
 //! - A parameter that is no number counts as 0, and none is larger than 10³⁰ in size, so that no position overflows.
 //! - A bracket that closes nothing is passed over.
 
@@ -324,8 +324,8 @@ impl Turtle {
         }
     }
 
-    /// The numbered tropisms turn H by |H × D|, at most 1 rad, towards D = Σ e (cos γ T + sin γ T × (H × T) / |H × T|), of
-    /// the angle γ to T (cpfg).
+    /// The numbered tropisms turn H by |H × D|, at most 1 rad, towards D = Σ e (cos γ T + sin γ T × (H × T) / |H × T|),
+    /// of the angle γ to T (cpfg).
     fn bend_by_numbers(&mut self) {
         if self.elasticities.iter().all(|elasticity| *elasticity == 0.0) {
             return;

@@ -1,8 +1,8 @@
 //! Maps of colours (`.map`) and of materials (`.mat`), in which `;` and `,` walk: binary files of up to 256 entries.
 //!
 //! A colour is three bytes: red, green, blue. A material is fifteen: its number, its transparency, the ambient, the
-//! diffuse, the emitted and the specular colour, its shininess. Of a material the diffuse colour is used, or the ambient
-//! where that is black. Absent: light.
+//! diffuse, the emitted and the specular colour, its shininess. Of a material the diffuse colour is used, or the
+//! ambient where that is black. Absent: light.
 
 use super::text::TextFault;
 

@@ -2,9 +2,10 @@
 //! in the plane, over [0, 1].
 //!
 //! The knots are uniform and clamped, so that the curve begins at its first point and ends at its last: for n points of
-//! a parameter u in [0, n − 3]. The value at x is that of the curve where its first coordinate is x, found by halving u;
-//! cpfg instead interpolates between the values at `samples` places. Where a curve turns back it has several values at
-//! one x, and the halving finds the same one always. What lies outside [0, 1] has the value of the nearer end. Points may be repeated by a third number in their line. Absent: what calls a function.
+//! a parameter u in [0, n − 3]. The value at x is that of the curve where its first coordinate is x, found by halving
+//! u; cpfg instead interpolates between the values at `samples` places. Where a curve turns back it has several values
+//! at one x, and the halving finds the same one always. What lies outside [0, 1] has the value of the nearer end.
+//! Points may be repeated by a third number in their line. Absent: what calls a function.
 
 use super::text::{Line, TextFault, Words, bounded, full_lines};
 

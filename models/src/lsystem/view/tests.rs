@@ -227,3 +227,40 @@ fn maps_of_colours_and_materials_are_read_from_their_bytes() {
     assert_eq!(fault.to_string(), told);
     assert!(Colours::of_map(&[]).is_err() && Colours::of_materials(&[0; 257 * 15]).is_err());
 }
+
+/// Whatever bytes a file has, it is read or refused: five thousand mutations of good files.
+#[test]
+fn no_bytes_make_a_reader_panic() {
+    let surface = surface_text(&patch_text(2.0, 4.0, 0.5));
+    let function = "fver 1 1\nname: f\nsamples: 7\nflip: off\npoints: 4\n0 0\n0.3 1 2\n0.6 1\n1 1\n";
+    let set = format!("funcgalleryver 1 1\nitems: 1\n{function}");
+    let mut state = 1_u64;
+    let mut next = |below: usize| {
+        state = phytomer_sim::key::scramble(state);
+        (state >> 8) as usize % below.max(1)
+    };
+    for _ in 0..5_000 {
+        for good in [VIEW, surface.as_str(), function, set.as_str()] {
+            let mut characters: Vec<char> = good.chars().collect();
+            for _ in 0..1 + next(4) {
+                if characters.is_empty() {
+                    break;
+                }
+                let at = next(characters.len());
+                let other = ['\n', ':', '-', '9', 'e', '*', '/', ' ', 'é', '\0', '.', ','][next(12)];
+                match next(4) {
+                    0 => _ = characters.remove(at),
+                    1 => characters.insert(at, other),
+                    2 => characters[at] = other,
+                    _ => characters.truncate(at + 1),
+                }
+            }
+            let text: String = characters.into_iter().collect();
+            let _ = (View::read(&text), Surface::read(&text).map(|surface| surface.outline(3)));
+            let functions = Function::read_set(&text).unwrap_or_default();
+            let all = functions.into_iter().chain(Function::read(&text).ok());
+            all.for_each(|function| assert!(!function.at(0.3).is_nan(), "{text}"));
+            let _ = (Colours::of_map(text.as_bytes()), Colours::of_materials(text.as_bytes()));
+        }
+    }
+}
