@@ -203,7 +203,11 @@ impl<'l> Parser<'l> {
             self.parts = 0;
         }
         if self.depth >= DEEPEST {
-            return Err(Fault::new(self.place(), "too many parentheses within one another", format!("at most {DEEPEST}")));
+            return Err(Fault::new(
+                self.place(),
+                "too many parentheses within one another",
+                format!("at most {DEEPEST}"),
+            ));
         }
         self.depth += 1;
         let result = self.choice();
@@ -252,7 +256,9 @@ impl<'l> Parser<'l> {
             ('|' | '‖' | '∥', _) => (Operator::Or, 1),
             ('&', Some('&')) => (Operator::And, 2),
             ('&', _) => (Operator::And, 1),
-            ('=', Some('=')) | ('!' | '<', Some('=' | '>')) if self.peek() != Some('<') || self.peek_after(1) == Some('>') => {
+            ('=', Some('=')) | ('!' | '<', Some('=' | '>'))
+                if self.peek() != Some('<') || self.peek_after(1) == Some('>') =>
+            {
                 (if self.peek() == Some('=') { Operator::Equal } else { Operator::NotEqual }, 2)
             }
             ('=', _) => (Operator::Equal, 1),
@@ -326,7 +332,9 @@ impl<'l> Parser<'l> {
                 self.at += length + 2;
                 Ok(Expression::Text(rest[1..=length].iter().map(|letter| letter.c).collect()))
             }
-            None => Err(Fault::new(self.place(), "a text begins and does not end", "`\"` at its end, in the same line")),
+            None => {
+                Err(Fault::new(self.place(), "a text begins and does not end", "`\"` at its end, in the same line"))
+            }
         }
     }
 
@@ -361,7 +369,11 @@ impl<'l> Parser<'l> {
         self.at += length;
         match text.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
-            _ => Err(Fault::new(place, format!("`{}` is no number", text.chars().take(40).collect::<String>()), "a number")),
+            _ => Err(Fault::new(
+                place,
+                format!("`{}` is no number", text.chars().take(40).collect::<String>()),
+                "a number",
+            )),
         }
     }
 
@@ -371,7 +383,9 @@ impl<'l> Parser<'l> {
         self.blanks();
         match self.peek() {
             Some('(') => Ok(Expression::Call(name, self.list('(', ')')?)),
-            Some('{') if matches!(name.name.as_str(), "min" | "max") => Ok(Expression::Call(name, self.list('{', '}')?)),
+            Some('{') if matches!(name.name.as_str(), "min" | "max") => {
+                Ok(Expression::Call(name, self.list('{', '}')?))
+            }
             Some('[') => {
                 let mut index = Vec::new();
                 while self.peek() == Some('[') {

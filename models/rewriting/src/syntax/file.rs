@@ -62,7 +62,12 @@ enum Current {
 
 /// Reads the letters of a file.
 pub(crate) fn parse(letters: &[Letter], faults: &mut Vec<Fault>) -> File {
-    let mut reader = Reader { parser: Parser::new(letters, Place::default()), file: File::default(), current: Current::Rewriting, ended: false };
+    let mut reader = Reader {
+        parser: Parser::new(letters, Place::default()),
+        file: File::default(),
+        current: Current::Rewriting,
+        ended: false,
+    };
     while reader.parser.peek().is_some() && faults.len() < MOST_TOLD {
         if reader.parser.peek() == Some('\n') {
             reader.parser.at += 1;
@@ -76,7 +81,11 @@ pub(crate) fn parse(letters: &[Letter], faults: &mut Vec<Fault>) -> File {
     }
     let Reader { parser, file, .. } = reader;
     if file.axiom.is_none() && faults.is_empty() {
-        faults.push(Fault::new(parser.place(), "the file has no axiom", "`Axiom:` and modules, or `ω :` as in the papers"));
+        faults.push(Fault::new(
+            parser.place(),
+            "the file has no axiom",
+            "`Axiom:` and modules, or `ω :` as in the papers",
+        ));
     }
     file
 }

@@ -45,7 +45,8 @@ impl Parser<'_> {
             Some(second) if !matches!(second, '(' | ')') => {
                 self.at += 1;
                 symbol.push(second);
-                if first == '@' && matches!(second, 'G' | 'T')
+                if first == '@'
+                    && matches!(second, 'G' | 'T')
                     && let Some(third) = self.peek().filter(char::is_ascii_lowercase)
                 {
                     self.at += 1;
@@ -139,7 +140,11 @@ impl Parser<'_> {
                 return Err(Fault::new(name.place, problem, "another name for each"));
             }
             if names.len() == MOST_PARAMETERS {
-                return Err(Fault::new(name.place, "there are too many parameters", format!("at most {MOST_PARAMETERS}")));
+                return Err(Fault::new(
+                    name.place,
+                    "there are too many parameters",
+                    format!("at most {MOST_PARAMETERS}"),
+                ));
             }
             names.push(name);
             if self.takes(')') {

@@ -57,7 +57,11 @@ impl Parser<'_> {
             return self.block_within(depth + 1);
         }
         if depth > DEEPEST {
-            return Err(Fault::new(self.place(), "too many statements within one another", format!("at most {DEEPEST}")));
+            return Err(Fault::new(
+                self.place(),
+                "too many statements within one another",
+                format!("at most {DEEPEST}"),
+            ));
         }
         let mut one = Vec::new();
         if !self.takes(';') {
@@ -142,7 +146,11 @@ impl Parser<'_> {
             let value = self.expression()?;
             let value = match sum {
                 Some(operator) => {
-                    let old = if index.is_empty() { Expression::Name(name.clone()) } else { Expression::Element(name.clone(), index.clone()) };
+                    let old = if index.is_empty() {
+                        Expression::Name(name.clone())
+                    } else {
+                        Expression::Element(name.clone(), index.clone())
+                    };
                     Expression::Binary(operator, Box::new((old, value)))
                 }
                 None => value,
