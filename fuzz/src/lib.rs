@@ -1,10 +1,10 @@
 //! What is fuzzed: one function a target, which takes any bytes and must not panic, overflow, hang or ask for much
 //! memory.
 //!
-//! A species and a scenario go the whole way of `phytomer grow`; a mesh is read as a form, a weather file as its days, an L-system is derived;
-//! a run folder, one of whose files is replaced, is checked, read and resumed. `fuzz_targets` hands these functions to
-//! libFuzzer, and `bin/minute` runs them on stable over broken copies of what ships (`seeds`, `broken`). Absent: files
-//! that are right, which the tests have.
+//! A species and a scenario go the whole way of `phytomer grow`; a mesh is read as a form, a weather file as its days,
+//! an L-system is derived; a run folder, one of whose files is replaced, is checked, read and resumed. `fuzz_targets`
+//! hands these functions to libFuzzer, and `bin/minute` runs them on stable over broken copies of what ships (`seeds`,
+//! `broken`). Absent: files that are right, which the tests have.
 
 #![forbid(unsafe_code)]
 

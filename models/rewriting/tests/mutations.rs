@@ -1,5 +1,5 @@
-//! Broken files: programs with letters, lines and words changed at random, from fixed seeds. Each is refused, stopped or
-//! derived, within bounds of time and memory, and never panics.
+//! Broken files: programs with letters, lines and words changed at random, from fixed seeds. Each is refused, stopped
+//! or derived, within bounds of time and memory, and never panics.
 
 mod common;
 use common::Turtle;

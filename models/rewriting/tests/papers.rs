@@ -1,5 +1,5 @@
-//! The L-systems of *Synthetic Topiary* (Prusinkiewicz, James & Měch 1994) and of chapter 2 of *The Algorithmic Beauty of
-//! Plants*, as far as their strings tell: published strings, counts and closed forms.
+//! The L-systems of *Synthetic Topiary* (Prusinkiewicz, James & Měch 1994) and of chapter 2 of *The Algorithmic Beauty
+//! of Plants*, as far as their strings tell: published strings, counts and closed forms.
 
 mod common;
 use common::{Turtle, counts, derive, derive_program, lines, read, string, text};
@@ -182,9 +182,9 @@ const SIXTH: &str = "#define φ 90\n#define α 32\n#define β 20\n#define E 6\n\
     p8 : B(m, n) > F → B(m+1, n)\n\
     p9 : T → ε\n";
 
-/// Internodes of L-system 6 after 31 steps with the constants of Fig. 7: a = 1 and b = 1 with c = −5, and c = 1. Expected
-/// are means with their standard errors by another interpreter. With c = −5 an apex may begin at 0 or below: then 1/0 is
-/// infinite, min{1, ∞} is 1, and a weight below 0 is 0. Nothing stands a whole internode outside the cube.
+/// Internodes of L-system 6 after 31 steps with the constants of Fig. 7: a = 1 and b = 1 with c = −5, and c = 1.
+/// Expected are means with their standard errors by another interpreter. With c = −5 an apex may begin at 0 or below:
+/// then 1/0 is infinite, min{1, ∞} is 1, and a weight below 0 is 0. Nothing stands a whole internode outside the cube.
 #[test]
 fn l_system_6_fills_its_cube() {
     const PLANTS: u64 = 100;

@@ -1,5 +1,5 @@
-//! What the names of expressions mean: parameters, variables, arrays, functions of the file, of every program, and of the
-//! world outside.
+//! What the names of expressions mean: parameters, variables, arrays, functions of the file, of every program, and of
+//! the world outside.
 //!
 //! A name is the parameter of a production before it is a variable of a block, and that before it is `Q`, the step. A
 //! variable that only a production assigns is its own.

@@ -3,11 +3,12 @@
 //! After a fault reading goes on at the next line that begins without a blank, so that all faults are told at once. The
 //! papers' notation has no head: ω is the axiom, `n = 10` the number of steps, δ the angle of turns.
 
-use super::expression::{Expression, Name, Parser};
+use super::expression::Parser;
 use super::keyword::{Keyword, keyword};
 use super::module::ModuleText;
 use super::production::Production;
 use super::statement::Statement;
+use super::tree::{Expression, Name};
 use crate::fault::{Fault, Place};
 use crate::letters::Letter;
 
@@ -145,7 +146,8 @@ impl Reader<'_> {
 
     fn keyed(&mut self, word: Keyword, place: Place) -> Result<(), Fault> {
         if self.ended && word != Keyword::System {
-            return Ok(self.parser.at = self.parser.letters.len());
+            self.parser.at = self.parser.letters.len();
+            return Ok(());
         }
         match word {
             Keyword::System if self.ended => {

@@ -1,8 +1,10 @@
 //! Modules as they are written: the names of symbols, arguments of successors, parameters of predecessors.
 //!
-//! A symbol is one character, or two where the first is `@`, `?` or `~`, or three in the groups `@G…` and `@T…` of cpfg.
+//! A symbol is one character, or two where the first is `@`, `?` or `~`, or three in the groups `@G…` and `@T…` of
+//! cpfg.
 
-use super::expression::{Expression, Name, Parser};
+use super::expression::Parser;
+use super::tree::{Expression, Name};
 use crate::fault::{Fault, Place};
 
 /// The most parameters of a module.
@@ -40,7 +42,7 @@ impl Parser<'_> {
         match self.peek().filter(|c| !c.is_whitespace()) {
             Some('(') if first == '?' => {
                 let problem = "a sub-L-system is called with `?(…)`";
-                return Err(Fault::new(place, problem, "one L-system: sub-L-systems are not derived"));
+                Err(Fault::new(place, problem, "one L-system: sub-L-systems are not derived"))
             }
             Some(second) if !matches!(second, '(' | ')') => {
                 self.at += 1;

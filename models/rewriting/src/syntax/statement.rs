@@ -1,6 +1,7 @@
 //! Statements in braces: assignments, calls, `if`, `while`, `do`, and arrays in the block `define:`.
 
-use super::expression::{Expression, Name, Operator, Parser};
+use super::expression::Parser;
+use super::tree::{Expression, Name, Operator};
 use crate::fault::{Fault, Place};
 
 /// The most blocks within blocks.
@@ -89,7 +90,7 @@ impl Parser<'_> {
             }
             "do" => {
                 let body = self.body(depth)?;
-                if !self.name().is_some_and(|name| name.name == "while") {
+                if self.name().is_none_or(|name| name.name != "while") {
                     return Err(self.unexpected("`while` behind the block of `do`"));
                 }
                 into.push(Statement::Repeat(body, self.condition()?, place));

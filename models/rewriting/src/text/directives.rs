@@ -1,7 +1,7 @@
 //! The lines that begin with `#`: macros, conditions and included files.
 //!
-//! `#` is also a module: a line is a directive if the word behind its `#` is one. Lines in a branch that is not taken are
-//! passed over, but for the directives that end it.
+//! `#` is also a module: a line is a directive if the word behind its `#` is one. Lines in a branch that is not taken
+//! are passed over, but for the directives that end it.
 
 use super::condition::holds;
 use super::macros::{Broken, Macro, Macros};

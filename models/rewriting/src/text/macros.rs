@@ -1,8 +1,8 @@
 //! Macros: `#define` with and without arguments, and their expansion, as the C preprocessor does it.
 //!
 //! A name is expanded where it stands as a word of its own, so `A` is not expanded in `AXIOM` or `FA`. A macro is not
-//! expanded within itself. What a macro makes stands at the place of its name. Absent: `#` and `##` in bodies, where `#` is
-//! a module.
+//! expanded within itself. What a macro makes stands at the place of its name. Absent: `#` and `##` in bodies, where
+//! `#` is a module.
 
 use crate::fault::{Fault, Place};
 use crate::letters::Letter;
