@@ -16,8 +16,7 @@ fn hanging(plant: &Plant, tick: Tick) -> Vec<usize> {
         let fruit = organs.kind[*organ].class() == Class::Fruit && organs.birth[*organ] < tick;
         let picked = matches!(organs.cause[*organ], Cause::Harvested | Cause::Pruned);
         let end = organs.death[*organ];
-        let on = plant.shed_of(organs.node[*organ]) > tick && plant.death_of(organs.node[*organ]) > tick;
-        fruit && on && (end > tick || (end == tick && !picked))
+        fruit && plant.is_in_reach(organs.node[*organ], tick) && (end > tick || (end == tick && !picked))
     };
     (0..organs.len()).filter(hangs).collect()
 }
@@ -51,10 +50,11 @@ fn age_before(tick: Tick) -> Tick {
     tick.saturating_sub(1)
 }
 
-/// The share of its life on the plant that a fruit has behind it.
+/// The share of its life on the plant that a fruit has behind it. 0 where nothing is known of when it would fall: it
+/// never falls, or pests will eat it before.
 fn life_share(plant: &Plant, organ: usize, tick: Tick) -> f64 {
     let (birth, death) = (plant.organs.birth[organ], plant.organs.death[organ]);
-    if death == NEVER {
+    if death == NEVER || plant.organs.cause[organ] == Cause::Attacked {
         return 0.0;
     }
     f64::from(tick.saturating_sub(birth)) / f64::from(death.saturating_sub(birth).max(1))

@@ -4,7 +4,7 @@
 //! 5 and 8, and a twig on the third node of the lowest. Absent: growth after a cut, which models answer.
 
 use super::*;
-use crate::plant::{Class, EventKind, NewOrgan, NodeId, Trend};
+use crate::plant::{ApexFate, AxisId, Class, EventKind, NewOrgan, NodeId, Trend};
 use crate::pose::pose;
 use crate::pose::specimen::{Branch, Growth, Specimen};
 use crate::shape::{Capsule, HalfSpace, Shape};
@@ -131,18 +131,39 @@ fn what_goes_along_is_not_cut_itself() {
     assert!(events.len() == 5 && events.iter().all(|event| event.kind == EventKind::Pruned && event.tick == TICK));
 }
 
-/// Fruits of lives of ten ticks, born at 20, 25, 30 and 35: at tick 40 the first has fallen, the second would fall, the
-/// third has all but its end behind it, the last the half.
-#[test]
-fn a_harvest_picks_what_is_ripe_and_thinning_what_is_chosen() {
-    let fruit = |node, birth, life| NewOrgan {
+fn fruit(node: u32, birth: u32, life: u32) -> NewOrgan {
+    NewOrgan {
         node: NodeId(node),
         kind: crate::plant::Kind::ALL.into_iter().find(|kind| kind.class() == Class::Fruit).expect("a fruit"),
         birth,
         death: birth + life,
         cause: Cause::LifeLength,
         ..NewOrgan::LEAF
-    };
+    }
+}
+
+/// Of two fruits of one life, the first ends a branch that dies when it falls, the second will be eaten at that tick.
+/// The first is ripe and can still be picked; of the second it is not known when it would fall.
+#[test]
+fn the_last_fruit_of_a_branch_is_picked_and_a_fruit_that_pests_will_eat_is_not_ripe() {
+    let mut plant = plant();
+    let tip = plant.axes.last_node[4].some().expect("the last node of the twig");
+    plant.axes.end_apex(AxisId(4), 30, ApexFate::Flowered);
+    plant.axes.spent[4] = TICK;
+    plant.add_organ(fruit(tip.0, 30, 10));
+    plant.add_organ(NewOrgan { cause: Cause::Attacked, ..fruit(3, 30, 10) });
+    shed(&mut plant);
+    assert_eq!(plant.death_of(tip), TICK, "the branch dies with its fruit");
+    let when = When::once(Start::Age(TICK));
+    Operation { act: Act::Harvest(0.9), when, plants: None, choice: all() }.apply(&mut plant, TICK);
+    shed(&mut plant);
+    assert_eq!(plant.organs.cause, [Cause::Harvested, Cause::Attacked]);
+}
+
+/// Fruits of lives of ten ticks, born at 20, 25, 30 and 35: at tick 40 the first has fallen, the second would fall, the
+/// third has all but its end behind it, the last the half.
+#[test]
+fn a_harvest_picks_what_is_ripe_and_thinning_what_is_chosen() {
     let picked = |act: Act, choice: Choice| {
         let mut plant = plant();
         for organ in [fruit(3, 20, 10), fruit(4, 30, 10), fruit(4, 31, 10), fruit(6, 35, 10)] {
