@@ -39,6 +39,7 @@ pub fn of(target: &str) -> Vec<Vec<u8>> {
         "run_folder" => of_run_folder(),
         "species" | "scenario" => of_config(target == "scenario"),
         "weather" => of_weather(),
+        "lsystem" => of_lsystems(),
         ending => of_folder(&project().join("fuzz/seeds"), ending),
     }
 }
@@ -50,6 +51,12 @@ fn of_folder(folder: &Path, ending: &str) -> Vec<Vec<u8>> {
     paths.retain(|path| path.extension().is_some_and(|is| is == ending));
     paths.sort();
     paths.iter().map(|path| fs::read(path).expect("a seed")).collect()
+}
+
+/// The L-systems that ship.
+fn of_lsystems() -> Vec<Vec<u8>> {
+    let folders = ["topiary", "abop"].map(|name| project().join("config/presets/species").join(name));
+    folders.iter().flat_map(|folder| of_folder(folder, "l")).collect()
 }
 
 /// The files that the tests of weather have, each by its format.

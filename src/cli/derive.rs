@@ -1,7 +1,8 @@
 //! `derive`: the string of an L-system after some steps, without a plant being made of it.
 //!
-//! The string is that of a plant of a run with the same seed: its queries are answered by the same turtle, its draws are
-//! the same. Absent: the language (`phytomer_rewriting`), the turtle and the files beside (`phytomer_models::lsystem`).
+//! The string is that of a plant of a run with the same seed: its queries are answered by the same turtle, its draws
+//! are the same. Absent: the language (`phytomer_rewriting`), the turtle and the files beside
+//! (`phytomer_models::lsystem`).
 
 use super::named::{self, Named};
 use super::{Misuse, Verdict, refuse, terminal};

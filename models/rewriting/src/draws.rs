@@ -1,5 +1,5 @@
-//! Random draws of a program. A draw is a function of the plant, the module, the step and the purpose, and of what `seed:`
-//! and `srand` have set; so a plant does not depend on its neighbours, nor a module on the modules before it.
+//! Random draws of a program. A draw is a function of the plant, the module, the step and the purpose, and of what
+//! `seed:` and `srand` have set; so a plant does not depend on its neighbours, nor a module on the modules before it.
 //!
 //! Normal: polar method (Marsaglia & Bray 1964). Gamma, for beta: Marsaglia & Tsang 2000. Binomial: as many trials.
 

@@ -93,7 +93,13 @@ impl Machine<'_> {
             }
             Code::Element(array, index, place) => {
                 let at = self.element(*array, index, *place, frame)?;
-                Ok(self.variables.arrays.get(usize::from(*array)).and_then(|values| values.get(at)).copied().unwrap_or(0.0))
+                Ok(self
+                    .variables
+                    .arrays
+                    .get(usize::from(*array))
+                    .and_then(|values| values.get(at))
+                    .copied()
+                    .unwrap_or(0.0))
             }
             Code::Function(function, arguments, place) => {
                 self.spend(ROUND, *place, "the calls of functions")?;

@@ -1,7 +1,8 @@
 //! What is wrong with an L-system, and where: file, line, column, what was found, what was expected.
 //!
-//! [`Fault`]s are found while a file is read, all at once; a [`Stopped`] ends a derivation, at the place of the production
-//! that cannot be applied. Of more than a hundred faults only the number is kept: one slip may have many consequences.
+//! [`Fault`]s are found while a file is read, all at once; a [`Stopped`] ends a derivation, at the place of the
+//! production that cannot be applied. Of more than a hundred faults only the number is kept: one slip may have many
+//! consequences.
 
 use std::fmt;
 

@@ -1,8 +1,8 @@
 //! Letters with places; line ends, continued lines and comments.
 //!
-//! A backslash at the end of a line joins the next line to it. `/* … */` is a blank, and nothing where it opens a line, so
-//! that a line that begins with a comment does not seem to begin with a blank. `//` is a comment at a line's start or
-//! after a blank only: *The Algorithmic Beauty of Plants* writes `]/////[`.
+//! A backslash at the end of a line joins the next line to it. `/* … */` is a blank, and nothing where it opens a line,
+//! so that a line that begins with a comment does not seem to begin with a blank. `//` is a comment at a line's start
+//! or after a blank only: *The Algorithmic Beauty of Plants* writes `]/////[`.
 
 use crate::fault::{Fault, Place};
 

@@ -2,8 +2,8 @@
 //! Měch 1994; Prusinkiewicz & Lindenmayer 1990).
 //!
 //! A text becomes a [`Program`], or faults with line and column; a program derives strings of modules, step by step
-//! ([`Derived`]). A module has an identity that lasts as long as nothing rewrites it. Absent: files, turtles, plants, and
-//! the meaning of any symbol but brackets, the cut `%`, and queries.
+//! ([`Derived`]). A module has an identity that lasts as long as nothing rewrites it. Absent: files, turtles, plants,
+//! and the meaning of any symbol but brackets, the cut `%`, and queries.
 
 mod code;
 mod compile;
@@ -26,3 +26,6 @@ pub use outside::{Nothing, Outside};
 pub use program::{Answers, Interpreter, Limits, Program, Reading, Settings, Unanswered};
 pub use string::{Identity, Module, ModuleString, Slot};
 pub use symbol::{MOST_SYMBOLS, Symbol, SymbolTable};
+
+#[cfg(test)]
+mod tests_string;

@@ -171,9 +171,9 @@ impl Program {
         Ok(())
     }
 
-    /// Shows `visit` every module as it is drawn, in the order of the string. What the homomorphism assigns is forgotten
-    /// afterwards: drawing changes no plant. Its draws depend on module and path and not on the step, so that what stays
-    /// is drawn as it was.
+    /// Shows `visit` every module as it is drawn, in the order of the string. What the homomorphism assigns is
+    /// forgotten afterwards: drawing changes no plant. Its draws depend on module and path and not on the step, so that
+    /// what stays is drawn as it was.
     ///
     /// # Errors
     /// Why the homomorphism cannot be applied.

@@ -18,6 +18,13 @@ impl Slot {
     }
 }
 
+impl Slot {
+    /// The slot so many places later in the columns.
+    pub(crate) fn later(self, places: u32) -> Self {
+        Self(self.0 + places)
+    }
+}
+
 /// No slot: before the first module and after the last.
 pub(crate) const NONE: u32 = u32::MAX;
 /// The kind of a slot that holds no module.
@@ -62,6 +69,8 @@ pub struct ModuleString {
     free: Vec<u32>,
     /// Where parameters may begin that belong to no module, by their number.
     free_parameters: Vec<Vec<u32>>,
+    /// How many parameters belong to no module.
+    free_count: usize,
     head: u32,
     tail: u32,
     length: usize,
@@ -80,6 +89,7 @@ impl ModuleString {
             parameters: Vec::new(),
             free: Vec::new(),
             free_parameters: vec![Vec::new(); most + 1],
+            free_count: 0,
             head: NONE,
             tail: NONE,
             length: 0,
@@ -188,8 +198,7 @@ impl ModuleString {
 
     /// How many parameters all modules have.
     pub(crate) fn parameter_count(&self) -> usize {
-        let free = self.free_parameters.iter().enumerate().map(|(arity, list)| arity * list.len()).sum();
-        self.parameters.len().saturating_sub(free)
+        self.parameters.len().saturating_sub(self.free_count)
     }
 
     /// Makes room for so many modules.
@@ -250,6 +259,39 @@ impl ModuleString {
         Slot(slot)
     }
 
+    /// Whether modules that are put in one after the other stand one after the other in the columns: nothing is free.
+    #[inline]
+    pub(crate) fn is_dense(&self) -> bool {
+        self.free.is_empty() && self.free_count == 0
+    }
+
+    /// Puts a row of new modules behind `after`, of a string that is dense; returns the slot of the first, which the
+    /// slots of the others follow. Each has its kind, its identity, and where its parameters begin in `parameters`.
+    pub(crate) fn insert_row(
+        &mut self,
+        after: Slot,
+        modules: impl ExactSizeIterator<Item = (Kind, u32, Identity)>,
+        parameters: &[f64],
+    ) -> Slot {
+        let (start, count) = (self.kind.len() as u32, modules.len() as u32);
+        let (base, next) = (self.parameters.len() as u32, self.next[after.index()]);
+        if count == 0 {
+            return after;
+        }
+        self.parameters.extend_from_slice(parameters);
+        for (kind, first, identity) in modules {
+            self.kind.push(kind);
+            self.first.push(base + first);
+            self.identity.push(identity);
+        }
+        self.next.extend((start + 1..start + count).chain([next]));
+        self.previous.extend([after.0].into_iter().chain(start..start + count - 1));
+        self.link(after.0, start);
+        self.link(start + count - 1, next);
+        self.length += count as usize;
+        Slot(start)
+    }
+
     /// Takes a module out; returns the slot before it.
     pub(crate) fn remove(&mut self, slot: Slot) -> Option<Slot> {
         let index = slot.index();
@@ -288,6 +330,7 @@ impl ModuleString {
             return 0;
         }
         if let Some(first) = self.free_parameters.get_mut(arity).and_then(Vec::pop) {
+            self.free_count -= arity;
             return first;
         }
         let first = self.parameters.len();
@@ -301,52 +344,7 @@ impl ModuleString {
             && let Some(free) = self.free_parameters.get_mut(arity)
         {
             free.push(self.first[slot.index()]);
+            self.free_count += arity;
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::symbol::SymbolTable;
-
-    fn identity(key: u64) -> Identity {
-        Identity { key: LineageKey(key), birth: 0, predecessor: LineageKey::SEED }
-    }
-
-    /// Modules put in, rewritten and taken out at any place are those of a plain list.
-    #[test]
-    fn a_string_is_a_list() {
-        let mut table = SymbolTable::new();
-        let symbol = table.add("A");
-        let kinds: Vec<Kind> = (0..3).map(|arity| table.kind(symbol, arity)).collect();
-        let mut string = ModuleString::new(table.kinds());
-        let mut list: Vec<(Slot, Vec<f64>)> = Vec::new();
-        let mut state = 1_u64;
-        for step in 0..20_000_u64 {
-            state = phytomer_sim::key::scramble(state);
-            let place = (state >> 8) as usize % (list.len() + 1);
-            let values: Vec<f64> = (0..(state >> 40) % 3).map(|value| (value + step) as f64).collect();
-            let kind = kinds[values.len()];
-            match state % 5 {
-                0 | 1 if list.len() < 50 => {
-                    let before = place.checked_sub(1).map(|place| list[place].0);
-                    list.insert(place, (string.insert(before, kind, &values, identity(step)), values));
-                }
-                2 if place < list.len() => {
-                    string.rewrite(list[place].0, kind, &values, identity(step));
-                    list[place].1 = values;
-                }
-                _ if place < list.len() => {
-                    let before = string.remove(list.remove(place).0);
-                    assert_eq!(before, place.checked_sub(1).map(|place| list[place].0));
-                }
-                _ => {}
-            }
-            assert_eq!(string.len(), list.len());
-            let told: Vec<(Slot, Vec<f64>)> = string.modules().map(|m| (m.slot, m.parameters.to_vec())).collect();
-            assert_eq!(told, list);
-        }
-        assert!(string.slots() <= 50 && string.parameters.len() <= 50 * 3, "what is free is used again");
     }
 }

@@ -17,16 +17,19 @@ fn told(text: &str, expected: &str) {
 fn brackets_names_and_arity() {
     told("Axiom: A[B\nA --> B\n", "plant.l:1:9: `[` begins a branch that does not end; expected `]` behind it");
     told("Axiom: A\nA --> B]C\n", "plant.l:2:8: `]` closes no branch; expected `[` before it");
-    told("Axiom: A(1)\nA(x) --> A(x+y)\n", "plant.l:2:14: nothing is named `y`; expected one of x, or a name that a `#define` states");
     told(
-        "Axiom: A\nA --> F(sin(1,2))\n",
-        "plant.l:2:9: `sin` has 2 arguments; expected 1",
+        "Axiom: A(1)\nA(x) --> A(x+y)\n",
+        "plant.l:2:14: nothing is named `y`; expected one of x, or a name that a `#define` states",
     );
+    told("Axiom: A\nA --> F(sin(1,2))\n", "plant.l:2:9: `sin` has 2 arguments; expected 1");
     told(
         "Axiom: A\nA --> F(prune(1,2))\n",
         "plant.l:2:9: no function of 2 arguments is named `prune`; expected a function of the language, such as `sqrt(x)`",
     );
-    told("Axiom: A\nA(1,w) : * --> B\n", "plant.l:2:3: `1` stands here; expected the name of a parameter, such as the letter `l`");
+    told(
+        "Axiom: A\nA(1,w) : * --> B\n",
+        "plant.l:2:3: `1` stands here; expected the name of a parameter, such as the letter `l`",
+    );
     told("#define f(x) x\nAxiom: A\nA --> f(1,2)\n", "plant.l:3:7: `f` has 2 arguments; expected 1: `f(x)`");
     told("Axiom: A\nA B\n", "plant.l:2:4: the end of the line stands here; expected an arrow `-->` and a successor");
     told("A --> B\n", "plant.l:1:8: the file has no axiom; expected `Axiom:` and modules, or `ω :` as in the papers");
@@ -34,8 +37,14 @@ fn brackets_names_and_arity() {
 
 #[test]
 fn places_are_true_behind_macros_and_in_included_files() {
-    told("#define LONG F(1)F(2)F(3)\nAxiom: LONG LONG A(\n", "plant.l:2:20: the end of the file stands here; expected a number, a name or `(`");
-    told("#define W (x)\nAxiom: A\n/* one\n two */ A --> F(W)\n", "plant.l:4:17: nothing is named `x`; expected a number, or a name that a `#define` or a block before it states");
+    told(
+        "#define LONG F(1)F(2)F(3)\nAxiom: LONG LONG A(\n",
+        "plant.l:2:20: the end of the file stands here; expected a number, a name or `(`",
+    );
+    told(
+        "#define W (x)\nAxiom: A\n/* one\n two */ A --> F(W)\n",
+        "plant.l:4:17: nothing is named `x`; expected a number, or a name that a `#define` or a block before it states",
+    );
     let include = |_: &str| Ok("\nB --> [\n".to_owned());
     let reading = Reading { include: &include, ..Reading::of("plant.l") };
     let refused = Program::read("Axiom: B\n#include \"b.h\"\n", &reading).unwrap_err();
@@ -59,7 +68,10 @@ fn other_languages_are_told_by_their_names() {
         "module A\nAxiom: A\nproduction:\nA :\n  produce F A\n",
         "plant.l:1:1: this is a file of L-Py, whose productions are Python: `module A`; expected a program of cpfg, or one in the papers' notation",
     );
-    told("Axiom: A\nA --> ?(2)B$\n", "plant.l:2:7: a sub-L-system is called with `?(…)`; expected one L-system: sub-L-systems are not derived");
+    told(
+        "Axiom: A\nA --> ?(2)B$\n",
+        "plant.l:2:7: a sub-L-system is called with `?(…)`; expected one L-system: sub-L-systems are not derived",
+    );
     told(
         "Lsystem: 1\nAxiom: A\nA --> B\nendlsystem\nLsystem: 2\nAxiom: B\n",
         "plant.l:5:1: a second L-system begins; expected one L-system: sub-L-systems are not derived",
@@ -68,7 +80,10 @@ fn other_languages_are_told_by_their_names() {
         "Start: {fp = fopen(\"out\", \"w\");}\nAxiom: A\nA --> B\n",
         "plant.l:1:14: `fopen` reads or writes files; expected a program that only derives strings",
     );
-    told("Axiom: A\nA : 1 {system(\"ls\");} --> B\n", "plant.l:2:8: `system` calls the system; expected a program that only derives strings");
+    told(
+        "Axiom: A\nA : 1 {system(\"ls\");} --> B\n",
+        "plant.l:2:8: `system` calls the system; expected a program that only derives strings",
+    );
 }
 
 #[test]
@@ -109,7 +124,10 @@ fn what_ends_a_derivation() {
     let endless = stopped("Axiom: A\nA : 1 {while (1) {x = 1;}} --> B\n", 1);
     assert_eq!(endless, "plant.l:2:8: step 1: the rounds of `while` come to no end; expected an end within a step");
     let decomposition = stopped("Axiom: A\nF --> F\ndecomposition\nmaximum depth: 1000000\nA --> A\n", 1);
-    assert_eq!(decomposition, "plant.l:5:1: step 0: productions within productions come to no end; expected an end within a step");
+    assert_eq!(
+        decomposition,
+        "plant.l:5:1: step 0: productions within productions come to no end; expected an end within a step"
+    );
     let growing = stopped("Axiom: A\nF --> F\ndecomposition\nmaximum depth: 1000000\nA --> FA\n", 1);
     assert!(growing.contains("more than 1000 modules"), "{growing}");
     for production in ["F --> FF", "F --> F(1)[F]F\nF(x) --> F(x)", "F > F --> FF\nF --> FFF"] {

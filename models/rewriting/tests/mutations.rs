@@ -1,5 +1,5 @@
-//! Broken files: programs with letters, lines and words changed at random, from fixed seeds. Each is refused, stopped or
-//! derived, within bounds of time and memory, and never panics.
+//! Broken files: programs with letters, lines and words changed at random, from fixed seeds. Each is refused, stopped
+//! or derived, within bounds of time and memory, and never panics.
 
 mod common;
 use common::Turtle;
@@ -31,9 +31,46 @@ const PROGRAMS: [&str; 6] = [
 
 /// Words that are put into a text.
 const WORDS: [&str; 40] = [
-    "(", ")", "[", "]", "{", "}", "<", ">", ":", "-->", "→", "%", "=", ";", ",", "*", "?", "?(", "@", "~", "#define A A A\n",
-    "#include \"x\"\n", "#if 1\n", "#endif\n", "\n", "\n\t", "\\\n", "//", "/*", "\"", "while(1){}", "1e999", "-", "ε",
-    "Axiom: A\n", "decomposition\nmaximum depth: 1e9\n", "homomorphism\n", "derivation length: -1\n", "F(ran(1)/0)", "\u{0}",
+    "(",
+    ")",
+    "[",
+    "]",
+    "{",
+    "}",
+    "<",
+    ">",
+    ":",
+    "-->",
+    "→",
+    "%",
+    "=",
+    ";",
+    ",",
+    "*",
+    "?",
+    "?(",
+    "@",
+    "~",
+    "#define A A A\n",
+    "#include \"x\"\n",
+    "#if 1\n",
+    "#endif\n",
+    "\n",
+    "\n\t",
+    "\\\n",
+    "//",
+    "/*",
+    "\"",
+    "while(1){}",
+    "1e999",
+    "-",
+    "ε",
+    "Axiom: A\n",
+    "decomposition\nmaximum depth: 1e9\n",
+    "homomorphism\n",
+    "derivation length: -1\n",
+    "F(ran(1)/0)",
+    "\u{0}",
 ];
 
 /// Changes a text at some places.

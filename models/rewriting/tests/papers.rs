@@ -1,5 +1,5 @@
-//! The L-systems of *Synthetic Topiary* (Prusinkiewicz, James & Měch 1994) and of chapter 2 of *The Algorithmic Beauty of
-//! Plants*, as far as their strings tell: published strings, counts and closed forms.
+//! The L-systems of *Synthetic Topiary* (Prusinkiewicz, James & Měch 1994) and of chapter 2 of *The Algorithmic Beauty
+//! of Plants*, as far as their strings tell: published strings, counts and closed forms.
 
 mod common;
 use common::{Turtle, counts, derive, derive_program, lines, read, string, text};
@@ -37,12 +37,7 @@ fn l_system_1_has_its_four_outcomes() {
 #[test]
 fn l_system_2_to_the_character() {
     let program = read("ω : A\np1 : A → F(1)?P(x, y) − A\np2 : F(k) → F(k+1)\n");
-    let strings = [
-        "A",
-        "F(1)?P(0,1)-A",
-        "F(2)?P(0,2)-F(1)?P(1,2)-A",
-        "F(3)?P(0,3)-F(2)?P(2,3)-F(1)?P(2,2)-A",
-    ];
+    let strings = ["A", "F(1)?P(0,1)-A", "F(2)?P(0,2)-F(1)?P(1,2)-A", "F(3)?P(0,3)-F(2)?P(2,3)-F(1)?P(2,2)-A"];
     for (step, expected) in (0_u32..).zip(strings) {
         let derived = derive_program(&program, 1, step, &mut Turtle::new(90.0));
         assert_eq!(text(&program, &derived), expected, "μ{step}");
@@ -102,7 +97,11 @@ fn l_system_4_activates_bud_after_bud() {
         let of = |name: &str| counts.get(name).copied().unwrap_or(0);
         assert!(of("@o") > 0 || step <= 5 || step == 94, "step {step} has no dormant bud");
         if steps[at] == step {
-            assert_eq!((of("F"), of("@o"), derived.string().len()), (internodes[at], buds[at], modules[at]), "step {step}");
+            assert_eq!(
+                (of("F"), of("@o"), derived.string().len()),
+                (internodes[at], buds[at], modules[at]),
+                "step {step}"
+            );
             at += 1;
         }
     }
@@ -183,13 +182,15 @@ const SIXTH: &str = "#define φ 90\n#define α 32\n#define β 20\n#define E 6\n\
     p8 : B(m, n) > F → B(m+1, n)\n\
     p9 : T → ε\n";
 
-/// Internodes of L-system 6 after 31 steps with the constants of Fig. 7: a = 1 and b = 1 with c = −5, and c = 1. Expected
-/// are means with their standard errors by another interpreter. With c = −5 an apex may begin at 0 or below: then 1/0 is
-/// infinite, min{1, ∞} is 1, and a weight below 0 is 0. Nothing stands a whole internode outside the cube.
+/// Internodes of L-system 6 after 31 steps with the constants of Fig. 7: a = 1 and b = 1 with c = −5, and c = 1.
+/// Expected are means with their standard errors by another interpreter. With c = −5 an apex may begin at 0 or below:
+/// then 1/0 is infinite, min{1, ∞} is 1, and a weight below 0 is 0. Nothing stands a whole internode outside the cube.
 #[test]
 fn l_system_6_fills_its_cube() {
     const PLANTS: u64 = 100;
-    for ((a, b, c), (expected, known)) in [((1, 0, -5), (675.0, 11.0)), ((0, 1, -5), (878.0, 15.0)), ((0, 0, 1), (1874.0, 35.0_f64))] {
+    for ((a, b, c), (expected, known)) in
+        [((1, 0, -5), (675.0, 11.0)), ((0, 1, -5), (878.0, 15.0)), ((0, 0, 1), (1874.0, 35.0_f64))]
+    {
         let program = read(&format!("#define a {a}\n#define b {b}\n#define c ({c})\n{SIXTH}"));
         let mut sums = [0.0; 2];
         for plant in 0..PLANTS {

@@ -73,7 +73,10 @@ fn files_are_included_by_their_names() {
     let program = Program::read("#include \"constants.h\"\nAxiom: F(LEN)\nF(x) --> F(x+1)\n", &reading).unwrap();
     assert_eq!(text(&program, &derive_program(&program, 1, 1, &mut Unanswered)), "F(4)");
     let refused = Program::read("Axiom: F\n#include \"other.h\"\n", &reading).unwrap_err();
-    assert_eq!(refused.to_string(), "plant.l:2:1: `other.h` cannot be included: no file is named other.h; expected a file that can be read\n");
+    assert_eq!(
+        refused.to_string(),
+        "plant.l:2:1: `other.h` cannot be included: no file is named other.h; expected a file that can be read\n"
+    );
 }
 
 #[test]
@@ -89,7 +92,11 @@ fn constants_can_be_set() {
 #[test]
 fn the_first_production_that_applies() {
     becomes("Axiom: A(3)A(1)\nA(x) : x > 2 --> B\nA(x) --> C", 1, "BC");
-    becomes("Axiom: A(1)\nA(t) : {t = t - 2;} t > 0 --> B(t)\nA(t) : {t = t + 1;} t > 1 {u = 2*t;} --> C(t,u)", 1, "C(2,4)");
+    becomes(
+        "Axiom: A(1)\nA(t) : {t = t - 2;} t > 0 --> B(t)\nA(t) : {t = t + 1;} t > 1 {u = 2*t;} --> C(t,u)",
+        1,
+        "C(2,4)",
+    );
 }
 
 #[test]
@@ -252,7 +259,9 @@ fn weights_are_shares_of_their_sum() {
 
 #[test]
 fn draws_are_keyed_by_plant_module_step_and_seed() {
-    let file = |seed: &str| cpfg(&format!("{seed}\nAxiom: AA\nA --> A(ran(1),nran(0,1),bran(2,3),biran(5,0.5))\nA(a,b,c,d) --> A"));
+    let file = |seed: &str| {
+        cpfg(&format!("{seed}\nAxiom: AA\nA --> A(ran(1),nran(0,1),bran(2,3),biran(5,0.5))\nA(a,b,c,d) --> A"))
+    };
     let of = |seed: &str, plant: u64, steps: u32| {
         let program = read(&file(seed));
         text(&program, &derive_program(&program, plant, steps, &mut Unanswered))
@@ -274,7 +283,9 @@ fn queries_are_filled_between_steps() {
 
 #[test]
 fn greek_names_and_the_heads_of_papers() {
-    let program = read("n = 3, δ = 22.5°\n#define φ 2\nθ(x) = 2x + φ\nω : A\np_1 : A → F(θ(3))A\np₂ : F(λ) : λ ≥ 5 ∥ λ = 0 → ε\n");
+    let program = read(
+        "n = 3, δ = 22.5°\n#define φ 2\nθ(x) = 2x + φ\nω : A\np_1 : A → F(θ(3))A\np₂ : F(λ) : λ ≥ 5 ∥ λ = 0 → ε\n",
+    );
     assert_eq!((program.settings().steps, program.settings().angle_deg), (Some(3), Some(22.5)));
     let derived = derive_program(&program, 1, 2, &mut Unanswered);
     assert_eq!(text(&program, &derived), "F(8)A");
@@ -302,7 +313,8 @@ fn a_module_that_no_production_touches_keeps_its_key() {
     // A goes on outside the brackets: it is the module of the axiom, and the one in brackets is born of it.
     let axiom = derived.string().modules().last().unwrap();
     assert_eq!((program.symbols().name(axiom.symbol), axiom.identity.birth), ("A", 0));
-    let lateral = derived.string().modules().find(|module| module.identity.birth == 6 || module.identity.birth == 5).unwrap();
+    let lateral =
+        derived.string().modules().find(|module| module.identity.birth == 6 || module.identity.birth == 5).unwrap();
     assert!(seen.contains_key(&lateral.identity.predecessor.0));
 }
 

@@ -25,7 +25,11 @@ pub(super) fn declare(file: &File, names: &mut Names<'_>, faults: &mut Vec<Fault
                 }
                 let known = Known { number: arrays.len() as u16, count: array.dimensions.len(), level: 0 };
                 if names.arrays.insert(name.name.clone(), known).is_some() {
-                    faults.push(Fault::new(name.place, format!("two arrays are named `{}`", name.name), "another name"));
+                    faults.push(Fault::new(
+                        name.place,
+                        format!("two arrays are named `{}`", name.name),
+                        "another name",
+                    ));
                 }
                 arrays.push(array);
             }
@@ -38,12 +42,22 @@ pub(super) fn declare(file: &File, names: &mut Names<'_>, faults: &mut Vec<Fault
     arrays
 }
 
-fn array(name: &Name, dimensions: &[Expression], values: &[Expression], names: &Names<'_>, faults: &mut Vec<Fault>) -> Array {
+fn array(
+    name: &Name,
+    dimensions: &[Expression],
+    values: &[Expression],
+    names: &Names<'_>,
+    faults: &mut Vec<Fault>,
+) -> Array {
     let mut sizes = Vec::new();
     for dimension in dimensions {
         let size = names.constant(dimension, faults);
         if !(1.0..=MOST_ELEMENTS as f64).contains(&size) {
-            faults.push(Fault::new(name.place, format!("`{}` has {size} elements", name.name), "1 or more, and at most a million"));
+            faults.push(Fault::new(
+                name.place,
+                format!("`{}` has {size} elements", name.name),
+                "1 or more, and at most a million",
+            ));
         }
         sizes.push(size.clamp(1.0, MOST_ELEMENTS as f64) as usize);
     }

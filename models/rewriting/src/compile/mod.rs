@@ -1,5 +1,5 @@
-//! From the tree of a file to a program that can be carried out: names are looked up, symbols become kinds, and what the
-//! file says is checked. All faults are told at once.
+//! From the tree of a file to a program that can be carried out: names are looked up, symbols become kinds, and what
+//! the file says is checked. All faults are told at once.
 
 mod blocks;
 mod names;

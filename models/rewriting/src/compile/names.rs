@@ -1,5 +1,5 @@
-//! What the names of expressions mean: parameters, variables, arrays, functions of the file, of every program, and of the
-//! world outside.
+//! What the names of expressions mean: parameters, variables, arrays, functions of the file, of every program, and of
+//! the world outside.
 //!
 //! A name is the parameter of a production before it is a variable of a block, and that before it is `Q`, the step. A
 //! variable that only a production assigns is its own.
@@ -200,7 +200,8 @@ impl<'o> Names<'o> {
                 faults.push(arity(name, arguments.len(), least, most));
             }
             // What only prints is not even looked at.
-            let codes = if builtin == Some(Builtin::Silent) { Box::default() } else { self.list(arguments, scope, faults) };
+            let codes =
+                if builtin == Some(Builtin::Silent) { Box::default() } else { self.list(arguments, scope, faults) };
             return match (builtin, name.name.as_str()) {
                 (Some(builtin), _) => Code::Call(builtin, codes),
                 (None, "GetDerivationLength") => Code::Number(self.steps),
@@ -223,12 +224,18 @@ impl<'o> Names<'o> {
             let all: Vec<&str> = known.into_iter().chain(&others).map(String::as_str).collect();
             let more = if all.is_empty() { String::new() } else { format!(", or one of {}", all.join(", ")) };
             let problem = format!("no function of {} arguments is named `{}`", arguments.len(), name.name);
-            faults.push(Fault::new(name.place, problem, format!("a function of the language, such as `sqrt(x)`{more}")));
+            faults.push(Fault::new(
+                name.place,
+                problem,
+                format!("a function of the language, such as `sqrt(x)`{more}"),
+            ));
             return Code::Number(0.0);
         };
         // The first argument of a curve may be its name.
         let curve = match arguments.first() {
-            Some(Expression::Name(first)) if scope.local(&first.name).is_none() && !self.variables.contains_key(&first.name) => {
+            Some(Expression::Name(first))
+                if scope.local(&first.name).is_none() && !self.variables.contains_key(&first.name) =>
+            {
                 self.outside.curve(&first.name)
             }
             _ => None,
@@ -272,7 +279,11 @@ impl<'o> Names<'o> {
             Statement::Array(name, ..) => {
                 let expected = "the block `define:`, in which arrays are stated";
                 if !scope.blocks {
-                    faults.push(Fault::new(name.place, format!("the array `{}` stands in a production", name.name), expected));
+                    faults.push(Fault::new(
+                        name.place,
+                        format!("the array `{}` stands in a production", name.name),
+                        expected,
+                    ));
                 }
                 return None;
             }

@@ -137,7 +137,12 @@ fn name_beginnings(right: &mut Vec<Item>) {
     }
 }
 
-fn successor(modules: &[ModuleText], scope: &mut Scope, context: &mut Context<'_, '_>, faults: &mut Vec<Fault>) -> Box<[Made]> {
+fn successor(
+    modules: &[ModuleText],
+    scope: &mut Scope,
+    context: &mut Context<'_, '_>,
+    faults: &mut Vec<Fault>,
+) -> Box<[Made]> {
     let mut made = Vec::new();
     for module in modules {
         let kind = kind(&module.symbol, module.arguments.len(), module.place, context.symbols, faults);
@@ -181,7 +186,8 @@ fn go_on(strict: &[Formal], modules: &[ModuleText], made: &mut [Made], last: &[S
         }
     }
     for (number, formal) in strict.iter().enumerate().take(usize::from(u8::MAX)) {
-        let mut free = outside.iter().copied().filter(|&at| modules[at].symbol == formal.symbol && made[at].continues.is_none());
+        let mut free =
+            outside.iter().copied().filter(|&at| modules[at].symbol == formal.symbol && made[at].continues.is_none());
         let found = if last.contains(&formal.symbol) { free.next_back() } else { free.next() };
         if let Some(found) = found {
             made[found].continues = Some(number as u8);
@@ -193,7 +199,8 @@ fn go_on(strict: &[Formal], modules: &[ModuleText], made: &mut [Made], last: &[S
 pub(super) fn check_kinds(script: &Script, symbols: &SymbolTable, warnings: &mut Vec<Fault>) {
     let sections = [&script.rewriting, &script.decomposition, &script.homomorphism];
     let made = sections.iter().flat_map(|rules| &rules.rules).flat_map(|rule| rule.successor.iter());
-    let kinds: BTreeSet<Kind> = made.chain(script.axiom.iter()).map(|made| made.kind).chain([OPEN, CLOSE, CUT]).collect();
+    let kinds: BTreeSet<Kind> =
+        made.chain(script.axiom.iter()).map(|made| made.kind).chain([OPEN, CLOSE, CUT]).collect();
     for rule in sections.iter().flat_map(|rules| &rules.rules) {
         for item in rule.strict.iter().chain(&rule.left).chain(&rule.right) {
             let Item::Module(kind, _) = *item else { continue };
@@ -205,7 +212,8 @@ pub(super) fn check_kinds(script: &Script, symbols: &SymbolTable, warnings: &mut
             let others = symbols.kinds().iter().zip(0_u16..).filter(|&(other, number)| is_other(number, other.0));
             let others: Vec<String> = others.map(|((_, arity), _)| arity.to_string()).collect();
             if !others.is_empty() {
-                let problem = format!("no `{}` has {arity} parameters, so this production never applies", symbols.name(symbol));
+                let problem =
+                    format!("no `{}` has {arity} parameters, so this production never applies", symbols.name(symbol));
                 warnings.push(Fault::new(rule.place, problem, others.join(" or ")));
                 break;
             }

@@ -14,8 +14,12 @@ pub(super) fn check(rules: &Rules, warnings: &mut Vec<Fault>) {
         }
         let Some(kind) = first.strict.first() else { continue };
         let crate::code::Item::Module(kind, _) = *kind else { continue };
-        let group: Vec<usize> =
-            rules.of(kind).iter().map(|&other| other as usize).filter(|&other| alike(first, &rules.rules[other])).collect();
+        let group: Vec<usize> = rules
+            .of(kind)
+            .iter()
+            .map(|&other| other as usize)
+            .filter(|&other| alike(first, &rules.rules[other]))
+            .collect();
         let weights: Option<Vec<f64>> = group.iter().map(|&other| constant(&rules.rules[other])).collect();
         group.iter().for_each(|&other| told[other] = true);
         let Some(weights) = weights else { continue };

@@ -1,7 +1,7 @@
 //! Which of the productions of a module applies: the first, or where they compete one by its weight.
 //!
-//! A weight that is not stated is 1, one below 0 is 0. Of those that apply one is drawn with its weight over their sum; where
-//! the sum is 0 none applies.
+//! A weight that is not stated is 1, one below 0 is 0. Of those that apply one is drawn with its weight over their sum;
+//! where the sum is 0 none applies.
 
 use crate::code::{Rule, Rules};
 use crate::evaluate::{Machine, Result};
@@ -15,8 +15,8 @@ pub(crate) struct Frames {
     fitting: Vec<(u32, f64)>,
 }
 
-/// The production that applies; its variables are in `frames.frame`. `fits` tells whether a production's predecessor and
-/// contexts are there, and binds their parameters.
+/// The production that applies; its variables are in `frames.frame`. `fits` tells whether a production's predecessor
+/// and contexts are there, and binds their parameters.
 #[inline]
 pub(super) fn choose<'r>(
     rules: &'r Rules,

@@ -4,8 +4,8 @@ use crate::string::{ModuleString, Slot};
 use crate::symbol::{CLOSE, CUT, OPEN};
 use phytomer_sim::key::LineageKey;
 
-/// Carries out the cuts at these slots. A cut that an earlier one has taken away is passed over. `gone` gets the keys of
-/// what goes.
+/// Carries out the cuts at these slots. A cut that an earlier one has taken away is passed over. `gone` gets the keys
+/// of what goes.
 pub(super) fn cut(string: &mut ModuleString, cuts: &[Slot], gone: &mut Vec<LineageKey>) {
     for &slot in cuts {
         if !string.is_free(slot) && string.kind(slot) == CUT {

@@ -1,7 +1,7 @@
 //! Productions within productions: decomposition, which works at once, and homomorphism, which is for drawing alone.
 //!
-//! A module is replaced, and what replaces it in turn, up to the maximum depth of the section, from the left to the right.
-//! Contexts are those of the module of the string with which the expansion began.
+//! A module is replaced, and what replaces it in turn, up to the maximum depth of the section, from the left to the
+//! right. Contexts are those of the module of the string with which the expansion began.
 
 use super::choose::{Frames, choose};
 use super::context::{Anchor, bind};

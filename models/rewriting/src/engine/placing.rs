@@ -58,21 +58,27 @@ impl Places {
                 string.remove(next);
             }
         }
-        let mut last = None;
-        for piece in &made.pieces[change.pieces.start as usize..change.pieces.end as usize] {
-            let values = made.of(piece);
-            let at = match last {
-                None => {
-                    string.rewrite(slot, piece.kind, values, piece.identity);
-                    slot
-                }
-                Some(_) => string.insert(last, piece.kind, values, piece.identity),
-            };
-            last = Some(at);
-            self.note(string, at);
-        }
-        if last.is_none() {
+        let pieces = &made.pieces[change.pieces.start as usize..change.pieces.end as usize];
+        let Some((first, others)) = pieces.split_first() else {
             string.remove(slot);
+            return;
+        };
+        string.rewrite(slot, first.kind, made.of(first), first.identity);
+        self.note(string, slot);
+        if string.is_dense()
+            && let Some(second) = others.first()
+        {
+            let base = second.first;
+            let end = others.last().map_or(base, |last| last.first + u32::from(last.arity));
+            let row = others.iter().map(|piece| (piece.kind, piece.first - base, piece.identity));
+            let start = string.insert_row(slot, row, &made.parameters[base as usize..end as usize]);
+            (0..others.len() as u32).for_each(|number| self.note(string, start.later(number)));
+            return;
+        }
+        let mut last = slot;
+        for piece in others {
+            last = string.insert(Some(last), piece.kind, made.of(piece), piece.identity);
+            self.note(string, last);
         }
     }
 }

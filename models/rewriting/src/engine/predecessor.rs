@@ -34,7 +34,13 @@ pub(super) fn fits(
 }
 
 /// The identities of the modules of a predecessor of several, and the last of them; none of a predecessor of one.
-pub(super) fn predecessors(rule: &Rule, string: &ModuleString, slot: Slot, last: &mut Slot, parameters: &mut usize) -> Vec<Identity> {
+pub(super) fn predecessors(
+    rule: &Rule,
+    string: &ModuleString,
+    slot: Slot,
+    last: &mut Slot,
+    parameters: &mut usize,
+) -> Vec<Identity> {
     *parameters = parameters.saturating_sub(string.parameters(slot).len());
     if rule.strict.len() < 2 {
         return Vec::new();

@@ -26,7 +26,8 @@ use crate::syntax::MOST_PARAMETERS;
 pub(super) fn active_kinds(script: &Script) -> Vec<bool> {
     let rules = [&script.rewriting, &script.decomposition];
     let most = rules.iter().map(|rules| rules.by_kind.len()).max().unwrap_or(0);
-    let of = |kind: usize| rules.iter().any(|rules: &&Rules| rules.by_kind.get(kind).is_some_and(|list| !list.is_empty()));
+    let of =
+        |kind: usize| rules.iter().any(|rules: &&Rules| rules.by_kind.get(kind).is_some_and(|list| !list.is_empty()));
     (0..most).map(of).collect()
 }
 
@@ -56,7 +57,13 @@ struct Rewriting<'r> {
     most: usize,
 }
 
-pub(super) fn rewrite(script: &Script, derived: &mut Derived, outside: &dyn Outside, bounds: Bounds, pass: Pass) -> Result<()> {
+pub(super) fn rewrite(
+    script: &Script,
+    derived: &mut Derived,
+    outside: &dyn Outside,
+    bounds: Bounds,
+    pass: Pass,
+) -> Result<()> {
     let (rewrites, cuts) = match pass {
         Pass::Rewrites => (true, Vec::new()),
         Pass::Decomposes(cuts) => (false, cuts),
@@ -72,7 +79,12 @@ pub(super) fn rewrite(script: &Script, derived: &mut Derived, outside: &dyn Outs
         frames: Frames::default(),
         own: Pieces::default(),
         made: Pieces::default(),
-        places: Places { is_active: active_kinds(script), active: Vec::with_capacity(before.len()), cuts, ..Places::default() },
+        places: Places {
+            is_active: active_kinds(script),
+            active: Vec::with_capacity(before.len()),
+            cuts,
+            ..Places::default()
+        },
         length: derived.string.len(),
         parameters: derived.string.parameter_count(),
         most: bounds.modules,
@@ -80,7 +92,11 @@ pub(super) fn rewrite(script: &Script, derived: &mut Derived, outside: &dyn Outs
     let mut string = std::mem::replace(&mut derived.string, ModuleString::new(&[]));
     let mut machine = machine(script, derived, outside, &random, bounds);
     let result = rewriting.reserve(&before, &mut string).and_then(|()| {
-        if looks { rewriting.all_at_once(&before, &mut string, &mut machine) } else { rewriting.one_by_one(&before, &mut string, &mut machine) }
+        if looks {
+            rewriting.all_at_once(&before, &mut string, &mut machine)
+        } else {
+            rewriting.one_by_one(&before, &mut string, &mut machine)
+        }
     });
     let Places { mut active, cuts, .. } = rewriting.places;
     derived.cut.clear();
@@ -169,7 +185,9 @@ impl Rewriting<'_> {
         if self.rewrites {
             machine.draws.turn_to(identity.key, step, For::Rewriting);
             let script = self.script;
-            let fits = |rule: &Rule, machine: &mut Machine<'_>, frame: &mut [f64]| fits(rule, script, string, slot, machine, frame);
+            let fits = |rule: &Rule, machine: &mut Machine<'_>, frame: &mut [f64]| {
+                fits(rule, script, string, slot, machine, frame)
+            };
             if let Some(rule) = choose(rules, rules.of(string.kind(slot)), machine, &mut self.frames, fits)? {
                 self.length = (self.length + rule.successor.len()).saturating_sub(rule.strict.len());
                 self.parameters += rule.successor.iter().map(|made| made.arguments.len()).sum::<usize>();

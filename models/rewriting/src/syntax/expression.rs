@@ -1,95 +1,17 @@
 //! Expressions, and the reader over letters that all other parts of the syntax read with.
 //!
-//! The operators and their ranks are those of cpfg: `?:`, `||`, `&&`, `== !=`, `< <= > >=`, `+ -`, `* / %`, `^` from the
-//! left, and above all of these the sign and `!`, so that −2^2 is 4. The papers add `‖`, `≤`, `≥`, `≠`, `=` in conditions,
-//! `2y` for a product, and `min{…}`.
+//! The operators and their ranks are those of cpfg: `?:`, `||`, `&&`, `== !=`, `< <= > >=`, `+ -`, `* / %`, `^` from
+//! the left, and above all of these the sign and `!`, so that −2^2 is 4. The papers add `‖`, `≤`, `≥`, `≠`, `=` in
+//! conditions, `2y` for a product, and `min{…}`.
 
 use super::lines::{arrow_length, continued, is_blank};
+use super::tree::{Expression, Name, Operator};
 use crate::fault::{Fault, Place};
 use crate::letters::Letter;
-use phytomer_sim::math;
 
 /// The most parts of an expression, and the most parentheses within parentheses.
 const MOST_PARTS: u32 = 600;
 const DEEPEST: u32 = 60;
-
-/// A name and where it stands.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Name {
-    pub name: String,
-    pub place: Place,
-}
-
-/// An expression as it is written.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Expression {
-    Number(f64),
-    /// A text in quotation marks, which only functions without a value take.
-    Text(String),
-    Name(Name),
-    Negative(Box<Expression>),
-    Not(Box<Expression>),
-    Binary(Operator, Box<(Expression, Expression)>),
-    Choice(Box<(Expression, Expression, Expression)>),
-    Call(Name, Vec<Expression>),
-    Element(Name, Vec<Expression>),
-}
-
-/// An operator between two values.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Operator {
-    Or,
-    And,
-    Equal,
-    NotEqual,
-    Less,
-    LessEqual,
-    Greater,
-    GreaterEqual,
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Remainder,
-    Power,
-}
-
-impl Operator {
-    /// The value; a truth is 1 or 0.
-    #[inline]
-    pub fn apply(self, a: f64, b: f64) -> f64 {
-        match self {
-            Self::Or => f64::from(a != 0.0 || b != 0.0),
-            Self::And => f64::from(a != 0.0 && b != 0.0),
-            Self::Equal => f64::from(a == b),
-            Self::NotEqual => f64::from(a != b),
-            Self::Less => f64::from(a < b),
-            Self::LessEqual => f64::from(a <= b),
-            Self::Greater => f64::from(a > b),
-            Self::GreaterEqual => f64::from(a >= b),
-            Self::Add => a + b,
-            Self::Subtract => a - b,
-            Self::Multiply => a * b,
-            Self::Divide => a / b,
-            // Of whole numbers, as in cpfg.
-            Self::Remainder => math::fmod(a.trunc(), b.trunc()),
-            Self::Power if b == 2.0 => a * a,
-            Self::Power => math::pow(a, b),
-        }
-    }
-
-    fn rank(self) -> u8 {
-        match self {
-            Self::Or => 1,
-            Self::And => 2,
-            Self::Equal | Self::NotEqual => 3,
-            Self::Less | Self::LessEqual | Self::Greater | Self::GreaterEqual => 4,
-            Self::Add | Self::Subtract => 5,
-            Self::Multiply | Self::Divide | Self::Remainder => 6,
-            Self::Power => 7,
-        }
-    }
-}
 
 /// Reads letters from the first to the last.
 pub(crate) struct Parser<'l> {
@@ -203,7 +125,11 @@ impl<'l> Parser<'l> {
             self.parts = 0;
         }
         if self.depth >= DEEPEST {
-            return Err(Fault::new(self.place(), "too many parentheses within one another", format!("at most {DEEPEST}")));
+            return Err(Fault::new(
+                self.place(),
+                "too many parentheses within one another",
+                format!("at most {DEEPEST}"),
+            ));
         }
         self.depth += 1;
         let result = self.choice();
@@ -252,7 +178,9 @@ impl<'l> Parser<'l> {
             ('|' | '‖' | '∥', _) => (Operator::Or, 1),
             ('&', Some('&')) => (Operator::And, 2),
             ('&', _) => (Operator::And, 1),
-            ('=', Some('=')) | ('!' | '<', Some('=' | '>')) if self.peek() != Some('<') || self.peek_after(1) == Some('>') => {
+            ('=', Some('=')) | ('!' | '<', Some('=' | '>'))
+                if self.peek() != Some('<') || self.peek_after(1) == Some('>') =>
+            {
                 (if self.peek() == Some('=') { Operator::Equal } else { Operator::NotEqual }, 2)
             }
             ('=', _) => (Operator::Equal, 1),
@@ -326,7 +254,9 @@ impl<'l> Parser<'l> {
                 self.at += length + 2;
                 Ok(Expression::Text(rest[1..=length].iter().map(|letter| letter.c).collect()))
             }
-            None => Err(Fault::new(self.place(), "a text begins and does not end", "`\"` at its end, in the same line")),
+            None => {
+                Err(Fault::new(self.place(), "a text begins and does not end", "`\"` at its end, in the same line"))
+            }
         }
     }
 
@@ -361,7 +291,11 @@ impl<'l> Parser<'l> {
         self.at += length;
         match text.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
-            _ => Err(Fault::new(place, format!("`{}` is no number", text.chars().take(40).collect::<String>()), "a number")),
+            _ => Err(Fault::new(
+                place,
+                format!("`{}` is no number", text.chars().take(40).collect::<String>()),
+                "a number",
+            )),
         }
     }
 
@@ -371,7 +305,9 @@ impl<'l> Parser<'l> {
         self.blanks();
         match self.peek() {
             Some('(') => Ok(Expression::Call(name, self.list('(', ')')?)),
-            Some('{') if matches!(name.name.as_str(), "min" | "max") => Ok(Expression::Call(name, self.list('{', '}')?)),
+            Some('{') if matches!(name.name.as_str(), "min" | "max") => {
+                Ok(Expression::Call(name, self.list('{', '}')?))
+            }
             Some('[') => {
                 let mut index = Vec::new();
                 while self.peek() == Some('[') {

@@ -3,11 +3,12 @@
 //! After a fault reading goes on at the next line that begins without a blank, so that all faults are told at once. The
 //! papers' notation has no head: ω is the axiom, `n = 10` the number of steps, δ the angle of turns.
 
-use super::expression::{Expression, Name, Parser};
+use super::expression::Parser;
 use super::keyword::{Keyword, keyword};
 use super::module::ModuleText;
 use super::production::Production;
 use super::statement::Statement;
+use super::tree::{Expression, Name};
 use crate::fault::{Fault, Place};
 use crate::letters::Letter;
 
@@ -62,7 +63,12 @@ enum Current {
 
 /// Reads the letters of a file.
 pub(crate) fn parse(letters: &[Letter], faults: &mut Vec<Fault>) -> File {
-    let mut reader = Reader { parser: Parser::new(letters, Place::default()), file: File::default(), current: Current::Rewriting, ended: false };
+    let mut reader = Reader {
+        parser: Parser::new(letters, Place::default()),
+        file: File::default(),
+        current: Current::Rewriting,
+        ended: false,
+    };
     while reader.parser.peek().is_some() && faults.len() < MOST_TOLD {
         if reader.parser.peek() == Some('\n') {
             reader.parser.at += 1;
@@ -76,7 +82,11 @@ pub(crate) fn parse(letters: &[Letter], faults: &mut Vec<Fault>) -> File {
     }
     let Reader { parser, file, .. } = reader;
     if file.axiom.is_none() && faults.is_empty() {
-        faults.push(Fault::new(parser.place(), "the file has no axiom", "`Axiom:` and modules, or `ω :` as in the papers"));
+        faults.push(Fault::new(
+            parser.place(),
+            "the file has no axiom",
+            "`Axiom:` and modules, or `ω :` as in the papers",
+        ));
     }
     file
 }
@@ -136,7 +146,8 @@ impl Reader<'_> {
 
     fn keyed(&mut self, word: Keyword, place: Place) -> Result<(), Fault> {
         if self.ended && word != Keyword::System {
-            return Ok(self.parser.at = self.parser.letters.len());
+            self.parser.at = self.parser.letters.len();
+            return Ok(());
         }
         match word {
             Keyword::System if self.ended => {

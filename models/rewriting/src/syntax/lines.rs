@@ -1,7 +1,7 @@
 //! Which line continues the one before it.
 //!
-//! cpfg joins a line that begins with a tab to the last. Lines that begin with spaces are joined too, as the papers print
-//! them, unless they are a production or an item of their own.
+//! cpfg joins a line that begins with a tab to the last. Lines that begin with spaces are joined too, as the papers
+//! print them, unless they are a production or an item of their own.
 
 use super::keyword::keyword;
 use crate::letters::Letter;

@@ -8,9 +8,11 @@ mod lines;
 mod module;
 mod production;
 mod statement;
+mod tree;
 
-pub(crate) use expression::{Expression, Name, Operator, Parser};
+pub(crate) use expression::Parser;
 pub(crate) use file::{File, Section, parse};
 pub(crate) use module::{Formal, MOST_PARAMETERS, ModuleText};
 pub(crate) use production::Production;
 pub(crate) use statement::Statement;
+pub(crate) use tree::{Expression, Name, Operator};

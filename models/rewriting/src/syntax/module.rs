@@ -1,8 +1,10 @@
 //! Modules as they are written: the names of symbols, arguments of successors, parameters of predecessors.
 //!
-//! A symbol is one character, or two where the first is `@`, `?` or `~`, or three in the groups `@G…` and `@T…` of cpfg.
+//! A symbol is one character, or two where the first is `@`, `?` or `~`, or three in the groups `@G…` and `@T…` of
+//! cpfg.
 
-use super::expression::{Expression, Name, Parser};
+use super::expression::Parser;
+use super::tree::{Expression, Name};
 use crate::fault::{Fault, Place};
 
 /// The most parameters of a module.
@@ -40,12 +42,13 @@ impl Parser<'_> {
         match self.peek().filter(|c| !c.is_whitespace()) {
             Some('(') if first == '?' => {
                 let problem = "a sub-L-system is called with `?(…)`";
-                return Err(Fault::new(place, problem, "one L-system: sub-L-systems are not derived"));
+                Err(Fault::new(place, problem, "one L-system: sub-L-systems are not derived"))
             }
             Some(second) if !matches!(second, '(' | ')') => {
                 self.at += 1;
                 symbol.push(second);
-                if first == '@' && matches!(second, 'G' | 'T')
+                if first == '@'
+                    && matches!(second, 'G' | 'T')
                     && let Some(third) = self.peek().filter(char::is_ascii_lowercase)
                 {
                     self.at += 1;
@@ -139,7 +142,11 @@ impl Parser<'_> {
                 return Err(Fault::new(name.place, problem, "another name for each"));
             }
             if names.len() == MOST_PARAMETERS {
-                return Err(Fault::new(name.place, "there are too many parameters", format!("at most {MOST_PARAMETERS}")));
+                return Err(Fault::new(
+                    name.place,
+                    "there are too many parameters",
+                    format!("at most {MOST_PARAMETERS}"),
+                ));
             }
             names.push(name);
             if self.takes(')') {

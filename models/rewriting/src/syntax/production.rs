@@ -1,8 +1,9 @@
 //! Productions: `left < predecessor > right : {statements} condition {statements} --> successor : weight`.
 
-use super::expression::{Expression, Parser};
+use super::expression::Parser;
 use super::module::{Formal, ModuleText};
 use super::statement::Statement;
+use super::tree::Expression;
 use crate::fault::{Fault, Place};
 
 /// A production as it is written.

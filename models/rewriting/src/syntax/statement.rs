@@ -1,6 +1,7 @@
 //! Statements in braces: assignments, calls, `if`, `while`, `do`, and arrays in the block `define:`.
 
-use super::expression::{Expression, Name, Operator, Parser};
+use super::expression::Parser;
+use super::tree::{Expression, Name, Operator};
 use crate::fault::{Fault, Place};
 
 /// The most blocks within blocks.
@@ -57,7 +58,11 @@ impl Parser<'_> {
             return self.block_within(depth + 1);
         }
         if depth > DEEPEST {
-            return Err(Fault::new(self.place(), "too many statements within one another", format!("at most {DEEPEST}")));
+            return Err(Fault::new(
+                self.place(),
+                "too many statements within one another",
+                format!("at most {DEEPEST}"),
+            ));
         }
         let mut one = Vec::new();
         if !self.takes(';') {
@@ -85,7 +90,7 @@ impl Parser<'_> {
             }
             "do" => {
                 let body = self.body(depth)?;
-                if !self.name().is_some_and(|name| name.name == "while") {
+                if self.name().is_none_or(|name| name.name != "while") {
                     return Err(self.unexpected("`while` behind the block of `do`"));
                 }
                 into.push(Statement::Repeat(body, self.condition()?, place));
@@ -142,7 +147,11 @@ impl Parser<'_> {
             let value = self.expression()?;
             let value = match sum {
                 Some(operator) => {
-                    let old = if index.is_empty() { Expression::Name(name.clone()) } else { Expression::Element(name.clone(), index.clone()) };
+                    let old = if index.is_empty() {
+                        Expression::Name(name.clone())
+                    } else {
+                        Expression::Element(name.clone(), index.clone())
+                    };
                     Expression::Binary(operator, Box::new((old, value)))
                 }
                 None => value,

@@ -1,7 +1,7 @@
 //! The lines that begin with `#`: macros, conditions and included files.
 //!
-//! `#` is also a module: a line is a directive if the word behind its `#` is one. Lines in a branch that is not taken are
-//! passed over, but for the directives that end it.
+//! `#` is also a module: a line is a directive if the word behind its `#` is one. Lines in a branch that is not taken
+//! are passed over, but for the directives that end it.
 
 use super::condition::holds;
 use super::macros::{Broken, Macro, Macros};
@@ -41,7 +41,11 @@ pub(crate) fn prepare(text: &str, asked: &Asked<'_>, faults: &mut Vec<Fault>) ->
     reader.file(text, 0);
     for (name, _) in asked.define {
         if !reader.macros.met.contains(name) {
-            let fault = Fault::new(Place { line: 1, column: 1, file: 0 }, format!("no constant is named `{name}`"), "a name of the file");
+            let fault = Fault::new(
+                Place { line: 1, column: 1, file: 0 },
+                format!("no constant is named `{name}`"),
+                "a name of the file",
+            );
             reader.faults.push(fault);
         }
     }
@@ -191,12 +195,20 @@ impl Reader<'_, '_> {
         let said = said.trim();
         let quoted = said.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).filter(|name| !name.is_empty());
         let Some(name) = quoted else {
-            self.faults.push(Fault::new(place, format!("`#include {said}`"), "a file of its folder: `#include \"name\"`"));
+            self.faults.push(Fault::new(
+                place,
+                format!("`#include {said}`"),
+                "a file of its folder: `#include \"name\"`",
+            ));
             return;
         };
         if self.open_files >= DEEPEST || self.files.len() > 1000 {
             let problem = format!("`{name}` is included within {} files", self.open_files);
-            self.faults.push(Fault::new(place, problem, format!("at most {DEEPEST}, and no file that includes itself")));
+            self.faults.push(Fault::new(
+                place,
+                problem,
+                format!("at most {DEEPEST}, and no file that includes itself"),
+            ));
             return;
         }
         match (self.asked.include)(name) {
@@ -206,7 +218,11 @@ impl Reader<'_, '_> {
                 self.end_line();
                 self.file(&text, number);
             }
-            Err(why) => self.faults.push(Fault::new(place, format!("`{name}` cannot be included: {why}"), "a file that can be read")),
+            Err(why) => self.faults.push(Fault::new(
+                place,
+                format!("`{name}` cannot be included: {why}"),
+                "a file that can be read",
+            )),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Macros: `#define` with and without arguments, and their expansion, as the C preprocessor does it.
 //!
 //! A name is expanded where it stands as a word of its own, so `A` is not expanded in `AXIOM` or `FA`. A macro is not
-//! expanded within itself. What a macro makes stands at the place of its name. Absent: `#` and `##` in bodies, where `#` is
-//! a module.
+//! expanded within itself. What a macro makes stands at the place of its name. Absent: `#` and `##` in bodies, where
+//! `#` is a module.
 
 use crate::fault::{Fault, Place};
 use crate::letters::Letter;
@@ -89,7 +89,12 @@ impl Macros {
         self.expand_within(letters, &mut Vec::new(), out)
     }
 
-    fn expand_within(&mut self, letters: &[Letter], hidden: &mut Vec<String>, out: &mut Vec<Letter>) -> Result<(), Broken> {
+    fn expand_within(
+        &mut self,
+        letters: &[Letter],
+        hidden: &mut Vec<String>,
+        out: &mut Vec<Letter>,
+    ) -> Result<(), Broken> {
         let mut at = 0;
         while at < letters.len() {
             let end = word_end(letters, at);
@@ -139,7 +144,10 @@ impl Macros {
         out: &mut Vec<Letter>,
     ) -> Result<usize, Broken> {
         let place = letters[start].place;
-        let broken = |problem: String, expected: String| Broken { fault: Fault::new(place, problem, expected), exhausted: false };
+        let broken = |problem: String, expected: String| Broken {
+            fault: Fault::new(place, problem, expected),
+            exhausted: false,
+        };
         self.met.insert(name.to_owned());
         self.count(1, &letters[start..end])?;
         if hidden.len() >= DEEPEST {
@@ -154,7 +162,11 @@ impl Macros {
             let Some((list, close)) = arguments(letters, open) else {
                 return Err(broken(format!("the arguments of `{name}` do not end"), "`)`".to_owned()));
             };
-            let count = if parameters.is_empty() && list.iter().all(|a| a.iter().all(|l| l.c.is_whitespace())) { 0 } else { list.len() };
+            let count = if parameters.is_empty() && list.iter().all(|a| a.iter().all(|l| l.c.is_whitespace())) {
+                0
+            } else {
+                list.len()
+            };
             if count != parameters.len() {
                 let expected = format!("{}: `{name}({})`", parameters.len(), parameters.join(", "));
                 return Err(broken(format!("`{name}` has {count} arguments"), expected));
