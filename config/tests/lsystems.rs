@@ -151,17 +151,16 @@ fn what_is_wrong_in_a_file_is_told_at_its_line_and_column() {
     let grown = validate_texts("own", &texts("Axiom: F(1)\nF(x) --> F(2*x)\n", "angle increment: 30\n"));
     assert!(grown.is_ok(), "{}", grown.err().map(told).unwrap_or_default());
     let wrong = validate_texts("own", &texts("Axiom: F(1)\nF(x) --> F(2*y)\n", "angle increment: many\n"));
-    let report = told(wrong.err().expect("it is wrong"));
+    let report = told(wrong.expect_err("it is wrong"));
     assert!(report.contains("own.v:1:18"), "{report}");
     assert!(report.contains("own.l:2:"), "{report}");
     let unknown = format!("{SPECIES}[kinds]\nA = \"bud\"\n");
-    let report =
-        told(validate_texts("own", &[("own", &unknown), ("own.l", "Axiom: FA\n")]).err().expect("it is wrong"));
+    let report = told(validate_texts("own", &[("own", &unknown), ("own.l", "Axiom: FA\n")]).expect_err("it is wrong"));
     assert!(report.contains("unknown kind `bud`"), "{report}");
-    let report = told(validate_texts("own", &[("own", SPECIES)]).err().expect("it is wrong"));
+    let report = told(validate_texts("own", &[("own", SPECIES)]).expect_err("it is wrong"));
     assert!(report.contains("there is no file `own.l`"), "{report}");
     let outside = SPECIES.replace("own.l", "../own.l");
-    let report = told(validate_texts("own", &[("own", &outside)]).err().expect("it is wrong"));
+    let report = told(validate_texts("own", &[("own", &outside)]).expect_err("it is wrong"));
     assert!(report.contains("may lie outside the folder"), "{report}");
 }
 

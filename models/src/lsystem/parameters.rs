@@ -201,7 +201,6 @@ impl Lsystem {
     }
 
     /// The texts, and the bytes of maps.
-    #[expect(clippy::type_complexity, reason = "two tables of one")]
     fn texts(&self, top: &Path, faults: &mut Vec<Fault>) -> (BTreeMap<String, String>, BTreeMap<String, Vec<u8>>) {
         let (mut texts, mut maps) = (BTreeMap::new(), BTreeMap::new());
         for (name, text) in &self.texts {

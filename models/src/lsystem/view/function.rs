@@ -55,7 +55,7 @@ impl Function {
     /// The value at `x`.
     pub fn at(&self, x: f64) -> f64 {
         let spans = self.points.len() - FEWEST_POINTS + 1;
-        if !(x > self.points[0][0]) {
+        if x.is_nan() || x <= self.points[0][0] {
             return self.points[0][1];
         }
         let [end, value] = self.points[self.points.len() - 1];
