@@ -82,8 +82,8 @@ pub struct Factor {
 /// A level of a factor: its name, and the keys that it lays over the scenario.
 ///
 /// Tables are merged key by key; any other value, and a list, takes the place of the scenario's. Only `event`,
-/// `fertilizer` and `pest` are joined with those of the scenario and of other factors, and a pest with the name of one of
-/// these changes the keys that it states.
+/// `fertilizer` and `pest` are joined with those of the scenario and of other factors, and a pest with the name of one
+/// of these changes the keys that it states.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Level {
     /// The name of the level.
@@ -144,8 +144,8 @@ impl Experiment {
     }
 }
 
-/// States in the JSON Schema of a scenario which keys a level may set. A table is merged with the scenario's, and a pest
-/// with one of its name, so both are checked as a whole in their treatments.
+/// States in the JSON Schema of a scenario which keys a level may set. A table is merged with the scenario's, and a
+/// pest with one of its name, so both are checked as a whole in their treatments.
 pub(crate) fn state_levels(schema: &mut Json) {
     let Some(keys) = schema["properties"].as_object().cloned() else { return };
     let is_table = |property: &Json| {
