@@ -8,7 +8,7 @@
 use crate::document::{Entry, Node, Value};
 use crate::library::Library;
 use crate::report::Fault;
-use crate::source::{Origin, Sources, Span};
+use crate::source::{Sources, Span};
 use phytomer_models::fault::Path;
 use phytomer_models::lsystem::is_map;
 use phytomer_models::lsystem::view::View;
@@ -147,18 +147,4 @@ fn included(text: &str) -> impl Iterator<Item = &str> {
         let inside = rest.strip_prefix(['"', '<'])?;
         inside.split(['"', '>']).next()
     })
-}
-
-/// The name of a folder and a file in it, where the file lies in the folder.
-pub(crate) fn stays_inside(name: &str) -> bool {
-    let path = std::path::Path::new(name);
-    path.components().all(|part| matches!(part, std::path::Component::Normal(_) | std::path::Component::CurDir))
-}
-
-/// The folder of the species that an origin names; of a preset the part of its name before the last `/`.
-pub(crate) fn folder_of(origin: &Origin) -> &str {
-    match origin {
-        Origin::Preset(name) => name.rsplit_once('/').map_or("", |(folder, _)| folder),
-        _ => "",
-    }
 }

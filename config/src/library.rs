@@ -11,8 +11,7 @@ use std::io::{self, Read};
 use std::path::{Component, Path as FilePath, PathBuf};
 use std::sync::Arc;
 
-use crate::beside::{folder_of, stays_inside};
-use crate::source::{Origin, Source};
+use crate::source::{Origin, Source, folder_of, stays_inside};
 use phytomer_models::law::spelling::nearest;
 use phytomer_models::lsystem::is_map;
 

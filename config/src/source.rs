@@ -116,6 +116,20 @@ fn floor_boundary(text: &str, at: usize) -> usize {
     at
 }
 
+/// Whether the name of a file in a folder leads to no place outside the folder.
+pub(crate) fn stays_inside(name: &str) -> bool {
+    let path = std::path::Path::new(name);
+    path.components().all(|part| matches!(part, std::path::Component::Normal(_) | std::path::Component::CurDir))
+}
+
+/// The folder of the species that an origin names; of a preset the part of its name before the last `/`.
+pub(crate) fn folder_of(origin: &Origin) -> &str {
+    match origin {
+        Origin::Preset(name) => name.rsplit_once('/').map_or("", |(folder, _)| folder),
+        _ => "",
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

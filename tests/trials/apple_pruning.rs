@@ -1,5 +1,5 @@
-//! `apple_pruning`: each system keeps its tree within the bounds that its cuts and ties state, trees are alike before the
-//! first cut, and each block has each system once.
+//! `apple_pruning`: each system keeps its tree within the bounds that its cuts and ties state, trees are alike before
+//! the first cut, and each block has each system once.
 //!
 //! The trees are grown for nine years instead of twelve, to a tick of cuts. What has grown since the last cut may stand
 //! beyond it, so bounds are those of older internodes. Absent: what single operations do (`sim::management`).
@@ -67,7 +67,7 @@ fn check_bounds(run: &Path) {
     assert!(reaches(&palmette, |wood| wood.tip[2]) <= 2.4 + ROUNDING);
     assert!(reaches(&palmette, |wood| wood.tip[1].abs()) <= 0.35 + ROUNDING, "a fan as thick as its hedge");
     assert!(reaches(&palmette, |wood| wood.tip[0].abs()) > 1.2, "and as wide as its row");
-    // The trunk of a vase ends where the maiden was headed, and its limbs lean outwards; others have wood in the middle.
+    // The trunk of a vase ends where the maiden was headed, and its limbs lean outwards; others have wood there.
     let share = |wood: &[Wood]| {
         let upper: Vec<&Wood> = wood.iter().filter(|wood| wood.tip[2] > 1.2).collect();
         let middle = upper.iter().filter(|wood| hypot(wood.tip[0], wood.tip[1]) < 0.1).count();

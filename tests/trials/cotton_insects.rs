@@ -1,8 +1,8 @@
 //! `cotton_insects`: the shares that insects take are those of the scenario, aggregation keeps their mean and not their
 //! spread, and plants that have lost their tip make others.
 //!
-//! Each boll lives for 17 ticks and is exposed to the ticks of the attack in which it stands, so its chance follows from
-//! its age alone; pickers come after the attack. Absent: the distributions themselves (`sim/draws`).
+//! Each boll lives for 17 ticks and is exposed to the ticks of the attack in which it stands, so its chance follows
+//! from its age alone; pickers come after the attack. Absent: the distributions themselves (`sim/draws`).
 
 use super::grown;
 use super::read::Columns;

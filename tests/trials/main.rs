@@ -1,9 +1,9 @@
 //! The trials that ship: each is grown whole, and its tables say what its page says.
 //!
-//! Tables are read by the parquet crate alone. What can be known without the program is computed here from the scenario's
-//! numbers: degree-days from the lines of a weather file, the share of organs that pests take from the ages of the
-//! organs. Statistical tests have the seeds of the scenarios and bounds of at least 4 standard errors, computed. Absent:
-//! `coffee_nitrogen`, whose laws `dated_treatments` holds.
+//! Tables are read by the parquet crate alone. What can be known without the program is computed here from the
+//! numbers of the scenario: degree-days from the lines of a weather file, the share of organs that pests take from the
+//! ages of the organs. Statistical tests have the seeds of the scenarios and bounds of at least 4 standard errors,
+//! computed. Absent: `coffee_nitrogen`, whose laws `dated_treatments` holds.
 
 mod apple_pruning;
 mod cotton_insects;

@@ -1,8 +1,9 @@
-//! `mango_two_sites`: the weather files are what their headers say, ticks are sums of degree-days, and panicles come with
-//! the cool.
+//! `mango_two_sites`: the weather files are what their headers say, ticks are sums of degree-days, and panicles come
+//! with the cool.
 //!
-//! Degree-days are added up here from the lines of the files by the area under a sine wave of a thousand points, so that
-//! neither the reader of weather nor the closed form of Baskerville & Emin 1969 takes part. Absent: the calendar itself.
+//! Degree-days are added up here from the lines of the files by the area under a sine wave of a thousand points, so
+//! that neither the reader of weather nor the closed form of Baskerville & Emin 1969 takes part. Absent: the calendar
+//! itself.
 
 use super::read::Columns;
 use super::weather_of_normals::{MONTHS, STATIONS, Station};

@@ -127,7 +127,8 @@ impl Lsystem {
         }
     }
 
-    /// The L-system of the file that this names, compiled; `None` where cells are stated. The parameters stand at `top`.
+    /// The L-system of the file that this names, compiled; `None` where cells are stated. The parameters stand at
+    /// `top`.
     ///
     /// # Errors
     /// Every fault of the file, of what lies beside it, and of what is stated of it.

@@ -119,8 +119,8 @@ impl Plant {
         self.nodes.birth[node.index()] <= age && age < self.shed_of(node)
     }
 
-    /// Whether an internode was on the plant at the end of the tick before `tick`, and no cut takes it at `tick`: what it
-    /// bears can then still be picked, even where it dies or falls at `tick` by itself.
+    /// Whether an internode was on the plant at the end of the tick before `tick`, and no cut takes it at `tick`: what
+    /// it bears can then still be picked, even where it dies or falls at `tick` by itself.
     pub(crate) fn is_in_reach(&self, node: NodeId, tick: Tick) -> bool {
         let fall = self.axes.shed[self.nodes.axis[node.index()].index()];
         self.nodes.birth[node.index()] < tick && fall >= tick && (self.cuts.is_empty() || self.cut_of(node) > tick)

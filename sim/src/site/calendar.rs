@@ -281,9 +281,6 @@ mod tests {
             [0, 1, 2, 3].map(|age| dates.degree_days_per_day(age).expect("degree-days"))
         };
         assert_eq!((of(10), of(1)), ([7.0; 4], [10.0, 10.0, 4.0, 10.0]), "tick 0 is as warm as tick 1");
-        let without = Terms { degree_days: None, ..terms(TickLength::Days(1)) };
-        let calendar = Arc::new(Calendar::of(&without, 3, |_| None).expect("a calendar"));
-        assert_eq!(Dates { calendar, sown: 0 }.degree_days_per_day(1), None);
     }
 
     #[test]

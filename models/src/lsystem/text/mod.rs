@@ -2,7 +2,7 @@
 //!
 //! `role` is what each module is to a plant, `draft` the plant of a string in the coordinates of the turtle, `numbers`
 //! what lasts from age to age, `columns` the columns of a plant, `events` its events, `model` goes from tick to tick;
-//! `system` reads and compiles the texts.
+//! `system` reads and compiles the texts to a `script`.
 //! Absent: the language (`phytomer_rewriting`), the turtle and its view files (beside), and the keys of a species.
 
 mod columns;
@@ -12,6 +12,7 @@ mod events;
 mod model;
 mod numbers;
 mod role;
+mod script;
 mod system;
 #[cfg(test)]
 mod tests;

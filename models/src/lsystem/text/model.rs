@@ -7,7 +7,7 @@ use super::columns::{Measures, write};
 use super::draft::{Draft, Outlines, Walk};
 use super::events::{self, Noted};
 use super::numbers::{Bud, Numbered, Numbers};
-use super::system::{OfEachPlant, Script};
+use super::script::{Script, Scripts};
 use crate::lsystem::turtle::{Query, Turtle};
 use phytomer_rewriting::{Answers, Derived, Interpreter, Program, Stopped};
 use phytomer_sim::clock::Tick;
@@ -24,7 +24,7 @@ use std::sync::Arc;
 pub struct TextModel {
     pub(super) script: Arc<Script>,
     /// Where plants draw constants: the script is then of one plant each.
-    pub(super) drawn: Option<OfEachPlant>,
+    pub(super) drawn: Option<Box<dyn Scripts>>,
     pub(super) turtle: Turtle,
     pub(super) outlines: Outlines,
     pub(super) measures: Measures,

@@ -8,6 +8,7 @@ use super::curves::Curves;
 use super::draft::Outlines;
 use super::model::{TextModel, shape};
 use super::role::Roles;
+use super::script::{Script, Scripts};
 use crate::law::{At, VariateTable};
 use crate::lsystem::turtle::Turtle;
 use crate::lsystem::view::{Colours, Function, Surface, TextFault, View};
@@ -127,7 +128,8 @@ impl TextSystem {
         let habit = Habit { trends: vec![Trend::STRAIGHT], looks, for_drawing, ..Habit::default() };
         let tapered = view.tapered_lines;
         let is_drawn = self.define.iter().any(|(_, law)| law.is_random());
-        let drawn = is_drawn.then(|| OfEachPlant { system: self.clone(), curves: Arc::clone(curves) });
+        let of_each = || Box::new(OfEachPlant { system: self.clone(), curves: Arc::clone(curves) });
+        let drawn = is_drawn.then(|| of_each() as Box<dyn Scripts>);
         TextModel { script: Arc::new(script), drawn, turtle, outlines, measures, tapered, habit: Arc::new(habit) }
     }
 
@@ -221,23 +223,16 @@ impl TextSystem {
     }
 }
 
-/// A program, and what its modules are.
-#[derive(Debug)]
-pub(super) struct Script {
-    pub program: Program,
-    pub roles: Roles,
-}
-
 /// A system of which each plant has constants of its own.
 #[derive(Debug)]
-pub(super) struct OfEachPlant {
+struct OfEachPlant {
     system: TextSystem,
     curves: Arc<Curves>,
 }
 
-impl OfEachPlant {
-    /// The script of a plant. Each constant has a word of its own by its name, whether it is drawn or not.
-    pub fn script(&self, random: &PlantRandom) -> Result<Script, String> {
+impl Scripts for OfEachPlant {
+    /// Each constant has a word of its own by its name, whether it is drawn or not.
+    fn script(&self, random: &PlantRandom) -> Result<Script, String> {
         let word = |name: &str| {
             let key = name.bytes().fold(LineageKey::SEED.0, |key, byte| mix(key, byte.into()));
             random.stream(LineageKey(key), Purpose::Plant).word()
