@@ -187,7 +187,8 @@ fn meshes_of_every_shipped_species_have_the_areas_and_the_volumes_of_the_tables(
         run(&plant_of(name), &Settings::in_folder(&folder), &Progress::default())
             .unwrap_or_else(|error| panic!("{name}: {error:#}"));
         let Sums { areas, volumes } = sums(&folder);
-        assert!(!volumes.is_empty(), "{name} has no wood");
+        // Of the first L-system of Synthetic Topiary nothing is drawn: its modules are buds.
+        assert!(!volumes.is_empty() || *name == "topiary/1", "{name} has no wood");
         for (what, (kind, [drawn, stated])) in
             areas.iter().map(|of| ("area", of)).chain(volumes.iter().map(|of| ("volume", of)))
         {

@@ -21,7 +21,7 @@ pub struct Sowing {
     /// Where the seed lies, metres.
     pub place: [f64; 3],
     /// The tick of the plot at which it is sown: the plant has age 0 then, and its first clock signal one tick later.
-    /// [`NEVER`](crate::NEVER) for a seed that does not germinate.
+    /// [`NEVER`] for a seed that does not germinate.
     pub sown: Tick,
 }
 

@@ -1,7 +1,7 @@
 //! Shapes as people state them in files: a form with its sizes, or other shapes combined, blended or placed.
 //!
 //! A shape is a table with the key `form`, or the name of a shape that stands beside it. Shapes by their names are
-//! compiled together ([`compile`]), with faults for what the schema cannot state. The forms themselves stand in
+//! compiled together (`compile`), with faults for what the schema cannot state. The forms themselves stand in
 //! `phytomer_sim::shape`. Absent: what shapes are for.
 
 mod compile;
