@@ -119,13 +119,21 @@ impl Chance {
     }
 
     /// Whether the event happens, the `nth` time (from 0) in this record.
-    #[inline]
+    // Called for each bud and node: without responses it is what it was without them.
+    #[inline(always)]
     pub fn happens(&self, words: &[u32], nth: u32, at: At) -> bool {
-        match (&self.change, self.fixed) {
-            (Some(change), _) if !change.is_neutral_at(at.age) => happens(self.probability(at), self.word(words, nth)),
-            (_, Some(fixed)) => fixed,
-            (_, None) => self.table.happens(self.slot.word(words, nth), at),
+        match (self.change.is_some().then(|| self.responded(words, nth, at)).flatten(), self.fixed) {
+            (Some(happens), _) => happens,
+            (None, Some(fixed)) => fixed,
+            (None, None) => self.table.happens(self.slot.word(words, nth), at),
         }
+    }
+
+    /// Whether the event happens where responses change its probability; `None` at ages at which they do not.
+    #[inline(never)]
+    fn responded(&self, words: &[u32], nth: u32, at: At) -> Option<bool> {
+        let changes = self.change.as_ref().is_some_and(|change| !change.is_neutral_at(at.age));
+        changes.then(|| happens(self.probability(at), self.word(words, nth)))
     }
 
     /// The word of the `nth` test, where it has one.
@@ -232,16 +240,20 @@ impl Measure {
     }
 
     /// The value in SI units or radians, the `nth` time (from 0) in this record.
-    #[inline]
+    // Called for each node and organ: without responses it is what it was without them.
+    #[inline(always)]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> f32 {
         let own = match self.fixed {
             Some(fixed) => fixed,
             None => self.table.draw(self.slot.word(words, nth), at) * self.unit,
         };
-        match &self.times {
-            None => own,
-            Some(factor) => own * factor.at(at.age) as f32,
-        }
+        if self.times.is_none() { own } else { self.responded(own, at) }
+    }
+
+    /// A value under responses.
+    #[inline(never)]
+    fn responded(&self, own: f32, at: At) -> f32 {
+        self.times.as_ref().map_or(own, |factor| own * factor.at(at.age) as f32)
     }
 
     /// Multiplies the measure by a factor.
