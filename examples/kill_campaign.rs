@@ -4,12 +4,10 @@
 //! cargo run --release --example kill_campaign [KILLS [SCENARIO]]
 //! ```
 //!
-//! Two hundred kills of `tests/data/runs/orchard.toml`, with cuts and pests, if nothing is given. By turns a whole run
-//! is killed, or each of its three shards and then their merge; each is killed until it ends, on 1, 2, 3 and 8 threads
-//! by turns. Then every file of the folder must be that of the undisturbed run, `run.json` but for its timings. The
-//! processes are this program itself (`child`). It ends with exit code 1 at the first difference, and keeps the
-//! folders. `tests/resume.rs` and `tests/shards.rs` do the same in short with the program. Absent: kills of the
-//! machine, of which the disk knows.
+//! If nothing is given, `tests/data/runs/orchard.toml`, with cuts and pests, is killed 200 times, on 1, 2, 3 and 8
+//! threads: by turns a whole run, or each of its three shards and then their merge. Each file must then be that of the
+//! undisturbed run, `run.json` but for its timings; the first difference ends it with exit code 1 and keeps the
+//! folders. Absent: a machine that fails; the same in short (`tests/resume.rs`, `tests/shards.rs`).
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use phytomer::config::validate;

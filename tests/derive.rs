@@ -1,4 +1,7 @@
 //! `derive`: the strings of L-systems on the two streams, with the exit codes of what goes wrong.
+//!
+//! Absent: the language itself (`phytomer_rewriting`), and the plants that are made of the strings
+//! (`tests/lsystems.rs`).
 
 mod program;
 

@@ -1,5 +1,7 @@
 //! The tables of an L-system of a file: the life table of Synthetic Topiary's L-system 4, the rows that stand at each
-//! age, and a file of one's own with what lies beside it, by the command line.
+//! age, and a file of the user's with what lies beside it, by the command line.
+//!
+//! Absent: the strings (`tests/derive.rs`), and the language and the turtle, which have tests of their own.
 
 mod program;
 

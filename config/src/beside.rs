@@ -17,6 +17,9 @@ use phytomer_models::parameters::Keys;
 /// The most files of a species.
 const MOST_FILES: usize = 256;
 
+/// The most bytes of all files of a species.
+const MOST_BYTES: usize = 1 << 24;
+
 /// The key of the table of texts.
 const TEXTS: &str = "texts";
 
@@ -27,7 +30,7 @@ pub(crate) fn fill(species: &mut Node, keys: &Keys, library: &Library, sources: 
     let Some((name, span)) = species.get(key).and_then(|file| Some((file.text()?.to_owned(), file.span))) else {
         return;
     };
-    let mut files = Files { species, library, sources, faults, span, path: Path::root().key(key) };
+    let mut files = Files { species, library, sources, faults, span, path: Path::root().key(key), count: 0, bytes: 0 };
     files.add(&name);
     let view = files.stated_or_found("view", &name, &[".v"]);
     view.iter().for_each(|view| files.add(view));
@@ -48,6 +51,10 @@ struct Files<'f> {
     /// Where the species names its file.
     span: Span,
     path: Path,
+    /// How many files were read.
+    count: usize,
+    /// How many bytes they have.
+    bytes: usize,
 }
 
 impl Files<'_> {
@@ -56,18 +63,23 @@ impl Files<'_> {
         self.species.get(TEXTS).and_then(|texts| texts.get(name)).and_then(Node::text).map(str::to_owned)
     }
 
+    /// Whether a file was read, or its text is stated.
+    fn is_there(&self, name: &str) -> bool {
+        self.species.get(TEXTS).and_then(|texts| texts.get(name)).is_some()
+    }
+
     /// Adds a file, and what it includes.
     fn add(&mut self, name: &str) {
         let mut waiting = vec![name.to_owned()];
-        let mut read = 0;
         while let Some(name) = waiting.pop() {
-            if !self.read(&name) {
+            if self.count > MOST_FILES || self.bytes > MOST_BYTES || !self.read(&name) {
                 continue;
             }
-            read += 1;
-            if read > MOST_FILES {
-                let problem = format!("more than {MOST_FILES} files are included");
-                return self.faults.push(Fault::new(self.span, &self.path, problem, "fewer files"));
+            self.count += 1;
+            if self.count > MOST_FILES || self.bytes > MOST_BYTES {
+                let problem =
+                    format!("this L-system has more than {MOST_FILES} files, or {} MiB of them", MOST_BYTES >> 20);
+                return self.faults.push(Fault::new(self.span, &self.path, problem, "fewer files, or smaller ones"));
             }
             let text = self.text(&name).unwrap_or_default();
             waiting.extend(included(&text).map(str::to_owned));
@@ -76,7 +88,7 @@ impl Files<'_> {
 
     /// Reads a file into the table; false where it stands there already, or cannot be read.
     fn read(&mut self, name: &str) -> bool {
-        if name.is_empty() || self.text(name).is_some() {
+        if name.is_empty() || self.is_there(name) {
             return false;
         }
         let beside = self.sources.get(self.span.source).origin.clone();
@@ -93,6 +105,7 @@ impl Files<'_> {
             _ => source.text.to_string(),
         };
         let end = source.text.len();
+        self.bytes += end.max(text.len());
         let id = self.sources.add(source);
         let span = Span { source: id, start: 0, end };
         let node = Node { span, value: Value::Text(text) };

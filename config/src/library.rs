@@ -197,16 +197,20 @@ fn read_beside(folder: &FilePath, name: &str) -> io::Result<Source> {
 
 /// An L-system that is named itself, as a species: the file, and nothing stated of it.
 fn alone(path: &FilePath) -> io::Result<Source> {
-    File::open(path)?;
+    let bytes = read_bytes(path, MAX_BYTES)?;
     let file = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-    let stem = file.trim_end_matches(".l");
+    let stem = file.strip_suffix(".l").unwrap_or(file);
     let name: String = stem.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
-    let text = format!(
-        "name = {:?}\nmodel = \"lsystem\"\ntick = \"a step\"\nfile = {:?}\n",
-        if name.is_empty() { "lsystem" } else { &name },
-        file
-    );
-    Ok(Source { name: shown(path), origin: Origin::File(path.to_owned()), text: text.into(), bytes: None })
+    // A string of JSON is a string of TOML, whatever characters it has.
+    let quoted = |text: &str| serde_json::Value::from(text).to_string();
+    let name = quoted(if name.is_empty() { "lsystem" } else { &name });
+    let text = format!("name = {name}\nmodel = \"lsystem\"\ntick = \"a step\"\nfile = {}\n", quoted(file));
+    Ok(Source {
+        name: shown(path),
+        origin: Origin::File(path.to_owned()),
+        text: text.into(),
+        bytes: Some(bytes.into()),
+    })
 }
 
 /// Whether a name is that of the file of an L-system.

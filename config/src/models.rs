@@ -149,8 +149,8 @@ impl Model {
     }
 
     /// Whether a law may depend on the date: a parameter has the name of a variable of the date, in `over` or in an
-    /// expression. A word of the parameters' texts is enough, since to be wrong costs no more than to compile the model
-    /// once more.
+    /// expression. A word of the parameters' texts is enough. Where the word has another meaning there, the model is
+    /// compiled for each calendar without need, and the species cannot be that of a successor in a run with a calendar.
     pub(crate) fn may_know_the_date(&self) -> bool {
         let names = Variable::ALL.into_iter().filter(|variable| variable.is_of_the_date()).map(Variable::name);
         let names: Vec<&str> = names.collect();
@@ -184,7 +184,11 @@ fn has_word(value: &Json, words: &[&str]) -> bool {
     match value {
         Json::String(text) => text.split(|character| !is_in_name(character)).any(|word| words.contains(&word)),
         Json::Array(items) => items.iter().any(|item| has_word(item, words)),
-        Json::Object(keys) => keys.values().any(|value| has_word(value, words)),
+        // Neither a citation nor the text of an L-system is a law.
+        Json::Object(keys) => {
+            let says = |(key, value): (&String, &Json)| key != "source" && key != "texts" && has_word(value, words);
+            keys.iter().any(says)
+        }
         _ => false,
     }
 }

@@ -69,10 +69,15 @@ impl Plot<'_> {
             sown => sown < tick && plants[place].death <= tick - sown,
         };
         let successors = management.successors();
-        let is_successor = |place: usize| successors.iter().any(|other| other.member == place);
+        let mut are_successors = vec![false; members.len()];
+        for successor in successors.iter() {
+            if let Some(is) = are_successors.get_mut(successor.member) {
+                *is = true;
+            }
+        }
         for Successor { member, follows } in successors.iter().copied() {
             let there = member < members.len() && follows < members.len();
-            if !there || members[member].sown != NEVER || !free(plants, members, follows, is_successor(follows)) {
+            if !there || members[member].sown != NEVER || !free(plants, members, follows, are_successors[follows]) {
                 continue;
             }
             if let Some(age) = members[follows].age_at(tick).filter(|age| plants[follows].axes.shed[0] > *age) {

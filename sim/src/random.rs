@@ -2,9 +2,9 @@
 //! life, purpose), with ChaCha8 as the counter-based generator.
 //!
 //! A plant's 256-bit key is a hash of the run's seed, the plant's replicate and its number within treatment and
-//! replicate ([`draw_key`]). Each axis has streams of its own, named by
-//! its lineage key, one for each [`Purpose`]; within a stream the word position is the place in the axis's life. So a
-//! draw can be sought at any time, in any order, on any thread, and a plant does not depend on its neighbours.
+//! replicate ([`draw_key`]). Each axis has streams of its own, named by its lineage key, one for each [`Purpose`];
+//! within a stream the word position is the place in the axis's life. So a draw can be sought at any time, in any
+//! order, on any thread, and a plant does not depend on its neighbours.
 //!
 //! The words are those of `rand_chacha`'s `ChaCha8Rng` with the same seed and stream, word for word, which a test
 //! holds. That crate makes four blocks at each seek; growth by the clock needs a few words of each of many streams, so

@@ -1,8 +1,8 @@
 //! Days of a scenario that become ticks of its calendar: those of events and of pests.
 //!
 //! A day belongs to the tick that spans it ([`Calendar::tick_of`]); in a replicate that grows some years later it is as
-//! many years later. A day that comes again each year belongs to a tick
-//! of each year; 29 February is 28 February in a year without it. Absent: how a calendar is made.
+//! many years later. A day that comes again each year belongs to a tick of each year; 29 February is 28 February in a
+//! year without it. Absent: how a calendar is made.
 
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::clock::Tick;

@@ -188,7 +188,7 @@ impl Event {
     }
 
     /// The operation that the event asks for; `None` where its day does not lie in the calendar. Where the calendar is
-    /// not known yet, some time stands for that of a day.
+    /// not known yet, the first age of a plant stands for the day.
     ///
     /// # Errors
     /// The faults of its keys, of its times in the run of the scenario, of its conditions and of its shape.

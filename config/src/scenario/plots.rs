@@ -66,7 +66,15 @@ impl Scenario {
         if self.member.is_empty() {
             return vec![Member::default()];
         }
-        (0..self.member.len()).filter_map(|number| self.member_at(number)).collect()
+        // A member stands after the one that it replaces, whose place is then known.
+        let mut members = self.member.clone();
+        for number in 1..members.len() {
+            let replaced = members[number].replaces.map(|replaced| replaced as usize);
+            if let Some(replaced) = replaced.filter(|replaced| *replaced < number && members[number].at_m.is_empty()) {
+                members[number].at_m = members[replaced].at_m.clone();
+            }
+        }
+        members
     }
 
     /// A member by its number; one that states no place, and is the successor of another, has the place of that one.

@@ -1,5 +1,7 @@
 //! Tests of laws of the date: they have the values of the calendar at each age, are faults where it does not tell, and
 //! leave words for every run.
+//!
+//! Absent: how a calendar is made, which `phytomer_sim::site::calendar` tests.
 
 use std::sync::Arc;
 

@@ -7,8 +7,7 @@
 //! move with every tick. For a node that is being made both meanings agree, because it is born at that tick.
 //!
 //! `nitrogen`, `degree_days`, `degree_days_per_day`, `day_length_h` and `date` are known where the scenario has a
-//! calendar that tells them; a law reads them for the tick at which it is drawn (`dates`). `height_m` is what the plant
-//! has become: where a species names it, growth goes tick by tick and the plant stands at each of them.
+//! calendar that tells them, at the tick of the draw (`dates`). Where a law names `height_m` growth goes tick by tick.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};

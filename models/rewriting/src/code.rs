@@ -1,4 +1,7 @@
 //! A program as it is carried out: names have become numbers of variables, symbols kinds of modules.
+//!
+//! `compile` makes this form, `evaluate` computes its expressions and `engine` applies its productions. Absent: the
+//! names, which only faults need.
 
 use crate::fault::Place;
 use crate::symbol::Kind;

@@ -1,4 +1,6 @@
 //! The state of one plant between two steps: its string, the variables of the program, and the source of its draws.
+//!
+//! A [`Derived`] belongs to the program that sowed it, which alone changes it. Absent: the derivation (`engine`).
 
 use crate::string::{ModuleString, Slot};
 use phytomer_sim::key::LineageKey;

@@ -56,9 +56,10 @@ pub struct Settings {
 /// The most that a derivation may come to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Modules of a string, and parameters of all its modules by eight.
+    /// The most modules of a string; all modules together may have eight times as many parameters.
     pub modules: usize,
-    /// Modules that contexts pass over in a step; a round of a loop counts as 16 of them.
+    /// The most modules that the looks at contexts pass over in a step; a round of a loop, or a call of a function,
+    /// counts as 16 of these modules.
     pub rounds: u64,
 }
 

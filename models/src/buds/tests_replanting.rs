@@ -84,6 +84,18 @@ fn a_successor_is_the_plant_that_is_sown_when_its_place_is_free() {
     }
 }
 
+/// Where no seed of a plot germinates its successors are planted all the same, for replanting is work on the plot.
+#[test]
+fn a_place_is_planted_where_no_seed_germinates() {
+    let model = compiled(&chimera());
+    let sowing = |number| Sowing { species: 0, seed: seed_of(3, number), place: [0.0; 3], sown: NEVER };
+    let mut plot = Plot::new(0, vec![&model], &[sowing(0), sowing(1)]);
+    let successors = [Successor { member: 1, follows: 0 }];
+    plot.manage(Management::of(calendar().into()).with_successors(successors.into()));
+    grow(&mut plot, LAST, &mut ()).expect("nothing is recorded");
+    assert_eq!(sown(&plot), [NEVER, 9]);
+}
+
 #[test]
 fn successors_are_planted_alike_ahead_and_by_the_clock_on_any_number_of_threads() {
     let model = compiled(&chimera());

@@ -35,7 +35,8 @@ impl Around<'_> {
         self.bodies().any(|body| body.kills_at(self.world(at)))
     }
 
-    /// The distance to the nearest surface of a body; infinite where there is none.
+    /// The distance to the nearest surface of a body, metres, negative inside; infinite where there is no body. Of soft
+    /// objects and blends it is ½ less their field, which is no distance and never exceeds ½ where no part takes away.
     pub fn distance(&self, at: [f64; 3]) -> f64 {
         self.bodies().map(|body| SURFACE - body.shape.field(self.world(at))).fold(f64::INFINITY, f64::min)
     }

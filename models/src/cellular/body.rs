@@ -25,6 +25,21 @@ impl Tip {
     pub const SEED: Self = Self { node: NodeId::NONE, axis: AxisId::TRUNK, rank: 0 };
 }
 
+/// A tip that grows in space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Growing {
+    pub tip: Tip,
+    /// Where it is, metres from the seed.
+    pub at: [f64; 3],
+    /// Where it grows to: a direction of length 1.
+    pub heading: [f64; 3],
+}
+
+impl Growing {
+    /// The tip of a plant that is sown, which grows upwards.
+    pub const SEED: Self = Self { tip: Tip::SEED, at: [0.0; 3], heading: [0.0, 0.0, 1.0] };
+}
+
 /// A straight internode.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Segment {

@@ -8,7 +8,7 @@
 //! the next order, at equal angles to either side. Cohen's program had these influences on flat arrays; his numbers are
 //! not printed with ABOP, so the formula is ours. Absent: obstacles.
 
-use super::body::{Segment, Tip, branch, habit, keep_diameters, lengthen};
+use super::body::{Growing, Segment, branch, habit, keep_diameters, lengthen};
 use super::density::Density;
 use crate::fault::{Fault, Path};
 use crate::law::{Constant, ConstantForm, ValueRange};
@@ -157,15 +157,6 @@ pub struct Colony {
     tips: Vec<Growing>,
 }
 
-/// A tip that grows.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Growing {
-    tip: Tip,
-    /// Where it is, metres from the seed.
-    at: [f64; 3],
-    heading: [f64; 3],
-}
-
 /// What a tip does at a tick.
 struct Step {
     length: f64,
@@ -256,7 +247,7 @@ impl Grow for CohenModel {
         plant.add_axis(NewAxis::OF_THE_SEED);
         let mut density = Density::of(self.reach);
         density.add([0.0; 3]);
-        Colony { density, tips: vec![Growing { tip: Tip::SEED, at: [0.0; 3], heading: [0.0, 0.0, 1.0] }] }
+        Colony { density, tips: vec![Growing::SEED] }
     }
 
     fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Colony, _: &View<'_>) -> Result<(), Overgrown> {

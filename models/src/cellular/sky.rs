@@ -1,7 +1,8 @@
 //! The share of the open sky at a point: how many of evenly spread directions above the horizon meet nothing.
 //!
-//! Directions follow the golden angle, at heights that part the half sphere into equal areas. What is farther than the
-//! eye reaches does not shade. Absent: the brightness of the sky.
+//! Directions follow the golden angle, at heights that part the half sphere into equal areas (Swinbank & Purser 2006,
+//! "Fibonacci grids"). What is farther than the stated distance of sight does not shade. Absent: the brightness of the
+//! sky.
 
 use phytomer_sim::math::sincos;
 

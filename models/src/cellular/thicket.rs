@@ -7,7 +7,7 @@
 //! that passes rests for ever. Absent: parameters (`greene`), diffusion of light, and leaves.
 
 use super::around::Around;
-use super::body::{Segment, Tip, branch, keep_diameters, lengthen};
+use super::body::{Growing, Segment, branch, keep_diameters, lengthen};
 use super::sky::Sky;
 use super::voxels::{Lattice, Voxel};
 use phytomer_sim::clock::Tick;
@@ -47,15 +47,6 @@ pub struct GreeneModel {
 pub struct Thicket {
     taken: BTreeSet<Voxel>,
     tips: Vec<Growing>,
-}
-
-/// A tip that grows.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Growing {
-    tip: Tip,
-    /// Where it is, metres from the seed.
-    at: [f64; 3],
-    heading: [f64; 3],
 }
 
 /// A segment that may grow.
@@ -185,8 +176,7 @@ impl Grow for GreeneModel {
 
     fn sow(&self, plant: &mut Plant) -> Thicket {
         plant.add_axis(NewAxis::OF_THE_SEED);
-        let seed = Growing { tip: Tip::SEED, at: [0.0; 3], heading: [0.0, 0.0, 1.0] };
-        Thicket { taken: BTreeSet::from([[0; 3]]), tips: vec![seed] }
+        Thicket { taken: BTreeSet::from([[0; 3]]), tips: vec![Growing::SEED] }
     }
 
     fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Thicket, view: &View<'_>) -> Result<(), Overgrown> {

@@ -199,6 +199,10 @@ impl Compiler<'_> {
                 let Members { shapes, parts, height } = self.members(less, &path.key("less"))?;
                 let whole = whole?;
                 let (parts, height) = (parts + whole.parts, height.max(whole.height));
+                if parts > MOST_PARTS {
+                    let problem = format!("the shape has more than {MOST_PARTS} parts");
+                    return self.fault(path, problem, format!("at most {MOST_PARTS}"));
+                }
                 let rest = Difference::of(Arc::unwrap_or_clone(whole.shape), shapes);
                 made(Shape::Difference(Box::new(rest)), parts, height)
             }
@@ -214,7 +218,7 @@ impl Compiler<'_> {
                 let placed = Placed::of(Arc::unwrap_or_clone(shape), scale, turn, *move_m);
                 made(Shape::Placed(Box::new(placed)), parts, height)
             }
-            solid => made(self.solid(solid, path)?, 0, 0),
+            solid => made(self.solid(solid, path)?, own_parts(solid), 0),
         }
     }
 
@@ -299,4 +303,13 @@ fn skeleton(stated: &StatedShape) -> Vec<(Skeleton, f64)> {
         (Skeleton::Ellipsoid(reach), part.strength)
     });
     points.chain(lines).chain(ellipsoids).collect()
+}
+
+/// The parts of a shape that is made of no other, which are copied with it, beside the shape itself.
+fn own_parts(stated: &StatedShape) -> usize {
+    match stated {
+        StatedShape::Polyline { points_m, .. } => points_m.len(),
+        StatedShape::Soft { points, lines, ellipsoids } => points.len() + lines.len() + ellipsoids.len(),
+        _ => 0,
+    }
 }

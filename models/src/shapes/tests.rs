@@ -124,6 +124,15 @@ fn shapes_without_end_are_refused() {
     }
     let (_, faults) = compiled(Value::Object(doubling));
     assert_eq!(faults, ["shape.s16.of: the shape has more than 100000 parts; expected at most 100000"]);
+    // The parts of a soft object and of a polyline are parts as well, and so is what a difference takes away.
+    let points: Vec<Value> = (0..400).map(|k| json!([k, 0, 0])).collect();
+    let line = json!({"form": "polyline", "points_m": points, "radii_m": vec![1; 400]});
+    let (_, faults) = compiled(json!({"line": line, "many": {"form": "union", "of": vec!["line"; 300]}}));
+    assert_eq!(faults, ["shape.many.of: the shape has more than 100000 parts; expected at most 100000"]);
+    let half = json!({"form": "union", "of": vec!["line"; 150]});
+    let less = json!({"form": "difference", "of": "half", "less": ["half"]});
+    let (_, faults) = compiled(json!({"line": line, "half": half, "less": less}));
+    assert_eq!(faults, ["shape.less: the shape has more than 100000 parts; expected at most 100000"]);
     let mut leading = serde_json::Map::new();
     for k in 0..200 {
         let next = format!("s{:03}", k + 1);

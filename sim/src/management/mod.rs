@@ -163,9 +163,9 @@ impl Management {
 
     /// Whether successors are planted at `tick`.
     pub(crate) fn replants(&self, tick: Tick, members: &[Worked]) -> bool {
+        let due = |operation: &Operation| operation.when.due(tick, 0, None) == Due::Yes;
         let of_replanting = self.operations.iter().filter(|operation| operation.act == Act::Replant);
-        let due = |operation: &Operation, member: &Worked| operation.when.due(tick, member.sown, None) == Due::Yes;
-        of_replanting.into_iter().any(|operation| members.iter().any(|member| due(operation, member)))
+        members.iter().any(|member| member.can_be_cut) && of_replanting.into_iter().any(due)
     }
 
     /// Tells the dates of the ticks, for conditions that ask them.
@@ -213,7 +213,11 @@ impl Management {
     /// The first tick after `after` at which something is done, or a condition asked.
     pub fn next(&self, after: Tick, members: &[Worked]) -> Option<Tick> {
         let next = |(number, operation): (usize, &Operation)| {
-            let worked = members.iter().enumerate().filter(|(_, member)| member.can_be_cut);
+            let mut worked = members.iter().enumerate().filter(|(_, member)| member.can_be_cut);
+            // Replanting is work on the plot: no plant need be sown for it.
+            if operation.act == Act::Replant {
+                return worked.next().and_then(|_| operation.when.next(after, 0, None));
+            }
             worked
                 .filter_map(|(plant, member)| operation.when.next(after, member.sown, self.begun(number, plant)))
                 .min()

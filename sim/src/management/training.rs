@@ -6,9 +6,8 @@
 //! form, and its angle is that of the straight line from its base to its tip; what is tied to a stake or a wire is
 //! straight from tie to tie. Lengths stay. What trained wood bears goes along with it, and keeps its form too. The rest
 //! frames change from the tick on ([`Plant::change_rests`]): what grows later leaves the tip and follows its trend.
-//! Wood that bends is held where it was trained for as long as the support stays; a stake and a wire, which stand on
-//! the ground, also bear its weight. Absent: the stress of the bending itself, so that wood which is let go sags under
-//! its load and does not spring back; and breakage.
+//! Wood that bends is held as long as the support stays; a stake and a wire, which stand on the ground, also bear its
+//! weight. Absent: the stress of the bending, so that wood which is let go sags and does not spring back; and breakage.
 
 use crate::clock::Tick;
 use crate::math::{acos, atan2, sincos};

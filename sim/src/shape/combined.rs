@@ -63,7 +63,8 @@ impl Intersection {
     }
 }
 
-/// What is in a shape, and within none of those that are taken away; their surface stays.
+/// What is in a shape, and within none of those that are taken away. A point on the surface of a shape that is taken
+/// away is outside, although the field is ½ there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference {
     whole: Shape,

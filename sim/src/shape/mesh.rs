@@ -4,7 +4,8 @@
 //! segmentation using generalized winding numbers"): the solid angles of the triangles (Van Oosterom & Strackee 1983)
 //! add up to 4π within and to 0 outside, wherever the point lies, so that no ray can slip through an edge. Triangles
 //! far from the point count together as one dipole (Barill et al. 2018, "Fast winding numbers for soups and clouds", of
-//! the first order). Absent: files, and making a mesh closed.
+//! the first order). A point on the surface counts as inside or as outside, as rounding decides. Absent: files, and
+//! making a mesh closed.
 
 use super::bounds::Bounds;
 use super::tree::{Tree, Walk};

@@ -6,7 +6,7 @@
 //! the field there, and within what bounds does the shape lie. The field is ½ on the surface of every shape, greater
 //! within and smaller outside, as in Wyvill, McPheeters & Wyvill (1986): of a solid it is ½ less the distance to the
 //! surface in metres, negative within; of soft objects and blends it is the sum of what their parts add. A point on the
-//! surface is inside. Absent: files, and surfaces to be drawn.
+//! surface is inside, except where [`Difference`] and [`Mesh`] say so. Absent: files, and surfaces to be drawn.
 
 mod bounds;
 mod combined;

@@ -52,7 +52,7 @@ impl Solid for Ellipsoid {
         self.square(point) <= 1.0
     }
 
-    /// k (k − 1) / |∇(k²) / 2| with k² = Σ (xₖ / rₖ)².
+    /// k (k − 1) / |∇(k²) / 2| with k² = Σ (xᵢ / rᵢ)² (Quilez, "Distance functions", ellipsoid).
     fn distance(&self, point: Point) -> f64 {
         let at = from(self.centre, point);
         let k = self.square(point).sqrt();

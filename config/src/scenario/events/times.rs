@@ -16,8 +16,8 @@ impl Event {
         self.date.as_deref().map(|day| ("date", day)).or(by_name)
     }
 
-    /// When it begins; `None` where its day does not lie in the calendar. Without a calendar some time stands for that
-    /// of a day.
+    /// When it begins; `None` where its day does not lie in the calendar. Without a calendar the first age of a plant
+    /// stands for the day.
     pub(super) fn start(&self, calendar: Option<&Calendar>) -> Option<Start> {
         match (self.tick, self.age, self.stated_day(), calendar) {
             (Some(tick), ..) => Some(Start::Tick(tick)),

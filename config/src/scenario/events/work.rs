@@ -16,7 +16,7 @@ pub enum Work {
     Thinning,
     /// Everything above a height is taken.
     Topping,
-    /// Everything beyond planes, or outside a box, is taken.
+    /// Everything beyond planes, outside a box, or outside a shape, is taken.
     Hedging,
     /// The trunk, and every other axis of its order, is cut above a height or above a node.
     Stumping,

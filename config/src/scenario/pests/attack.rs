@@ -18,7 +18,7 @@ pub(super) struct Attack {
     pub season: u32,
     /// The first age at which it attacks the plant.
     pub from: u32,
-    /// The last one.
+    /// The last age at which it attacks the plant.
     pub until: u32,
     /// The ticks of the whole attack.
     pub ticks: u32,

@@ -1,4 +1,7 @@
 //! The variables, arrays and functions that a file states before its axiom.
+//!
+//! Sizes and first values of arrays are constants. A function is one expression over its parameters. Absent: the code
+//! of expressions and statements (`names`).
 
 use super::names::{Known, Names, Scope};
 use crate::code::{Array, Code};

@@ -1,6 +1,7 @@
 //! Weights of productions that compete: those that are constant should sum to 1, or to 100.
 //!
-//! Others are taken as they are, each over the sum of those that apply; a file that means shares is told of it.
+//! A production is drawn with its weight over the sum of the weights of all that apply, whatever that sum is. Another
+//! sum is a warning, for the file may mean probabilities.
 
 use crate::code::{Code, Rule, Rules};
 use crate::fault::Fault;

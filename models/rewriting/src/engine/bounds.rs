@@ -1,4 +1,7 @@
 //! What a step works with, and the most that it may come to.
+//!
+//! A step stops with a fault where its string or its work would exceed the bounds, so that no text makes it run without
+//! end. Absent: what a caller may set (`program`), and the counting of work (`evaluate`).
 
 use crate::code::Script;
 use crate::derived::Derived;

@@ -1,7 +1,8 @@
-//! Which of the productions of a module applies: the first, or where they compete one by its weight.
+//! Which of the productions of a module applies: the first that fits, or, where productions compete, a production that
+//! is drawn.
 //!
-//! A weight that is not stated is 1, one below 0 is 0. Of those that apply one is drawn with its weight over their sum;
-//! where the sum is 0 none applies.
+//! A weight that is not stated is 1, a weight below 0 is 0. Each production that fits is drawn with the probability of
+//! its weight over the sum of the weights; where the sum is 0 no production applies.
 
 use crate::code::{Rule, Rules};
 use crate::evaluate::{Machine, Result};

@@ -1,9 +1,8 @@
 //! Contexts of a module in a bracketed string (Prusinkiewicz & Lindenmayer 1990 §1.8), as cpfg looks at them.
 //!
 //! To the left the look goes out through `[` and past finished branches; to the right past branches that the context
-//! does not name. What `consider:` leaves out, or `ignore:` names, is looked through: where brackets are left out, so
-//! are they, and then the look goes into branches. `[X=]` is a branch that begins with X. A ring goes on at its other
-//! end.
+//! does not name. Modules that `consider:` does not name, or that `ignore:` names, are passed over; where brackets are
+//! passed over so, the look goes into branches. `[X=]` is a branch that begins with X. A ring goes on at its other end.
 
 use crate::code::{Item, Rule, Script};
 use crate::evaluate::{Machine, Result};

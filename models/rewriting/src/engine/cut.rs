@@ -1,4 +1,8 @@
-//! The cut `%`: at the end of its step what follows it in its branch goes, with itself, before anything is drawn.
+//! The cut `%`: at the end of its step it goes, with all modules that follow it in its branch, before anything is
+//! drawn.
+//!
+//! Branches that begin behind the cut go as a whole; the bracket that closes its own branch stays. Absent: which
+//! modules are cuts (`placing`).
 
 use crate::string::{ModuleString, Slot};
 use crate::symbol::{CLOSE, CUT, OPEN};

@@ -1,4 +1,7 @@
 //! Derivation: which production applies where, what it makes, and how the string is rewritten.
+//!
+//! `step` is the entry; `rewriting` goes through the string, `choose` finds the production, `placing` changes the
+//! string. Absent: the reading of texts (`text`, `syntax`, `compile`), and expressions (`evaluate`).
 
 mod bounds;
 mod choose;

@@ -1,4 +1,7 @@
 //! What productions have made and what is not yet in the string: modules with their parameters and identities.
+//!
+//! The parameters of all modules stand in one list, and each module knows where its own begin. Absent: where the
+//! modules take their places (`placing`).
 
 use crate::code::Rule;
 use crate::evaluate::{Machine, Result, halt};

@@ -1,4 +1,7 @@
 //! What a step has made takes its place in the string.
+//!
+//! The first module of a successor takes the slot of the predecessor, the others are put behind it. New brackets are
+//! paired, and cuts and modules that the next step visits are noted. Absent: what is made (`rewriting`).
 
 use super::pieces::Pieces;
 use crate::string::{ModuleString, Slot};

@@ -1,4 +1,7 @@
 //! The predecessor of a production in a string: whether it is there, and which modules it is.
+//!
+//! The modules of a predecessor of several stand one directly behind the other, brackets included. Absent: the contexts
+//! beside the predecessor (`context`).
 
 use super::context::{Anchor, bind};
 use crate::code::{Item, Rule, Script};

@@ -1,4 +1,7 @@
 //! The axiom, and a derivation step: the blocks of the file around the rewriting of the string.
+//!
+//! The axiom is made as a successor of the seed, and is decomposed; `Start:` comes before it. A step is `StartEach:`,
+//! the rewriting, `EndEach:`. Absent: the rewriting itself (`rewriting`).
 
 use super::bounds::{Bounds, machine};
 use super::pieces::{Moment, Pieces};

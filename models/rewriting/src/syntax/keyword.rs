@@ -1,4 +1,7 @@
-//! The words with which the items of a file begin. `Axiom:` is one; `AXIOM :` are five modules.
+//! The words with which the items of a file begin.
+//!
+//! `Axiom:` is such a word; `AXIOM :` are five modules and the colon of a production. Absent: what stands behind a word
+//! (`file`).
 
 use crate::letters::Letter;
 

@@ -1,5 +1,6 @@
-//! From letters to a tree: what the text says, in its own words. Names are names here; what they mean is the matter of
-//! `compile`.
+//! From letters to a tree of items, productions and expressions.
+//!
+//! Names stay as they are written. Absent: the preparation of the letters (`text`), and what names mean (`compile`).
 
 mod expression;
 mod file;

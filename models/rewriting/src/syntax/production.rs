@@ -1,4 +1,7 @@
 //! Productions: `left < predecessor > right : {statements} condition {statements} --> successor : weight`.
+//!
+//! Everything but predecessor and arrow may be absent. A label before the production, such as `p1 :`, is passed over.
+//! Absent: modules (`module`), statements (`statement`) and expressions (`expression`).
 
 use super::expression::Parser;
 use super::module::{Formal, ModuleText};

@@ -1,4 +1,7 @@
 //! Statements in braces: assignments, calls, `if`, `while`, `do`, and arrays in the block `define:`.
+//!
+//! Blocks nest to a bounded depth, so that no text exhausts the stack. Absent: which names are variables (`compile`),
+//! and the carrying out (`evaluate`).
 
 use super::expression::Parser;
 use super::tree::{Expression, Name, Operator};

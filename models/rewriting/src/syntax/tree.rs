@@ -1,4 +1,7 @@
 //! Expressions as they are written, and what their operators do.
+//!
+//! A truth is 1 or 0, and every number other than 0 is true. Absent: reading expressions (`expression`), and what their
+//! names mean (`compile`).
 
 use crate::fault::Place;
 use phytomer_sim::math;

@@ -1,4 +1,7 @@
 //! The expressions of `#if` and `#elif`: numbers, operators and `defined(NAME)`; a name that is no macro is 0.
+//!
+//! Macros are expanded first, but for the names in `defined`. A call or an element of an array is 0 too. Absent: which
+//! lines are such conditions (`directives`).
 
 use super::macros::{Broken, Macros, word_end};
 use crate::fault::Place;

@@ -1,6 +1,6 @@
 //! What the names of modules tell a turtle (Prusinkiewicz & Lindenmayer 1990 App. C; cpfg's manual).
 //!
-//! A name that is not listed here tells it nothing. Absent: what the turtle does (`state`), and the cut `%`, which is
+//! A name that is not listed here tells it nothing. Absent: what the turtle does (`Turtle`), and the cut `%`, which is
 //! made in the string.
 
 /// One of the three axes of a turtle.

@@ -2,7 +2,7 @@
 //!
 //! Prusinkiewicz & Lindenmayer 1990 (§1.5, ch. 2, §5.1, App. C), and what the files of cpfg use beyond it. Angles are
 //! in degrees, lengths and widths in units of the turtle, in double precision; the frame is that of [`Frame`]. Absent:
-//! which modules are components of a plant (`components`), and the meaning of colours and surfaces (`view`).
+//! which modules are components of a plant (`text`), and the meaning of colours and surfaces (`view`).
 //!
 //! Decided where the book and cpfg are silent or differ:
 //! - The tropism turns after each `F` and `f` (`G`, `g`), by the angle e |H × T| about H × T, T as given; L and U turn
