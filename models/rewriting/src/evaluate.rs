@@ -111,6 +111,7 @@ impl Machine<'_> {
                 }
             }
             Code::Outside(function, arguments, place) => {
+                self.spend(ROUND, *place, "the calls of functions")?;
                 let values = self.values(arguments, frame)?;
                 let result = self.outside.call(*function, &values);
                 result.or_else(|(problem, expected)| halt(*place, problem, expected))
@@ -175,6 +176,8 @@ impl Machine<'_> {
 
     /// Carries out statements.
     pub fn run(&mut self, acts: &[Act], frame: &mut [f64]) -> Result<()> {
+        // A loop with a long body spends more.
+        self.rounds = self.rounds.saturating_sub(acts.len() as u64);
         for act in acts {
             match act {
                 Act::Local(local, code) => {

@@ -88,8 +88,9 @@ fn block_comment(raw: &[Letter], at: usize, kept: &mut Vec<Letter>, faults: &mut
 
 /// Keeps a text in quotation marks as it is, if it ends in its line; returns where to go on.
 fn string(raw: &[Letter], at: usize, kept: &mut Vec<Letter>) -> usize {
-    let end = line_end(raw, at);
-    let close = raw[at + 1..end].iter().position(|letter| letter.c == '"');
+    // The search ends with the line, so that many marks in one text are not searched to its end each.
+    let close = raw[at + 1..].iter().position(|letter| matches!(letter.c, '"' | '\n'));
+    let close = close.filter(|length| raw[at + 1 + length].c == '"');
     let next = close.map_or(at + 1, |length| at + length + 2);
     kept.extend_from_slice(&raw[at..next]);
     next

@@ -192,6 +192,8 @@ impl Program {
             rounds: self.limits.rounds,
         };
         let (mut expansion, mut roots) = (Expansion::default(), Pieces::default());
+        // What a homomorphism draws is bounded as a string is.
+        let mut left = self.limits.modules;
         for slot in string.slots_in_order() {
             let module = string.module(slot);
             let kind = string.kind(slot);
@@ -206,6 +208,11 @@ impl Program {
             let anchor = Anchor { script, string, first: slot, last: slot };
             let root = Root { anchor, purpose: For::Homomorphism, step: derived.step, most: self.limits.modules };
             let shown = expansion.run(rules, &root, &mut machine, |piece, parameters, depth| {
+                let Some(less) = left.checked_sub(1) else {
+                    let problem = format!("a homomorphism draws more than {} modules", self.limits.modules);
+                    return crate::evaluate::halt(crate::Place::default(), problem, "fewer");
+                };
+                left = less;
                 let symbol = self.symbols.kinds().get(usize::from(piece.kind.0)).map_or(module.symbol, |kind| kind.0);
                 visit(Drawn { symbol, parameters, key: piece.identity.key, of: slot, depth });
                 Ok(())

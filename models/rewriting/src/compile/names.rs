@@ -76,10 +76,13 @@ impl<'o> Names<'o> {
     pub fn declare(&mut self, statements: &[Statement], faults: &mut Vec<Fault>) {
         assigned(statements, &mut |name| {
             let number = self.variables.len();
+            if self.variables.contains_key(&name.name) || self.arrays.contains_key(&name.name) {
+                return;
+            }
             if number >= MOST_VARIABLES {
                 faults.push(too_many(name.place));
-            } else if !self.arrays.contains_key(&name.name) {
-                self.variables.entry(name.name.clone()).or_insert(number as u16);
+            } else {
+                self.variables.insert(name.name.clone(), number as u16);
             }
         });
     }
@@ -219,9 +222,11 @@ impl<'o> Names<'o> {
 
     fn outside_call(&self, name: &Name, arguments: &[Expression], scope: &Scope, faults: &mut Vec<Fault>) -> Code {
         let Some(function) = self.outside.function(&name.name, arguments.len()) else {
-            let known: Vec<&String> = self.functions.keys().collect();
+            if faults.len() >= MOST_TOLD {
+                return Code::Number(0.0);
+            }
             let others = self.outside.names();
-            let all: Vec<&str> = known.into_iter().chain(&others).map(String::as_str).collect();
+            let all: Vec<&str> = self.functions.keys().chain(&others).take(MOST_NAMED).map(String::as_str).collect();
             let more = if all.is_empty() { String::new() } else { format!(", or one of {}", all.join(", ")) };
             let problem = format!("no function of {} arguments is named `{}`", arguments.len(), name.name);
             faults.push(Fault::new(

@@ -126,15 +126,15 @@ fn kind(symbol: &str, arity: usize, place: Place, symbols: &mut SymbolTable, fau
 
 /// In the papers' notation `[H]` in a right context is a branch that begins with H.
 fn name_beginnings(right: &mut Vec<Item>) {
-    let mut at = 0;
-    while at < right.len() {
-        let closes = matches!(right[at], Item::Module(CLOSE, _));
-        if closes && at > 0 && right[at - 1] != Item::Rest {
-            right.insert(at, Item::Rest);
-            at += 1;
+    let mut named = Vec::with_capacity(right.len());
+    for item in right.drain(..) {
+        let closes = matches!(item, Item::Module(CLOSE, _));
+        if closes && named.last().is_some_and(|last| *last != Item::Rest) {
+            named.push(Item::Rest);
         }
-        at += 1;
+        named.push(item);
     }
+    *right = named;
 }
 
 fn successor(

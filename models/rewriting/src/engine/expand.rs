@@ -85,12 +85,13 @@ impl Expansion {
         machine.draws.turn_to(next.piece.identity.key.child(u64::from(next.depth)), step, root.purpose);
         let Self { waiting, parameters, made, frames, .. } = self;
         let fits = |rule: &Rule, machine: &mut Machine<'_>, frame: &mut [f64]| {
+            machine.spend(rule.strict.len() as u64, rule.place, "the looks at predecessors")?;
             let fits = bind_waiting(rule, next, waiting, parameters, frame);
             Ok(fits && root.anchor.holds(rule, machine, frame)?)
         };
         let Some(rule) = choose(rules, candidates, machine, frames, fits)? else { return Ok(false) };
         // A production within productions costs a round, so that those without end are told.
-        machine.spend(16, rule.place, "productions within productions")?;
+        machine.spend(16 + rule.successor.len() as u64, rule.place, "productions within productions")?;
         if waiting.len() + rule.successor.len() > root.most {
             return halt(rule.place, format!("more than {} modules wait within a step", root.most), "fewer");
         }

@@ -22,6 +22,7 @@ pub(super) fn fits(
     for (number, item) in rule.strict.iter().enumerate() {
         let Item::Module(kind, first) = *item else { return Ok(false) };
         if number > 0 {
+            machine.spend(1, rule.place, "the looks at predecessors")?;
             let Some(next) = string.after(last) else { return Ok(false) };
             last = next;
         }

@@ -34,8 +34,8 @@ fn with_defined(letters: &[Letter], macros: &mut Macros) -> Vec<Letter> {
         }
         let is_outside = |letter: &&Letter| letter.c.is_whitespace() || letter.c == '(';
         let start = end + letters[end..].iter().take_while(is_outside).count();
-        let inside: String = letters[start..].iter().map(|letter| letter.c).collect();
-        let name: String = inside.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+        let inside = letters[start..].iter().map(|letter| letter.c);
+        let name: String = inside.take_while(|c| c.is_alphanumeric() || *c == '_').collect();
         let c = if macros.is_defined(&name) { '1' } else { '0' };
         out.push(Letter { c, place: letters[at].place });
         at = start + name.chars().count();

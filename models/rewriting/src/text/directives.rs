@@ -15,6 +15,9 @@ const DEEPEST: usize = 16;
 /// The most lines over which the arguments of a macro go on.
 const MOST_LINES: usize = 100;
 
+/// After so many faults the rest of a file is not read.
+const MOST_BROKEN: usize = 1000;
+
 /// What is needed to prepare a text.
 pub(crate) struct Asked<'a> {
     /// The name of the file.
@@ -81,12 +84,12 @@ impl Reader<'_, '_> {
         }
         let (before, depth) = (self.branches.len(), self.open_files);
         self.open_files += 1;
-        while let Some(mut line) = lines.pop_front().filter(|_| !self.exhausted) {
+        while let Some(mut line) = lines.pop_front().filter(|_| !self.exhausted && self.faults.len() < MOST_BROKEN) {
             if let Some((word, place, rest)) = directive(&line) {
                 self.directive(&word, place, &rest);
                 continue;
             }
-            if self.branches.iter().any(|branch| !branch.taken) {
+            if self.branches.last().is_some_and(|branch| !branch.taken) {
                 continue;
             }
             for _ in 0..MOST_LINES {
@@ -121,7 +124,7 @@ impl Reader<'_, '_> {
     }
 
     fn directive(&mut self, word: &str, place: Place, rest: &[Letter]) {
-        let passed = self.branches.iter().any(|branch| !branch.taken);
+        let passed = self.branches.last().is_some_and(|branch| !branch.taken);
         match word {
             "if" | "ifdef" | "ifndef" => {
                 let taken = !passed && self.condition(word, place, rest);
@@ -159,7 +162,7 @@ impl Reader<'_, '_> {
         if word == "endif" {
             return;
         }
-        let outer = self.branches.iter().all(|branch| branch.taken);
+        let outer = self.branches.last().is_none_or(|branch| branch.taken);
         branch.taken = outer && !branch.done && (word == "else" || self.condition("if", place, rest));
         branch.done |= branch.taken;
         self.branches.push(branch);

@@ -31,6 +31,8 @@ pub(super) struct Macros {
     pub met: std::collections::BTreeSet<String>,
     /// The letters made so far, in all expansions.
     made: usize,
+    /// The arguments that are expanded within one another.
+    within: usize,
 }
 
 /// Why an expansion ends: a fault, and whether nothing more is to be read.
@@ -86,6 +88,7 @@ impl Macros {
 
     /// Appends the letters with all macros expanded.
     pub fn expand(&mut self, letters: &[Letter], out: &mut Vec<Letter>) -> Result<(), Broken> {
+        self.within = 0;
         self.expand_within(letters, &mut Vec::new(), out)
     }
 
@@ -105,6 +108,11 @@ impl Macros {
                 continue;
             }
             let name: String = word.iter().map(|letter| letter.c).collect();
+            // A call is as long as the macro, of which it makes a copy.
+            let length = |found: &Macro| 1 + found.body.len() + found.parameters.as_ref().map_or(0, Vec::len);
+            let called = self.table.get(&name).filter(|_| !hidden.contains(&name));
+            let length = called.map_or(0, length);
+            self.count(length, word)?;
             at = match self.table.get(&name).filter(|_| !hidden.contains(&name)).cloned() {
                 Some(found) => self.call(&name, found, letters, (at, end), hidden, out)?,
                 None => {
@@ -149,8 +157,7 @@ impl Macros {
             exhausted: false,
         };
         self.met.insert(name.to_owned());
-        self.count(1, &letters[start..end])?;
-        if hidden.len() >= DEEPEST {
+        if hidden.len() + self.within >= DEEPEST {
             return Err(broken(format!("`{name}` stands within {DEEPEST} macros"), "fewer".to_owned()));
         }
         let (mut given, mut next) = (Vec::new(), end);
@@ -168,14 +175,17 @@ impl Macros {
                 list.len()
             };
             if count != parameters.len() {
-                let expected = format!("{}: `{name}({})`", parameters.len(), parameters.join(", "));
+                let expected =
+                    format!("{}: `{name}({})`", parameters.len(), parameters[..parameters.len().min(12)].join(", "));
                 return Err(broken(format!("`{name}` has {count} arguments"), expected));
             }
+            self.within += 1;
             for argument in list.iter().take(count) {
                 let mut expanded = Vec::new();
                 self.expand_within(argument, hidden, &mut expanded)?;
                 given.push(expanded);
             }
+            self.within -= 1;
             next = close;
         }
         let mut body = substituted(&found, &given);

@@ -45,6 +45,11 @@ impl Roles {
                 continue;
             };
             let (command, role) = &mut by_symbol[usize::from(symbol.0)];
+            if matches!(command, Command::Open | Command::Close) {
+                let problem = format!("`{name}` is a bracket, which is no part of a plant");
+                refused.push((name.clone(), problem, "a module that is no bracket".to_owned()));
+                continue;
+            }
             let draws = matches!(command, Command::Line { .. } | Command::Spline(Spline::Continue | Spline::End));
             *role = match kind.class() {
                 Class::Internode => Role::Internode(kind),

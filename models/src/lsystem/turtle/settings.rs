@@ -36,10 +36,20 @@ impl Settings {
             tropism: view.tropism.map(bounded),
             elasticity: bounded(view.elasticity),
             elasticity_increment: bounded(view.elasticity_increment),
-            tropisms: view.tropisms.clone(),
+            tropisms: view.tropisms.iter().map(within).collect(),
             scale: bounded(view.scale),
             scale_multiplier: bounded(view.scale_multiplier),
         }
+    }
+}
+
+/// A tropism of a view file with its numbers within bounds.
+fn within(of: &Tropism) -> Tropism {
+    Tropism {
+        angle_deg: bounded(of.angle_deg),
+        elasticity: bounded(of.elasticity),
+        elasticity_increment: bounded(of.elasticity_increment),
+        ..*of
     }
 }
 
