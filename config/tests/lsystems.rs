@@ -157,6 +157,10 @@ fn what_is_wrong_in_a_file_is_told_at_its_line_and_column() {
     let unknown = format!("{SPECIES}[kinds]\nA = \"bud\"\n");
     let report = told(validate_texts("own", &[("own", &unknown), ("own.l", "Axiom: FA\n")]).expect_err("it is wrong"));
     assert!(report.contains("unknown kind `bud`"), "{report}");
+    let bracket = format!("{SPECIES}[kinds]\n\"[\" = \"axillary_bud\"\n");
+    let report =
+        told(validate_texts("own", &[("own", &bracket), ("own.l", "Axiom: F[F]\n")]).expect_err("it is wrong"));
+    assert!(report.contains("`[` is a bracket"), "{report}");
     let report = told(validate_texts("own", &[("own", SPECIES)]).expect_err("it is wrong"));
     assert!(report.contains("there is no file `own.l`"), "{report}");
     let outside = SPECIES.replace("own.l", "../own.l");
