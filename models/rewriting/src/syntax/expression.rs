@@ -23,6 +23,8 @@ pub(crate) struct Parser<'l> {
     pub(super) inside: u32,
     /// Whether what is read has its arrow already, or needs none.
     pub(super) complete: bool,
+    /// Whether parentheses are branches, and modules have no parameters.
+    pub(super) cells: bool,
     depth: u32,
     parts: u32,
 }
@@ -30,7 +32,7 @@ pub(crate) struct Parser<'l> {
 impl<'l> Parser<'l> {
     pub fn new(letters: &'l [Letter], end: Place) -> Self {
         let end = letters.last().map_or(end, |last| last.place);
-        Self { letters, at: 0, end, inside: 0, complete: true, depth: 0, parts: 0 }
+        Self { letters, at: 0, end, inside: 0, complete: true, cells: false, depth: 0, parts: 0 }
     }
 
     pub(super) fn place(&self) -> Place {

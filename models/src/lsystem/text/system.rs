@@ -13,7 +13,7 @@ use crate::law::{At, VariateTable};
 use crate::lsystem::turtle::Turtle;
 use crate::lsystem::view::{Colours, Function, Surface, TextFault, View};
 use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints};
-use phytomer_rewriting::{Outside, Program, Reading};
+use phytomer_rewriting::{Outside, Program, Reading, Refused};
 use phytomer_sim::key::{LineageKey, mix};
 use phytomer_sim::plant::{Class, Habit, InternodeLook, Kind, Looks, OrganLook, Trend};
 use phytomer_sim::random::{PlantRandom, Purpose};
@@ -212,14 +212,24 @@ impl TextSystem {
             continues_last: &self.continues_last,
             ..Reading::of(&self.file)
         };
-        Program::read(text, &reading).map_err(|refused| {
-            let of = |fault: &phytomer_rewriting::Fault| {
-                let (line, column) = (fault.place.line, fault.place.column);
-                let (problem, expected) = (fault.problem.clone(), fault.expected.clone());
-                in_text(refused.file(fault), TextFault { line, column, problem, expected })
-            };
-            refused.faults.iter().map(of).collect()
-        })
+        Program::read(text, &reading).map_err(|refused| Wrong::all(&refused))
+    }
+}
+
+impl Wrong {
+    /// Everything that is wrong with the text of an L-system.
+    pub(in crate::lsystem) fn all(refused: &Refused) -> Vec<Self> {
+        let of = |fault: &phytomer_rewriting::Fault| {
+            let (line, column) = (fault.place.line, fault.place.column);
+            let (problem, expected) = (fault.problem.clone(), fault.expected.clone());
+            in_text(refused.file(fault), TextFault { line, column, problem, expected })
+        };
+        refused.faults.iter().map(of).collect()
+    }
+
+    /// There is no text of this name.
+    pub(in crate::lsystem) fn missing(file: &str) -> Self {
+        in_text(file, missing())
     }
 }
 
