@@ -9,6 +9,7 @@ use super::text::{TextModel, TextSystem, Wrong};
 use crate::fault::{Fault, Path, Segment};
 use crate::law::{Constant, Domain, ValueRange, Variate, VariateTable};
 use crate::parameters::{Card, Keys, Parameters};
+use crate::shapes::{Named, Shapes};
 use phytomer_sim::Tick;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::model::GrowthModel;
@@ -74,6 +75,10 @@ pub struct Lsystem {
     /// whole life.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub define: BTreeMap<String, Variate>,
+    /// Shapes by their names, as `[shape.NAME]`, metres from the seed of each plant. The file may call them:
+    /// `inside_NAME(x, y, z)` and `field_NAME(x, y, z)`, and `prune(x, y, z)` where a shape has the name `prune`.
+    #[serde(default, skip_serializing_if = "Shapes::is_empty")]
+    pub shape: Shapes,
     /// What modules are, by their names: `A = "apical_bud"`, `"@o" = "axillary_bud"`, `"~p" = "petal"`. A line is an
     /// internode and a surface or a polygon a leaf where nothing is stated.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -159,6 +164,7 @@ impl Lsystem {
         let kinds = self.kinds(top, &mut faults);
         let (texts, maps) = self.texts(top, &mut faults);
         let define = self.constants(top, &mut faults);
+        let shapes = Named::of(&self.shape, &top.key("shape"), &mut faults);
         let last = self.continues.iter().filter(|(_, which)| **which == Continues::Last);
         let system = TextSystem {
             file: file.to_owned(),
@@ -167,6 +173,7 @@ impl Lsystem {
             texts,
             maps,
             define,
+            shapes,
             kinds,
             continues_last: last.map(|(name, _)| name.clone()).collect(),
             step_m: step_m.unwrap_or(1.0),
