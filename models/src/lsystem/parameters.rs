@@ -10,6 +10,7 @@ use super::text::{TextModel, TextSystem, Wrong};
 use crate::fault::{Fault, Path, Segment};
 use crate::law::{Constant, Domain, ValueRange, Variate, VariateTable};
 use crate::parameters::{Card, Keys, Parameters};
+use crate::shapes::{Named, Shapes};
 use phytomer_rewriting::Program;
 use phytomer_sim::Tick;
 use phytomer_sim::clock::LAST_TICK;
@@ -81,6 +82,10 @@ pub struct Lsystem {
     /// whole life.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub define: BTreeMap<String, Variate>,
+    /// Shapes by their names, as `[shape.NAME]`, metres from the seed of each plant. The file may call them:
+    /// `inside_NAME(x, y, z)` and `field_NAME(x, y, z)`, and `prune(x, y, z)` where a shape has the name `prune`.
+    #[serde(default, skip_serializing_if = "Shapes::is_empty")]
+    pub shape: Shapes,
     /// What modules are, by their names: `A = "apical_bud"`, `"@o" = "axillary_bud"`, `"~p" = "petal"`. A line is an
     /// internode and a surface or a polygon a leaf where nothing is stated.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -179,6 +184,7 @@ impl Lsystem {
             ("step_m", self.step_m.is_some()),
             ("width_m", self.width_m.is_some()),
             ("define", !self.define.is_empty()),
+            ("shape", !self.shape.is_empty()),
             ("kinds", !self.kinds.is_empty()),
             ("continues", !self.continues.is_empty()),
         ];
@@ -237,6 +243,7 @@ impl Lsystem {
         let kinds = self.kinds(top, &mut faults);
         let (texts, maps) = self.texts(top, &mut faults);
         let define = self.constants(top, &mut faults);
+        let shapes = Named::of(&self.shape, &top.key("shape"), &mut faults);
         let last = self.continues.iter().filter(|(_, which)| **which == Continues::Last);
         let system = TextSystem {
             file: file.to_owned(),
@@ -245,6 +252,7 @@ impl Lsystem {
             texts,
             maps,
             define,
+            shapes,
             kinds,
             continues_last: last.map(|(name, _)| name.clone()).collect(),
             step_m: step_m.unwrap_or(1.0),
