@@ -195,7 +195,7 @@ fn init_writes_an_l_system() {
         let words = ["derive", "herb/species.toml", "--step", "24", "--counts", "--plant", plant];
         run(folder.path(), &words).ending(0).stdout
     };
-    assert!(counts("0").contains("K\t"), "it flowers");
+    assert!(counts("0").contains("P\t"), "it flowers");
     run(folder.path(), &["init", "herb", "--model", "buds"]).ending(2);
     run(folder.path(), &["init", "tree", "--model", "gmt1"]).ending(2);
 }

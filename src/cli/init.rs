@@ -21,6 +21,7 @@ const LSYSTEM: Beginning = &[
     ("species.toml", include_str!("init/lsystem/species.toml")),
     ("plant.l", include_str!("init/lsystem/plant.l")),
     ("plant.v", include_str!("init/lsystem/plant.v")),
+    ("leaf.s", include_str!("init/lsystem/leaf.s")),
     ("scenario.toml", include_str!("init/lsystem/scenario.toml")),
 ];
 
