@@ -119,8 +119,8 @@ fn trees_of_three_daughters() {
     assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3), "{found:?}");
 }
 
-/// Fig. 2 of Aono & Kunii 1984: level 4 of K1 and K2, as files of their own, by the drawing rules with |g| = 1. The mean
-/// end of the axes that grow on, x to the right and y up.
+/// Fig. 2 of Aono & Kunii 1984: level 4 of K1 and K2, as files of their own, by the drawing rules with |g| = 1. The
+/// mean end of the axes that grow on, x to the right and y up.
 #[test]
 fn k1_and_k2_are_files() {
     use phytomer_sim::plant::{ApexFate, AxisId};
@@ -182,8 +182,8 @@ fn cells_of_a_file_are_those_of_the_species_file() {
     assert!(report.contains("`kinds` stands beside `syntax = \"d0l\"`"), "{report}");
 }
 
-/// Borchert & Slade 1981: N(k+1) = min{b_max N(k), 2π l² (k+1)²/σ_min}, of which the tree makes the whole part. Season k
-/// is the age k − 1. All segments of a season together have the cross section of the crown's shoots.
+/// Borchert & Slade 1981: N(k+1) = min{b_max N(k), 2π l² (k+1)²/σ_min}, of which the tree makes the whole part. Season
+/// k is the age k − 1. All segments of a season together have the cross section of the crown's shoots.
 #[test]
 fn the_seasons_of_borchert_and_slade_have_the_shoots_of_their_formula() {
     let (maximum, area) = (2.0_f64, 2.0 * std::f64::consts::PI / 2.5);
@@ -221,8 +221,8 @@ fn l_system_6_fills_its_cube() {
     assert!(plant.nodes.len() > 300 && !plant.ledger.is_empty(), "{} internodes", plant.nodes.len());
 }
 
-/// The scenes of *Synthetic Topiary*: each internode begins within the form that its plant is pruned to, so none is a whole
-/// internode outside of it. The two trees of the dinosaur stand in one form; the stem below the ball stands free.
+/// The scenes of *Synthetic Topiary*: each internode begins within the form that its plant is pruned to, so none is a
+/// whole internode outside of it. The two trees of the dinosaur stand in one form; the stem below the ball stands free.
 #[test]
 fn clipped_plants_keep_within_their_forms() {
     use phytomer_config::Model;

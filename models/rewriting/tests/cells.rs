@@ -1,5 +1,5 @@
-//! D0L-systems of cells as text: the printed strings of K1 and K2 (Aono & Kunii 1984, "L-system model"), and what such a
-//! text may not say.
+//! D0L-systems of cells as text: the printed strings of K1 and K2 (Aono & Kunii 1984, "L-system model"), and what such
+//! a text may not say.
 
 use phytomer_rewriting::{Cells, Program, Reading, Unanswered};
 use phytomer_sim::random::PlantRandom;
