@@ -10,6 +10,7 @@ pub mod d0l;
 mod parameters;
 pub mod text;
 pub mod turtle;
+mod vector;
 pub mod view;
 
 pub use d0l::{Cell, D0l, D0lModel};

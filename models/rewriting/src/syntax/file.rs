@@ -64,7 +64,7 @@ enum Current {
 /// Reads the letters of a file.
 pub(crate) fn parse(letters: &[Letter], faults: &mut Vec<Fault>) -> File {
     let mut reader = Reader {
-        parser: Parser::new(letters, Place::default()),
+        parser: Parser::new(letters, Place { file: 0, line: 1, column: 1 }),
         file: File::default(),
         current: Current::Rewriting,
         ended: false,

@@ -13,7 +13,7 @@ mod tree;
 
 pub(crate) use expression::Parser;
 pub(crate) use file::{File, Section, parse};
-pub(crate) use module::{Formal, MOST_PARAMETERS, ModuleText};
+pub(crate) use module::{Formal, ModuleText};
 pub(crate) use production::Production;
 pub(crate) use statement::Statement;
 pub(crate) use tree::{Expression, Name, Operator};

@@ -12,6 +12,8 @@ use std::collections::VecDeque;
 
 /// The most files within files.
 const DEEPEST: usize = 16;
+/// The most bytes of a file and of all files that it includes.
+const MOST_BYTES: usize = 16_000_000;
 /// The most lines over which the arguments of a macro go on.
 const MOST_LINES: usize = 100;
 
@@ -38,6 +40,7 @@ pub(crate) fn prepare(text: &str, asked: &Asked<'_>, faults: &mut Vec<Fault>) ->
         branches: Vec::new(),
         out: Vec::new(),
         open_files: 0,
+        bytes: 0,
         exhausted: false,
     };
     asked.define.iter().for_each(|(name, value)| reader.macros.fix(name, *value));
@@ -70,11 +73,21 @@ struct Reader<'a, 'f> {
     branches: Vec<Branch>,
     out: Vec<Letter>,
     open_files: usize,
+    /// How long all texts are that were read.
+    bytes: usize,
     exhausted: bool,
 }
 
 impl Reader<'_, '_> {
     fn file(&mut self, text: &str, number: u32) {
+        self.bytes += text.len();
+        if self.bytes > MOST_BYTES {
+            let place = Place { file: number, line: 1, column: 1 };
+            let expected = format!("at most {MOST_BYTES} bytes in all");
+            self.faults.push(Fault::new(place, "the files are too long", expected));
+            self.exhausted = true;
+            return;
+        }
         let kept = letters(text, number, self.faults);
         let mut lines: VecDeque<Vec<Letter>> =
             kept.split_inclusive(|letter| letter.c == '\n').map(<[Letter]>::to_vec).collect();

@@ -6,6 +6,7 @@
 //! contact point, with the stated size as 1. Names, colours and neighbours are not used. Absent: drawing.
 
 use super::text::{Line, TextFault, bounded, full_lines};
+use crate::lsystem::vector::{cross, dot};
 
 /// The most patches of a surface.
 const MOST_PATCHES: usize = 256;
@@ -214,14 +215,6 @@ impl<'t> Lines<'t> {
 /// A fault at the first word of a line.
 fn at(line: &Line<'_>, expected: &str) -> TextFault {
     line.words().next().fault(expected)
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn triangle(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
