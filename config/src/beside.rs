@@ -32,6 +32,10 @@ pub(crate) fn fill(species: &mut Node, keys: &Keys, library: &Library, sources: 
     };
     let mut files = Files { species, library, sources, faults, span, path: Path::root().key(key), count: 0, bytes: 0 };
     files.add(&name);
+    // No turtle draws a D0L-system, so what lies beside it is not of it.
+    if files.species.get("syntax").and_then(Node::text) == Some("d0l") {
+        return;
+    }
     let view = files.stated_or_found("view", &name, &[".v"]);
     view.iter().for_each(|view| files.add(view));
     let colours = files.stated_or_found("colours", &name, &[".map", ".mat"]);

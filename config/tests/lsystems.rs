@@ -119,6 +119,81 @@ fn trees_of_three_daughters() {
     assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3), "{found:?}");
 }
 
+/// Fig. 2 of Aono & Kunii 1984: level 4 of K1 and K2, as files of their own, by the drawing rules with |g| = 1. The mean
+/// end of the axes that grow on, x to the right and y up.
+#[test]
+fn k1_and_k2_are_files() {
+    use phytomer_sim::plant::{ApexFate, AxisId};
+    for (name, mean_end) in [("aono_kunii/k1", [-1.508883, 5.465990]), ("aono_kunii/k2", [0.0, 4.767767])] {
+        let plant = grown(name, 3, 1);
+        let growing = (0..plant.axes.len()).filter(|axis| plant.axes.apex_fate[*axis] == ApexFate::Alive);
+        let ends: Vec<[f64; 3]> = growing
+            .map(|axis| phytomer_sim::pose::bud_frame(&plant, AxisId(axis as u32)).base.map(f64::from))
+            .collect();
+        assert_eq!(ends.len(), 8, "{name}");
+        let [x, y, z] = mean(&ends);
+        assert!((x - mean_end[0]).abs() < 1e-5 && y.abs() < 1e-5 && (z - mean_end[1]).abs() < 1e-5, "{name}: {x} {z}");
+    }
+}
+
+/// A D0L-system is the same plant whether its strings stand in the species file or in a file of their own.
+#[test]
+fn cells_of_a_file_are_those_of_the_species_file() {
+    let cells = "branching_deg = 30\n[cell.g]\nlength_m = 1\n[cell.d]\nlength_m = 2\n";
+    let head = "name = \"own\"\nmodel = \"lsystem\"\ntick = \"a level\"\n";
+    let stated = format!("{head}axiom = \"g\"\nproduction = {{ g = \"d(g)dg\" }}\n{cells}");
+    let filed = format!("{head}file = \"own.l\"\nsyntax = \"d0l\"\n{cells}");
+    let text = "#define LONG d(g)d\nn = 4\nw = g\ng → LONG g\n";
+    let grown = |texts: &[(&str, &str)]| {
+        let species = validate_texts("own", texts).unwrap_or_else(|report| panic!("{}", told(report)));
+        let seed = Seed { plant: 0, draws: 0, run_seed: 1, component_limit: 1000, keep_events: true };
+        let mut plot = Plot::of_one(species.model.as_ref(), &seed);
+        plot.grow_to(4).expect("room to grow");
+        (species.shown_at(), plot.plants.remove(0))
+    };
+    let (_, one) = grown(&[("own", &stated)]);
+    let (shown_at, other) = grown(&[("own", &filed), ("own.l", text), ("other.v", "angle increment: many\n")]);
+    assert_eq!(
+        (one.nodes.len(), &one.nodes.component, &one.nodes.length),
+        (other.nodes.len(), &other.nodes.component, &other.nodes.length)
+    );
+    assert_eq!((&one.axes.azimuth, &one.axes.bearer), (&other.axes.azimuth, &other.axes.bearer));
+    assert_eq!(shown_at, 4, "after the steps that the file states");
+    for (text, place, problem) in [
+        ("w = g\ng → d(x)g\n", "own.l:2:1", "`x` at column 7 is no cell"),
+        ("\nw = (g)\n", "own.l:2:1", "the branch at column 5 is borne by nothing"),
+        ("w = g\ng → d(g\n", "own.l:2:1", "1 branches do not end"),
+        ("w = g\nx → g\n", "own.l:2:1", "unknown cell `x`"),
+        ("w = g\nd < g → d\n", "own.l:2:1", "this production has a context"),
+        ("w = d\nd → ε\n", "own.l:1:1", "`d` ends an axis"),
+    ] {
+        let report = told(validate_texts("own", &[("own", &filed), ("own.l", text)]).expect_err(text));
+        assert!(report.contains(place) && report.contains(problem), "{text}\n{report}");
+    }
+    let beside = format!("{filed}[kinds]\ng = \"apical_bud\"\n");
+    let report = told(validate_texts("own", &[("own", &beside), ("own.l", text)]).expect_err("kinds"));
+    assert!(report.contains("`kinds` stands beside `syntax = \"d0l\"`"), "{report}");
+}
+
+/// Borchert & Slade 1981: N(k+1) = min{b_max N(k), 2π l² (k+1)²/σ_min}, of which the tree makes the whole part. Season k
+/// is the age k − 1. All segments of a season together have the cross section of the crown's shoots.
+#[test]
+fn the_seasons_of_borchert_and_slade_have_the_shoots_of_their_formula() {
+    let (maximum, area) = (2.0_f64, 2.0 * std::f64::consts::PI / 2.5);
+    let plant = grown("borchert_slade", 17, 1);
+    let mut shoots = 1.0_f64;
+    for birth in 0..=17_u32 {
+        let season = f64::from(birth + 1);
+        shoots = if birth == 0 { 1.0 } else { (maximum * shoots).min(area * season * season) };
+        let born: Vec<usize> = (0..plant.nodes.len()).filter(|node| plant.nodes.birth[*node] == birth).collect();
+        assert_eq!(born.len(), shoots.floor() as usize, "season {season}");
+        let section: f64 = born.iter().map(|node| f64::from(plant.nodes.primary_diameter[*node]).powi(2)).sum();
+        assert!((section / (814.0 * 1e-4) - 1.0).abs() < 1e-4, "season {season}: {section}");
+    }
+    // Of 814 shoots each has six leaves; those of earlier seasons have fallen.
+    assert_eq!((shoots.floor(), plant.organs.len()), (814.0, 6 * 814));
+}
+
 /// L-system 1: one of four outcomes, whose modules stand as buds.
 #[test]
 fn l_system_1_stands_as_buds() {

@@ -9,11 +9,11 @@ use super::{Misuse, Verdict, refuse, terminal};
 use anyhow::Result;
 use clap::Args;
 use phytomer_config::{Model, ResolvedSpecies};
-use phytomer_models::fault::Path;
+use phytomer_models::fault::{Fault, Path};
 use phytomer_models::law::Variate;
 use phytomer_models::lsystem::Lsystem;
 use phytomer_models::lsystem::text::TextModel;
-use phytomer_rewriting::{Derived, Program};
+use phytomer_rewriting::{Derived, Program, Stopped, Unanswered};
 use phytomer_sim::Tick;
 use phytomer_sim::random::PlantRandom;
 use serde_json::{Map, Value, json};
@@ -26,6 +26,7 @@ use std::fmt::Write as _;
 Examples:
   phytomer derive topiary/4 --step 94 --counts
   phytomer derive topiary/2 --step 3
+  phytomer derive aono_kunii/k1 --step 3
   phytomer derive abop/2.8a --step 2 -D lr=1.2
   phytomer derive topiary/3 --step 10 --json
 
@@ -77,18 +78,18 @@ impl Derive {
             }
             Err(report) => return refuse(&report, self.json),
         };
-        let Some(model) = model(&species, &self.define) else {
+        let Some(strings) = Strings::of(&species, &self.define) else {
             let problem = format!("`{}` has no L-system in a file of its own", self.name);
             return Err(Misuse(problem).into());
         };
-        match model {
-            Ok(model) => self.derive(&model),
+        match strings {
+            Ok(strings) => self.derive(&strings),
             Err(faults) => refuse(&species.report(faults), self.json),
         }
     }
 
-    fn derive(&self, model: &TextModel) -> Result<Verdict> {
-        let program = model.program();
+    fn derive(&self, strings: &Strings) -> Result<Verdict> {
+        let program = strings.program();
         for warning in program.warnings() {
             let file = program.files().get(warning.place.file as usize).map_or("", String::as_str);
             let (line, column) = (warning.place.line, warning.place.column);
@@ -97,8 +98,8 @@ impl Derive {
                 warning.problem, warning.expected
             ));
         }
-        let steps = self.step.or(model.derivation_length()).unwrap_or(1);
-        let derived = model.derive(PlantRandom::new(self.seed, self.plant), steps);
+        let steps = self.step.or(program.settings().steps).unwrap_or(1);
+        let derived = strings.derive(PlantRandom::new(self.seed, self.plant), steps);
         let told = derived.and_then(|derived| {
             let mut drawn = 0_u64;
             program.draw(&derived, |_| drawn += 1)?;
@@ -131,21 +132,50 @@ impl Derive {
     }
 }
 
-/// The L-system of a species, with constants set; `None` where it has none in a file of its own.
-fn model(
-    species: &ResolvedSpecies,
-    define: &[(String, f64)],
-) -> Option<Result<TextModel, Vec<phytomer_models::fault::Fault>>> {
-    let Model::Lsystem(stated) = &species.species.model else { return None };
-    let mut stated: Lsystem = stated.clone();
-    stated.define.extend(define.iter().map(|(name, value)| (name.clone(), Variate::from(*value))));
-    stated.text_model(&Path::root())
+/// What derives the strings of a species.
+enum Strings {
+    /// An L-system, of which queries are answered by its turtle.
+    Drawn(TextModel),
+    /// A D0L-system of cells, which has no queries.
+    Cells(Program),
+}
+
+impl Strings {
+    /// Those of a species, with constants set; `None` where it has no L-system in a file of its own.
+    fn of(species: &ResolvedSpecies, define: &[(String, f64)]) -> Option<Result<Self, Vec<Fault>>> {
+        let Model::Lsystem(stated) = &species.species.model else { return None };
+        if let Some(program) = stated.cell_program(&Path::root(), define) {
+            return Some(program.map(Self::Cells));
+        }
+        let mut stated: Lsystem = stated.clone();
+        stated.define.extend(define.iter().map(|(name, value)| (name.clone(), Variate::from(*value))));
+        Some(stated.text_model(&Path::root())?.map(Self::Drawn))
+    }
+
+    fn program(&self) -> &Program {
+        match self {
+            Self::Drawn(model) => model.program(),
+            Self::Cells(program) => program,
+        }
+    }
+
+    fn derive(&self, random: PlantRandom, steps: Tick) -> Result<Derived, Stopped> {
+        let program = match self {
+            Self::Drawn(model) => return model.derive(random, steps),
+            Self::Cells(program) => program,
+        };
+        let mut derived = program.sow(random, &mut Unanswered)?;
+        for _ in 0..steps {
+            program.step(&mut derived, &mut Unanswered)?;
+        }
+        Ok(derived)
+    }
 }
 
 fn counts(program: &Program, derived: &Derived) -> BTreeMap<String, u64> {
     let mut counts = BTreeMap::new();
     for module in derived.string().modules() {
-        *counts.entry(program.symbols().name(module.symbol).to_owned()).or_insert(0) += 1;
+        *counts.entry(program.written(module.symbol).to_owned()).or_insert(0) += 1;
     }
     counts
 }
@@ -153,7 +183,7 @@ fn counts(program: &Program, derived: &Derived) -> BTreeMap<String, u64> {
 fn as_text(program: &Program, derived: &Derived) -> String {
     let mut text = String::new();
     for module in derived.string().modules() {
-        text.push_str(program.symbols().name(module.symbol));
+        text.push_str(program.written(module.symbol));
         for (number, value) in module.parameters.iter().enumerate() {
             let _ = write!(text, "{}{value}", if number == 0 { '(' } else { ',' });
         }
@@ -168,7 +198,7 @@ fn as_json(program: &Program, derived: &Derived) -> Map<String, Value> {
         let key = |key: u64| format!("{key:016x}");
         let identity = module.identity;
         json!({
-            "symbol": program.symbols().name(module.symbol),
+            "symbol": program.written(module.symbol),
             "parameters": module.parameters,
             "key": key(identity.key.0),
             "birth": identity.birth,

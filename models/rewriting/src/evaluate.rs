@@ -111,7 +111,8 @@ impl Machine<'_> {
                 }
             }
             Code::Outside(function, arguments, place) => {
-                self.spend(ROUND, *place, "the calls of functions")?;
+                let work = ROUND.saturating_add(self.outside.parts(*function) / ROUND);
+                self.spend(work, *place, "the calls of functions")?;
                 let values = self.values(arguments, frame)?;
                 let result = self.outside.call(*function, &values);
                 result.or_else(|(problem, expected)| halt(*place, problem, expected))

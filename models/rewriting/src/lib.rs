@@ -5,6 +5,7 @@
 //! ([`Derived`]). A module has an identity that lasts as long as nothing rewrites it. Absent: files, turtles, plants,
 //! and the meaning of any symbol but brackets, the cut `%`, and queries.
 
+mod cells;
 mod code;
 mod compile;
 mod derived;
@@ -21,6 +22,7 @@ mod symbol;
 mod syntax;
 mod text;
 
+pub use cells::{CellString, Cells};
 pub use derived::{Derived, Drawn};
 pub use fault::{Fault, MOST_FAULTS, Place, Refused, Stopped};
 pub use outside::{Nothing, Outside};

@@ -19,6 +19,17 @@ pub trait Outside: Debug + Send + Sync {
     /// What is wrong with the arguments, and what would be right.
     fn call(&self, function: u32, arguments: &[f64]) -> Result<f64, (String, String)>;
 
+    /// How much work a function is, where 1 is that of a formula: a step has a bound of what its calls cost.
+    fn parts(&self, _function: u32) -> u64 {
+        1
+    }
+
+    /// What would be right where a file calls the function `name` and there is none of so many arguments; `None` where
+    /// nothing more is known of the name.
+    fn missing(&self, _name: &str) -> Option<String> {
+        None
+    }
+
     /// The names of all functions, for the nearest spelling in a fault.
     fn names(&self) -> Vec<String> {
         Vec::new()

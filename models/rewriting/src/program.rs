@@ -12,7 +12,7 @@ use crate::fault::{Fault, Place, Refused, Stopped};
 use crate::outside::{Nothing, Outside};
 use crate::string::{ModuleString, Slot};
 use crate::symbol::{Symbol, SymbolTable};
-use crate::syntax::parse;
+use crate::syntax::{File, parse, plain};
 use crate::text::{Asked, prepare};
 use phytomer_sim::random::PlantRandom;
 use std::sync::Arc;
@@ -21,6 +21,8 @@ use std::sync::Arc;
 pub struct Reading<'r> {
     /// The file, as faults are to call it.
     pub name: &'r str,
+    /// Whether it is a D0L-system of cells, in which parentheses are branches ([`Cells`](crate::Cells)).
+    pub cells: bool,
     /// The text of an included file, or why it cannot be had.
     pub include: &'r dyn Fn(&str) -> Result<String, String>,
     /// Constants that stand for the `#define` of their names, or for names that the file leaves open.
@@ -36,7 +38,7 @@ impl Reading<'_> {
     /// A file alone: nothing can be included, no constant is set and no function stands outside.
     pub fn of(name: &str) -> Reading<'_> {
         let include = &|_: &str| Err("nothing can be included here".to_owned());
-        Reading { name, include, define: &[], outside: Arc::new(Nothing), continues_last: &[] }
+        Reading { name, cells: false, include, define: &[], outside: Arc::new(Nothing), continues_last: &[] }
     }
 }
 
@@ -78,6 +80,8 @@ pub struct Program {
     warnings: Vec<Fault>,
     script: Script,
     outside: Arc<dyn Outside>,
+    /// Whether it is a D0L-system of cells.
+    cells: bool,
     /// The most that a derivation may come to.
     pub limits: Limits,
 }
@@ -88,14 +92,7 @@ impl Program {
     /// # Errors
     /// Everything that is wrong with the text.
     pub fn read(text: &str, reading: &Reading<'_>) -> Result<Self, Refused> {
-        let mut faults = Vec::new();
-        let asked = Asked { name: reading.name, include: reading.include, define: reading.define };
-        let (letters, files) = prepare(text, &asked, &mut faults);
-        if !faults.is_empty() {
-            return Err(Refused::new(files, faults));
-        }
-        let file = parse(&letters, &mut faults);
-        drop(letters);
+        let (file, files, mut faults) = tree(text, reading)?;
         let compiled = compile(&file, reading.outside.as_ref(), reading.continues_last, &mut faults);
         if !faults.is_empty() {
             return Err(Refused::new(files, faults));
@@ -103,7 +100,16 @@ impl Program {
         let Compiled { script, symbols, steps, seed, angle_deg, warnings } = compiled;
         let settings = Settings { steps, seed, ring: script.ring, angle_deg };
         let (outside, limits) = (Arc::clone(&reading.outside), Limits::default());
-        Ok(Self { files, symbols, settings, warnings, script, outside, limits })
+        Ok(Self { files, symbols, settings, warnings, script, outside, limits, cells: reading.cells })
+    }
+
+    /// A symbol as the file writes it: a bracket of a D0L-system of cells is a parenthesis.
+    pub fn written(&self, symbol: Symbol) -> &str {
+        match self.symbols.name(symbol) {
+            "[" if self.cells => "(",
+            "]" if self.cells => ")",
+            name => name,
+        }
     }
 
     /// The names of its modules.
@@ -244,6 +250,21 @@ impl Program {
         let file = self.files.get(place.file as usize).cloned().unwrap_or_default();
         Stopped { file, place, step, problem, expected }
     }
+}
+
+/// The tree of a text, the names of its files, and what is wrong in the tree.
+pub(crate) fn tree(text: &str, reading: &Reading<'_>) -> Result<(File, Vec<String>, Vec<Fault>), Refused> {
+    let mut faults = Vec::new();
+    let asked = Asked { name: reading.name, include: reading.include, define: reading.define };
+    let (letters, files) = prepare(text, &asked, &mut faults);
+    if !faults.is_empty() {
+        return Err(Refused::new(files, faults));
+    }
+    let mut file = parse(&letters, reading.cells, &mut faults);
+    if reading.cells {
+        plain(&mut file, &mut faults);
+    }
+    Ok((file, files, faults))
 }
 
 /// Fills query modules between steps: what draws a string knows where each query stands.

@@ -1,14 +1,17 @@
-//! The keys of a species whose model is an L-system: of a file of its own ([`text`](super::text)), or stated in the
-//! species file itself, as the D0L-systems of Aono & Kunii 1984 are ([`d0l`](super::d0l)).
+//! The keys of a species whose model is an L-system: of a file of its own ([`text`](super::text)), or a D0L-system of
+//! Aono & Kunii 1984 ([`d0l`](super::d0l)), whose strings stand in the species file itself or in a file of their own.
 //!
 //! A model reads no file: `config` puts the texts of the files into the table `texts`, so that a species carries them
 //! wherever it goes. Absent: what the keys do.
 
-use super::d0l::{Cell, D0l};
+use super::cells;
+use super::d0l::{Cell, D0l, D0lModel};
 use super::text::{TextModel, TextSystem, Wrong};
 use crate::fault::{Fault, Path, Segment};
 use crate::law::{Constant, Domain, ValueRange, Variate, VariateTable};
 use crate::parameters::{Card, Keys, Parameters};
+use crate::shapes::{Named, Shapes};
+use phytomer_rewriting::Program;
 use phytomer_sim::Tick;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::model::GrowthModel;
@@ -48,10 +51,15 @@ pub struct Lsystem {
     #[schemars(with = "Constant", extend("minimum" = 0, "maximum" = 180))]
     pub branching_deg: Option<Constant>,
     /// The file of an L-system (`.l`) in the folder of the species file, in the dialect of cpfg or in that of the
-    /// papers.
+    /// papers, or in the `syntax` that is stated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String", length(min = 1, max = 255))]
     pub file: Option<String>,
+    /// How the file is read: `d0l` for a D0L-system, which has its `axiom` and its productions in the file, with
+    /// branches in parentheses (Aono & Kunii 1984). If not given, the file is in the dialect of cpfg or of the papers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Syntax")]
+    pub syntax: Option<Syntax>,
     /// Its view file; if not given, the view file (`.v`) of the same name, or the only one of the folder.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String", length(min = 1, max = 255))]
@@ -74,6 +82,10 @@ pub struct Lsystem {
     /// whole life.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub define: BTreeMap<String, Variate>,
+    /// Shapes by their names, as `[shape.NAME]`, metres from the seed of each plant. The file may call them:
+    /// `inside_NAME(x, y, z)` and `field_NAME(x, y, z)`, and `prune(x, y, z)` where a shape has the name `prune`.
+    #[serde(default, skip_serializing_if = "Shapes::is_empty")]
+    pub shape: Shapes,
     /// What modules are, by their names: `A = "apical_bud"`, `"@o" = "axillary_bud"`, `"~p" = "petal"`. A line is an
     /// internode and a surface or a polygon a leaf where nothing is stated.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -86,6 +98,14 @@ pub struct Lsystem {
     /// of the species file. Maps of colours and materials are written as hexadecimal digits.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub texts: BTreeMap<String, String>,
+}
+
+/// How the file of an L-system is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Syntax {
+    /// A D0L-system of cells, with branches in parentheses (Aono & Kunii 1984).
+    D0l,
 }
 
 /// The module of a successor that goes on as its predecessor.
@@ -106,16 +126,43 @@ impl Lsystem {
         keys: Keys { referred_to: &["cell"], texts: Some("file"), ..Keys::PLAIN },
     };
 
-    /// The D0L-system that is stated in the species file.
-    fn stated(&self, top: &Path) -> Result<D0l, Vec<Fault>> {
+    /// The D0L-system of this species; its strings stand in the species file, or in a file of their own.
+    fn d0l(&self, until: Tick, top: &Path) -> Result<D0lModel, Vec<Fault>> {
+        let Some(file) = &self.file else {
+            return self.stated(self.axiom.clone(), &self.production, top)?.compile(until, top);
+        };
+        self.check_beside(top)?;
+        let placed = |wrong: Vec<Wrong>| wrong.into_iter().map(|wrong| Self::placed(wrong, top)).collect::<Vec<_>>();
+        let strings = cells::strings(file, &self.texts).map_err(placed)?;
+        let stated = self.stated(Some(strings.axiom.clone()), &Some(strings.production.clone()), top)?;
+        let (start, rules) = (top.key("axiom"), top.key("production"));
+        let in_file = |fault: Fault| {
+            let rule = match fault.path.0.strip_prefix(&rules.0[..]) {
+                Some([Segment::Key(cell)]) => Some(cell.as_str()),
+                _ if fault.path == start => None,
+                _ => return fault,
+            };
+            let wrong = strings.wrong(rule, fault.problem.clone(), fault.expected.clone());
+            wrong.map_or(fault, |wrong| Self::placed(wrong, top))
+        };
+        stated.compile(until, top).map_err(|faults| faults.into_iter().map(in_file).collect())
+    }
+
+    /// The D0L-system with these strings.
+    fn stated(
+        &self,
+        axiom: Option<String>,
+        production: &Option<BTreeMap<String, String>>,
+        top: &Path,
+    ) -> Result<D0l, Vec<Fault>> {
         let missing = |key: &str| {
             let expected = "`file`, or `axiom`, `cell` and `branching_deg` of a D0L-system";
             Fault::new(top, format!("the key `{key}` is missing"), expected)
         };
-        match (&self.axiom, &self.cell, &self.branching_deg) {
+        match (axiom, &self.cell, &self.branching_deg) {
             (Some(axiom), Some(cell), Some(branching_deg)) => Ok(D0l {
-                axiom: axiom.clone(),
-                production: self.production.clone().unwrap_or_default(),
+                axiom,
+                production: production.clone().unwrap_or_default(),
                 cell: cell.clone(),
                 branching_deg: branching_deg.clone(),
             }),
@@ -127,13 +174,50 @@ impl Lsystem {
         }
     }
 
-    /// The L-system of the file that this names, compiled; `None` where cells are stated. The parameters stand at
-    /// `top`.
+    /// Adds nothing where the file of a D0L-system stands beside the keys that it may; else what stands there besides.
+    fn check_beside(&self, top: &Path) -> Result<(), Vec<Fault>> {
+        let others = [
+            ("axiom", self.axiom.is_some()),
+            ("production", self.production.is_some()),
+            ("view", self.view.is_some()),
+            ("colours", self.colours.is_some()),
+            ("step_m", self.step_m.is_some()),
+            ("width_m", self.width_m.is_some()),
+            ("define", !self.define.is_empty()),
+            ("shape", !self.shape.is_empty()),
+            ("kinds", !self.kinds.is_empty()),
+            ("continues", !self.continues.is_empty()),
+        ];
+        let expected = "`cell` and `branching_deg`, by which the cells of the file are drawn";
+        let fault =
+            |key: &str| Fault::new(&top.key(key), format!("`{key}` stands beside `syntax = \"d0l\"`"), expected);
+        let faults: Vec<Fault> = others.into_iter().filter(|(_, stated)| *stated).map(|(key, _)| fault(key)).collect();
+        if faults.is_empty() { Ok(()) } else { Err(faults) }
+    }
+
+    /// Whether this is a D0L-system of cells.
+    fn is_of_cells(&self) -> bool {
+        self.file.is_none() || self.syntax == Some(Syntax::D0l)
+    }
+
+    /// The program that derives the strings of a D0L-system of a file, with these constants set; `None` for all other
+    /// L-systems. The parameters stand at `top`.
+    ///
+    /// # Errors
+    /// Every fault of the file.
+    pub fn cell_program(&self, top: &Path, define: &[(String, f64)]) -> Option<Result<Program, Vec<Fault>>> {
+        let file = self.file.as_ref().filter(|_| self.is_of_cells())?;
+        let placed = |wrong: Vec<Wrong>| wrong.into_iter().map(|wrong| Self::placed(wrong, top)).collect::<Vec<_>>();
+        Some(cells::program(file, &self.texts, define).map_err(placed))
+    }
+
+    /// The L-system of the file that this names, compiled; `None` for a D0L-system of cells. The parameters stand
+    /// at `top`.
     ///
     /// # Errors
     /// Every fault of the file, of what lies beside it, and of what is stated of it.
     pub fn text_model(&self, top: &Path) -> Option<Result<TextModel, Vec<Fault>>> {
-        let system = self.of_file(self.file.as_ref()?, top);
+        let system = self.of_file(self.file.as_ref().filter(|_| !self.is_of_cells())?, top);
         let placed = |wrong: Vec<Wrong>| wrong.into_iter().map(|wrong| Self::placed(wrong, top)).collect::<Vec<_>>();
         Some(system.and_then(|system| system.compile().map_err(placed)))
     }
@@ -159,6 +243,7 @@ impl Lsystem {
         let kinds = self.kinds(top, &mut faults);
         let (texts, maps) = self.texts(top, &mut faults);
         let define = self.constants(top, &mut faults);
+        let shapes = Named::of(&self.shape, &top.key("shape"), &mut faults);
         let last = self.continues.iter().filter(|(_, which)| **which == Continues::Last);
         let system = TextSystem {
             file: file.to_owned(),
@@ -167,6 +252,7 @@ impl Lsystem {
             texts,
             maps,
             define,
+            shapes,
             kinds,
             continues_last: last.map(|(name, _)| name.clone()).collect(),
             step_m: step_m.unwrap_or(1.0),
@@ -240,8 +326,8 @@ impl Parameters for Lsystem {
     }
 
     fn model(&self, until: Tick, _: Option<&Dates>, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
-        if self.file.is_none() {
-            return Ok(Arc::new(self.stated(top)?.compile(until, top)?));
+        if self.is_of_cells() {
+            return Ok(Arc::new(self.d0l(until, top)?));
         }
         if until > LAST_TICK {
             let fault = Fault::new(top, format!("the last age is {until}"), format!("at most {LAST_TICK}"));
@@ -255,8 +341,11 @@ impl Parameters for Lsystem {
 
     /// The derivation length that the file states.
     fn full_grown_at(&self) -> Option<Tick> {
-        let model = self.text_model(&Path::root())?.ok()?;
-        model.derivation_length().filter(|steps| (1..=LAST_TICK).contains(steps))
+        let steps = match self.cell_program(&Path::root(), &[]) {
+            Some(program) => program.ok()?.settings().steps,
+            None => self.text_model(&Path::root())?.ok()?.derivation_length(),
+        };
+        steps.filter(|steps| (1..=LAST_TICK).contains(steps))
     }
 }
 

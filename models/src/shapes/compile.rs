@@ -51,6 +51,11 @@ impl Named {
         self.shapes.get(name)?.as_ref().map(|made| &made.shape)
     }
 
+    /// The number of parts of the shape of a name, which is the work of asking it; 0 where there is none.
+    pub fn parts(&self, name: &str) -> usize {
+        self.shapes.get(name).and_then(Option::as_ref).map_or(0, |made| made.parts)
+    }
+
     /// Each name whose shape has no fault, with the shape.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &Arc<Shape>)> {
         self.shapes.iter().filter_map(|(name, shape)| Some((name.as_str(), &shape.as_ref()?.shape)))

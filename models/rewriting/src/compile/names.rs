@@ -233,11 +233,9 @@ impl<'o> Names<'o> {
             let all: Vec<&str> = self.functions.keys().chain(&others).take(MOST_NAMED).map(String::as_str).collect();
             let more = if all.is_empty() { String::new() } else { format!(", or one of {}", all.join(", ")) };
             let problem = format!("no function of {} arguments is named `{}`", arguments.len(), name.name);
-            faults.push(Fault::new(
-                name.place,
-                problem,
-                format!("a function of the language, such as `sqrt(x)`{more}"),
-            ));
+            let expected = self.outside.missing(&name.name);
+            let expected = expected.unwrap_or_else(|| format!("a function of the language, such as `sqrt(x)`{more}"));
+            faults.push(Fault::new(name.place, problem, expected));
             return Code::Number(0.0);
         };
         // The first argument of a curve may be its name.

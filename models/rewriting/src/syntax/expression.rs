@@ -25,6 +25,8 @@ pub(crate) struct Parser<'l> {
     pub(super) complete: bool,
     /// Whether `&` may stand before a name, as in the arguments of `fscanf`.
     addresses: bool,
+    /// Whether parentheses are branches, and modules have no parameters.
+    pub(super) cells: bool,
     depth: u32,
     parts: u32,
 }
@@ -32,7 +34,8 @@ pub(crate) struct Parser<'l> {
 impl<'l> Parser<'l> {
     pub fn new(letters: &'l [Letter], end: Place) -> Self {
         let end = letters.last().map_or(end, |last| last.place);
-        Self { letters, at: 0, end, inside: 0, complete: true, addresses: false, depth: 0, parts: 0 }
+        let (inside, complete) = (0, true);
+        Self { letters, at: 0, end, inside, complete, addresses: false, cells: false, depth: 0, parts: 0 }
     }
 
     pub(super) fn place(&self) -> Place {

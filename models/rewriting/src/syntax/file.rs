@@ -61,14 +61,11 @@ enum Current {
     Homomorphism,
 }
 
-/// Reads the letters of a file.
-pub(crate) fn parse(letters: &[Letter], faults: &mut Vec<Fault>) -> File {
-    let mut reader = Reader {
-        parser: Parser::new(letters, Place { file: 0, line: 1, column: 1 }),
-        file: File::default(),
-        current: Current::Rewriting,
-        ended: false,
-    };
+/// Reads the letters of a file; `cells` tells that its parentheses are branches.
+pub(crate) fn parse(letters: &[Letter], cells: bool, faults: &mut Vec<Fault>) -> File {
+    let mut parser = Parser::new(letters, Place { file: 0, line: 1, column: 1 });
+    parser.cells = cells;
+    let mut reader = Reader { parser, file: File::default(), current: Current::Rewriting, ended: false };
     while reader.parser.peek().is_some() && faults.len() < MOST_TOLD {
         if reader.parser.peek() == Some('\n') {
             reader.parser.at += 1;
@@ -234,6 +231,13 @@ impl Reader<'_> {
         let equals = self.parser.peek() == Some('=') && self.parser.peek_after(1) != Some('=');
         match name.name.as_str() {
             "ω" | "omega" if self.parser.peek() == Some(':') => {
+                self.parser.at += 1;
+                self.axiom(place)?;
+                self.parser.ends()?;
+                return Ok(true);
+            }
+            // The starting symbol of Aono & Kunii's triple of cells, start and rules.
+            "w" if equals && self.parser.cells => {
                 self.parser.at += 1;
                 self.axiom(place)?;
                 self.parser.ends()?;

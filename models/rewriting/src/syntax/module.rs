@@ -60,6 +60,17 @@ impl Parser<'_> {
         }
     }
 
+    /// The bracket that a parenthesis stands for, where parentheses are branches.
+    fn branch(&mut self) -> Option<String> {
+        let bracket = match self.peek().filter(|_| self.cells)? {
+            '(' => "[",
+            ')' => "]",
+            _ => return None,
+        };
+        self.at += 1;
+        Some(bracket.to_owned())
+    }
+
     /// The modules of an axiom or a successor, up to the end of the line or a colon.
     pub(super) fn modules(&mut self) -> Result<Vec<ModuleText>, Fault> {
         let mut modules = Vec::new();
@@ -78,9 +89,13 @@ impl Parser<'_> {
                 _ => {}
             }
             let place = self.place();
+            if let Some(symbol) = self.branch() {
+                modules.push(ModuleText { symbol, place, arguments: Vec::new() });
+                continue;
+            }
             let symbol = self.symbol()?;
             self.blanks();
-            let arguments = if self.peek() == Some('(') { self.list('(', ')')? } else { Vec::new() };
+            let arguments = if self.peek() == Some('(') && !self.cells { self.list('(', ')')? } else { Vec::new() };
             self.check_count(arguments.len(), &symbol, place)?;
             modules.push(ModuleText { symbol, place, arguments });
         }
@@ -106,9 +121,13 @@ impl Parser<'_> {
                 formals.push(Formal { symbol: "=".to_owned(), place, parameters: Vec::new() });
                 continue;
             }
+            if let Some(symbol) = self.branch() {
+                formals.push(Formal { symbol, place, parameters: Vec::new() });
+                continue;
+            }
             let symbol = self.symbol()?;
             self.blanks();
-            let parameters = if self.peek() == Some('(') { self.parameters()? } else { Vec::new() };
+            let parameters = if self.peek() == Some('(') && !self.cells { self.parameters()? } else { Vec::new() };
             self.check_count(parameters.len(), &symbol, place)?;
             formals.push(Formal { symbol, place, parameters });
         }

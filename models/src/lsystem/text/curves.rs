@@ -1,9 +1,8 @@
 //! The functions of a view file, as an L-system calls them: `func(1, x)` by number, `func(name, x)` by name.
 //!
-//! Absent: what else an L-system may call (forms), and the graphs of the functions (`view`).
+//! Absent: what else an L-system may call (`world`), and the graphs of the functions (`view`).
 
 use crate::lsystem::view::Function;
-use phytomer_rewriting::Outside;
 
 /// The functions of a view file in their order, counted from 1.
 #[derive(Debug, Clone, Default)]
@@ -12,17 +11,20 @@ pub(super) struct Curves(pub Vec<Function>);
 /// The number of `func`.
 const BY_NUMBER: u32 = 0;
 
-impl Outside for Curves {
-    fn function(&self, name: &str, arguments: usize) -> Option<u32> {
+impl Curves {
+    /// The number of a function.
+    pub fn function(&self, name: &str, arguments: usize) -> Option<u32> {
         (name == "func" && arguments == 2).then_some(BY_NUMBER)
     }
 
-    fn curve(&self, name: &str) -> Option<f64> {
+    /// The number of a curve by its name.
+    pub fn curve(&self, name: &str) -> Option<f64> {
         let place = self.0.iter().position(|function| function.name == name)?;
         Some(place as f64 + 1.0)
     }
 
-    fn call(&self, _function: u32, arguments: &[f64]) -> Result<f64, (String, String)> {
+    /// The value of `func` for the number of a curve and x.
+    pub fn call(&self, arguments: &[f64]) -> Result<f64, (String, String)> {
         let [number, x, ..] = *arguments else { return Ok(0.0) };
         let most = self.0.len();
         let place = if number >= 1.0 && number < most as f64 + 1.0 { number as usize - 1 } else { most };
@@ -31,8 +33,9 @@ impl Outside for Curves {
         self.0.get(place).map(|function| function.at(x)).ok_or_else(problem)
     }
 
-    fn names(&self) -> Vec<String> {
+    /// The names of all functions and curves.
+    pub fn names(&self) -> impl Iterator<Item = String> {
         let own = self.0.iter().map(|function| function.name.clone()).filter(|name| !name.is_empty());
-        ["func".to_owned()].into_iter().chain(own).collect()
+        ["func".to_owned()].into_iter().chain(own)
     }
 }

@@ -6,14 +6,17 @@
 use super::columns::Measures;
 use super::curves::Curves;
 use super::draft::Outlines;
+use super::forms::Forms;
 use super::model::{TextModel, shape};
 use super::role::Roles;
 use super::script::{Script, Scripts};
+use super::world::World;
 use crate::law::{At, VariateTable};
 use crate::lsystem::turtle::Turtle;
 use crate::lsystem::view::{Colours, Function, Surface, TextFault, View};
+use crate::shapes::Named;
 use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints};
-use phytomer_rewriting::{Outside, Program, Reading};
+use phytomer_rewriting::{Outside, Program, Reading, Refused};
 use phytomer_sim::key::{LineageKey, mix};
 use phytomer_sim::plant::{Class, Habit, InternodeLook, Kind, Looks, OrganLook, Trend};
 use phytomer_sim::random::{PlantRandom, Purpose};
@@ -41,6 +44,8 @@ pub struct TextSystem {
     pub maps: BTreeMap<String, Vec<u8>>,
     /// The constants that are set, by their names; a plant draws each that is drawn once for its whole life.
     pub define: Vec<(String, VariateTable)>,
+    /// The shapes that the file may call, by their names.
+    pub shapes: Named,
     /// The kinds of modules, by their names.
     pub kinds: BTreeMap<String, Kind>,
     /// The modules that go on as the last of their symbol in a successor.
@@ -81,11 +86,12 @@ impl TextSystem {
         let mut wrong = Vec::new();
         let view = self.view(&mut wrong);
         let outlines = self.outlines(&view, &mut wrong);
-        let curves = Arc::new(self.curves(&view, &mut wrong));
+        let forms = Forms::of(&self.shapes, self.step_m);
+        let world = Arc::new(World { curves: self.curves(&view, &mut wrong), forms });
         let colours = self.colours(&mut wrong);
         let middle: Vec<(String, f64)> = self.constants(|_| u32::MAX / 2);
-        match self.script(&middle, &curves) {
-            Ok(script) if wrong.is_empty() => Ok(self.model(script, &curves, &view, outlines, colours.as_ref())),
+        match self.script(&middle, &world) {
+            Ok(script) if wrong.is_empty() => Ok(self.model(script, &world, &view, outlines, colours.as_ref())),
             Ok(_) => Err(wrong),
             Err(more) => Err(wrong.into_iter().chain(more).collect()),
         }
@@ -98,8 +104,8 @@ impl TextSystem {
     }
 
     /// The program with these constants, and what its modules are.
-    fn script(&self, define: &[(String, f64)], curves: &Arc<Curves>) -> Result<Script, Vec<Wrong>> {
-        let program = self.program(define, curves)?;
+    fn script(&self, define: &[(String, f64)], world: &Arc<World>) -> Result<Script, Vec<Wrong>> {
+        let program = self.program(define, world)?;
         let kind = |(module, problem, expected)| Wrong::Kind { module, problem, expected };
         match Roles::of(program.symbols(), &self.kinds) {
             Ok(roles) => Ok(Script { program, roles }),
@@ -110,7 +116,7 @@ impl TextSystem {
     fn model(
         &self,
         script: Script,
-        curves: &Arc<Curves>,
+        world: &Arc<World>,
         view: &View,
         outlines: Outlines,
         colours: Option<&Colours>,
@@ -128,7 +134,7 @@ impl TextSystem {
         let habit = Habit { trends: vec![Trend::STRAIGHT], looks, for_drawing, ..Habit::default() };
         let tapered = view.tapered_lines;
         let is_drawn = self.define.iter().any(|(_, law)| law.is_random());
-        let of_each = || Box::new(OfEachPlant { system: self.clone(), curves: Arc::clone(curves) });
+        let of_each = || Box::new(OfEachPlant { system: self.clone(), world: Arc::clone(world) });
         let drawn = is_drawn.then(|| of_each() as Box<dyn Scripts>);
         TextModel { script: Arc::new(script), drawn, turtle, outlines, measures, tapered, habit: Arc::new(habit) }
     }
@@ -196,7 +202,7 @@ impl TextSystem {
         read.map_err(|fault| wrong.push(in_text(name, fault))).ok()
     }
 
-    fn program(&self, define: &[(String, f64)], curves: &Arc<Curves>) -> Result<Program, Vec<Wrong>> {
+    fn program(&self, define: &[(String, f64)], world: &Arc<World>) -> Result<Program, Vec<Wrong>> {
         let mut wrong = Vec::new();
         let Some((_, text)) = self.text(&self.file, &mut wrong) else { return Err(wrong) };
         let include = |name: &str| {
@@ -207,19 +213,29 @@ impl TextSystem {
         };
         let reading = Reading {
             define,
-            outside: Arc::clone(curves) as Arc<dyn Outside>,
+            outside: Arc::clone(world) as Arc<dyn Outside>,
             include: &include,
             continues_last: &self.continues_last,
             ..Reading::of(&self.file)
         };
-        Program::read(text, &reading).map_err(|refused| {
-            let of = |fault: &phytomer_rewriting::Fault| {
-                let (line, column) = (fault.place.line, fault.place.column);
-                let (problem, expected) = (fault.problem.clone(), fault.expected.clone());
-                in_text(refused.file(fault), TextFault { line, column, problem, expected })
-            };
-            refused.faults.iter().map(of).collect()
-        })
+        Program::read(text, &reading).map_err(|refused| Wrong::all(&refused))
+    }
+}
+
+impl Wrong {
+    /// Everything that is wrong with the text of an L-system.
+    pub(in crate::lsystem) fn all(refused: &Refused) -> Vec<Self> {
+        let of = |fault: &phytomer_rewriting::Fault| {
+            let (line, column) = (fault.place.line, fault.place.column);
+            let (problem, expected) = (fault.problem.clone(), fault.expected.clone());
+            in_text(refused.file(fault), TextFault { line, column, problem, expected })
+        };
+        refused.faults.iter().map(of).collect()
+    }
+
+    /// There is no text of this name.
+    pub(in crate::lsystem) fn missing(file: &str) -> Self {
+        in_text(file, missing())
     }
 }
 
@@ -227,7 +243,7 @@ impl TextSystem {
 #[derive(Debug)]
 struct OfEachPlant {
     system: TextSystem,
-    curves: Arc<Curves>,
+    world: Arc<World>,
 }
 
 impl Scripts for OfEachPlant {
@@ -238,7 +254,7 @@ impl Scripts for OfEachPlant {
             random.stream(LineageKey(key), Purpose::Plant).word()
         };
         let told = |wrong: Vec<Wrong>| wrong.iter().map(Wrong::to_string).collect::<Vec<_>>().join("; ");
-        self.system.script(&self.system.constants(word), &self.curves).map_err(told)
+        self.system.script(&self.system.constants(word), &self.world).map_err(told)
     }
 }
 
