@@ -10,6 +10,7 @@ mod columns;
 mod curves;
 mod draft;
 mod events;
+mod form;
 mod forms;
 mod model;
 mod numbers;
