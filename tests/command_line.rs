@@ -183,23 +183,6 @@ fn init_writes_what_runs_and_overwrites_nothing() {
     assert_eq!(fs::read_to_string(folder.path().join("mine/species.toml")).unwrap(), "mine");
 }
 
-/// An L-system to begin with: its files run as they are, and its plants differ by the constant that they draw.
-#[test]
-fn init_writes_an_l_system() {
-    let folder = tempdir().unwrap();
-    run(folder.path(), &["init", "herb", "--model", "lsystem"]).ending(0);
-    run(folder.path(), &["validate", "herb/scenario.toml", "herb/species.toml", "herb/plant.l"]).ending(0);
-    let json = run(folder.path(), &["grow", "herb/scenario.toml", "--plants", "6", "--json"]).ending(0).json();
-    assert_eq!(json["plants"], 6);
-    let counts = |plant: &str| {
-        let words = ["derive", "herb/species.toml", "--step", "24", "--counts", "--plant", plant];
-        run(folder.path(), &words).ending(0).stdout
-    };
-    assert!(counts("0").contains("K\t"), "it flowers");
-    run(folder.path(), &["init", "herb", "--model", "buds"]).ending(2);
-    run(folder.path(), &["init", "tree", "--model", "gmt1"]).ending(2);
-}
-
 #[test]
 fn describe_knows_runs_scenarios_and_species() {
     let folder = grown();

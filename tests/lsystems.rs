@@ -98,3 +98,20 @@ fn a_file_of_ones_own_is_taken_by_its_name() {
     let told = run(&["validate", "plant.l"], 3);
     assert!(told.stderr.contains("plant.l:1"), "{}", told.stderr);
 }
+
+/// An L-system to begin with: its files run as they are, and the herb flowers.
+#[test]
+fn init_writes_an_l_system() {
+    let folder = tempfile::tempdir().unwrap();
+    program::run(folder.path(), &["init", "herb", "--model", "lsystem"]).ending(0);
+    program::run(folder.path(), &["validate", "herb/scenario.toml", "herb/species.toml", "herb/plant.l"]).ending(0);
+    let json = program::run(folder.path(), &["grow", "herb/scenario.toml", "--plants", "6", "--json"]).ending(0).json();
+    assert_eq!(json["plants"], 6);
+    let counts = |plant: &str| {
+        let words = ["derive", "herb/species.toml", "--step", "24", "--counts", "--plant", plant];
+        program::run(folder.path(), &words).ending(0).stdout
+    };
+    assert!(counts("0").contains("P\t"), "it flowers");
+    program::run(folder.path(), &["init", "herb", "--model", "buds"]).ending(2);
+    program::run(folder.path(), &["init", "tree", "--model", "gmt1"]).ending(2);
+}

@@ -40,7 +40,7 @@ fn mean(points: &[[f64; 3]]) -> [f64; 3] {
 fn every_shipped_l_system_can_be_read() {
     let names = phytomer_config::presets(phytomer_config::Kind::Species).iter().map(|(name, _)| *name);
     let own: Vec<&str> = names.filter(|name| name.starts_with("topiary/") || name.starts_with("abop/")).collect();
-    assert_eq!(own.len(), 18);
+    assert_eq!(own.len(), 26);
     own.iter().for_each(|name| _ = species(name));
 }
 
@@ -119,8 +119,8 @@ fn trees_of_three_daughters() {
     assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3), "{found:?}");
 }
 
-/// Fig. 2 of Aono & Kunii 1984: level 4 of K1 and K2, as files of their own, by the drawing rules with |g| = 1. The mean
-/// end of the axes that grow on, x to the right and y up.
+/// Fig. 2 of Aono & Kunii 1984: level 4 of K1 and K2, as files of their own, by the drawing rules with |g| = 1. The
+/// mean end of the axes that grow on, x to the right and y up.
 #[test]
 fn k1_and_k2_are_files() {
     use phytomer_sim::plant::{ApexFate, AxisId};
@@ -170,13 +170,20 @@ fn cells_of_a_file_are_those_of_the_species_file() {
         let report = told(validate_texts("own", &[("own", &filed), ("own.l", text)]).expect_err(text));
         assert!(report.contains(place) && report.contains(problem), "{text}\n{report}");
     }
+    let report = told(
+        validate_texts("own", &[("own", &stated.replace("axiom", "syntax = \"d0l\"\naxiom"))]).expect_err("no file"),
+    );
+    assert!(report.contains("`syntax` stands without `file`"), "{report}");
+    let bare = format!("{head}file = \"own.l\"\nsyntax = \"d0l\"\nbranching_deg = 30\n");
+    let report = told(validate_texts("own", &[("own", &bare), ("own.l", text)]).expect_err("no cells"));
+    assert!(report.contains("the key `cell` is missing"), "{report}");
     let beside = format!("{filed}[kinds]\ng = \"apical_bud\"\n");
     let report = told(validate_texts("own", &[("own", &beside), ("own.l", text)]).expect_err("kinds"));
     assert!(report.contains("`kinds` stands beside `syntax = \"d0l\"`"), "{report}");
 }
 
-/// Borchert & Slade 1981: N(k+1) = min{b_max N(k), 2π l² (k+1)²/σ_min}, of which the tree makes the whole part. Season k
-/// is the age k − 1. All segments of a season together have the cross section of the crown's shoots.
+/// Borchert & Slade 1981: N(k+1) = min{b_max N(k), 2π l² (k+1)²/σ_min}, of which the tree makes the whole part. Season
+/// k is the age k − 1. All segments of a season together have the cross section of the crown's shoots.
 #[test]
 fn the_seasons_of_borchert_and_slade_have_the_shoots_of_their_formula() {
     let (maximum, area) = (2.0_f64, 2.0 * std::f64::consts::PI / 2.5);
@@ -212,6 +219,46 @@ fn l_system_6_fills_its_cube() {
         assert!(x.abs() < 7.001 && y.abs() < 7.001 && (-1.001..13.001).contains(&z), "{x} {y} {z}");
     }
     assert!(plant.nodes.len() > 300 && !plant.ledger.is_empty(), "{} internodes", plant.nodes.len());
+}
+
+/// The scenes of *Synthetic Topiary*: each internode begins within the form that its plant is pruned to, so none is a
+/// whole internode outside of it. The two trees of the dinosaur stand in one form; the stem below the ball stands free.
+#[test]
+fn clipped_plants_keep_within_their_forms() {
+    use phytomer_config::Model;
+    use phytomer_models::fault::Path;
+    use phytomer_models::shapes::Named;
+    for (name, at_m, least) in [
+        ("topiary/box_and_cylinder", 0.0, 3000),
+        ("topiary/spiral", 0.0, 2000),
+        ("topiary/dinosaur", 0.51, 1000),
+        ("topiary/dinosaur_tail", -0.51, 1000),
+        ("topiary/hedge", 0.0, 1000),
+        ("topiary/hedge_across", 0.0, 700),
+        ("topiary/hedge_ring", 0.0, 1000),
+        ("topiary/hedge_ball", 0.0, 200),
+    ] {
+        let species = species(name);
+        let Model::Lsystem(stated) = &species.species.model else { panic!("{name} is an L-system") };
+        let shapes = Named::of(&stated.shape, &Path::root(), &mut Vec::new());
+        let shape = shapes.get("prune").expect("a form");
+        let plant = grown(name, species.shown_at(), 3);
+        assert!(plant.nodes.len() > least, "{name}: {} internodes", plant.nodes.len());
+        for node in (0..plant.nodes.len()).filter(|node| plant.nodes.birth[*node] > 0) {
+            let [x, y, z] = plant.frames.base[node].map(f64::from);
+            // Single precision tells places to a micrometre or so.
+            let field = shape.field([x + at_m, y, z]);
+            assert!(field >= 0.5 - 1e-4, "{name}: an internode begins at {x} {y} {z}, where the field is {field}");
+        }
+    }
+}
+
+/// Hedges are without chance: all segments of one form are the same plant, whatever draws they have.
+#[test]
+fn hedges_are_instances_of_one_another() {
+    let [one, other] = [1, 2].map(|seed| grown("topiary/hedge_across", 12, seed));
+    assert_eq!((&one.frames.base, &one.nodes.birth), (&other.frames.base, &other.nodes.birth));
+    assert_ne!(grown("topiary/spiral", 12, 1).frames.base, grown("topiary/spiral", 12, 2).frames.base);
 }
 
 fn told(report: Report) -> String {

@@ -1,5 +1,5 @@
-//! `init`: a small species and a scenario that run, with comments, beside the two schemas that an editor obeys; where the
-//! species is an L-system, its file and its view file too.
+//! `init`: a small species and a scenario that run, with comments, beside the two schemas that an editor obeys; where
+//! the species is an L-system, its file and its view file too.
 //!
 //! Nothing is overwritten: where one of the files is there already, none is written.
 
@@ -21,6 +21,7 @@ const LSYSTEM: Beginning = &[
     ("species.toml", include_str!("init/lsystem/species.toml")),
     ("plant.l", include_str!("init/lsystem/plant.l")),
     ("plant.v", include_str!("init/lsystem/plant.v")),
+    ("leaf.s", include_str!("init/lsystem/leaf.s")),
     ("scenario.toml", include_str!("init/lsystem/scenario.toml")),
 ];
 

@@ -123,7 +123,7 @@ fn differences_of(name: &str, model: &dyn GrowthModel, until: Tick) -> Vec<Strin
 /// nor have the shoots of Greene and the tips of Cohen, which depend on the room that is left.
 fn is_foretold(model: &Model) -> bool {
     match model {
-        Model::Lsystem(system) => system.file.is_none(),
+        Model::Lsystem(system) => system.is_of_cells(),
         Model::Greene(_) | Model::Cohen(_) => false,
         _ => true,
     }

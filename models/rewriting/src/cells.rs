@@ -1,8 +1,8 @@
 //! D0L-systems of cells as text (Aono & Kunii 1984, "L-system model"): `w = g` or `ω : g` is the start, `g → d(g)g` a
 //! rule, and parentheses are branches.
 //!
-//! Comments, macros, included texts and arrows are those of every other L-system. [`Cells`] is what such a text says, as
-//! strings; [`Program`](crate::Program) derives it. Absent: what the strings mean, and how they are drawn.
+//! Comments, macros, included texts and arrows are those of every other L-system. [`Cells`] is what such a text says,
+//! as strings; [`Program`](crate::Program) derives it. Absent: what the strings mean, and how they are drawn.
 
 use crate::fault::{Place, Refused};
 use crate::program::{Reading, tree};

@@ -1,5 +1,5 @@
-//! D0L-systems of cells as text: the printed strings of K1 and K2 (Aono & Kunii 1984, "L-system model"), and what such a
-//! text may not say.
+//! D0L-systems of cells as text: the printed strings of K1 and K2 (Aono & Kunii 1984, "L-system model"), and what such
+//! a text may not say.
 
 use phytomer_rewriting::{Cells, Program, Reading, Unanswered};
 use phytomer_sim::random::PlantRandom;
@@ -41,8 +41,8 @@ fn a_cell_stands_at_its_column() {
     let read = cells("#define LONG d(g)\nw = g\n  g → LONG g\n").expect("a sound text");
     assert_eq!((read.axiom.text.as_str(), read.axiom.place.line), ("    g", 2));
     // What a macro made stands where the macro is named, and what follows at its own column or behind it.
-    assert_eq!(read.productions, [("g".to_owned(), read.productions[0].1.clone())]);
-    assert_eq!((read.productions[0].1.text.as_str(), read.productions[0].1.place.line), ("      d(g)   g", 3));
+    let [(cell, becomes)] = &read.productions[..] else { panic!("{:?}", read.productions) };
+    assert_eq!((cell.as_str(), becomes.text.as_str(), becomes.place.line), ("g", "      d(g) g", 3));
 }
 
 #[test]

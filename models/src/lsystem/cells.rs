@@ -1,8 +1,8 @@
-//! D0L-systems of cells that have a file of their own (Aono & Kunii 1984, "L-system model"): their start and their rules
-//! are read from it, and what is wrong with them is told at its line.
+//! D0L-systems of cells that have a file of their own (Aono & Kunii 1984, "L-system model"): their start and their
+//! rules are read from it, and what is wrong with them is told at its line.
 //!
-//! A system is the same whether its strings stand in the species file or in a file beside it ([`d0l`](super::d0l)). Absent:
-//! the text's language (`phytomer_rewriting`), and what the cells are drawn as.
+//! A system is the same whether its strings stand in the species file or in a file beside it ([`d0l`](super::d0l)).
+//! Absent: the text's language (`phytomer_rewriting`), and what the cells are drawn as.
 
 use super::text::Wrong;
 use super::view::TextFault;

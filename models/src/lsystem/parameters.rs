@@ -28,6 +28,9 @@ const MEASURE: ValueRange = ValueRange { min: 1e-9, max: 1000.0, what: "a length
 /// A constant of a file.
 const CONSTANT: ValueRange = ValueRange { min: -1e30, max: 1e30, what: "a number" };
 
+/// What is drawn by what, where a D0L-system has a file.
+const BY_WHICH_CELLS: &str = "`cell` and `branching_deg`, by which the cells of the file are drawn";
+
 /// An L-system: of a file of its own, or a D0L-system of cells that are stated here.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -129,11 +132,17 @@ impl Lsystem {
     /// The D0L-system of this species; its strings stand in the species file, or in a file of their own.
     fn d0l(&self, until: Tick, top: &Path) -> Result<D0lModel, Vec<Fault>> {
         let Some(file) = &self.file else {
+            if self.syntax.is_some() {
+                return Err(vec![Fault::new(
+                    &top.key("syntax"),
+                    "`syntax` stands without `file`",
+                    "the file that it is of",
+                )]);
+            }
             return self.stated(self.axiom.clone(), &self.production, top)?.compile(until, top);
         };
         self.check_beside(top)?;
-        let placed = |wrong: Vec<Wrong>| wrong.into_iter().map(|wrong| Self::placed(wrong, top)).collect::<Vec<_>>();
-        let strings = cells::strings(file, &self.texts).map_err(placed)?;
+        let strings = cells::strings(file, &self.texts).map_err(|wrong| Self::all_placed(wrong, top))?;
         let stated = self.stated(Some(strings.axiom.clone()), &Some(strings.production.clone()), top)?;
         let (start, rules) = (top.key("axiom"), top.key("production"));
         let in_file = |fault: Fault| {
@@ -156,7 +165,8 @@ impl Lsystem {
         top: &Path,
     ) -> Result<D0l, Vec<Fault>> {
         let missing = |key: &str| {
-            let expected = "`file`, or `axiom`, `cell` and `branching_deg` of a D0L-system";
+            let inline = "`file`, or `axiom`, `cell` and `branching_deg` of a D0L-system";
+            let expected = if self.file.is_some() { BY_WHICH_CELLS } else { inline };
             Fault::new(top, format!("the key `{key}` is missing"), expected)
         };
         match (axiom, &self.cell, &self.branching_deg) {
@@ -174,7 +184,7 @@ impl Lsystem {
         }
     }
 
-    /// Adds nothing where the file of a D0L-system stands beside the keys that it may; else what stands there besides.
+    /// A fault for each key that means nothing for the file of a D0L-system.
     fn check_beside(&self, top: &Path) -> Result<(), Vec<Fault>> {
         let others = [
             ("axiom", self.axiom.is_some()),
@@ -188,15 +198,14 @@ impl Lsystem {
             ("kinds", !self.kinds.is_empty()),
             ("continues", !self.continues.is_empty()),
         ];
-        let expected = "`cell` and `branching_deg`, by which the cells of the file are drawn";
         let fault =
-            |key: &str| Fault::new(&top.key(key), format!("`{key}` stands beside `syntax = \"d0l\"`"), expected);
+            |key: &str| Fault::new(&top.key(key), format!("`{key}` stands beside `syntax = \"d0l\"`"), BY_WHICH_CELLS);
         let faults: Vec<Fault> = others.into_iter().filter(|(_, stated)| *stated).map(|(key, _)| fault(key)).collect();
         if faults.is_empty() { Ok(()) } else { Err(faults) }
     }
 
-    /// Whether this is a D0L-system of cells.
-    fn is_of_cells(&self) -> bool {
+    /// Whether this is a D0L-system of cells, whose strings are stated here or stand in a file.
+    pub fn is_of_cells(&self) -> bool {
         self.file.is_none() || self.syntax == Some(Syntax::D0l)
     }
 
@@ -207,8 +216,7 @@ impl Lsystem {
     /// Every fault of the file.
     pub fn cell_program(&self, top: &Path, define: &[(String, f64)]) -> Option<Result<Program, Vec<Fault>>> {
         let file = self.file.as_ref().filter(|_| self.is_of_cells())?;
-        let placed = |wrong: Vec<Wrong>| wrong.into_iter().map(|wrong| Self::placed(wrong, top)).collect::<Vec<_>>();
-        Some(cells::program(file, &self.texts, define).map_err(placed))
+        Some(cells::program(file, &self.texts, define).map_err(|wrong| Self::all_placed(wrong, top)))
     }
 
     /// The L-system of the file that this names, compiled; `None` for a D0L-system of cells. The parameters stand
@@ -218,8 +226,7 @@ impl Lsystem {
     /// Every fault of the file, of what lies beside it, and of what is stated of it.
     pub fn text_model(&self, top: &Path) -> Option<Result<TextModel, Vec<Fault>>> {
         let system = self.of_file(self.file.as_ref().filter(|_| !self.is_of_cells())?, top);
-        let placed = |wrong: Vec<Wrong>| wrong.into_iter().map(|wrong| Self::placed(wrong, top)).collect::<Vec<_>>();
-        Some(system.and_then(|system| system.compile().map_err(placed)))
+        Some(system.and_then(|system| system.compile().map_err(|wrong| Self::all_placed(wrong, top))))
     }
 
     /// The L-system of a file.
@@ -304,6 +311,10 @@ impl Lsystem {
             }
         }
         (texts, maps)
+    }
+
+    fn all_placed(wrong: Vec<Wrong>, top: &Path) -> Vec<Fault> {
+        wrong.into_iter().map(|wrong| Self::placed(wrong, top)).collect()
     }
 
     /// What is wrong, at its place: in a text by its line and column, as the last two steps of the path.

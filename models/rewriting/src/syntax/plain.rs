@@ -1,7 +1,7 @@
 //! What a D0L-system of cells may say: an axiom, and productions of single cells without interaction.
 //!
-//! The rules `( → (` and `) → )`, which Aono & Kunii 1984 list with those of the cells, say nothing and are passed over.
-//! Absent: which cells there are, and what may bear a branch (`phytomer_models::lsystem::d0l`).
+//! The rules `( → (` and `) → )`, which Aono & Kunii 1984 list with those of the cells, say nothing and are passed
+//! over. Absent: which cells there are, and what may bear a branch (`phytomer_models::lsystem::d0l`).
 
 use super::file::{File, Section};
 use super::production::Production;

@@ -2,9 +2,9 @@
 //!
 //! `role` is what each module is to a plant, `draft` the plant of a string in the coordinates of the turtle, `numbers`
 //! what lasts from age to age, `columns` the columns of a plant, `events` its events, `model` goes from tick to tick;
-//! `system` reads and compiles the texts to a `script`; `world` is what they call and do not state: functions of the view
-//! file (`curves`) and shapes (`forms`).
-//! Absent: the language (`phytomer_rewriting`), the turtle and its view files (beside), and the keys of a species.
+//! `system` reads and compiles the texts to a `script`; `world` is what they call and do not state: functions of the
+//! view file (`curves`) and shapes (`forms`). Absent: the language (`phytomer_rewriting`), the turtle and its view
+//! files (beside), and the keys of a species.
 
 mod columns;
 mod curves;
