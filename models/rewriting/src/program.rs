@@ -13,7 +13,7 @@ use crate::outside::{Nothing, Outside};
 use crate::string::{ModuleString, Slot};
 use crate::symbol::{Symbol, SymbolTable};
 use crate::syntax::parse;
-use crate::text::{Asked, prepare};
+use crate::text::{Asked, Prepared, prepare};
 use phytomer_sim::random::PlantRandom;
 use std::sync::Arc;
 
@@ -90,15 +90,15 @@ impl Program {
     pub fn read(text: &str, reading: &Reading<'_>) -> Result<Self, Refused> {
         let mut faults = Vec::new();
         let asked = Asked { name: reading.name, include: reading.include, define: reading.define };
-        let (letters, files) = prepare(text, &asked, &mut faults);
-        if !faults.is_empty() {
-            return Err(Refused::new(files, faults));
+        let Prepared { letters, files, unknown } = prepare(text, &asked, &mut faults);
+        if !faults.is_empty() || !unknown.is_empty() {
+            return Err(Refused::new(files, faults, unknown));
         }
         let file = parse(&letters, &mut faults);
         drop(letters);
         let compiled = compile(&file, reading.outside.as_ref(), reading.continues_last, &mut faults);
         if !faults.is_empty() {
-            return Err(Refused::new(files, faults));
+            return Err(Refused::new(files, faults, unknown));
         }
         let Compiled { script, symbols, steps, seed, angle_deg, warnings } = compiled;
         let settings = Settings { steps, seed, ring: script.ring, angle_deg };

@@ -13,4 +13,4 @@ pub mod turtle;
 pub mod view;
 
 pub use d0l::{Cell, D0l, D0lModel};
-pub use parameters::{Continues, Lsystem, digits_of, is_map};
+pub use parameters::{CONSTANT, Continues, Lsystem, StatedEnvironment, digits_of, is_map};
