@@ -13,7 +13,7 @@ use crate::outside::{Nothing, Outside};
 use crate::string::{ModuleString, Slot};
 use crate::symbol::{Symbol, SymbolTable};
 use crate::syntax::{File, parse, plain};
-use crate::text::{Asked, prepare};
+use crate::text::{Asked, Prepared, prepare};
 use phytomer_sim::random::PlantRandom;
 use std::sync::Arc;
 
@@ -95,7 +95,7 @@ impl Program {
         let (file, files, mut faults) = tree(text, reading)?;
         let compiled = compile(&file, reading.outside.as_ref(), reading.continues_last, &mut faults);
         if !faults.is_empty() {
-            return Err(Refused::new(files, faults));
+            return Err(Refused::new(files, faults, Vec::new()));
         }
         let Compiled { script, symbols, steps, seed, angle_deg, warnings } = compiled;
         let settings = Settings { steps, seed, ring: script.ring, angle_deg };
@@ -256,9 +256,9 @@ impl Program {
 pub(crate) fn tree(text: &str, reading: &Reading<'_>) -> Result<(File, Vec<String>, Vec<Fault>), Refused> {
     let mut faults = Vec::new();
     let asked = Asked { name: reading.name, include: reading.include, define: reading.define };
-    let (letters, files) = prepare(text, &asked, &mut faults);
-    if !faults.is_empty() {
-        return Err(Refused::new(files, faults));
+    let Prepared { letters, files, unknown } = prepare(text, &asked, &mut faults);
+    if !faults.is_empty() || !unknown.is_empty() {
+        return Err(Refused::new(files, faults, unknown));
     }
     let mut file = parse(&letters, reading.cells, &mut faults);
     if reading.cells {

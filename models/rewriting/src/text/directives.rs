@@ -30,8 +30,18 @@ pub(crate) struct Asked<'a> {
     pub define: &'a [(String, f64)],
 }
 
-/// The letters of a program and of all files that it includes, and the names of these files.
-pub(crate) fn prepare(text: &str, asked: &Asked<'_>, faults: &mut Vec<Fault>) -> (Vec<Letter>, Vec<String>) {
+/// What stands in a file and in all files that it includes.
+pub(crate) struct Prepared {
+    /// The letters of the program.
+    pub letters: Vec<Letter>,
+    /// The names of the files.
+    pub files: Vec<String>,
+    /// The constants that were set and that no file names.
+    pub unknown: Vec<String>,
+}
+
+/// The letters of a program and of all files that it includes.
+pub(crate) fn prepare(text: &str, asked: &Asked<'_>, faults: &mut Vec<Fault>) -> Prepared {
     let mut reader = Reader {
         asked,
         faults,
@@ -45,17 +55,9 @@ pub(crate) fn prepare(text: &str, asked: &Asked<'_>, faults: &mut Vec<Fault>) ->
     };
     asked.define.iter().for_each(|(name, value)| reader.macros.fix(name, *value));
     reader.file(text, 0);
-    for (name, _) in asked.define {
-        if !reader.macros.met.contains(name) {
-            let fault = Fault::new(
-                Place { line: 1, column: 1, file: 0 },
-                format!("no constant is named `{name}`"),
-                "a name of the file",
-            );
-            reader.faults.push(fault);
-        }
-    }
-    (reader.out, reader.files)
+    let unknown = asked.define.iter().map(|(name, _)| name).filter(|name| !reader.macros.met.contains(*name));
+    let unknown = unknown.cloned().collect();
+    Prepared { letters: reader.out, files: reader.files, unknown }
 }
 
 /// A branch of `#if`: whether it is taken, whether one before it was, and where it began.

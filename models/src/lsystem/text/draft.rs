@@ -194,19 +194,10 @@ impl<'w> Walk<'w> {
         match turtle.follow(command, drawn.parameters)? {
             Drawing::Line { from, length, width } if !silent => {
                 let kind = if let Role::Internode(kind) = role { kind } else { Kind::Internode };
-                let module = drawn.key;
-                let node = Internode {
-                    key: drawn.key,
-                    module,
-                    axis: 0,
-                    below: BASE,
-                    frame: from,
-                    length,
-                    width,
-                    kind,
-                    colour,
-                };
-                self.add_node(node);
+                let key = drawn.key;
+                let place =
+                    Internode { key, module: key, axis: 0, below: BASE, frame: from, length, width, kind, colour };
+                self.add_node(place);
             }
             Drawing::Polygon { from, corners } => {
                 let outline = draft.add_outline(corners.iter().copied());
@@ -223,6 +214,11 @@ impl<'w> Walk<'w> {
             Drawing::Line { .. } => {}
         }
         None
+    }
+
+    /// The internode that was drawn last in the bracket or before it, by its place, or [`BASE`].
+    pub fn bearer(&self) -> u32 {
+        self.at.last
     }
 
     /// The turtle as it is now.
@@ -372,6 +368,12 @@ impl Draft {
         let first = self.corners.len();
         self.corners.extend(corners);
         Form::Outline(first..self.corners.len())
+    }
+
+    /// The internodes that are lines: all but a foot, by their places.
+    pub fn lines(&self) -> &[Internode] {
+        let is_foot = self.nodes.last().is_some_and(|last| last.key == foot_key());
+        &self.nodes[..self.nodes.len() - usize::from(is_foot)]
     }
 
     /// Whether anything but the first internode of the trunk stands at the base.

@@ -5,6 +5,7 @@
 
 use super::columns::Measures;
 use super::curves::Curves;
+use super::environment::Environment;
 use super::forms::Forms;
 use super::model::{TextModel, shape};
 use super::role::Roles;
@@ -23,6 +24,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
+/// The module that the environment answers.
+const ENVIRONMENT: &str = "?E";
 /// The diameter of a line of a pixel in lengths of a step, where a view file counts widths in pixels. Assumed.
 const PIXEL: f64 = 0.02;
 
@@ -43,6 +46,8 @@ pub struct TextSystem {
     pub define: Vec<(String, VariateTable)>,
     /// The shapes that the file may call, by their names.
     pub shapes: Named,
+    /// What answers the query `?E`.
+    pub environment: Option<Environment>,
     /// The kinds of modules, by their names.
     pub kinds: BTreeMap<String, Kind>,
     /// The modules that go on as the last of their symbol in a successor.
@@ -63,6 +68,10 @@ pub enum Wrong {
         /// What is wrong in it, and where.
         fault: TextFault,
     },
+    /// A constant that is set and that the file does not name, by its name.
+    Constant(String),
+    /// The environment is stated, and no module asks it.
+    Unasked,
     /// The kind of a module.
     Kind {
         /// The name of the module.
@@ -88,6 +97,9 @@ impl TextSystem {
         let colours = self.colours(&mut wrong);
         let middle: Vec<(String, f64)> = self.constants(|_| u32::MAX / 2);
         match self.script(&middle, &world) {
+            Ok(script) if self.environment.is_some() && script.program.symbols().symbol(ENVIRONMENT).is_none() => {
+                Err(wrong.into_iter().chain([Wrong::Unasked]).collect())
+            }
             Ok(script) if wrong.is_empty() => Ok(self.model(script, &world, &view, surfaces, colours.as_ref())),
             Ok(_) => Err(wrong),
             Err(more) => Err(wrong.into_iter().chain(more).collect()),
@@ -138,7 +150,8 @@ impl TextSystem {
         let is_drawn = self.define.iter().any(|(_, law)| law.is_random());
         let of_each = || Box::new(OfEachPlant { system: self.clone(), world: Arc::clone(world) });
         let drawn = is_drawn.then(|| of_each() as Box<dyn Scripts>);
-        TextModel { script: Arc::new(script), drawn, turtle, surfaces, measures, tapered, habit: Arc::new(habit) }
+        let (script, environment) = (Arc::new(script), self.environment.clone());
+        TextModel { script, drawn, turtle, surfaces, environment, measures, tapered, habit: Arc::new(habit) }
     }
 
     fn view(&self, wrong: &mut Vec<Wrong>) -> View {
@@ -230,7 +243,8 @@ impl Wrong {
             let (problem, expected) = (fault.problem.clone(), fault.expected.clone());
             in_text(refused.file(fault), TextFault { line, column, problem, expected })
         };
-        refused.faults.iter().map(of).collect()
+        let unknown = refused.unknown.iter().cloned().map(Self::Constant);
+        refused.faults.iter().map(of).chain(unknown).collect()
     }
 
     /// There is no text of this name.
@@ -264,6 +278,8 @@ impl fmt::Display for Wrong {
             Self::Text { file, fault: TextFault { line, column, problem, expected } } => {
                 write!(f, "{file}:{line}:{column}: {problem}; expected {expected}")
             }
+            Self::Constant(name) => write!(f, "no constant is named `{name}`; expected a name of the file"),
+            Self::Unasked => write!(f, "no module `{ENVIRONMENT}` asks the environment; expected such a module"),
             Self::Kind { module, problem, expected } => write!(f, "`{module}`: {problem}; expected {expected}"),
         }
     }
