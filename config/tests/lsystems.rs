@@ -149,10 +149,10 @@ fn cells_of_a_file_are_those_of_the_species_file() {
         let seed = Seed { plant: 0, draws: 0, run_seed: 1, component_limit: 1000, keep_events: true };
         let mut plot = Plot::of_one(species.model.as_ref(), &seed);
         plot.grow_to(4).expect("room to grow");
-        (species.shown_at(), plot.plants.remove(0))
+        (species.scenario.ages.until, plot.plants.remove(0))
     };
     let (_, one) = grown(&[("own", &stated)]);
-    let (shown_at, other) = grown(&[("own", &filed), ("own.l", text), ("other.v", "angle increment: many\n")]);
+    let (shown_at, other) = grown(&[("own", filed.as_str()), ("own.l", text), ("other.v", "angle increment: many\n")]);
     assert_eq!(
         (one.nodes.len(), &one.nodes.component, &one.nodes.length),
         (other.nodes.len(), &other.nodes.component, &other.nodes.length)
