@@ -41,6 +41,18 @@ fn constants_are_set() {
     write(folder.path(), "f.l", "#define N 2\nAxiom: F(N)\nF(x) --> F(x+N)\n");
     let told = run(folder.path(), &["derive", "f.l", "--step", "1", "-D", "N=1.5"]).ending(0);
     assert_eq!(told.stdout, "F(3)\n");
+    // A file that leaves a name open is wrong alone, and sound where the name is given.
+    write(folder.path(), "open.l", "Axiom: F(N)\nF(x) --> F(x+N)\n");
+    let told = run(folder.path(), &["derive", "open.l", "--step", "1"]).ending(3);
+    assert!(told.stderr.contains("open.l:1:10") && told.stderr.contains("nothing is named `N`"), "{}", told.stderr);
+    let told = run(folder.path(), &["derive", "open.l", "--step", "1", "-D", "N=2"]).ending(0);
+    assert_eq!(told.stdout, "F(4)\n");
+    run(folder.path(), &["grow", "open.l", "--quiet"]).ending(3);
+    run(folder.path(), &["grow", "open.l", "--quiet", "-D", "N=2"]).ending(0);
+    let told = std::fs::read_to_string(folder.path().join("runs/open/run.json")).unwrap();
+    assert!(told.contains(r#""define":{"N":2.0}"#) || told.contains(r#""N": 2.0"#), "run.json keeps the constant");
+    run(folder.path(), &["grow", "coffee", "-D", "N=2"]).ending(2);
+    run(folder.path(), &["grow", "halle/massart", "-D", "N=2"]).ending(2);
     run(folder.path(), &["derive", "f.l", "-D", "N"]).ending(2);
     let told = run(folder.path(), &["derive", "f.l", "-D", "M=1"]).ending(3);
     assert!(told.stderr.contains("no constant is named `M`"), "{}", told.stderr);

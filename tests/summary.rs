@@ -14,6 +14,7 @@ use phytomer::run::{self, Progress, Settings};
 use read::Columns;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::Mutex;
 
 /// The most components that a plant is expected to have at the last tested age.
 const COMPONENTS: f64 = 1500.0;
@@ -148,34 +149,54 @@ fn by_records(records: &Columns) -> Plants {
     plants
 }
 
-/// By `components`: the components that stand at an age, living or dead, and the age at which the last of them died.
-fn by_components(components: &Columns, plant: u32, age: u32) -> (BTreeMap<u32, bool>, f64) {
-    let number = |name: &str| components.numbers(name);
-    let (of, component, birth) = (number("plant_id"), number("component_id"), number("birth_age"));
-    let (death, shed) = (number("death_age"), number("shed_age"));
-    let (mut standing, mut last) = (BTreeMap::new(), f64::NAN);
-    let age = f64::from(age);
-    // Null is NaN and stands for a tick that never comes.
-    let before = |tick: f64| tick.is_nan() || age < tick;
-    for row in (0..of.len()).filter(|row| of[*row] == f64::from(plant) && birth[*row] <= age) {
-        assert!(shed[row].is_nan() || shed[row] >= death[row], "nothing falls before its death: component {row}");
-        if before(shed[row]) {
-            standing.insert(component[row] as u32, before(death[row]));
-        }
-        if !before(death[row]) {
-            last = death[row].max(last);
-        }
-    }
-    (standing, last)
+/// `components`, with the rows of each plant, so that an age of a plant looks at its own rows alone.
+struct Components<'a> {
+    columns: &'a Columns,
+    of: BTreeMap<u32, Vec<usize>>,
 }
 
-/// By `components`: the fruits of a plant that were harvested by an age.
-fn harvested(components: &Columns, plant: u32, age: u32) -> f64 {
-    let (of, death) = (components.numbers("plant_id"), components.numbers("death_age"));
-    let (kind, cause) = (components.words("kind"), components.words("cause_of_death"));
-    let fruit = |row: &usize| matches!(kind[*row].as_str(), "fruit" | "infructescence" | "strobilus");
-    let rows = (0..of.len()).filter(|row| of[*row] == f64::from(plant) && death[*row] <= f64::from(age));
-    rows.filter(fruit).filter(|row| cause[*row] == "harvested").count() as f64
+impl<'a> Components<'a> {
+    fn new(columns: &'a Columns) -> Self {
+        let mut of = BTreeMap::<u32, Vec<usize>>::new();
+        for (row, plant) in columns.numbers("plant_id").iter().enumerate() {
+            of.entry(*plant as u32).or_default().push(row);
+        }
+        Self { columns, of }
+    }
+
+    fn of(&self, plant: u32) -> &[usize] {
+        self.of.get(&plant).map_or(&[], Vec::as_slice)
+    }
+
+    /// The components that stand at an age, living or dead, and the age at which the last of them died.
+    fn standing(&self, plant: u32, age: u32) -> (BTreeMap<u32, bool>, f64) {
+        let number = |name: &str| self.columns.numbers(name);
+        let (component, birth) = (number("component_id"), number("birth_age"));
+        let (death, shed) = (number("death_age"), number("shed_age"));
+        let (mut standing, mut last) = (BTreeMap::new(), f64::NAN);
+        let age = f64::from(age);
+        // Null is NaN and stands for a tick that never comes.
+        let before = |tick: f64| tick.is_nan() || age < tick;
+        for row in self.of(plant).iter().copied().filter(|row| birth[*row] <= age) {
+            assert!(shed[row].is_nan() || shed[row] >= death[row], "nothing falls before its death: component {row}");
+            if before(shed[row]) {
+                standing.insert(component[row] as u32, before(death[row]));
+            }
+            if !before(death[row]) {
+                last = death[row].max(last);
+            }
+        }
+        (standing, last)
+    }
+
+    /// The fruits of a plant that were harvested by an age.
+    fn harvested(&self, plant: u32, age: u32) -> f64 {
+        let death = self.columns.numbers("death_age");
+        let (kind, cause) = (self.columns.words("kind"), self.columns.words("cause_of_death"));
+        let fruit = |row: &&usize| matches!(kind[**row].as_str(), "fruit" | "infructescence" | "strobilus");
+        let rows = self.of(plant).iter().filter(|row| death[**row] <= f64::from(age));
+        rows.filter(fruit).filter(|row| cause[**row] == "harvested").count() as f64
+    }
 }
 
 /// Compares the columns of one row of `summary` with the other tables.
@@ -211,7 +232,7 @@ fn compare(resolved: Resolved) -> [u32; 2] {
     run::run(&resolved, &settings, &Progress::default()).unwrap_or_else(|error| panic!("{name}: {error:#}"));
     let [summary, records, components] =
         ["summary", "records", "components"].map(|table| Columns::of(&settings.folder, table));
-    let told = by_records(&records);
+    let (told, components) = (by_records(&records), Components::new(&components));
     let (plants, ages) = (summary.numbers("plant_id"), summary.numbers("age"));
     let recorded = resolved.scenario.ages.recorded();
     // A seed that does not germinate has no tick of sowing, and no row.
@@ -224,11 +245,11 @@ fn compare(resolved: Resolved) -> [u32; 2] {
     for row in 0..plants.len() {
         let (plant, age) = (plants[row] as u32, ages[row] as u32);
         let told = told.get(&(plant, age)).unwrap_or(&nothing);
-        let (standing, last_death) = by_components(&components, plant, age);
+        let (standing, last_death) = components.standing(plant, age);
         let agree = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
             assert_eq!(told.standing, standing, "what stands by records, and by components");
             check(&summary, row, told, last_death);
-            let picked = harvested(&components, plant, age);
+            let picked = components.harvested(plant, age);
             assert_eq!(summary.numbers("harvested_fruits")[row], picked, "harvested_fruits");
         }));
         assert!(agree.is_ok(), "{name}: plant {plant} at age {age} disagrees");
@@ -239,13 +260,23 @@ fn compare(resolved: Resolved) -> [u32; 2] {
 
 #[test]
 fn summary_says_what_records_and_components_say() {
-    let mut seen = [0; 2];
-    for resolved in all() {
-        let name = resolved.scenario.name.clone();
-        let [rows, budless] = compare(small(resolved));
-        println!("{name}: {rows} rows, {budless} of plants alive without a bud");
-        seen = [seen[0] + rows, seen[1] + budless];
-    }
+    // Plain threads: a run has threads of its own, and would begin a second comparison within the first while it waits.
+    let (waiting, seen) = (Mutex::new(all()), Mutex::new([0; 2]));
+    let next = || waiting.lock().expect("no thread has failed").pop();
+    let compare_all = || {
+        while let Some(resolved) = next() {
+            let name = resolved.scenario.name.clone();
+            let [rows, budless] = compare(small(resolved));
+            println!("{name}: {rows} rows, {budless} of plants alive without a bud");
+            let mut seen = seen.lock().expect("no thread has failed");
+            *seen = [seen[0] + rows, seen[1] + budless];
+        }
+    };
+    std::thread::scope(|scope| {
+        scope.spawn(compare_all);
+        scope.spawn(compare_all);
+    });
+    let seen = seen.into_inner().expect("no thread has failed");
     println!("{} plants at ages, {} of them alive without a bud", seen[0], seen[1]);
     assert!(seen[0] > 2000 && seen[1] > 10, "{seen:?}: too little is compared");
 }

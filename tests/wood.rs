@@ -10,6 +10,7 @@ use phytomer_models::fault::Path;
 use phytomer_sim::plant::{AxisId, EventKind, NodeId, Plant, Seed};
 use phytomer_sim::site::Site;
 use phytomer_sim::{Plot, Tick, grow};
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 fn buds(species: &str) -> Option<Buds> {
     match validate_species(species, 1).expect("a shipped species").species.model {
@@ -62,8 +63,8 @@ fn last_age(species: &str) -> Tick {
 /// age.
 #[test]
 fn the_trunk_of_every_shipped_species_stands_at_every_age() {
-    for (name, _) in presets(Kind::Species) {
-        let Some(mut buds) = buds(name) else { continue };
+    presets(Kind::Species).par_iter().for_each(|(name, _)| {
+        let Some(mut buds) = buds(name) else { return };
         // Species that state no wood are given that of a birch.
         let wood = buds.wood.get_or_insert_with(Wood::default);
         wood.bends = true;
@@ -74,5 +75,5 @@ fn the_trunk_of_every_shipped_species_stands_at_every_age() {
         let buckled = events.iter().find(|event| event.kind == EventKind::Buckled && event.axis == AxisId::TRUNK);
         assert_eq!(buckled, None, "{name}");
         assert!(!events.iter().any(|event| event.kind == EventKind::Unsettled), "{name}");
-    }
+    });
 }

@@ -4,6 +4,7 @@
 //! stays small. About ten ages are recorded, up to and with the last, and mechanics are recorded where the wood bends.
 
 use phytomer_sim::model::GrowthModel;
+use std::collections::BTreeMap;
 
 use crate::resolved::Resolved;
 use crate::scenario::{
@@ -41,6 +42,7 @@ impl ResolvedSpecies {
             planting: Planting::default(),
             experiment: Experiment::default(),
             site: Site::default(),
+            define: BTreeMap::new(),
             member: Vec::new(),
             event: Vec::new(),
             ages: Ages { until, record: Record::Every(recorded(until)) },

@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use phytomer_law::fault;
 use phytomer_sim::model::GrowthModel;
 
 use crate::dates::Dated;
@@ -15,6 +16,7 @@ use crate::load::{Loader, path_of};
 use crate::report::Fault;
 use crate::scenario::Scenario;
 use crate::species::Species;
+use crate::treatments::{self, Read};
 use crate::trial::{Treatment, Trial};
 
 /// A species with the tree that it was read from.
@@ -58,6 +60,20 @@ pub(crate) fn check_cuttable(loader: &mut Loader, node: &Node, checked: &Checked
     let remade = managed.filter(|(_, _, model)| !model.growth().keeps_its_past());
     let faults = remade.map(|(_, species, _)| Scenario::fault_of_uncuttable(&species.about.name)).collect();
     loader.tell(node, faults);
+}
+
+/// Constants are those of species that read them: without such a species they have no effect.
+pub(crate) fn check_constants(loader: &mut Loader, read: &[Read], checked: &Checked) {
+    let reads = |place: &usize| checked.species.get(*place).is_some_and(|of| of.species.reads().surroundings);
+    treatments::tell_each(loader, read, |place, scenario| {
+        let species = checked.treatments.get(place).map(|treatment| treatment.species.as_slice()).unwrap_or_default();
+        let unread = scenario.define.keys().next().filter(|_| !species.iter().any(reads));
+        let problem = |_: &String| "no species of this run is an L-system of a file, which alone has constants";
+        let fault = unread.map(problem).map(|problem| {
+            fault::Fault::new(&path_of(&["define"]), problem, "a species with `model = \"lsystem\"` and `file`")
+        });
+        fault.into_iter().collect()
+    });
 }
 
 /// A successor of a species whose laws depend on the date would need a model for each tick at which it may be planted.

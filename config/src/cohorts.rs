@@ -1,18 +1,23 @@
-//! The cohorts of a run: the plants of a species that have the same dates, for each of which one model is compiled.
+//! The cohorts of a run: the plants of a species that have the same dates and the same surroundings, for each of which
+//! one model is compiled.
 //!
 //! What depends on the date alone is compiled away: a law of the date is a table of the age. So a species with such
 //! laws has a model for each calendar and each tick of sowing; the plants of a species without them are one cohort,
 //! whatever their dates. Treatments differ in their calendars, and so do the replicates of a treatment that grow in
-//! years or on soils of their own. Absent: compiling.
+//! years or on soils of their own. A species that reads what the scenario states for it (`[define]`, shapes of the
+//! site) has a model for each of the scenarios that differ in it. Absent: which laws hold.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use phytomer_law::fault::{Fault, Path};
+use phytomer_models::parameters::Surroundings;
+use phytomer_sim::model::GrowthModel;
 use phytomer_sim::site::calendar::{Calendar, Dates};
 use phytomer_sim::site::calendars::Calendars;
 
 use crate::load::path_of;
+use crate::models::{Model, Reads};
 use crate::scenario::{Experiment, FieldPlot, Member, Scenario};
 
 /// The most models of a run, and the most calendars of field plots that differ.
@@ -28,8 +33,24 @@ pub struct Cohort {
     pub species: usize,
     /// Their dates; `None` where the species has no laws of the date, or ticks have no dates.
     pub dates: Option<Dates>,
+    /// What the scenario of their treatment states for them; `None` where the species reads nothing of it, or nothing
+    /// is stated.
+    pub surroundings: Option<Arc<Surroundings>>,
     /// The last age that one of them reaches.
     pub until: u32,
+}
+
+impl Cohort {
+    /// The model of these plants, whose species has these parameters.
+    ///
+    /// # Errors
+    /// Every fault, each with its path from the top of the species file.
+    pub fn compile(&self, model: &Model) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
+        match &self.surroundings {
+            None => model.compile_dated(self.until, self.dates.as_ref()),
+            Some(around) => model.surrounded(around).compile_dated(self.until, self.dates.as_ref()),
+        }
+    }
 }
 
 /// The cohorts of a run, and to which of them each member of each field plot belongs.
@@ -42,14 +63,14 @@ pub(crate) struct Cohorts {
 
 impl Cohorts {
     /// The cohorts of treatments, each with its scenario and the place of each of its species in the run. `calendars`
-    /// are those of each treatment. `knows_the_date` tells of each species of the run whether its laws may depend on
-    /// the date; a species that it does not tell of does not.
+    /// are those of each treatment. `reads` tells of each species of the run what its models depend on; a species that
+    /// it does not tell of depends on nothing.
     pub fn of<'a>(
         treatments: impl Iterator<Item = (&'a Scenario, &'a [usize])>,
         calendars: &[Calendars],
-        knows_the_date: &[bool],
+        reads: &[Reads],
     ) -> Self {
-        let mut found = Finding { knows_the_date, ..Finding::default() };
+        let mut found = Finding { reads, ..Finding::default() };
         let of_members = treatments.enumerate().map(|(place, treatment)| {
             let calendars = calendars.get(place).map(Calendars::all).unwrap_or_default();
             match calendars.is_empty() {
@@ -104,11 +125,14 @@ impl Cohorts {
 /// The cohorts that are found so far.
 #[derive(Default)]
 struct Finding<'a> {
-    knows_the_date: &'a [bool],
+    reads: &'a [Reads],
     /// The calendars that differ.
     calendars: Vec<Arc<Calendar>>,
-    /// The place of each cohort, by its species and its dates: the place of its calendar, and its tick of sowing.
-    places: BTreeMap<(usize, Option<(usize, u32)>), usize>,
+    /// What scenarios state for their species, where it differs.
+    surroundings: Vec<Arc<Surroundings>>,
+    /// The place of each cohort, by its species, its dates, which are the place of its calendar and its tick of sowing,
+    /// and the place of its surroundings.
+    places: BTreeMap<(usize, Option<(usize, u32)>, Option<usize>), usize>,
     all: Vec<Cohort>,
 }
 
@@ -121,22 +145,35 @@ impl Finding<'_> {
     ) -> Vec<usize> {
         let calendar = calendar.map(|calendar| (self.place_of(calendar), calendar));
         let members = scenario.plot_members();
+        let around = scenario.surroundings().map(|around| self.place_of_surroundings(around));
         let cohort = |member: &Member| {
             let species = species.get(scenario.species_of(member)).copied().unwrap_or(0);
-            let knows = self.knows_the_date.get(species).copied().unwrap_or(false);
-            let dated = calendar.filter(|_| knows).map(|(place, calendar)| {
+            let reads = self.reads.get(species).copied().unwrap_or_default();
+            let around = around.filter(|_| reads.surroundings);
+            let dated = calendar.filter(|_| reads.dates).map(|(place, calendar)| {
                 ((place, member.sown), Dates { calendar: Arc::clone(calendar), sown: member.sown })
             });
             let (key, dates) = dated.unzip();
             let until = scenario.ages.until.saturating_sub(member.sown).max(1);
-            let place = *self.places.entry((species, key)).or_insert(self.all.len());
+            let place = *self.places.entry((species, key, around)).or_insert(self.all.len());
             match self.all.get_mut(place) {
                 Some(known) => known.until = known.until.max(until),
-                None => self.all.push(Cohort { species, dates, until }),
+                None => {
+                    let surroundings = around.map(|place| Arc::clone(&self.surroundings[place]));
+                    self.all.push(Cohort { species, dates, surroundings, until });
+                }
             }
             place
         };
         members.iter().map(cohort).collect()
+    }
+
+    /// The place of what a scenario states among what differs.
+    fn place_of_surroundings(&mut self, around: Surroundings) -> usize {
+        self.surroundings.iter().position(|other| **other == around).unwrap_or_else(|| {
+            self.surroundings.push(Arc::new(around));
+            self.surroundings.len() - 1
+        })
     }
 
     /// The place of a calendar among those that differ.

@@ -41,7 +41,7 @@ pub use architectural_model::ArchitecturalModel;
 pub use cohorts::Cohort;
 pub use dates::{Dated, WeatherRead, calendars_of_run};
 pub use library::{Kind, presets};
-pub use models::{MODELS, Model, ModelName};
+pub use models::{MODELS, Model, ModelName, Reads};
 pub use published::Published;
 pub use report::{Fault, FaultRecord, Report};
 pub use resolved::{OtherSpecies, Resolved, Uncompiled, compiled};
@@ -50,6 +50,7 @@ pub use source::{Origin, Source, SourceId, Sources, Span};
 pub use species::Species;
 pub use trial::{PlantPlace, PlotPlace, Treatment, Trial};
 pub use validate::{
-    ResolvedSpecies, SPECIES_ALONE_UNTIL, kind_of, schema_of, validate, validate_species, validate_texts,
+    ResolvedSpecies, SPECIES_ALONE_UNTIL, kind_of, schema_of, validate, validate_species, validate_species_with,
+    validate_texts, validate_with,
 };
 pub use woods::{ShippedWood, woods};

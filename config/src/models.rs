@@ -7,7 +7,7 @@ use std::sync::{Arc, OnceLock};
 
 use phytomer_law::Variable;
 use phytomer_law::fault::{Fault, Path};
-use phytomer_models::parameters::{Card, Parameters};
+use phytomer_models::parameters::{Card, Parameters, Surroundings};
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::site::calendar::Dates;
 use serde_json::{Value as Json, json};
@@ -97,6 +97,15 @@ registry! {
     Ulam: phytomer_models::cellular::Ulam,
 }
 
+/// What the models of a species depend on beside its own parameters.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Reads {
+    /// Whether its laws may depend on the date.
+    pub dates: bool,
+    /// Whether it reads what the scenario states for its species.
+    pub surroundings: bool,
+}
+
 impl ModelName {
     /// The model as the key `model` takes it.
     pub fn word(self) -> &'static str {
@@ -155,6 +164,24 @@ impl Model {
         let names = Variable::ALL.into_iter().filter(|variable| variable.is_of_the_date()).map(Variable::name);
         let names: Vec<&str> = names.collect();
         self.to_json().map_or(true, |parameters| has_word(&parameters, &names))
+    }
+
+    /// As [`Parameters::reads_surroundings`].
+    pub(crate) fn reads_surroundings(&self) -> bool {
+        self.parameters().reads_surroundings()
+    }
+
+    /// What the models of a species with these parameters depend on beside them.
+    pub(crate) fn reads(&self) -> Reads {
+        Reads { dates: self.may_know_the_date(), surroundings: self.reads_surroundings() }
+    }
+
+    /// The model in these surroundings: what a scenario states stands in place of what the species states under the
+    /// same names.
+    pub fn surrounded(&self, surroundings: &Surroundings) -> Self {
+        let mut model = self.clone();
+        model.parameters_mut().surround(surroundings);
+        model
     }
 
     /// As [`Parameters::own_forms`].

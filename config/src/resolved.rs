@@ -14,6 +14,7 @@ use crate::cohorts::Cohort;
 use crate::dates::{Dated, calendars_of};
 use crate::document::Node;
 use crate::meaning;
+use crate::models::Reads;
 use crate::report::Report;
 use crate::scenario::{Scenario, Soil};
 use crate::source::Sources;
@@ -69,11 +70,11 @@ impl Resolved {
     /// The treatments with the numbers of their plots and plants, their calendars and their cohorts.
     pub fn trial(&self) -> Trial {
         let trial = Trial::of(&self.scenario, &self.treatments);
-        if self.calendars.iter().all(Option::is_none) {
+        let reads: Vec<Reads> = self.all_species().into_iter().map(Species::reads).collect();
+        if self.calendars.iter().all(Option::is_none) && !reads.iter().any(|reads| reads.surroundings) {
             return trial;
         }
-        let knows: Vec<bool> = self.all_species().into_iter().map(Species::may_know_the_date).collect();
-        trial.dated(&calendars_of(&self.calendars), &knows, self.site_seed)
+        trial.dated(&calendars_of(&self.calendars), &reads, self.site_seed)
     }
 
     /// Changes the seed of the run. Where blocks or field plots shift the site, their draws are those of the new seed,
@@ -221,7 +222,7 @@ impl Resolved {
 pub fn compiled(trial: &Trial, species: &[&Species]) -> Result<Vec<Arc<dyn GrowthModel>>, Uncompiled> {
     let compiled = |cohort: &Cohort| {
         let of = species.get(cohort.species).ok_or((cohort.species, Vec::new()))?;
-        of.model.compile_dated(cohort.until, cohort.dates.as_ref()).map_err(|faults| (cohort.species, faults))
+        cohort.compile(&of.model).map_err(|faults| (cohort.species, faults))
     };
     trial.cohorts().iter().map(compiled).collect()
 }

@@ -16,6 +16,7 @@ mod planting;
 mod plots;
 mod sample;
 mod site;
+mod surroundings;
 pub(crate) mod tables;
 
 pub use calendar::{Calendar, Fertilizer, Soil, TickLength};
@@ -29,8 +30,9 @@ pub use plots::Member;
 pub use site::{Kills, Obstacle, Plane, Site, Wind};
 pub use tables::Table;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
+use phytomer_law::Variate;
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::site::calendar::Calendar as Ticks;
@@ -84,6 +86,10 @@ pub struct Scenario {
     /// External influences on the plants: gravity, wind, and shapes that kill buds.
     #[serde(default, skip_serializing_if = "Site::is_default")]
     pub site: Site,
+    /// Constants of the species whose model is an L-system of a file, as `[define]`: they take the place of those that
+    /// the species states, and each of these species must have a constant of the name. None if not given.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub define: BTreeMap<String, Variate>,
     /// The pests of the run, as `[[pest]]`. None if not given.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pest: Vec<Pest>,
@@ -311,6 +317,7 @@ impl Scenario {
         let shapes = self.site.shapes(&mut faults);
         self.check_events(&shapes, &mut faults);
         self.check_calendar(&mut faults);
+        self.check_constants(&mut faults);
         if let Some(experiment) = experiment {
             self.check_years(experiment, &mut faults);
             self.check_blocks(experiment, &mut faults);

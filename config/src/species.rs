@@ -11,7 +11,7 @@ use phytomer_law::Constant;
 use serde_json::{Map, Value as Json};
 
 use crate::about::About;
-use crate::models::{Model, ModelName};
+use crate::models::{Model, ModelName, Reads};
 use crate::schema::of_type;
 
 /// A complete species, with its inheritance resolved.
@@ -34,6 +34,16 @@ impl Species {
     /// Whether a law of the species may depend on the date.
     pub fn may_know_the_date(&self) -> bool {
         self.model.may_know_the_date()
+    }
+
+    /// What its models depend on beside its own parameters.
+    pub fn reads(&self) -> Reads {
+        self.model.reads()
+    }
+
+    /// Whether it is an L-system of a file, which has constants and calls shapes.
+    pub fn reads_surroundings(&self) -> bool {
+        self.model.reads_surroundings()
     }
 
     /// The species as JSON, with the keys of a species file without ancestors.

@@ -7,18 +7,20 @@
 use std::sync::Arc;
 
 use phytomer_law::Constant;
+use phytomer_law::fault::{self, Segment};
+use phytomer_models::parameters::Surroundings;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::site::calendar::Dates;
 
 use crate::about::About;
 use crate::checked::{Compiled, Stated};
-use crate::cohorts::check_calendars;
+use crate::cohorts::{Cohort, check_calendars};
 use crate::dates::{Dated, Refused, calendars_of};
 use crate::document::Node;
 use crate::load::{Found, Loader, Mention, path_of};
 use crate::meaning;
-use crate::models::Model;
+use crate::models::{Model, Reads};
 use crate::report::Fault;
 use crate::scenario::Scenario;
 use crate::species::Species;
@@ -56,7 +58,7 @@ impl Run<'_> {
             return None;
         };
         let trial = self.trial(loader, &treatments, calendars, &found)?;
-        let models = compile(loader, &trial, &found);
+        let models = self.compile(loader, &trial, &found);
         let stated = |of: Found| {
             let Found { about, model, node } = of;
             Some(Stated { species: Species { about: about?, model }, tree: node })
@@ -104,9 +106,9 @@ impl Run<'_> {
         let many = check_calendars(scenario, treatments.iter().map(|treatment| &treatment.scenario));
         let trial = many.map_or_else(
             || {
-                let knows = |found: &Option<Found>| found.as_ref().is_some_and(|of| of.model.may_know_the_date());
-                let knows: Vec<bool> = found.iter().map(knows).collect();
-                let trial = Trial::of(scenario, treatments).dated(&calendars_of(calendars), &knows, scenario.seed);
+                let of = |found: &Option<Found>| found.as_ref().map(|of| of.model.reads()).unwrap_or_default();
+                let reads: Vec<Reads> = found.iter().map(of).collect();
+                let trial = Trial::of(scenario, treatments).dated(&calendars_of(calendars), &reads, scenario.seed);
                 trial.check_cohorts().map_or(Ok(trial), Err)
             },
             Err,
@@ -133,31 +135,61 @@ impl Run<'_> {
             let calendar = Arc::clone(dated.as_ref()?.calendars.of(0)?);
             Some(Dates { calendar, sown: scenario.first_sowing_of(place) })
         });
-        if let Err(faults) = found.model.compile_dated(ages.max().unwrap_or(until), dates.as_ref()) {
-            loader.tell(&found.node, faults);
+        let around = each.clone().find_map(|(scenario, ..)| scenario.surroundings()).map(Arc::new);
+        let surroundings = around.filter(|_| found.model.reads_surroundings());
+        let cohort = Cohort { species: 0, dates, surroundings, until: ages.max().unwrap_or(until) };
+        if let Err(faults) = cohort.compile(&found.model) {
+            self.tell(loader, found, &cohort, faults);
         }
     }
-}
 
-/// The model of each cohort. Of a species whose laws do not hold for one cohort no other cohort is compiled, since it
-/// would have the same faults.
-fn compile(loader: &mut Loader, trial: &Trial, found: &[Option<Found>]) -> Option<Vec<Arc<dyn GrowthModel>>> {
-    let mut refused = vec![false; found.len()];
-    let mut models = Vec::with_capacity(trial.cohorts().len());
-    for cohort in trial.cohorts() {
-        let Some(of) = found.get(cohort.species).and_then(Option::as_ref) else { continue };
-        if refused[cohort.species] {
-            continue;
-        }
-        match of.model.compile_dated(cohort.until, cohort.dates.as_ref()) {
-            Ok(model) => models.push(model),
-            Err(faults) => {
-                loader.tell(&of.node, faults);
-                refused[cohort.species] = true;
+    /// The model of each cohort. Of a species whose laws do not hold for one cohort no other cohort is compiled, since
+    /// it would have the same faults.
+    fn compile(
+        &self,
+        loader: &mut Loader,
+        trial: &Trial,
+        found: &[Option<Found>],
+    ) -> Option<Vec<Arc<dyn GrowthModel>>> {
+        let mut refused = vec![false; found.len()];
+        let mut models = Vec::with_capacity(trial.cohorts().len());
+        for cohort in trial.cohorts() {
+            let Some(of) = found.get(cohort.species).and_then(Option::as_ref) else { continue };
+            if refused[cohort.species] {
+                continue;
+            }
+            match cohort.compile(&of.model) {
+                Ok(model) => models.push(model),
+                Err(faults) => {
+                    self.tell(loader, of, cohort, faults);
+                    refused[cohort.species] = true;
+                }
             }
         }
+        Some(models).filter(|models| models.len() == trial.cohorts().len())
     }
-    Some(models).filter(|models| models.len() == trial.cohorts().len())
+
+    /// Adds the faults of a cohort: those of a constant that a scenario states at the place where it is stated, all
+    /// others in the species.
+    fn tell(&self, loader: &mut Loader, found: &Found, cohort: &Cohort, faults: Vec<fault::Fault>) {
+        for fault in faults {
+            let stated = match fault.path.0.as_slice() {
+                [Segment::Key(table), Segment::Key(name)] if table == "define" => self.states(cohort, name),
+                _ => None,
+            };
+            loader.tell(stated.unwrap_or(&found.node), vec![fault]);
+        }
+    }
+
+    /// The tree of the first treatment that states a constant for a cohort.
+    fn states(&self, cohort: &Cohort, name: &str) -> Option<&Node> {
+        let surroundings = cohort.surroundings.as_ref().filter(|around| around.constants.contains_key(name))?;
+        let is_of = |read: &&Read| {
+            let around = read.scenario.as_ref().and_then(Scenario::surroundings);
+            around.is_some_and(|around| around == **surroundings)
+        };
+        self.read.iter().find(is_of).map(|read| &read.expanded.node)
+    }
 }
 
 /// Reads a species and checks what it says of itself.
@@ -170,13 +202,15 @@ fn read_species(loader: &mut Loader, mention: &Mention) -> Option<Found> {
     Some(found)
 }
 
-/// Reads, checks and compiles a species without dates.
+/// Reads, checks and compiles a species without dates, in surroundings of its own.
 pub(crate) fn check_species(
     loader: &mut Loader,
     mention: &Mention,
     until: impl Fn(Option<&About>) -> u32,
+    around: &Surroundings,
 ) -> Option<Compiled> {
     let Found { about, model, node } = read_species(loader, mention)?;
+    let model = if model.reads_surroundings() { model.surrounded(around) } else { model };
     match model.compile(until(about.as_ref())) {
         Ok(compiled) => Some(Compiled { species: Species { about: about?, model }, model: compiled, tree: node }),
         Err(faults) => {

@@ -13,6 +13,7 @@ use phytomer_sim::site::calendars::Calendars;
 use serde::{Deserialize, Serialize};
 
 use crate::cohorts::{Cohort, Cohorts, shifted};
+use crate::models::Reads;
 use crate::scenario::experiment::{CONTROL, MOST_FIELD_PLOTS};
 use crate::scenario::{Member, Scenario};
 
@@ -113,14 +114,14 @@ impl Trial {
     }
 
     /// The same where each treatment has such calendars, which its blocks and field plots shift by draws of the seed.
-    /// `knows_the_date` tells of each species of the run whether its laws may depend on the date.
-    pub fn dated(mut self, calendars: &[Calendars], knows_the_date: &[bool], seed: u64) -> Self {
+    /// `reads` tells of each species of the run what its models depend on beside its own parameters.
+    pub fn dated(mut self, calendars: &[Calendars], reads: &[Reads], seed: u64) -> Self {
         let each = self.treatments.iter().zip(calendars);
         let of_treatment = |(Treatment { name, scenario, .. }, calendars): (&Treatment, &Calendars)| {
             shifted((name, scenario), calendars, &self.scenario.experiment, seed)
         };
         self.calendars = each.map(of_treatment).collect();
-        self.cohorts = Cohorts::of(self.treatments.iter().map(Treatment::grown), &self.calendars, knows_the_date);
+        self.cohorts = Cohorts::of(self.treatments.iter().map(Treatment::grown), &self.calendars, reads);
         self
     }
 

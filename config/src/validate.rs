@@ -9,14 +9,14 @@ use std::path::Path as FilePath;
 use std::sync::{Arc, OnceLock};
 
 use phytomer_law::fault::{self, Segment};
-use phytomer_models::parameters::Keys;
+use phytomer_models::parameters::{Keys, Surroundings};
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::site::calendar::Calendar;
 use serde_json::Value as Json;
 
 use crate::about::About;
-use crate::checked::{Checked, Compiled, Stated, check_cuttable, check_explosions, check_successors};
+use crate::checked::{Checked, Compiled, Stated, check_constants, check_cuttable, check_explosions, check_successors};
 use crate::dates::{self, Dated};
 use crate::document::Node;
 use crate::expansion::{self, Expanded};
@@ -54,7 +54,16 @@ pub struct ResolvedSpecies {
 /// # Errors
 /// A [`Report`] with every fault of the scenario and of its species.
 pub fn validate(scenario: &str) -> Result<Resolved, Report> {
-    validate_in(Library::Disk, scenario)
+    validate_in(Library::Disk, scenario, &Surroundings::default())
+}
+
+/// As [`validate`], where a species that is named stands in surroundings that are stated elsewhere. A scenario states
+/// its own, and is not changed by these.
+///
+/// # Errors
+/// A [`Report`] with every fault of the scenario and of its species.
+pub fn validate_with(scenario: &str, around: &Surroundings) -> Result<Resolved, Report> {
+    validate_in(Library::Disk, scenario, around)
 }
 
 /// Checks a scenario or species from texts in memory. `texts` are pairs of a name and a TOML text, and `name` is the
@@ -71,12 +80,12 @@ pub fn validate(scenario: &str) -> Result<Resolved, Report> {
 /// # Errors
 /// A [`Report`], as from [`validate`], in which a text is called by its name.
 pub fn validate_texts(name: &str, texts: &[(&str, &str)]) -> Result<Resolved, Report> {
-    validate_in(Library::of_texts(texts), name)
+    validate_in(Library::of_texts(texts), name, &Surroundings::default())
 }
 
-fn validate_in(library: Library, scenario: &str) -> Result<Resolved, Report> {
+fn validate_in(library: Library, scenario: &str, around: &Surroundings) -> Result<Resolved, Report> {
     if kind_in(&library, scenario) == Kind::Species && library.find(Kind::Species, scenario, None).is_ok() {
-        return species_in(library, scenario, SPECIES_ALONE_UNTIL).map(|species| species.alone(scenario));
+        return species_in(library, scenario, SPECIES_ALONE_UNTIL, around).map(|species| species.alone(scenario));
     }
     let mut loader = Loader { library, ..Loader::default() };
     let mention = Mention { name: scenario.to_owned(), place: None };
@@ -108,15 +117,23 @@ fn resolved(checked: Checked) -> Option<Resolved> {
 /// # Errors
 /// A [`Report`] with every fault of the species.
 pub fn validate_species(species: &str, until: u32) -> Result<ResolvedSpecies, Report> {
-    species_in(Library::Disk, species, until)
+    species_in(Library::Disk, species, until, &Surroundings::default())
 }
 
-fn species_in(library: Library, species: &str, until: u32) -> Result<ResolvedSpecies, Report> {
+/// As [`validate_species`], in surroundings that are stated elsewhere: constants of an L-system, and shapes.
+///
+/// # Errors
+/// A [`Report`] with every fault of the species in these surroundings.
+pub fn validate_species_with(species: &str, until: u32, around: &Surroundings) -> Result<ResolvedSpecies, Report> {
+    species_in(Library::Disk, species, until, around)
+}
+
+fn species_in(library: Library, species: &str, until: u32, around: &Surroundings) -> Result<ResolvedSpecies, Report> {
     let mut loader = Loader { library, ..Loader::default() };
     let mention = Mention { name: species.to_owned(), place: None };
     let until =
         |about: Option<&About>| about.and_then(|about| about.shown_at).unwrap_or(1).max(until).clamp(1, LAST_TICK);
-    let found = check_species(&mut loader, &mention, until);
+    let found = check_species(&mut loader, &mention, until, around);
     conclude(loader, found, |Compiled { species, model, tree }, sources| ResolvedSpecies {
         species,
         model,
@@ -198,6 +215,7 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
         all.iter().map(of).find(|faults| !faults.is_empty()).unwrap_or_default()
     });
     let checked = Checked { scenario: scenario?, treatments, species, trial, models, calendars };
+    check_constants(loader, &read, &checked);
     check_successors(loader, &node, &checked);
     check_explosions(loader, &node, &checked);
     check_cuttable(loader, &node, &checked);

@@ -289,6 +289,36 @@ fn what_is_wrong_in_a_file_is_told_at_its_line_and_column() {
     let outside = SPECIES.replace("own.l", "../own.l");
     let report = told(validate_texts("own", &[("own", &outside)]).expect_err("it is wrong"));
     assert!(report.contains("may lie outside the folder"), "{report}");
+    let texts = [("own", SPECIES), ("own.l", "#include \"../own.h\"\nAxiom: F\n")];
+    let report = told(validate_texts("own", &texts).expect_err("it is wrong"));
+    assert!(report.contains("may lie outside the folder") && report.contains("own.l:1:1"), "{report}");
+}
+
+/// Fig. 2.6: on branches a lateral daughter stands as the formula of Aono & Kunii 1984 has it: from the direction
+/// (u, v, w) of its bearer by an angle h towards the horizontal at its side.
+#[test]
+fn branches_of_honda_obey_the_formula_of_gmt1() {
+    for (figure, angle) in [("2.6a", 45.0_f64), ("2.6b", 45.0), ("2.6c", 45.0), ("2.6d", 30.0)] {
+        let plant = grown(&format!("abop/{figure}"), 8, 1);
+        let (mut held, (sin, cos)) = (0, phytomer_sim::math::sincos(angle.to_radians()));
+        for node in 0..plant.nodes.len() {
+            let Some(below) = plant.nodes.parent[node].some() else { continue };
+            let (axis, bearing) = (plant.nodes.axis[node], plant.nodes.axis[below.index()]);
+            if axis == bearing || plant.axes.order[bearing.index()] < 2 {
+                continue;
+            }
+            let [u, v, w] = node_frame(&plant, below).heading.map(f64::from);
+            let found = node_frame(&plant, NodeId(node as u32)).heading.map(f64::from);
+            let across = (u * u + v * v).sqrt();
+            let near = |h: f64| {
+                let expected = [u * cos - h * v * sin / across, v * cos + h * u * sin / across, w * cos];
+                (0..3).all(|i| (expected[i] - found[i]).abs() < 1e-4)
+            };
+            assert!(across < 1e-3 || near(1.0) || near(-1.0), "{figure}: {found:?} on {u} {v} {w}");
+            held += usize::from(across >= 1e-3);
+        }
+        assert!(held > 50, "{figure}: {held}");
+    }
 }
 
 #[test]

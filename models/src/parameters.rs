@@ -6,9 +6,12 @@
 //! schemas (`config`).
 
 use crate::fault::{Fault, Path};
+use crate::law::Variate;
+use crate::shapes::Shapes;
 use phytomer_sim::Tick;
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::site::calendar::Dates;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The name of a model, a sentence about it, and the roles of its keys in a species file.
@@ -63,6 +66,15 @@ impl Keys {
     pub const PLAIN: Self = Self { by_place: None, referred_to: &[], wood: None, formed: &[], texts: None };
 }
 
+/// What a scenario states for the models of its species: shapes of its site, and constants.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Surroundings {
+    /// The shapes of the site, by their names.
+    pub shapes: Shapes,
+    /// The constants, by their names.
+    pub constants: BTreeMap<String, Variate>,
+}
+
 /// The parameters of a growth model, as people state them.
 pub trait Parameters {
     /// The name of the model, and the roles of its keys.
@@ -87,6 +99,16 @@ pub trait Parameters {
     fn state_area_shares(&mut self, share: &dyn Fn(usize) -> Option<f64>) -> bool {
         let _ = share;
         false
+    }
+
+    /// Whether the model reads what a scenario states for it.
+    fn reads_surroundings(&self) -> bool {
+        false
+    }
+
+    /// States in the parameters what a scenario states, in place of what they state under the same names.
+    fn surround(&mut self, surroundings: &Surroundings) {
+        let _ = surroundings;
     }
 
     /// The ticks of a year that the parameters state, with the path; `None` where they state no year.

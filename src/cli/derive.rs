@@ -4,14 +4,13 @@
 //! are the same. Absent: the language (`phytomer_rewriting`), the turtle and the files beside
 //! (`phytomer_models::lsystem`).
 
+use super::constants::Constants;
 use super::named::{self, Named};
 use super::{Misuse, Verdict, refuse, terminal};
 use anyhow::Result;
 use clap::Args;
 use phytomer_config::{Model, ResolvedSpecies};
 use phytomer_models::fault::{Fault, Path};
-use phytomer_models::law::Variate;
-use phytomer_models::lsystem::Lsystem;
 use phytomer_models::lsystem::text::TextModel;
 use phytomer_rewriting::{Derived, Program, Stopped, Unanswered};
 use phytomer_sim::Tick;
@@ -49,9 +48,8 @@ pub struct Derive {
     /// The string with the key, the birth and the predecessor of each module, as one JSON object.
     #[arg(long)]
     json: bool,
-    /// Set a constant of the file, in place of its `#define`.
-    #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = constant)]
-    define: Vec<(String, f64)>,
+    #[command(flatten)]
+    constants: Constants,
     /// The seed of the run.
     #[arg(long, default_value_t = 0)]
     seed: u64,
@@ -60,17 +58,9 @@ pub struct Derive {
     plant: u64,
 }
 
-/// Reads `NAME=VALUE`.
-fn constant(text: &str) -> Result<(String, f64), String> {
-    let (name, value) = text.split_once('=').ok_or("a constant is stated as NAME=VALUE, such as -D ANGLE=25")?;
-    let number = value.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-    let number = number.ok_or_else(|| format!("`{value}` is no number"))?;
-    Ok((name.trim().to_owned(), number))
-}
-
 impl Derive {
     pub fn obey(self) -> Result<Verdict> {
-        let species = match named::find(&self.name) {
+        let species = match named::find_with(&self.name, &self.constants.surroundings()) {
             Ok(Named::Species(species)) => species,
             Ok(_) => {
                 let problem = format!("`{}` is no L-system; a file of one ends in `.l`", self.name);
@@ -78,7 +68,7 @@ impl Derive {
             }
             Err(report) => return refuse(&report, self.json),
         };
-        let Some(strings) = Strings::of(&species, &self.define) else {
+        let Some(strings) = Strings::of(&species, self.constants.pairs()) else {
             let problem = format!("`{}` has no L-system in a file of its own", self.name);
             return Err(Misuse(problem).into());
         };
@@ -141,14 +131,12 @@ enum Strings {
 }
 
 impl Strings {
-    /// Those of a species, with constants set; `None` where it has no L-system in a file of its own.
-    fn of(species: &ResolvedSpecies, define: &[(String, f64)]) -> Option<Result<Self, Vec<Fault>>> {
+    /// Those of a species, with `constants` of cells of a file; `None` where it has no L-system in a file of its own.
+    fn of(species: &ResolvedSpecies, constants: &[(String, f64)]) -> Option<Result<Self, Vec<Fault>>> {
         let Model::Lsystem(stated) = &species.species.model else { return None };
-        if let Some(program) = stated.cell_program(&Path::root(), define) {
+        if let Some(program) = stated.cell_program(&Path::root(), constants) {
             return Some(program.map(Self::Cells));
         }
-        let mut stated: Lsystem = stated.clone();
-        stated.define.extend(define.iter().map(|(name, value)| (name.clone(), Variate::from(*value))));
         Some(stated.text_model(&Path::root())?.map(Self::Drawn))
     }
 

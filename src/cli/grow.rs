@@ -7,6 +7,7 @@ mod telling;
 
 pub use telling::{clock, species_in_words};
 
+use super::constants::Constants;
 use super::named::RUNS;
 use super::{Misuse, Verdict, bar, causes, events, findings, refuse, terminal};
 use anyhow::{Context, Result};
@@ -16,7 +17,7 @@ use phytomer::run::forecast::Forecast;
 use phytomer::run::{self, Begun, Outcome, Progress, RunError, Settings};
 use phytomer::run::{disk, forms};
 use phytomer_config::scenario::MOST_SEED;
-use phytomer_config::{Resolved, validate};
+use phytomer_config::{Kind, Resolved, kind_of, validate_with};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -32,6 +33,7 @@ Examples:
   phytomer grow coffee --shard 1/2
   phytomer grow coffee --progress json
   phytomer grow halle/massart
+  phytomer grow plant.l -D ANGLE=25
 
 Exit code 1 where a plant came to its limit, where another process fills the folder, where the disk is too small or a file
 could not be written, 3 where the scenario is wrong, 130 after Ctrl-C; --resume then goes on and ends with the same bytes.
@@ -40,6 +42,8 @@ pub struct Grow {
     /// A shipped scenario by its name, or a scenario file by its path. A species by itself is one plant, grown to the
     /// age at which its file says that it shows its architecture.
     scenario: String,
+    #[command(flatten)]
+    constants: Constants,
     /// Threads; as many as the machine has if not given. No result depends on it.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -95,10 +99,17 @@ enum Shown {
 
 impl Grow {
     pub fn obey(self) -> Result<Verdict> {
-        let mut resolved = match validate(&self.scenario) {
+        if !self.constants.is_empty() && kind_of(&self.scenario) == Kind::Scenario {
+            let problem = "-D is for an L-system by itself; a scenario states its constants in [define]";
+            return Err(Misuse(problem.to_owned()).into());
+        }
+        let mut resolved = match validate_with(&self.scenario, &self.constants.surroundings()) {
             Ok(resolved) => resolved,
             Err(report) => return refuse(&report, self.json),
         };
+        if !self.constants.is_empty() && !resolved.species.reads_surroundings() {
+            return Err(Misuse(format!("-D: `{}` has no L-system in a file of its own", self.scenario)).into());
+        }
         if let Err(report) = forms::settle(&mut resolved) {
             return refuse(&report, self.json);
         }
@@ -221,6 +232,7 @@ impl Grow {
         option("out", self.out.as_ref().map(|folder| folder.display().to_string()));
         option("name", self.name.clone());
         option("shard", self.shard.map(|share| share.to_string()));
+        words.extend(self.constants.words().map(|word| shown(&word)));
         words.extend(self.ignore_disk.then(|| "--ignore-disk".to_owned()));
         words.push("--resume".to_owned());
         words.join(" ")

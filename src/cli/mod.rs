@@ -6,6 +6,7 @@
 mod amounts;
 mod bar;
 pub mod causes;
+mod constants;
 mod derive;
 mod describe;
 mod events;

@@ -6,9 +6,10 @@
 use anyhow::{Context, Result};
 use phytomer::run::forms;
 use phytomer_config::{
-    Kind, Report, Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, Scenario, Species, Treatment, Trial,
-    calendars_of_run, compiled, kind_of, presets, validate, validate_species,
+    Kind, Reads, Report, Resolved, ResolvedSpecies, SPECIES_ALONE_UNTIL, Scenario, Species, Treatment, Trial,
+    calendars_of_run, compiled, kind_of, presets, validate, validate_species_with,
 };
+use phytomer_models::parameters::Surroundings;
 use phytomer_outputs::read::Run;
 use phytomer_sim::GrowthModel;
 use phytomer_sim::site::calendars::Calendars;
@@ -45,6 +46,14 @@ pub fn run_folder(name: &str) -> Option<PathBuf> {
 /// # Errors
 /// Every fault of it; for a name that nothing has, the nearest spelling.
 pub fn find(name: &str) -> std::result::Result<Named, Report> {
+    find_with(name, &Surroundings::default())
+}
+
+/// As [`find`], where a species is one in such surroundings.
+///
+/// # Errors
+/// Every fault of it; for a name that nothing has, the nearest spelling.
+pub fn find_with(name: &str, surroundings: &Surroundings) -> std::result::Result<Named, Report> {
     if let Some(folder) = run_folder(name) {
         return Ok(Named::Run(folder));
     }
@@ -53,7 +62,7 @@ pub fn find(name: &str) -> std::result::Result<Named, Report> {
         forms::settle(&mut scenario)?;
         return Ok(Named::Scenario(Box::new(scenario)));
     }
-    let species = validate_species(name, SPECIES_ALONE_UNTIL);
+    let species = validate_species_with(name, SPECIES_ALONE_UNTIL, surroundings);
     let mut species = species.map_err(|report| if is_unknown(&report) { unknown(name, report) } else { report })?;
     match forms::read(&species.species) {
         Ok(forms) => {
@@ -115,8 +124,8 @@ impl Recorded {
             treatments => Vec::<Treatment>::deserialize(treatments).with_context(doing)?,
         };
         let calendars = calendars(resolved).with_context(doing)?;
-        let knows: Vec<bool> = [&species].into_iter().chain(&others).map(Species::may_know_the_date).collect();
-        let trial = Trial::of(&scenario, &treatments).dated(&calendars, &knows, scenario.seed);
+        let reads: Vec<Reads> = [&species].into_iter().chain(&others).map(Species::reads).collect();
+        let trial = Trial::of(&scenario, &treatments).dated(&calendars, &reads, scenario.seed);
         Ok(Self { trial, scenario, species, others, run })
     }
 

@@ -5,6 +5,7 @@
 //! that is not stated is `None`. Absent: the colours that replace it (`phytomer_meshes::palette`), and how one colour
 //! turns into the next (`phytomer_meshes::colour`).
 
+use super::surface::Surface;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{ForDrawing, Form, Habit, PaintNumber};
 
@@ -61,6 +62,7 @@ pub struct OrganPaint {
 pub struct Paints {
     internodes: Vec<InternodePaint>,
     organs: Vec<OrganPaint>,
+    surfaces: Vec<Surface>,
 }
 
 impl Paints {
@@ -74,6 +76,18 @@ impl Paints {
     pub fn add_organ(&mut self, paint: OrganPaint) -> PaintNumber {
         self.organs.push(paint);
         PaintNumber::nth(self.organs.len())
+    }
+
+    /// Adds a curved surface. Returns its place, which organs state.
+    pub fn add_surface(&mut self, surface: Surface) -> usize {
+        self.surfaces.push(surface);
+        self.surfaces.len() - 1
+    }
+
+    /// The curved surface with a place.
+    #[inline]
+    pub fn surface(&self, place: usize) -> Option<&Surface> {
+        self.surfaces.get(place)
     }
 
     /// How the internodes of a look with this paint number are drawn; for [`PaintNumber::NONE`] nothing is stated.
@@ -102,7 +116,7 @@ impl Paints {
 
     /// The paints that a habit carries; an empty set where it carries none.
     pub fn of(habit: &Habit) -> &Self {
-        static NONE: Paints = Paints { internodes: Vec::new(), organs: Vec::new() };
+        static NONE: Paints = Paints { internodes: Vec::new(), organs: Vec::new(), surfaces: Vec::new() };
         habit.for_drawing.get().unwrap_or(&NONE)
     }
 }

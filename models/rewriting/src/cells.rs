@@ -40,7 +40,7 @@ impl Cells {
         let (file, files, faults) = tree(text, &reading)?;
         let Some((place, axiom)) = file.axiom.filter(|_| faults.is_empty()) else {
             // A file without an axiom has a fault already.
-            return Err(Refused::new(files, faults));
+            return Err(Refused::new(files, faults, Vec::new()));
         };
         let axiom = string(place, &axiom);
         let mut productions = Vec::new();

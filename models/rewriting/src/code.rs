@@ -7,6 +7,9 @@ use crate::fault::Place;
 use crate::symbol::Kind;
 use crate::syntax::Operator;
 
+/// How many parts of expressions cost a round.
+const PARTS_OF_ROUND: u64 = 32;
+
 /// An expression.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Code {
@@ -21,7 +24,7 @@ pub(crate) enum Code {
     Not(Box<Code>),
     Binary(Operator, Box<(Code, Code)>),
     Choice(Box<(Code, Code, Code)>),
-    Call(Builtin, Box<[Code]>),
+    Call(Builtin, Box<[Code]>, Place),
     /// The key of further draws changes.
     Seed(Box<Code>),
     Element(u16, Box<[Code]>, Place),
@@ -57,6 +60,13 @@ pub(crate) enum Builtin {
     Binomial,
     /// Does nothing and is 0.
     Silent,
+}
+
+impl Builtin {
+    /// Whether its value is drawn.
+    pub fn draws(self) -> bool {
+        matches!(self, Self::Uniform | Self::Normal | Self::Beta | Self::Binomial)
+    }
 }
 
 /// A statement.
@@ -98,6 +108,21 @@ pub(crate) struct Made {
     pub continues: Option<u8>,
 }
 
+impl Code {
+    /// Of how many parts it is made.
+    pub fn parts(&self) -> u64 {
+        let all = |list: &[Self]| list.iter().map(Self::parts).sum::<u64>();
+        1 + match self {
+            Self::Number(_) | Self::Local(_) | Self::Global(_) | Self::Step => 0,
+            Self::Negative(inner) | Self::Not(inner) | Self::Seed(inner) => inner.parts(),
+            Self::Binary(_, pair) => pair.0.parts() + pair.1.parts(),
+            Self::Choice(three) => three.0.parts() + three.1.parts().max(three.2.parts()),
+            Self::Call(_, list, _) | Self::Element(_, list, _) => all(list),
+            Self::Function(_, list, _) | Self::Outside(_, list, _) => all(list),
+        }
+    }
+}
+
 /// A production.
 #[derive(Debug, Clone)]
 pub(crate) struct Rule {
@@ -113,9 +138,17 @@ pub(crate) struct Rule {
     pub weight: Option<Code>,
     /// How many variables it has.
     pub locals: u16,
+    /// What it costs to try it and to apply it, of the rounds that a step may have.
+    pub cost: u64,
 }
 
 impl Rule {
+    /// What a production of these expressions costs: a round, and more where they are long.
+    pub fn cost_of(condition: Option<&Code>, weight: Option<&Code>, successor: &[Made]) -> u64 {
+        let arguments = successor.iter().flat_map(|made| made.arguments.iter());
+        1 + arguments.chain(condition).chain(weight).map(Code::parts).sum::<u64>() / PARTS_OF_ROUND
+    }
+
     /// Whether it rewrites every module of its kind, whatever stands around it.
     pub fn is_certain(&self) -> bool {
         let alone = self.left.is_empty() && self.right.is_empty() && self.strict.len() == 1;
@@ -163,4 +196,11 @@ pub(crate) struct Script {
     /// For each kind whether contexts see it.
     pub visible: Vec<bool>,
     pub ring: bool,
+}
+
+impl Script {
+    /// The place of the axiom, for what is wrong with no production alone.
+    pub fn place(&self) -> Place {
+        self.axiom.first().map_or(Place { file: 0, line: 1, column: 1 }, |made| made.place)
+    }
 }

@@ -12,6 +12,8 @@ pub struct Derived {
     pub(crate) string: ModuleString,
     /// The modules that a production may rewrite, in the order of the string.
     pub(crate) active: Vec<Slot>,
+    /// The modules of which each step changes the parameters and nothing else, by their slots as they came.
+    pub(crate) updated: Vec<Slot>,
     pub(crate) variables: Variables,
     /// The modules that the last step has cut off, by their keys.
     pub(crate) cut: Vec<LineageKey>,

@@ -85,7 +85,7 @@ impl Machine<'_> {
                 let chosen = if self.value(&three.0, frame)? != 0.0 { &three.1 } else { &three.2 };
                 self.value(chosen, frame)
             }
-            Code::Call(builtin, arguments) => self.builtin(*builtin, arguments, frame),
+            Code::Call(builtin, arguments, place) => self.builtin(*builtin, arguments, *place, frame),
             Code::Seed(seed) => {
                 self.variables.seed = self.value(seed, frame)?.to_bits();
                 self.draws.begin_anew();
@@ -125,7 +125,7 @@ impl Machine<'_> {
         codes.iter().map(|code| self.value(code, frame)).collect()
     }
 
-    fn builtin(&mut self, builtin: Builtin, arguments: &[Code], frame: &[f64]) -> Result<f64> {
+    fn builtin(&mut self, builtin: Builtin, arguments: &[Code], place: Place, frame: &[f64]) -> Result<f64> {
         let values = self.values(arguments, frame)?;
         let (a, b) = (values.first().copied().unwrap_or(0.0), values.get(1).copied().unwrap_or(0.0));
         let seed = self.variables.seed;
@@ -152,7 +152,7 @@ impl Machine<'_> {
             Builtin::Beta => self.draws.beta(seed, a, b),
             Builtin::Binomial => {
                 let trials = a.clamp(0.0, MOST_TRIALS) as u32;
-                self.spend(u64::from(trials), Place::default(), "the trials of `biran`")?;
+                self.spend(u64::from(trials), place, "the trials of `biran`")?;
                 self.draws.binomial(seed, trials, b)
             }
             Builtin::Silent => 0.0,

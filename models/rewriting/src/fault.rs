@@ -43,20 +43,22 @@ impl Fault {
 pub struct Refused {
     /// The names of the files, as the caller and the `#include` lines call them.
     pub files: Vec<String>,
-    /// At least one fault, and at most [`MOST_FAULTS`].
+    /// At least one fault unless a constant is unknown, and at most [`MOST_FAULTS`].
     pub faults: Vec<Fault>,
     /// How many more there are.
     pub more: usize,
+    /// The constants that were set and that no file names.
+    pub unknown: Vec<String>,
 }
 
 impl Refused {
     /// Orders the faults by their places, and keeps the first of them.
-    pub(crate) fn new(files: Vec<String>, mut faults: Vec<Fault>) -> Self {
+    pub(crate) fn new(files: Vec<String>, mut faults: Vec<Fault>, unknown: Vec<String>) -> Self {
         faults.sort_by_key(|fault| fault.place);
         faults.dedup();
         let more = faults.len().saturating_sub(MOST_FAULTS);
         faults.truncate(MOST_FAULTS);
-        Self { files, faults, more }
+        Self { files, faults, more, unknown }
     }
 
     /// The name of the file in which a fault stands.
@@ -73,6 +75,9 @@ impl fmt::Display for Refused {
         }
         if self.more > 0 {
             writeln!(f, "and {} more", self.more)?;
+        }
+        for name in &self.unknown {
+            writeln!(f, "no constant is named `{name}`")?;
         }
         Ok(())
     }

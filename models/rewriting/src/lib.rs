@@ -14,6 +14,7 @@ mod engine;
 mod evaluate;
 mod fault;
 mod letters;
+mod origins;
 mod outside;
 mod program;
 mod string;

@@ -2,18 +2,18 @@
 //!
 //! One program serves any number of plants, on any threads; what a plant has come to is its [`Derived`].
 
-use crate::code::Script;
+use crate::code::{Made, Script};
 use crate::compile::{Compiled, compile};
 use crate::derived::{Derived, Drawn, Variables};
 use crate::draws::{Draws, For};
 use crate::engine::{self, Anchor, Bounds, Expansion, Pieces, Root};
 use crate::evaluate::{Halt, Machine};
-use crate::fault::{Fault, Refused, Stopped};
+use crate::fault::{Fault, Place, Refused, Stopped};
 use crate::outside::{Nothing, Outside};
 use crate::string::{ModuleString, Slot};
 use crate::symbol::{Symbol, SymbolTable};
 use crate::syntax::{File, parse, plain};
-use crate::text::{Asked, prepare};
+use crate::text::{Asked, Prepared, prepare};
 use phytomer_sim::random::PlantRandom;
 use std::sync::Arc;
 
@@ -95,7 +95,7 @@ impl Program {
         let (file, files, mut faults) = tree(text, reading)?;
         let compiled = compile(&file, reading.outside.as_ref(), reading.continues_last, &mut faults);
         if !faults.is_empty() {
-            return Err(Refused::new(files, faults));
+            return Err(Refused::new(files, faults, Vec::new()));
         }
         let Compiled { script, symbols, steps, seed, angle_deg, warnings } = compiled;
         let settings = Settings { steps, seed, ring: script.ring, angle_deg };
@@ -146,7 +146,8 @@ impl Program {
         let seed = self.settings.seed.unwrap_or(0);
         let variables = Variables { values: vec![0.0; self.script.globals], arrays, seed };
         let string = ModuleString::new(self.symbols.kinds());
-        let mut derived = Derived { string, active: Vec::new(), variables, cut: Vec::new(), step: 0, random };
+        let mut derived =
+            Derived { string, active: Vec::new(), updated: Vec::new(), variables, cut: Vec::new(), step: 0, random };
         let result = engine::sow(&self.script, &mut derived, self.outside.as_ref(), self.bounds());
         result.map_err(|halt| self.stopped(0, *halt))?;
         self.answer(&mut derived, interpreter)?;
@@ -163,6 +164,17 @@ impl Program {
         self.answer(derived, interpreter)
     }
 
+    /// Where the file first makes a query.
+    fn place_of_query(&self) -> Place {
+        let rules = [&self.script.rewriting, &self.script.decomposition].into_iter().flat_map(|rules| &rules.rules);
+        let mut made = self.script.axiom.iter().chain(rules.flat_map(|rule| rule.successor.iter()));
+        let is_query = |made: &&Made| {
+            let kind = self.symbols.kinds().get(usize::from(made.kind.0));
+            kind.is_some_and(|kind| self.symbols.name(kind.0).starts_with('?'))
+        };
+        made.find(is_query).map_or(self.script.place(), |made| made.place)
+    }
+
     /// Has the queries answered.
     fn answer(&self, derived: &mut Derived, interpreter: &mut dyn Interpreter) -> Result<(), Stopped> {
         if !self.has_queries() {
@@ -170,7 +182,7 @@ impl Program {
         }
         let mut answers = Answers::default();
         let result = interpreter.answer(self, derived, &mut answers);
-        let halt = |(problem, expected)| Halt { place: crate::Place::default(), problem, expected };
+        let halt = |(problem, expected)| Halt { place: self.place_of_query(), problem, expected };
         result.map_err(|why| self.stopped(derived.step, halt(why)))?;
         for (slot, values) in answers.values {
             derived.string.set_parameters(slot, &values);
@@ -212,11 +224,12 @@ impl Program {
             roots.push(kind, module.parameters, module.identity);
             expansion.begin(&roots);
             let anchor = Anchor { script, string, first: slot, last: slot };
-            let root = Root { anchor, purpose: For::Homomorphism, step: derived.step, most: self.limits.modules };
-            let shown = expansion.run(rules, &root, &mut machine, |piece, parameters, depth| {
+            let (purpose, step, place) = (For::Homomorphism, derived.step, script.place());
+            let root = Root { anchor, purpose, step, most: self.limits.modules, place };
+            let shown = expansion.run(rules, &root, &mut machine, |piece, parameters, depth, place| {
                 let Some(less) = left.checked_sub(1) else {
                     let problem = format!("a homomorphism draws more than {} modules", self.limits.modules);
-                    return crate::evaluate::halt(crate::Place::default(), problem, "fewer");
+                    return crate::evaluate::halt(place, problem, "fewer");
                 };
                 left = less;
                 let symbol = self.symbols.kinds().get(usize::from(piece.kind.0)).map_or(module.symbol, |kind| kind.0);
@@ -243,9 +256,9 @@ impl Program {
 pub(crate) fn tree(text: &str, reading: &Reading<'_>) -> Result<(File, Vec<String>, Vec<Fault>), Refused> {
     let mut faults = Vec::new();
     let asked = Asked { name: reading.name, include: reading.include, define: reading.define };
-    let (letters, files) = prepare(text, &asked, &mut faults);
-    if !faults.is_empty() {
-        return Err(Refused::new(files, faults));
+    let Prepared { letters, files, unknown } = prepare(text, &asked, &mut faults);
+    if !faults.is_empty() || !unknown.is_empty() {
+        return Err(Refused::new(files, faults, unknown));
     }
     let mut file = parse(&letters, reading.cells, &mut faults);
     if reading.cells {

@@ -4,6 +4,7 @@
 //! A module keeps its [`Slot`] as long as it lives, so that a step touches what it rewrites and nothing else, and a
 //! closing bracket knows its opening one. A slot that is free is used again. Absent: which module becomes what.
 
+use crate::origins::Origins;
 use crate::symbol::{CLOSE, Kind, OPEN, Symbol};
 use phytomer_sim::key::LineageKey;
 
@@ -29,6 +30,9 @@ impl Slot {
 pub(crate) const NONE: u32 = u32::MAX;
 /// The kind of a slot that holds no module.
 const FREE: Kind = Kind(u16::MAX);
+
+/// The parameters of no module that a string may keep beside as many as its modules have.
+const MOST_FREE: usize = 4096;
 
 /// Whence a module comes, and since when it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,7 +68,10 @@ pub struct ModuleString {
     previous: Vec<u32>,
     /// Where the parameters begin; at a bracket the slot of its partner.
     first: Vec<u32>,
-    identity: Vec<Identity>,
+    key: Vec<LineageKey>,
+    /// The number of its origin: predecessor and birth.
+    origin: Vec<u32>,
+    origins: Origins,
     parameters: Vec<f64>,
     free: Vec<u32>,
     /// Where parameters may begin that belong to no module, by their number.
@@ -85,7 +92,9 @@ impl ModuleString {
             next: Vec::new(),
             previous: Vec::new(),
             first: Vec::new(),
-            identity: Vec::new(),
+            key: Vec::new(),
+            origin: Vec::new(),
+            origins: Origins::default(),
             parameters: Vec::new(),
             free: Vec::new(),
             free_parameters: vec![Vec::new(); most + 1],
@@ -130,7 +139,7 @@ impl ModuleString {
     pub fn module(&self, slot: Slot) -> Module<'_> {
         let index = slot.index();
         let (symbol, _) = self.kinds[usize::from(self.kind[index].0)];
-        Module { slot, symbol, parameters: self.parameters(slot), identity: self.identity[index] }
+        Module { slot, symbol, parameters: self.parameters(slot), identity: self.identity(slot) }
     }
 
     /// The closing bracket of an opening one and the reverse; `None` for what is no bracket.
@@ -173,7 +182,13 @@ impl ModuleString {
 
     #[inline]
     pub(crate) fn identity(&self, slot: Slot) -> Identity {
-        self.identity[slot.index()]
+        let (predecessor, birth) = self.origins.of(self.origin[slot.index()]);
+        Identity { key: self.key[slot.index()], birth, predecessor }
+    }
+
+    #[inline]
+    pub(crate) fn key(&self, slot: Slot) -> LineageKey {
+        self.key[slot.index()]
     }
 
     #[inline]
@@ -201,6 +216,12 @@ impl ModuleString {
         self.parameters.len().saturating_sub(self.free_count)
     }
 
+    /// How many parameters the column holds, with those of no module.
+    #[cfg(test)]
+    pub(crate) fn parameter_column(&self) -> usize {
+        self.parameters.len()
+    }
+
     /// Makes room for so many modules.
     pub(crate) fn reserve(&mut self, modules: usize) {
         let more = modules.saturating_sub(self.kind.len());
@@ -208,7 +229,8 @@ impl ModuleString {
         self.next.reserve_exact(more);
         self.previous.reserve_exact(more);
         self.first.reserve_exact(more);
-        self.identity.reserve_exact(more);
+        self.key.reserve_exact(more);
+        self.origin.reserve_exact(more);
     }
 
     /// Makes two brackets partners.
@@ -226,7 +248,9 @@ impl ModuleString {
             self.first[index] = self.claim_parameters(values.len());
         }
         self.kind[index] = kind;
-        self.identity[index] = identity;
+        self.key[index] = identity.key;
+        self.origins.release(self.origin[index]);
+        self.origin[index] = self.origins.claim(identity.predecessor, identity.birth);
         if !values.is_empty() {
             let first = self.first[index] as usize;
             self.parameters[first..first + values.len()].copy_from_slice(values);
@@ -246,12 +270,14 @@ impl ModuleString {
                 self.next.push(NONE);
                 self.previous.push(NONE);
                 self.first.push(0);
-                self.identity.push(identity);
+                self.key.push(identity.key);
+                self.origin.push(0);
                 (self.kind.len() - 1) as u32
             }
         };
         let index = slot as usize;
-        (self.kind[index], self.first[index], self.identity[index]) = (kind, first, identity);
+        (self.kind[index], self.first[index], self.key[index]) = (kind, first, identity.key);
+        self.origin[index] = self.origins.claim(identity.predecessor, identity.birth);
         (self.next[index], self.previous[index]) = (next, previous);
         self.link(previous, slot);
         self.link(slot, next);
@@ -270,7 +296,7 @@ impl ModuleString {
     pub(crate) fn insert_row(
         &mut self,
         after: Slot,
-        modules: impl ExactSizeIterator<Item = (Kind, u32, Identity)>,
+        modules: impl ExactSizeIterator<Item = (Kind, u32, Identity)> + Clone,
         parameters: &[f64],
     ) -> Slot {
         let (start, count) = (self.kind.len() as u32, modules.len() as u32);
@@ -279,11 +305,11 @@ impl ModuleString {
             return after;
         }
         self.parameters.extend_from_slice(parameters);
-        for (kind, first, identity) in modules {
-            self.kind.push(kind);
-            self.first.push(base + first);
-            self.identity.push(identity);
-        }
+        self.kind.extend(modules.clone().map(|module| module.0));
+        self.first.extend(modules.clone().map(|module| base + module.1));
+        self.key.extend(modules.clone().map(|module| module.2.key));
+        let origins = &mut self.origins;
+        self.origin.extend(modules.map(|module| origins.claim(module.2.predecessor, module.2.birth)));
         self.next.extend((start + 1..start + count).chain([next]));
         self.previous.extend([after.0].into_iter().chain(start..start + count - 1));
         self.link(after.0, start);
@@ -303,6 +329,7 @@ impl ModuleString {
             _ => self.link(previous, next),
         }
         self.release_parameters(slot);
+        self.origins.release(self.origin[index]);
         self.kind[index] = FREE;
         self.free.push(slot.0);
         self.length -= 1;
@@ -323,6 +350,24 @@ impl ModuleString {
     #[inline]
     fn arity(&self, kind: Kind) -> usize {
         self.kinds.get(usize::from(kind.0)).map_or(0, |&(_, arity)| usize::from(arity))
+    }
+
+    /// Puts the parameters close together where most of their column belongs to no module.
+    pub(crate) fn close_up(&mut self) {
+        if self.free_count <= MOST_FREE + self.parameter_count() {
+            return;
+        }
+        let mut parameters = Vec::with_capacity(self.parameter_count());
+        for slot in (0..self.kind.len() as u32).map(Slot) {
+            let range = if self.is_free(slot) { 0..0 } else { self.parameter_range(slot) };
+            if !range.is_empty() {
+                self.first[slot.index()] = parameters.len() as u32;
+                parameters.extend_from_slice(&self.parameters[range]);
+            }
+        }
+        self.parameters = parameters;
+        self.free_parameters.iter_mut().for_each(|free| *free = Vec::new());
+        self.free_count = 0;
     }
 
     fn claim_parameters(&mut self, arity: usize) -> u32 {

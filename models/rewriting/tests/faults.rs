@@ -2,7 +2,7 @@
 
 mod common;
 use common::{derive_program, read, refused};
-use phytomer_rewriting::{Program, Reading, Unanswered};
+use phytomer_rewriting::{Answers, Derived, Interpreter, Program, Reading, Unanswered};
 use phytomer_sim::random::PlantRandom;
 
 /// The first fault of a text, as a line.
@@ -104,6 +104,63 @@ fn macros_that_multiply_and_files_that_include_themselves() {
     told("Axiom: A /* B\n", "plant.l:1:10: a comment begins and does not end; expected `*/` at its end");
 }
 
+#[test]
+fn places_are_told_where_no_name_stands() {
+    told("", "plant.l:1:1: the file has no axiom; expected `Axiom:` and modules, or `ω :` as in the papers");
+    let expected = "the value is not a finite number; expected a number";
+    told("derivation length: 1/0\nAxiom: A\n", &format!("plant.l:1:1: {expected}"));
+    told("Axiom: A\nhomomorphism\nmaximum depth: 1/0\n", &format!("plant.l:3:1: {expected}"));
+    let names: String = (0..5000_u32).filter_map(|n| char::from_u32(0x4e00 + n)).collect();
+    told(
+        &format!("Axiom: A\nA --> {names}\n"),
+        "plant.l:2:4099: the file has too many symbols; expected at most 4096 symbols",
+    );
+}
+
+#[test]
+fn defined_asks_for_one_name() {
+    let expected = "`defined` asks for one name; expected `defined(NAME)`, or `defined NAME`";
+    told("Axiom: A\n#if defined(A && B) || (1)\n#endif\n", &format!("plant.l:2:15: {expected}"));
+    told("Axiom: A\n#if defined(A\n#endif\n", &format!("plant.l:2:14: {expected}"));
+    told("Axiom: A\n#if defined\n#endif\n", &format!("plant.l:2:5: {expected}"));
+    assert!(read("#define N\n#if !defined ( N ) || defined M\n#error no\n#endif\nAxiom: A\n").warnings().is_empty());
+}
+
+/// What a homomorphism draws is bounded, and told at its production.
+#[test]
+fn what_ends_a_drawing() {
+    let mut program = read("Axiom: A\nhomomorphism\nmaximum depth: 100\nB --> B\nA --> AA\n");
+    program.limits.modules = 1000;
+    let derived = derive_program(&program, 1, 0, &mut Unanswered);
+    let stopped = program.draw(&derived, |_| {}).map_err(|why| why.to_string());
+    let expected = "plant.l:5:1: step 0: a homomorphism draws more than 1000 modules; expected fewer";
+    assert_eq!(stopped, Err(expected.to_owned()));
+}
+
+/// The parameters of modules that wait are bounded as those of modules are.
+#[test]
+fn parameters_that_wait_are_bounded() {
+    let ones = ["1"; 32].join(",");
+    let wide = format!("Axiom: A\ndecomposition\nmaximum depth: 1000000\nA --> A{}\n", format!("B({ones})").repeat(5));
+    let told = stopped(&wide, 0);
+    let expected = "plant.l:4:1: step 0: more than 1000 modules, or eight times as many parameters, wait in a step; expected fewer";
+    assert_eq!(told, expected);
+}
+
+/// A question that cannot be answered is told where the file asks it.
+#[test]
+fn queries_that_cannot_be_answered() {
+    struct Blind;
+    impl Interpreter for Blind {
+        fn answer(&mut self, _: &Program, _: &Derived, _: &mut Answers) -> Result<(), (String, String)> {
+            Err(("nothing answers `?E`".to_owned(), "light".to_owned()))
+        }
+    }
+    let program = read("Axiom: A\nB --> C\nA --> F?E(0)\n");
+    let why = program.sow(PlantRandom::new(1, 1), &mut Blind).err().map(|why| why.to_string());
+    assert_eq!(why.as_deref(), Some("plant.l:3:8: step 0: nothing answers `?E`; expected light"));
+}
+
 /// Why a derivation of so many steps stops.
 fn stopped(text: &str, steps: u32) -> String {
     let mut program = read(text);
@@ -134,6 +191,11 @@ fn what_ends_a_derivation() {
         let long = stopped(&format!("Axiom: F\n{production}\n"), 40);
         assert!(long.contains("the string has more than 1000 modules"), "{long}");
     }
+    assert!(growing.starts_with("plant.l:5:1: step 0: "), "{growing}");
+    let trials = stopped("Axiom: A\nA --> AB(biran(1000000, 0.5))\n", 1);
+    assert_eq!(trials, "plant.l:2:10: step 1: the trials of `biran` come to no end; expected an end within a step");
+    let tried = stopped(&format!("Axiom: {}\n{}", "A".repeat(900), "A : 1 > 2 --> B\n".repeat(900)), 1);
+    assert_eq!(tried, "plant.l:102:1: step 1: the trials of productions come to no end; expected an end within a step");
     let element = stopped("Define: {array a[3];}\nAxiom: A\nA --> F(a[5])\n", 1);
     assert_eq!(element, "plant.l:3:9: step 1: `a` is asked for its element 5; expected an element from 0 to 2");
     let far = stopped(&format!("consider: X\nAxiom: {}\nA > X --> B\n", "A".repeat(900)), 1);

@@ -139,6 +139,22 @@ fn broken_programs_are_answered() {
     assert!(longest < Duration::from_secs(20), "{longest:?}");
 }
 
+/// As many symbols as a program may have, but for a few.
+fn of_all_symbols() -> String {
+    (0..4000_u32).filter_map(|number| char::from_u32(0x4e00 + number)).collect()
+}
+
+/// A file that includes itself twice is read a bounded number of times.
+#[test]
+fn files_within_files_are_bounded() {
+    let comment = "/*".to_owned() + &" ".repeat(1_000_000) + "*/\n#include \"x\"\n#include \"x\"\n";
+    let include = |_: &str| Ok(comment.clone());
+    let begun = Instant::now();
+    let refused = Program::read("#include \"x\"\nAxiom: A\n", &Reading { include: &include, ..Reading::of("a.l") });
+    assert!(refused.unwrap_err().to_string().contains("x:1:1: the files are too long"));
+    assert!(begun.elapsed() < Duration::from_secs(10), "{:?}", begun.elapsed());
+}
+
 /// Long texts of a single kind of thing: nothing recurses, and nothing takes time with the square of the length.
 #[test]
 fn long_texts_are_answered() {
@@ -169,6 +185,12 @@ fn long_texts_are_answered() {
         format!("{}\n", "\" ".repeat(3 * LONG)),
         "\"".repeat(LONG),
         "\\\n".repeat(LONG),
+        format!("Axiom: A\n#if {}\n#endif\n", "defined(A".repeat(LONG)),
+        format!("Axiom: {}\nA > {} --> B\n", of_all_symbols(), "(x)z".repeat(LONG)),
+        format!("Axiom: {}\nA > {} --> B\n", of_all_symbols(), "☃".repeat(2 * LONG)),
+        format!("Axiom: {}\n{}", "A".repeat(LONG / 50), "A(x) --> B\nA : 2 < 1 --> B\n".repeat(LONG / 50)),
+        format!("Axiom: A\n{}B --> C\n", "A : a<b<c --> B\n \n \n".repeat(LONG / 20)),
+        format!("Axiom: A\n{}\n", " \n".repeat(LONG) + &"A --> B : 1\n  \n".repeat(LONG / 20)),
         "@".repeat(LONG),
     ];
     for text in texts {

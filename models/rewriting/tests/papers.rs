@@ -65,7 +65,18 @@ fn l_system_3_is_pruned_to_its_ellipse() {
         }
     }
     assert_eq!(drawn[..3], [1, 4, 9]);
-    assert_eq!(313, 21 + 206 + 2 * 43);
+    // 21 of the stem, which no bracket holds; 43 pairs of tentacles, which have a length; 206 of the branches.
+    let (mut depth, mut of_stem, mut tentacles) = (0, 0, 0);
+    for module in derived.string().modules() {
+        match program.symbols().name(module.symbol) {
+            "[" => depth += 1,
+            "]" => depth -= 1,
+            "F" if depth == 0 => of_stem += 1,
+            "+" | "-" if !module.parameters.is_empty() => tentacles += 1,
+            _ => {}
+        }
+    }
+    assert_eq!((of_stem, tentacles, 313 - 21 - 2 * 43), (21, 2 * 43, 206));
 }
 
 /// As the text asks for: T is erased, branches turn by 32°, contexts see `F A B ?P S T @o` alone, and L is 5.2.
@@ -106,6 +117,37 @@ fn l_system_4_activates_bud_after_bud() {
         }
     }
     assert_eq!(at, steps.len());
+}
+
+/// The signal S stands at (0, 5) after steps 7 and 10, and at (0, 3) after step 20.
+#[test]
+fn l_system_4_sends_its_signals_down() {
+    let program = read(FOURTH);
+    for (step, height) in [(7, 5.0), (10, 5.0), (20, 3.0)] {
+        let mut turtle = Turtle::new(32.0);
+        derive_program(&program, 1, step, &mut turtle);
+        assert_eq!(turtle.signals.len(), 1, "step {step}");
+        let [x, y, z] = turtle.signals[0];
+        assert!(x.abs() < 1e-9 && (y - height).abs() < 1e-9 && z.abs() < 1e-9, "step {step}: {x} {y}");
+    }
+}
+
+/// What the text says of the tree holds for sides from 5 to 5.28, and for none beyond.
+#[test]
+fn l_system_4_asks_for_a_box_of_its_size() {
+    let told = |side: f64| {
+        let program = read(&FOURTH.replace("#define L 5.2", &format!("#define L {side}")));
+        let mut turtle = Turtle::new(32.0);
+        let of = |step| counts(&program, &derive_program(&program, 1, step, &mut Turtle::new(32.0)));
+        let last = derive_program(&program, 1, 94, &mut turtle).string().len();
+        (last, of(20)["F"], of(75)["F"], of(75).get("@o").copied().unwrap_or(0))
+    };
+    for side in [5.0, 5.1, 5.2, 5.28] {
+        assert_eq!(told(side), (98, 6, 18, 2), "{side}");
+    }
+    for side in [4.9, 5.29] {
+        assert_ne!(told(side), (98, 6, 18, 2), "{side}");
+    }
 }
 
 /// The life table of the internodes of L-system 4, by the keys of modules alone.
@@ -168,6 +210,31 @@ fn l_system_5_has_tips_as_the_crown_has_room() {
     assert!((mean - exact).abs() < 4.0 * 42.79 / n.sqrt(), "{mean} tips");
     assert!((deviation - 42.79).abs() < 4.0 * 42.79 / (2.0 * n).sqrt() * 1.5, "{deviation}");
     assert!((all / n - 1098.56).abs() < 4.0 * 272.04 / n.sqrt(), "{} internodes", all / n);
+}
+
+/// 4 (n + 1)² / 9 tips after n steps, from the second on.
+#[test]
+fn l_system_5_has_its_tips_at_every_step() {
+    let program = read(
+        "ω : FA(1)\np1 : A(k) → /(90)[+(32)FA(k+1)]−(20)FA(k+1) : min{1, (2k+1)/k^2}\n\
+         p2 : A(k) → /(90)B−(20)FA(k+1) : max{0, 1 − (2k+1)/k^2}\n",
+    );
+    const PLANTS: u64 = 400;
+    let mut sums = [[0.0; 2]; 13];
+    for plant in 0..PLANTS {
+        let mut derived = derive_program(&program, plant, 0, &mut phytomer_rewriting::Unanswered);
+        for sum in &mut sums {
+            let tips = counts(&program, &derived)["A"] as f64;
+            *sum = [sum[0] + tips, sum[1] + tips * tips];
+            program.step(&mut derived, &mut phytomer_rewriting::Unanswered).unwrap();
+        }
+    }
+    let n = PLANTS as f64;
+    for (steps, [sum, squares]) in (0_u32..).zip(sums).skip(2) {
+        let (mean, exact) = (sum / n, 4.0 * f64::from(steps + 1).powi(2) / 9.0);
+        let error = ((squares / n - mean * mean).max(0.0) / n).sqrt();
+        assert!((mean - exact).abs() <= 4.0 * error + 1e-9, "{steps} steps: {mean} ± {error}, not {exact}");
+    }
 }
 
 const SIXTH: &str = "#define φ 90\n#define α 32\n#define β 20\n#define E 6\n\

@@ -291,6 +291,24 @@ fn greek_names_and_the_heads_of_papers() {
     assert_eq!(text(&program, &derived), "F(8)A");
 }
 
+/// Parameters that change alone are changed in the order of the memory, all else in the order of the string; what
+/// looks at contexts makes all successors first. Either way gives one string, with the same identities.
+#[test]
+fn parameters_change_alike_in_any_order() {
+    let body = "Axiom: A(1)F(2)X\nA(x) --> F(x)[+(x)A(x+1)]C(x)F(1)A(x/2)X\nF(l) --> F(l*1.5+1)\n+(a) --> +(a+Q)\n\
+        X F(l) --> G(l)\nX --> [X]\nG(l) --> G(l-1)\nC(x) : ran(1) < 0.2 --> %\nC(x) --> C(x+1)\nH(x) --> H(x)";
+    let looks = cpfg(&format!("{body}\nZ < Z --> Z"));
+    let (one, other) = (read(&cpfg(body)), read(&looks));
+    let mut longest = 0;
+    for plant in 0..20 {
+        let [a, b] = [&one, &other].map(|program| derive_program(program, plant, 9, &mut Unanswered));
+        assert_eq!(text(&one, &a), text(&other, &b));
+        assert!(a.string().modules().zip(b.string().modules()).all(|(a, b)| a.identity == b.identity));
+        longest = longest.max(a.string().len());
+    }
+    assert!(longest > 200, "{longest}");
+}
+
 #[test]
 fn a_module_that_no_production_touches_keeps_its_key() {
     let program = read(&cpfg("Axiom: XA\nA --> F[+A]A\nF --> FF\nX > F --> Y"));

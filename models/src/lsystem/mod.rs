@@ -12,7 +12,8 @@ pub mod d0l;
 mod parameters;
 pub mod text;
 pub mod turtle;
+mod vector;
 pub mod view;
 
 pub use d0l::{Cell, D0l, D0lModel};
-pub use parameters::{Continues, Lsystem, Syntax, digits_of, is_map};
+pub use parameters::{CONSTANT, Continues, Lsystem, StatedEnvironment, Syntax, digits_of, is_map};

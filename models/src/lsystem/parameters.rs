@@ -6,11 +6,11 @@
 
 use super::cells;
 use super::d0l::{Cell, D0l, D0lModel};
-use super::text::{TextModel, TextSystem, Wrong};
+use super::text::{Environment, TextModel, TextSystem, Wrong};
 use crate::fault::{Fault, Path, Segment};
 use crate::law::{Constant, Domain, ValueRange, Variate, VariateTable};
-use crate::parameters::{Card, Keys, Parameters};
-use crate::shapes::{Named, Shapes};
+use crate::parameters::{Card, Keys, Parameters, Surroundings};
+use crate::shapes::{Named, ShapeOrName, Shapes, one};
 use phytomer_rewriting::Program;
 use phytomer_sim::Tick;
 use phytomer_sim::clock::LAST_TICK;
@@ -26,7 +26,7 @@ use std::sync::Arc;
 const MEASURE: ValueRange = ValueRange { min: 1e-9, max: 1000.0, what: "a length in m" };
 
 /// A constant of a file.
-const CONSTANT: ValueRange = ValueRange { min: -1e30, max: 1e30, what: "a number" };
+pub const CONSTANT: ValueRange = ValueRange { min: -1e30, max: 1e30, what: "a number" };
 
 /// What is drawn by what, where a D0L-system has a file.
 const BY_WHICH_CELLS: &str = "`cell` and `branching_deg`, by which the cells of the file are drawn";
@@ -89,6 +89,10 @@ pub struct Lsystem {
     /// `inside_NAME(x, y, z)` and `field_NAME(x, y, z)`, and `prune(x, y, z)` where a shape has the name `prune`.
     #[serde(default, skip_serializing_if = "Shapes::is_empty")]
     pub shape: Shapes,
+    /// What answers the query `?E` of the file after each step; if not given, it keeps its parameters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "StatedEnvironment")]
+    pub environment: Option<StatedEnvironment>,
     /// What modules are, by their names: `A = "apical_bud"`, `"@o" = "axillary_bud"`, `"~p" = "petal"`. A line is an
     /// internode and a surface or a polygon a leaf where nothing is stated.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -109,6 +113,26 @@ pub struct Lsystem {
 pub enum Syntax {
     /// A D0L-system of cells, with branches in parentheses (Aono & Kunii 1984).
     D0l,
+}
+
+/// What answers the query `?E`, by what it `gives`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "gives", rename_all = "snake_case", deny_unknown_fields)]
+pub enum StatedEnvironment {
+    /// 1 where no other `?E` and no node of the plant is within a distance of the query, else 0. A node is the end of a
+    /// line; that on which the query stands does not count.
+    Collision {
+        /// The distance, metres.
+        #[schemars(range(min = 1e-9, max = 1e6))]
+        radius_m: f64,
+    },
+    /// The light at the query; no site has light yet.
+    Light {},
+    /// The field of a shape at the query: ½ on its surface, greater within.
+    Field {
+        /// The shape: a table, or the name of a shape.
+        shape: ShapeOrName,
+    },
 }
 
 /// The module of a successor that goes on as its predecessor.
@@ -195,6 +219,7 @@ impl Lsystem {
             ("width_m", self.width_m.is_some()),
             ("define", !self.define.is_empty()),
             ("shape", !self.shape.is_empty()),
+            ("environment", self.environment.is_some()),
             ("kinds", !self.kinds.is_empty()),
             ("continues", !self.continues.is_empty()),
         ];
@@ -251,6 +276,7 @@ impl Lsystem {
         let (texts, maps) = self.texts(top, &mut faults);
         let define = self.constants(top, &mut faults);
         let shapes = Named::of(&self.shape, &top.key("shape"), &mut faults);
+        let environment = self.environment(&shapes, &top.key("environment"), &mut faults);
         let last = self.continues.iter().filter(|(_, which)| **which == Continues::Last);
         let system = TextSystem {
             file: file.to_owned(),
@@ -260,6 +286,7 @@ impl Lsystem {
             maps,
             define,
             shapes,
+            environment,
             kinds,
             continues_last: last.map(|(name, _)| name.clone()).collect(),
             step_m: step_m.unwrap_or(1.0),
@@ -277,6 +304,20 @@ impl Lsystem {
             }
         }
         constants
+    }
+
+    fn environment(&self, shapes: &Named, path: &Path, faults: &mut Vec<Fault>) -> Option<Environment> {
+        match self.environment.as_ref()? {
+            StatedEnvironment::Collision { radius_m } => Some(Environment::Collision { radius_m: *radius_m }),
+            StatedEnvironment::Field { shape } => {
+                one(shape, shapes, &path.key("shape"), faults).map(Environment::Field)
+            }
+            StatedEnvironment::Light {} => {
+                let problem = "no site has light yet, so nothing can answer `?E` by it";
+                faults.push(Fault::new(&path.key("gives"), problem, "\"collision\" or \"field\""));
+                None
+            }
+        }
     }
 
     fn kinds(&self, top: &Path, faults: &mut Vec<Fault>) -> BTreeMap<String, Kind> {
@@ -326,6 +367,14 @@ impl Lsystem {
                 let path = Path(path.0.into_iter().chain(place).collect());
                 Fault::new(&path, fault.problem, fault.expected)
             }
+            Wrong::Constant(name) => {
+                let problem = format!("no constant is named `{name}`");
+                Fault::new(&top.key("define").key(&name), problem, "a name of the file of the L-system")
+            }
+            Wrong::Unasked => {
+                let problem = "no module `?E` of the file asks the environment";
+                Fault::new(&top.key("environment"), problem, "a file with such modules, or no `environment`")
+            }
             Wrong::Kind { module, problem, expected } => Fault::new(&top.key("kinds").key(&module), problem, expected),
         }
     }
@@ -348,6 +397,16 @@ impl Parameters for Lsystem {
             Some(model) => Ok(Arc::new(model?)),
             None => Err(Vec::new()),
         }
+    }
+
+    fn reads_surroundings(&self) -> bool {
+        !self.is_of_cells()
+    }
+
+    fn surround(&mut self, surroundings: &Surroundings) {
+        let Surroundings { shapes, constants } = surroundings;
+        self.shape.extend(shapes.iter().map(|(name, shape)| (name.clone(), shape.clone())));
+        self.define.extend(constants.iter().map(|(name, law)| (name.clone(), law.clone())));
     }
 
     /// The derivation length that the file states.

@@ -12,7 +12,7 @@ use super::outline::{self, Outlines};
 use super::tube::{Frustum, Strip, Tube};
 use super::{About, Mesh, colour};
 use bytemuck::Zeroable;
-use phytomer_looks::Paints;
+use phytomer_looks::{Paints, Surface};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{AxisId, InternodeLook, NodeId, OrganId, Plant, Shape as Stem};
 use phytomer_sim::pose::{Frame, organ_frame, stated_organ_frame};
@@ -54,6 +54,8 @@ pub struct Scene<'a> {
 enum OrganForm<'s> {
     Shape(&'s FormMesh),
     Outline(&'s [[f32; 3]], &'s [[u32; 3]]),
+    /// A curved surface, and its factors along the axes of the organ when it is full-grown.
+    Surface(&'s Surface, [f32; 3]),
 }
 
 impl<'s> OrganForm<'s> {
@@ -62,6 +64,7 @@ impl<'s> OrganForm<'s> {
         match self {
             Self::Shape(shape) => shape.points.len(),
             Self::Outline(corners, _) => corners.len(),
+            Self::Surface(surface, _) => surface.points().len(),
         }
     }
 
@@ -70,6 +73,7 @@ impl<'s> OrganForm<'s> {
         match self {
             Self::Shape(shape) => &shape.faces,
             Self::Outline(_, faces) => faces,
+            Self::Surface(surface, _) => surface.faces(),
         }
     }
 }
@@ -236,6 +240,11 @@ impl<'a> Scene<'a> {
 
     #[inline]
     fn form(&self, organ: OrganId) -> OrganForm<'_> {
+        if let Some((place, scale)) = self.plant.stated_organs.surface(organ)
+            && let Some(surface) = self.paints.surface(place)
+        {
+            return OrganForm::Surface(surface, scale);
+        }
         match self.outlines.faces(organ) {
             Some(faces) => OrganForm::Outline(self.plant.outline_of(organ), faces),
             None => OrganForm::Shape(self.options.shape(self.plant.organs.form[organ.index()])),
@@ -247,9 +256,13 @@ impl<'a> Scene<'a> {
         let tags = self.organ_tags(organ);
         match form {
             OrganForm::Shape(shape) => shape.write(&self.placement(organ, shape), &tags, out),
-            OrganForm::Outline(corners, _) => {
+            OrganForm::Outline(corners, faces) => {
                 let (frame, share) = (self.organ_base(organ), self.plant.expanded(organ, self.age));
-                outline::write(corners, &frame, share, &tags[0], out);
+                outline::write((corners, faces), &frame, share, &tags[0], out);
+            }
+            OrganForm::Surface(surface, scale) => {
+                let (frame, share) = (self.organ_base(organ), self.plant.expanded(organ, self.age));
+                outline::write_surface(surface, scale.map(|x| share * x), &frame, &tags[0], out);
             }
         }
     }

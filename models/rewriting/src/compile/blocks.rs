@@ -54,7 +54,7 @@ fn array(
 ) -> Array {
     let mut sizes = Vec::new();
     for dimension in dimensions {
-        let size = names.constant(dimension, faults);
+        let size = names.constant(dimension, name.place, faults);
         if !(1.0..=MOST_ELEMENTS as f64).contains(&size) {
             faults.push(Fault::new(
                 name.place,
@@ -70,7 +70,7 @@ fn array(
         let problem = format!("`{}` has {count} elements and is given {} values", name.name, values.len());
         faults.push(Fault::new(name.place, problem, "no more values than elements"));
     }
-    let mut first: Vec<f64> = values.iter().map(|value| names.constant(value, faults)).collect();
+    let mut first: Vec<f64> = values.iter().map(|value| names.constant(value, name.place, faults)).collect();
     if count <= MOST_ELEMENTS {
         first.resize(count, 0.0);
     } else {

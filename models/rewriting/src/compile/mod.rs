@@ -31,7 +31,7 @@ const DEEPEST: f64 = 1_000_000.0;
 pub(crate) fn compile(file: &File, outside: &dyn Outside, last: &[String], faults: &mut Vec<Fault>) -> Compiled {
     let mut names = Names::new(outside);
     let constant = |item: &Option<(Place, Expression)>, names: &Names<'_>, faults: &mut Vec<Fault>| {
-        item.as_ref().map(|(_, expression)| names.constant(expression, faults))
+        item.as_ref().map(|(place, expression)| names.constant(expression, *place, faults))
     };
     let steps = constant(&file.steps, &names, faults).map(|steps| steps.clamp(0.0, MOST_STEPS) as u32);
     names.steps = f64::from(steps.unwrap_or(0));
@@ -52,10 +52,6 @@ pub(crate) fn compile(file: &File, outside: &dyn Outside, last: &[String], fault
     rewriting.compete |= seed.is_some();
     // The seed of the file is where a derivation begins; `srand` may change it.
     rewriting.seed = 0;
-    if symbols.is_full() {
-        let expected = format!("at most {} symbols", crate::symbol::MOST_SYMBOLS);
-        faults.push(Fault::new(Place::default(), "the file has too many symbols", expected));
-    }
     let scope = &mut Scope::of_blocks();
     let script = Script {
         axiom,

@@ -102,13 +102,17 @@ impl<'o> Names<'o> {
         });
     }
 
-    /// The value of an expression that names no variable.
-    pub fn constant(&self, expression: &Expression, faults: &mut Vec<Fault>) -> f64 {
+    /// The value of an expression that names no variable; `of` is the place of what it is the value of.
+    pub fn constant(&self, expression: &Expression, of: Place, faults: &mut Vec<Fault>) -> f64 {
         match self.code(expression, &Scope::default(), faults) {
             Code::Number(number) => number,
             _ => {
-                let place = first_name(expression).map_or(Place::default(), |name| name.place);
-                faults.push(Fault::new(place, "a value that may change stands here", "a number"));
+                let name = first_name(expression);
+                let problem = match name {
+                    Some(_) => "a value that may change stands here",
+                    None => "the value is not a finite number",
+                };
+                faults.push(Fault::new(name.map_or(of, |name| name.place), problem, "a number"));
                 0.0
             }
         }
@@ -206,7 +210,7 @@ impl<'o> Names<'o> {
             let codes =
                 if builtin == Some(Builtin::Silent) { Box::default() } else { self.list(arguments, scope, faults) };
             return match (builtin, name.name.as_str()) {
-                (Some(builtin), _) => Code::Call(builtin, codes),
+                (Some(builtin), _) => Code::Call(builtin, codes, name.place),
                 (None, "GetDerivationLength") => Code::Number(self.steps),
                 (None, _) => Code::Seed(Box::new(codes.into_iter().next().unwrap_or(Code::Number(0.0)))),
             };
@@ -336,6 +340,10 @@ fn assigned<'s>(statements: &'s [Statement], tell: &mut dyn FnMut(&'s Name)) {
                 assigned(no, tell);
             }
             Statement::While(_, body, _) | Statement::Repeat(body, ..) => assigned(body, tell),
+            // That it reads a file is told; what follows from that is not.
+            Statement::Call(Expression::Call(name, list)) if name.name == "fscanf" => {
+                list.iter().filter_map(first_name).for_each(&mut *tell);
+            }
             _ => {}
         }
     }

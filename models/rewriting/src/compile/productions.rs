@@ -6,9 +6,9 @@
 use super::names::{Names, Scope};
 use crate::code::{Item, Made, Rule, Rules, Script};
 use crate::fault::{Fault, Place};
-use crate::symbol::{CLOSE, CUT, Kind, OPEN, Symbol, SymbolTable};
+use crate::symbol::{CLOSE, CUT, Kind, MOST_SYMBOLS, OPEN, Symbol, SymbolTable};
 use crate::syntax::{File, Formal, ModuleText, Production, Section};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The most productions of a section.
 const MOST_RULES: usize = 5000;
@@ -37,7 +37,7 @@ pub(super) fn axiom(file: &File, names: &Names<'_>, symbols: &mut SymbolTable, f
 /// The productions of a section.
 pub(super) fn rules(section: &Section, context: &mut Context<'_, '_>, faults: &mut Vec<Fault>) -> Rules {
     let constant = |item: &Option<(Place, crate::syntax::Expression)>, faults: &mut Vec<Fault>| {
-        item.as_ref().map(|(_, expression)| context.names.constant(expression, faults))
+        item.as_ref().map(|(place, expression)| context.names.constant(expression, *place, faults))
     };
     let depth = constant(&section.depth, faults).map_or(1, |depth| depth.clamp(0.0, super::DEEPEST) as u32);
     let seed = constant(&section.seed, faults).map_or(0, f64::to_bits);
@@ -85,7 +85,8 @@ fn rule(production: &Production, context: &mut Context<'_, '_>, faults: &mut Vec
     go_on(&production.strict, &production.successor, &mut successor, context.last);
     let (left, strict, right) = (left.into(), strict.into(), right.into());
     let locals = scope.locals.len() as u16;
-    Rule { place: production.place, left, strict, right, before, condition, after, successor, weight, locals }
+    let cost = Rule::cost_of(condition.as_ref(), weight.as_ref(), &successor);
+    Rule { place: production.place, left, strict, right, before, condition, after, successor, weight, locals, cost }
 }
 
 /// The patterns of modules; their parameters become variables.
@@ -116,12 +117,18 @@ fn items(formals: &[Formal], scope: &mut Scope, context: &mut Context<'_, '_>, f
 }
 
 fn kind(symbol: &str, arity: usize, place: Place, symbols: &mut SymbolTable, faults: &mut Vec<Fault>) -> Kind {
+    let was_full = symbols.is_full();
     let number = symbols.add(symbol);
     if arity > 0 && matches!(symbol, "[" | "]" | "%") {
         faults.push(Fault::new(place, format!("`{symbol}` has parameters"), "none"));
         return symbols.kind(number, 0);
     }
-    symbols.kind(number, arity as u16)
+    let kind = symbols.kind(number, arity as u16);
+    if symbols.is_full() && !was_full {
+        let expected = format!("at most {MOST_SYMBOLS} symbols");
+        faults.push(Fault::new(place, "the file has too many symbols", expected));
+    }
+    kind
 }
 
 /// In the papers' notation `[H]` in a right context is a branch that begins with H.
@@ -201,22 +208,20 @@ pub(super) fn check_kinds(script: &Script, symbols: &SymbolTable, warnings: &mut
     let made = sections.iter().flat_map(|rules| &rules.rules).flat_map(|rule| rule.successor.iter());
     let kinds: BTreeSet<Kind> =
         made.chain(script.axiom.iter()).map(|made| made.kind).chain([OPEN, CLOSE, CUT]).collect();
+    // How many parameters the modules of a symbol have.
+    let mut arities: BTreeMap<Symbol, Vec<String>> = BTreeMap::new();
+    for &(symbol, arity) in kinds.iter().filter_map(|kind| symbols.kinds().get(usize::from(kind.0))) {
+        arities.entry(symbol).or_default().push(arity.to_string());
+    }
     for rule in sections.iter().flat_map(|rules| &rules.rules) {
-        for item in rule.strict.iter().chain(&rule.left).chain(&rule.right) {
-            let Item::Module(kind, _) = *item else { continue };
-            let Some(&(symbol, arity)) = symbols.kinds().get(usize::from(kind.0)) else { continue };
-            if kinds.contains(&kind) {
-                continue;
-            }
-            let is_other = |number: u16, other: Symbol| other == symbol && kinds.contains(&Kind(number));
-            let others = symbols.kinds().iter().zip(0_u16..).filter(|&(other, number)| is_other(number, other.0));
-            let others: Vec<String> = others.map(|((_, arity), _)| arity.to_string()).collect();
-            if !others.is_empty() {
-                let problem =
-                    format!("no `{}` has {arity} parameters, so this production never applies", symbols.name(symbol));
-                warnings.push(Fault::new(rule.place, problem, others.join(" or ")));
-                break;
-            }
+        let other = rule.strict.iter().chain(&rule.left).chain(&rule.right).find_map(|item| {
+            let Item::Module(kind, _) = *item else { return None };
+            let &(symbol, arity) = symbols.kinds().get(usize::from(kind.0)).filter(|_| !kinds.contains(&kind))?;
+            Some((symbols.name(symbol), arity, arities.get(&symbol)?))
+        });
+        if let Some((name, arity, others)) = other {
+            let problem = format!("no `{name}` has {arity} parameters, so this production never applies");
+            warnings.push(Fault::new(rule.place, problem, others.join(" or ")));
         }
     }
 }

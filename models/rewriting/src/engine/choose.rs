@@ -46,6 +46,7 @@ fn is_fit(
     frame: &mut Vec<f64>,
     fits: &mut impl FnMut(&Rule, &mut Machine<'_>, &mut [f64]) -> Result<bool>,
 ) -> Result<bool> {
+    machine.spend(rule.cost, rule.place, "the trials of productions")?;
     frame.clear();
     frame.resize(usize::from(rule.locals), 0.0);
     if !fits(rule, machine, frame)? {

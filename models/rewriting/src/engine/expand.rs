@@ -9,6 +9,7 @@ use super::pieces::{Moment, Piece, Pieces, drawn_key};
 use crate::code::{Item, Rule, Rules};
 use crate::draws::For;
 use crate::evaluate::{Machine, Result, halt};
+use crate::fault::Place;
 use crate::string::Identity;
 
 /// A module that waits, and how many productions lie between it and the module of the string.
@@ -23,8 +24,10 @@ pub(crate) struct Root<'s> {
     pub anchor: Anchor<'s>,
     pub purpose: For,
     pub step: u32,
-    /// The most modules that may wait.
+    /// The most modules that may wait, and an eighth of the parameters that they may have.
     pub most: usize,
+    /// The place of what is told where no production of the section has been applied.
+    pub place: Place,
 }
 
 /// Room for expansions.
@@ -36,6 +39,8 @@ pub(crate) struct Expansion {
     made: Pieces,
     frames: Frames,
     shown: Vec<f64>,
+    /// The place of the production that was applied last.
+    last: Option<Place>,
 }
 
 impl Expansion {
@@ -43,6 +48,7 @@ impl Expansion {
     pub fn begin(&mut self, pieces: &Pieces) {
         self.waiting.clear();
         self.parameters.clear();
+        self.last = None;
         self.wait(pieces, 0);
     }
 
@@ -54,13 +60,14 @@ impl Expansion {
         }
     }
 
-    /// Expands what waits, and shows each module that nothing replaces, with its depth.
+    /// Expands what waits, and shows each module that nothing replaces, with its depth and the place of the production
+    /// that was applied last.
     pub fn run(
         &mut self,
         rules: &Rules,
         root: &Root<'_>,
         machine: &mut Machine<'_>,
-        mut show: impl FnMut(&Piece, &[f64], u32) -> Result<()>,
+        mut show: impl FnMut(&Piece, &[f64], u32, Place) -> Result<()>,
     ) -> Result<()> {
         while let Some(next) = self.waiting.pop() {
             if next.depth < rules.depth && self.replaces(&next, rules, root, machine)? {
@@ -70,7 +77,7 @@ impl Expansion {
             self.shown.clear();
             self.shown.extend_from_slice(&self.parameters[first..]);
             self.parameters.truncate(first);
-            show(&next.piece, &self.shown, next.depth)?;
+            show(&next.piece, &self.shown, next.depth, self.last.unwrap_or(root.place))?;
         }
         Ok(())
     }
@@ -92,8 +99,9 @@ impl Expansion {
         let Some(rule) = choose(rules, candidates, machine, frames, fits)? else { return Ok(false) };
         // A production within productions costs a round, so that those without end are told.
         machine.spend(16 + rule.successor.len() as u64, rule.place, "productions within productions")?;
-        if waiting.len() + rule.successor.len() > root.most {
-            return halt(rule.place, format!("more than {} modules wait within a step", root.most), "fewer");
+        if waiting.len() + rule.successor.len() > root.most || parameters.len() > 8 * root.most {
+            let problem = format!("more than {} modules, or eight times as many parameters, wait in a step", root.most);
+            return halt(rule.place, problem, "fewer");
         }
         machine.run(&rule.after, &mut frames.frame)?;
         let before = waiting.len() + 1 - rule.strict.len();
@@ -112,6 +120,7 @@ impl Expansion {
         waiting.truncate(before);
         parameters.truncate(first);
         let made = std::mem::take(&mut self.made);
+        self.last = Some(rule.place);
         self.wait(&made, next.depth + 1);
         self.made = made;
         Ok(true)

@@ -13,6 +13,7 @@ mod placing;
 mod predecessor;
 mod rewriting;
 mod step;
+mod visits;
 
 pub(crate) use bounds::Bounds;
 pub(crate) use context::Anchor;

@@ -4,8 +4,9 @@
 //! paired, and cuts and modules that the next step visits are noted. Absent: what is made (`rewriting`).
 
 use super::pieces::Pieces;
+use super::visits::Visit;
 use crate::string::{ModuleString, Slot};
-use crate::symbol::{CLOSE, CUT, OPEN};
+use crate::symbol::{CLOSE, CUT, Kind, OPEN};
 
 /// What is to become of a module and, with several in a predecessor, of those behind it.
 pub(super) struct Change {
@@ -18,10 +19,11 @@ pub(super) struct Change {
 /// What is noted of a string while its modules take their places.
 #[derive(Debug, Default)]
 pub(super) struct Places {
-    /// For each kind whether a step visits its modules.
-    pub is_active: Vec<bool>,
-    /// The modules that the next step visits.
+    /// For each kind how a step visits its modules.
+    pub visits: Vec<Visit>,
+    /// The modules that the next step visits in their order, and those of which it changes the parameters alone.
     pub active: Vec<Slot>,
+    pub updated: Vec<Slot>,
     /// The modules `%`.
     pub cuts: Vec<Slot>,
     /// The branches that are open.
@@ -29,10 +31,9 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// Notes a module that is new in its place.
+    /// Notes a module of a kind that is new in its place.
     #[inline]
-    pub fn note(&mut self, string: &mut ModuleString, slot: Slot) {
-        let kind = string.kind(slot);
+    pub fn note(&mut self, string: &mut ModuleString, slot: Slot, kind: Kind) {
         match kind {
             OPEN => self.open.push(slot),
             CLOSE => {
@@ -43,8 +44,10 @@ impl Places {
             CUT => self.cuts.push(slot),
             _ => {}
         }
-        if self.is_active.get(usize::from(kind.0)) == Some(&true) {
-            self.active.push(slot);
+        match self.visits.get(usize::from(kind.0)) {
+            Some(Visit::InOrder) => self.active.push(slot),
+            Some(Visit::Updates) => self.updated.push(slot),
+            _ => {}
         }
     }
 
@@ -67,7 +70,7 @@ impl Places {
             return;
         };
         string.rewrite(slot, first.kind, made.of(first), first.identity);
-        self.note(string, slot);
+        self.note(string, slot, first.kind);
         if string.is_dense()
             && let Some(second) = others.first()
         {
@@ -75,13 +78,13 @@ impl Places {
             let end = others.last().map_or(base, |last| last.first + u32::from(last.arity));
             let row = others.iter().map(|piece| (piece.kind, piece.first - base, piece.identity));
             let start = string.insert_row(slot, row, &made.parameters[base as usize..end as usize]);
-            (0..others.len() as u32).for_each(|number| self.note(string, start.later(number)));
+            (0_u32..).zip(others).for_each(|(number, piece)| self.note(string, start.later(number), piece.kind));
             return;
         }
         let mut last = slot;
         for piece in others {
             last = string.insert(Some(last), piece.kind, made.of(piece), piece.identity);
-            self.note(string, last);
+            self.note(string, last, piece.kind);
         }
     }
 }

@@ -13,23 +13,14 @@ use super::expand::{Expansion, Root};
 use super::pieces::{Moment, Pieces};
 use super::placing::{Change, Places, also_rewritten};
 use super::predecessor::{fits, predecessors};
-use crate::code::{Rule, Rules, Script};
+use super::visits::{certain, update, updates, visits};
+use crate::code::{Rule, Script};
 use crate::derived::Derived;
 use crate::draws::For;
 use crate::evaluate::{Machine, Result, halt};
 use crate::fault::Place;
 use crate::outside::Outside;
 use crate::string::{ModuleString, Slot};
-use crate::syntax::MOST_PARAMETERS;
-
-/// For each kind whether a step visits its modules.
-pub(super) fn active_kinds(script: &Script) -> Vec<bool> {
-    let rules = [&script.rewriting, &script.decomposition];
-    let most = rules.iter().map(|rules| rules.by_kind.len()).max().unwrap_or(0);
-    let of =
-        |kind: usize| rules.iter().any(|rules: &&Rules| rules.by_kind.get(kind).is_some_and(|list| !list.is_empty()));
-    (0..most).map(of).collect()
-}
 
 /// What is done to a string.
 pub(super) enum Pass {
@@ -44,6 +35,7 @@ struct Rewriting<'r> {
     script: &'r Script,
     /// For each kind the production that only changes its parameters, whatever stands around it.
     updates: Vec<Option<&'r Rule>>,
+    values: Vec<f64>,
     /// Whether productions rewrite, or the axiom is decomposed alone.
     rewrites: bool,
     expansion: Expansion,
@@ -69,19 +61,21 @@ pub(super) fn rewrite(
         Pass::Decomposes(cuts) => (false, cuts),
     };
     let random = derived.random.clone();
-    let before = std::mem::take(&mut derived.active);
+    let (before, updated) = (std::mem::take(&mut derived.active), std::mem::take(&mut derived.updated));
     let looks = script.rewriting.looks || script.decomposition.looks;
     let mut rewriting = Rewriting {
         script,
-        updates: updates(script, rewrites && !looks),
+        updates: updates(script, rewrites),
+        values: Vec::new(),
         rewrites,
         expansion: Expansion::default(),
         frames: Frames::default(),
         own: Pieces::default(),
         made: Pieces::default(),
         places: Places {
-            is_active: active_kinds(script),
+            visits: visits(script),
             active: Vec::with_capacity(before.len()),
+            updated,
             cuts,
             ..Places::default()
         },
@@ -95,17 +89,19 @@ pub(super) fn rewrite(
         if looks {
             rewriting.all_at_once(&before, &mut string, &mut machine)
         } else {
-            rewriting.one_by_one(&before, &mut string, &mut machine)
+            let result = rewriting.update_all(&mut string, &mut machine);
+            result.and_then(|()| rewriting.one_by_one(&before, &mut string, &mut machine))
         }
     });
-    let Places { mut active, cuts, .. } = rewriting.places;
+    let Places { mut active, mut updated, cuts, .. } = rewriting.places;
     derived.cut.clear();
     if !cuts.is_empty() {
         cut(&mut string, &cuts, &mut derived.cut);
         active.retain(|&slot| !string.is_free(slot));
+        updated.retain(|&slot| !string.is_free(slot));
     }
-    derived.string = string;
-    derived.active = active;
+    string.close_up();
+    (derived.string, derived.active, derived.updated) = (string, active, updated);
     result
 }
 
@@ -134,6 +130,19 @@ impl Rewriting<'_> {
         halt(rule.place, problem, "fewer steps, or fewer modules in a successor")
     }
 
+    /// Changes the parameters of the modules of which nothing else changes.
+    fn update_all(&mut self, string: &mut ModuleString, machine: &mut Machine<'_>) -> Result<()> {
+        if !self.rewrites {
+            return Ok(());
+        }
+        for &slot in &self.places.updated {
+            if let Some(Some(rule)) = self.updates.get(usize::from(string.kind(slot).0)) {
+                update(rule, slot, string, machine, &mut self.values)?;
+            }
+        }
+        Ok(())
+    }
+
     fn one_by_one(&mut self, before: &[Slot], string: &mut ModuleString, machine: &mut Machine<'_>) -> Result<()> {
         let mut skipped = 0;
         for (number, &slot) in before.iter().enumerate() {
@@ -142,7 +151,8 @@ impl Rewriting<'_> {
                 continue;
             }
             if let Some(Some(rule)) = self.updates.get(usize::from(string.kind(slot).0)) {
-                update(rule, slot, string, machine)?;
+                machine.draws.turn_to(string.key(slot), machine.step, For::Rewriting);
+                update(rule, slot, string, machine, &mut self.values)?;
                 self.places.active.push(slot);
                 continue;
             }
@@ -182,6 +192,7 @@ impl Rewriting<'_> {
         self.own.clear();
         let decomposes = !self.script.decomposition.rules.is_empty();
         let mut last = slot;
+        let mut place = self.script.place();
         if self.rewrites {
             machine.draws.turn_to(identity.key, step, For::Rewriting);
             let script = self.script;
@@ -195,7 +206,7 @@ impl Rewriting<'_> {
                     return self.too_long(rule);
                 }
                 machine.run(&rule.after, &mut self.frames.frame)?;
-                rewritten = rule.strict.len() as u32;
+                (rewritten, place) = (rule.strict.len() as u32, rule.place);
                 let into = if decomposes { &mut self.own } else { &mut self.made };
                 let moment = Moment { step, depth: 0 };
                 let predecessors = predecessors(rule, string, slot, &mut last, &mut self.parameters);
@@ -210,7 +221,7 @@ impl Rewriting<'_> {
                 self.own.push(string.kind(slot), string.parameters(slot), identity);
             }
             let anchor = Anchor { script: self.script, string, first: slot, last };
-            let replaced = self.decompose(anchor, machine)?;
+            let replaced = self.decompose(anchor, place, machine)?;
             // A module that neither production nor decomposition touches stays as it is.
             if rewritten == 0 && !replaced {
                 self.made.pieces.truncate(start as usize);
@@ -222,60 +233,24 @@ impl Rewriting<'_> {
     }
 
     /// Appends the decomposition of what a production has made; tells whether anything was decomposed.
-    fn decompose(&mut self, anchor: Anchor<'_>, machine: &mut Machine<'_>) -> Result<bool> {
-        let root = Root { anchor, purpose: For::Decomposition, step: machine.step, most: self.most };
+    fn decompose(&mut self, anchor: Anchor<'_>, place: Place, machine: &mut Machine<'_>) -> Result<bool> {
+        let root = Root { anchor, purpose: For::Decomposition, step: machine.step, most: self.most, place };
         let (before, start) = (self.own.pieces.len(), self.made.pieces.len());
         self.expansion.begin(&self.own);
         let (length, parameters, most) = (&mut self.length, &mut self.parameters, self.most);
         *length = length.saturating_sub(before);
         let (made, mut replaced) = (&mut self.made, false);
-        self.expansion.run(&self.script.decomposition, &root, machine, |piece, values, depth| {
+        self.expansion.run(&self.script.decomposition, &root, machine, |piece, values, depth, place| {
             replaced |= depth > 0;
             *length += 1;
             *parameters += if depth > 0 { values.len() } else { 0 };
             if *length > most || *parameters > 8 * most {
                 let problem = format!("the string has more than {most} modules, or eight times as many parameters");
-                return halt(Place::default(), problem, "a decomposition that ends sooner");
+                return halt(place, problem, "a decomposition that ends sooner");
             }
             made.push(piece.kind, values, piece.identity);
             Ok(())
         })?;
         Ok(replaced || self.made.pieces.len() - start != before)
     }
-}
-
-/// The production of a kind, where it has one that always applies.
-fn certain(rules: &Rules, kind: usize) -> Option<&Rule> {
-    let list = rules.by_kind.get(kind)?;
-    let rule = list.first().map(|&rule| &rules.rules[rule as usize])?;
-    (rule.is_certain() && (list.len() == 1 || !rules.compete)).then_some(rule)
-}
-
-/// For each kind the production that only changes its parameters; none where contexts may look at them.
-fn updates(script: &Script, wanted: bool) -> Vec<Option<&Rule>> {
-    if !wanted || !script.decomposition.rules.is_empty() {
-        return Vec::new();
-    }
-    let of = |kind: usize| {
-        let rule = certain(&script.rewriting, kind).filter(|rule| rule.after.is_empty())?;
-        let [made] = &rule.successor[..] else { return None };
-        (usize::from(made.kind.0) == kind && made.continues == Some(0)).then_some(rule)
-    };
-    (0..script.rewriting.by_kind.len()).map(of).collect()
-}
-
-/// Changes the parameters of a module where it stands.
-#[inline]
-fn update(rule: &Rule, slot: Slot, string: &mut ModuleString, machine: &mut Machine<'_>) -> Result<()> {
-    let mut values = [0.0; MOST_PARAMETERS];
-    let [made] = &rule.successor[..] else { return Ok(()) };
-    machine.draws.turn_to(string.identity(slot).key, machine.step, For::Rewriting);
-    for (value, argument) in values.iter_mut().zip(&made.arguments) {
-        *value = machine.value(argument, string.parameters(slot))?;
-        if !value.is_finite() {
-            return halt(made.place, format!("a parameter of a module becomes {value}"), "a finite number");
-        }
-    }
-    string.set_parameters(slot, &values);
-    Ok(())
 }

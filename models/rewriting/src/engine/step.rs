@@ -6,12 +6,12 @@
 use super::bounds::{Bounds, machine};
 use super::pieces::{Moment, Pieces};
 use super::placing::Places;
-use super::rewriting::{Pass, active_kinds, rewrite};
+use super::rewriting::{Pass, rewrite};
+use super::visits::visits;
 use crate::code::{Act, Rule, Script};
 use crate::derived::Derived;
 use crate::draws::For;
 use crate::evaluate::{Result, halt};
-use crate::fault::Place;
 use crate::outside::Outside;
 use crate::string::Identity;
 use phytomer_sim::key::LineageKey;
@@ -27,18 +27,17 @@ pub(crate) fn sow(script: &Script, derived: &mut Derived, outside: &dyn Outside,
     let axiom = axiom_rule(script);
     pieces.make(&axiom, &mut machine, &[], &[seed], Moment { step: 0, depth: 0 })?;
     if pieces.pieces.len() > bounds.modules {
-        let place = script.axiom.first().map_or(Place::default(), |made| made.place);
-        return halt(place, format!("the axiom has more than {} modules", bounds.modules), "a shorter axiom");
+        return halt(script.place(), format!("the axiom has more than {} modules", bounds.modules), "a shorter axiom");
     }
-    let Derived { string, active, .. } = derived;
-    let mut places = Places { is_active: active_kinds(script), ..Places::default() };
+    let Derived { string, active, updated, .. } = derived;
+    let mut places = Places { visits: visits(script), ..Places::default() };
     let mut last = None;
     for piece in &pieces.pieces {
         let slot = string.insert(last, piece.kind, pieces.of(piece), piece.identity);
-        places.note(string, slot);
+        places.note(string, slot, piece.kind);
         last = Some(slot);
     }
-    *active = places.active;
+    (*active, *updated) = (places.active, places.updated);
     rewrite(script, derived, outside, bounds, Pass::Decomposes(places.cuts))
 }
 
@@ -67,7 +66,7 @@ pub(crate) fn run_block(
 /// The axiom as what becomes of the seed.
 fn axiom_rule(script: &Script) -> Rule {
     Rule {
-        place: Place::default(),
+        place: script.place(),
         left: Box::default(),
         strict: Box::default(),
         right: Box::default(),
@@ -77,5 +76,6 @@ fn axiom_rule(script: &Script) -> Rule {
         successor: script.axiom.clone(),
         weight: None,
         locals: 0,
+        cost: 1,
     }
 }

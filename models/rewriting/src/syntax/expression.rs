@@ -23,6 +23,8 @@ pub(crate) struct Parser<'l> {
     pub(super) inside: u32,
     /// Whether what is read has its arrow already, or needs none.
     pub(super) complete: bool,
+    /// Whether `&` may stand before a name, as in the arguments of `fscanf`.
+    addresses: bool,
     /// Whether parentheses are branches, and modules have no parameters.
     pub(super) cells: bool,
     depth: u32,
@@ -32,7 +34,8 @@ pub(crate) struct Parser<'l> {
 impl<'l> Parser<'l> {
     pub fn new(letters: &'l [Letter], end: Place) -> Self {
         let end = letters.last().map_or(end, |last| last.place);
-        Self { letters, at: 0, end, inside: 0, complete: true, cells: false, depth: 0, parts: 0 }
+        let (inside, complete) = (0, true);
+        Self { letters, at: 0, end, inside, complete, addresses: false, cells: false, depth: 0, parts: 0 }
     }
 
     pub(super) fn place(&self) -> Place {
@@ -228,6 +231,10 @@ impl<'l> Parser<'l> {
 
     fn operand(&mut self) -> Result<Expression, Fault> {
         self.count_part()?;
+        if self.addresses {
+            let _ = self.takes('&');
+            self.blanks();
+        }
         match self.peek() {
             Some('(') => self.enclosed('(', ')'),
             Some('"') => self.text(),
@@ -306,7 +313,12 @@ impl<'l> Parser<'l> {
         let behind = self.at;
         self.blanks();
         match self.peek() {
-            Some('(') => Ok(Expression::Call(name, self.list('(', ')')?)),
+            Some('(') => {
+                let before = std::mem::replace(&mut self.addresses, name.name == "fscanf");
+                let list = self.list('(', ')');
+                self.addresses = before;
+                Ok(Expression::Call(name, list?))
+            }
             Some('{') if matches!(name.name.as_str(), "min" | "max") => {
                 Ok(Expression::Call(name, self.list('{', '}')?))
             }

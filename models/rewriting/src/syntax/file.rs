@@ -63,7 +63,7 @@ enum Current {
 
 /// Reads the letters of a file; `cells` tells that its parentheses are branches.
 pub(crate) fn parse(letters: &[Letter], cells: bool, faults: &mut Vec<Fault>) -> File {
-    let mut parser = Parser::new(letters, Place::default());
+    let mut parser = Parser::new(letters, Place { file: 0, line: 1, column: 1 });
     parser.cells = cells;
     let mut reader = Reader { parser, file: File::default(), current: Current::Rewriting, ended: false };
     while reader.parser.peek().is_some() && faults.len() < MOST_TOLD {

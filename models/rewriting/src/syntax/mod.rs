@@ -14,7 +14,7 @@ mod tree;
 
 pub(crate) use expression::Parser;
 pub(crate) use file::{File, Section, parse};
-pub(crate) use module::{Formal, MOST_PARAMETERS, ModuleText};
+pub(crate) use module::{Formal, ModuleText};
 pub(crate) use plain::plain;
 pub(crate) use production::Production;
 pub(crate) use statement::Statement;

@@ -4,14 +4,14 @@
 //! lines are such conditions (`directives`).
 
 use super::macros::{Broken, Macros, word_end};
-use crate::fault::Place;
+use crate::fault::{Fault, Place};
 use crate::letters::Letter;
 use crate::syntax::{Expression, Parser};
 
 /// Whether the expression in these letters is not 0.
 pub(super) fn holds(letters: &[Letter], place: Place, macros: &mut Macros) -> Result<bool, Broken> {
     let mut expanded = Vec::new();
-    let asked = with_defined(letters, macros);
+    let asked = with_defined(letters, macros)?;
     macros.expand(&asked, &mut expanded)?;
     expanded.retain(|letter| letter.c != '\n');
     let mut parser = Parser::new(&expanded, place);
@@ -22,7 +22,7 @@ pub(super) fn holds(letters: &[Letter], place: Place, macros: &mut Macros) -> Re
 }
 
 /// The letters with `defined NAME` and `defined(NAME)` replaced by 1 or 0.
-fn with_defined(letters: &[Letter], macros: &mut Macros) -> Vec<Letter> {
+fn with_defined(letters: &[Letter], macros: &mut Macros) -> Result<Vec<Letter>, Broken> {
     let (mut out, mut at) = (Vec::new(), 0);
     while at < letters.len() {
         let end = word_end(letters, at);
@@ -32,19 +32,27 @@ fn with_defined(letters: &[Letter], macros: &mut Macros) -> Vec<Letter> {
             at = end;
             continue;
         }
-        let is_outside = |letter: &&Letter| letter.c.is_whitespace() || letter.c == '(';
-        let start = end + letters[end..].iter().take_while(is_outside).count();
+        let c = |at: usize| letters.get(at).map(|letter| letter.c);
+        let start = behind_blanks(letters, end);
+        let opened = c(start) == Some('(');
+        let start = if opened { behind_blanks(letters, start + 1) } else { start };
         let inside = letters[start..].iter().map(|letter| letter.c);
         let name: String = inside.take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-        let c = if macros.is_defined(&name) { '1' } else { '0' };
-        out.push(Letter { c, place: letters[at].place });
-        at = start + name.chars().count();
-        let opened = letters[end..start.min(letters.len())].iter().any(|letter| letter.c == '(');
-        if opened && let Some(close) = letters[at..].iter().position(|letter| letter.c == ')') {
-            at += close + 1;
+        let behind = start + name.chars().count();
+        let close = behind_blanks(letters, behind);
+        if name.is_empty() || (opened && c(close) != Some(')')) {
+            let place = letters[if name.is_empty() { at } else { close.min(letters.len() - 1) }].place;
+            let fault = Fault::new(place, "`defined` asks for one name", "`defined(NAME)`, or `defined NAME`");
+            return Err(Broken { fault, exhausted: false });
         }
+        out.push(Letter { c: if macros.is_defined(&name) { '1' } else { '0' }, place: letters[at].place });
+        at = if opened { close + 1 } else { behind };
     }
-    out
+    Ok(out)
+}
+
+fn behind_blanks(letters: &[Letter], at: usize) -> usize {
+    at + letters[at..].iter().take_while(|letter| letter.c.is_whitespace()).count()
 }
 
 fn value(expression: &Expression) -> f64 {

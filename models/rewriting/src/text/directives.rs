@@ -12,6 +12,8 @@ use std::collections::VecDeque;
 
 /// The most files within files.
 const DEEPEST: usize = 16;
+/// The most bytes of a file and of all files that it includes.
+const MOST_BYTES: usize = 16_000_000;
 /// The most lines over which the arguments of a macro go on.
 const MOST_LINES: usize = 100;
 
@@ -28,8 +30,18 @@ pub(crate) struct Asked<'a> {
     pub define: &'a [(String, f64)],
 }
 
-/// The letters of a program and of all files that it includes, and the names of these files.
-pub(crate) fn prepare(text: &str, asked: &Asked<'_>, faults: &mut Vec<Fault>) -> (Vec<Letter>, Vec<String>) {
+/// What stands in a file and in all files that it includes.
+pub(crate) struct Prepared {
+    /// The letters of the program.
+    pub letters: Vec<Letter>,
+    /// The names of the files.
+    pub files: Vec<String>,
+    /// The constants that were set and that no file names.
+    pub unknown: Vec<String>,
+}
+
+/// The letters of a program and of all files that it includes.
+pub(crate) fn prepare(text: &str, asked: &Asked<'_>, faults: &mut Vec<Fault>) -> Prepared {
     let mut reader = Reader {
         asked,
         faults,
@@ -38,21 +50,14 @@ pub(crate) fn prepare(text: &str, asked: &Asked<'_>, faults: &mut Vec<Fault>) ->
         branches: Vec::new(),
         out: Vec::new(),
         open_files: 0,
+        bytes: 0,
         exhausted: false,
     };
     asked.define.iter().for_each(|(name, value)| reader.macros.fix(name, *value));
     reader.file(text, 0);
-    for (name, _) in asked.define {
-        if !reader.macros.met.contains(name) {
-            let fault = Fault::new(
-                Place { line: 1, column: 1, file: 0 },
-                format!("no constant is named `{name}`"),
-                "a name of the file",
-            );
-            reader.faults.push(fault);
-        }
-    }
-    (reader.out, reader.files)
+    let unknown = asked.define.iter().map(|(name, _)| name).filter(|name| !reader.macros.met.contains(*name));
+    let unknown = unknown.cloned().collect();
+    Prepared { letters: reader.out, files: reader.files, unknown }
 }
 
 /// A branch of `#if`: whether it is taken, whether one before it was, and where it began.
@@ -70,11 +75,21 @@ struct Reader<'a, 'f> {
     branches: Vec<Branch>,
     out: Vec<Letter>,
     open_files: usize,
+    /// How long all texts are that were read.
+    bytes: usize,
     exhausted: bool,
 }
 
 impl Reader<'_, '_> {
     fn file(&mut self, text: &str, number: u32) {
+        self.bytes += text.len();
+        if self.bytes > MOST_BYTES {
+            let place = Place { file: number, line: 1, column: 1 };
+            let expected = format!("at most {MOST_BYTES} bytes in all");
+            self.faults.push(Fault::new(place, "the files are too long", expected));
+            self.exhausted = true;
+            return;
+        }
         let kept = letters(text, number, self.faults);
         let mut lines: VecDeque<Vec<Letter>> =
             kept.split_inclusive(|letter| letter.c == '\n').map(<[Letter]>::to_vec).collect();

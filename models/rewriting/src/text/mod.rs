@@ -8,4 +8,4 @@ mod directives;
 mod macros;
 mod strange;
 
-pub(crate) use directives::{Asked, prepare};
+pub(crate) use directives::{Asked, Prepared, prepare};

@@ -1,4 +1,4 @@
-//! Files of other languages that share the ending `.l` or the words of cpfg: lpfg (C++) and L-Py (Python).
+//! Files of other languages that share the ending `.l` or the words of cpfg: lpfg (C++), L-Py (Python), panels of vlab.
 //!
 //! They are told at the first line that no program of cpfg has, by the name of their language.
 
@@ -7,6 +7,7 @@ use crate::letters::Letter;
 
 const LPFG: &str = "lpfg, whose productions are C++";
 const LPY: &str = "L-Py, whose productions are Python";
+const PANEL: &str = "a panel of vlab, which sets constants of a program";
 
 /// The fault of a line without comments that is written in another language.
 pub(super) fn foreign(line: &[Letter]) -> Option<Fault> {
@@ -27,6 +28,8 @@ fn language(line: &str) -> Option<&'static str> {
         "" if line.starts_with("#include") && line.contains("lpfgall") => Some(LPFG),
         "module" | "produce" | "nproduce" if begins_name && !line.contains("-->") => Some(by_end),
         "production" if rest == ":" => Some(LPY),
+        "target" if rest.starts_with(':') && !line.contains("-->") => Some(PANEL),
+        "panel" if rest.starts_with("name:") => Some(PANEL),
         "def" if begins_name && line.ends_with(':') => Some(LPY),
         "from" if begins_name && line.contains(" import ") => Some(LPY),
         "import" if begins_name && !line.contains("-->") => Some(LPY),

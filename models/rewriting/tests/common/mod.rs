@@ -73,6 +73,8 @@ pub struct Turtle {
     pub angle: f64,
     /// The positions of all ends of lines.
     pub ends: Vec<Vector>,
+    /// The positions of the modules `S`.
+    pub signals: Vec<Vector>,
 }
 
 #[derive(Clone, Copy)]
@@ -85,7 +87,7 @@ struct State {
 
 impl Turtle {
     pub fn new(angle: f64) -> Self {
-        Self { length: 1.0, angle, ends: Vec::new() }
+        Self { length: 1.0, angle, ends: Vec::new(), signals: Vec::new() }
     }
 }
 
@@ -107,6 +109,7 @@ impl Interpreter for Turtle {
         let start = State { at: [0.0; 3], h: [0.0, 1.0, 0.0], u: [0.0, 0.0, -1.0], l: [-1.0, 0.0, 0.0] };
         let (mut state, mut stack) = (start, Vec::new());
         self.ends.clear();
+        self.signals.clear();
         let (length, angle) = (self.length, self.angle);
         let names = program.symbols();
         let shown = program.draw(derived, |drawn| {
@@ -126,6 +129,7 @@ impl Interpreter for Turtle {
                 "^" => (state.u, state.h) = turned(state.u, state.h, -turn),
                 "/" => (state.l, state.u) = turned(state.l, state.u, -turn),
                 "\\" => (state.l, state.u) = turned(state.l, state.u, turn),
+                "S" => self.signals.push(state.at),
                 "?P" => answers.give(drawn.of, state.at),
                 "?H" => answers.give(drawn.of, state.h),
                 _ => {}

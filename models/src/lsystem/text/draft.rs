@@ -43,11 +43,32 @@ pub(super) struct Organ {
     pub kind: Kind,
     /// The size of what has no outline.
     pub size: f64,
-    /// Its outline, among the corners.
-    pub outline: Range<usize>,
+    pub form: Form,
     pub colour: i32,
     /// The module that was rewritten into its module.
     pub predecessor: LineageKey,
+}
+
+/// What an organ is drawn as.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Form {
+    /// What its kind is drawn as.
+    OfKind,
+    /// The polygon of these among the corners.
+    Outline(Range<usize>),
+    /// The curved surface with this place among those of the view file, with factors along H, L and U.
+    Surface(usize, [f64; 3]),
+}
+
+impl Form {
+    /// Whether anything is stated that can be drawn.
+    fn is_drawn(&self) -> bool {
+        match self {
+            Self::OfKind => false,
+            Self::Outline(corners) => !corners.is_empty(),
+            Self::Surface(..) => true,
+        }
+    }
 }
 
 /// An axis.
@@ -98,13 +119,13 @@ struct Bracket {
     last: u32,
 }
 
-/// The outlines of surfaces, by their symbols: corners along H, L and U, of the size of the view.
-pub(super) type Outlines = Vec<(char, Vec<Vector>)>;
+/// The symbols of the curved surfaces, each at the place of its surface among those of the habit.
+pub(super) type Surfaces = Vec<char>;
 
 /// A walk along the modules of a string.
 pub(super) struct Walk<'w> {
     roles: &'w Roles,
-    outlines: &'w Outlines,
+    surfaces: &'w Surfaces,
     turtle: &'w mut Turtle,
     draft: &'w mut Draft,
     open: Vec<Bracket>,
@@ -122,7 +143,7 @@ impl<'w> Walk<'w> {
     /// A walk from the beginning of the string, for a draft that forgets what it held.
     pub fn begin(
         roles: &'w Roles,
-        outlines: &'w Outlines,
+        surfaces: &'w Surfaces,
         turtle: &'w mut Turtle,
         draft: &'w mut Draft,
         derived: &'w Derived,
@@ -135,7 +156,7 @@ impl<'w> Walk<'w> {
         let predecessor = LineageKey::SEED;
         Self {
             roles,
-            outlines,
+            surfaces,
             turtle,
             draft,
             open: Vec::new(),
@@ -167,41 +188,37 @@ impl<'w> Walk<'w> {
         if !silent {
             self.state_of(role, drawn.key);
         }
-        let Self { turtle, draft, outlines, .. } = self;
+        let Self { turtle, draft, surfaces, .. } = self;
         let colour = turtle.state().colour[0];
         let frame = turtle.state().frame;
         match turtle.follow(command, drawn.parameters)? {
             Drawing::Line { from, length, width } if !silent => {
                 let kind = if let Role::Internode(kind) = role { kind } else { Kind::Internode };
-                let module = drawn.key;
-                let node = Internode {
-                    key: drawn.key,
-                    module,
-                    axis: 0,
-                    below: BASE,
-                    frame: from,
-                    length,
-                    width,
-                    kind,
-                    colour,
-                };
-                self.add_node(node);
+                let key = drawn.key;
+                let place =
+                    Internode { key, module: key, axis: 0, below: BASE, frame: from, length, width, kind, colour };
+                self.add_node(place);
             }
             Drawing::Polygon { from, corners } => {
                 let outline = draft.add_outline(corners.iter().copied());
-                self.drawn_as_outline(silent, role, drawn.key, from, outline, colour);
+                self.drawn_as(silent, role, drawn.key, from, outline, colour);
             }
             Drawing::Surface { symbol, scale } => {
-                let outline = outlines.iter().find(|(known, _)| *known == symbol).map(|(_, corners)| corners);
-                let placed = outline.into_iter().flatten().map(|corner| placed(&frame, *corner, scale));
-                let outline = draft.add_outline(placed);
-                self.drawn_as_outline(silent, role, drawn.key, frame, outline, colour);
+                let place = surfaces.iter().position(|known| *known == symbol);
+                let [across, along, above] = scale;
+                let form = place.map_or(Form::OfKind, |place| Form::Surface(place, [along, across, above]));
+                self.drawn_as(silent, role, drawn.key, frame, form, colour);
             }
             Drawing::Query(query) => return Some(query),
             Drawing::Mark(_, size) => self.size_last(role, drawn.key, size),
             Drawing::Line { .. } => {}
         }
         None
+    }
+
+    /// The internode that was drawn last in the bracket or before it, by its place, or [`BASE`].
+    pub fn bearer(&self) -> u32 {
+        self.at.last
     }
 
     /// The turtle as it is now.
@@ -275,7 +292,7 @@ impl<'w> Walk<'w> {
                 let axis = self.axis();
                 self.draft.axes[axis as usize].apex = Some((self.module, frame));
             }
-            Role::Organ(kind) => self.add_organ(key, kind, frame, size, 0..0, colour),
+            Role::Organ(kind) => self.add_organ(key, kind, frame, size, Form::OfKind, colour),
             Role::AsDrawn | Role::Internode(_) => {}
         }
     }
@@ -303,44 +320,26 @@ impl<'w> Walk<'w> {
         self.at.last = place as u32;
     }
 
-    fn add_organ(&mut self, key: LineageKey, kind: Kind, frame: Frame, size: f64, outline: Range<usize>, colour: i32) {
+    fn add_organ(&mut self, key: LineageKey, kind: Kind, frame: Frame, size: f64, form: Form, colour: i32) {
         self.draft.order.push(Item::Organ(self.draft.organs.len()));
         let Self { module, predecessor, .. } = *self;
-        self.draft.organs.push(Organ {
-            key,
-            module,
-            on: self.at.last,
-            frame,
-            kind,
-            size,
-            outline,
-            colour,
-            predecessor,
-        });
+        self.draft.organs.push(Organ { key, module, on: self.at.last, frame, kind, size, form, colour, predecessor });
     }
 
     /// A polygon or a surface: of the module of a stated kind that it is drawn for, its form; else a leaf.
-    fn drawn_as_outline(
-        &mut self,
-        silent: bool,
-        role: Role,
-        key: LineageKey,
-        frame: Frame,
-        outline: Range<usize>,
-        colour: i32,
-    ) {
+    fn drawn_as(&mut self, silent: bool, role: Role, key: LineageKey, frame: Frame, form: Form, colour: i32) {
         let named = if silent { self.named.flatten() } else { None };
         let own = self.draft.organs.len().checked_sub(1).filter(|last| self.draft.organs[*last].key == key);
         match (named.or(own.filter(|_| matches!(role, Role::Organ(_)))), silent) {
             (Some(organ), _) => {
                 let organ = &mut self.draft.organs[organ];
-                // The first outline is the form.
-                if organ.outline.is_empty() {
-                    (organ.outline, organ.frame, organ.colour) = (outline, frame, colour);
+                // What is drawn first is the form.
+                if !organ.form.is_drawn() {
+                    (organ.form, organ.frame, organ.colour) = (form, frame, colour);
                 }
             }
             (None, true) => {}
-            (None, false) => self.add_organ(key, Kind::Leaf, frame, 0.0, outline, colour),
+            (None, false) => self.add_organ(key, Kind::Leaf, frame, 0.0, form, colour),
         }
     }
 
@@ -365,10 +364,16 @@ impl Draft {
         self.axes.push(Axis { key: LineageKey::SEED, module: LineageKey::SEED, on: BASE, order: 1, apex: None });
     }
 
-    fn add_outline(&mut self, corners: impl Iterator<Item = Vector>) -> Range<usize> {
+    fn add_outline(&mut self, corners: impl Iterator<Item = Vector>) -> Form {
         let first = self.corners.len();
         self.corners.extend(corners);
-        first..self.corners.len()
+        Form::Outline(first..self.corners.len())
+    }
+
+    /// The internodes that are lines: all but a foot, by their places.
+    pub fn lines(&self) -> &[Internode] {
+        let is_foot = self.nodes.last().is_some_and(|last| last.key == foot_key());
+        &self.nodes[..self.nodes.len() - usize::from(is_foot)]
     }
 
     /// Whether anything but the first internode of the trunk stands at the base.
@@ -382,11 +387,4 @@ impl Draft {
 /// The key of the foot of a plant whose trunk has no internode.
 fn foot_key() -> LineageKey {
     LineageKey::SEED.child(u64::MAX)
-}
-
-/// A corner of a surface where the turtle is: along H, L and U, scaled across, along and above.
-fn placed(frame: &Frame, corner: Vector, scale: [f64; 3]) -> Vector {
-    let [across, along, above] = scale;
-    let [h, l, u] = [corner[0] * along, corner[1] * across, corner[2] * above];
-    [0, 1, 2].map(|i| frame.position[i] + h * frame.heading[i] + l * frame.left[i] + u * frame.up[i])
 }

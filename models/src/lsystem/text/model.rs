@@ -4,12 +4,13 @@
 //! (`phytomer_rewriting`), drawing (`draft`), numbers (`numbers`).
 
 use super::columns::{Measures, write};
-use super::draft::{Draft, Outlines, Walk};
+use super::draft::{Draft, Surfaces, Walk};
+use super::environment::{Asked, Environment};
 use super::events::{self, Noted};
 use super::numbers::{Bud, Numbered, Numbers};
 use super::script::{Script, Scripts};
 use crate::lsystem::turtle::{Query, Turtle};
-use phytomer_rewriting::{Answers, Derived, Interpreter, Program, Stopped};
+use phytomer_rewriting::{Answers, Derived, Drawn, Interpreter, Program, Stopped};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::key::LineageKey;
 use phytomer_sim::model::{Grow, Growth, Overgrown};
@@ -26,7 +27,9 @@ pub struct TextModel {
     /// Where plants draw constants: the script is then of one plant each.
     pub(super) drawn: Option<Box<dyn Scripts>>,
     pub(super) turtle: Turtle,
-    pub(super) outlines: Outlines,
+    pub(super) surfaces: Surfaces,
+    /// What answers `?E`; `None`: it keeps its parameters.
+    pub(super) environment: Option<Environment>,
     pub(super) measures: Measures,
     pub(super) tapered: bool,
     pub(super) habit: Arc<Habit>,
@@ -97,13 +100,13 @@ impl Drawing<'_> {
         &mut self,
         program: &Program,
         derived: &Derived,
-        mut answer: impl FnMut(&phytomer_rewriting::Drawn<'_>, Query, &Turtle),
+        mut answer: impl FnMut(&Drawn<'_>, Query, &Walk<'_>),
     ) -> Result<(), Stopped> {
         let Scratch { turtle, draft, .. } = &mut *self.scratch;
-        let mut walk = Walk::begin(&self.script.roles, &self.model.outlines, turtle, draft, derived);
+        let mut walk = Walk::begin(&self.script.roles, &self.model.surfaces, turtle, draft, derived);
         program.draw(derived, |drawn| {
             if let Some(query) = walk.go_on(&drawn) {
-                answer(&drawn, query, walk.turtle());
+                answer(&drawn, query, &walk);
             }
         })?;
         walk.end();
@@ -114,18 +117,31 @@ impl Drawing<'_> {
 
 impl Interpreter for Drawing<'_> {
     fn answer(&mut self, program: &Program, derived: &Derived, answers: &mut Answers) -> Result<(), (String, String)> {
-        let told = self.draw(program, derived, |drawn, query, turtle| {
-            let frame = &turtle.state().frame;
+        let mut asked = Vec::new();
+        let told = self.draw(program, derived, |drawn, query, walk| {
+            let frame = &walk.turtle().state().frame;
             let values = match query {
+                // What a homomorphism draws is no module of the string.
+                _ if drawn.depth > 0 => return,
                 Query::Position => frame.position,
                 Query::Axis(axis) => frame.axis(axis),
-                Query::Environment => return,
+                Query::Environment => {
+                    let rest = [1, 2].map(|place| drawn.parameters.get(place).copied().unwrap_or(0.0));
+                    return asked.push(Asked { query: drawn.of, at: frame.position, on: walk.bearer(), rest });
+                }
             };
-            if drawn.depth == 0 {
-                answers.give(drawn.of, values);
-            }
+            answers.give(drawn.of, values);
         });
-        told.map_err(|stopped| (stopped.problem, stopped.expected))
+        told.map_err(|stopped| (stopped.problem, stopped.expected))?;
+        let Some(environment) = &self.model.environment else { return Ok(()) };
+        let values = environment.answers(&asked, self.scratch.draft.lines(), self.model.measures.step);
+        for (Asked { query, rest: [second, third], .. }, value) in asked.into_iter().zip(values) {
+            if !value.is_finite() {
+                return Err((format!("the answer to a query `?E` is {value}"), "a finite number".to_owned()));
+            }
+            answers.give(query, [value, second, third]);
+        }
+        Ok(())
     }
 }
 

@@ -5,7 +5,7 @@
 
 use super::columns::Measures;
 use super::curves::Curves;
-use super::draft::Outlines;
+use super::environment::Environment;
 use super::forms::Forms;
 use super::model::{TextModel, shape};
 use super::role::Roles;
@@ -15,7 +15,7 @@ use crate::law::{At, VariateTable};
 use crate::lsystem::turtle::Turtle;
 use crate::lsystem::view::{Colours, Function, Surface, TextFault, View};
 use crate::shapes::Named;
-use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints};
+use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints, Surface as Form};
 use phytomer_rewriting::{Outside, Program, Reading, Refused};
 use phytomer_sim::key::{LineageKey, mix};
 use phytomer_sim::plant::{Class, Habit, InternodeLook, Kind, Looks, OrganLook, Trend};
@@ -24,8 +24,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
-/// How many points a side the outline of a surface has.
-const OUTLINE: usize = 6;
+/// The module that the environment answers.
+const ENVIRONMENT: &str = "?E";
 /// The diameter of a line of a pixel in lengths of a step, where a view file counts widths in pixels. Assumed.
 const PIXEL: f64 = 0.02;
 
@@ -46,6 +46,8 @@ pub struct TextSystem {
     pub define: Vec<(String, VariateTable)>,
     /// The shapes that the file may call, by their names.
     pub shapes: Named,
+    /// What answers the query `?E`.
+    pub environment: Option<Environment>,
     /// The kinds of modules, by their names.
     pub kinds: BTreeMap<String, Kind>,
     /// The modules that go on as the last of their symbol in a successor.
@@ -66,6 +68,10 @@ pub enum Wrong {
         /// What is wrong in it, and where.
         fault: TextFault,
     },
+    /// A constant that is set and that the file does not name, by its name.
+    Constant(String),
+    /// The environment is stated, and no module asks it.
+    Unasked,
     /// The kind of a module.
     Kind {
         /// The name of the module.
@@ -85,13 +91,16 @@ impl TextSystem {
     pub fn compile(&self) -> Result<TextModel, Vec<Wrong>> {
         let mut wrong = Vec::new();
         let view = self.view(&mut wrong);
-        let outlines = self.outlines(&view, &mut wrong);
+        let surfaces = self.surfaces(&view, &mut wrong);
         let forms = Forms::of(&self.shapes, self.step_m);
         let world = Arc::new(World { curves: self.curves(&view, &mut wrong), forms });
         let colours = self.colours(&mut wrong);
         let middle: Vec<(String, f64)> = self.constants(|_| u32::MAX / 2);
         match self.script(&middle, &world) {
-            Ok(script) if wrong.is_empty() => Ok(self.model(script, &world, &view, outlines, colours.as_ref())),
+            Ok(script) if self.environment.is_some() && script.program.symbols().symbol(ENVIRONMENT).is_none() => {
+                Err(wrong.into_iter().chain([Wrong::Unasked]).collect())
+            }
+            Ok(script) if wrong.is_empty() => Ok(self.model(script, &world, &view, surfaces, colours.as_ref())),
             Ok(_) => Err(wrong),
             Err(more) => Err(wrong.into_iter().chain(more).collect()),
         }
@@ -118,7 +127,7 @@ impl TextSystem {
         script: Script,
         world: &Arc<World>,
         view: &View,
-        outlines: Outlines,
+        surfaces: Vec<(char, Form)>,
         colours: Option<&Colours>,
     ) -> TextModel {
         let angle_deg = script.program.settings().angle_deg.unwrap_or(view.angle_deg);
@@ -128,15 +137,21 @@ impl TextSystem {
         kinds.push(Kind::Internode);
         kinds.sort_unstable();
         kinds.dedup();
-        let (looks, places, paints) = looks(&kinds, view.tapered_lines, colours);
+        let (looks, places, mut paints) = looks(&kinds, view.tapered_lines, colours);
         let measures = Measures { step: self.step_m, width, looks: places, coloured: colours.is_some() };
+        let surfaces = surfaces.into_iter().map(|(symbol, form)| {
+            paints.add_surface(form);
+            symbol
+        });
+        let surfaces = surfaces.collect();
         let for_drawing = paints.into_habit();
         let habit = Habit { trends: vec![Trend::STRAIGHT], looks, for_drawing, ..Habit::default() };
         let tapered = view.tapered_lines;
         let is_drawn = self.define.iter().any(|(_, law)| law.is_random());
         let of_each = || Box::new(OfEachPlant { system: self.clone(), world: Arc::clone(world) });
         let drawn = is_drawn.then(|| of_each() as Box<dyn Scripts>);
-        TextModel { script: Arc::new(script), drawn, turtle, outlines, measures, tapered, habit: Arc::new(habit) }
+        let (script, environment) = (Arc::new(script), self.environment.clone());
+        TextModel { script, drawn, turtle, surfaces, environment, measures, tapered, habit: Arc::new(habit) }
     }
 
     fn view(&self, wrong: &mut Vec<Wrong>) -> View {
@@ -159,19 +174,17 @@ impl TextSystem {
         text
     }
 
-    fn outlines(&self, view: &View, wrong: &mut Vec<Wrong>) -> Outlines {
-        let mut outlines = Outlines::new();
+    /// The curved surfaces of the view file by their symbols.
+    fn surfaces(&self, view: &View, wrong: &mut Vec<Wrong>) -> Vec<(char, Form)> {
+        let mut surfaces = Vec::new();
         for named in &view.surfaces {
             let Some((name, text)) = self.text(&named.file, wrong) else { continue };
             match Surface::read(text) {
-                Ok(surface) => {
-                    let corners = surface.outline(OUTLINE).into_iter().map(|corner| corner.map(|x| x * named.size));
-                    outlines.push((named.symbol, corners.collect()));
-                }
+                Ok(surface) => surfaces.push((named.symbol, surface.form(named.size, named.steps))),
                 Err(fault) => wrong.push(in_text(name, fault)),
             }
         }
-        outlines
+        surfaces
     }
 
     fn curves(&self, view: &View, wrong: &mut Vec<Wrong>) -> Curves {
@@ -230,7 +243,8 @@ impl Wrong {
             let (problem, expected) = (fault.problem.clone(), fault.expected.clone());
             in_text(refused.file(fault), TextFault { line, column, problem, expected })
         };
-        refused.faults.iter().map(of).collect()
+        let unknown = refused.unknown.iter().cloned().map(Self::Constant);
+        refused.faults.iter().map(of).chain(unknown).collect()
     }
 
     /// There is no text of this name.
@@ -264,6 +278,8 @@ impl fmt::Display for Wrong {
             Self::Text { file, fault: TextFault { line, column, problem, expected } } => {
                 write!(f, "{file}:{line}:{column}: {problem}; expected {expected}")
             }
+            Self::Constant(name) => write!(f, "no constant is named `{name}`; expected a name of the file"),
+            Self::Unasked => write!(f, "no module `{ENVIRONMENT}` asks the environment; expected such a module"),
             Self::Kind { module, problem, expected } => write!(f, "`{module}`: {problem}; expected {expected}"),
         }
     }

@@ -6,13 +6,8 @@
 //! which the left side goes up. Absent: what is drawn.
 
 use super::command::Axis;
+use crate::lsystem::vector::{NOTHING, Vector, cross, dot, unit};
 use phytomer_sim::math::sincos;
-
-/// Three numbers.
-pub type Vector = [f64; 3];
-
-/// Below this square of its length a vector has no direction.
-const NOTHING: f64 = 1e-20;
 
 /// Position and axes of a turtle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +34,11 @@ impl Frame {
             Axis::Left => self.left,
             Axis::Up => self.up,
         }
+    }
+
+    /// A vector in the coordinates of the frame: along H, L and U.
+    pub fn coordinates(&self, vector: Vector) -> Vector {
+        [self.heading, self.left, self.up].map(|axis| dot(axis, vector))
     }
 
     /// Turns by an angle, radians, about one of its axes.
@@ -131,21 +131,4 @@ impl Frame {
             *vector = [0, 1, 2].map(|i| cos * vector[i] + sin * across[i] + along * axis[i]);
         }
     }
-}
-
-#[inline]
-pub(super) fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline]
-pub(super) fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// The direction of a vector, if it has one.
-pub(super) fn unit(vector: Vector) -> Option<Vector> {
-    let square = dot(vector, vector);
-    let length = square.sqrt();
-    (square > NOTHING && square.is_finite()).then(|| vector.map(|x| x / length))
 }

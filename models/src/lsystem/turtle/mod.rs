@@ -18,11 +18,12 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
+pub use super::vector::Vector;
 pub use command::{Axis, Change, Command, Counter, Mark, Query, Spline};
-pub use frame::{Frame, Vector};
+pub use frame::Frame;
 
+use super::vector::{cross, dot, unit};
 use super::view::View;
-use frame::{cross, dot, unit};
 use phytomer_sim::math::sincos;
 use settings::{Settings, bounded};
 
@@ -95,16 +96,18 @@ pub enum Drawing<'t> {
 #[derive(Debug, Clone)]
 pub struct Turtle {
     state: State,
-    stack: Vec<State>,
+    /// What each open bracket gives back, and how many susceptibilities had changed before it.
+    stack: Vec<(State, usize)>,
     /// The corners of open polygons, all in one list; where the corners of each begin, and where the turtle was.
     corners: Vec<Vector>,
     polygons: Vec<(usize, Frame)>,
     /// The corners of the polygon that ended last.
     ended: Vec<Vector>,
     settings: Settings,
-    /// The susceptibilities to the numbered tropisms, and those that open brackets give back.
+    /// The susceptibilities to the numbered tropisms, and the values that changed within open brackets, with their
+    /// numbers, as they were.
     elasticities: Vec<f64>,
-    elasticities_before: Vec<f64>,
+    changed: Vec<(usize, f64)>,
 }
 
 impl Turtle {
@@ -120,7 +123,7 @@ impl Turtle {
             ended: Vec::new(),
             settings,
             elasticities: Vec::new(),
-            elasticities_before: Vec::new(),
+            changed: Vec::new(),
         };
         turtle.restart();
         turtle
@@ -135,7 +138,7 @@ impl Turtle {
         self.ended.clear();
         self.elasticities.clear();
         self.elasticities.extend(self.settings.tropisms.iter().map(|tropism| tropism.elasticity));
-        self.elasticities_before.clear();
+        self.changed.clear();
     }
 
     /// Its state.
@@ -228,16 +231,15 @@ impl Turtle {
     }
 
     fn open(&mut self) {
-        self.stack.push(self.state);
-        self.elasticities_before.extend_from_slice(&self.elasticities);
+        self.stack.push((self.state, self.changed.len()));
     }
 
     fn close(&mut self) {
-        let Some(state) = self.stack.pop() else { return };
+        let Some((state, changed)) = self.stack.pop() else { return };
         self.state = state;
-        let first = self.elasticities_before.len() - self.elasticities.len();
-        self.elasticities.copy_from_slice(&self.elasticities_before[first..]);
-        self.elasticities_before.truncate(first);
+        for (number, before) in self.changed.drain(changed..).rev() {
+            self.elasticities[number] = before;
+        }
     }
 
     fn head(&mut self, parameters: &[f64]) {
@@ -317,6 +319,9 @@ impl Turtle {
         let by = parameters.get(1).copied().map(bounded);
         let increment = self.settings.tropisms[number].elasticity_increment;
         let elasticity = &mut self.elasticities[number];
+        if !self.stack.is_empty() {
+            self.changed.push((number, *elasticity));
+        }
         match change {
             Change::Up => *elasticity += by.unwrap_or(increment),
             Change::Down => *elasticity -= by.unwrap_or(increment),
@@ -332,7 +337,8 @@ impl Turtle {
         }
         let frame = &mut self.state.frame;
         let mut towards = [0.0; 3];
-        for (tropism, elasticity) in self.settings.tropisms.iter().zip(&self.elasticities) {
+        let felt = self.settings.tropisms.iter().zip(&self.elasticities).filter(|(_, elasticity)| **elasticity != 0.0);
+        for (tropism, elasticity) in felt {
             let (sin, cos) = sincos(tropism.angle_deg.to_radians());
             let torque = unit(cross(frame.heading, tropism.direction)).unwrap_or(frame.left);
             let across = cross(tropism.direction, torque);

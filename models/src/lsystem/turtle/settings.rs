@@ -2,7 +2,7 @@
 //!
 //! Absent: how it draws by them.
 
-use super::frame::Vector;
+use super::Vector;
 use crate::lsystem::view::{Tropism, View};
 
 /// The largest number that a parameter or a length is taken for.

@@ -129,6 +129,25 @@ fn a_numbered_tropism_turns_before_its_line() {
     assert!(sines[3].abs() < 1e-12, "at a right angle to its vector it rests: {sines:?}");
 }
 
+/// A bracket keeps what changes within it, however many tropisms there are.
+#[test]
+fn brackets_keep_the_susceptibilities_that_change() {
+    let mut turtle = turtle_of(&"tropism: T: 0 1 0 E: 0.0 S: 0.1\n".repeat(256));
+    (0..100_000).for_each(|_| _ = turtle.follow(Command::Open, &[]));
+    assert!(turtle.changed.is_empty());
+    turtle.follow(Command::of("@Ts"), &[256.0, 0.5]);
+    for _ in 0..2 {
+        turtle.follow(Command::Open, &[]);
+        turtle.follow(Command::of("@Ti"), &[256.0]);
+        turtle.follow(Command::of("@Ti"), &[1.0]);
+    }
+    assert_eq!((turtle.elasticities[255], turtle.elasticities[0]), (0.7, 0.2));
+    turtle.follow(Command::Close, &[]);
+    assert_eq!((turtle.elasticities[255], turtle.elasticities[0]), (0.6, 0.1));
+    (0..100_001).for_each(|_| _ = turtle.follow(Command::Close, &[]));
+    assert_eq!((turtle.elasticities[255], turtle.changed.len()), (0.0, 0));
+}
+
 #[test]
 fn widths_colours_and_scales_go_up_and_down_and_brackets_give_them_back() {
     let mut turtle = turtle_of(

@@ -87,6 +87,8 @@ pub struct NamedSurface {
     pub file: String,
     /// The largest dimension.
     pub size: f64,
+    /// The steps of its parameters s and t in which it is drawn; 0 where they are not stated.
+    pub steps: [u8; 2],
 }
 
 /// A line that has no meaning here.
@@ -241,7 +243,9 @@ fn surface(words: &mut Words<'_>) -> Result<NamedSurface, TextFault> {
     };
     let file = words.text("the name of a file")?.text.to_owned();
     let size = words.number("the size of the surface")?;
-    Ok(NamedSurface { symbol, file, size: if size > 0.0 { size } else { 1.0 } })
+    let mut steps = || words.next().text.parse().unwrap_or(0);
+    let steps = [steps(), steps()];
+    Ok(NamedSurface { symbol, file, size: if size > 0.0 { size } else { 1.0 }, steps })
 }
 
 fn contour(words: &mut Words<'_>) -> Result<(i32, String), TextFault> {

@@ -38,8 +38,8 @@ fn a_view_file_is_read_and_what_has_no_meaning_is_listed() {
     assert_eq!((view.scale, view.scale_multiplier), (2.0, 0.5));
     let tropism = view.tropisms[0];
     assert_eq!((tropism.direction, tropism.angle_deg, tropism.elasticity), ([0.0, 1.0, 0.0], 90.0, 0.3));
-    let surfaces: Vec<_> = view.surfaces.iter().map(|s| (s.symbol, s.file.as_str(), s.size)).collect();
-    assert_eq!(surfaces, [('l', "leaf.s", 1.5), ('p', "petal.s", 1.0)]);
+    let surfaces: Vec<_> = view.surfaces.iter().map(|s| (s.symbol, s.file.as_str(), s.size, s.steps)).collect();
+    assert_eq!(surfaces, [('l', "leaf.s", 1.5, [8, 4]), ('p', "petal.s", 1.0, [0, 0])]);
     assert_eq!(view.functions, ["width.func", "length.func"]);
     assert_eq!(view.contours, [(2, "blade.con".to_owned())]);
     let skipped: Vec<_> = view.skipped.iter().map(|line| (line.line, line.text.as_str())).collect();
@@ -174,22 +174,62 @@ fn surface_text(patches: &str) -> String {
 fn a_surface_is_told_in_the_coordinates_of_the_turtle() {
     let surface = Surface::read(&surface_text(&patch_text(2.0, 4.0, 0.0))).expect("it can be read");
     let patch = &surface.patches[0];
-    // A quarter of the size: heading along y, from the contact point; left along −x; the upper side along z.
-    assert_eq!(Surface::point(patch, 0.0, 0.0), [-0.125, 0.25, 0.0]);
-    assert_eq!(Surface::point(patch, 1.0, 1.0), [0.875, -0.25, 0.0]);
+    // A quarter of the size: heading along y, from the contact point; left along x; the upper side along −U.
+    assert_eq!(Surface::point(patch, 0.0, 0.0), [-0.125, -0.25, 0.0]);
+    assert_eq!(Surface::point(patch, 1.0, 1.0), [0.875, 0.25, 0.0]);
     let middle = Surface::point(patch, 0.5, 0.5);
     assert!((middle[0] - 0.375).abs() < 1e-15 && middle[1].abs() < 1e-15, "{middle:?}");
-    assert!((surface.area() - 0.5).abs() < 1e-12, "{}", surface.area());
-    assert_eq!(
-        surface.outline(1),
-        [[-0.125, 0.25, 0.0], [-0.125, -0.25, 0.0], [0.875, -0.25, 0.0], [0.875, 0.25, 0.0]]
-    );
-    assert_eq!(surface.outline(5).len(), 20);
+    let form = surface.form(3.0, [0, 0]);
+    assert_eq!((form.points().len(), form.faces().len(), surface.steps), (36, 50, [5; 2]));
+    assert!((form.area([1.0; 3]) - 9.0 * 0.5).abs() < 1e-12, "{}", form.area([1.0; 3]));
+    assert_eq!(form.points()[0].at, [-0.375, -0.75, 0.0]);
+    assert!(form.points().iter().all(|point| point.normal[..2] == [0.0; 2]), "a plane");
     let humped = surface_text(&format!("{}{}", patch_text(2.0, 4.0, 1.0), patch_text(1.0, 1.0, 0.0)));
     let humped = Surface::read(&humped).expect("it can be read");
     // Of the four inner points each counts 3·½·¼·3·½·¼ in the middle: (¾)² together.
-    assert!((Surface::point(&humped.patches[0], 0.5, 0.5)[2] - 0.25 * 0.5625).abs() < 1e-15);
-    assert!(humped.area() > 0.5 + 1.0 / 16.0 && humped.outline(1)[0] == [-0.125, 0.25, 0.0]);
+    assert!((Surface::point(&humped.patches[0], 0.5, 0.5)[2] + 0.25 * 0.5625).abs() < 1e-15);
+    let form = humped.form(1.0, [8, 4]);
+    assert_eq!((form.points().len(), form.faces().len()), (2 * 45, 2 * 64));
+    assert!(form.area([1.0; 3]) > 0.5 + 1.0 / 16.0);
+}
+
+/// A patch whose rows are equal arcs is a part of a cylinder: a quarter of a circle by one cubic, with the handle
+/// k = 4/3 tan 22.5°, is round to 2.7e-4 of its radius (Goldapp 1991). Radius 1, height 2: its area is π.
+#[test]
+fn a_quarter_of_a_cylinder_has_its_area_and_its_normals() {
+    let k = 4.0 / 3.0 * (2.0_f64.sqrt() - 1.0);
+    let arc = [[1.0, 0.0], [1.0, k], [k, 1.0], [0.0, 1.0]];
+    let rows = (0..4).map(|row| arc.map(|[x, z]| format!("{x} {} {z}", f64::from(row) * 2.0 / 3.0)).join(" "));
+    let rows: Vec<String> = rows.collect();
+    let text = surface_text(&format!("p\n{}\n", rows.join("\n"))).replace("SIZE: 4.0", "SIZE: 1");
+    let surface = Surface::read(&text).expect("it can be read");
+    let area = surface.form(1.0, [10, 1]).area([1.0; 3]);
+    // Ten chords of a quarter of a circle are 20 sin 4.5° long together.
+    let chords = 2.0 * 20.0 * phytomer_sim::math::sin(4.5_f64.to_radians());
+    assert!((area / chords - 1.0).abs() < 1e-3, "{area} {chords}");
+    assert!((area / std::f64::consts::PI - 1.0).abs() < 2e-3);
+    let form = surface.form(1.0, [10, 3]);
+    for point in form.points() {
+        // Out from the axis, or in towards it: across the radius there is nothing. The axis is that of y in the file.
+        let [_, left, up] = point.at.map(f64::from);
+        let normal = point.normal.map(f64::from);
+        let along = normal[1] * left + normal[2] * up;
+        assert!((along.abs() - 1.0).abs() < 2e-3 && normal[0].abs() < 1e-6, "{point:?}");
+    }
+}
+
+/// A patch that is drawn together at one end has a normal there too.
+#[test]
+fn a_pole_of_a_patch_has_the_normal_of_its_triangles() {
+    let rows: Vec<String> =
+        (0..4).map(|row| [-1.0, -0.3, 0.3, 1.0].map(|x| format!("{} {row} 0", x * f64::from(row))).join(" ")).collect();
+    let text = surface_text(&format!("p\n{}\n", rows.join("\n")));
+    let form = Surface::read(&text).expect("it can be read").form(1.0, [4, 4]);
+    assert!(form.points().iter().all(|point| point.normal[2].abs() == 1.0), "{:?}", form.points());
+    // Of 256 patches each is drawn more coarsely: 2 · 4 · 4 triangles, not 2 · 10 · 10.
+    let many = surface_text(&format!("p\n{}\n", rows.join("\n")).repeat(256));
+    let many = Surface::read(&many).expect("it can be read").form(1.0, [10, 10]);
+    assert_eq!(many.faces().len(), 256 * 2 * 16);
 }
 
 #[test]
@@ -256,7 +296,7 @@ fn no_bytes_make_a_reader_panic() {
                 }
             }
             let text: String = characters.into_iter().collect();
-            let _ = (View::read(&text), Surface::read(&text).map(|surface| surface.outline(3)));
+            let _ = (View::read(&text), Surface::read(&text).map(|surface| surface.form(1.0, [3, 2])));
             let functions = Function::read_set(&text).unwrap_or_default();
             let all = functions.into_iter().chain(Function::read(&text).ok());
             all.for_each(|function| assert!(!function.at(0.3).is_nan(), "{text}"));
