@@ -4,7 +4,7 @@
 //! The shapes that have names here also serve the events of the scenario. Absent: light and soil.
 
 use phytomer_law::fault::{Fault, Path};
-use phytomer_models::shapes::{Named, ShapeOrName, Shapes, one};
+use phytomer_models::shapes::{MOST_PARTS, Named, ShapeOrName, Shapes, length_of, one};
 use phytomer_sim::shape::{HalfSpace, Intersection, Shape};
 use phytomer_sim::site::{Obstacle as SimObstacle, STANDARD_GRAVITY, Side, Wind as SimWind};
 use schemars::JsonSchema;
@@ -130,12 +130,24 @@ impl Site {
 
     /// Adds the faults of planes and obstacles that the schema cannot state.
     pub(super) fn check_obstacles(&self, named: &Named, path: &Path, faults: &mut Vec<Fault>) {
+        let mut parts = 0;
         for (number, obstacle) in self.obstacle.iter().enumerate() {
-            obstacle.felt(named, &path.key("obstacle").index(number), faults);
+            let path = path.key("obstacle").index(number);
+            let felt = obstacle.felt(named, &path, faults);
+            if matches!(obstacle.shape, ShapeOrName::Shape(_)) {
+                parts += felt.map_or(0, |felt| felt.shape.parts());
+            }
+            if parts > MOST_PARTS {
+                let problem = format!("the obstacles up to this one have more than {MOST_PARTS} parts");
+                faults.push(Fault::new(&path.key("shape"), problem, "fewer parts, or shapes by their names"));
+                break;
+            }
         }
-        for (number, plane) in self.plane.iter().enumerate().filter(|(_, plane)| plane.normal == [0.0; 3]) {
+        let is_short = |(_, plane): &(usize, &Plane)| HalfSpace::is_too_short(plane.normal);
+        for (number, plane) in self.plane.iter().enumerate().filter(is_short) {
             let path = path.key("plane").index(number).key("normal");
-            let problem = format!("the normal of the plane through {:?} has the length 0", plane.point_m);
+            let problem =
+                format!("the normal of the plane through {:?} has {}", plane.point_m, length_of(plane.normal));
             faults.push(Fault::new(&path, problem, "a direction, such as [0, 0, 1] for a roof"));
         }
     }
