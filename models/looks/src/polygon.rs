@@ -30,7 +30,8 @@ pub fn triangles(points: &[[f32; 3]]) -> Vec<[usize; 3]> {
 /// Whether all corners lie in the plane across their mean normal (Newell's sum over the edges).
 pub fn is_plane(points: &[[f32; 3]]) -> bool {
     let Some(&first) = points.first() else { return true };
-    let from: Vec<[f64; 3]> = points.iter().map(|at| [0, 1, 2].map(|k| f64::from(at[k]) - f64::from(first[k]))).collect();
+    let from: Vec<[f64; 3]> =
+        points.iter().map(|at| [0, 1, 2].map(|k| f64::from(at[k]) - f64::from(first[k]))).collect();
     let mut normal = [0.0; 3];
     for edge in from.windows(2) {
         let across = cross(edge[0], edge[1]);

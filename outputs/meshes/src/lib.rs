@@ -19,6 +19,7 @@ mod palette;
 mod plot;
 mod ply;
 mod scene;
+mod section;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

@@ -5,13 +5,46 @@
 //! not plane has at each corner the mean normal of its triangles; a surface has normals of its own.
 
 use super::chunk::{Tag, Vertex};
-use super::forms::plane_normal;
+use super::forms::{FormMesh, plane_normal};
 use super::tube::cross;
 use phytomer_looks::polygon::{is_plane, triangles};
 use phytomer_looks::{Surface, SurfacePoint};
 use phytomer_sim::plant::{OrganId, Plant};
 use phytomer_sim::pose::Frame;
 use std::ops::Range;
+
+/// The form of an organ.
+#[derive(Debug, Clone, Copy)]
+pub enum OrganForm<'s> {
+    /// A form of the library, or a mesh file.
+    Shape(&'s FormMesh),
+    /// A polygon: its corners and triangles.
+    Outline(&'s [[f32; 3]], &'s [[u32; 3]]),
+    /// A curved surface, and its factors along the axes of the organ when it is full-grown.
+    Surface(&'s Surface, [f32; 3]),
+}
+
+impl<'s> OrganForm<'s> {
+    /// The number of its vertices.
+    #[inline]
+    pub fn vertices(self) -> usize {
+        match self {
+            Self::Shape(shape) => shape.points.len(),
+            Self::Outline(corners, _) => corners.len(),
+            Self::Surface(surface, _) => surface.points().len(),
+        }
+    }
+
+    /// Its triangles.
+    #[inline]
+    pub fn faces(self) -> &'s [[u32; 3]] {
+        match self {
+            Self::Shape(shape) => &shape.faces,
+            Self::Outline(_, faces) => faces,
+            Self::Surface(surface, _) => surface.faces(),
+        }
+    }
+}
 
 /// The triangles of every outline of a plant.
 #[derive(Debug, Default)]
@@ -49,13 +82,7 @@ impl Outlines {
 
 /// Writes the vertices of an outline of these triangles that has grown to `share` of its size; `out` has exactly one
 /// place per corner.
-pub fn write(
-    (corners, faces): (&[[f32; 3]], &[[u32; 3]]),
-    frame: &Frame,
-    share: f32,
-    tag: &Tag,
-    out: &mut [Vertex],
-) {
+pub fn write((corners, faces): (&[[f32; 3]], &[[u32; 3]]), frame: &Frame, share: f32, tag: &Tag, out: &mut [Vertex]) {
     let axes = axes(frame);
     let turned = |at: [f32; 3]| turned(&axes, at);
     let mean = plane_normal(corners);
