@@ -3,7 +3,8 @@
 //!
 //! Each file becomes an entry of the table `texts`, in which a fault is shown at its line and column. Read are the file
 //! that the species names, what it includes, its view file, the surfaces, contours and functions that the view file
-//! names, and a map of colours. Nothing outside the folder is read. Absent: what the texts mean (`phytomer_models::lsystem`).
+//! names, and a map of colours. Nothing outside the folder is read. Absent: what the texts mean
+//! (`phytomer_models::lsystem`).
 
 use crate::document::{Entry, Node, Value};
 use crate::library::Library;

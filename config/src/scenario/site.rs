@@ -159,14 +159,7 @@ impl Site {
         for (number, obstacle) in self.obstacle.iter().enumerate() {
             let path = path.key("obstacle").index(number);
             let felt = obstacle.felt(named, &path, faults);
-            if obstacle.drawn == Some(true) && felt.is_some_and(|felt| !has_end(&felt.shape)) {
-                let problem = "a shape without an end cannot be drawn";
-                faults.push(Fault::new(
-                    &path.key("drawn"),
-                    problem,
-                    "`false`, or a shape that has an end on every side",
-                ));
-            }
+            obstacle.check_drawn(felt.as_ref(), &path, faults);
         }
         for (number, plane) in self.plane.iter().enumerate().filter(|(_, plane)| plane.normal == [0.0; 3]) {
             let path = path.key("plane").index(number).key("normal");
@@ -199,6 +192,19 @@ impl Obstacle {
         Some(SimObstacle { shape: one(&self.shape, named, &path.key("shape"), faults)?, kills })
     }
 
+    /// Adds the faults of how it is to be drawn.
+    fn check_drawn(&self, felt: Option<&SimObstacle>, path: &Path, faults: &mut Vec<Fault>) {
+        if self.drawn == Some(true) && felt.is_some_and(|felt| !has_end(&felt.shape)) {
+            let problem = "a shape without an end cannot be drawn";
+            faults.push(Fault::new(&path.key("drawn"), problem, "`false`, or a shape that has an end on every side"));
+        }
+        if let Some(colour) = self.colour.as_ref().filter(|colour| colour.rgb().is_none()) {
+            let problem = format!("`{}` is no colour", colour.0);
+            let expected = "`#` and six hexadecimal digits, such as \"#7a8646\"";
+            faults.push(Fault::new(&path.key("colour"), problem, expected));
+        }
+    }
+
     /// What is drawn of it, if anything is.
     fn drawn(&self, felt: SimObstacle) -> Option<DrawnObstacle> {
         let drawn = self.drawn.unwrap_or(self.kills.is_inside()) && has_end(&felt.shape);
@@ -207,10 +213,10 @@ impl Obstacle {
     }
 }
 
-/// Whether a shape reaches to infinity nowhere.
+/// Whether a shape reaches to infinity nowhere; that of nothing does not.
 fn has_end(shape: &Shape) -> bool {
     let bounds = shape.bounds();
-    bounds.low.iter().chain(&bounds.high).all(|x| x.is_finite())
+    (0..3).any(|k| bounds.low[k] > bounds.high[k]) || bounds.low.iter().chain(&bounds.high).all(|x| x.is_finite())
 }
 
 impl Wind {

@@ -1,8 +1,8 @@
 //! Organs that state their form: their outline, a polygon in triangles that may be concave, or a curved surface.
 //!
 //! The corners are the vertices, in their order. The upper side is the side from which they run counterclockwise. The
-//! polygon grows from the organ's base as the organ expands. Its triangles are computed once per scene. A polygon that is
-//! not plane has at each corner the mean normal of its triangles; a surface has normals of its own.
+//! polygon grows from the organ's base as the organ expands. Its triangles are computed once per scene. A polygon that
+//! is not plane has at each corner the mean normal of its triangles; a surface has normals of its own.
 
 use super::chunk::{Tag, Vertex};
 use super::forms::{FormMesh, plane_normal};

@@ -2,8 +2,8 @@
 //!
 //! Vertices are relative to the place of the plot, which is in the comments, so that single precision holds a plot of a
 //! hundred metres to 0.004 mm wherever it stands. A comment for each plant states its name and its number of vertices
-//! in the file. Vertices of obstacles have the component number −1. A plant that stands at several places is made once and kept. The profile of vertices and triangles is
-//! that of a single plant's file.
+//! in the file. Vertices of obstacles have the component number −1. A plant that stands at several places is made once
+//! and kept. The profile of vertices and triangles is that of a single plant's file.
 
 use super::chunk::{Chunk, Face, Vertex};
 use super::ply::{header_of, place_comment};

@@ -2,8 +2,8 @@
 //!
 //! An internode that goes on where an internode with a section ends begins with the last ring of that one, so that a
 //! generalised cylinder has no gap where it bends. The ends of a closed section are closed by caps, which lie within
-//! the cylinder but at its ends. Normals stand across the section and do not lean with a change of width. Absent: circles,
-//! which are tubes.
+//! the cylinder but at its ends. Normals stand across the section and do not lean with a change of width. Absent:
+//! circles, which are tubes.
 
 use super::chunk::{Tag, Vertex};
 use super::tube::{Frustum, cross};
@@ -158,7 +158,8 @@ mod tests {
         Frustum { base: [0.1, -0.2, 0.3], heading: [0.6, 0.0, 0.8], up: [0.8, 0.0, -0.6], length: 1.5, radii }
     }
 
-    /// An L of three squares of half the width: a prism of 3 r² h, a frustum of 3 h/3 (r² + R² + r R). Either way round.
+    /// An L of three squares of half the width: a prism of 3 r² h, a frustum of 3 h/3 (r² + R² + r R). Either way
+    /// round.
     #[test]
     fn a_closed_section_is_a_solid_of_its_volume() {
         let mut corners = vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];

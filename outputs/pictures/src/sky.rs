@@ -63,8 +63,8 @@ impl Crown {
         self.add_cut(corners, thin, MOST_CUTS);
     }
 
-    /// Adds a triangle of an obstacle, which may be as large as the grid: as one of a closed surface, in pieces that are
-    /// no larger than a cell.
+    /// Adds a triangle of an obstacle, which may be as large as the grid: as one of a closed surface, in pieces that
+    /// are no larger than a cell.
     #[inline]
     pub fn add_obstacle(&self, corners: &[Vec3; 3]) {
         self.add_cut(corners, false, 4.0 * CELLS);

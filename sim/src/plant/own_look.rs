@@ -2,7 +2,8 @@
 //! flower made of parts needs.
 //!
 //! A look is named by its place among [`super::Looks::apart`] or [`super::Looks::organs_apart`]. A place past their end
-//! names no look. Beside its look a node may have a cross section of its own. A plant without own looks has empty columns.
+//! names no look. Beside its look a node may have a cross section of its own. A plant without own looks has empty
+//! columns.
 
 use super::Plant;
 use super::handle::{NodeId, OrganId};

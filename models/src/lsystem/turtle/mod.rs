@@ -7,8 +7,8 @@
 //! Decided where the book and cpfg are silent or differ:
 //! - The tropism turns after each `F` and `f` (`G`, `g`), by the angle e |H × T| about H × T, T as given; L and U turn
 //!   with H. The numbered tropisms of cpfg (`tropism:`) turn before the line, as there.
-//! - The lines `torque:` of cpfg are numbered with its tropisms, and roll the turtle after these have bent it. Its manual
-//!   does not tell of them; what they do follows its source (`movements.c`).
+//! - The lines `torque:` of cpfg are numbered with its tropisms, and roll the turtle after these have bent it. Its
+//!   manual does not tell of them; what they do follows its source (`movements.c`).
 //! - Between `{` and `}` lines are edges of the polygon, and are not drawn. Between `@Gs` and `@Ge` a line is drawn
 //!   from each point to the next, at `@Gc` and `@Ge`, and `F` only moves. `{(1)` and `}(1)` are `@Gs` and `@Ge`.
 //! - A parameter that is no number counts as 0, and none is larger than 10³⁰ in size, so that no position overflows.

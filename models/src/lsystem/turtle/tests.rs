@@ -195,8 +195,8 @@ fn a_generalised_cylinder_goes_from_point_to_point() {
     }
 }
 
-/// Without contours and where `twist of cylinders` is on, a part has the upper side of the turtle where it ends; else it
-/// turns no more than the cylinder bends, whatever rolls between.
+/// Without contours and where `twist of cylinders` is on, a part has the upper side of the turtle where it ends; else
+/// it turns no more than the cylinder bends, whatever rolls between.
 #[test]
 fn cylinders_with_contours_do_not_twist() {
     let ups = |view: &str| {
@@ -229,8 +229,8 @@ fn cylinders_with_contours_do_not_twist() {
     }
 }
 
-/// The source of cpfg, with its U = −H × L: a torque E T rolls the turtle about H towards the part of T across H by
-/// E |U × part|, at most 1 rad. H is up, U of cpfg is −z, and T = (3, 0, 4) / 5 of the length 1: the part across H is T,
+/// The source of cpfg, with its U = −H × L: a torque E T rolls the turtle about H towards the part of T across H by E
+/// |U × part|, at most 1 rad. H is up, U of cpfg is −z, and T = (3, 0, 4) / 5 of the length 1: the part across H is T,
 /// and |U × T| is 0.6. Torques are numbered with tropisms.
 #[test]
 fn a_torque_rolls_the_turtle_towards_its_vector() {

@@ -93,8 +93,8 @@ impl Solid {
         shading::shaded(self, tag)
     }
 
-    /// The triangles of an obstacle, in a stated colour or that of plaster. It is no component of a plant: its number is
-    /// −1 and its kind 255, and it lives at every age.
+    /// The triangles of an obstacle, in a stated colour or that of plaster. It is no component of a plant: its number
+    /// is −1 and its kind 255, and it lives at every age.
     pub fn obstacle(&self, colour: Option<[u8; 3]>) -> Mesh {
         let [r, g, b] = colour.unwrap_or(PLASTER);
         self.mesh(&Tag { colour: [r, g, b, 255], birth: 0.0, death: f32::INFINITY, component: -1, kind: NO_KIND })

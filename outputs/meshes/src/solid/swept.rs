@@ -1,8 +1,8 @@
 //! Sea shells: the circle in a half plane through the axis, swept along its helico-spiral, with a flat disc at either
 //! end.
 //!
-//! Each turn has 48 circles of 24 points, at most [`MOST_CIRCLES`] in all. Absent: shells that cross themselves are drawn
-//! as they are swept.
+//! Each turn has 48 circles of 24 points, at most [`MOST_CIRCLES`] in all. Absent: shells that cross themselves are
+//! drawn as they are swept.
 
 use super::Solid;
 use super::turned::{Ring, SIDES};
