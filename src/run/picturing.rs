@@ -7,12 +7,14 @@
 use super::RunError;
 use super::drawing::options_of;
 use super::regrowth::{Regrowth, Standing};
+use phytomer_config::scenario::{DrawnObstacle, Site};
 use phytomer_config::{About, Species};
-use phytomer_outputs::meshes::{Chunk, MeshOptions, OwnForms, PlotBody, PlotMember, PlotMesh, Scene};
+use phytomer_outputs::meshes::{Chunk, Mesh, MeshOptions, OwnForms, PlotBody, PlotMember, PlotMesh, Scene, Solid};
 use phytomer_outputs::pictures::{Placed, Stand, Subject};
 use phytomer_outputs::tables::Membership;
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
+use phytomer_sim::site::calendar::Calendar;
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -35,6 +37,8 @@ pub struct PicturedStand {
     pub plants: Vec<Plant>,
     /// Where they stand.
     pub members: Vec<PicturedMember>,
+    /// The obstacles of a plot that are drawn.
+    pub obstacles: Vec<Arc<Mesh>>,
     /// What is written below them.
     pub label: String,
 }
@@ -71,6 +75,7 @@ impl Pictured {
         };
         let stand = |stand: &'a PicturedStand| Stand {
             plants: stand.members.iter().map(|member| placed(stand, member)).collect(),
+            obstacles: stand.obstacles.clone(),
             label: stand.label.clone(),
         };
         self.stands.iter().map(stand).collect()
@@ -125,15 +130,19 @@ pub fn pictured_plants(
         })?;
         for &age in ages {
             let whose = if plants.len() > 1 { format!("plant {number}, ") } else { String::new() };
-            let years = species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default();
             let Some(plant) = seen.get(&age).cloned() else { continue };
             let (of, sown) = (trial.plant(number), trial.sown_at(number));
+            let calendar = trial.calendar_of(of.treatment, of.replicate);
+            let years = match calendar {
+                Some(calendar) => on_the_calendar(calendar, sown, age),
+                None => species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default(),
+            };
             let (plot, treatment) = (of.plot, of.treatment as u32);
             let place_m = [0.0; 3];
             let member =
                 PicturedMember { number, plot, treatment, sown, plant: 0, species: place, age, place: place_m };
             let label = format!("{whose}age {age}{years}");
-            stands.push(PicturedStand { plants: vec![plant], members: vec![member], label });
+            stands.push(PicturedStand { plants: vec![plant], members: vec![member], obstacles: Vec::new(), label });
         }
     }
     let names: Vec<&str> = shown.iter().map(|place| species[*place].about.name.as_str()).collect();
@@ -160,13 +169,18 @@ pub fn pictured_plot(
         seen.entry(tick).or_insert_with(|| kept(standing, apart));
         Ok(())
     })?;
+    let of_plot = trial.plot(plot);
+    let calendar = trial.calendar_of(of_plot.treatment, of_plot.replicate);
+    let obstacles = drawn(&trial.treatments()[of_plot.treatment].scenario.site);
     let of_members = |mut stand: PicturedStand, tick: Tick| {
+        stand.obstacles.clone_from(&obstacles);
         for member in &mut stand.members {
             let of_plot = trial.member_of(member.number);
             (member.plot, member.sown, member.place) = (plot, tick.saturating_sub(member.age), of_plot.place());
             member.treatment = trial.plot(plot).treatment as u32;
         }
-        stand.label = format!("tick {tick}{}", years_of(species, tick));
+        let years = calendar.map_or_else(|| years_of(species, tick), |calendar| on_the_calendar(calendar, 0, tick));
+        stand.label = format!("tick {tick}{years}");
         stand
     };
     let stands = ticks.iter().filter_map(|tick| seen.remove(tick).map(|stand| of_members(stand, *tick)));
@@ -174,6 +188,12 @@ pub fn pictured_plot(
     let shown = stands.iter().flat_map(|stand| stand.members.iter().map(|member| member.species)).collect();
     let note = format!("{}: plot {plot} at the ticks {ticks:?} of seed {}", scenario.name, scenario.seed);
     Ok(Pictured { stands, title: titles_of(species, &shown), note })
+}
+
+/// The meshes of the obstacles of a site that are drawn; those that nothing is of are left out.
+fn drawn(site: &Site) -> Vec<Arc<Mesh>> {
+    let mesh = |obstacle: &DrawnObstacle| Some(Arc::new(Solid::of(&obstacle.shape).ok()?.obstacle(obstacle.colour)));
+    site.drawn().iter().filter_map(mesh).collect()
 }
 
 /// The mesh of a stand of a plot.
@@ -198,6 +218,7 @@ pub fn plot_mesh<'a>(
     PlotMesh {
         bodies: stand.plants.iter().enumerate().map(body).collect(),
         members: stand.members.iter().map(member).collect(),
+        obstacles: stand.obstacles.clone(),
         name: format!("plot {plot} tick {tick} seed {}", scenario.seed),
         place: regrowth.plot_place(plot),
     }
@@ -211,7 +232,8 @@ type Kept = (usize, Option<[u8; 32]>);
 
 /// The plants of a plot, equal ones once unless they are to be kept apart; where they belong is still to be filled in.
 fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
-    let mut stand = PicturedStand { plants: Vec::new(), members: Vec::new(), label: String::new() };
+    let mut stand =
+        PicturedStand { plants: Vec::new(), members: Vec::new(), obstacles: Vec::new(), label: String::new() };
     let mut alike: BTreeMap<Glance, Vec<Kept>> = BTreeMap::new();
     for Standing { plant, age, species } in standing {
         let known = alike.entry((*species, *age, plant.nodes.len(), plant.organs.len())).or_default();
@@ -269,11 +291,23 @@ fn years_of(species: &[&Species], tick: Tick) -> String {
     first.filter(|first| years.all(|year| year == Some(*first))).map(|ticks| in_years(tick, ticks)).unwrap_or_default()
 }
 
+/// The days of a year of the calendar, on the average.
+const DAYS_OF_A_YEAR: f64 = 365.2425;
+
+/// The date at which an age is reached, and the years from sowing to it: ticks of degree-days are not of one length.
+fn on_the_calendar(calendar: &Calendar, sown: Tick, age: Tick) -> String {
+    let [from, date] = [sown, sown.saturating_add(age)].map(|tick| calendar.at(tick).date);
+    format!(" · {date}{}", years_in_words(f64::from(date.since(from)) / DAYS_OF_A_YEAR))
+}
+
 /// An age in years, where a tick is not one itself.
 fn in_years(age: Tick, ticks_per_year: f64) -> String {
-    let years = f64::from(age) / ticks_per_year;
+    let of_a_year = (ticks_per_year - 1.0).abs() < 1e-9;
+    if of_a_year { String::new() } else { years_in_words(f64::from(age) / ticks_per_year) }
+}
+
+fn years_in_words(years: f64) -> String {
     match years {
-        _ if (ticks_per_year - 1.0).abs() < 1e-9 => String::new(),
         years if (years - years.round()).abs() < 0.05 && (years - 1.0).abs() < 0.05 => " · 1 year".to_owned(),
         years if (years - years.round()).abs() < 0.05 => format!(" · {years:.0} years"),
         years => format!(" · {years:.1} years"),

@@ -6,7 +6,7 @@
 
 use super::camera::{Camera, Frame, tangents};
 use super::canvas::Canvas;
-use super::caption::{Align, fitting, letter_size, scale_bar, write, write_row};
+use super::caption::{Align, fitting, letter_size, lone_label, scale_bar, write, write_row};
 use super::colouring::{self, Legend, colours};
 use super::draw::{self, Set};
 use super::extent::Extent;
@@ -40,7 +40,7 @@ impl<'a> Cast<'a> {
         let mut coloured =
             |count: usize| -> Vec<_> { (0..count).map(|_| colours.as_mut().and_then(Iterator::next)).collect() };
         let placed = stands.iter().zip(0_u8..).map(|(stand, number)| {
-            PlacedStand::new(bodies(stand, picture.sides, coloured(stand.plants.len())), number)
+            PlacedStand::new(bodies(stand, picture.sides, coloured(stand.plants.len())), &stand.obstacles, number)
         });
         let labels = stands.iter().map(|stand| stand.label.as_str()).collect();
         Self { stands: placed.collect(), labels, legend: legend.flatten(), turn: 0.0 }
@@ -124,8 +124,7 @@ impl<'a> Cast<'a> {
             let half = 0.5 * letters::width(label, size);
             let x = x.max(half + size).min(width - half - size);
             let free = [2.6 * size + 0.16 * width, edge - letters::width(&title, size) - size];
-            let crowded = x - half < free[0] || x + half > free[1];
-            write(canvas, label, size, [x, if crowded { line - 1.9 * size } else { line }], Align::Middle);
+            write(canvas, label, size, lone_label(x, half, free, (line, size)), Align::Middle);
         } else {
             write_row(canvas, &labels, size, line - 2.9 * size);
         }

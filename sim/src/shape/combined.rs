@@ -24,6 +24,11 @@ impl Union {
         Self { members, tree }
     }
 
+    /// Its members.
+    pub fn members(&self) -> &[Shape] {
+        &self.members
+    }
+
     pub(super) fn inside(&self, point: Point) -> bool {
         self.tree.any(point, |member| self.members[member].inside(point))
     }
@@ -34,10 +39,6 @@ impl Union {
 
     pub(super) fn distance(&self, point: Point) -> f64 {
         self.members.iter().map(|member| member.distance(point)).fold(f64::INFINITY, f64::min)
-    }
-
-    pub(super) fn members(&self) -> &[Shape] {
-        &self.members
     }
 
     pub(super) fn bounds(&self) -> Bounds {

@@ -140,6 +140,9 @@ fn write_node(
     if let Some(look) = measures.look(node) {
         plant.give_look(id, look);
     }
+    if let Some(section) = node.section {
+        plant.give_section(id, section);
+    }
 }
 
 impl Measures {
@@ -192,7 +195,7 @@ fn write_organ(
     let organ = &draft.organs[place];
     let node = to.place(organ.on);
     let size = (organ.size * measures.width) as f32;
-    let form = Stated::of(organ, draft, measures.step, plant);
+    let form = Stated::of(&organ.form, &organ.frame, &draft.corners, measures.step, plant);
     let [length, width] = form.extents().unwrap_or([size; 2]);
     let new = NewOrgan {
         node: NodeId(node as u32),

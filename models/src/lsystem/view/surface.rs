@@ -3,9 +3,9 @@
 //! The file states the box of its points, how finely it is drawn, a contact point, the heading and the upper side at
 //! which it sits on the turtle, and its size; then each patch by its name, its colours, its neighbours (`AL:` …) and 16
 //! points. Here the points are told in the coordinates of the turtle (along H, L and U), from the contact point, with
-//! the stated size as 1. The upper side of the file is that of cpfg, whose U is ours turned round: it comes to lie along
-//! −U. A patch becomes a grid of cells of two triangles each, with the normals of the patch itself. Names, colours and
-//! neighbours are not used.
+//! the stated size as 1. The upper side of the file is that of cpfg, whose U is ours turned round: it comes to lie
+//! along −U. A patch becomes a grid of cells of two triangles each, with the normals of the patch itself. Names,
+//! colours and neighbours are not used.
 
 use super::text::{Line, TextFault, bounded, full_lines};
 use crate::lsystem::vector::{cross, dot};
