@@ -1,4 +1,5 @@
-//! A film of the willow in its twelfth summer: a frame against the picture of its age, and each encoder against drawing.
+//! A film of the willow in its twelfth summer: a frame against the picture of its age, and each encoder against
+//! drawing.
 //!
 //! Aims: a frame takes at most 1.1 times as long as drawing the picture, with its share of finding the place of the
 //! camera; encoding a picture at most half as long as drawing it. `docs/performance.md` has the table.

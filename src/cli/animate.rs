@@ -208,7 +208,7 @@ impl Animate {
         let bytes = bytes.map(|bytes| format!(", {}", amounts::bytes(bytes as f64))).unwrap_or_default();
         let seconds = f64::from(shot.frames) / f64::from(film.fps);
         let frames = amounts::of(shot.frames.into(), "frame");
-        let breeze = self.breeze.in_words();
+        let breeze = self.breeze.air().map(|air| format!(" in a wind of {} m/s", air.wind.speed)).unwrap_or_default();
         if shot.complete {
             out::tell(&self.out, &format!("{what}{breeze}, {frames} in {seconds:.1} s{bytes}"))?;
             return Ok(Verdict::Done);
