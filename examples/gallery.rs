@@ -68,7 +68,12 @@ fn sit(name: &str, folder: &Path) -> Result<String> {
     let sitter = Sitter::of(name)?;
     let regrowth = sitter.regrowth();
     let age = regrowth.shown_at(&sitter.species, 0)?;
-    let pictured = pictured_plants(&regrowth, &[&sitter.species], &[0], &[age])?;
+    // A plant among obstacles is drawn with them.
+    let pictured = if sitter.scenario.site.drawn().is_empty() {
+        pictured_plants(&regrowth, &[&sitter.species], &[0], &[age])?
+    } else {
+        pictured_plot(&regrowth, &[&sitter.species], (0, &[age]), false)?
+    };
     let file = format!("gallery/{name}.png");
     let canvas = drawn(&pictured, SIZE);
     save(&canvas, &pictured.note, &folder.join(&file))?;

@@ -2,8 +2,9 @@
 //! species file.
 //!
 //! Each file becomes an entry of the table `texts`, in which a fault is shown at its line and column. Read are the file
-//! that the species names, what it includes, its view file, the surfaces and functions that the view file names, and a
-//! map of colours. Nothing outside the folder is read. Absent: what the texts mean (`phytomer_models::lsystem`).
+//! that the species names, what it includes, its view file, the surfaces, contours and functions that the view file
+//! names, and a map of colours. Nothing outside the folder is read. Absent: what the texts mean
+//! (`phytomer_models::lsystem`).
 
 use crate::document::{Entry, Node, Value};
 use crate::library::Library;
@@ -39,7 +40,9 @@ pub(crate) fn fill(species: &mut Node, keys: &Keys, library: &Library, sources: 
     let named = view.and_then(|view| files.text(&view)).map(|view| View::read(&view).unwrap_or_default());
     let named = named.unwrap_or_default();
     let surfaces = named.surfaces.iter().map(|surface| &surface.file);
-    surfaces.chain(&named.functions).chain(&named.function_set).for_each(|file| files.add(file));
+    let contours = named.contours.iter().map(|(_, file)| file);
+    let all = surfaces.chain(contours).chain(&named.functions).chain(&named.function_set);
+    all.for_each(|file| files.add(file));
 }
 
 /// The files of a species while they are read.

@@ -34,7 +34,8 @@ pub struct Mesh {
     /// The plant's number, from 0.
     #[arg(long, default_value_t = 0)]
     plant: u32,
-    /// All plants of a plot, each in its place, told from the place of the plot; the plot's number, from 0.
+    /// All plants of a plot, each in its place, told from the place of the plot, and the obstacles of its site; the
+    /// plot's number, from 0.
     #[arg(long, value_name = "PLOT", num_args = 0..=1, default_missing_value = "0", conflicts_with = "plant")]
     plot: Option<u32>,
     /// Its age in ticks, of a plot its tick; the last of the run if not given.

@@ -51,7 +51,8 @@ pub struct Picture {
     /// Several plants side by side, by their numbers.
     #[arg(long, value_delimiter = ',', value_name = "N,N,…")]
     plants: Vec<u32>,
-    /// All plants of a plot in their places, any number of them; the plot's number, from 0.
+    /// All plants of a plot in their places, any number of them, with the obstacles of its site; the plot's number,
+    /// from 0.
     #[arg(long, value_name = "PLOT", num_args = 0..=1, default_missing_value = "0", conflicts_with_all = ["plant", "plants"])]
     plot: Option<u32>,
     /// Its age in ticks; that of its prime if not given. Of a plot its tick; the last if not given.
@@ -81,7 +82,8 @@ pub struct Picture {
     /// Leave the background out; shadows stay, half transparent.
     #[arg(long)]
     transparent: bool,
-    /// Draw neither ground nor the shadow on it.
+    /// Draw neither ground nor the shadow on it. The ground is level and passes through the seeds; what lies below it
+    /// is seen without it.
     #[arg(long)]
     no_ground: bool,
     /// Write nothing on the picture, not even the scale bar.

@@ -8,11 +8,11 @@
 //! between ticks; several treatments side by side.
 
 use super::RunError;
-use super::picturing::{PicturedStand, kept, stand_of_plant, stand_of_plot, titles_of};
+use super::picturing::{PicturedStand, kept, obstacles_of, stand_of_plant, stand_of_plot, titles_of};
 use super::regrowth::{Regrowth, Standing, Whose};
 use phytomer_config::{Species, Trial};
 use phytomer_outputs::films::{Encoder, Timeline};
-use phytomer_outputs::meshes::OwnForms;
+use phytomer_outputs::meshes::{Mesh, OwnForms};
 use phytomer_outputs::pictures::{Canvas, Framing, Picture, Survey, draw_framed, draw_stands};
 use phytomer_sim::mechanics::sway::GUSTS_S;
 use phytomer_sim::{RecordError, Tick};
@@ -170,37 +170,34 @@ impl Scene<'_> {
         show: &mut dyn FnMut(usize, &PicturedStand) -> Result<(), RecordError>,
     ) -> Result<(), RunError> {
         let moments = self.moments(held);
+        let obstacles = match self.whose {
+            Whose::Plot(plot) => obstacles_of(self.regrowth.trial(), plot),
+            Whose::Plant(_) => Vec::new(),
+        };
         let ticks: Vec<Tick> = moments.iter().map(|(tick, _)| *tick).collect();
         let place = |tick: Tick| moments.binary_search_by_key(&tick, |(tick, _)| *tick).ok();
         let times = |tick: Tick| place(tick).map(|place| moments[place].1.clone()).unwrap_or_default();
         self.regrowth.show_moments(self.whose, &ticks, &times, &mut |tick, standing| {
-            place(tick).map_or(Ok(()), |place| show(place, &self.stand(tick, standing)))
+            place(tick).map_or(Ok(()), |place| show(place, &self.stand(tick, standing, &obstacles)))
         })
     }
 
-    /// What stands at an age, with its caption.
-    fn stand(&self, at: Tick, standing: &[Standing]) -> PicturedStand {
+    /// What stands at an age, with its caption, among the obstacles of a plot.
+    fn stand(&self, at: Tick, standing: &[Standing], obstacles: &[Arc<Mesh>]) -> PicturedStand {
         let trial = self.regrowth.trial();
-        let (mut stand, plot, tick) = match (self.whose, standing) {
+        match (self.whose, standing) {
             (Whose::Plant(plant), [alone, ..]) => {
-                let stand = stand_of_plant(trial, self.species, alone.plant.clone().into_owned(), at);
-                (stand, trial.plant(plant).plot, at.saturating_add(trial.sown_at(plant)))
+                let mut stand = stand_of_plant(trial, self.species, alone.plant.clone().into_owned(), at);
+                let season = self.species[trial.species_of_plant(plant)].about.season(at);
+                stand.label.extend(season.into_iter().flat_map(|season| [" · ", season]));
+                stand
             }
-            (Whose::Plant(plant), []) => (kept(&[], false), trial.plant(plant).plot, at),
+            (Whose::Plant(_), []) => kept(&[], false),
             (Whose::Plot(plot), standing) => {
-                (stand_of_plot(trial, self.species, kept(standing, false), (plot, at)), plot, at)
+                let stand = PicturedStand { obstacles: obstacles.to_vec(), ..kept(standing, false) };
+                stand_of_plot(trial, self.species, stand, (plot, at))
             }
-        };
-        if let Whose::Plant(plant) = self.whose
-            && let Some(season) = self.species[trial.species_of_plant(plant)].about.season(at)
-        {
-            stand.label += &format!(" · {season}");
         }
-        let of = trial.plot(plot);
-        if let Some(calendar) = trial.calendar_of(of.treatment, of.replicate) {
-            stand.label += &format!(" · {}", calendar.at(tick).date);
-        }
-        stand
     }
 
     /// The point around which the viewer walks.

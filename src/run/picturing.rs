@@ -7,12 +7,14 @@
 use super::RunError;
 use super::drawing::options_of;
 use super::regrowth::{Regrowth, Standing};
+use phytomer_config::scenario::{DrawnObstacle, Site};
 use phytomer_config::{About, Species, Trial};
-use phytomer_outputs::meshes::{Chunk, MeshOptions, OwnForms, PlotBody, PlotMember, PlotMesh, Scene};
+use phytomer_outputs::meshes::{Chunk, Mesh, MeshOptions, OwnForms, PlotBody, PlotMember, PlotMesh, Scene, Solid};
 use phytomer_outputs::pictures::{Placed, Stand, Subject};
 use phytomer_outputs::tables::Membership;
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
+use phytomer_sim::site::calendar::Calendar;
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -35,6 +37,8 @@ pub struct PicturedStand {
     pub plants: Vec<Plant>,
     /// Where they stand.
     pub members: Vec<PicturedMember>,
+    /// The obstacles of a plot that are drawn.
+    pub obstacles: Vec<Arc<Mesh>>,
     /// What is written below them.
     pub label: String,
 }
@@ -100,7 +104,11 @@ impl PicturedStand {
             place: member.place.map(|x| x as f32),
             own: forms.get(member.species).cloned().unwrap_or_default(),
         };
-        Stand { plants: self.members.iter().map(placed).collect(), label: self.label.clone() }
+        Stand {
+            plants: self.members.iter().map(placed).collect(),
+            obstacles: self.obstacles.clone(),
+            label: self.label.clone(),
+        }
     }
 }
 
@@ -158,7 +166,11 @@ pub fn pictured_plot(
         seen.entry(tick).or_insert_with(|| kept(standing, apart));
         Ok(())
     })?;
-    let of_members = |stand: PicturedStand, tick: Tick| stand_of_plot(trial, species, stand, (plot, tick));
+    let obstacles = obstacles_of(trial, plot);
+    let of_members = |mut stand: PicturedStand, tick: Tick| {
+        stand.obstacles.clone_from(&obstacles);
+        stand_of_plot(trial, species, stand, (plot, tick))
+    };
     let stands = ticks.iter().filter_map(|tick| seen.remove(tick).map(|stand| of_members(stand, *tick)));
     let stands: Vec<PicturedStand> = stands.collect();
     let shown = stands.iter().flat_map(|stand| stand.members.iter().map(|member| member.species)).collect();
@@ -169,11 +181,15 @@ pub fn pictured_plot(
 /// A plant at an age, by itself.
 pub(super) fn stand_of_plant(trial: &Trial, species: &[&Species], plant: Plant, age: Tick) -> PicturedStand {
     let (number, place) = (plant.id, trial.species_of_plant(plant.id));
-    let years = species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default();
     let (of, sown) = (trial.plant(number), trial.sown_at(number));
+    let years = match trial.calendar_of(of.treatment, of.replicate) {
+        Some(calendar) => on_the_calendar(calendar, sown, age),
+        None => species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default(),
+    };
     let (plot, treatment) = (of.plot, of.treatment as u32);
     let member = PicturedMember { number, plot, treatment, sown, plant: 0, species: place, age, place: [0.0; 3] };
-    PicturedStand { plants: vec![plant], members: vec![member], label: format!("age {age}{years}") }
+    let label = format!("age {age}{years}");
+    PicturedStand { plants: vec![plant], members: vec![member], obstacles: Vec::new(), label }
 }
 
 /// A plot at a tick, of which it is still to be filled in where its plants belong.
@@ -183,13 +199,27 @@ pub(super) fn stand_of_plot(
     mut stand: PicturedStand,
     (plot, tick): (u32, Tick),
 ) -> PicturedStand {
+    let of_plot = trial.plot(plot);
     for member in &mut stand.members {
-        let of_plot = trial.member_of(member.number);
-        (member.plot, member.sown, member.place) = (plot, tick.saturating_sub(member.age), of_plot.place());
-        member.treatment = trial.plot(plot).treatment as u32;
+        let place = trial.member_of(member.number).place();
+        (member.plot, member.sown, member.place) = (plot, tick.saturating_sub(member.age), place);
+        member.treatment = of_plot.treatment as u32;
     }
-    stand.label = format!("tick {tick}{}", years_of(species, tick));
+    let calendar = trial.calendar_of(of_plot.treatment, of_plot.replicate);
+    let years = calendar.map_or_else(|| years_of(species, tick), |calendar| on_the_calendar(calendar, 0, tick));
+    stand.label = format!("tick {tick}{years}");
     stand
+}
+
+/// The meshes of the obstacles of a plot's site that are drawn.
+pub(super) fn obstacles_of(trial: &Trial, plot: u32) -> Vec<Arc<Mesh>> {
+    drawn(&trial.treatments()[trial.plot(plot).treatment].scenario.site)
+}
+
+/// The meshes of the obstacles of a site that are drawn; those that nothing is of are left out.
+fn drawn(site: &Site) -> Vec<Arc<Mesh>> {
+    let mesh = |obstacle: &DrawnObstacle| Some(Arc::new(Solid::of(&obstacle.shape).ok()?.obstacle(obstacle.colour)));
+    site.drawn().iter().filter_map(mesh).collect()
 }
 
 /// The mesh of a stand of a plot.
@@ -214,6 +244,7 @@ pub fn plot_mesh<'a>(
     PlotMesh {
         bodies: stand.plants.iter().enumerate().map(body).collect(),
         members: stand.members.iter().map(member).collect(),
+        obstacles: stand.obstacles.clone(),
         name: format!("plot {plot} tick {tick} seed {}", scenario.seed),
         place: regrowth.plot_place(plot),
     }
@@ -227,7 +258,8 @@ type Kept = (usize, Option<[u8; 32]>);
 
 /// The plants of a plot, equal ones once unless they are to be kept apart; where they belong is still to be filled in.
 pub(super) fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
-    let mut stand = PicturedStand { plants: Vec::new(), members: Vec::new(), label: String::new() };
+    let mut stand =
+        PicturedStand { plants: Vec::new(), members: Vec::new(), obstacles: Vec::new(), label: String::new() };
     let mut alike: BTreeMap<Glance, Vec<Kept>> = BTreeMap::new();
     for Standing { plant, age, species } in standing {
         let known = alike.entry((*species, *age, plant.nodes.len(), plant.organs.len())).or_default();
@@ -285,11 +317,23 @@ fn years_of(species: &[&Species], tick: Tick) -> String {
     first.filter(|first| years.all(|year| year == Some(*first))).map(|ticks| in_years(tick, ticks)).unwrap_or_default()
 }
 
+/// The days of a year of the calendar, on the average.
+const DAYS_OF_A_YEAR: f64 = 365.2425;
+
+/// The date at which an age is reached, and the years from sowing to it: ticks of degree-days are not of one length.
+fn on_the_calendar(calendar: &Calendar, sown: Tick, age: Tick) -> String {
+    let [from, date] = [sown, sown.saturating_add(age)].map(|tick| calendar.at(tick).date);
+    format!(" · {date}{}", years_in_words(f64::from(date.since(from)) / DAYS_OF_A_YEAR))
+}
+
 /// An age in years, where a tick is not one itself.
 fn in_years(age: Tick, ticks_per_year: f64) -> String {
-    let years = f64::from(age) / ticks_per_year;
+    let of_a_year = (ticks_per_year - 1.0).abs() < 1e-9;
+    if of_a_year { String::new() } else { years_in_words(f64::from(age) / ticks_per_year) }
+}
+
+fn years_in_words(years: f64) -> String {
     match years {
-        _ if (ticks_per_year - 1.0).abs() < 1e-9 => String::new(),
         years if (years - years.round()).abs() < 0.05 && (years - 1.0).abs() < 0.05 => " · 1 year".to_owned(),
         years if (years - years.round()).abs() < 0.05 => format!(" · {years:.0} years"),
         years => format!(" · {years:.1} years"),

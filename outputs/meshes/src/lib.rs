@@ -19,6 +19,8 @@ mod palette;
 mod plot;
 mod ply;
 mod scene;
+mod section;
+mod solid;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
@@ -32,6 +34,7 @@ pub use forms::own::{MeshFault, OwnForms, check as check_form};
 pub use plot::{PlotBody, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use scene::{Counts, Scene};
+pub use solid::{Solid, Undrawn};
 
 use phytomer_looks::place_of_own;
 use phytomer_sim::clock::Tick;

@@ -8,7 +8,8 @@
 use super::MeshOptions;
 use super::chunk::{Chunk, Face, Sink, Tag, Vertex};
 use super::forms::{FormMesh, Placement};
-use super::outline::{self, Outlines};
+use super::outline::{self, OrganForm, Outlines};
+use super::section::{Prism, Ring};
 use super::tube::{Frustum, Strip, Tube};
 use super::{About, Mesh, colour};
 use bytemuck::Zeroable;
@@ -45,33 +46,10 @@ pub struct Scene<'a> {
     paints: &'a Paints,
     /// The form of internodes by the index of their look in the habit; the last entry is for internodes without a look.
     stems: Vec<Drawn>,
+    /// The forms of internodes with a cross section of their own, in the places of the sections.
+    sections: Vec<Drawn>,
     /// The triangles of organs that state an outline.
     outlines: Outlines,
-}
-
-/// The form of an organ.
-#[derive(Debug, Clone, Copy)]
-enum OrganForm<'s> {
-    Shape(&'s FormMesh),
-    Outline(&'s [[f32; 3]], &'s [[u32; 3]]),
-}
-
-impl<'s> OrganForm<'s> {
-    #[inline]
-    fn vertices(self) -> usize {
-        match self {
-            Self::Shape(shape) => shape.points.len(),
-            Self::Outline(corners, _) => corners.len(),
-        }
-    }
-
-    #[inline]
-    fn faces(self) -> &'s [[u32; 3]] {
-        match self {
-            Self::Shape(shape) => &shape.faces,
-            Self::Outline(_, faces) => faces,
-        }
-    }
 }
 
 /// The form of an internode.
@@ -79,6 +57,7 @@ impl<'s> OrganForm<'s> {
 enum Drawn {
     Tube(Tube),
     Strip,
+    Prism(Prism),
     /// A form of an organ, with the internode's length and diameter.
     Form(FormMesh),
 }
@@ -97,6 +76,7 @@ impl Drawn {
         match self {
             Self::Tube(tube) => tube.vertices(),
             Self::Strip => Strip::VERTICES,
+            Self::Prism(prism) => prism.vertices(),
             Self::Form(shape) => shape.points.len(),
         }
     }
@@ -105,6 +85,7 @@ impl Drawn {
         match self {
             Self::Tube(tube) => tube.faces(),
             Self::Strip => &Strip::FACES,
+            Self::Prism(prism) => prism.faces(),
             Self::Form(shape) => &shape.faces,
         }
     }
@@ -117,7 +98,8 @@ impl<'a> Scene<'a> {
         let paints = Paints::of(&plant.habit);
         let mut stems: Vec<Drawn> = looks.map(|look| Drawn::of(look, paints, options)).collect();
         stems.push(Drawn::Tube(Tube::new(options.sides)));
-        Self { plant, age, options: options.clone(), paints, stems, outlines: Outlines::of(plant) }
+        let sections = paints.sections().iter().map(|section| Drawn::Prism(Prism::new(section))).collect();
+        Self { plant, age, options: options.clone(), paints, stems, sections, outlines: Outlines::of(plant) }
     }
 
     /// The age of the plant.
@@ -236,6 +218,11 @@ impl<'a> Scene<'a> {
 
     #[inline]
     fn form(&self, organ: OrganId) -> OrganForm<'_> {
+        if let Some((place, scale)) = self.plant.stated_organs.surface(organ)
+            && let Some(surface) = self.paints.surface(place)
+        {
+            return OrganForm::Surface(surface, scale);
+        }
         match self.outlines.faces(organ) {
             Some(faces) => OrganForm::Outline(self.plant.outline_of(organ), faces),
             None => OrganForm::Shape(self.options.shape(self.plant.organs.form[organ.index()])),
@@ -247,9 +234,13 @@ impl<'a> Scene<'a> {
         let tags = self.organ_tags(organ);
         match form {
             OrganForm::Shape(shape) => shape.write(&self.placement(organ, shape), &tags, out),
-            OrganForm::Outline(corners, _) => {
+            OrganForm::Outline(corners, faces) => {
                 let (frame, share) = (self.organ_base(organ), self.plant.expanded(organ, self.age));
-                outline::write(corners, &frame, share, &tags[0], out);
+                outline::write((corners, faces), &frame, share, &tags[0], out);
+            }
+            OrganForm::Surface(surface, scale) => {
+                let (frame, share) = (self.organ_base(organ), self.plant.expanded(organ, self.age));
+                outline::write_surface(surface, scale.map(|x| share * x), &frame, &tags[0], out);
             }
         }
     }
@@ -258,6 +249,9 @@ impl<'a> Scene<'a> {
     #[inline]
     fn stem(&self, node: NodeId) -> &Drawn {
         let Plant { axes, nodes, habit, own_looks, .. } = self.plant;
+        if let Some(section) = own_looks.section_of(node).and_then(|place| self.sections.get(place)) {
+            return section;
+        }
         if let Some(apart) = own_looks.of_node(node).filter(|&place| place < habit.looks.apart.len()) {
             return &self.stems[habit.looks.internodes.len() + apart];
         }
@@ -271,6 +265,7 @@ impl<'a> Scene<'a> {
         match stem {
             Drawn::Tube(tube) => tube.write(&self.frustum(node), &self.wood_tag(node), out),
             Drawn::Strip => Strip::write(&self.frustum(node), &self.wood_tag(node), out),
+            Drawn::Prism(prism) => prism.write(self.rings(node), &self.wood_tag(node), out),
             Drawn::Form(shape) => shape.write(&self.stands(node), &[self.wood_tag(node); 2], out),
         }
     }
@@ -281,6 +276,17 @@ impl<'a> Scene<'a> {
         let nodes = &self.plant.nodes;
         let size = [self.plant.posed_length(node), nodes.diameter[node.index()]];
         Placement { base: frame.base, heading: frame.heading, up: frame.up, size, fullness: 1.0 }
+    }
+
+    /// The rings of an internode with a section: it begins with that at the tip of the internode with a section that it
+    /// continues, if there is one.
+    fn rings(&self, node: NodeId) -> [Ring; 2] {
+        let own = self.frustum(node);
+        let [base, tip] = [Ring::base(&own), Ring::tip(&own)];
+        let before = self.plant.nodes.parent[node.index()].some();
+        let before = before.filter(|parent| self.plant.own_looks.section_of(*parent).is_some());
+        let joint = before.map(|parent| Ring::tip(&self.frustum(parent))).filter(|end| end.meets(&base));
+        [joint.map_or(base, |end| Ring { middle: base.middle, radius: base.radius, ..end }), tip]
     }
 
     #[inline]

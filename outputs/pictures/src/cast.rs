@@ -6,7 +6,7 @@
 
 use super::camera::{Camera, Frame, tangents};
 use super::canvas::Canvas;
-use super::caption::{Align, fitting, letter_size, scale_bar, write, write_row};
+use super::caption::{Align, fitting, letter_size, lone_label, scale_bar, write, write_row};
 use super::colouring::{self, Legend, colours};
 use super::draw::{self, Set};
 use super::extent::Extent;
@@ -39,7 +39,7 @@ impl<'a> Cast<'a> {
         let mut coloured =
             |count: usize| -> Vec<_> { (0..count).map(|_| colours.as_mut().and_then(Iterator::next)).collect() };
         let placed = stands.iter().zip(0_u8..).map(|(stand, number)| {
-            PlacedStand::new(bodies(stand, picture.sides, coloured(stand.plants.len())), number)
+            PlacedStand::new(bodies(stand, picture.sides, coloured(stand.plants.len())), &stand.obstacles, number)
         });
         let labels = stands.iter().map(|stand| stand.label.as_str()).collect();
         Self { stands: placed.collect(), labels, legend: legend.flatten(), turn: 0.0, held: None }
@@ -124,8 +124,8 @@ impl<'a> Cast<'a> {
             let half = 0.5 * self.held.map_or_else(|| letters::width(label, size), |held| held.label);
             let x = x.max(half + size).min(width - half - size);
             let free = [2.6 * size + 0.16 * width, edge - letters::width(&title, size) - size];
-            let crowded = x - half < free[0] || x + half > free[1];
-            write(canvas, label, size, [x - half, if crowded { line - 1.9 * size } else { line }], Align::Left);
+            let [x, line] = lone_label(x, half, free, (line, size));
+            write(canvas, label, size, [x - half, line], Align::Left);
         } else {
             write_row(canvas, &labels, size, line - 2.9 * size);
         }
@@ -145,7 +145,7 @@ pub fn frame(picture: &Picture, stands: usize, legend: f32) -> Frame {
 
 /// A stand in its natural colours, as the first of a picture.
 pub fn placed<'a>(stand: &'a Stand, picture: &Picture) -> PlacedStand<'a> {
-    PlacedStand::new(bodies(stand, picture.sides, vec![None; stand.plants.len()]), 0)
+    PlacedStand::new(bodies(stand, picture.sides, vec![None; stand.plants.len()]), &stand.obstacles, 0)
 }
 
 /// The plants of a stand, each once with all places where it stands. Two plants are the same if they are one reference

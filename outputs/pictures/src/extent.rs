@@ -98,3 +98,11 @@ impl Extent {
         self
     }
 }
+
+/// The corners of a box.
+pub fn corners([low, high]: [Vec3; 2]) -> impl Iterator<Item = Vec3> {
+    (0..8).map(move |corner| {
+        let side = |bit: usize| if corner >> bit & 1 == 0 { low } else { high };
+        Vec3::new(side(0).x, side(1).y, side(2).z)
+    })
+}

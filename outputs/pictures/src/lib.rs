@@ -43,7 +43,7 @@ pub use survey::Survey;
 use cast::Cast;
 use gaze::Gaze;
 use glam::Vec3;
-use phytomer_meshes::OwnForms;
+use phytomer_meshes::{Mesh, OwnForms};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::f32::consts::{FRAC_PI_2, PI};
@@ -155,6 +155,8 @@ pub struct Stand<'a> {
     /// The plants; any number. A plant that stands at several places is in the list once per place, as the same
     /// reference, and its mesh is made once.
     pub plants: Vec<Placed<'a>>,
+    /// Closed meshes of what stands among them, metres from the origin of the stand: the obstacles of a plot.
+    pub obstacles: Vec<Arc<Mesh>>,
     /// The text below them.
     pub label: String,
 }
@@ -201,7 +203,12 @@ fn alone<'a>(subjects: &[Subject<'a>], picture: &Picture) -> Vec<Stand<'a>> {
         let own = Arc::clone(&picture.own);
         Placed { plant: subject.plant, age: subject.age, place: [0.0; 3], own }
     };
-    subjects.iter().map(|subject| Stand { plants: vec![placed(subject)], label: subject.label.clone() }).collect()
+    let alone = |subject: &Subject<'a>| Stand {
+        plants: vec![placed(subject)],
+        obstacles: Vec::new(),
+        label: subject.label.clone(),
+    };
+    subjects.iter().map(alone).collect()
 }
 
 /// Draws the four parallel views of plants on one sheet, in one scale: front and side above, top and oblique below.

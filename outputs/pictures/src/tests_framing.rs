@@ -10,7 +10,7 @@ use phytomer_sim::math::sincosf;
 
 fn stand(plant: &Plant) -> Stand<'_> {
     let placed = Placed { plant, age: 1, place: [0.0; 3], own: Arc::default() };
-    Stand { plants: vec![placed], label: "age 1".to_owned() }
+    Stand { plants: vec![placed], obstacles: Vec::new(), label: "age 1".to_owned() }
 }
 
 fn style(view: View) -> Picture {

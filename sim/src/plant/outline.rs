@@ -1,11 +1,12 @@
-//! The frame and the outline that single organs state: a frame relative to that of the node, and the polygon that the
-//! organ fills.
+//! The frame and the form that single organs state: a frame relative to that of the node, and the polygon that the
+//! organ fills or the curved surface that it is.
 //!
 //! An organ that states its frame keeps it: neither insertion nor trends turn it, and it begins at the stated offset,
 //! not on the surface of its stem. An outline is a list of corners in the organ's frame, x along it, y to its left, z
 //! to its upper side, in metres when it is full-grown; the area of the organ is then that of the polygon. The corners
-//! of all organs share one list. A plant whose organs state nothing has empty columns. Absent: triangles, which a mesh
-//! makes of an outline.
+//! of all organs share one list. A curved surface is named by its place among those that the habit carries for drawing;
+//! the organ states its size. A plant whose organs state nothing has empty columns. Absent: triangles, which a mesh
+//! makes of an outline and takes from a surface.
 
 use super::Plant;
 use super::handle::OrganId;
@@ -23,6 +24,9 @@ pub struct StatedOrgans {
     /// The first corner and the number of corners.
     spans: Rare<[u32; 2]>,
     corners: Vec<[f32; 3]>,
+    /// The place of the curved surface, counted from 1, and its factors along the organ, to its left and to its upper
+    /// side.
+    surfaces: Rare<(u32, [f32; 3])>,
 }
 
 impl StatedOrgans {
@@ -36,6 +40,14 @@ impl StatedOrgans {
     #[inline]
     pub fn have_forms(&self) -> bool {
         self.spans.is_empty()
+    }
+
+    /// The curved surface of an organ: its place among those of the habit, and its factors along the organ, to its left
+    /// and to its upper side; `None` where the organ has another form.
+    #[inline]
+    pub fn surface(&self, organ: OrganId) -> Option<(usize, [f32; 3])> {
+        let (place, scale) = self.surfaces.at(organ.index());
+        Some((place.checked_sub(1)? as usize, scale))
     }
 
     /// How an organ is turned in the frame of its node, and where it begins there; `None` where it states no frame.
@@ -54,6 +66,7 @@ impl StatedOrgans {
             self.spans.change_from(first, |[start, count]| [start + corners, count]);
             self.corners.extend_from_slice(&more.corners);
         }
+        self.surfaces.join(&more.surfaces, |organ| first + organ);
     }
 
     pub(super) fn clear(&mut self) {
@@ -61,6 +74,7 @@ impl StatedOrgans {
         self.starts.clear();
         self.spans.clear();
         self.corners.clear();
+        self.surfaces.clear();
     }
 }
 
@@ -81,6 +95,13 @@ impl Plant {
         of.spans.set(organ.index(), [of.corners.len() as u32, count as u32]);
         of.corners.extend_from_slice(&corners[..count]);
         self.organs.area[organ.index()] = area(&corners[..count]) as f32;
+    }
+
+    /// Gives an organ a curved surface as its form: the place of the surface among those of the habit, its factors
+    /// along the organ, to its left and to its upper side when it is full-grown, and the area of one side then, m².
+    pub fn state_surface(&mut self, organ: OrganId, place: u32, scale: [f32; 3], area: f32) {
+        self.stated_organs.surfaces.set(organ.index(), (place.saturating_add(1), scale));
+        self.organs.area[organ.index()] = area;
     }
 
     /// The corners of the polygon that an organ fills, in its frame, metres when it is full-grown; empty where it has

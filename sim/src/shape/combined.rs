@@ -23,6 +23,11 @@ impl Union {
         Self { members, tree }
     }
 
+    /// Its members.
+    pub fn members(&self) -> &[Shape] {
+        &self.members
+    }
+
     pub(super) fn inside(&self, point: Point) -> bool {
         self.tree.any(point, |member| self.members[member].inside(point))
     }

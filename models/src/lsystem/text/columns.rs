@@ -5,6 +5,7 @@
 //! and where it begins. Absent: what departs (`model`).
 
 use super::draft::{BASE, Draft, Internode};
+use super::form::Stated;
 use super::numbers::{Born, Bud, Numbered};
 use crate::lsystem::turtle::{Frame, Vector};
 use phytomer_looks::FormName;
@@ -139,6 +140,9 @@ fn write_node(
     if let Some(look) = measures.look(node) {
         plant.give_look(id, look);
     }
+    if let Some(section) = node.section {
+        plant.give_section(id, section);
+    }
 }
 
 impl Measures {
@@ -166,16 +170,11 @@ fn bearing(draft: &Draft, node: u32, to: &Places) -> Bearer {
     Bearer { frame: node.frame, tip: end.position }
 }
 
-/// A vector in the coordinates of a frame.
-fn within(frame: &Frame, vector: Vector) -> Vector {
-    [frame.heading, frame.left, frame.up].map(|axis| axis[0] * vector[0] + axis[1] * vector[1] + axis[2] * vector[2])
-}
-
 /// How a frame is turned in that of its bearer, and where it begins from the tip of that, metres.
 fn relative(bearer: &Bearer, frame: Frame, step: f64) -> (Rotation, [f32; 3]) {
-    let turned = Rotation::to(within(&bearer.frame, frame.heading), within(&bearer.frame, frame.up));
+    let turned = Rotation::to(bearer.frame.coordinates(frame.heading), bearer.frame.coordinates(frame.up));
     let beside = [0, 1, 2].map(|i| frame.position[i] - bearer.tip[i]);
-    (turned, within(&bearer.frame, beside).map(|along| (along * step) as f32))
+    (turned, bearer.frame.coordinates(beside).map(|along| (along * step) as f32))
 }
 
 fn state(plant: &mut Plant, part: Part, bearer: &Bearer, frame: Frame, step: f64) {
@@ -195,13 +194,9 @@ fn write_organ(
 ) {
     let organ = &draft.organs[place];
     let node = to.place(organ.on);
-    let corners: Vec<[f32; 3]> = draft.corners[organ.outline.clone()]
-        .iter()
-        .map(|corner| [0, 1, 2].map(|i| corner[i] - organ.frame.position[i]))
-        .map(|beside| within(&organ.frame, beside).map(|along| (along * measures.step) as f32))
-        .collect();
     let size = (organ.size * measures.width) as f32;
-    let [length, width] = if corners.len() < 3 { [size; 2] } else { [extent(&corners, 0), extent(&corners, 1)] };
+    let form = Stated::of(&organ.form, &organ.frame, &draft.corners, measures.step, plant);
+    let [length, width] = form.extents().unwrap_or([size; 2]);
     let new = NewOrgan {
         node: NodeId(node as u32),
         kind: organ.kind,
@@ -219,21 +214,12 @@ fn write_organ(
     let id = plant.place_organ(new, born.number);
     let (turned, start) = relative(&bearing(draft, organ.on, to), organ.frame, measures.step);
     plant.state_organ(id, turned, start);
-    if corners.len() >= 3 {
-        plant.state_outline(id, &corners);
-    } else if organ.kind.class() == Class::Leaf {
+    if !form.state(plant, id) && organ.kind.class() == Class::Leaf {
         plant.organs.area[id.index()] = length * width * form_of(organ.kind).area_share();
     }
     if measures.coloured {
         plant.give_organ_look(id, organ.colour.rem_euclid(256) as u16);
     }
-}
-
-/// The extent of an outline along an axis of its frame.
-fn extent(corners: &[[f32; 3]], axis: usize) -> f32 {
-    let along = corners.iter().map(|corner| corner[axis]);
-    let (least, most) = along.fold((0.0_f32, 0.0_f32), |(least, most), x| (least.min(x), most.max(x)));
-    most - least
 }
 
 /// What an organ without an outline is drawn as.

@@ -5,12 +5,12 @@
 //! stands on the base of that internode; where the trunk has none, on a foot of length 0, which is an internode.
 //! Absent: numbers and ages (`numbers`), and the columns of a plant (`columns`).
 
+use super::form::{Form, Named};
 use super::role::{Role, Roles};
 use crate::lsystem::turtle::{Command, Drawing, Frame, Turtle, Vector};
 use phytomer_rewriting::{Derived, Drawn, Module, Slot};
 use phytomer_sim::key::LineageKey;
 use phytomer_sim::plant::Kind;
-use std::ops::Range;
 
 /// The place of what stands before the first internode of the trunk.
 pub(super) const BASE: u32 = u32::MAX;
@@ -27,6 +27,8 @@ pub(super) struct Internode {
     pub frame: Frame,
     pub length: f64,
     pub width: f64,
+    /// The place of its cross section among those of the habit; `None` for a circle.
+    pub section: Option<u16>,
     pub kind: Kind,
     pub colour: i32,
 }
@@ -43,8 +45,7 @@ pub(super) struct Organ {
     pub kind: Kind,
     /// The size of what has no outline.
     pub size: f64,
-    /// Its outline, among the corners.
-    pub outline: Range<usize>,
+    pub form: Form,
     pub colour: i32,
     /// The module that was rewritten into its module.
     pub predecessor: LineageKey,
@@ -98,13 +99,10 @@ struct Bracket {
     last: u32,
 }
 
-/// The outlines of surfaces, by their symbols: corners along H, L and U, of the size of the view.
-pub(super) type Outlines = Vec<(char, Vec<Vector>)>;
-
 /// A walk along the modules of a string.
 pub(super) struct Walk<'w> {
     roles: &'w Roles,
-    outlines: &'w Outlines,
+    view: &'w Named,
     turtle: &'w mut Turtle,
     draft: &'w mut Draft,
     open: Vec<Bracket>,
@@ -122,7 +120,7 @@ impl<'w> Walk<'w> {
     /// A walk from the beginning of the string, for a draft that forgets what it held.
     pub fn begin(
         roles: &'w Roles,
-        outlines: &'w Outlines,
+        view: &'w Named,
         turtle: &'w mut Turtle,
         draft: &'w mut Draft,
         derived: &'w Derived,
@@ -133,19 +131,7 @@ impl<'w> Walk<'w> {
         let at = Bracket { key: LineageKey::SEED, module, axis: Some(0), last: BASE };
         let following = Box::new(derived.string().modules());
         let predecessor = LineageKey::SEED;
-        Self {
-            roles,
-            outlines,
-            turtle,
-            draft,
-            open: Vec::new(),
-            at,
-            following,
-            of: None,
-            named: None,
-            module,
-            predecessor,
-        }
+        Self { roles, view, turtle, draft, open: Vec::new(), at, following, of: None, named: None, module, predecessor }
     }
 
     /// Goes on by a module as it is drawn; what a query that stands there asks for.
@@ -167,11 +153,11 @@ impl<'w> Walk<'w> {
         if !silent {
             self.state_of(role, drawn.key);
         }
-        let Self { turtle, draft, outlines, .. } = self;
+        let Self { turtle, draft, view, .. } = self;
         let colour = turtle.state().colour[0];
         let frame = turtle.state().frame;
         match turtle.follow(command, drawn.parameters)? {
-            Drawing::Line { from, length, width } if !silent => {
+            Drawing::Line { from, length, width, contour } if !silent => {
                 let kind = if let Role::Internode(kind) = role { kind } else { Kind::Internode };
                 let module = drawn.key;
                 let node = Internode {
@@ -182,6 +168,7 @@ impl<'w> Walk<'w> {
                     frame: from,
                     length,
                     width,
+                    section: view.section(contour),
                     kind,
                     colour,
                 };
@@ -189,13 +176,13 @@ impl<'w> Walk<'w> {
             }
             Drawing::Polygon { from, corners } => {
                 let outline = draft.add_outline(corners.iter().copied());
-                self.drawn_as_outline(silent, role, drawn.key, from, outline, colour);
+                self.drawn_as(silent, role, drawn.key, from, outline, colour);
             }
             Drawing::Surface { symbol, scale } => {
-                let outline = outlines.iter().find(|(known, _)| *known == symbol).map(|(_, corners)| corners);
-                let placed = outline.into_iter().flatten().map(|corner| placed(&frame, *corner, scale));
-                let outline = draft.add_outline(placed);
-                self.drawn_as_outline(silent, role, drawn.key, frame, outline, colour);
+                let place = view.surfaces.iter().position(|known| *known == symbol);
+                let [across, along, above] = scale;
+                let form = place.map_or(Form::OfKind, |place| Form::Surface(place, [along, across, above]));
+                self.drawn_as(silent, role, drawn.key, frame, form, colour);
             }
             Drawing::Query(query) => return Some(query),
             Drawing::Mark(_, size) => self.size_last(role, drawn.key, size),
@@ -225,6 +212,7 @@ impl<'w> Walk<'w> {
                 frame,
                 length: 0.0,
                 width: 0.0,
+                section: None,
                 kind: Kind::Internode,
                 colour: 0,
             };
@@ -275,7 +263,7 @@ impl<'w> Walk<'w> {
                 let axis = self.axis();
                 self.draft.axes[axis as usize].apex = Some((self.module, frame));
             }
-            Role::Organ(kind) => self.add_organ(key, kind, frame, size, 0..0, colour),
+            Role::Organ(kind) => self.add_organ(key, kind, frame, size, Form::OfKind, colour),
             Role::AsDrawn | Role::Internode(_) => {}
         }
     }
@@ -303,44 +291,26 @@ impl<'w> Walk<'w> {
         self.at.last = place as u32;
     }
 
-    fn add_organ(&mut self, key: LineageKey, kind: Kind, frame: Frame, size: f64, outline: Range<usize>, colour: i32) {
+    fn add_organ(&mut self, key: LineageKey, kind: Kind, frame: Frame, size: f64, form: Form, colour: i32) {
         self.draft.order.push(Item::Organ(self.draft.organs.len()));
         let Self { module, predecessor, .. } = *self;
-        self.draft.organs.push(Organ {
-            key,
-            module,
-            on: self.at.last,
-            frame,
-            kind,
-            size,
-            outline,
-            colour,
-            predecessor,
-        });
+        self.draft.organs.push(Organ { key, module, on: self.at.last, frame, kind, size, form, colour, predecessor });
     }
 
     /// A polygon or a surface: of the module of a stated kind that it is drawn for, its form; else a leaf.
-    fn drawn_as_outline(
-        &mut self,
-        silent: bool,
-        role: Role,
-        key: LineageKey,
-        frame: Frame,
-        outline: Range<usize>,
-        colour: i32,
-    ) {
+    fn drawn_as(&mut self, silent: bool, role: Role, key: LineageKey, frame: Frame, form: Form, colour: i32) {
         let named = if silent { self.named.flatten() } else { None };
         let own = self.draft.organs.len().checked_sub(1).filter(|last| self.draft.organs[*last].key == key);
         match (named.or(own.filter(|_| matches!(role, Role::Organ(_)))), silent) {
             (Some(organ), _) => {
                 let organ = &mut self.draft.organs[organ];
-                // The first outline is the form.
-                if organ.outline.is_empty() {
-                    (organ.outline, organ.frame, organ.colour) = (outline, frame, colour);
+                // What is drawn first is the form.
+                if !organ.form.is_drawn() {
+                    (organ.form, organ.frame, organ.colour) = (form, frame, colour);
                 }
             }
             (None, true) => {}
-            (None, false) => self.add_organ(key, Kind::Leaf, frame, 0.0, outline, colour),
+            (None, false) => self.add_organ(key, Kind::Leaf, frame, 0.0, form, colour),
         }
     }
 
@@ -365,10 +335,10 @@ impl Draft {
         self.axes.push(Axis { key: LineageKey::SEED, module: LineageKey::SEED, on: BASE, order: 1, apex: None });
     }
 
-    fn add_outline(&mut self, corners: impl Iterator<Item = Vector>) -> Range<usize> {
+    fn add_outline(&mut self, corners: impl Iterator<Item = Vector>) -> Form {
         let first = self.corners.len();
         self.corners.extend(corners);
-        first..self.corners.len()
+        Form::Outline(first..self.corners.len())
     }
 
     /// Whether anything but the first internode of the trunk stands at the base.
@@ -382,11 +352,4 @@ impl Draft {
 /// The key of the foot of a plant whose trunk has no internode.
 fn foot_key() -> LineageKey {
     LineageKey::SEED.child(u64::MAX)
-}
-
-/// A corner of a surface where the turtle is: along H, L and U, scaled across, along and above.
-fn placed(frame: &Frame, corner: Vector, scale: [f64; 3]) -> Vector {
-    let [across, along, above] = scale;
-    let [h, l, u] = [corner[0] * along, corner[1] * across, corner[2] * above];
-    [0, 1, 2].map(|i| frame.position[i] + h * frame.heading[i] + l * frame.left[i] + u * frame.up[i])
 }

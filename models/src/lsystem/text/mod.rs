@@ -9,6 +9,7 @@ mod columns;
 mod curves;
 mod draft;
 mod events;
+mod form;
 mod model;
 mod numbers;
 mod role;

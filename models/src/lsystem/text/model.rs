@@ -4,8 +4,9 @@
 //! (`phytomer_rewriting`), drawing (`draft`), numbers (`numbers`).
 
 use super::columns::{Measures, write};
-use super::draft::{Draft, Outlines, Walk};
+use super::draft::{Draft, Walk};
 use super::events::{self, Noted};
+use super::form::Named;
 use super::numbers::{Bud, Numbered, Numbers};
 use super::script::{Script, Scripts};
 use crate::lsystem::turtle::{Query, Turtle};
@@ -26,7 +27,7 @@ pub struct TextModel {
     /// Where plants draw constants: the script is then of one plant each.
     pub(super) drawn: Option<Box<dyn Scripts>>,
     pub(super) turtle: Turtle,
-    pub(super) outlines: Outlines,
+    pub(super) view: Named,
     pub(super) measures: Measures,
     pub(super) tapered: bool,
     pub(super) habit: Arc<Habit>,
@@ -100,7 +101,7 @@ impl Drawing<'_> {
         mut answer: impl FnMut(&phytomer_rewriting::Drawn<'_>, Query, &Turtle),
     ) -> Result<(), Stopped> {
         let Scratch { turtle, draft, .. } = &mut *self.scratch;
-        let mut walk = Walk::begin(&self.script.roles, &self.model.outlines, turtle, draft, derived);
+        let mut walk = Walk::begin(&self.script.roles, &self.model.view, turtle, draft, derived);
         program.draw(derived, |drawn| {
             if let Some(query) = walk.go_on(&drawn) {
                 answer(&drawn, query, walk.turtle());

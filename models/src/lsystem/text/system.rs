@@ -5,14 +5,14 @@
 
 use super::columns::Measures;
 use super::curves::Curves;
-use super::draft::Outlines;
+use super::form::Named;
 use super::model::{TextModel, shape};
 use super::role::Roles;
 use super::script::{Script, Scripts};
 use crate::law::{At, VariateTable};
 use crate::lsystem::turtle::Turtle;
-use crate::lsystem::view::{Colours, Function, Surface, TextFault, View};
-use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints};
+use crate::lsystem::view::{Colours, Contour, Function, Surface, TextFault, View};
+use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints, Section, Surface as Form};
 use phytomer_rewriting::{Outside, Program, Reading};
 use phytomer_sim::key::{LineageKey, mix};
 use phytomer_sim::plant::{Class, Habit, InternodeLook, Kind, Looks, OrganLook, Trend};
@@ -21,8 +21,6 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
-/// How many points a side the outline of a surface has.
-const OUTLINE: usize = 6;
 /// The diameter of a line of a pixel in lengths of a step, where a view file counts widths in pixels. Assumed.
 const PIXEL: f64 = 0.02;
 
@@ -80,12 +78,12 @@ impl TextSystem {
     pub fn compile(&self) -> Result<TextModel, Vec<Wrong>> {
         let mut wrong = Vec::new();
         let view = self.view(&mut wrong);
-        let outlines = self.outlines(&view, &mut wrong);
+        let shown = Shown { surfaces: self.surfaces(&view, &mut wrong), contours: self.contours(&view, &mut wrong) };
         let curves = Arc::new(self.curves(&view, &mut wrong));
         let colours = self.colours(&mut wrong);
         let middle: Vec<(String, f64)> = self.constants(|_| u32::MAX / 2);
         match self.script(&middle, &curves) {
-            Ok(script) if wrong.is_empty() => Ok(self.model(script, &curves, &view, outlines, colours.as_ref())),
+            Ok(script) if wrong.is_empty() => Ok(self.model(script, &curves, &view, shown, colours.as_ref())),
             Ok(_) => Err(wrong),
             Err(more) => Err(wrong.into_iter().chain(more).collect()),
         }
@@ -112,7 +110,7 @@ impl TextSystem {
         script: Script,
         curves: &Arc<Curves>,
         view: &View,
-        outlines: Outlines,
+        shown: Shown,
         colours: Option<&Colours>,
     ) -> TextModel {
         let angle_deg = script.program.settings().angle_deg.unwrap_or(view.angle_deg);
@@ -122,15 +120,16 @@ impl TextSystem {
         kinds.push(Kind::Internode);
         kinds.sort_unstable();
         kinds.dedup();
-        let (looks, places, paints) = looks(&kinds, view.tapered_lines, colours);
+        let (looks, places, mut paints) = looks(&kinds, view.tapered_lines, colours);
         let measures = Measures { step: self.step_m, width, looks: places, coloured: colours.is_some() };
+        let named = shown.named(&mut paints);
         let for_drawing = paints.into_habit();
         let habit = Habit { trends: vec![Trend::STRAIGHT], looks, for_drawing, ..Habit::default() };
         let tapered = view.tapered_lines;
         let is_drawn = self.define.iter().any(|(_, law)| law.is_random());
         let of_each = || Box::new(OfEachPlant { system: self.clone(), curves: Arc::clone(curves) });
         let drawn = is_drawn.then(|| of_each() as Box<dyn Scripts>);
-        TextModel { script: Arc::new(script), drawn, turtle, outlines, measures, tapered, habit: Arc::new(habit) }
+        TextModel { script: Arc::new(script), drawn, turtle, view: named, measures, tapered, habit: Arc::new(habit) }
     }
 
     fn view(&self, wrong: &mut Vec<Wrong>) -> View {
@@ -153,19 +152,30 @@ impl TextSystem {
         text
     }
 
-    fn outlines(&self, view: &View, wrong: &mut Vec<Wrong>) -> Outlines {
-        let mut outlines = Outlines::new();
+    /// The curved surfaces of the view file by their symbols.
+    fn surfaces(&self, view: &View, wrong: &mut Vec<Wrong>) -> Vec<(char, Form)> {
+        let mut surfaces = Vec::new();
         for named in &view.surfaces {
             let Some((name, text)) = self.text(&named.file, wrong) else { continue };
             match Surface::read(text) {
-                Ok(surface) => {
-                    let corners = surface.outline(OUTLINE).into_iter().map(|corner| corner.map(|x| x * named.size));
-                    outlines.push((named.symbol, corners.collect()));
-                }
+                Ok(surface) => surfaces.push((named.symbol, surface.form(named.size, named.steps))),
                 Err(fault) => wrong.push(in_text(name, fault)),
             }
         }
-        outlines
+        surfaces
+    }
+
+    /// The contours of the view file by their numbers.
+    fn contours(&self, view: &View, wrong: &mut Vec<Wrong>) -> Vec<(i32, Section)> {
+        let mut contours = Vec::new();
+        for (number, file) in &view.contours {
+            let Some((name, text)) = self.text(file, wrong) else { continue };
+            match Contour::read(text) {
+                Ok(contour) => contours.push((*number, contour.section(view.contour_sides))),
+                Err(fault) => wrong.push(in_text(name, fault)),
+            }
+        }
+        contours
     }
 
     fn curves(&self, view: &View, wrong: &mut Vec<Wrong>) -> Curves {
@@ -220,6 +230,28 @@ impl TextSystem {
             };
             refused.faults.iter().map(of).collect()
         })
+    }
+}
+
+/// What the view file names, ready to be drawn.
+struct Shown {
+    surfaces: Vec<(char, Form)>,
+    contours: Vec<(i32, Section)>,
+}
+
+impl Shown {
+    /// Puts all into the paints; the names in their places there.
+    fn named(self, paints: &mut Paints) -> Named {
+        let mut named = Named::default();
+        for (symbol, form) in self.surfaces {
+            paints.add_surface(form);
+            named.surfaces.push(symbol);
+        }
+        for (number, section) in self.contours {
+            paints.add_section(section);
+            named.contours.push(number);
+        }
+        named
     }
 }
 

@@ -5,7 +5,7 @@ use super::{TextModel, TextSystem};
 use crate::contract;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::model::Grow as _;
-use phytomer_sim::plant::{Cause, Kind, Plant};
+use phytomer_sim::plant::{Cause, Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::{node_frame, pose};
 use std::collections::BTreeMap;
 
@@ -220,6 +220,39 @@ fn a_tree_of_ternary_branching() {
 }
 
 /// A plant draws a constant once for its whole life; a constant that is drawn changes no other.
+/// A cylinder of two parts over a contour, and a leaf that is a curved surface: both stated where they stand, at their
+/// size in metres.
+#[test]
+fn cylinders_have_their_contours_and_leaves_their_surfaces() {
+    let surface = "0 1 0 1 0 0\nCONTACT POINT X: 0 Y: 0 Z: 0\nEND POINT X: 0 Y: 1 Z: 0\nHEADING X: 0 Y: 1 Z: 0\n\
+                   UP X: 0 Y: 0 Z: 1\nSIZE: 1\npatch\n";
+    let rows = ["0", "0.4", "0.6", "1"].map(|y| ["0", "0.4", "0.6", "1"].map(|x| format!("{x} {y} 0")).join(" "));
+    let texts = [
+        ("a.l", "Axiom: @#(2)@Gsf@Gcf@Ge~l(2)F\nA --> A\n".to_owned()),
+        ("a.v", "initial line width: 1\nsurface: l l.s 3 4 4\ncontour: 2 c.con\n".to_owned()),
+        ("l.s", format!("{surface}{}\n", rows.join("\n"))),
+        ("c.con", "4 2 closed\n1 0\n0 1\n-1 0\n0 -1\n".to_owned()),
+    ];
+    let system = TextSystem {
+        file: "a.l".to_owned(),
+        view: Some("a.v".to_owned()),
+        texts: texts.map(|(name, text)| (name.to_owned(), text)).into(),
+        step_m: 0.1,
+        ..TextSystem::default()
+    };
+    let model = system.compile().unwrap_or_else(|wrong| panic!("{wrong:?}"));
+    let plant = grown(&model, 1);
+    let sections: Vec<_> = (0..3).map(|node| plant.own_looks.section_of(NodeId(node))).collect();
+    assert_eq!(sections, [Some(0), Some(0), None]);
+    let (place, scale) = plant.stated_organs.surface(OrganId(0)).expect("a surface");
+    assert_eq!((place, scale), (0, [0.2; 3]));
+    // A square of three steps of 0.1 m, twice as large.
+    assert!((plant.organ_area::<f64>(OrganId(0), 1) - 0.36).abs() < 1e-6);
+    assert!((plant.organs.length[0] - 0.6).abs() < 1e-6);
+    let sheets = phytomer_looks::Paints::of(&plant.habit);
+    assert_eq!((sheets.surface(0).map(|surface| surface.faces().len()), sheets.sections().len()), (Some(32), 1));
+}
+
 #[test]
 fn plants_draw_constants() {
     use crate::fault::Path;

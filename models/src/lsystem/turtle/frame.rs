@@ -41,6 +41,11 @@ impl Frame {
         }
     }
 
+    /// A vector in the coordinates of the frame: along H, L and U.
+    pub fn coordinates(&self, vector: Vector) -> Vector {
+        [self.heading, self.left, self.up].map(|axis| dot(axis, vector))
+    }
+
     /// Turns by an angle, radians, about one of its axes.
     #[inline]
     pub fn turn(&mut self, about: Axis, angle: f64) {

@@ -1,18 +1,25 @@
 //! Surfaces (`.s`) that a turtle draws by `~`: Bézier patches of 4 × 4 points (Prusinkiewicz & Lindenmayer 1990 §5.1).
 //!
-//! The file states the box of its points, a contact point, the heading and the upper side at which it sits on the
-//! turtle, and its size; then each patch by its name, its colours, its neighbours (`AL:` …) and 16 points. Here the
-//! points are told in the coordinates of the turtle (along the heading, to the left, along the upper side), from the
-//! contact point, with the stated size as 1. Names, colours and neighbours are not used. Absent: drawing.
+//! The file states the box of its points, how finely it is drawn, a contact point, the heading and the upper side at
+//! which it sits on the turtle, and its size; then each patch by its name, its colours, its neighbours (`AL:` …) and 16
+//! points. Here the points are told in the coordinates of the turtle (along H, L and U), from the contact point, with
+//! the stated size as 1. The upper side of the file is that of cpfg, whose U is ours turned round: it comes to lie
+//! along −U. A patch becomes a grid of cells of two triangles each, with the normals of the patch itself. Names,
+//! colours and neighbours are not used.
 
 use super::text::{Line, TextFault, bounded, full_lines};
+use phytomer_looks::Surface as Form;
 
 /// The most patches of a surface.
 const MOST_PATCHES: usize = 256;
 /// A direction that is shorter is no direction.
 const NO_DIRECTION: f64 = 1e-3;
-/// How many steps of a parameter the area of a patch is summed over.
-const STEPS: usize = 12;
+/// The most steps of a parameter, as in cpfg.
+const MOST_STEPS: u8 = 10;
+/// The steps of a parameter where neither the view file nor the surface states them.
+const STEPS: u8 = 8;
+/// The most triangles of a surface, since it is drawn thousands of times: of more patches each is drawn more coarsely.
+const MOST_TRIANGLES: usize = 10_000;
 
 /// The points of a patch: four rows of four.
 pub type Patch = [[[f64; 3]; 4]; 4];
@@ -22,6 +29,8 @@ pub type Patch = [[[f64; 3]; 4]; 4];
 pub struct Surface {
     /// Its patches, at least one.
     pub patches: Vec<Patch>,
+    /// The steps of the parameters s and t in which it is drawn; 0 where the file does not state them.
+    pub steps: [u8; 2],
 }
 
 impl Surface {
@@ -40,54 +49,73 @@ impl Surface {
             }
             patches.push(patch(&mut lines, &frame)?);
         }
-        if patches.is_empty() { Err(lines.fault("a patch")) } else { Ok(Self { patches }) }
+        if patches.is_empty() { Err(lines.fault("a patch")) } else { Ok(Self { patches, steps: frame.steps }) }
     }
 
     /// The point of a patch at the parameters `s` along its rows and `t` along its columns, both in [0, 1].
     pub fn point(patch: &Patch, s: f64, t: f64) -> [f64; 3] {
-        let weights = |u: f64| {
-            let v = 1.0 - u;
-            [v * v * v, 3.0 * u * v * v, 3.0 * u * u * v, u * u * u]
-        };
-        let (along, across) = (weights(t), weights(s));
-        let mut sum = [0.0; 3];
-        for (row, weight) in patch.iter().zip(along) {
-            for (point, other) in row.iter().zip(across) {
-                (0..3).for_each(|axis| sum[axis] += weight * other * point[axis]);
+        weighted(patch, weights(s), weights(t))
+    }
+
+    /// The surface in triangles, with a size as its largest dimension: `steps` of the parameters s and t in each patch,
+    /// or where these are 0 as many as the file states, or 8.
+    pub fn form(&self, size: f64, steps: [u8; 2]) -> Form {
+        let steps = self.steps_of(steps);
+        let (mut points, mut faces) = (Vec::new(), Vec::new());
+        let row = u32::from(steps[0]) + 1;
+        for patch in &self.patches {
+            let first = points.len() as u32;
+            for (t, s) in (0..=steps[1]).flat_map(|t| (0..=steps[0]).map(move |s| (t, s))) {
+                let at = [f64::from(s) / f64::from(steps[0]), f64::from(t) / f64::from(steps[1])];
+                points.push((Self::point(patch, at[0], at[1]).map(|x| x * size), normal(patch, at), at));
+            }
+            for (t, s) in (0..u32::from(steps[1])).flat_map(|t| (0..u32::from(steps[0])).map(move |s| (t, s))) {
+                let [a, b] = [first + t * row + s, first + (t + 1) * row + s];
+                faces.extend([[a, a + 1, b + 1], [a, b + 1, b]]);
             }
         }
-        sum
+        Form::of(&points, &faces)
     }
 
-    /// The area of one side, in squares of the size: that of two triangles in each cell of a grid over each patch.
-    pub fn area(&self) -> f64 {
-        let at = |step: usize| step as f64 / STEPS as f64;
-        let of = |patch: &Patch, s: usize, t: usize| Self::point(patch, at(s), at(t));
-        let cells = (0..STEPS).flat_map(|s| (0..STEPS).map(move |t| (s, t)));
-        let cell = |patch: &Patch, (s, t): (usize, usize)| {
-            let (a, b) = (of(patch, s, t), of(patch, s + 1, t + 1));
-            triangle(a, of(patch, s + 1, t), b) + triangle(a, b, of(patch, s, t + 1))
-        };
-        self.patches.iter().flat_map(|patch| cells.clone().map(move |place| cell(patch, place))).sum()
+    /// The steps in which it is drawn.
+    fn steps_of(&self, asked: [u8; 2]) -> [u8; 2] {
+        let stated = [0, 1].map(|k| if asked[k] > 0 { asked[k] } else { self.steps[k] });
+        let mut steps = stated.map(|steps| if steps > 0 { steps.min(MOST_STEPS) } else { STEPS });
+        let triangles = |steps: [u8; 2]| 2 * self.patches.len() * usize::from(steps[0]) * usize::from(steps[1]);
+        while triangles(steps) > MOST_TRIANGLES && steps != [1; 2] {
+            steps = steps.map(|steps| (steps - 1).max(1));
+        }
+        steps
     }
+}
 
-    /// The border of the largest patch, `steps` points a side, once around: the outline that a flat drawing has.
-    pub fn outline(&self, steps: usize) -> Vec<[f64; 3]> {
-        let of_one = |patch: &Patch| Self { patches: vec![*patch] }.area();
-        let areas = self.patches.iter().map(of_one);
-        let largest = areas.enumerate().fold((0, 0.0), |best, (i, area)| if area > best.1 { (i, area) } else { best });
-        let Some(patch) = self.patches.get(largest.0) else { return Vec::new() };
-        let steps = steps.max(1);
-        let at = |step: usize| step as f64 / steps as f64;
-        let sides = [0, 1, 2, 3].into_iter().flat_map(|side| (0..steps).map(move |step| (side, step)));
-        let place = |(side, step): (u8, usize)| match side {
-            0 => (at(step), 0.0),
-            1 => (1.0, at(step)),
-            2 => (1.0 - at(step), 1.0),
-            _ => (0.0, 1.0 - at(step)),
-        };
-        sides.map(place).map(|(s, t)| Self::point(patch, s, t)).collect()
+/// The vector across a patch on the side from which s and t run counterclockwise; 0 where it is drawn together.
+fn normal(patch: &Patch, [s, t]: [f64; 2]) -> [f64; 3] {
+    let [along_s, along_t] = [weighted(patch, slopes(s), weights(t)), weighted(patch, weights(s), slopes(t))];
+    cross(along_s, along_t)
+}
+
+/// Bernstein's polynomials of the third degree.
+fn weights(u: f64) -> [f64; 4] {
+    let v = 1.0 - u;
+    [v * v * v, 3.0 * u * v * v, 3.0 * u * u * v, u * u * u]
+}
+
+/// Their derivatives.
+fn slopes(u: f64) -> [f64; 4] {
+    let v = 1.0 - u;
+    [-3.0 * v * v, 3.0 * v * (v - 2.0 * u), 3.0 * u * (2.0 * v - u), 3.0 * u * u]
+}
+
+/// The sum of the points of a patch with weights along its rows and along its columns.
+fn weighted(patch: &Patch, along_rows: [f64; 4], along_columns: [f64; 4]) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for (row, weight) in patch.iter().zip(along_columns) {
+        for (point, other) in row.iter().zip(along_rows) {
+            (0..3).for_each(|axis| sum[axis] += weight * other * point[axis]);
+        }
     }
+    sum
 }
 
 /// The contact point, the axes of the turtle in the coordinates of the file, and the size of the file.
@@ -95,6 +123,7 @@ struct Frame {
     contact: [f64; 3],
     axes: [[f64; 3]; 3],
     size: f64,
+    steps: [u8; 2],
 }
 
 impl Frame {
@@ -109,9 +138,7 @@ fn frame(lines: &mut Lines<'_>) -> Result<Frame, TextFault> {
     for _ in 0..6 {
         bounds.number("the box of the points: six numbers")?;
     }
-    if lines.begins("PRECISION") {
-        lines.at += 1;
-    }
+    let steps = if lines.begins("PRECISION") { lines.precision() } else { [0; 2] };
     let contact = lines.triple("CONTACT POINT")?.0;
     lines.triple("END POINT")?;
     let heading = direction(lines.triple("HEADING")?)?;
@@ -123,7 +150,7 @@ fn frame(lines: &mut Lines<'_>) -> Result<Frame, TextFault> {
     let word = size.words().next();
     let size = word.number("a size above 0")?;
     if size > 0.0 {
-        Ok(Frame { contact, axes: [heading, cross(up, heading), up], size })
+        Ok(Frame { contact, axes: [heading, cross(heading, up), up.map(|x| -x)], size, steps })
     } else {
         Err(word.fault("a size above 0"))
     }
@@ -182,6 +209,15 @@ impl<'t> Lines<'t> {
         self.left.get(self.at).is_some_and(|line| line.text.trim_start().starts_with(word))
     }
 
+    /// The two numbers of a line such as `PRECISION S: 5 T: 5`; 0 for what is no number.
+    fn precision(&mut self) -> [u8; 2] {
+        let Some(line) = self.left.get(self.at) else { return [0; 2] };
+        self.at += 1;
+        let words = line.words_between(|character: char| character.is_whitespace() || character == ':');
+        let mut numbers = words.iter().filter_map(|word| word.text.parse().ok());
+        [numbers.next().unwrap_or(0), numbers.next().unwrap_or(0)]
+    }
+
     /// The numbers of a line such as `END POINT  X: 0 Y: 1 Z: 0`.
     fn triple(&mut self, name: &str) -> Result<([f64; 3], Line<'t>), TextFault> {
         let expected = format!("`{name}  X: … Y: … Z: …`");
@@ -222,10 +258,4 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn triangle(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
-    let from = |point: [f64; 3]| [0, 1, 2].map(|axis| point[axis] - a[axis]);
-    let normal = cross(from(b), from(c));
-    0.5 * dot(normal, normal).sqrt()
 }

@@ -1,7 +1,7 @@
 //! Files of our own in the formats of cpfg, against closed forms of the curves and surfaces that they state, and what
 //! is told of files that are wrong.
 
-use super::{Colours, Function, LineStyle, Surface, TextFault, View};
+use super::{Colours, Contour, Function, LineStyle, Surface, TextFault, View};
 
 const VIEW: &str = "\
 /* a view
@@ -25,6 +25,9 @@ surface: p petal.s 0
 function: width.func 100
 function: length.func
 contour: 2 blade.con
+contour sides: 100
+twist of cylinders: on
+torque: T: 0 0 2
 light: V: 0 1 0.5
 ";
 
@@ -38,12 +41,17 @@ fn a_view_file_is_read_and_what_has_no_meaning_is_listed() {
     assert_eq!((view.scale, view.scale_multiplier), (2.0, 0.5));
     let tropism = view.tropisms[0];
     assert_eq!((tropism.direction, tropism.angle_deg, tropism.elasticity), ([0.0, 1.0, 0.0], 90.0, 0.3));
-    let surfaces: Vec<_> = view.surfaces.iter().map(|s| (s.symbol, s.file.as_str(), s.size)).collect();
-    assert_eq!(surfaces, [('l', "leaf.s", 1.5), ('p', "petal.s", 1.0)]);
+    let surfaces: Vec<_> = view.surfaces.iter().map(|s| (s.symbol, s.file.as_str(), s.size, s.steps)).collect();
+    assert_eq!(surfaces, [('l', "leaf.s", 1.5, [8, 4]), ('p', "petal.s", 1.0, [0, 0])]);
     assert_eq!(view.functions, ["width.func", "length.func"]);
     assert_eq!(view.contours, [(2, "blade.con".to_owned())]);
+    assert_eq!((view.contour_sides, view.cylinders_twist), (64, true));
+    assert_eq!(
+        view.tropisms.iter().map(|of| (of.direction, of.rolls)).collect::<Vec<_>>(),
+        [([0.0, 1.0, 0.0], false), ([0.0, 0.0, 1.0], true)]
+    );
     let skipped: Vec<_> = view.skipped.iter().map(|line| (line.line, line.text.as_str())).collect();
-    assert_eq!(skipped, [(10, "viewpoint: 0,0,1"), (22, "light: V: 0 1 0.5")]);
+    assert_eq!(skipped, [(10, "viewpoint: 0,0,1"), (25, "light: V: 0 1 0.5")]);
     assert_eq!(View::read("").expect("an empty file"), View::default());
     let pixels = View::read("initial line width: 2 pixels\nfunction set: all.fset").expect("it can be read");
     assert_eq!((pixels.line_width, pixels.width_in_units, pixels.line_style), (2.0, false, LineStyle::Pixel));
@@ -174,22 +182,62 @@ fn surface_text(patches: &str) -> String {
 fn a_surface_is_told_in_the_coordinates_of_the_turtle() {
     let surface = Surface::read(&surface_text(&patch_text(2.0, 4.0, 0.0))).expect("it can be read");
     let patch = &surface.patches[0];
-    // A quarter of the size: heading along y, from the contact point; left along −x; the upper side along z.
-    assert_eq!(Surface::point(patch, 0.0, 0.0), [-0.125, 0.25, 0.0]);
-    assert_eq!(Surface::point(patch, 1.0, 1.0), [0.875, -0.25, 0.0]);
+    // A quarter of the size: heading along y, from the contact point; left along x; the upper side along −U.
+    assert_eq!(Surface::point(patch, 0.0, 0.0), [-0.125, -0.25, 0.0]);
+    assert_eq!(Surface::point(patch, 1.0, 1.0), [0.875, 0.25, 0.0]);
     let middle = Surface::point(patch, 0.5, 0.5);
     assert!((middle[0] - 0.375).abs() < 1e-15 && middle[1].abs() < 1e-15, "{middle:?}");
-    assert!((surface.area() - 0.5).abs() < 1e-12, "{}", surface.area());
-    assert_eq!(
-        surface.outline(1),
-        [[-0.125, 0.25, 0.0], [-0.125, -0.25, 0.0], [0.875, -0.25, 0.0], [0.875, 0.25, 0.0]]
-    );
-    assert_eq!(surface.outline(5).len(), 20);
+    let form = surface.form(3.0, [0, 0]);
+    assert_eq!((form.points().len(), form.faces().len(), surface.steps), (36, 50, [5; 2]));
+    assert!((form.area([1.0; 3]) - 9.0 * 0.5).abs() < 1e-12, "{}", form.area([1.0; 3]));
+    assert_eq!(form.points()[0].at, [-0.375, -0.75, 0.0]);
+    assert!(form.points().iter().all(|point| point.normal[..2] == [0.0; 2]), "a plane");
     let humped = surface_text(&format!("{}{}", patch_text(2.0, 4.0, 1.0), patch_text(1.0, 1.0, 0.0)));
     let humped = Surface::read(&humped).expect("it can be read");
     // Of the four inner points each counts 3·½·¼·3·½·¼ in the middle: (¾)² together.
-    assert!((Surface::point(&humped.patches[0], 0.5, 0.5)[2] - 0.25 * 0.5625).abs() < 1e-15);
-    assert!(humped.area() > 0.5 + 1.0 / 16.0 && humped.outline(1)[0] == [-0.125, 0.25, 0.0]);
+    assert!((Surface::point(&humped.patches[0], 0.5, 0.5)[2] + 0.25 * 0.5625).abs() < 1e-15);
+    let form = humped.form(1.0, [8, 4]);
+    assert_eq!((form.points().len(), form.faces().len()), (2 * 45, 2 * 64));
+    assert!(form.area([1.0; 3]) > 0.5 + 1.0 / 16.0);
+}
+
+/// A patch whose rows are equal arcs is a part of a cylinder: a quarter of a circle by one cubic, with the handle
+/// k = 4/3 tan 22.5°, is round to 2.7e-4 of its radius (Goldapp 1991). Radius 1, height 2: its area is π.
+#[test]
+fn a_quarter_of_a_cylinder_has_its_area_and_its_normals() {
+    let k = 4.0 / 3.0 * (2.0_f64.sqrt() - 1.0);
+    let arc = [[1.0, 0.0], [1.0, k], [k, 1.0], [0.0, 1.0]];
+    let rows = (0..4).map(|row| arc.map(|[x, z]| format!("{x} {} {z}", f64::from(row) * 2.0 / 3.0)).join(" "));
+    let rows: Vec<String> = rows.collect();
+    let text = surface_text(&format!("p\n{}\n", rows.join("\n"))).replace("SIZE: 4.0", "SIZE: 1");
+    let surface = Surface::read(&text).expect("it can be read");
+    let area = surface.form(1.0, [10, 1]).area([1.0; 3]);
+    // Ten chords of a quarter of a circle are 20 sin 4.5° long together.
+    let chords = 2.0 * 20.0 * phytomer_sim::math::sin(4.5_f64.to_radians());
+    assert!((area / chords - 1.0).abs() < 1e-3, "{area} {chords}");
+    assert!((area / std::f64::consts::PI - 1.0).abs() < 2e-3);
+    let form = surface.form(1.0, [10, 3]);
+    for point in form.points() {
+        // Out from the axis, or in towards it: across the radius there is nothing. The axis is that of y in the file.
+        let [_, left, up] = point.at.map(f64::from);
+        let normal = point.normal.map(f64::from);
+        let along = normal[1] * left + normal[2] * up;
+        assert!((along.abs() - 1.0).abs() < 2e-3 && normal[0].abs() < 1e-6, "{point:?}");
+    }
+}
+
+/// A patch that is drawn together at one end has a normal there too.
+#[test]
+fn a_pole_of_a_patch_has_the_normal_of_its_triangles() {
+    let rows: Vec<String> =
+        (0..4).map(|row| [-1.0, -0.3, 0.3, 1.0].map(|x| format!("{} {row} 0", x * f64::from(row))).join(" ")).collect();
+    let text = surface_text(&format!("p\n{}\n", rows.join("\n")));
+    let form = Surface::read(&text).expect("it can be read").form(1.0, [4, 4]);
+    assert!(form.points().iter().all(|point| point.normal[2].abs() == 1.0), "{:?}", form.points());
+    // Of 256 patches each is drawn more coarsely: 2 · 4 · 4 triangles, not 2 · 10 · 10.
+    let many = surface_text(&format!("p\n{}\n", rows.join("\n")).repeat(256));
+    let many = Surface::read(&many).expect("it can be read").form(1.0, [10, 10]);
+    assert_eq!(many.faces().len(), 256 * 2 * 16);
 }
 
 #[test]
@@ -208,6 +256,55 @@ fn what_is_wrong_in_a_surface_is_told_at_its_word() {
     assert!(of(&cut.join("\n")).ends_with("the line ends here; expected 16 points of three numbers each"));
     assert!(of(&surface_text("")).ends_with("expected a patch"));
     assert!(of(&format!("{whole}1 2 3\n")).contains("expected 16 points"), "{}", of(&format!("{whole}1 2 3\n")));
+}
+
+/// The points of a square count three times each: the curve passes through them, straight from each to the next. With
+/// four sides the section is the square, turned until it begins on the x axis, along −U. An open contour begins at its
+/// first point that counts three times. Blends of four points: a lone point counts 4/6 where it is nearest.
+#[test]
+fn contours_are_splines_in_sides_of_equal_length() {
+    let corners = ["1 1 0 3", "-1 1 0 3", "-1 -1 0 3", "1 -1 0 3"].join("\n");
+    let text = |kind: &str| format!("cver 1 3\nname: a b\npoints: 4 12\ntype: {kind}\nsamples: 8\n{corners}\n");
+    let near = |one: &[[f32; 2]], other: &[[f32; 2]]| {
+        let close = |(a, b): (&[f32; 2], &[f32; 2])| (a[0] - b[0]).abs() < 1e-5 && (a[1] - b[1]).abs() < 1e-5;
+        one.len() == other.len() && one.iter().zip(other).all(close)
+    };
+    let closed = Contour::read(&text("cr")).expect("it can be read").section(4);
+    let far = 2.0_f32.sqrt();
+    // The first of the pieces ends at the first corner; sides of equal length go on from where it begins.
+    assert!(closed.is_closed() && closed.corners().len() == 4);
+    for corner in closed.corners() {
+        assert!((corner[0] * corner[0] + corner[1] * corner[1] - 2.0).abs() < 1e-4, "{closed:?}");
+    }
+    assert!(
+        closed.corners().iter().any(|corner| near(&[*corner], &[[-far, 0.0]])),
+        "it begins on the x axis: {closed:?}"
+    );
+    let open = Contour::read(&text("open")).expect("it can be read").section(3);
+    assert!(near(open.corners(), &[[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]]), "{open:?}");
+    let old = Contour::read("4 3 closed\n1 0 5\n0 1 5\n-1 0 5\n0 -1 5\n").expect("it can be read").section(16);
+    let farthest = old.corners().iter().map(|[x, y]| x.abs().max(y.abs())).fold(0.0, f32::max);
+    assert!((farthest - 4.0 / 6.0).abs() < 1e-6, "{farthest}");
+    let lengths: Vec<f32> = (0..16)
+        .map(|k| {
+            let ([a, b], [x, y]) = (old.corners()[k], old.corners()[(k + 1) % 16]);
+            ((x - a) * (x - a) + (y - b) * (y - b)).sqrt()
+        })
+        .collect();
+    assert!(lengths.iter().all(|length| (length / lengths[0] - 1.0).abs() < 1e-2), "{lengths:?}");
+}
+
+#[test]
+fn what_is_wrong_in_a_contour_is_told_at_its_word() {
+    let of = |text: &str| Contour::read(text).expect_err("it is wrong").to_string();
+    assert_eq!(of(""), "line 1, column 1: the file is empty; expected a contour");
+    assert_eq!(of("3 2 closed"), "line 1, column 1: `3` stands here; expected the number of points, from 4 to 4096");
+    assert_eq!(of("4 2 round"), "line 1, column 5: `round` stands here; expected `open` or `closed`");
+    assert_eq!(of("4 2 open\n0 0\n1 x\n"), "line 3, column 3: `x` stands here; expected the coordinates of a point");
+    assert!(of("4 2 open\n0 0\n1 1\n").ends_with("expected as many points as the file says, at least four"));
+    assert!(of("cver 1 1\nname: a\n0 0 0 1\n").ends_with("expected `points:` and `type:` before the points"));
+    assert!(of("cver 1 1\npoints: 2 2\ntype: cr\n0 0 0 1\n1 1 0 1\n").contains("at least four"));
+    assert!(of("cver 1 1\npoints: 1 9\ntype: cr\n0 0 0 9999\n").contains("at most 4096 points"));
 }
 
 #[test]
@@ -256,7 +353,7 @@ fn no_bytes_make_a_reader_panic() {
                 }
             }
             let text: String = characters.into_iter().collect();
-            let _ = (View::read(&text), Surface::read(&text).map(|surface| surface.outline(3)));
+            let _ = (View::read(&text), Surface::read(&text).map(|surface| surface.form(1.0, [3, 2])));
             let functions = Function::read_set(&text).unwrap_or_default();
             let all = functions.into_iter().chain(Function::read(&text).ok());
             all.for_each(|function| assert!(!function.at(0.3).is_nan(), "{text}"));

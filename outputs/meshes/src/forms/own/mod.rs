@@ -9,11 +9,11 @@
 mod glb;
 mod obj;
 mod ply;
-pub(crate) mod polygon;
 #[cfg(test)]
 mod tests;
 
 use super::{Depth, FormMesh, Point};
+use phytomer_looks::polygon;
 
 /// The most triangles of a mesh file, since an organ is drawn thousands of times.
 pub const MOST_TRIANGLES: usize = 10_000;

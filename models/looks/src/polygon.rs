@@ -1,12 +1,16 @@
-//! Triangles from a polygon of a mesh file.
+//! Triangles from a polygon: a face of a mesh file, or the outline of an organ.
 //!
 //! A fan from the first corner is used where it covers the polygon, as it does every convex polygon. Else ears are cut
 //! off one after another (Meisters 1975, "Polygons have ears"), in the coordinate plane in which the polygon is
-//! largest. Takes at most n² tests of a corner against a triangle. Absent: holes; a polygon that crosses itself stays a
-//! fan.
+//! largest. Takes at most n² tests of a corner against a triangle. A polygon that is not plane is bent along the sides
+//! of its triangles. Absent: holes; a polygon that crosses itself stays a fan.
 
 /// The share of a polygon that a fan may cover twice: 32-bit corners in a line are never exactly so.
 const FLAT: f64 = 1e-6;
+
+/// The distance of a corner from the mean plane, in sizes of the polygon, above which it is not plane: corners in
+/// single precision are never exactly so.
+const PLANE: f64 = 1e-4;
 
 /// A point of the polygon in the plane.
 type Flat = [f64; 2];
@@ -21,6 +25,40 @@ pub fn triangles(points: &[[f32; 3]]) -> Vec<[usize; 3]> {
     let turns: Vec<f64> = (2..flat.len()).map(|corner| turn([flat[0], flat[corner - 1], flat[corner]])).collect();
     let least = -FLAT * turns.iter().sum::<f64>();
     if turns.iter().all(|turn| *turn >= least) { fan() } else { ears(&flat).unwrap_or_else(fan) }
+}
+
+/// Whether all corners lie in the plane across their mean normal (Newell's sum over the edges).
+pub fn is_plane(points: &[[f32; 3]]) -> bool {
+    let Some(&first) = points.first() else { return true };
+    let from: Vec<[f64; 3]> =
+        points.iter().map(|at| [0, 1, 2].map(|k| f64::from(at[k]) - f64::from(first[k]))).collect();
+    let mut normal = [0.0; 3];
+    for edge in from.windows(2) {
+        let across = cross(edge[0], edge[1]);
+        (0..3).for_each(|k| normal[k] += across[k]);
+    }
+    let size = from.iter().map(|at| dot(*at, *at)).fold(0.0, f64::max).sqrt();
+    let length = dot(normal, normal).sqrt();
+    from.iter().all(|at| dot(*at, normal).abs() <= PLANE * size * length)
+}
+
+/// The area of the triangles of a polygon.
+pub fn area(points: &[[f32; 3]]) -> f64 {
+    let of = |triangle: &[usize; 3]| {
+        let [a, b, c] = triangle.map(|corner| points[corner].map(f64::from));
+        let from_a = |to: [f64; 3]| [0, 1, 2].map(|k| to[k] - a[k]);
+        let across = cross(from_a(b), from_a(c));
+        0.5 * dot(across, across).sqrt()
+    };
+    triangles(points).iter().map(of).sum()
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The corners in the plane, seen from the side on which the polygon runs counterclockwise.
@@ -95,6 +133,18 @@ mod tests {
             .iter()
             .map(|triangle| turn(triangle.map(|k| points[k].map(f64::from)).map(|[x, y, _]| [x, y])).abs() / 2.0)
             .sum()
+    }
+
+    /// A square of 2 × 2 that is bent by a right angle along a diagonal, or along a side of its triangles: the
+    /// triangles keep their area of 4, of which the mean plane shows less.
+    #[test]
+    fn a_bent_polygon_has_the_area_of_its_triangles() {
+        let flat = [[0.0, 0.0, 0.5], [2.0, 0.0, 0.5], [2.0, 2.0, 0.5], [0.0, 2.0, 0.5]];
+        assert!(is_plane(&flat) && (area(&flat) - 4.0).abs() < 1e-12);
+        // The corner (0, 2) is turned about the diagonal y = x until it stands above its middle.
+        let bent = [flat[0], flat[1], flat[2], [1.0, 1.0, 0.5 + 2.0_f32.sqrt()]];
+        assert!(!is_plane(&bent) && (area(&bent) - 4.0).abs() < 1e-6, "{}", area(&bent));
+        assert!(is_plane(&bent[..3]) && is_plane(&[]) && area(&[]) == 0.0);
     }
 
     #[test]
