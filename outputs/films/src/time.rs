@@ -21,7 +21,7 @@ pub struct Timeline {
 impl Timeline {
     /// How many ages there are.
     pub fn ages(&self) -> u32 {
-        ((self.last - self.first) / self.step + 1e-9).floor().max(0.0) as u32 + 1
+        ((self.last - self.first) / self.step + 1e-9).floor().max(0.0).min(f64::from(u32::MAX - 1)) as u32 + 1
     }
 
     /// The age with a number.
