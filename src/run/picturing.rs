@@ -8,7 +8,7 @@ use super::RunError;
 use super::drawing::options_of;
 use super::regrowth::{Regrowth, Standing};
 use phytomer_config::scenario::{DrawnObstacle, Site};
-use phytomer_config::{About, Species};
+use phytomer_config::{About, Species, Trial};
 use phytomer_outputs::meshes::{Chunk, Mesh, MeshOptions, OwnForms, PlotBody, PlotMember, PlotMesh, Scene, Solid};
 use phytomer_outputs::pictures::{Placed, Stand, Subject};
 use phytomer_outputs::tables::Membership;
@@ -67,18 +67,7 @@ pub struct PicturedMember {
 impl Pictured {
     /// What a picture takes; `forms` are those of each species.
     pub fn stands<'a>(&'a self, forms: &[Arc<OwnForms>]) -> Vec<Stand<'a>> {
-        let placed = |stand: &'a PicturedStand, member: &PicturedMember| Placed {
-            plant: &stand.plants[member.plant],
-            age: member.age,
-            place: member.place.map(|x| x as f32),
-            own: forms.get(member.species).cloned().unwrap_or_default(),
-        };
-        let stand = |stand: &'a PicturedStand| Stand {
-            plants: stand.members.iter().map(|member| placed(stand, member)).collect(),
-            obstacles: stand.obstacles.clone(),
-            label: stand.label.clone(),
-        };
-        self.stands.iter().map(stand).collect()
+        self.stands.iter().map(|stand| stand.stand(forms)).collect()
     }
 
     /// Where each plant of each stand belongs, in the order of [`Pictured::subjects`].
@@ -103,6 +92,23 @@ impl Pictured {
             label: stand.label.clone(),
         })
         .collect()
+    }
+}
+
+impl PicturedStand {
+    /// The same as a picture takes it; `forms` are those of each species.
+    pub fn stand(&self, forms: &[Arc<OwnForms>]) -> Stand<'_> {
+        let placed = |member: &PicturedMember| Placed {
+            plant: &self.plants[member.plant],
+            age: member.age,
+            place: member.place.map(|x| x as f32),
+            own: forms.get(member.species).cloned().unwrap_or_default(),
+        };
+        Stand {
+            plants: self.members.iter().map(placed).collect(),
+            obstacles: self.obstacles.clone(),
+            label: self.label.clone(),
+        }
     }
 }
 
@@ -131,18 +137,9 @@ pub fn pictured_plants(
         for &age in ages {
             let whose = if plants.len() > 1 { format!("plant {number}, ") } else { String::new() };
             let Some(plant) = seen.get(&age).cloned() else { continue };
-            let (of, sown) = (trial.plant(number), trial.sown_at(number));
-            let calendar = trial.calendar_of(of.treatment, of.replicate);
-            let years = match calendar {
-                Some(calendar) => on_the_calendar(calendar, sown, age),
-                None => species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default(),
-            };
-            let (plot, treatment) = (of.plot, of.treatment as u32);
-            let place_m = [0.0; 3];
-            let member =
-                PicturedMember { number, plot, treatment, sown, plant: 0, species: place, age, place: place_m };
-            let label = format!("{whose}age {age}{years}");
-            stands.push(PicturedStand { plants: vec![plant], members: vec![member], obstacles: Vec::new(), label });
+            let mut stand = stand_of_plant(trial, species, plant, age);
+            stand.label.insert_str(0, &whose);
+            stands.push(stand);
         }
     }
     let names: Vec<&str> = shown.iter().map(|place| species[*place].about.name.as_str()).collect();
@@ -169,25 +166,54 @@ pub fn pictured_plot(
         seen.entry(tick).or_insert_with(|| kept(standing, apart));
         Ok(())
     })?;
-    let of_plot = trial.plot(plot);
-    let calendar = trial.calendar_of(of_plot.treatment, of_plot.replicate);
-    let obstacles = drawn(&trial.treatments()[of_plot.treatment].scenario.site);
+    let obstacles = obstacles_of(trial, plot);
     let of_members = |mut stand: PicturedStand, tick: Tick| {
         stand.obstacles.clone_from(&obstacles);
-        for member in &mut stand.members {
-            let of_plot = trial.member_of(member.number);
-            (member.plot, member.sown, member.place) = (plot, tick.saturating_sub(member.age), of_plot.place());
-            member.treatment = trial.plot(plot).treatment as u32;
-        }
-        let years = calendar.map_or_else(|| years_of(species, tick), |calendar| on_the_calendar(calendar, 0, tick));
-        stand.label = format!("tick {tick}{years}");
-        stand
+        stand_of_plot(trial, species, stand, (plot, tick))
     };
     let stands = ticks.iter().filter_map(|tick| seen.remove(tick).map(|stand| of_members(stand, *tick)));
     let stands: Vec<PicturedStand> = stands.collect();
     let shown = stands.iter().flat_map(|stand| stand.members.iter().map(|member| member.species)).collect();
     let note = format!("{}: plot {plot} at the ticks {ticks:?} of seed {}", scenario.name, scenario.seed);
     Ok(Pictured { stands, title: titles_of(species, &shown), note })
+}
+
+/// A plant at an age, by itself.
+pub(super) fn stand_of_plant(trial: &Trial, species: &[&Species], plant: Plant, age: Tick) -> PicturedStand {
+    let (number, place) = (plant.id, trial.species_of_plant(plant.id));
+    let (of, sown) = (trial.plant(number), trial.sown_at(number));
+    let years = match trial.calendar_of(of.treatment, of.replicate) {
+        Some(calendar) => on_the_calendar(calendar, sown, age),
+        None => species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default(),
+    };
+    let (plot, treatment) = (of.plot, of.treatment as u32);
+    let member = PicturedMember { number, plot, treatment, sown, plant: 0, species: place, age, place: [0.0; 3] };
+    let label = format!("age {age}{years}");
+    PicturedStand { plants: vec![plant], members: vec![member], obstacles: Vec::new(), label }
+}
+
+/// A plot at a tick, of which it is still to be filled in where its plants belong.
+pub(super) fn stand_of_plot(
+    trial: &Trial,
+    species: &[&Species],
+    mut stand: PicturedStand,
+    (plot, tick): (u32, Tick),
+) -> PicturedStand {
+    let of_plot = trial.plot(plot);
+    for member in &mut stand.members {
+        let place = trial.member_of(member.number).place();
+        (member.plot, member.sown, member.place) = (plot, tick.saturating_sub(member.age), place);
+        member.treatment = of_plot.treatment as u32;
+    }
+    let calendar = trial.calendar_of(of_plot.treatment, of_plot.replicate);
+    let years = calendar.map_or_else(|| years_of(species, tick), |calendar| on_the_calendar(calendar, 0, tick));
+    stand.label = format!("tick {tick}{years}");
+    stand
+}
+
+/// The meshes of the obstacles of a plot's site that are drawn.
+pub(super) fn obstacles_of(trial: &Trial, plot: u32) -> Vec<Arc<Mesh>> {
+    drawn(&trial.treatments()[trial.plot(plot).treatment].scenario.site)
 }
 
 /// The meshes of the obstacles of a site that are drawn; those that nothing is of are left out.
@@ -231,7 +257,7 @@ type Glance = (usize, Tick, usize, usize);
 type Kept = (usize, Option<[u8; 32]>);
 
 /// The plants of a plot, equal ones once unless they are to be kept apart; where they belong is still to be filled in.
-fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
+pub(super) fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
     let mut stand =
         PicturedStand { plants: Vec::new(), members: Vec::new(), obstacles: Vec::new(), label: String::new() };
     let mut alike: BTreeMap<Glance, Vec<Kept>> = BTreeMap::new();
@@ -269,7 +295,7 @@ fn look_of(plant: &Plant, age: Tick) -> [u8; 32] {
 }
 
 /// What the species that are shown are called below their picture, each once.
-fn titles_of(species: &[&Species], shown: &BTreeSet<usize>) -> String {
+pub(super) fn titles_of(species: &[&Species], shown: &BTreeSet<usize>) -> String {
     let mut titles: Vec<String> = Vec::new();
     for title in shown.iter().map(|place| title_of(&species[*place].about)) {
         titles.extend(Some(title).filter(|title| !titles.contains(title)));
