@@ -5,6 +5,7 @@
 
 mod amounts;
 mod bar;
+mod budget;
 pub mod causes;
 mod derive;
 mod describe;
