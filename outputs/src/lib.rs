@@ -1,7 +1,7 @@
 //! The output of a run: the run folder with its tables (Parquet), and reading it back.
 //!
-//! Meshes and pictures are crates of their own, `phytomer-meshes` and `phytomer-pictures`, which need neither Arrow nor
-//! Parquet; they are re-exported here as [`meshes`] and [`pictures`]. [`colouring`] colours a picture by a column of a
+//! Meshes, pictures and lives are crates of their own, `phytomer-meshes`, `phytomer-pictures` and `phytomer-life`, which
+//! need neither Arrow nor Parquet; they are re-exported here as [`meshes`], [`pictures`] and [`life`]. [`colouring`] colours a picture by a column of a
 //! table. [`RunFolder::create`] makes a run folder, which is filled shard by shard and closed by [`RunFolder::finish`].
 //! Its format is described in `docs` and in its own `datapackage.json`. [`read`] opens it again, [`check()`] tells
 //! whether it is whole. Absent: growth rules.
@@ -19,6 +19,7 @@ mod storage;
 pub mod tables;
 
 pub use destination::Destination;
+pub use phytomer_life as life;
 pub use phytomer_meshes as meshes;
 pub use phytomer_pictures as pictures;
 pub use run_folder::{

@@ -56,6 +56,17 @@ pub struct Tolerance {
     pub distance: f32,
     /// The most that colours differ, in each of three bytes, between internodes that are drawn as one.
     pub colour: u8,
+    /// What the polygons around the wood keep of its circles.
+    pub keeps: Keeping,
+}
+
+/// What a polygon keeps of the circle that it is drawn for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Keeping {
+    /// Its area, so that wood keeps its volume.
+    Section,
+    /// Its circumference, which is π times the mean width, so that thin wood is seen as wide as it is.
+    Width,
 }
 
 impl Tolerance {
@@ -65,7 +76,13 @@ impl Tolerance {
 
     /// Within a distance, metres, whatever the colours.
     pub fn of(distance: f32) -> Self {
-        Self { distance: distance.max(Self::LEAST), colour: u8::MAX }
+        Self { distance: distance.max(Self::LEAST), colour: u8::MAX, keeps: Keeping::Section }
+    }
+
+    /// Within a distance, metres, for a picture: wood keeps its width, and a face has one colour, which is nearly that
+    /// of all internodes along it.
+    pub fn of_a_picture(distance: f32) -> Self {
+        Self { colour: 6, keeps: Keeping::Width, ..Self::of(distance) }
     }
 }
 

@@ -105,6 +105,11 @@ impl<'a> Scene<'a> {
         Self { plant, age, options: options.clone(), paints, stems, reduced, outlines: Outlines::of(plant) }
     }
 
+    /// The same scene with its wood drawn within a tolerance.
+    pub fn within(&self, tolerance: Tolerance) -> Self {
+        Self::new(self.plant, self.age, &MeshOptions { tolerance: Some(tolerance), ..self.options.clone() })
+    }
+
     /// The age of the plant.
     pub fn age(&self) -> Tick {
         self.age

@@ -16,7 +16,7 @@ mod tests;
 use super::chunk::{Face, Vertex};
 use super::stem::Stems;
 use super::tube::lean;
-use super::{Counts, Tolerance};
+use super::{Counts, Keeping, Tolerance};
 use chain::{Found, Sample, chains};
 use glam::Vec3;
 use phytomer_sim::plant::NodeId;
@@ -94,7 +94,7 @@ impl Reduced {
         chains(stems, tolerance.distance * GAP, &mut planner);
         let mut plan = planner.plan;
         plan.end_tube();
-        plan.make_polygons();
+        plan.make_polygons(tolerance.keeps);
         plan.make_blocks();
         plan
     }
@@ -194,14 +194,14 @@ impl Reduced {
         }
     }
 
-    fn make_polygons(&mut self) {
+    fn make_polygons(&mut self, keeps: Keeping) {
         for ring in &self.rings {
             let sides = usize::from(ring.sides);
             if self.polygons.len() <= sides {
                 self.polygons.resize(sides + 1, Polygon::default());
             }
             if self.polygons[sides].is_empty() {
-                self.polygons[sides] = Polygon::of(ring.sides);
+                self.polygons[sides] = Polygon::of(ring.sides, keeps);
             }
         }
     }

@@ -2,9 +2,11 @@
 //!
 //! A ring of radius r has n = ⌈π / arccos(1 − e/r)⌉ sides within the tolerance e, so that a side of the polygon inside
 //! the circle is at most e from it; at least 3. Drawn is the polygon of the circle's area, as in tubes of single
-//! internodes (`tube`): its corners are at most ⅔ e outside of the circle and the middles of its sides at most ½ e inside. Rings of
+//! internodes (`tube`): its corners are at most 2e/3 outside of the circle and the middles of its sides at most e/2
+//! inside. For pictures it is the polygon of the circle's circumference, whose sides may lie 0.8 e inside. Rings of
 //! different numbers of sides are joined corner to nearest corner, n + m triangles.
 
+use super::super::Keeping;
 use super::super::chunk::{Face, Tag, Vertex};
 use glam::Vec3;
 use phytomer_sim::math::{acos, sin, sincos};
@@ -29,20 +31,23 @@ pub fn sides(radius: f32, tolerance: f32) -> u16 {
 pub struct Polygon {
     /// For each corner its cosine, sine and share of the way around; the first corner is repeated at the end.
     corners: Vec<[f32; 3]>,
-    /// The distance of a corner from the middle, in radii of the circle of the same area.
+    /// The distance of a corner from the middle, in radii of the circle.
     reach: f32,
 }
 
 impl Polygon {
-    /// The polygon of so many sides.
-    pub fn of(sides: u16) -> Self {
+    /// The polygon of so many sides that keeps the area of a circle or its circumference.
+    pub fn of(sides: u16, keeps: Keeping) -> Self {
         let count = f64::from(sides);
         let corner = |k: u16| {
             let (sin, cos) = sincos(TAU * f64::from(k % sides) / count);
             [cos as f32, sin as f32, (f64::from(k) / count) as f32]
         };
-        let part = TAU / count;
-        Self { corners: (0..=sides).map(corner).collect(), reach: (part / sin(part)).sqrt() as f32 }
+        let reach = match keeps {
+            Keeping::Section => (TAU / count / sin(TAU / count)).sqrt(),
+            Keeping::Width => PI / count / sin(PI / count),
+        };
+        Self { corners: (0..=sides).map(corner).collect(), reach: reach as f32 }
     }
 
     /// Whether it has been made.
@@ -139,8 +144,10 @@ mod tests {
     fn a_polygon_of_equal_area_is_near_the_circle() {
         use phytomer_sim::math::cos;
         for sides in 3_u16..400 {
-            let polygon = Polygon::of(sides);
+            let polygon = Polygon::of(sides, Keeping::Section);
             let part = PI / f64::from(sides);
+            let around = 2.0 * f64::from(sides) * f64::from(Polygon::of(sides, Keeping::Width).reach) * sin(part);
+            assert!((around / TAU - 1.0).abs() < 1e-6);
             // The largest circle, in tolerances, that has so many sides.
             let radius = 1.0 / (1.0 - cos(part));
             let apothem = f64::from(polygon.reach) * cos(part);

@@ -106,11 +106,12 @@ fn differ(one: &Sample, other: &Sample) -> u8 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::Keeping;
     use super::*;
     use phytomer_sim::math::sincosf;
     use phytomer_sim::plant::NodeId;
 
-    const FINE: Tolerance = Tolerance { distance: 0.001, colour: u8::MAX };
+    const FINE: Tolerance = Tolerance { distance: 0.001, colour: u8::MAX, keeps: Keeping::Section };
 
     fn chain(count: usize, at: impl Fn(f32) -> (Vec3, f32)) -> Vec<Sample> {
         let place = |k: usize| at(k as f32 / count as f32);
@@ -147,7 +148,7 @@ mod tests {
             (Vec3::new(cos, sin, 0.0), 1e-4)
         });
         for tolerance in [1e-2, 1e-3, 1e-4] {
-            let within = Tolerance { distance: tolerance, colour: u8::MAX };
+            let within = Tolerance::of(tolerance);
             let pieces = kept(&arc, &within).len() - 1;
             let angle = 2.0 * f64::acos_of(1.0 - f64::from(tolerance));
             let steps = (angle / f64::from(quarter) * count as f64).floor();
