@@ -7,7 +7,7 @@
 use super::RunError;
 use super::drawing::options_of;
 use super::regrowth::{Regrowth, Standing};
-use phytomer_config::{About, Species};
+use phytomer_config::{About, Species, Trial};
 use phytomer_outputs::meshes::{Chunk, MeshOptions, OwnForms, PlotBody, PlotMember, PlotMesh, Scene};
 use phytomer_outputs::pictures::{Placed, Stand, Subject};
 use phytomer_outputs::tables::Membership;
@@ -63,17 +63,7 @@ pub struct PicturedMember {
 impl Pictured {
     /// What a picture takes; `forms` are those of each species.
     pub fn stands<'a>(&'a self, forms: &[Arc<OwnForms>]) -> Vec<Stand<'a>> {
-        let placed = |stand: &'a PicturedStand, member: &PicturedMember| Placed {
-            plant: &stand.plants[member.plant],
-            age: member.age,
-            place: member.place.map(|x| x as f32),
-            own: forms.get(member.species).cloned().unwrap_or_default(),
-        };
-        let stand = |stand: &'a PicturedStand| Stand {
-            plants: stand.members.iter().map(|member| placed(stand, member)).collect(),
-            label: stand.label.clone(),
-        };
-        self.stands.iter().map(stand).collect()
+        self.stands.iter().map(|stand| stand.stand(forms)).collect()
     }
 
     /// Where each plant of each stand belongs, in the order of [`Pictured::subjects`].
@@ -101,6 +91,19 @@ impl Pictured {
     }
 }
 
+impl PicturedStand {
+    /// The same as a picture takes it; `forms` are those of each species.
+    pub fn stand(&self, forms: &[Arc<OwnForms>]) -> Stand<'_> {
+        let placed = |member: &PicturedMember| Placed {
+            plant: &self.plants[member.plant],
+            age: member.age,
+            place: member.place.map(|x| x as f32),
+            own: forms.get(member.species).cloned().unwrap_or_default(),
+        };
+        Stand { plants: self.members.iter().map(placed).collect(), label: self.label.clone() }
+    }
+}
+
 /// Grows some plants again and keeps each at some of its ages: plant after plant, each age by age in the order asked
 /// for. The species are those of the scenario.
 ///
@@ -125,15 +128,10 @@ pub fn pictured_plants(
         })?;
         for &age in ages {
             let whose = if plants.len() > 1 { format!("plant {number}, ") } else { String::new() };
-            let years = species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default();
             let Some(plant) = seen.get(&age).cloned() else { continue };
-            let (of, sown) = (trial.plant(number), trial.sown_at(number));
-            let (plot, treatment) = (of.plot, of.treatment as u32);
-            let place_m = [0.0; 3];
-            let member =
-                PicturedMember { number, plot, treatment, sown, plant: 0, species: place, age, place: place_m };
-            let label = format!("{whose}age {age}{years}");
-            stands.push(PicturedStand { plants: vec![plant], members: vec![member], label });
+            let mut stand = stand_of_plant(trial, species, plant, age);
+            stand.label.insert_str(0, &whose);
+            stands.push(stand);
         }
     }
     let names: Vec<&str> = shown.iter().map(|place| species[*place].about.name.as_str()).collect();
@@ -160,20 +158,38 @@ pub fn pictured_plot(
         seen.entry(tick).or_insert_with(|| kept(standing, apart));
         Ok(())
     })?;
-    let of_members = |mut stand: PicturedStand, tick: Tick| {
-        for member in &mut stand.members {
-            let of_plot = trial.member_of(member.number);
-            (member.plot, member.sown, member.place) = (plot, tick.saturating_sub(member.age), of_plot.place());
-            member.treatment = trial.plot(plot).treatment as u32;
-        }
-        stand.label = format!("tick {tick}{}", years_of(species, tick));
-        stand
-    };
+    let of_members = |stand: PicturedStand, tick: Tick| stand_of_plot(trial, species, stand, (plot, tick));
     let stands = ticks.iter().filter_map(|tick| seen.remove(tick).map(|stand| of_members(stand, *tick)));
     let stands: Vec<PicturedStand> = stands.collect();
     let shown = stands.iter().flat_map(|stand| stand.members.iter().map(|member| member.species)).collect();
     let note = format!("{}: plot {plot} at the ticks {ticks:?} of seed {}", scenario.name, scenario.seed);
     Ok(Pictured { stands, title: titles_of(species, &shown), note })
+}
+
+/// A plant at an age, by itself.
+pub(super) fn stand_of_plant(trial: &Trial, species: &[&Species], plant: Plant, age: Tick) -> PicturedStand {
+    let (number, place) = (plant.id, trial.species_of_plant(plant.id));
+    let years = species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default();
+    let (of, sown) = (trial.plant(number), trial.sown_at(number));
+    let (plot, treatment) = (of.plot, of.treatment as u32);
+    let member = PicturedMember { number, plot, treatment, sown, plant: 0, species: place, age, place: [0.0; 3] };
+    PicturedStand { plants: vec![plant], members: vec![member], label: format!("age {age}{years}") }
+}
+
+/// A plot at a tick, of which it is still to be filled in where its plants belong.
+pub(super) fn stand_of_plot(
+    trial: &Trial,
+    species: &[&Species],
+    mut stand: PicturedStand,
+    (plot, tick): (u32, Tick),
+) -> PicturedStand {
+    for member in &mut stand.members {
+        let of_plot = trial.member_of(member.number);
+        (member.plot, member.sown, member.place) = (plot, tick.saturating_sub(member.age), of_plot.place());
+        member.treatment = trial.plot(plot).treatment as u32;
+    }
+    stand.label = format!("tick {tick}{}", years_of(species, tick));
+    stand
 }
 
 /// The mesh of a stand of a plot.
@@ -210,7 +226,7 @@ type Glance = (usize, Tick, usize, usize);
 type Kept = (usize, Option<[u8; 32]>);
 
 /// The plants of a plot, equal ones once unless they are to be kept apart; where they belong is still to be filled in.
-fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
+pub(super) fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
     let mut stand = PicturedStand { plants: Vec::new(), members: Vec::new(), label: String::new() };
     let mut alike: BTreeMap<Glance, Vec<Kept>> = BTreeMap::new();
     for Standing { plant, age, species } in standing {
@@ -247,7 +263,7 @@ fn look_of(plant: &Plant, age: Tick) -> [u8; 32] {
 }
 
 /// What the species that are shown are called below their picture, each once.
-fn titles_of(species: &[&Species], shown: &BTreeSet<usize>) -> String {
+pub(super) fn titles_of(species: &[&Species], shown: &BTreeSet<usize>) -> String {
     let mut titles: Vec<String> = Vec::new();
     for title in shown.iter().map(|place| title_of(&species[*place].about)) {
         titles.extend(Some(title).filter(|title| !titles.contains(title)));

@@ -4,7 +4,8 @@
 //! layout of their own. Plants are put side by side (`placed`), a camera is fitted to them (`camera`, `extent`), the
 //! light of sun and sky on each is computed (`shadow`, `sky`), triangles are turned into samples (`raster`, `film`),
 //! samples are shaded and averaged (`shade`, `ground`, `draw`), and the caption is written (`caption`). Equal plants
-//! and an equal [`Picture`] give equal bytes on any number of threads. Absent: films; textures.
+//! and an equal [`Picture`] give equal bytes on any number of threads. Pictures of a film share a camera (`framing`).
+//! Absent: textures.
 
 mod camera;
 mod canvas;
@@ -14,6 +15,7 @@ mod colouring;
 mod draw;
 mod extent;
 mod film;
+mod framing;
 mod gaze;
 mod ground;
 mod letters;
@@ -23,8 +25,11 @@ mod raster;
 mod shade;
 mod shadow;
 mod sky;
+mod survey;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_framing;
 mod tone;
 mod value_colours;
 
@@ -32,6 +37,8 @@ pub use self::png::write_png;
 pub use ::png::Compression;
 pub use canvas::Canvas;
 pub use colouring::{Colouring, Scale};
+pub use framing::Framing;
+pub use survey::Survey;
 
 use cast::Cast;
 use gaze::Gaze;
@@ -177,6 +184,14 @@ pub fn draw(subjects: &[Subject], title: &str, picture: &Picture) -> Canvas {
 pub fn draw_stands(stands: &[Stand], title: &str, picture: &Picture) -> Canvas {
     let mut cast = Cast::of(stands, picture);
     let camera = cast.aim(picture, f32::INFINITY);
+    cast.draw(picture, &camera, title)
+}
+
+/// Draws a stand by a camera that holds what several pictures of it need. The `turn` of the picture, if given, is where
+/// the viewer has gone; a sun that is not given stays over the left shoulder of the viewer of the first picture.
+pub fn draw_framed(stand: &Stand, title: &str, picture: &Picture, framing: &Framing) -> Canvas {
+    let mut cast = Cast::of(std::slice::from_ref(stand), picture);
+    let camera = cast.hold(picture, framing);
     cast.draw(picture, &camera, title)
 }
 

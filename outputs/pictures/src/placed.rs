@@ -180,6 +180,11 @@ impl<'a> PlacedStand<'a> {
         boxes.reduce(|[low, high], [a, b]| [low.min(a), high.max(b)]).unwrap_or_default()
     }
 
+    /// The box around the feet of its plants, in its own coordinates; `None` without plants.
+    pub fn feet(&self) -> Option<[Vec3; 2]> {
+        self.places().map(|place| [place; 2]).reduce(|[low, high], [a, b]| [low.min(a), high.max(b)])
+    }
+
     /// Its width along a direction, about: from the boxes of its blocks.
     pub fn width(&self, right: Vec3) -> f32 {
         let feet = self.places().map(|place| [place; 2]);
@@ -195,26 +200,43 @@ impl<'a> PlacedStand<'a> {
     /// Its extent in its own coordinates, for a gaze and the tangents of a frame. With `buried`, the parts below its
     /// foot count too.
     pub fn extent(&self, gaze: Gaze, tangents: [f32; 4], buried: bool) -> Extent {
+        self.extent_beyond(&Extent::new(gaze, tangents), None, buried)
+    }
+
+    /// The extent of the points of `known` and its own. With a pivot its points count, relative to the pivot, at every
+    /// place to which a turn around the vertical axis there brings them.
+    pub fn extent_beyond(&self, known: &Extent, pivot: Option<Vec3>, buried: bool) -> Extent {
         let lowest = if buried { f32::NEG_INFINITY } else { 0.0 };
-        let empty = || Extent::new(gaze, tangents);
+        let add = |extent: &mut Extent, point: Vec3| match pivot {
+            Some(pivot) => extent.sweep(point - pivot),
+            None => extent.add(point),
+        };
+        let is_beyond = |look: &Look| {
+            let body = &self.bodies[look.body];
+            let mut with = *known;
+            for place in &body.places[look.places.clone()] {
+                corners(body.boxes[look.block]).for_each(|corner| add(&mut with, corner + *place));
+            }
+            with != *known
+        };
         let mut extent = self.each_look(
-            |_| true,
+            is_beyond,
             |look, scratch| {
-                let mut extent = empty();
+                let mut extent = *known;
                 let body = &self.bodies[look.body];
                 let mesh = body.block(look.block, &mut scratch.mesh);
                 for place in &body.places[look.places.clone()] {
                     let points = mesh.vertices.iter().map(|vertex| at(vertex) + *place);
-                    points.filter(|point| point.z >= lowest).for_each(|point| extent.add(point));
+                    points.filter(|point| point.z >= lowest).for_each(|point| add(&mut extent, point));
                 }
                 extent
             },
-            empty,
+            || *known,
             |a, b| a.join(&b),
         );
-        self.places().for_each(|place| extent.add(place));
+        self.places().for_each(|place| add(&mut extent, place));
         if self.bodies.iter().all(Body::is_empty) {
-            extent.add(self.middle() + EMPTY);
+            add(&mut extent, self.middle() + EMPTY);
         }
         extent
     }
@@ -274,9 +296,8 @@ impl<'a> PlacedStand<'a> {
         if low.x > high.x {
             return None;
         }
-        for corner in 0..8 {
-            let side = |bit: usize| if corner >> bit & 1 == 0 { low } else { high };
-            let seen = camera.project(Vec3::new(side(0).x, side(1).y, side(2).z) + place)?;
+        for corner in corners([low, high]) {
+            let seen = camera.project(corner + place)?;
             rows = [rows[0].min(seen.y * fine - 1.0), rows[1].max(seen.y * fine + 1.0)];
         }
         Some(rows)
@@ -303,6 +324,14 @@ fn project(mesh: &Mesh, camera: &Camera, offset: Vec3, fine: f32, corners: &mut 
     };
     corners.clear();
     corners.extend(mesh.vertices.iter().map(place));
+}
+
+/// The corners of a box.
+fn corners([low, high]: [Vec3; 2]) -> impl Iterator<Item = Vec3> {
+    (0..8).map(move |corner| {
+        let side = |bit: usize| if corner >> bit & 1 == 0 { low } else { high };
+        Vec3::new(side(0).x, side(1).y, side(2).z)
+    })
 }
 
 #[inline]

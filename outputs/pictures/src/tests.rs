@@ -27,7 +27,7 @@ fn picture(size: [u32; 2], view: View) -> Picture {
 }
 
 /// One upright internode.
-fn pole(length: f32, diameter: f32) -> Plant {
+pub fn pole(length: f32, diameter: f32) -> Plant {
     let habit = Habit { trends: vec![Trend::STRAIGHT], ..Habit::default() };
     let seed = Seed { plant: 0, draws: 0, run_seed: 1, component_limit: 9, keep_events: false };
     let mut plant = Plant::new(&seed, Arc::new(habit));
