@@ -6,6 +6,7 @@
 mod amounts;
 mod animate;
 mod bar;
+mod budget;
 pub mod causes;
 mod constants;
 mod derive;

@@ -7,7 +7,7 @@
 
 use super::chunk::{Chunk, Face, Vertex};
 use super::ply::{header_of, place_comment};
-use super::{Counts, Mesh, MeshOptions, Scene, mesh_plant};
+use super::{Counts, Mesh, MeshOptions, Scene, Tolerance, mesh_plant};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::io::{self, Write};
@@ -62,6 +62,21 @@ struct Ready<'a> {
 }
 
 impl PlotMesh<'_> {
+    /// Draws the wood of all plants within a tolerance.
+    pub fn within(&mut self, tolerance: Tolerance) {
+        self.bodies.iter_mut().for_each(|body| body.options.tolerance = Some(tolerance));
+    }
+
+    /// The number of triangles of the file, were its wood drawn within a tolerance.
+    pub fn faces_within(&self, tolerance: &Tolerance) -> u64 {
+        let faces = |body: &PlotBody| {
+            let options = MeshOptions { tolerance: Some(*tolerance), ..body.options.clone() };
+            Scene::new(body.plant, body.age, &options).counts().faces
+        };
+        let faces: Vec<u64> = self.bodies.iter().map(faces).collect();
+        self.members.iter().filter_map(|member| faces.get(member.body)).sum()
+    }
+
     /// Writes the file. Plants that stand at one place are made while they are written.
     ///
     /// # Errors
@@ -85,11 +100,12 @@ impl PlotMesh<'_> {
         if all.vertices > MOST_VERTICES {
             return Err(io::Error::other(format!(
                 "the mesh of {} would have {} vertices, and a mesh file holds at most {MOST_VERTICES}: choose fewer \
-                 sides",
+                 sides or a larger tolerance",
                 self.name, all.vertices
             )));
         }
-        out.write_all(&header_of(comments, all)?)?;
+        let tolerance = self.bodies.first().and_then(|body| body.options.tolerance);
+        out.write_all(&header_of(tolerance, comments, all)?)?;
         members().try_for_each(|(member, body)| body.write_vertices(member.place, out))?;
         self.obstacles.iter().try_for_each(|mesh| out.write_all(bytemuck::cast_slice(&mesh.vertices)))?;
         let mut first = 0;
