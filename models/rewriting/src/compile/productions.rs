@@ -8,7 +8,7 @@ use crate::code::{Item, Made, Rule, Rules, Script};
 use crate::fault::{Fault, Place};
 use crate::symbol::{CLOSE, CUT, Kind, OPEN, Symbol, SymbolTable};
 use crate::syntax::{File, Formal, ModuleText, Production, Section};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The most productions of a section.
 const MOST_RULES: usize = 5000;
@@ -201,6 +201,12 @@ pub(super) fn check_kinds(script: &Script, symbols: &SymbolTable, warnings: &mut
     let made = sections.iter().flat_map(|rules| &rules.rules).flat_map(|rule| rule.successor.iter());
     let kinds: BTreeSet<Kind> =
         made.chain(script.axiom.iter()).map(|made| made.kind).chain([OPEN, CLOSE, CUT]).collect();
+    let mut arities: BTreeMap<Symbol, Vec<String>> = BTreeMap::new();
+    for (kind, (symbol, arity)) in (0_u16..).map(Kind).zip(symbols.kinds()) {
+        if kinds.contains(&kind) {
+            arities.entry(*symbol).or_default().push(arity.to_string());
+        }
+    }
     for rule in sections.iter().flat_map(|rules| &rules.rules) {
         for item in rule.strict.iter().chain(&rule.left).chain(&rule.right) {
             let Item::Module(kind, _) = *item else { continue };
@@ -208,10 +214,7 @@ pub(super) fn check_kinds(script: &Script, symbols: &SymbolTable, warnings: &mut
             if kinds.contains(&kind) {
                 continue;
             }
-            let is_other = |number: u16, other: Symbol| other == symbol && kinds.contains(&Kind(number));
-            let others = symbols.kinds().iter().zip(0_u16..).filter(|&(other, number)| is_other(number, other.0));
-            let others: Vec<String> = others.map(|((_, arity), _)| arity.to_string()).collect();
-            if !others.is_empty() {
+            if let Some(others) = arities.get(&symbol) {
                 let problem =
                     format!("no `{}` has {arity} parameters, so this production never applies", symbols.name(symbol));
                 warnings.push(Fault::new(rule.place, problem, others.join(" or ")));

@@ -27,6 +27,9 @@ pub(super) struct Measures {
     pub coloured: bool,
 }
 
+/// The longest length, metres: a text may state any number.
+const FARTHEST: f64 = 1e12;
+
 /// The frame of the ground in the coordinates of the turtle: upright, its upper side along x.
 const GROUND: Frame =
     Frame { position: [0.0; 3], heading: [0.0, 1.0, 0.0], left: [0.0, 0.0, 1.0], up: [1.0, 0.0, 0.0] };
@@ -129,8 +132,8 @@ fn write_node(
         short: false,
         neoformed: false,
         trend: 0,
-        length: (node.length * measures.step) as f32,
-        diameter: (node.width * measures.width) as f32,
+        length: metres(node.length * measures.step),
+        diameter: metres(node.width * measures.width),
         azimuth: 0.0,
     };
     let id = plant.place_node(new, born.number);
@@ -175,7 +178,7 @@ fn within(frame: &Frame, vector: Vector) -> Vector {
 fn relative(bearer: &Bearer, frame: Frame, step: f64) -> (Rotation, [f32; 3]) {
     let turned = Rotation::to(within(&bearer.frame, frame.heading), within(&bearer.frame, frame.up));
     let beside = [0, 1, 2].map(|i| frame.position[i] - bearer.tip[i]);
-    (turned, within(&bearer.frame, beside).map(|along| (along * step) as f32))
+    (turned, within(&bearer.frame, beside).map(|along| metres(along * step)))
 }
 
 fn state(plant: &mut Plant, part: Part, bearer: &Bearer, frame: Frame, step: f64) {
@@ -198,9 +201,9 @@ fn write_organ(
     let corners: Vec<[f32; 3]> = draft.corners[organ.outline.clone()]
         .iter()
         .map(|corner| [0, 1, 2].map(|i| corner[i] - organ.frame.position[i]))
-        .map(|beside| within(&organ.frame, beside).map(|along| (along * measures.step) as f32))
+        .map(|beside| within(&organ.frame, beside).map(|along| metres(along * measures.step)))
         .collect();
-    let size = (organ.size * measures.width) as f32;
+    let size = metres(organ.size * measures.width);
     let [length, width] = if corners.len() < 3 { [size; 2] } else { [extent(&corners, 0), extent(&corners, 1)] };
     let new = NewOrgan {
         node: NodeId(node as u32),
@@ -227,6 +230,11 @@ fn write_organ(
     if measures.coloured {
         plant.give_organ_look(id, organ.colour.rem_euclid(256) as u16);
     }
+}
+
+/// A length in single precision; none is so long that its cube is no number there.
+fn metres(length: f64) -> f32 {
+    length.clamp(-FARTHEST, FARTHEST) as f32
 }
 
 /// The extent of an outline along an axis of its frame.

@@ -6,7 +6,7 @@
 //! Absent: numbers and ages (`numbers`), and the columns of a plant (`columns`).
 
 use super::role::{Role, Roles};
-use crate::lsystem::turtle::{Command, Drawing, Frame, Turtle, Vector};
+use crate::lsystem::turtle::{Command, Drawing, Frame, Turtle, Vector, bounded};
 use phytomer_rewriting::{Derived, Drawn, Module, Slot};
 use phytomer_sim::key::LineageKey;
 use phytomer_sim::plant::Kind;
@@ -386,9 +386,10 @@ fn foot_key() -> LineageKey {
     LineageKey::SEED.child(u64::MAX)
 }
 
-/// A corner of a surface where the turtle is: along H, L and U, scaled across, along and above.
+/// A corner of a surface where the turtle is: along H, L and U, scaled across, along and above. It is no farther than
+/// the turtle itself can be.
 fn placed(frame: &Frame, corner: Vector, scale: [f64; 3]) -> Vector {
     let [across, along, above] = scale;
     let [h, l, u] = [corner[0] * along, corner[1] * across, corner[2] * above];
-    [0, 1, 2].map(|i| frame.position[i] + h * frame.heading[i] + l * frame.left[i] + u * frame.up[i])
+    [0, 1, 2].map(|i| bounded(frame.position[i] + h * frame.heading[i] + l * frame.left[i] + u * frame.up[i]))
 }

@@ -13,7 +13,7 @@ use super::role::Roles;
 use super::script::{Script, Scripts};
 use super::world::World;
 use crate::law::{At, VariateTable};
-use crate::lsystem::turtle::Turtle;
+use crate::lsystem::turtle::{Turtle, bounded};
 use crate::lsystem::view::{Colours, Function, Surface, TextFault, View};
 use crate::shapes::Named;
 use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints};
@@ -178,7 +178,8 @@ impl TextSystem {
             let Some((name, text)) = self.text(&named.file, wrong) else { continue };
             match Surface::read(text) {
                 Ok(surface) => {
-                    let corners = surface.outline(OUTLINE).into_iter().map(|corner| corner.map(|x| x * named.size));
+                    let corners =
+                        surface.outline(OUTLINE).into_iter().map(|corner| corner.map(|x| bounded(x * named.size)));
                     outlines.push((named.symbol, corners.collect()));
                 }
                 Err(fault) => wrong.push(in_text(name, fault)),
@@ -219,10 +220,12 @@ impl TextSystem {
         let mut wrong = Vec::new();
         let Some((_, text)) = self.text(&self.file, &mut wrong) else { return Err(wrong) };
         let include = |name: &str| {
-            self.texts
-                .get(name)
-                .cloned()
-                .ok_or_else(|| "there is no such file in the folder of the L-system".to_owned())
+            let missing = || {
+                let problem = "there is no file of this name in the folder of the L-system that can be read";
+                let outside = name.starts_with('/') || name.split(['/', '\\']).any(|part| part == "..");
+                if outside { "it may lie outside the folder of the L-system" } else { problem }.to_owned()
+            };
+            self.texts.get(name).cloned().ok_or_else(missing)
         };
         let reading = Reading {
             define,

@@ -24,7 +24,8 @@ pub use frame::{Frame, Vector};
 use super::view::View;
 use frame::{cross, dot, unit};
 use phytomer_sim::math::sincos;
-use settings::{Settings, bounded};
+use settings::Settings;
+pub(super) use settings::bounded;
 
 /// Colours are counted around so many.
 const COLOURS: i32 = 256;

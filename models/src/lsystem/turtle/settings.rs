@@ -55,7 +55,7 @@ fn within(of: &Tropism) -> Tropism {
 
 /// A finite number of a size that leaves room for sums.
 #[inline]
-pub(super) fn bounded(number: f64) -> f64 {
+pub(in crate::lsystem) fn bounded(number: f64) -> f64 {
     if number.abs() <= MOST {
         number
     } else if number.is_nan() {
