@@ -17,7 +17,7 @@ use crate::lsystem::turtle::{Turtle, bounded};
 use crate::lsystem::view::{Colours, Function, Surface, TextFault, View};
 use crate::shapes::Named;
 use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints};
-use phytomer_rewriting::{Outside, Program, Reading};
+use phytomer_rewriting::{Limits, Outside, Program, Reading};
 use phytomer_sim::key::{LineageKey, mix};
 use phytomer_sim::plant::{Class, Habit, InternodeLook, Kind, Looks, OrganLook, Trend};
 use phytomer_sim::random::{PlantRandom, Purpose};
@@ -53,6 +53,8 @@ pub struct TextSystem {
     pub environment: Option<Environment>,
     /// The kinds of modules, by their names.
     pub kinds: BTreeMap<String, Kind>,
+    /// The most that a derivation may come to.
+    pub limits: Limits,
     /// The modules that go on as the last of their symbol in a successor.
     pub continues_last: Vec<String>,
     /// The length of a step of 1, metres.
@@ -234,7 +236,11 @@ impl TextSystem {
             continues_last: &self.continues_last,
             ..Reading::of(&self.file)
         };
-        Program::read(text, &reading).map_err(|refused| {
+        let limited = |mut program: Program| {
+            program.limits = self.limits;
+            program
+        };
+        Program::read(text, &reading).map(limited).map_err(|refused| {
             let of = |fault: &phytomer_rewriting::Fault| {
                 let (line, column) = (fault.place.line, fault.place.column);
                 let (problem, expected) = (fault.problem.clone(), fault.expected.clone());

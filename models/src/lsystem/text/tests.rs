@@ -168,8 +168,8 @@ fn a_simple_tree_responds_to_pruning() {
     assert!(plant.ledger.iter().all(|gone| gone.cause == Cause::Rewritten));
 }
 
-/// Fig. 4: the signal S stands at (0, 5) in steps 7 and 10, and at (0, 3) in step 20. S draws nothing, so that it stands
-/// where the turtle comes to it.
+/// Fig. 4: the signal S stands at (0, 5) in steps 7 and 10, and at (0, 3) in step 20. S draws nothing, so that it
+/// stands where the turtle comes to it.
 #[test]
 fn the_signal_stands_where_figure_4_shows_it() {
     use crate::lsystem::turtle::{Command, Turtle};
