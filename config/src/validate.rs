@@ -102,6 +102,7 @@ fn resolved(checked: Checked) -> Option<Resolved> {
     let (Stated { species: first, tree }, model) = (species.next()?, models.next()?);
     Some(Resolved {
         site_seed: scenario.seed,
+        shifted: OnceLock::new(),
         scenario,
         treatments,
         species: first,

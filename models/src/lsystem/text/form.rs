@@ -9,6 +9,9 @@ use phytomer_looks::{Paints, polygon};
 use phytomer_sim::plant::{OrganId, Plant};
 use std::ops::Range;
 
+/// The longest length, metres: a text may state any number.
+const FARTHEST: f64 = 1e12;
+
 /// What an organ is drawn as.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Form {
@@ -66,16 +69,16 @@ impl Stated {
             Form::OfKind => Self::OfKind,
             Form::Outline(range) => {
                 let beside = |corner: &Vector| [0, 1, 2].map(|i| corner[i] - frame.position[i]);
-                let metres = |corner| frame.coordinates(beside(corner)).map(|along| (along * step) as f32);
-                let corners: Vec<[f32; 3]> = corners[range.clone()].iter().map(metres).collect();
+                let corner = |corner| frame.coordinates(beside(corner)).map(|along| metres(along * step));
+                let corners: Vec<[f32; 3]> = corners[range.clone()].iter().map(corner).collect();
                 if corners.len() < 3 { Self::OfKind } else { Self::Outline(corners) }
             }
             Form::Surface(place, scale) => {
                 let Some(surface) = Paints::of(&plant.habit).surface(*place) else { return Self::OfKind };
-                let metres = scale.map(|factor| factor * step);
-                let factors = metres.map(|factor| factor as f32);
-                let extents = [0, 1].map(|axis| factors[axis].abs() * surface.extent(axis));
-                Self::Surface(*place as u32, factors, surface.area(metres) as f32, extents)
+                let factors = scale.map(|factor| metres(factor * step));
+                let extents = [0, 1].map(|axis| metres(f64::from(factors[axis].abs() * surface.extent(axis))));
+                let area = surface.area(factors.map(f64::from)).min(FARTHEST * FARTHEST);
+                Self::Surface(*place as u32, factors, area as f32, extents)
             }
         }
     }
@@ -110,4 +113,9 @@ fn extent(corners: &[[f32; 3]], axis: usize) -> f32 {
     let along = corners.iter().map(|corner| corner[axis]);
     let (least, most) = along.fold((0.0_f32, 0.0_f32), |(least, most), x| (least.min(x), most.max(x)));
     most - least
+}
+
+/// A length in single precision; none is so long that its cube is no number there.
+pub(super) fn metres(length: f64) -> f32 {
+    length.clamp(-FARTHEST, FARTHEST) as f32
 }

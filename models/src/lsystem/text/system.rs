@@ -17,7 +17,7 @@ use crate::lsystem::turtle::Turtle;
 use crate::lsystem::view::{Colours, Contour, Function, Surface, TextFault, View};
 use crate::shapes::Named;
 use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints, Section, Surface as Form};
-use phytomer_rewriting::{Outside, Program, Reading, Refused};
+use phytomer_rewriting::{Limits, Outside, Program, Reading, Refused};
 use phytomer_sim::key::{LineageKey, mix};
 use phytomer_sim::plant::{Class, Habit, InternodeLook, Kind, Looks, OrganLook, Trend};
 use phytomer_sim::random::{PlantRandom, Purpose};
@@ -51,6 +51,8 @@ pub struct TextSystem {
     pub environment: Option<Environment>,
     /// The kinds of modules, by their names.
     pub kinds: BTreeMap<String, Kind>,
+    /// The most that a derivation may come to.
+    pub limits: Limits,
     /// The modules that go on as the last of their symbol in a successor.
     pub continues_last: Vec<String>,
     /// The length of a step of 1, metres.
@@ -229,10 +231,12 @@ impl TextSystem {
         let mut wrong = Vec::new();
         let Some((_, text)) = self.text(&self.file, &mut wrong) else { return Err(wrong) };
         let include = |name: &str| {
-            self.texts
-                .get(name)
-                .cloned()
-                .ok_or_else(|| "there is no such file in the folder of the L-system".to_owned())
+            let missing = || {
+                let problem = "there is no file of this name in the folder of the L-system that can be read";
+                let outside = name.starts_with('/') || name.split(['/', '\\']).any(|part| part == "..");
+                if outside { "it may lie outside the folder of the L-system" } else { problem }.to_owned()
+            };
+            self.texts.get(name).cloned().ok_or_else(missing)
         };
         let reading = Reading {
             define,
@@ -241,7 +245,9 @@ impl TextSystem {
             continues_last: &self.continues_last,
             ..Reading::of(&self.file)
         };
-        Program::read(text, &reading).map_err(|refused| Wrong::all(&refused))
+        let mut program = Program::read(text, &reading).map_err(|refused| Wrong::all(&refused))?;
+        program.limits = self.limits;
+        Ok(program)
     }
 }
 

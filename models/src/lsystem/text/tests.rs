@@ -168,6 +168,67 @@ fn a_simple_tree_responds_to_pruning() {
     assert!(plant.ledger.iter().all(|gone| gone.cause == Cause::Rewritten));
 }
 
+/// Fig. 4: the signal S stands at (0, 5) in steps 7 and 10, and at (0, 3) in step 20. S draws nothing, so that it
+/// stands where the turtle comes to it.
+#[test]
+fn the_signal_stands_where_figure_4_shows_it() {
+    use crate::lsystem::turtle::{Command, Turtle};
+    use crate::lsystem::view::View;
+    use phytomer_sim::random::PlantRandom;
+    let pruned = model(BOX, "angle increment: 32", &[]);
+    for (step, expected) in [(7, 5.0), (10, 5.0), (20, 3.0)] {
+        let derived = pruned.derive(PlantRandom::new(1, 0), step).expect("a step");
+        let mut turtle = Turtle::new(&View { angle_deg: 32.0, ..View::default() });
+        let mut found = Vec::new();
+        for module in derived.string().modules() {
+            let name = pruned.program().symbols().name(module.symbol);
+            if name == "S" {
+                found.push(turtle.state().frame.position);
+            }
+            turtle.follow(Command::of(name), module.parameters);
+        }
+        let [[x, y, z]] = found[..] else { panic!("one signal in step {step}: {found:?}") };
+        assert!(x.abs() + (y - expected).abs() + z.abs() < 1e-12, "step {step}: {x} {y} {z}");
+    }
+}
+
+/// Numbers of any size in a surface, a view file and a string make a plant of finite numbers.
+#[test]
+fn numbers_of_any_size_are_drawn() {
+    use super::TextSystem;
+    let head = [
+        "-1e308 1e308 -1e308 1e308 -1e308 1e308",
+        "CONTACT POINT X: 0.0 Y: 0.0 Z: 0.0",
+        "END POINT X: 0.0 Y: 1.0 Z: 0.0",
+        "HEADING X: 0.0 Y: 1.0 Z: 0.0",
+        "UP X: 0.0 Y: 0.0 Z: 1.0",
+        "SIZE: 1e-300",
+        "p",
+        "TOP COLOR: 0 DIFFUSE: 1.0 BOTTOM COLOR: 0 DIFFUSE: 1.0",
+        "AL: ~ A: ~ AR: ~",
+        "L: ~ R: ~",
+        "BL: ~ B: ~ BR: ~\n",
+    ];
+    let row = |y: &str| format!("-1e306 {y} 0 -1e303 {y} 1e305 1e303 {y} 0 1e306 {y} 0\n");
+    let surface = format!("{}{}{}{}{}", head.join("\n"), row("-1e306"), row("0"), row("1e300"), row("1e306"));
+    let text = "Axiom: F(1e300)[+(30)~p(1e300)]F(1e300){.f(1e200)+(90).f(1e200)+(90).}\n";
+    let texts = [("plant.l", text), ("plant.v", "surface: p p.s 1e300\n"), ("p.s", &surface)];
+    let system = TextSystem {
+        file: "plant.l".to_owned(),
+        view: Some("plant.v".to_owned()),
+        texts: texts.map(|(name, text)| (name.to_owned(), text.to_owned())).into(),
+        step_m: 1000.0,
+        ..TextSystem::default()
+    };
+    let model = system.compile().unwrap_or_else(|wrong| panic!("{wrong:?}"));
+    let plant = grown(&model, 0);
+    assert_eq!((plant.nodes.len(), plant.organs.len()), (2, 2));
+    let organs = [0, 1].map(phytomer_sim::plant::OrganId).into_iter();
+    let corners = organs.flat_map(|organ| plant.outline_of(organ).to_vec()).flatten();
+    let numbers = plant.nodes.length.iter().chain(&plant.organs.area).chain(plant.frames.base.as_flattened());
+    assert!(numbers.copied().chain(corners).all(f32::is_finite), "{:?}", plant.organs.area);
+}
+
 /// What follows `%` is cut off and pruned; what becomes a flower has flowered.
 #[test]
 fn what_vanishes_has_a_cause() {
