@@ -304,7 +304,8 @@ mod unix {
         for ending in ["apng", "gif", "webp", "y4m"] {
             let name = format!("a.{ending}");
             let out = folder.path().join(&name);
-            let words = [&["animate", &data("small.toml"), "--size", SIZE][..], &LONG, &["--out", &name]].concat();
+            let scenario = data("small.toml");
+            let words = [&["animate", &scenario, "--size", SIZE][..], &LONG, &["--out", &name]].concat();
             let child = phytomer(folder.path(), &words).stderr(Stdio::piped()).spawn().unwrap();
             assert!(grows(folder.path()), "nothing is drawn");
             assert!(!out.exists(), "the name stands for a whole film");
