@@ -39,7 +39,7 @@ fn main() -> Result<()> {
     let folder = Path::new(&folder);
     let mut page = String::from(
         "# Gallery\n\nEvery species that ships but `topiary/1`, which draws no line, drawn by `phytomer picture` at the age that it states, or else in its prime:\nthe last \
-         year with nine tenths of the largest leaf area that it ever bears, as soon as it bears it. `cargo run --release --example gallery` makes this page.\n",
+         year with nine tenths of the largest leaf area that it ever bears, as soon as it bears it. `cargo run --release --example gallery` makes this page. Each can be seen to grow: `phytomer animate NAME --out film.webp` makes a film ([films.md](films.md)).\n",
     );
     let of = |name: &'static str| name.rsplit_once('/').map_or("", |(group, _)| group);
     // Of the first L-system of Synthetic Topiary there are buds alone.
@@ -68,7 +68,12 @@ fn sit(name: &str, folder: &Path) -> Result<String> {
     let sitter = Sitter::of(name)?;
     let regrowth = sitter.regrowth();
     let age = regrowth.shown_at(&sitter.species, 0)?;
-    let pictured = pictured_plants(&regrowth, &[&sitter.species], &[0], &[age])?;
+    // A plant among obstacles is drawn with them.
+    let pictured = if sitter.scenario.site.drawn().is_empty() {
+        pictured_plants(&regrowth, &[&sitter.species], &[0], &[age])?
+    } else {
+        pictured_plot(&regrowth, &[&sitter.species], (0, &[age]), false)?
+    };
     let file = format!("gallery/{name}.png");
     let canvas = drawn(&pictured, SIZE);
     save(&canvas, &pictured.note, &folder.join(&file))?;

@@ -11,6 +11,7 @@ pub mod disk;
 pub mod drawing;
 mod error;
 mod field;
+pub mod filming;
 pub mod forecast;
 pub mod forms;
 mod in_memory;

@@ -4,13 +4,14 @@
 
 mod program;
 
-use program::{data, grown, program as phytomer, run, said, write};
+use program::{data, grown, program as phytomer, run, said, small_film, write};
 use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 11] =
-    ["init", "grow", "merge", "validate", "derive", "verify", "describe", "list", "schema", "mesh", "picture"];
+const VERBS: [&str; 12] = [
+    "init", "grow", "merge", "validate", "derive", "verify", "describe", "list", "schema", "mesh", "picture", "animate",
+];
 
 /// A scenario of one fast plant, with these lines added.
 fn scenario(folder: &Path, lines: &str) {
@@ -391,6 +392,7 @@ fn obey_example(folder: &Path, number: usize, words: &[&str]) {
             words.extend(&few[kept]);
             words.extend((!words.contains(&"--resume")).then_some("--overwrite"));
         }
+        "animate" => words = small_film(&words),
         _ => {}
     }
     let told = said(phytomer(folder, &words).output().unwrap());

@@ -143,6 +143,14 @@ fn plants_of_an_l_system_are_the_same_on_any_number_of_threads() {
     assert_eq!(grown[0], grown[2]);
 }
 
+/// Two vines of a plot claim their voxels from one another.
+#[test]
+fn vines_that_share_a_house_are_the_same_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("greene")).unwrap();
+    assert_eq!(shipped(folder.path(), "greene/vines", "4").len(), 6 * 2 + 1, "two parts, the table of treatments");
+}
+
 #[test]
 fn another_seed_gives_other_plants() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,10 +1,13 @@
-//! Plants of buds and shapes, through scenario files: a hedge that is clipped to a shape, and shapes that stop buds.
+//! Plants of buds and shapes, through scenario files: a hedge that is clipped to a shape, shapes that stop buds, and
+//! obstacles in what is drawn of a plot.
 //!
 //! Where the shapes stand and what is inside is asked of the compiled scenario. Absent: the shapes themselves
 //! (`phytomer_sim::shape`), and faults, which are fixtures of `config`.
 
 use phytomer::config::{Resolved, validate_texts};
+use phytomer::run::picturing::{Pictured, pictured_plants, pictured_plot, plot_mesh};
 use phytomer::run::plots::Plots;
+use phytomer::run::regrowth::Regrowth;
 use phytomer::sim::plant::{NodeId, Plant, ThreadBudget};
 use phytomer::sim::pose::node_frame;
 use phytomer::sim::shape::Shape;
@@ -16,9 +19,20 @@ const FORM: &str = r#"{ form = "blend", reach_m = 0.1, of = [
   { form = "sphere", at_m = [0, 0, 1.1], radius_m = 0.45 },
 ] }"#;
 
+/// Four cherries, with keys before the shapes.
+fn resolved_of(keys: &str) -> Resolved {
+    stated(keys, "")
+}
+
+/// Four cherries, with tables after the shapes.
 fn resolved(more: &str) -> Resolved {
+    stated("", more)
+}
+
+fn stated(keys: &str, more: &str) -> Resolved {
     let text = format!(
-        "name = \"form\"\nspecies = \"wild_cherry\"\nplants = 4\nspacing_m = 7\nages = {{ until = 24 }}\n[site.shape]\nform = {}\n{more}",
+        "name = \"form\"\nspecies = \"wild_cherry\"\nplants = 4\nspacing_m = 7\n\
+         ages = {{ until = 24 }}\n{keys}[site.shape]\nform = {}\n{more}",
         FORM.replace('\n', " "),
     );
     validate_texts("plot", &[("plot", &text)]).unwrap_or_else(|report| panic!("{}", report.render(false)))
@@ -99,4 +113,56 @@ fn an_axis_stands_out_of_an_obstacle_by_its_last_growth_unit() {
         }
     });
     assert!(most > 0, "some axis reaches out");
+}
+
+/// The first plot at a tick, as a picture shows it.
+fn pictured(resolved: &Resolved, tick: Tick) -> Pictured {
+    pictured_plot(&Regrowth::of(resolved), &resolved.all_species(), (0, &[tick]), false).expect("it grows")
+}
+
+/// A house is drawn where buds die in it, a form that stops buds outside of it is not, and either may be stated
+/// otherwise; a half space has no end. In the PLY its vertices follow those of the plants.
+#[test]
+fn obstacles_are_drawn_in_their_plot() {
+    let house = "{ form = \"box\", at_m = [3, 0, 0], size_m = [2, 1, 4] }";
+    let roof = "{ form = \"half_space\", point_m = [0, 0, 9], normal = [0, 0, -1] }";
+    let obstacle = |shape: &str, more: &str| format!("[[site.obstacle]]\nshape = {shape}\n{more}\n");
+    for (text, drawn) in [
+        (obstacle(house, "colour = \"#0a141e\""), 1),
+        (obstacle(house, "drawn = false"), 0),
+        (obstacle(house, "kills = \"outside\""), 0),
+        (obstacle(house, "kills = \"outside\"\ndrawn = true"), 1),
+        (obstacle(roof, "") + &obstacle(house, ""), 1),
+        (String::new(), 0),
+    ] {
+        let resolved = resolved(&text);
+        let shown = pictured(&resolved, 2);
+        assert_eq!(shown.stands[0].obstacles.len(), drawn, "{text}");
+        assert_eq!(shown.stands(&[])[0].obstacles.len(), drawn);
+    }
+    let resolved = resolved(&obstacle(house, "colour = \"#0a141e\""));
+    let shown = pictured(&resolved, 2);
+    let vertices = &shown.stands[0].obstacles[0].vertices;
+    assert!(vertices.iter().all(|vertex| vertex.tag().colour == [10, 20, 30, 255]));
+    let reach = |k: usize| vertices.iter().map(|vertex| vertex.position()[k]).fold(0.0_f32, f32::max);
+    assert_eq!([reach(0), reach(1), reach(2)], [4.0, 0.5, 4.0]);
+    let mut bytes = Vec::new();
+    let mesh = plot_mesh(&shown.stands[0], &Regrowth::of(&resolved), (0, 2), (&resolved.all_species(), &[]), 8);
+    mesh.write(&mut bytes).expect("written");
+    let header = String::from_utf8_lossy(&bytes[..1000]).into_owned();
+    assert!(header.contains("comment obstacle 0 vertices 24\n"), "{header}");
+}
+
+/// Ticks of 10 days from 2001-02-01: tick 2 is reached on the 21st, tick 24 after 240 days, .66 years. Without a
+/// calendar years are those of the species.
+#[test]
+fn captions_have_dates_where_ticks_have_them() {
+    let dated = resolved_of("planting_date = \"2001-02-01\"\ncalendar = { tick = { days = 10 } }\n");
+    let shown = pictured_plants(&Regrowth::of(&dated), &dated.all_species(), &[0], &[2, 24]).expect("it grows");
+    let labels: Vec<&str> = shown.stands.iter().map(|stand| stand.label.as_str()).collect();
+    assert_eq!(labels, ["age 2 · 2001-02-21 · 0.1 years", "age 24 · 2001-09-29 · 0.7 years"]);
+    assert_eq!(pictured(&dated, 24).stands[0].label, "tick 24 · 2001-09-29 · 0.7 years");
+    let bare = resolved("");
+    let label = &pictured(&bare, 24).stands[0].label;
+    assert!(label.starts_with("tick 24") && !label.contains("2001"), "{label}");
 }

@@ -8,6 +8,7 @@
 
 pub mod baseline;
 pub mod bending;
+pub mod budget;
 pub mod columns;
 pub mod picture;
 

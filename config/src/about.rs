@@ -44,6 +44,11 @@ pub struct About {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Constant", extend("exclusiveMinimum" = 0, "maximum" = 100_000))]
     pub ticks_per_year: Option<Constant>,
+    /// The names of the ticks of a year, as many as `ticks_per_year` has, such as `["May", "summer", "autumn",
+    /// "winter"]`; the first is that of the ages that are whole years. Films write them below the plant.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(inner(length(min = 1, max = 40)))]
+    pub seasons: Vec<String>,
     /// Published sizes and survival of plants of this species. `validate` grows a sample and compares it with these
     /// ranges. A species that inherits and states its own ranges takes none from its ancestors.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -66,6 +71,25 @@ impl About {
         let published = self.published.iter().enumerate().flat_map(|(i, row)| row.faults(&path.index(i)));
         let path = Path::root().key("ticks_per_year");
         let year = self.ticks_per_year.as_ref().and_then(|ticks| ticks.within(&path, YEAR).err());
-        year.into_iter().chain(published).collect()
+        year.into_iter().chain(self.fault_of_seasons()).chain(published).collect()
+    }
+
+    fn fault_of_seasons(&self) -> Option<Fault> {
+        let (path, count) = (Path::root().key("seasons"), self.seasons.len());
+        let stated = self.ticks_per_year.as_ref().map(Constant::value);
+        if count == 0 || stated == Some(count as f64) {
+            return None;
+        }
+        let expected = match stated {
+            Some(ticks) => format!("a name for each of the {ticks} ticks of `ticks_per_year`"),
+            None => "`ticks_per_year` beside it, and a name for each of those ticks".to_owned(),
+        };
+        Some(Fault::new(&path, format!("there are {count} names"), expected))
+    }
+
+    /// The name of the tick of the year at an age, where the species names them.
+    pub fn season(&self, age: u32) -> Option<&str> {
+        let place = (age as usize).checked_rem(self.seasons.len())?;
+        self.seasons.get(place).map(String::as_str)
     }
 }

@@ -5,6 +5,7 @@
 
 use phytomer_sim::model::GrowthModel;
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use crate::resolved::Resolved;
 use crate::scenario::{
@@ -61,6 +62,7 @@ impl ResolvedSpecies {
         let treatments = vec![Treatment::control(&scenario)];
         Resolved {
             site_seed: scenario.seed,
+            shifted: OnceLock::new(),
             scenario,
             treatments,
             species,

@@ -2,8 +2,9 @@
 //! species file.
 //!
 //! Each file becomes an entry of the table `texts`, in which a fault is shown at its line and column. Read are the file
-//! that the species names, what it includes, its view file, the surfaces and functions that the view file names, and a
-//! map of colours. Nothing outside the folder is read. Absent: what the texts mean (`phytomer_models::lsystem`).
+//! that the species names, what it includes, its view file, the surfaces, contours and functions that the view file
+//! names, and a map of colours. Nothing outside the folder is read. Absent: what the texts mean
+//! (`phytomer_models::lsystem`).
 
 use crate::document::{Entry, Node, Value};
 use crate::library::Library;
@@ -43,7 +44,9 @@ pub(crate) fn fill(species: &mut Node, keys: &Keys, library: &Library, sources: 
     let named = view.and_then(|view| files.text(&view)).map(|view| View::read(&view).unwrap_or_default());
     let named = named.unwrap_or_default();
     let surfaces = named.surfaces.iter().map(|surface| &surface.file);
-    surfaces.chain(&named.functions).chain(&named.function_set).for_each(|file| files.add(file));
+    let contours = named.contours.iter().map(|(_, file)| file);
+    let all = surfaces.chain(contours).chain(&named.functions).chain(&named.function_set);
+    all.for_each(|file| files.add(file));
 }
 
 /// The files of a species while they are read.
@@ -74,9 +77,10 @@ impl Files<'_> {
 
     /// Adds a file, and what it includes.
     fn add(&mut self, name: &str) {
-        let mut waiting = vec![name.to_owned()];
+        let (mut waiting, mut is_named) = (vec![name.to_owned()], true);
         while let Some(name) = waiting.pop() {
-            if self.count > MOST_FILES || self.bytes > MOST_BYTES || !self.read(&name) {
+            if self.count > MOST_FILES || self.bytes > MOST_BYTES || !self.read(&name, is_named) {
+                is_named = false;
                 continue;
             }
             self.count += 1;
@@ -87,17 +91,21 @@ impl Files<'_> {
             }
             let text = self.text(&name).unwrap_or_default();
             waiting.extend(included(&text).map(str::to_owned));
+            is_named = false;
         }
     }
 
-    /// Reads a file into the table; false where it stands there already, or cannot be read.
-    fn read(&mut self, name: &str) -> bool {
+    /// Reads a file into the table; false where it stands there already, or cannot be read. It is a fault if a file
+    /// cannot be read that the species or a view file names. An `#include` may stand in a comment or under a condition
+    /// that does not hold: where it does not, the language tells what is missing, at its line.
+    fn read(&mut self, name: &str, is_named: bool) -> bool {
         if name.is_empty() || self.is_there(name) {
             return false;
         }
         let beside = self.sources.get(self.span.source).origin.clone();
         let source = match self.library.beside(name, &beside) {
             Ok(source) => source,
+            Err(_) if !is_named => return false,
             Err(missing) => {
                 let fault = Fault::new(self.span, &self.path, missing.problem, missing.expected);
                 self.faults.push(fault.suggest(missing.suggestion));
@@ -124,21 +132,21 @@ impl Files<'_> {
             return stated.text().map(str::to_owned);
         }
         let beside = self.sources.get(self.span.source).origin.clone();
-        let inline = self.species.get(TEXTS).map(|texts| texts.entries().iter().map(|entry| entry.key.clone()));
-        let mut names: Vec<String> = inline.into_iter().flatten().collect();
-        names.extend(self.library.names_beside(&beside));
-        names.retain(|name| endings.iter().any(|ending| name.ends_with(ending)));
-        names.sort_unstable();
-        names.dedup();
         let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-        let same = endings.iter().find_map(|ending| {
-            let own = format!("{stem}{ending}");
-            names.iter().find(|name| **name == own)
-        });
-        let found = same.or(if let [only] = &names[..] { Some(only) } else { None })?.clone();
+        let found = self.stated_text(stem, endings).or_else(|| self.library.with_ending(&beside, stem, endings))?;
         let node = Node { span: self.span, value: Value::Text(found.clone()) };
         self.put(None, Entry { key: key.to_owned(), key_span: self.span, node });
         Some(found)
+    }
+
+    /// Of the texts that the species states that of an ending, found as a file is.
+    fn stated_text(&self, stem: &str, endings: &[&str]) -> Option<String> {
+        let texts = self.species.get(TEXTS).map(Node::entries).unwrap_or_default();
+        let names = texts.iter().map(|entry| &entry.key);
+        let names: Vec<&String> = names.filter(|name| endings.iter().any(|ending| name.ends_with(ending))).collect();
+        let is_own = |name: &&&String| endings.iter().any(|ending| ***name == format!("{stem}{ending}"));
+        let only = if let [only] = &names[..] { Some(only) } else { None };
+        names.iter().find(is_own).or(only).map(|name| (*name).clone())
     }
 
     /// Adds an entry to the species, or to a table of it.
@@ -157,11 +165,10 @@ impl Files<'_> {
     }
 }
 
-/// The names that a text includes: `#include "name"` or `#include <name>` at the beginning of a line.
+/// The names that a text includes: `#include "name"` at the beginning of a line.
 fn included(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter_map(|line| {
         let rest = line.trim_start().strip_prefix('#')?.trim_start().strip_prefix("include")?.trim();
-        let inside = rest.strip_prefix(['"', '<'])?;
-        inside.split(['"', '>']).next()
+        rest.strip_prefix('"')?.split('"').next()
     })
 }

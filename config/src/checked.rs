@@ -76,6 +76,26 @@ pub(crate) fn check_constants(loader: &mut Loader, read: &[Read], checked: &Chec
     });
 }
 
+/// Plants of a plot that claim cells of space from one another have cells of one size.
+pub(crate) fn check_cells(loader: &mut Loader, node: &Node, checked: &Checked) {
+    let different = (0..checked.treatments.len()).find_map(|treatment| {
+        let rows = checked.trial.rows_of_cohorts(treatment);
+        rows.iter().find_map(|row| {
+            let edges =
+                row.iter().enumerate().filter_map(|(member, of)| Some((member, checked.models.get(*of)?.cell_m()?)));
+            let edges: Vec<(usize, f64)> = edges.collect();
+            let first = edges.first()?.1;
+            edges.iter().find(|(_, edge)| *edge != first).map(|(member, edge)| (*member, first, *edge))
+        })
+    });
+    let Some((member, first, edge)) = different else { return };
+    let path = path_of(&["member"]).index(member).key("species");
+    let problem =
+        format!("the plants of a plot share voxels, and those of this member are {edge} m, those of another {first} m");
+    let expected = "species with the same `voxel_m` in a plot";
+    loader.faults.push(Fault::new(node.locate(&path), &path, problem, expected));
+}
+
 /// A successor of a species whose laws depend on the date would need a model for each tick at which it may be planted.
 pub(crate) fn check_successors(loader: &mut Loader, node: &Node, checked: &Checked) {
     if checked.calendars.iter().all(Option::is_none) {

@@ -27,6 +27,7 @@ mod report;
 mod resolved;
 pub mod scenario;
 mod schema;
+mod solids;
 mod source;
 mod species;
 mod species_of_run;

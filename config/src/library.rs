@@ -19,8 +19,10 @@ include!(concat!(env!("OUT_DIR"), "/presets.rs"));
 
 /// The largest size of a parameter file; a longer file is refused, so that it does not fill the memory.
 const MAX_BYTES: u64 = 4 << 20;
-/// How many files of a folder are looked at.
+/// How many files of a folder are looked at for the nearest spelling of a name.
 const LOOKED_AT: usize = 1000;
+/// How many files of a folder are looked at for the only one with an ending.
+const MOST_ENTRIES: usize = 100_000;
 /// The largest size of a weather file: a century of days is 2 MB.
 const MAX_WEATHER_BYTES: u64 = 64 << 20;
 
@@ -161,6 +163,34 @@ impl Library {
         }
     }
 
+    /// The file beside a text that has one of the endings: of the names of the stem with each ending the first that is
+    /// there, else the only file with such an ending. `None` where there are several, and in a folder of very many
+    /// files, of which it cannot be known. Only regular files count.
+    pub fn with_ending(&self, beside: &Origin, stem: &str, endings: &[&str]) -> Option<String> {
+        let own = endings.iter().map(|ending| format!("{stem}{ending}"));
+        let has_ending = |name: &str| endings.iter().any(|ending| name.ends_with(ending));
+        let Origin::File(file) = beside else {
+            let mut names = self.names_beside(beside);
+            names.retain(|name| has_ending(name));
+            let same = own.into_iter().find(|own| names.contains(own));
+            return same.or_else(|| if let [only] = &names[..] { Some(only.clone()) } else { None });
+        };
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(FilePath::new("."));
+        if let Some(same) = own.into_iter().find(|own| folder.join(own).is_file()) {
+            return Some(same);
+        }
+        let (mut seen, mut found) = (0, Vec::new());
+        for entry in std::fs::read_dir(folder).into_iter().flatten().filter_map(Result::ok) {
+            seen += 1;
+            let name = entry.file_name().into_string().ok().filter(|name| has_ending(name));
+            found.extend(name.filter(|_| entry.path().is_file()));
+            if seen > MOST_ENTRIES || found.len() > 1 {
+                return None;
+            }
+        }
+        found.pop()
+    }
+
     /// The names of the files in the folder of a text, as far as [`Library::beside`] finds them; of a folder of very
     /// many files the first that the system names.
     pub fn names_beside(&self, beside: &Origin) -> Vec<String> {
@@ -188,6 +218,7 @@ fn read_beside(folder: &FilePath, name: &str) -> io::Result<Source> {
     if !path.canonicalize()?.starts_with(folder.canonicalize()?) {
         return Err(io::Error::other("it lies outside the folder"));
     }
+    check_regular(&path)?;
     let bytes = read_bytes(&path, MAX_BYTES)?;
     let text = String::from_utf8_lossy(&bytes).into_owned();
     let differs = text.as_bytes() != bytes.as_slice() || is_map(name);
@@ -197,6 +228,7 @@ fn read_beside(folder: &FilePath, name: &str) -> io::Result<Source> {
 
 /// An L-system that is named itself, as a species: the file, and nothing stated of it.
 fn alone(path: &FilePath) -> io::Result<Source> {
+    check_regular(path)?;
     let bytes = read_bytes(path, MAX_BYTES)?;
     let file = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let stem = file.strip_suffix(".l").unwrap_or(file);
@@ -211,6 +243,12 @@ fn alone(path: &FilePath) -> io::Result<Source> {
         text: text.into(),
         bytes: Some(bytes.into()),
     })
+}
+
+/// What is no regular file, such as a pipe, may never end.
+fn check_regular(path: &FilePath) -> io::Result<()> {
+    let kind = std::fs::metadata(path)?;
+    if kind.is_file() || kind.is_dir() { Ok(()) } else { Err(io::Error::other("it is no regular file")) }
 }
 
 /// Whether a name is that of the file of an L-system.

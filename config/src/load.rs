@@ -18,6 +18,7 @@ use crate::meaning;
 use crate::models::{MODELS, Model, ModelName, any_file};
 use crate::report::Fault;
 use crate::schema;
+use crate::solids;
 use crate::source::{Origin, Source, SourceId, Sources, Span};
 use crate::species::split;
 use crate::woods;
@@ -84,6 +85,12 @@ impl Loader {
         (id, document::parse(&self.sources, id, &mut self.faults))
     }
 
+    /// Puts the meshes of files into a tree, where shapes name them.
+    pub fn fill_solids(&mut self, node: &mut Node) {
+        let Self { library, sources, faults } = self;
+        solids::fill(node, solids::Reading { library, sources, faults });
+    }
+
     /// Reads a value of type `T` from a tree that was checked against its schema. `refused` are the faults of that
     /// check, and `keys` the roles of the tree's keys. With faults, the refused values are left out first; `None` where
     /// nothing useful is left.
@@ -148,7 +155,8 @@ impl Loader {
             }
             line.push((origin, name));
             let (_, node) = self.parse(source);
-            let node = node?;
+            let mut node = node?;
+            self.fill_solids(&mut node);
             next = node.get("inherits").and_then(|value| {
                 let path = Path::root().key("inherits");
                 value.text().map(|name| Mention { name: name.to_owned(), place: Some((value.span, path)) })

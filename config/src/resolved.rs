@@ -4,10 +4,11 @@
 //! name are in a list. Absent: the checks (`validate`).
 
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use phytomer_law::fault;
 use phytomer_sim::model::GrowthModel;
+use phytomer_sim::site::calendars::Calendars;
 use serde_json::{Value as Json, json};
 
 use crate::cohorts::Cohort;
@@ -16,7 +17,7 @@ use crate::document::Node;
 use crate::meaning;
 use crate::models::Reads;
 use crate::report::Report;
-use crate::scenario::{Scenario, Soil};
+use crate::scenario::{Experiment, Scenario, Soil};
 use crate::source::Sources;
 use crate::species::Species;
 use crate::trial::{Treatment, Trial, check_size};
@@ -46,6 +47,9 @@ pub struct Resolved {
     pub sources: Sources,
     /// The seed whose draws of the site are compiled into the models.
     pub(crate) site_seed: u64,
+    /// The calendars of each treatment with what blocks and field plots shift by that seed, and the experiment that
+    /// these belong to: made when they are first asked for.
+    pub(crate) shifted: OnceLock<(Experiment, Vec<Calendars>)>,
     pub(crate) tree: Node,
 }
 
@@ -74,7 +78,11 @@ impl Resolved {
         if self.calendars.iter().all(Option::is_none) && !reads.iter().any(|reads| reads.surroundings) {
             return trial;
         }
-        trial.dated(&calendars_of(&self.calendars), &reads, self.site_seed)
+        let shift = || trial.shifted(&calendars_of(&self.calendars), self.site_seed);
+        let kept = self.shifted.get_or_init(|| (self.scenario.experiment.clone(), shift()));
+        // Who changes the experiment after the check gets the calendars of what it is now.
+        let calendars = if kept.0 == self.scenario.experiment { kept.1.clone() } else { shift() };
+        trial.in_calendars(calendars, &reads)
     }
 
     /// Changes the seed of the run. Where blocks or field plots shift the site, their draws are those of the new seed,
@@ -102,6 +110,7 @@ impl Resolved {
     /// The first species that does not compile.
     pub fn compile(&mut self) -> Result<(), Uncompiled> {
         self.site_seed = self.scenario.seed;
+        self.shifted = OnceLock::new();
         let mut models = compiled(&self.trial(), &self.all_species())?.into_iter();
         if let Some(first) = models.next() {
             (self.model, self.other_models) = (first, models.collect());

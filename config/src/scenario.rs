@@ -27,7 +27,7 @@ pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use pests::{Attacked, Clustered, Host, Larvae, Pest, exposure};
 pub use planting::{Grid, Planting};
 pub use plots::Member;
-pub use site::{Kills, Obstacle, Plane, Site, Wind};
+pub use site::{DrawnObstacle, Kills, Obstacle, Plane, Site, Wind};
 pub use tables::Table;
 
 use std::collections::{BTreeMap, BTreeSet};

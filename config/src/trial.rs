@@ -115,12 +115,23 @@ impl Trial {
 
     /// The same where each treatment has such calendars, which its blocks and field plots shift by draws of the seed.
     /// `reads` tells of each species of the run what its models depend on beside its own parameters.
-    pub fn dated(mut self, calendars: &[Calendars], reads: &[Reads], seed: u64) -> Self {
+    pub fn dated(self, calendars: &[Calendars], reads: &[Reads], seed: u64) -> Self {
+        let shifted = self.shifted(calendars, seed);
+        self.in_calendars(shifted, reads)
+    }
+
+    /// The calendars of each treatment with what its blocks and field plots shift, by draws of the seed.
+    pub(crate) fn shifted(&self, calendars: &[Calendars], seed: u64) -> Vec<Calendars> {
         let each = self.treatments.iter().zip(calendars);
         let of_treatment = |(Treatment { name, scenario, .. }, calendars): (&Treatment, &Calendars)| {
             shifted((name, scenario), calendars, &self.scenario.experiment, seed)
         };
-        self.calendars = each.map(of_treatment).collect();
+        each.map(of_treatment).collect()
+    }
+
+    /// The same where each treatment has these calendars, in which nothing is to be shifted.
+    pub(crate) fn in_calendars(mut self, calendars: Vec<Calendars>, reads: &[Reads]) -> Self {
+        self.calendars = calendars;
         self.cohorts = Cohorts::of(self.treatments.iter().map(Treatment::grown), &self.calendars, reads);
         self
     }

@@ -16,7 +16,9 @@ use phytomer_sim::site::calendar::Calendar;
 use serde_json::Value as Json;
 
 use crate::about::About;
-use crate::checked::{Checked, Compiled, Stated, check_constants, check_cuttable, check_explosions, check_successors};
+use crate::checked::{
+    Checked, Compiled, Stated, check_cells, check_constants, check_cuttable, check_explosions, check_successors,
+};
 use crate::dates::{self, Dated};
 use crate::document::Node;
 use crate::expansion::{self, Expanded};
@@ -100,6 +102,7 @@ fn resolved(checked: Checked) -> Option<Resolved> {
     let (Stated { species: first, tree }, model) = (species.next()?, models.next()?);
     Some(Resolved {
         site_seed: scenario.seed,
+        shifted: OnceLock::new(),
         scenario,
         treatments,
         species: first,
@@ -193,12 +196,16 @@ fn conclude<T, R>(loader: Loader, found: Option<T>, make: impl FnOnce(T, Sources
 
 fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let (_, node) = loader.parse(source);
-    let node = node?;
+    let bare = node?;
+    let mut node = bare.clone();
+    loader.fill_solids(&mut node);
     let mut refused = Vec::new();
     schema::check(scenario_schema(), &node, &mut refused);
     icasa::name_keys(&mut refused);
     let scenario: Option<Scenario> = loader.read(&node, &Keys::PLAIN, &refused, serde_path_to_error::deserialize);
-    let expanded = expanded(loader, &node, &refused);
+    // A level may change the file of a mesh.
+    let mut expanded = expanded(loader, &bare, &refused);
+    expanded.iter_mut().for_each(|expanded| loader.fill_solids(&mut expanded.node));
     loader.faults.extend(refused.iter().cloned());
     let read = treatments::check(loader, scenario_schema(), (&node, scenario.as_ref()), expanded);
     let replicates = scenario.as_ref().map_or(1, |scenario| scenario.experiment.replicates);
@@ -217,6 +224,7 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let checked = Checked { scenario: scenario?, treatments, species, trial, models, calendars };
     check_constants(loader, &read, &checked);
     check_successors(loader, &node, &checked);
+    check_cells(loader, &node, &checked);
     check_explosions(loader, &node, &checked);
     check_cuttable(loader, &node, &checked);
     Some(checked)

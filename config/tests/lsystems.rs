@@ -335,3 +335,52 @@ fn includes_and_constants_are_read() {
     plot.grow_to(1).expect("room to grow");
     assert_eq!(plot.plants[0].nodes.length, [3.0, 3.0]);
 }
+
+fn alone(l: &'static str, more: &[(&'static str, &'static str)]) -> Result<phytomer_config::Resolved, Report> {
+    validate_texts("own", &[&[("own", SPECIES), ("own.l", l)], more].concat())
+}
+
+/// What an `#include` names must be there where the line holds: not in a comment, nor under a condition that fails.
+#[test]
+fn includes_that_do_not_hold_need_no_file() {
+    let passed = "/*\n#include \"gone.h\"\n*/\n#if 0\n#include \"gone.h\"\n#endif\nAxiom: F\n";
+    assert!(alone(passed, &[]).is_ok(), "{}", alone(passed, &[]).err().map(told).unwrap_or_default());
+    let report = told(alone("Axiom: F\n#include \"gone.h\"\n", &[]).expect_err("it is missing"));
+    assert!(report.contains("own.l:2:1") && report.contains("`gone.h` cannot be included"), "{report}");
+    let report = told(alone("#include \"../gone.h\"\nAxiom: F\n", &[]).expect_err("it is outside"));
+    assert!(report.contains("own.l:1:1") && report.contains("may lie outside the folder"), "{report}");
+    // A name in angle brackets is that of no file of the folder.
+    let more = [("more.h", "Axiom: F\n")];
+    let report = told(alone("#include <more.h>\n", &more).expect_err("it is no file of the folder"));
+    assert!(report.contains("own.l:1:1") && report.contains("`#include <more.h>`"), "{report}");
+}
+
+/// A pipe that has the name of a view file would never end; among very many files the view file is found by its ending.
+#[test]
+#[cfg(unix)]
+fn only_regular_files_lie_beside_an_l_system() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let write = |name: &str, text: &str| std::fs::write(at(name), text).expect("a file");
+    let pipe = |name: &str| {
+        let made = std::process::Command::new("mkfifo").arg(at(name)).status();
+        assert!(made.expect("mkfifo").success());
+    };
+    write("own.l", "Axiom: F(1)+F(1)\n");
+    pipe("own.v");
+    let name = at("own.l").display().to_string();
+    let find = || validate_species(&name, 1);
+    assert!(find().is_ok(), "{}", find().err().map(told).unwrap_or_default());
+    (0..1500).for_each(|number| write(&format!("{number}.txt"), ""));
+    write("other.v", "angle increment: none\n");
+    let report = told(find().expect_err("its view file is wrong"));
+    assert!(report.contains("other.v:1:18"), "{report}");
+    write("second.v", "angle increment: none\n");
+    assert!(find().is_ok(), "of two view files neither is that of the L-system");
+    write("stated.toml", &SPECIES.replace("file =", "view = \"own.v\"\nfile ="));
+    let report = told(validate_species(&at("stated.toml").display().to_string(), 1).expect_err("it is a pipe"));
+    assert!(report.contains("it is no regular file"), "{report}");
+    pipe("pipe.l");
+    let report = told(validate_species(&at("pipe.l").display().to_string(), 1).expect_err("it is a pipe"));
+    assert!(report.contains("it is no regular file"), "{report}");
+}

@@ -2,7 +2,7 @@
 //! memory.
 //!
 //! A species and a scenario go the whole way of `phytomer grow`; a mesh is read as a form, a weather file as its days,
-//! an L-system is derived; a run folder, one of whose files is replaced, is checked, read and resumed. `fuzz_targets`
+//! an L-system is grown with the files beside it (`lsystem`); a run folder, one of whose files is replaced, is checked, read and resumed. `fuzz_targets`
 //! hands these functions to libFuzzer, and `bin/minute` runs them on stable over broken copies of what ships (`seeds`,
 //! `broken`). Absent: files that are right, which the tests have.
 
@@ -10,6 +10,7 @@
 
 pub mod broken;
 mod documents;
+mod lsystem;
 pub mod seeds;
 
 #[path = "../../config/weather/tests/answered/mod.rs"]
@@ -17,6 +18,7 @@ mod answered;
 #[path = "../../tests/program/tried.rs"]
 mod tried;
 
+pub use lsystem::lsystem;
 use phytomer::analysis::architecture::qualified;
 use phytomer::analysis::population;
 use phytomer::config::{Resolved, validate, validate_species};
@@ -24,8 +26,6 @@ use phytomer::outputs::meshes::{OwnForms, check_form};
 use phytomer::outputs::read::Run;
 use phytomer::outputs::{Checking, Depth, Mode, State, Table, check};
 use phytomer::run::{Progress, Settings, begin};
-use phytomer_rewriting::{Limits, Program, Reading, Unanswered};
-use phytomer_sim::random::PlantRandom;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -46,7 +46,7 @@ pub const TARGETS: [(&str, Target); 8] = [
     ("obj", obj),
     ("glb", glb),
     ("weather", weather),
-    ("lsystem", lsystem),
+    ("lsystem", lsystem::lsystem),
 ];
 
 /// A temporary folder, in memory where there is some: a disk would be waited for at each input.
@@ -121,21 +121,6 @@ pub fn obj(data: &[u8]) {
 /// A GLB as a form.
 pub fn glb(data: &[u8]) {
     form("form.glb", data);
-}
-
-/// The text of an L-system: read, derived for some steps and drawn, within small limits.
-pub fn lsystem(data: &[u8]) {
-    let text = String::from_utf8_lossy(data);
-    let Ok(mut program) = Program::read(&text, &Reading::of("mutant.l")) else { return };
-    program.limits = Limits { modules: 20_000, rounds: 3_000_000 };
-    let Ok(mut derived) = program.sow(PlantRandom::new(1, 1), &mut Unanswered) else { return };
-    for _ in 0..6 {
-        if program.step(&mut derived, &mut Unanswered).is_err() {
-            break;
-        }
-    }
-    assert_eq!(derived.string().modules().count(), derived.string().len(), "the string is whole");
-    let _ = program.draw(&derived, |_| ());
 }
 
 /// A weather file. The first byte tells its format, whether gaps are filled and whether it comes again.

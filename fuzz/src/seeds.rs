@@ -46,17 +46,29 @@ pub fn of(target: &str) -> Vec<Vec<u8>> {
 
 /// The contents of the files in a folder that end so, sorted by their names.
 fn of_folder(folder: &Path, ending: &str) -> Vec<Vec<u8>> {
+    paths(folder, ending).iter().map(|path| fs::read(path).expect("a seed")).collect()
+}
+
+/// The files in a folder that end so, sorted by their names.
+fn paths(folder: &Path, ending: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder of seeds");
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
     paths.retain(|path| path.extension().is_some_and(|is| is == ending));
     paths.sort();
-    paths.iter().map(|path| fs::read(path).expect("a seed")).collect()
+    paths
 }
 
-/// The L-systems that ship.
+/// The L-systems that ship, each with its view file, and those of the folder of seeds, which hold what no shipped file
+/// has: files beside, a species with shapes and an environment, a ring.
 fn of_lsystems() -> Vec<Vec<u8>> {
+    let mut seeds = of_folder(&project().join("fuzz/seeds"), "lsystem");
     let folders = ["topiary", "abop"].map(|name| project().join("config/presets/species").join(name));
-    folders.iter().flat_map(|folder| of_folder(folder, "l")).collect()
+    for path in folders.iter().flat_map(|folder| paths(folder, "l")) {
+        let read = |ending: &str| fs::read_to_string(path.with_extension(ending)).unwrap_or_default();
+        let (text, view) = (read("l"), read("v"));
+        seeds.push(format!("=== plant.l\n{text}=== plant.v\n{view}=== kinds\nA apical_bud\n").into_bytes());
+    }
+    seeds
 }
 
 /// The files that the tests of weather have, each by its format.

@@ -7,7 +7,7 @@
 
 use crate::FileError;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// The name that stands for stdout.
@@ -58,6 +58,24 @@ impl Destination {
         }
         let (file, beside) = staged(path).map_err(refused)?;
         Ok(begun(Sink::File(file), Some(beside)))
+    }
+
+    /// The file beside the final one, for a program that writes it in our place; `None` where the bytes are written
+    /// directly, so that they are gone for good.
+    pub fn staged(&self) -> Option<&Path> {
+        self.beside.as_ref().map(|(beside, _)| beside.as_path())
+    }
+
+    /// Writes over bytes that were written before.
+    ///
+    /// # Errors
+    /// The system's; where there is no going back, as in a pipe.
+    pub fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
+        self.out.flush()?;
+        let Sink::File(file) = self.out.get_mut() else { return Err(io::ErrorKind::NotSeekable.into()) };
+        file.seek(SeekFrom::Start(at))?;
+        file.write_all(bytes)?;
+        file.seek(SeekFrom::End(0)).map(drop)
     }
 
     /// Syncs the file and gives it its name; returns its size in bytes.
@@ -153,6 +171,12 @@ impl Write for Destination {
 
     fn flush(&mut self) -> io::Result<()> {
         self.out.flush()
+    }
+}
+
+impl phytomer_films::Sink for Destination {
+    fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
+        Self::patch(self, at, bytes)
     }
 }
 

@@ -1,13 +1,15 @@
 //! The output of a run: the run folder with its tables (Parquet), and reading it back.
 //!
-//! Meshes and pictures are crates of their own, `phytomer-meshes` and `phytomer-pictures`, which need neither Arrow nor
-//! Parquet; they are re-exported here as [`meshes`] and [`pictures`]. [`colouring`] colours a picture by a column of a
-//! table. [`RunFolder::create`] makes a run folder, which is filled shard by shard and closed by [`RunFolder::finish`].
+//! Meshes, lives, pictures and films are crates of their own, `phytomer-meshes`, `phytomer-life`, `phytomer-pictures` and
+//! `phytomer-films`, which need neither Arrow nor Parquet; they are re-exported here as [`meshes`], [`life`],
+//! [`pictures`] and [`films`]. [`colouring`] colours a picture by a column of a table. [`RunFolder::create`] makes a run
+//! folder, which is filled shard by shard and closed by [`RunFolder::finish`].
 //! Its format is described in `docs` and in its own `datapackage.json`. [`read`] opens it again, [`check()`] tells
 //! whether it is whole. Absent: growth rules.
 
 pub mod colouring;
 pub mod destination;
+mod frames;
 pub mod read;
 pub mod rows;
 pub mod run_folder;
@@ -19,6 +21,9 @@ mod storage;
 pub mod tables;
 
 pub use destination::Destination;
+pub use frames::Frames;
+pub use phytomer_films as films;
+pub use phytomer_life as life;
 pub use phytomer_meshes as meshes;
 pub use phytomer_pictures as pictures;
 pub use run_folder::{

@@ -14,6 +14,8 @@ pub enum Certainty {
     Exact,
     /// The mean is not above it.
     AtMost,
+    /// The mean is not above it, and may be far below it: nothing is decided by it.
+    Bound,
     /// It is an estimate; the mean may lie on either side of it.
     About,
 }

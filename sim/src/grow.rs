@@ -17,7 +17,7 @@ use crate::pose::height;
 use crate::record::{RecordError, Recorder};
 use crate::shed::{note_falls, shed};
 use crate::site::{Site, View};
-use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, IntoParallelRefMutIterator, ParallelIterator};
 use std::cell::Cell;
 
 /// How a plot came to its end.
@@ -120,12 +120,13 @@ impl Plot<'_> {
     }
 
     /// What each member claims of the site for `tick`, in the order of the plot.
-    fn claims(&self, tick: Tick) -> Vec<(u32, Claims)> {
-        let members = self.plants.iter().zip(&self.lives).zip(&self.members);
+    fn claims(&mut self, tick: Tick) -> Vec<(u32, Claims)> {
+        let Self { species, plants, lives, members, site, .. } = self;
+        let members = plants.par_iter().zip(lives).zip(&*members);
         let claimed = members.map(|((plant, life), member)| {
             let mut claims = Claims::default();
             if member.age_at(tick).is_some_and(|age| age > 0) {
-                self.species[member.species].claim(plant, life, &mut claims);
+                species[member.species].claim(plant, life, site, &mut claims);
             }
             (plant.id, claims)
         });

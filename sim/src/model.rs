@@ -9,7 +9,7 @@ use crate::cells::Claims;
 use crate::clock::Tick;
 use crate::expectation::Expectation;
 use crate::plant::{Habit, Plant};
-use crate::site::View;
+use crate::site::{Site, View};
 use std::any::Any;
 use std::fmt::{self, Debug};
 use std::sync::Arc;
@@ -101,10 +101,17 @@ pub trait Grow: Send + Sync {
     /// another rule of secondary growth, the loop applies that one after it.
     fn thicken(&self, age: Tick, plant: &mut Plant);
 
-    /// Claims the cells of space that the plant wants at the next tick, before any plant of the plot grows; what is
-    /// granted stands in the view of that tick. Asked only where plants grow tick by tick.
-    fn claim(&self, plant: &Plant, life: &Self::Life, claims: &mut Claims) {
-        let _ = (plant, life, claims);
+    /// The edge of the cells of space that its plants claim from the others of their plot, metres; `None` where they
+    /// claim none.
+    fn cell_m(&self) -> Option<f64> {
+        None
+    }
+
+    /// Claims the cells of space that the plant wants at the next tick, before any plant of the plot grows, and may
+    /// remember what for; what is granted stands in the view of that tick. Asked only where the site shares cells:
+    /// there plants grow tick by tick.
+    fn claim(&self, plant: &Plant, life: &mut Self::Life, site: &Site, claims: &mut Claims) {
+        let _ = (plant, life, site, claims);
     }
 
     /// Answers the cuts that were made at the plant's age `age`, of which [`Plant::stumps`] tells the ends, before the
@@ -146,11 +153,13 @@ pub trait GrowthModel: Send + Sync {
 
     fn thicken(&self, age: Tick, plant: &mut Plant);
 
+    fn cell_m(&self) -> Option<f64>;
+
     /// As [`Grow::claim`].
     ///
     /// # Panics
     /// Where `life` is that of another model's plant.
-    fn claim(&self, plant: &Plant, life: &Life, claims: &mut Claims);
+    fn claim(&self, plant: &Plant, life: &mut Life, site: &Site, claims: &mut Claims);
 
     /// As [`Grow::answer_cuts`].
     ///
@@ -189,8 +198,12 @@ impl<M: Grow> GrowthModel for M {
         Grow::thicken(self, age, plant);
     }
 
-    fn claim(&self, plant: &Plant, life: &Life, claims: &mut Claims) {
-        Grow::claim(self, plant, life.get(), claims);
+    fn cell_m(&self) -> Option<f64> {
+        Grow::cell_m(self)
+    }
+
+    fn claim(&self, plant: &Plant, life: &mut Life, site: &Site, claims: &mut Claims) {
+        Grow::claim(self, plant, life.get_mut(), site, claims);
     }
 
     fn answer_cuts(&self, age: Tick, plant: &mut Plant, life: &mut Life) -> Result<(), Overgrown> {

@@ -37,6 +37,12 @@ pub enum Purpose {
     Rewriting = 9,
 }
 
+/// The number in (0, 1) that a uniform word stands for: the middle of its interval.
+#[inline]
+pub fn share(word: u32) -> f64 {
+    (f64::from(word) + 0.5) / 4_294_967_296.0
+}
+
 /// The words of one ChaCha block.
 const BLOCK: u64 = 16;
 
@@ -106,6 +112,12 @@ impl Stream {
         let word = self.words[(self.position % BLOCK) as usize];
         self.position += 1;
         word
+    }
+
+    /// The next word as a number in (0, 1).
+    #[inline]
+    pub fn share(&mut self) -> f64 {
+        share(self.word())
     }
 
     /// The next words, as many as `into` holds.

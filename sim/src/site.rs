@@ -140,10 +140,11 @@ impl Site {
         self.obstacles.iter().any(|obstacle| obstacle.kills_at(point))
     }
 
-    /// The site of a plot at another place: its obstacles stand `by` metres farther.
+    /// The site of a plot at another place: its obstacles and its cells stand `by` metres farther.
     pub fn moved(&self, by: [f64; 3]) -> Self {
         let moved = |obstacle: &Obstacle| Obstacle { shape: Arc::new(obstacle.shape.moved(by)), ..*obstacle };
-        Self { obstacles: self.obstacles.iter().map(moved).collect(), ..self.clone() }
+        let obstacles = self.obstacles.iter().map(moved).collect();
+        Self { obstacles, cells: self.cells.moved(by), ..self.clone() }
     }
 
     /// Gravity, and the drag of the wind: ½ ρ C_d U² a square metre with C_d = c U⁻ⁿ.

@@ -8,7 +8,7 @@ use crate::clock::Tick;
 use crate::model::{Grow, Growth, Overgrown};
 use crate::plant::{Habit, NewAxis, Plant, Seed};
 use crate::plot::{Plot, Sowing};
-use crate::site::View;
+use crate::site::{Site, View};
 use std::sync::Arc;
 
 /// A plant that is a list of cells on a line: at each tick its tip claims the next cell to the right, and stays in
@@ -41,8 +41,8 @@ impl Grow for Creeper {
 
     fn thicken(&self, _age: Tick, _plant: &mut Plant) {}
 
-    fn claim(&self, plant: &Plant, cells: &Vec<Cell>, claims: &mut Claims) {
-        claims.0.push(next(plant, cells));
+    fn claim(&self, plant: &Plant, cells: &mut Vec<Cell>, _: &Site, claims: &mut Claims) {
+        claims.0.push(vec![next(plant, cells)]);
     }
 }
 

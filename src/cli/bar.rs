@@ -6,6 +6,7 @@
 
 use super::amounts;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use phytomer::run::filming::Filming;
 use phytomer::run::{Progress, Reading};
 use phytomer_outputs::Checking;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -40,6 +41,18 @@ pub fn checking<T>(checking: &Checking, hidden: bool, work: impl FnOnce() -> T) 
     let state = |_: &ProgressBar| {
         let (read, in_all) = (checking.bytes() as f64, checking.in_all() as f64);
         (read / in_all.max(1.0), read_in_words(checking))
+    };
+    beside(hidden, state, work)
+}
+
+/// Does `work` while a bar shows how far a film of so many frames has come.
+pub fn filming<T>(filming: &Filming, frames: u32, hidden: bool, work: impl FnOnce() -> T) -> T {
+    let state = |_: &ProgressBar| {
+        let words = match filming.frames() {
+            0 => "finding the place of the camera".to_owned(),
+            drawn => format!("{drawn} of {frames} frames"),
+        };
+        (filming.share(), words)
     };
     beside(hidden, state, work)
 }

@@ -3,14 +3,16 @@
 //! It is the same plant, with the same component numbers, that the run has recorded. In a wind it is a frame of that
 //! plant, which the wind moves for the mesh alone.
 
+use super::budget::{Asked, Budget, in_words, too_few};
 use super::out::{self, Format};
 use super::regrown::{Breeze, Regrown};
-use super::{Verdict, amounts};
+use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::Args;
 use phytomer::run::drawing::{options_of, write_mesh};
 use phytomer::run::picturing::{pictured_plot, plot_mesh};
 use phytomer_outputs::Destination;
+use phytomer_outputs::meshes::{MeshOptions, Scene, Tolerance, fitting};
 use phytomer_sim::Tick;
 use std::path::PathBuf;
 
@@ -22,6 +24,8 @@ const FORMATS: [Format; 1] = [Format { name: "PLY", extension: "ply" }];
 #[command(after_help = "\
 Examples:
   phytomer mesh coffee --plant 0 --age 12 --out coffee.ply
+  phytomer mesh coffee --age 36 --tolerance 1mm --out light.ply
+  phytomer mesh coffee --age 36 --triangles 60k --out lighter.ply
   phytomer mesh runs/coffee --plant 3 --out third.ply --sides 12
   phytomer mesh my_plant/scenario.toml --age 24 --wind 8 --time 0.40 --out frame-010.ply
   phytomer mesh under_a_roof --plot --age 12 --out plot.ply
@@ -34,7 +38,8 @@ pub struct Mesh {
     /// The plant's number, from 0.
     #[arg(long, default_value_t = 0)]
     plant: u32,
-    /// All plants of a plot, each in its place, told from the place of the plot; the plot's number, from 0.
+    /// All plants of a plot, each in its place, told from the place of the plot, and the obstacles of its site; the
+    /// plot's number, from 0.
     #[arg(long, value_name = "PLOT", num_args = 0..=1, default_missing_value = "0", conflicts_with = "plant")]
     plot: Option<u32>,
     /// Its age in ticks, of a plot its tick; the last of the run if not given.
@@ -47,6 +52,8 @@ pub struct Mesh {
     /// Sides of the tube that an internode is drawn as.
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(3..=64))]
     sides: u32,
+    #[command(flatten)]
+    budget: Budget,
     #[command(flatten)]
     breeze: Breeze,
 }
@@ -73,13 +80,28 @@ impl Mesh {
         let regrowth = regrown.regrowth(&self.breeze)?;
         let mut file = Destination::create(&self.out)?;
         let own = regrown.forms.get(regrown.trial.species_of_plant(self.plant)).cloned().unwrap_or_default();
-        let options = options_of(self.sides, &own);
-        let seed = regrown.scenario.seed;
+        let mut options = options_of(self.sides, &own);
+        let (seed, what) = (regrown.scenario.seed, format!("plant {} at age {age}", self.plant));
+        let mut refused = None;
         regrowth.show(self.plant, &[age], &mut |age, plant| {
+            let faces = |tolerance: &Tolerance| {
+                let options = MeshOptions { tolerance: Some(*tolerance), ..options.clone() };
+                Scene::new(plant, age, &options).counts().faces
+            };
+            match self.tolerance(&what, faces) {
+                Ok(tolerance) => options.tolerance = tolerance,
+                Err(misuse) => {
+                    refused = Some(misuse);
+                    return Ok(());
+                }
+            }
             let written = write_mesh(plant, age, seed, &options, &mut file);
             Ok(written.with_context(|| self.failing())?)
         })?;
-        self.tell(file, &format!("plant {} at age {age}", self.plant))
+        match refused {
+            Some(misuse) => Err(misuse.into()),
+            None => self.tell(file, &format!("{what}{}", in_words(options.tolerance.as_ref()))),
+        }
     }
 
     fn write_plot(&self, regrown: &Regrown, plot: u32) -> Result<Verdict> {
@@ -87,13 +109,26 @@ impl Mesh {
         regrown.check_plot(("--age", &[tick]), plot)?;
         let (regrowth, species) = (regrown.regrowth(&self.breeze)?, regrown.species());
         let mut file = Destination::create(&self.out)?;
+        let mut within = None;
         let pictured = pictured_plot(&regrowth, &species, (plot, &[tick]), false)?;
         for stand in &pictured.stands {
-            let mesh = plot_mesh(stand, &regrowth, (plot, tick), (&species, &regrown.forms), self.sides);
+            let mut mesh = plot_mesh(stand, &regrowth, (plot, tick), (&species, &regrown.forms), self.sides);
+            let what = format!("plot {plot} at tick {tick}");
+            within = self.tolerance(&what, |tolerance| mesh.faces_within(tolerance))?;
+            within.iter().for_each(|tolerance| mesh.within(*tolerance));
             mesh.write(&mut file).with_context(|| self.failing())?;
         }
         let plants = amounts::of(pictured.stands.iter().map(|stand| stand.members.len() as u64).sum(), "plant");
-        self.tell(file, &format!("plot {plot} at tick {tick}, {plants}"))
+        self.tell(file, &format!("plot {plot} at tick {tick}, {plants}{}", in_words(within.as_ref())))
+    }
+
+    /// The tolerance that is asked for, or that gives at most the triangles that are asked for.
+    fn tolerance(&self, what: &str, faces: impl FnMut(&Tolerance) -> u64) -> Result<Option<Tolerance>, Misuse> {
+        match self.budget.asked() {
+            Asked::Full => Ok(None),
+            Asked::Within(tolerance) => Ok(Some(tolerance)),
+            Asked::Triangles(most) => fitting(most, faces).map(Some).map_err(|few| too_few(most, what, few)),
+        }
     }
 
     fn failing(&self) -> String {

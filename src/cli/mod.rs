@@ -4,7 +4,9 @@
 //! terminal could want; that is the library's.
 
 mod amounts;
+mod animate;
 mod bar;
+mod budget;
 pub mod causes;
 mod constants;
 mod derive;
@@ -21,6 +23,7 @@ mod out;
 mod picture;
 mod regrown;
 mod schema;
+mod span;
 pub mod terminal;
 mod validate;
 mod verify;
@@ -46,6 +49,7 @@ Examples:
   phytomer schema species                       the JSON Schema of a species file
   phytomer mesh coffee --plant 0 --age 12 --out coffee.ply
   phytomer picture coffee --age 48 --out coffee.png
+  phytomer animate coffee --out life.webp       a film of its life
 
 `phytomer help <verb>` has more of each.";
 
@@ -70,6 +74,7 @@ enum Verb {
     Schema(schema::Schema),
     Mesh(mesh::Mesh),
     Picture(picture::Picture),
+    Animate(animate::Animate),
 }
 
 /// How the program ends, other than by an error.
@@ -116,6 +121,7 @@ impl Cli {
             Verb::Schema(verb) => verb.obey(),
             Verb::Mesh(verb) => verb.obey(),
             Verb::Picture(verb) => verb.obey(),
+            Verb::Animate(verb) => verb.obey(),
         }
     }
 }

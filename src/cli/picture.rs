@@ -6,10 +6,12 @@
 
 use super::out::{self, Format};
 use super::regrown::{Breeze, Regrown, finite};
+use super::span::{Span, shown, span};
 use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
+use phytomer::run::filming::{Filming, Scene};
 use phytomer::run::picturing::{Pictured, pictured_plants, pictured_plot};
 use phytomer_outputs::Destination;
 use phytomer_outputs::colouring::{Belonging, ColouringError, colour_columns, colouring};
@@ -49,7 +51,8 @@ pub struct Picture {
     /// Several plants side by side, by their numbers.
     #[arg(long, value_delimiter = ',', value_name = "N,N,…")]
     plants: Vec<u32>,
-    /// All plants of a plot in their places, any number of them; the plot's number, from 0.
+    /// All plants of a plot in their places, any number of them, with the obstacles of its site; the plot's number,
+    /// from 0.
     #[arg(long, value_name = "PLOT", num_args = 0..=1, default_missing_value = "0", conflicts_with_all = ["plant", "plants"])]
     plot: Option<u32>,
     /// Its age in ticks; that of its prime if not given. Of a plot its tick; the last if not given.
@@ -58,6 +61,10 @@ pub struct Picture {
     /// Several ages, of a plot several ticks, side by side, in one scale.
     #[arg(long, value_delimiter = ',', value_name = "AGE,AGE,…")]
     ages: Vec<Tick>,
+    /// Place the camera as for a film of these ages, of a plot ticks: it holds the largest extent, so that pictures of
+    /// several ages lie over one another. The last of them is drawn if no age is given.
+    #[arg(long, value_name = "FIRST..LAST[/STEP]", value_parser = span, conflicts_with_all = ["ages", "plants", "colour_by"])]
+    framed_for: Option<Span>,
     /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written
     /// through.
     #[arg(long, value_name = "FILE.png")]
@@ -75,7 +82,8 @@ pub struct Picture {
     /// Leave the background out; shadows stay, half transparent.
     #[arg(long)]
     transparent: bool,
-    /// Draw neither ground nor the shadow on it.
+    /// Draw neither ground nor the shadow on it. The ground is level and passes through the seeds; what lies below it
+    /// is seen without it.
     #[arg(long)]
     no_ground: bool,
     /// Write nothing on the picture, not even the scale bar.
@@ -115,11 +123,45 @@ pub enum From {
 impl Picture {
     pub fn obey(self) -> Result<Verdict> {
         out::check(&self.out, "picture", &FORMATS)?;
-        let ages = if self.ages.is_empty() { self.age.into_iter().collect() } else { self.ages.clone() };
-        match Regrown::find(&self.name, &ages)? {
-            Ok(regrown) => self.write(&regrown, ages),
-            Err(verdict) => Ok(verdict),
+        let ages: Vec<Tick> = if self.ages.is_empty() { self.age.into_iter().collect() } else { self.ages.clone() };
+        let needed: Vec<Tick> = ages.iter().copied().chain(self.framed_for.map(|framed| framed.last)).collect();
+        match (Regrown::find(&self.name, &needed)?, self.framed_for) {
+            (Ok(regrown), None) => self.write(&regrown, ages),
+            (Ok(regrown), Some(framed)) => self.write_framed(&regrown, framed),
+            (Err(verdict), _) => Ok(verdict),
         }
+    }
+
+    /// The picture of one age by the camera of a film of several.
+    fn write_framed(&self, regrown: &Regrown, framed: Span) -> Result<Verdict> {
+        let Some(view) = self.view() else {
+            return Err(Misuse("--framed-for: a sheet has four cameras; choose another --view".to_owned()).into());
+        };
+        let (whose, _) = shown(regrown, (self.plant.unwrap_or(0), self.plot), Some(framed), "--framed-for")?;
+        let age = self.age.unwrap_or(framed.last);
+        if age < framed.first || age > framed.last || (age - framed.first) % framed.step != 0 {
+            return Err(Misuse(format!("--age {age}: it is none of the ages of --framed-for")).into());
+        }
+        let (regrowth, species) = (regrown.regrowth(&self.breeze)?, regrown.species());
+        let scene = Scene {
+            regrowth: &regrowth,
+            species: &species,
+            forms: &regrown.forms,
+            whose,
+            style: Style { view, ..self.style() },
+            time: framed.timeline((framed.last - framed.first) / framed.step + 1),
+            fps: 1,
+            orbit: 0.0,
+            follow: false,
+            air_from: self.breeze.air().map(|air| air.time),
+        };
+        let file = Destination::create(&self.out)?;
+        let surveyed = scene.survey(false, &Filming::default())?;
+        let canvas = scene.still(&surveyed, age)?.context("nothing stands at this age")?;
+        let note = format!("{} at {age} of the ages {} to {}", regrown.scenario.name, framed.first, framed.last);
+        let bytes = amounts::bytes(self.save(&canvas, &note, file)? as f64);
+        out::tell(&self.out, &format!("age {age} of {} to {}, {bytes}", framed.first, framed.last))?;
+        Ok(Verdict::Done)
     }
 
     fn write(&self, regrown: &Regrown, ages: Vec<Tick>) -> Result<Verdict> {
@@ -180,35 +222,43 @@ impl Picture {
     }
 
     fn draw(&self, pictured: &Pictured, regrown: &Regrown) -> std::result::Result<Canvas, ColouringError> {
-        let view = match self.view {
-            From::Perspective => Some(View::Perspective),
-            From::Top => Some(View::Top),
-            From::Front => Some(View::Front),
-            From::Side => Some(View::Side),
-            From::Oblique => Some(View::Oblique),
-            From::Sheet => None,
-        };
+        let view = self.view();
         let subjects = pictured.subjects();
         let treatments: Vec<String> =
             regrown.trial.treatments().iter().map(|treatment| treatment.name.clone()).collect();
         let members = pictured.memberships();
         let of = Belonging { members: &members, treatments: &treatments };
         let colour_by = self.colour_by.as_ref().map(|column| colouring(column, &subjects, of)).transpose()?;
-        let style = Style {
+        let style = Style { view: view.unwrap_or(View::Front), colour_by, ..self.style() };
+        let stands = pictured.stands(&regrown.forms);
+        let draw = if view.is_some() { draw_stands } else { sheet_of_stands };
+        Ok(draw(&stands, &pictured.title, &style))
+    }
+
+    /// The view; `None` for a sheet of several.
+    fn view(&self) -> Option<View> {
+        match self.view {
+            From::Perspective => Some(View::Perspective),
+            From::Top => Some(View::Top),
+            From::Front => Some(View::Front),
+            From::Side => Some(View::Side),
+            From::Oblique => Some(View::Oblique),
+            From::Sheet => None,
+        }
+    }
+
+    /// What is asked for but the view and the colours.
+    fn style(&self) -> Style {
+        Style {
             size: self.size,
-            view: view.unwrap_or(View::Front),
             turn: self.turn.map(|turn| (turn % 360.0).to_radians() as f32),
             transparent: self.transparent,
             ground: !self.no_ground,
             caption: !self.no_caption,
             sun: self.sun.map(|sun| sun.map(f32::to_radians)),
             sides: self.sides,
-            colour_by,
             ..Style::default()
-        };
-        let stands = pictured.stands(&regrown.forms);
-        let draw = if view.is_some() { draw_stands } else { sheet_of_stands };
-        Ok(draw(&stands, &pictured.title, &style))
+        }
     }
 
     fn save(&self, canvas: &Canvas, note: &str, mut file: Destination) -> Result<u64> {
@@ -218,14 +268,14 @@ impl Picture {
     }
 }
 
-fn size(text: &str) -> std::result::Result<[u32; 2], String> {
+pub fn size(text: &str) -> std::result::Result<[u32; 2], String> {
     let sides = text.split_once(['x', '×']).and_then(|(a, b)| Some([a.parse().ok()?, b.parse().ok()?]));
     sides
         .filter(|sides: &[u32; 2]| sides.iter().all(|side| (16..=MOST_PIXELS).contains(side)))
         .ok_or_else(|| format!("two sides of 16 to {MOST_PIXELS} pixels are expected, such as 1920x1080"))
 }
 
-fn sun(text: &str) -> std::result::Result<[f32; 2], String> {
+pub fn sun(text: &str) -> std::result::Result<[f32; 2], String> {
     let angles = text.split_once(',').and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
     angles
         .filter(|[azimuth, elevation]: &[f32; 2]| azimuth.is_finite() && (3.0..=90.0).contains(elevation))

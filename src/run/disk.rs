@@ -73,14 +73,14 @@ pub fn check_room(needed: f64, there: There, space: Space, folder: &Path) -> Res
     Err(TooSmall { folder: folder.to_path_buf(), needed, free, reserve })
 }
 
-/// The same for a scenario and its settings; where there is no forecast, or the system tells no free space, nothing is
-/// refused.
+/// The same for a scenario and its settings; where there is no forecast, or none but a loose bound, or the system tells
+/// no free space, nothing is refused.
 ///
 /// # Errors
 /// [`TooSmall`].
 pub(super) fn check(resolved: &Resolved, settings: &Settings, there: There) -> Result<(), TooSmall> {
     match (Forecast::of(resolved), room(settings)) {
-        (Some(forecast), Some(space)) if !settings.ignore_disk => {
+        (Some(forecast), Some(space)) if !settings.ignore_disk && !forecast.is_loose => {
             let share = settings.share.map_or(1.0, |share| 1.0 / f64::from(share.of()));
             check_room(forecast.table_bytes * share, there, space, &settings.folder)
         }

@@ -54,7 +54,7 @@ pub fn write_mesh(
     if vertices > MOST_VERTICES {
         return Err(io::Error::other(format!(
             "the mesh of plant {} at age {age} would have {vertices} vertices, and a mesh file holds at most \
-             {MOST_VERTICES}: choose fewer sides",
+             {MOST_VERTICES}: choose fewer sides or a larger tolerance",
             plant.id
         )));
     }

@@ -43,7 +43,7 @@ impl From<Certainty> for Figure {
     fn from(certainty: Certainty) -> Self {
         match certainty {
             Certainty::Exact => Self::Exact,
-            Certainty::AtMost => Self::AtMost,
+            Certainty::AtMost | Certainty::Bound => Self::AtMost,
             Certainty::About => Self::About,
         }
     }
@@ -80,6 +80,10 @@ pub struct Forecast {
     /// What is expected of each treatment; empty where one grows alone.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub treatments: Vec<OfTreatment>,
+    /// Whether the number of axes is but a bound from above, which may be far from what grows: nothing is then decided
+    /// by it.
+    #[serde(skip)]
+    pub is_loose: bool,
     #[serde(skip)]
     work_a_plot: f64,
 }
@@ -128,6 +132,7 @@ impl Forecast {
             bytes_a_plant: most(|plot| plot.largest) * BYTES_A_COMPONENT as f64,
             bytes_a_plot: most(|plot| plot.components) * BYTES_A_COMPONENT as f64,
             component_limit: of_scenario.limits.components(),
+            is_loose: plots.iter().any(|plot| plot.is_loose),
             work_a_plot: mean.components + if records_rows > 0.0 { mean.shown * sampled } else { 0.0 },
             treatments: if treatments.len() > 1 { treatments } else { Vec::new() },
         })
@@ -174,6 +179,8 @@ struct PlotForecast {
     /// Recorded ticks at which a member is sown, summed over the members.
     summary_rows: f64,
     certainty: Certainty,
+    /// Whether nothing but a bound is known of the axes of a member.
+    is_loose: bool,
 }
 
 impl PlotForecast {
@@ -184,6 +191,7 @@ impl PlotForecast {
         shown: 0.0,
         summary_rows: 0.0,
         certainty: Certainty::Exact,
+        is_loose: false,
     };
 
     /// The plot of a scenario whose members are of these cohorts.
@@ -230,6 +238,7 @@ impl PlotForecast {
             mean.by_order.resize(mean.by_order.len().max(plot.by_order.len()), 0.0);
             mean.by_order.iter_mut().zip(&plot.by_order).for_each(|(sum, more)| *sum += weight * more);
             mean.certainty = mean.certainty.max(plot.certainty);
+            mean.is_loose |= plot.is_loose;
         }
         mean
     }
@@ -260,5 +269,6 @@ impl PlotForecast {
         self.shown += ages().map(|age| expected.components(age)).sum::<f64>();
         self.summary_rows += ages().count() as f64;
         self.certainty = self.certainty.max(expected.certainty());
+        self.is_loose |= expected.axes == Certainty::Bound;
     }
 }

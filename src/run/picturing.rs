@@ -7,12 +7,14 @@
 use super::RunError;
 use super::drawing::options_of;
 use super::regrowth::{Regrowth, Standing};
-use phytomer_config::{About, Species};
-use phytomer_outputs::meshes::{Chunk, MeshOptions, OwnForms, PlotBody, PlotMember, PlotMesh, Scene};
+use phytomer_config::scenario::{DrawnObstacle, Site};
+use phytomer_config::{About, Species, Trial};
+use phytomer_outputs::meshes::{Chunk, Mesh, MeshOptions, OwnForms, PlotBody, PlotMember, PlotMesh, Scene, Solid};
 use phytomer_outputs::pictures::{Placed, Stand, Subject};
 use phytomer_outputs::tables::Membership;
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
+use phytomer_sim::site::calendar::Calendar;
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -35,6 +37,8 @@ pub struct PicturedStand {
     pub plants: Vec<Plant>,
     /// Where they stand.
     pub members: Vec<PicturedMember>,
+    /// The obstacles of a plot that are drawn.
+    pub obstacles: Vec<Arc<Mesh>>,
     /// What is written below them.
     pub label: String,
 }
@@ -63,17 +67,7 @@ pub struct PicturedMember {
 impl Pictured {
     /// What a picture takes; `forms` are those of each species.
     pub fn stands<'a>(&'a self, forms: &[Arc<OwnForms>]) -> Vec<Stand<'a>> {
-        let placed = |stand: &'a PicturedStand, member: &PicturedMember| Placed {
-            plant: &stand.plants[member.plant],
-            age: member.age,
-            place: member.place.map(|x| x as f32),
-            own: forms.get(member.species).cloned().unwrap_or_default(),
-        };
-        let stand = |stand: &'a PicturedStand| Stand {
-            plants: stand.members.iter().map(|member| placed(stand, member)).collect(),
-            label: stand.label.clone(),
-        };
-        self.stands.iter().map(stand).collect()
+        self.stands.iter().map(|stand| stand.stand(forms)).collect()
     }
 
     /// Where each plant of each stand belongs, in the order of [`Pictured::subjects`].
@@ -101,6 +95,23 @@ impl Pictured {
     }
 }
 
+impl PicturedStand {
+    /// The same as a picture takes it; `forms` are those of each species.
+    pub fn stand(&self, forms: &[Arc<OwnForms>]) -> Stand<'_> {
+        let placed = |member: &PicturedMember| Placed {
+            plant: &self.plants[member.plant],
+            age: member.age,
+            place: member.place.map(|x| x as f32),
+            own: forms.get(member.species).cloned().unwrap_or_default(),
+        };
+        Stand {
+            plants: self.members.iter().map(placed).collect(),
+            obstacles: self.obstacles.clone(),
+            label: self.label.clone(),
+        }
+    }
+}
+
 /// Grows some plants again and keeps each at some of its ages: plant after plant, each age by age in the order asked
 /// for. The species are those of the scenario.
 ///
@@ -125,15 +136,10 @@ pub fn pictured_plants(
         })?;
         for &age in ages {
             let whose = if plants.len() > 1 { format!("plant {number}, ") } else { String::new() };
-            let years = species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default();
             let Some(plant) = seen.get(&age).cloned() else { continue };
-            let (of, sown) = (trial.plant(number), trial.sown_at(number));
-            let (plot, treatment) = (of.plot, of.treatment as u32);
-            let place_m = [0.0; 3];
-            let member =
-                PicturedMember { number, plot, treatment, sown, plant: 0, species: place, age, place: place_m };
-            let label = format!("{whose}age {age}{years}");
-            stands.push(PicturedStand { plants: vec![plant], members: vec![member], label });
+            let mut stand = stand_of_plant(trial, species, plant, age);
+            stand.label.insert_str(0, &whose);
+            stands.push(stand);
         }
     }
     let names: Vec<&str> = shown.iter().map(|place| species[*place].about.name.as_str()).collect();
@@ -160,20 +166,60 @@ pub fn pictured_plot(
         seen.entry(tick).or_insert_with(|| kept(standing, apart));
         Ok(())
     })?;
+    let obstacles = obstacles_of(trial, plot);
     let of_members = |mut stand: PicturedStand, tick: Tick| {
-        for member in &mut stand.members {
-            let of_plot = trial.member_of(member.number);
-            (member.plot, member.sown, member.place) = (plot, tick.saturating_sub(member.age), of_plot.place());
-            member.treatment = trial.plot(plot).treatment as u32;
-        }
-        stand.label = format!("tick {tick}{}", years_of(species, tick));
-        stand
+        stand.obstacles.clone_from(&obstacles);
+        stand_of_plot(trial, species, stand, (plot, tick))
     };
     let stands = ticks.iter().filter_map(|tick| seen.remove(tick).map(|stand| of_members(stand, *tick)));
     let stands: Vec<PicturedStand> = stands.collect();
     let shown = stands.iter().flat_map(|stand| stand.members.iter().map(|member| member.species)).collect();
     let note = format!("{}: plot {plot} at the ticks {ticks:?} of seed {}", scenario.name, scenario.seed);
     Ok(Pictured { stands, title: titles_of(species, &shown), note })
+}
+
+/// A plant at an age, by itself.
+pub(super) fn stand_of_plant(trial: &Trial, species: &[&Species], plant: Plant, age: Tick) -> PicturedStand {
+    let (number, place) = (plant.id, trial.species_of_plant(plant.id));
+    let (of, sown) = (trial.plant(number), trial.sown_at(number));
+    let years = match trial.calendar_of(of.treatment, of.replicate) {
+        Some(calendar) => on_the_calendar(calendar, sown, age),
+        None => species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default(),
+    };
+    let (plot, treatment) = (of.plot, of.treatment as u32);
+    let member = PicturedMember { number, plot, treatment, sown, plant: 0, species: place, age, place: [0.0; 3] };
+    let label = format!("age {age}{years}");
+    PicturedStand { plants: vec![plant], members: vec![member], obstacles: Vec::new(), label }
+}
+
+/// A plot at a tick, of which it is still to be filled in where its plants belong.
+pub(super) fn stand_of_plot(
+    trial: &Trial,
+    species: &[&Species],
+    mut stand: PicturedStand,
+    (plot, tick): (u32, Tick),
+) -> PicturedStand {
+    let of_plot = trial.plot(plot);
+    for member in &mut stand.members {
+        let place = trial.member_of(member.number).place();
+        (member.plot, member.sown, member.place) = (plot, tick.saturating_sub(member.age), place);
+        member.treatment = of_plot.treatment as u32;
+    }
+    let calendar = trial.calendar_of(of_plot.treatment, of_plot.replicate);
+    let years = calendar.map_or_else(|| years_of(species, tick), |calendar| on_the_calendar(calendar, 0, tick));
+    stand.label = format!("tick {tick}{years}");
+    stand
+}
+
+/// The meshes of the obstacles of a plot's site that are drawn.
+pub(super) fn obstacles_of(trial: &Trial, plot: u32) -> Vec<Arc<Mesh>> {
+    drawn(&trial.treatments()[trial.plot(plot).treatment].scenario.site)
+}
+
+/// The meshes of the obstacles of a site that are drawn; those that nothing is of are left out.
+fn drawn(site: &Site) -> Vec<Arc<Mesh>> {
+    let mesh = |obstacle: &DrawnObstacle| Some(Arc::new(Solid::of(&obstacle.shape).ok()?.obstacle(obstacle.colour)));
+    site.drawn().iter().filter_map(mesh).collect()
 }
 
 /// The mesh of a stand of a plot.
@@ -198,6 +244,7 @@ pub fn plot_mesh<'a>(
     PlotMesh {
         bodies: stand.plants.iter().enumerate().map(body).collect(),
         members: stand.members.iter().map(member).collect(),
+        obstacles: stand.obstacles.clone(),
         name: format!("plot {plot} tick {tick} seed {}", scenario.seed),
         place: regrowth.plot_place(plot),
     }
@@ -210,8 +257,9 @@ type Glance = (usize, Tick, usize, usize);
 type Kept = (usize, Option<[u8; 32]>);
 
 /// The plants of a plot, equal ones once unless they are to be kept apart; where they belong is still to be filled in.
-fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
-    let mut stand = PicturedStand { plants: Vec::new(), members: Vec::new(), label: String::new() };
+pub(super) fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
+    let mut stand =
+        PicturedStand { plants: Vec::new(), members: Vec::new(), obstacles: Vec::new(), label: String::new() };
     let mut alike: BTreeMap<Glance, Vec<Kept>> = BTreeMap::new();
     for Standing { plant, age, species } in standing {
         let known = alike.entry((*species, *age, plant.nodes.len(), plant.organs.len())).or_default();
@@ -247,7 +295,7 @@ fn look_of(plant: &Plant, age: Tick) -> [u8; 32] {
 }
 
 /// What the species that are shown are called below their picture, each once.
-fn titles_of(species: &[&Species], shown: &BTreeSet<usize>) -> String {
+pub(super) fn titles_of(species: &[&Species], shown: &BTreeSet<usize>) -> String {
     let mut titles: Vec<String> = Vec::new();
     for title in shown.iter().map(|place| title_of(&species[*place].about)) {
         titles.extend(Some(title).filter(|title| !titles.contains(title)));
@@ -269,11 +317,23 @@ fn years_of(species: &[&Species], tick: Tick) -> String {
     first.filter(|first| years.all(|year| year == Some(*first))).map(|ticks| in_years(tick, ticks)).unwrap_or_default()
 }
 
+/// The days of a year of the calendar, on the average.
+const DAYS_OF_A_YEAR: f64 = 365.2425;
+
+/// The date at which an age is reached, and the years from sowing to it: ticks of degree-days are not of one length.
+fn on_the_calendar(calendar: &Calendar, sown: Tick, age: Tick) -> String {
+    let [from, date] = [sown, sown.saturating_add(age)].map(|tick| calendar.at(tick).date);
+    format!(" · {date}{}", years_in_words(f64::from(date.since(from)) / DAYS_OF_A_YEAR))
+}
+
 /// An age in years, where a tick is not one itself.
 fn in_years(age: Tick, ticks_per_year: f64) -> String {
-    let years = f64::from(age) / ticks_per_year;
+    let of_a_year = (ticks_per_year - 1.0).abs() < 1e-9;
+    if of_a_year { String::new() } else { years_in_words(f64::from(age) / ticks_per_year) }
+}
+
+fn years_in_words(years: f64) -> String {
     match years {
-        _ if (ticks_per_year - 1.0).abs() < 1e-9 => String::new(),
         years if (years - years.round()).abs() < 0.05 && (years - 1.0).abs() < 0.05 => " · 1 year".to_owned(),
         years if (years - years.round()).abs() < 0.05 => format!(" · {years:.0} years"),
         years => format!(" · {years:.1} years"),

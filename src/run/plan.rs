@@ -120,7 +120,8 @@ fn plots_per_part(resolved: &Resolved) -> u32 {
         return (a_part / trial.most_members()).clamp(1, plots.max(1));
     }
     let unforeseen = UNFORESEEN * f64::from(plants) / f64::from(plots.max(1));
-    let work = Forecast::of(resolved).map_or(unforeseen, |forecast| forecast.work_a_plot()).max(1.0);
+    let forecast = Forecast::of(resolved).filter(|forecast| !forecast.is_loose);
+    let work = forecast.map_or(unforeseen, |forecast| forecast.work_a_plot()).max(1.0);
     let in_all = work * f64::from(plots);
     let parts = (in_all / LEAST_WORK_A_PART).clamp(1.0, PARTS_OF_A_SMALL_RUN).max(in_all / WORK_A_PART);
     (f64::from(plots) / parts).ceil().max(1.0) as u32

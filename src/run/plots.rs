@@ -145,7 +145,12 @@ impl<'a> Plots<'a> {
     }
 
     fn site(&self, plot: u32) -> Site {
-        self.sites[self.trial.plot(plot).treatment].moved(self.plot_place(plot))
+        let PlotPlace { treatment, replicate, .. } = self.trial.plot(plot);
+        let mut site = self.sites[treatment].moved(self.plot_place(plot));
+        let claiming = |cohort: &&usize| self.models[**cohort].cell_m().is_some();
+        // A plant by itself has no one to claim its cells from.
+        site.cells.shared = self.trial.cohorts_of(treatment, replicate).iter().filter(claiming).count() > 1;
+        site
     }
 
     fn sowings(&self, plot: u32) -> Vec<Sowing> {

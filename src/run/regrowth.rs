@@ -40,6 +40,18 @@ pub type Show<'a> = dyn FnMut(Tick, &Plant) -> Result<(), RecordError> + 'a;
 /// the plot.
 pub type ShowPlot<'a> = dyn FnMut(Tick, &[Standing]) -> Result<(), RecordError> + 'a;
 
+/// What moves the plants at each of the moments at which they are shown at a tick.
+type Airs<'a> = dyn Fn(Tick) -> Vec<Option<Air>> + 'a;
+
+/// A plant or a plot, by its number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Whose {
+    /// A plant.
+    Plant(u32),
+    /// All plants of a plot.
+    Plot(u32),
+}
+
 /// A plant of a plot at a tick.
 #[derive(Debug)]
 pub struct Standing<'p> {
@@ -98,14 +110,48 @@ impl<'a> Regrowth<'a> {
         self.show_ticks(self.plots.sow(plot, ThreadBudget::default()), self.until(), ticks, show)
     }
 
-    fn show_ticks(
+    /// As [`Regrowth::show`] of a plant and [`Regrowth::show_plot`] of a plot, once for each of the moments that
+    /// `moments` has for a tick, seconds; without air that moves the plants a moment is like any other.
+    ///
+    /// # Errors
+    /// As those.
+    pub fn show_moments(
+        &self,
+        whose: Whose,
+        ages: &[Tick],
+        moments: &dyn Fn(Tick) -> Vec<f64>,
+        show: &mut ShowPlot<'_>,
+    ) -> Result<(), RunError> {
+        let airs = |at: Tick| moments(at).into_iter().map(|time| self.air.map(|air| Air { time, ..air })).collect();
+        match whose {
+            Whose::Plot(plot) => {
+                self.show_in(self.plots.sow(plot, ThreadBudget::default()), self.until(), (ages, &airs), show)
+            }
+            Whose::Plant(plant) => {
+                self.check_sown(plant)?;
+                let sown = self.sown(plant);
+                let ticks: Vec<Tick> = ages.iter().map(|age| age.saturating_add(sown.at)).collect();
+                let airs = |tick: Tick| airs(tick.saturating_sub(sown.at));
+                self.show_in(sown.plot, sown.until, (&ticks, &airs), &mut |_, standing| {
+                    let shown = standing.iter().find(|standing| standing.plant.id == plant);
+                    shown.map_or(Ok(()), |shown| show(shown.age, std::slice::from_ref(shown)))
+                })
+            }
+        }
+    }
+
+    fn show_ticks(&self, plot: Plot<'_>, until: Tick, ticks: &[Tick], show: &mut ShowPlot<'_>) -> Result<(), RunError> {
+        self.show_in(plot, until, (ticks, &|_| vec![self.air]), show)
+    }
+
+    fn show_in(
         &self,
         mut plot: Plot<'_>,
         until: Tick,
-        ticks: &[Tick],
+        (ticks, airs): (&[Tick], &Airs<'_>),
         show: &mut ShowPlot<'_>,
     ) -> Result<(), RunError> {
-        let mut shown = ShownTicks { ticks, air: self.air, trial: self.trial(), show };
+        let mut shown = ShownTicks { ticks, airs, trial: self.trial(), show };
         // To the last tick of the run, not to the last that is shown: that is what numbers the components.
         let ending = grow(&mut plot, until, &mut shown).map_err(RunError::of_recorder)?;
         match (ending, ticks.iter().max()) {
@@ -238,7 +284,7 @@ fn last_of_most(lives: impl Iterator<Item = (Tick, Tick, f64)>, last: Tick, year
 /// Shows the plants of a plot at some ticks.
 struct ShownTicks<'a, 's> {
     ticks: &'a [Tick],
-    air: Option<Air>,
+    airs: &'a Airs<'a>,
     trial: &'a Trial,
     show: &'a mut ShowPlot<'s>,
 }
@@ -249,11 +295,17 @@ impl Recorder for ShownTicks<'_, '_> {
     }
 
     fn record(&mut self, tick: Tick, plot: &Plot) -> Result<(), RecordError> {
+        (self.airs)(tick).into_iter().try_for_each(|air| self.show_once(tick, plot, air))
+    }
+}
+
+impl ShownTicks<'_, '_> {
+    fn show_once(&mut self, tick: Tick, plot: &Plot, air: Option<Air>) -> Result<(), RecordError> {
         let mut standing = Vec::new();
         for (plant, member) in plot.plants.iter().zip(&plot.members) {
             let Some(age) = member.age_at(tick) else { continue };
             let mut plant = Cow::Borrowed(plant);
-            if let Some(Air { wind, time }) = self.air {
+            if let Some(Air { wind, time }) = air {
                 sway(plant.to_mut(), age, &plot.site, wind, time, &mut Scratch::default())?;
             }
             standing.push(Standing { plant, age, species: self.trial.cohorts()[member.species].species });

@@ -63,6 +63,15 @@ pub fn write(folder: &Path, name: &str, text: &str) {
     fs::write(folder.join(name), text).expect("the file is written");
 }
 
+/// The words for a film of a few small frames, by what is there without an ffmpeg, instead of a large one.
+pub fn small_film<'a>(words: &[&'a str]) -> Vec<&'a str> {
+    let of_size = |word: &str| ["--size", "--seconds", "--fps"].contains(&word);
+    let kept = words.iter().enumerate().filter(|(k, word)| !of_size(word) && !of_size(words[k.saturating_sub(1)]));
+    let ending = |word: &'a str| if word.ends_with(".mp4") { "plot.y4m" } else { word };
+    let kept = kept.map(|(_, word)| ending(word)).take_while(|word| *word != "|");
+    kept.chain(["--size", "48x32", "--seconds", "0.2", "--fps", "20"]).collect()
+}
+
 /// A file of the tests' own data.
 pub fn data(name: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/runs").join(name).display().to_string()

@@ -15,7 +15,7 @@ use super::Scenario;
 use super::site::Plane;
 use phytomer_law::condition::formula;
 use phytomer_law::fault::{Fault, Path};
-use phytomer_models::shapes::{Named, ShapeOrName, one};
+use phytomer_models::shapes::{MOST_PARTS, Named, ShapeOrName, one};
 use phytomer_sim::management::{Choice, Column, Management, Operation, SharedFormula, Thing, When};
 use phytomer_sim::site::calendar::Calendar;
 use schemars::JsonSchema;
@@ -245,9 +245,18 @@ impl Scenario {
 
     /// Adds the faults of events that the schema cannot state.
     pub(super) fn check_events(&self, shapes: &Named, faults: &mut Vec<Fault>) {
+        let mut parts = 0;
         for (number, event) in self.event.iter().enumerate() {
             let path = Path::root().key("event").index(number);
-            faults.extend(event.operation((self, shapes), None, &path).err().into_iter().flatten());
+            match event.operation((self, shapes), None, &path) {
+                Ok(operation) => parts += operation.map_or(0, |operation| event.own_parts(&operation.act)),
+                Err(found) => faults.extend(found),
+            }
+            if parts > MOST_PARTS {
+                let problem = format!("the shapes of events up to this one have more than {MOST_PARTS} parts");
+                faults.push(Fault::new(&path.key("shape"), problem, "fewer parts, or shapes by their names"));
+                break;
+            }
         }
     }
 

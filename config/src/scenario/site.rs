@@ -4,7 +4,8 @@
 //! The shapes that have names here also serve the events of the scenario. Absent: light and soil.
 
 use phytomer_law::fault::{Fault, Path};
-use phytomer_models::shapes::{Named, ShapeOrName, Shapes, one};
+use phytomer_models::buds::params::ColourText;
+use phytomer_models::shapes::{MOST_PARTS, Named, ShapeOrName, Shapes, length_of, one};
 use phytomer_sim::shape::{HalfSpace, Intersection, Shape};
 use phytomer_sim::site::{Obstacle as SimObstacle, STANDARD_GRAVITY, Side, Wind as SimWind};
 use schemars::JsonSchema;
@@ -48,6 +49,22 @@ pub struct Obstacle {
     /// Where buds die; inside if not given.
     #[serde(default, skip_serializing_if = "Kills::is_inside")]
     pub kills: Kills,
+    /// Whether pictures and meshes of a plot show it. If not given they do where buds die inside and the shape has an
+    /// end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drawn: Option<bool>,
+    /// Its colour there; that of plaster if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub colour: Option<ColourText>,
+}
+
+/// An obstacle that is drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrawnObstacle {
+    /// Its shape, metres from the place of the plot.
+    pub shape: Arc<Shape>,
+    /// Its colour, where one is stated: red, green and blue, sRGB.
+    pub colour: Option<[u8; 3]>,
 }
 
 /// Where an obstacle kills buds.
@@ -123,6 +140,15 @@ impl Site {
         phytomer_sim::site::Site { gravity: self.gravity_m_s2, wind, obstacles, ..phytomer_sim::site::Site::default() }
     }
 
+    /// The obstacles of a plot at the origin that pictures and meshes of it show. One that a fault was told of is left
+    /// out.
+    pub fn drawn(&self) -> Vec<DrawnObstacle> {
+        let named = self.shapes(&mut Vec::new());
+        let each =
+            self.obstacle.iter().map(|obstacle| (obstacle, obstacle.felt(&named, &Path::root(), &mut Vec::new())));
+        each.filter_map(|(obstacle, felt)| obstacle.drawn(felt?)).collect()
+    }
+
     /// The shapes that have names, and their faults.
     pub(super) fn shapes(&self, faults: &mut Vec<Fault>) -> Named {
         Named::of(&self.shape, &Path::root().key("site").key("shape"), faults)
@@ -130,12 +156,25 @@ impl Site {
 
     /// Adds the faults of planes and obstacles that the schema cannot state.
     pub(super) fn check_obstacles(&self, named: &Named, path: &Path, faults: &mut Vec<Fault>) {
+        let mut parts = 0;
         for (number, obstacle) in self.obstacle.iter().enumerate() {
-            obstacle.felt(named, &path.key("obstacle").index(number), faults);
+            let path = path.key("obstacle").index(number);
+            let felt = obstacle.felt(named, &path, faults);
+            if matches!(obstacle.shape, ShapeOrName::Shape(_)) {
+                parts += felt.as_ref().map_or(0, |felt| felt.shape.parts());
+            }
+            if parts > MOST_PARTS {
+                let problem = format!("the obstacles up to this one have more than {MOST_PARTS} parts");
+                faults.push(Fault::new(&path.key("shape"), problem, "fewer parts, or shapes by their names"));
+                break;
+            }
+            obstacle.check_drawn(felt.as_ref(), &path, faults);
         }
-        for (number, plane) in self.plane.iter().enumerate().filter(|(_, plane)| plane.normal == [0.0; 3]) {
+        let is_short = |(_, plane): &(usize, &Plane)| HalfSpace::is_too_short(plane.normal);
+        for (number, plane) in self.plane.iter().enumerate().filter(is_short) {
             let path = path.key("plane").index(number).key("normal");
-            let problem = format!("the normal of the plane through {:?} has the length 0", plane.point_m);
+            let problem =
+                format!("the normal of the plane through {:?} has {}", plane.point_m, length_of(plane.normal));
             faults.push(Fault::new(&path, problem, "a direction, such as [0, 0, 1] for a roof"));
         }
     }
@@ -163,6 +202,32 @@ impl Obstacle {
         };
         Some(SimObstacle { shape: one(&self.shape, named, &path.key("shape"), faults)?, kills })
     }
+
+    /// Adds the faults of how it is to be drawn.
+    fn check_drawn(&self, felt: Option<&SimObstacle>, path: &Path, faults: &mut Vec<Fault>) {
+        if self.drawn == Some(true) && felt.is_some_and(|felt| !has_end(&felt.shape)) {
+            let problem = "a shape without an end cannot be drawn";
+            faults.push(Fault::new(&path.key("drawn"), problem, "`false`, or a shape that has an end on every side"));
+        }
+        if let Some(colour) = self.colour.as_ref().filter(|colour| colour.rgb().is_none()) {
+            let problem = format!("`{}` is no colour", colour.0);
+            let expected = "`#` and six hexadecimal digits, such as \"#7a8646\"";
+            faults.push(Fault::new(&path.key("colour"), problem, expected));
+        }
+    }
+
+    /// What is drawn of it, if anything is.
+    fn drawn(&self, felt: SimObstacle) -> Option<DrawnObstacle> {
+        let drawn = self.drawn.unwrap_or(self.kills.is_inside()) && has_end(&felt.shape);
+        let colour = self.colour.as_ref().and_then(ColourText::rgb);
+        drawn.then_some(DrawnObstacle { shape: felt.shape, colour })
+    }
+}
+
+/// Whether a shape reaches to infinity nowhere; that of nothing does not.
+fn has_end(shape: &Shape) -> bool {
+    let bounds = shape.bounds();
+    (0..3).any(|k| bounds.low[k] > bounds.high[k]) || bounds.low.iter().chain(&bounds.high).all(|x| x.is_finite())
 }
 
 impl Wind {

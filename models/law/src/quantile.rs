@@ -1,5 +1,4 @@
-//! The normal distribution: its quantile, its distribution function and its density; and the fraction in (0, 1) for
-//! which a 32-bit word stands.
+//! The normal distribution: its quantile, its distribution function and its density.
 //!
 //! The quantile is Wichura's AS 241 (Applied Statistics 37, 1988), PPND16, to 1e-16; the coefficients have all the
 //! digits of the printed ones. Its branch for the far tail is left out: no 32-bit word reaches it. Draws interpolate a
@@ -8,6 +7,7 @@
 #![allow(clippy::excessive_precision)]
 
 use phytomer_sim::math;
+use phytomer_sim::random::share;
 use std::sync::LazyLock;
 
 /// Φ, to 1e-16 absolute.
@@ -82,12 +82,6 @@ pub(super) fn quantile(fraction: f64) -> f64 {
     if q < 0.0 { -z } else { z }
 }
 
-/// The fraction that a uniform 32-bit word stands for: the middle of its interval.
-#[inline]
-pub(super) fn fraction(word: u32) -> f64 {
-    (f64::from(word) + 0.5) / 4_294_967_296.0
-}
-
 /// The high bits of a word that name its bin.
 const BIN_BITS: u32 = 12;
 /// The bits within a bin.
@@ -108,7 +102,7 @@ pub(super) fn deviate(word: u32) -> f64 {
     let bins = BINS.as_slice();
     let bin = (word >> WITHIN) as usize;
     if !(TAIL_BINS..bins.len() - 1 - TAIL_BINS).contains(&bin) {
-        return quantile(fraction(word));
+        return quantile(share(word));
     }
     let (low, high) = (bins[bin], bins[bin + 1]);
     let within = f64::from(word & ((1 << WITHIN) - 1)) * (1.0 / f64::from(1_u32 << WITHIN));
@@ -124,7 +118,7 @@ mod tests {
         let mut before = f64::NEG_INFINITY;
         for i in 0..200_000_u32 {
             let word = i.wrapping_mul(21_474);
-            let (drawn, exact) = (deviate(word), quantile(fraction(word)));
+            let (drawn, exact) = (deviate(word), quantile(share(word)));
             assert!((drawn - exact).abs() < 1.2e-5, "{word}: {drawn} is not {exact}");
             assert!(drawn >= before, "{word}");
             before = drawn;

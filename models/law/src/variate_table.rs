@@ -5,11 +5,12 @@
 //! of the clamped variable.
 
 use phytomer_sim::math;
+use phytomer_sim::random::share;
 
 use super::domain::{At, Domain, Grid};
 use super::form::Law;
 use super::formula::{self, Formula};
-use super::quantile::{density, deviate, fraction, phi};
+use super::quantile::{density, deviate, phi};
 use super::range::ValueRange;
 use super::variate::{Lognormal, Normal, Uniform, Variate, VariateForm};
 use crate::fault::{Fault, Path};
@@ -206,7 +207,7 @@ impl VariateTable {
         let [a, b] = self.cells[cell];
         let value = match &self.kind {
             Kind::Value => a,
-            Kind::Uniform => a + (b - a) * fraction(word),
+            Kind::Uniform => a + (b - a) * share(word),
             Kind::Normal => a + b * deviate(word),
             Kind::Lognormal => math::exp(a + b * deviate(word)),
             Kind::Empirical(values) => values[pick(word, values.len())],

@@ -5,6 +5,7 @@
 //! that is not stated is `None`. Absent: the colours that replace it (`phytomer_meshes::palette`), and how one colour
 //! turns into the next (`phytomer_meshes::colour`).
 
+use super::section::Section;
 use super::surface::Surface;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{ForDrawing, Form, Habit, PaintNumber};
@@ -63,6 +64,7 @@ pub struct Paints {
     internodes: Vec<InternodePaint>,
     organs: Vec<OrganPaint>,
     surfaces: Vec<Surface>,
+    sections: Vec<Section>,
 }
 
 impl Paints {
@@ -88,6 +90,17 @@ impl Paints {
     #[inline]
     pub fn surface(&self, place: usize) -> Option<&Surface> {
         self.surfaces.get(place)
+    }
+
+    /// Adds a cross section. Returns its place, which internodes state.
+    pub fn add_section(&mut self, section: Section) -> usize {
+        self.sections.push(section);
+        self.sections.len() - 1
+    }
+
+    /// The cross sections in their places.
+    pub fn sections(&self) -> &[Section] {
+        &self.sections
     }
 
     /// How the internodes of a look with this paint number are drawn; for [`PaintNumber::NONE`] nothing is stated.
@@ -116,7 +129,8 @@ impl Paints {
 
     /// The paints that a habit carries; an empty set where it carries none.
     pub fn of(habit: &Habit) -> &Self {
-        static NONE: Paints = Paints { internodes: Vec::new(), organs: Vec::new(), surfaces: Vec::new() };
+        static NONE: Paints =
+            Paints { internodes: Vec::new(), organs: Vec::new(), surfaces: Vec::new(), sections: Vec::new() };
         habit.for_drawing.get().unwrap_or(&NONE)
     }
 }

@@ -8,8 +8,8 @@
 /// The share of a polygon that a fan may cover twice: 32-bit corners in a line are never exactly so.
 const FLAT: f64 = 1e-6;
 
-/// The distance of a corner from the mean plane, in sizes of the polygon, above which it is not plane: corners in single
-/// precision are never exactly so.
+/// The distance of a corner from the mean plane, in sizes of the polygon, above which it is not plane: corners in
+/// single precision are never exactly so.
 const PLANE: f64 = 1e-4;
 
 /// A point of the polygon in the plane.
@@ -135,8 +135,8 @@ mod tests {
             .sum()
     }
 
-    /// A square of 2 × 2 that is bent by a right angle along a diagonal, or along a side of its triangles: the triangles
-    /// keep their area of 4, of which the mean plane shows less.
+    /// A square of 2 × 2 that is bent by a right angle along a diagonal, or along a side of its triangles: the
+    /// triangles keep their area of 4, of which the mean plane shows less.
     #[test]
     fn a_bent_polygon_has_the_area_of_its_triangles() {
         let flat = [[0.0, 0.0, 0.5], [2.0, 0.0, 0.5], [2.0, 2.0, 0.5], [0.0, 2.0, 0.5]];

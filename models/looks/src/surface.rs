@@ -1,9 +1,9 @@
 //! Curved surfaces as forms of organs: points, normals and triangles in the frame of the organ, x along it, y to its
 //! left, z to its upper side, scaled along each axis by what the organ states.
 //!
-//! A surface is thin: it has two sides and no volume. Normals are those of the surface that the triangles stand for, not
-//! of the triangles, so that patches that join smoothly are shaded smoothly. Areas are those of the triangles. Absent:
-//! where surfaces come from (`phytomer_models`), and vertices of meshes (`phytomer_meshes`).
+//! A surface is thin: it has two sides and no volume. Normals are those of the surface that the triangles stand for,
+//! not of the triangles, so that patches that join smoothly are shaded smoothly. Areas are those of the triangles.
+//! Absent: where surfaces come from (`phytomer_models`), and vertices of meshes (`phytomer_meshes`).
 
 /// Three coordinates.
 type Vector = [f64; 3];
@@ -115,7 +115,8 @@ fn single(x: f64) -> f32 {
 mod tests {
     use super::*;
 
-    /// A square of 2 × 1 in a plane that leans by 45° about y: scaled by s along x and t along z its area is √(s² + t²) √2.
+    /// A square of 2 × 1 in a plane that leans by 45° about y: scaled by s along x and t along z its area is √(s² + t²)
+    /// √2.
     #[test]
     fn a_scaled_plane_has_its_area_and_its_normal() {
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]];

@@ -29,8 +29,9 @@ impl Density {
         self.cubes.entry(self.cube(point)).or_default().push(point);
     }
 
-    /// The density at a point, and its gradient, 1/m.
-    pub fn at(&self, point: [f64; 3]) -> (f64, [f64; 3]) {
+    /// The density at a point, and its gradient, 1/m; `None` where the density is above `most`, which is known as soon
+    /// as so many points have been asked as add up to it.
+    pub fn at(&self, point: [f64; 3], most: f64) -> Option<(f64, [f64; 3])> {
         let cube = self.cube(point);
         let square = self.reach * self.reach;
         let (mut density, mut gradient) = (0.0, [0.0; 3]);
@@ -45,10 +46,13 @@ impl Density {
                     // The derivative of the falloff by q.
                     let slope = -22.0 / 9.0 + q * (34.0 / 9.0 - q * (12.0 / 9.0));
                     (0..3).for_each(|axis| gradient[axis] += 2.0 * slope * away[axis] / square);
+                    if density > most {
+                        return None;
+                    }
                 }
             }
         }
-        (density, gradient)
+        Some((density, gradient))
     }
 
     /// The density at the end of a straight row of points, `step` apart, that ends there.
@@ -75,7 +79,9 @@ mod tests {
         let mut largest = 0.0_f64;
         for k in 0..100 {
             let at = point(k).map(|x| 0.9 * x + 0.01);
-            let (density, gradient) = field.at(at);
+            let (density, gradient) = field.at(at, f64::INFINITY).expect("not too dense");
+            assert_eq!(field.at(at, density), Some((density, gradient)));
+            assert_eq!(field.at(at, 0.9 * density).is_some(), density == 0.0);
             assert!((density - all(at)).abs() < 1e-9, "{at:?}");
             for (axis, told) in gradient.into_iter().enumerate() {
                 let beside = |by: f64| [0, 1, 2].map(|k| at[k] + if k == axis { by } else { 0.0 });

@@ -5,21 +5,16 @@
 //! which the best grows. He prints no formula, so the sum of preferences is ours. Absent: growth (`thicket`).
 
 use super::sky::Sky;
+use super::stated::{ANGLE, DIAMETER, SHARE, SIZE, WEIGHT, assumed_diameter};
 use super::thicket::GreeneModel;
-use super::voxels::Lattice;
 use crate::fault::{Fault, Path};
-use crate::law::{Constant, ConstantForm, ValueRange};
+use crate::law::{Constant, ValueRange};
 use phytomer_sim::clock::{LAST_TICK, Tick};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-const SIZE: ValueRange = ValueRange { min: 1e-4, max: 1000.0, what: "a length in m" };
 const DISTANCE: ValueRange = ValueRange { min: 0.0, max: 1000.0, what: "a distance in m" };
-const DIAMETER: ValueRange = ValueRange { min: 0.0, max: 1e6, what: "a diameter in mm" };
-const ANGLE: ValueRange = ValueRange { min: 0.0, max: 180.0, what: "an angle in degrees" };
-const SHARE: ValueRange = ValueRange { min: 0.0, max: 1.0, what: "a probability" };
-const WEIGHT: ValueRange = ValueRange { min: 0.0, max: 1000.0, what: "a weight" };
 
 /// The most steps of a ray of light, and the most voxels of a segment.
 const MOST_STEPS: f64 = 200.0;
@@ -29,6 +24,7 @@ const MOST_STEPS: f64 = 200.0;
 #[serde(deny_unknown_fields)]
 pub struct Greene {
     /// The edge of a voxel, metres. Two segments never pass through one voxel, but for the voxel of their joint.
+    /// The plants of a plot share its voxels, so that their species must state the same edge.
     #[schemars(with = "Constant", extend("minimum" = 0.0001, "maximum" = 1000))]
     pub voxel_m: Constant,
     /// The length of a segment, metres; at least the edge of a voxel.
@@ -89,10 +85,6 @@ pub struct Preferences {
     pub straight: Constant,
 }
 
-fn assumed_diameter() -> Constant {
-    Constant::from(ConstantForm { value: 10.0, source: None, assumed: true })
-}
-
 fn twelve() -> u32 {
     12
 }
@@ -121,7 +113,7 @@ impl Greene {
         let key = |key: &str| path.key(key);
         let prefer = key("prefer");
         let model = GreeneModel {
-            lattice: Lattice { edge: read(&self.voxel_m, &key("voxel_m"), SIZE) },
+            voxel: read(&self.voxel_m, &key("voxel_m"), SIZE),
             segment: read(&self.segment_m, &key("segment_m"), SIZE),
             diameter: read(&self.diameter_mm, &key("diameter_mm"), DIAMETER) / 1000.0,
             trials: self.trials,
@@ -141,7 +133,7 @@ impl Greene {
         if !faults.is_empty() {
             return Err(faults);
         }
-        let GreeneModel { lattice: Lattice { edge: voxel }, segment, sight, .. } = model;
+        let GreeneModel { voxel, segment, sight, .. } = model;
         if segment < voxel {
             let problem = format!("a segment of {segment} m is shorter than the edge of a voxel, {voxel} m");
             faults.push(Fault::new(&key("segment_m"), problem, format!("at least {voxel}")));

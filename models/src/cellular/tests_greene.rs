@@ -16,9 +16,9 @@ use phytomer_sim::{GrowthModel, Plot, Sowing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-const PLACE: [f64; 3] = [12.0, -7.0, 1.5];
+pub(super) const PLACE: [f64; 3] = [12.0, -7.0, 1.5];
 
-fn vine() -> Greene {
+pub(super) fn vine() -> Greene {
     let text = serde_json::json!({
         "voxel_m": 0.1, "segment_m": 0.25, "spread_deg": 50, "trials": 16, "branching": 0.12, "branching_deg": 110,
         "hold_m": 0.4, "cling_m": 0.12, "prefer": {"surface": 1.0, "upward": 0.4, "straight": 0.3},
@@ -26,12 +26,12 @@ fn vine() -> Greene {
     serde_json::from_value(text).expect("parameters")
 }
 
-fn compiled(greene: &Greene) -> GreeneModel {
+pub(super) fn compiled(greene: &Greene) -> GreeneModel {
     greene.compile(400, &Path::root()).expect("sound parameters")
 }
 
 /// A house of 4 by 3 by 2.5 m with a gable roof, beside the plant.
-fn house() -> Shape {
+pub(super) fn house() -> Shape {
     let walls = Shape::Cuboid(Cuboid::on([2.25, 0.0, 0.0], [4.0, 3.0, 2.5]));
     let slope = |side: f64| Shape::HalfSpace(HalfSpace { point: [2.25, 0.0, 4.0], normal: [0.0, side, 1.0] });
     let under = Shape::Cuboid(Cuboid::on([2.25, 0.0, 2.5], [4.0, 3.0, 1.5]));
@@ -54,7 +54,7 @@ fn among(model: &dyn GrowthModel, obstacle: &Shape, until: u32) -> Plant {
 }
 
 /// Points along each internode, metres from the seed.
-fn points(plant: &Plant) -> impl Iterator<Item = (NodeId, [f64; 3])> {
+pub(super) fn points(plant: &Plant) -> impl Iterator<Item = (NodeId, [f64; 3])> {
     (0..plant.nodes.len() as u32).map(NodeId).flat_map(|node| {
         let (start, end) = (plant.frames.at(node).base, node_frame(plant, node).base);
         let along = move |step: u32| {
@@ -66,14 +66,14 @@ fn points(plant: &Plant) -> impl Iterator<Item = (NodeId, [f64; 3])> {
 }
 
 /// Whether two internodes meet in a joint: one bears the other, or both stand on one.
-fn joined(plant: &Plant, one: NodeId, other: NodeId) -> bool {
+pub(super) fn joined(plant: &Plant, one: NodeId, other: NodeId) -> bool {
     let parent = |node: NodeId| plant.nodes.parent[node.index()];
     parent(one) == other || parent(other) == one || parent(one) == parent(other)
 }
 
 /// Each voxel is passed by one internode, or by some that meet in a joint there.
 fn passes_once(plant: &Plant) -> usize {
-    let lattice = Lattice { edge: 0.1 };
+    let lattice = Lattice::of_one(0.1);
     let mut passed: BTreeMap<Voxel, Vec<NodeId>> = BTreeMap::new();
     for (node, at) in points(plant) {
         let of_voxel = passed.entry(lattice.voxel_of(at)).or_default();

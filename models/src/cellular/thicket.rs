@@ -4,19 +4,24 @@
 //! A trial fails where its segment leaves no new voxel, passes through a voxel that is taken, that touches an obstacle
 //! of the site or that reaches below the ground, or ends farther from a surface than the plant can hold. Of the others
 //! the best grows, by a sum of preferences: near a surface, in the light, upward, straight on. A tip without a trial
-//! that passes rests for ever. Absent: parameters (`greene`), diffusion of light, and leaves.
+//! that passes rests for ever. Where the plants of a plot share voxels, a tip claims those of its segment and of its
+//! branch together; a tip that is refused tries again at the next tick, when it knows whose they are. A seed in a
+//! voxel that another plant has does not grow. Absent: parameters (`greene`), diffusion of light, and leaves.
 
-use super::around::Around;
 use super::body::{Growing, Segment, branch, keep_diameters, lengthen};
+use super::foretold;
 use super::sky::Sky;
-use super::voxels::{Lattice, Voxel};
+use super::space::Space;
+use super::voxels::Voxel;
+use phytomer_sim::cells::Claims;
 use phytomer_sim::clock::Tick;
+use phytomer_sim::expectation::Expectation;
 use phytomer_sim::math::{cos, sincos};
 use phytomer_sim::model::{Grow, Growth, Overgrown};
 use phytomer_sim::plant::{Habit, LineageKey, NewAxis, NodeId, Plant};
 use phytomer_sim::random::{Purpose, Stream};
 use phytomer_sim::rotation::Rotation;
-use phytomer_sim::site::View;
+use phytomer_sim::site::{Site, View};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -24,7 +29,7 @@ use std::sync::Arc;
 /// Greene's model, checked and compiled. Lengths in metres, angles in radians.
 #[derive(Debug, Clone)]
 pub struct GreeneModel {
-    pub(super) lattice: Lattice,
+    pub(super) voxel: f64,
     pub(super) segment: f64,
     pub(super) diameter: f64,
     pub(super) trials: u32,
@@ -47,9 +52,12 @@ pub struct GreeneModel {
 pub struct Thicket {
     taken: BTreeSet<Voxel>,
     tips: Vec<Growing>,
+    /// What is to grow at the next tick; its voxels are taken.
+    planned: Vec<Planned>,
 }
 
 /// A segment that may grow.
+#[derive(Debug, Clone, PartialEq)]
 struct Trial {
     heading: [f64; 3],
     end: [f64; 3],
@@ -57,44 +65,55 @@ struct Trial {
     voxels: Vec<Voxel>,
 }
 
-impl GreeneModel {
-    /// Whether a voxel reaches below the seed or touches what nothing can grow in: by its middle and its corners.
-    fn is_shut(&self, voxel: Voxel, around: &Around<'_>) -> bool {
-        let middle = self.lattice.middle_of(voxel);
-        let half = 0.5 * self.lattice.edge;
-        let corner = |k: u32| {
-            let side = |bit: u32| if k >> bit & 1 == 0 { -half } else { half };
-            [middle[0] + side(0), middle[1] + side(1), middle[2] + side(2)]
-        };
-        voxel[2] < 0 || around.is_shut(middle) || (0..8).any(|k| around.is_shut(corner(k)))
+/// What a tip is to grow: a segment, a branch, or both.
+#[derive(Debug, Clone, PartialEq)]
+struct Planned {
+    from: Growing,
+    /// Each segment, and whether it begins a branch.
+    segments: Vec<(bool, Trial)>,
+}
+
+impl Planned {
+    fn voxels(&self) -> impl Iterator<Item = &Voxel> {
+        self.segments.iter().flat_map(|(_, trial)| &trial.voxels)
     }
 
+    /// Whether it is the first segment of a plant.
+    fn is_first(&self) -> bool {
+        self.from.tip.node == NodeId::NONE
+    }
+}
+
+impl GreeneModel {
     /// The segment from a place along a heading; `None` where it cannot grow.
-    fn tried(&self, at: [f64; 3], heading: [f64; 3], thicket: &Thicket, around: &Around<'_>) -> Option<Trial> {
+    fn tried(&self, at: [f64; 3], heading: [f64; 3], thicket: &Thicket, space: &Space<'_>) -> Option<Trial> {
         let end = [0, 1, 2].map(|k| at[k] + self.segment * heading[k]);
-        let voxels: Vec<Voxel> = self.lattice.passed(at, end).into_iter().skip(1).collect();
-        let free = |voxel: &Voxel| !thicket.taken.contains(voxel) && !self.is_shut(*voxel, around);
+        let voxels: Vec<Voxel> = space.lattice.passed(at, end).into_iter().skip(1).collect();
+        let free =
+            |voxel: &Voxel| !thicket.taken.contains(voxel) && !space.is_anothers(*voxel) && !space.is_shut(*voxel);
         let grows = !voxels.is_empty() && voxels.iter().all(free);
+        let around = &space.around;
         // In the open there is nothing to hold to.
         let holds = || self.hold == f64::INFINITY || !around.has_bodies() || around.distance(end) <= self.hold;
         (grows && holds()).then_some(Trial { heading, end, voxels })
     }
 
     /// What a trial of a tip is worth.
-    fn worth(&self, trial: &Trial, heading: [f64; 3], thicket: &Thicket, around: &Around<'_>) -> f64 {
+    fn worth(&self, trial: &Trial, heading: [f64; 3], thicket: &Thicket, space: &Space<'_>) -> f64 {
         let mut worth = self.upward * trial.heading[2];
         worth += self.straight * (0..3).map(|k| heading[k] * trial.heading[k]).sum::<f64>();
-        let distance = if self.surface > 0.0 { around.distance(trial.end) } else { f64::INFINITY };
+        let distance = if self.surface > 0.0 { space.around.distance(trial.end) } else { f64::INFINITY };
         if distance.is_finite() {
             worth -= self.surface * (distance - self.cling).abs() / self.segment;
         }
         if self.light > 0.0 {
             let own = trial.voxels.last();
+            let grown = |voxel: Voxel| thicket.taken.contains(&voxel) || space.is_anothers(voxel);
             let shut = |at: [f64; 3]| {
-                let voxel = self.lattice.voxel_of(at);
-                around.is_solid(at) || (thicket.taken.contains(&voxel) && own != Some(&voxel))
+                let voxel = space.lattice.voxel_of(at);
+                space.around.is_solid(at) || (own != Some(&voxel) && grown(voxel))
             };
-            worth += self.light * self.sky.share(trial.end, self.lattice.edge, self.sight, shut);
+            worth += self.light * self.sky.share(trial.end, self.voxel, self.sight, shut);
         }
         worth
     }
@@ -106,14 +125,14 @@ impl GreeneModel {
         spread: f64,
         words: &mut Stream,
         thicket: &Thicket,
-        around: &Around<'_>,
+        space: &Space<'_>,
     ) -> Option<Trial> {
         let mut best: Option<(f64, Trial)> = None;
         for _ in 0..self.trials {
-            let (turn, side) = (unit(words), unit(words));
+            let (turn, side) = (words.share(), words.share());
             let heading = about(from.heading, spread, turn, side);
-            let Some(trial) = self.tried(from.at, heading, thicket, around) else { continue };
-            let worth = self.worth(&trial, from.heading, thicket, around);
+            let Some(trial) = self.tried(from.at, heading, thicket, space) else { continue };
+            let worth = self.worth(&trial, from.heading, thicket, space);
             if best.as_ref().is_none_or(|(most, _)| worth > *most) {
                 best = Some((worth, trial));
             }
@@ -121,38 +140,62 @@ impl GreeneModel {
         best.map(|(_, trial)| trial)
     }
 
-    /// Grows a tip by a segment and, by chance, a branch beside it.
-    fn advance(
+    /// What a tip is to grow: a segment and, by chance, a branch beside it. Takes their voxels. `None` where nothing
+    /// can grow, nor will.
+    fn planned(&self, plant: &Plant, thicket: &mut Thicket, from: Growing, space: &Space<'_>) -> Option<Planned> {
+        let key: LineageKey = plant.axes.key[from.tip.axis.index()];
+        let mut words = plant.random.stream(key, Purpose::Node);
+        // A word for the branch, and two for each trial of the tip and of the branch. A tip that was refused draws the
+        // same, and chooses another trial since the voxels are others' now.
+        words.seek(u64::from(from.tip.rank) * (1 + 4 * u64::from(self.trials)));
+        let mut planned = Planned { from, segments: Vec::new() };
+        if planned.is_first() && space.is_anothers(space.lattice.seed()) {
+            return None;
+        }
+        let branches = words.share() < self.branching && !planned.is_first();
+        let spreads = [(false, self.spread), (true, self.branch_spread)];
+        for (aside, spread) in spreads.into_iter().filter(|(aside, _)| !aside || branches) {
+            let Some(trial) = self.best(&from, spread, &mut words, thicket, space) else { continue };
+            thicket.taken.extend(&trial.voxels);
+            planned.segments.push((aside, trial));
+        }
+        (!planned.segments.is_empty()).then_some(planned)
+    }
+
+    /// Plans what all tips are to grow.
+    fn plan(&self, plant: &Plant, thicket: &mut Thicket, space: &Space<'_>) {
+        if thicket.taken.is_empty() {
+            thicket.taken.insert(space.lattice.seed());
+        }
+        for from in std::mem::take(&mut thicket.tips) {
+            let planned = self.planned(plant, thicket, from, space);
+            thicket.planned.extend(planned);
+        }
+    }
+
+    /// Grows what was planned, as far as it is granted.
+    fn settle(
         &self,
         plant: &mut Plant,
         thicket: &mut Thicket,
-        from: &Growing,
         birth: Tick,
-        around: &Around<'_>,
-    ) -> Result<Vec<Growing>, Overgrown> {
-        let key: LineageKey = plant.axes.key[from.tip.axis.index()];
-        let mut words = plant.random.stream(key, Purpose::Node);
-        // A word for the branch, and two for each trial of the tip and of the branch.
-        words.seek(u64::from(from.tip.rank) * (1 + 4 * u64::from(self.trials)));
-        let branches = unit(&mut words) < self.branching && from.tip.node != NodeId::NONE;
-        let mut new = Vec::new();
-        let spreads = [(false, self.spread), (true, self.branch_spread)];
-        for (aside, spread) in spreads.into_iter().filter(|(aside, _)| !aside || branches) {
-            let Some(trial) = self.best(from, spread, &mut words, thicket, around) else { continue };
-            let Trial { heading, end, voxels } = trial;
-            let segment = Segment { heading, length: self.segment, diameter: self.diameter, birth };
-            let tip =
-                if aside { branch(plant, &from.tip, 0, &segment)? } else { lengthen(plant, &from.tip, &segment)? };
-            thicket.taken.extend(voxels);
-            new.push(Growing { tip, at: end, heading });
+        granted: impl Fn(usize) -> bool,
+    ) -> Result<(), Overgrown> {
+        for (number, planned) in std::mem::take(&mut thicket.planned).into_iter().enumerate() {
+            if !granted(number) {
+                planned.voxels().for_each(|voxel| _ = thicket.taken.remove(voxel));
+                thicket.tips.push(planned.from);
+                continue;
+            }
+            let from = planned.from.tip;
+            for (aside, Trial { heading, end, .. }) in planned.segments {
+                let segment = Segment { heading, length: self.segment, diameter: self.diameter, birth };
+                let tip = if aside { branch(plant, &from, 0, &segment)? } else { lengthen(plant, &from, &segment)? };
+                thicket.tips.push(Growing { tip, at: end, heading });
+            }
         }
-        Ok(new)
+        Ok(())
     }
-}
-
-/// A word as a number in (0, 1).
-fn unit(words: &mut Stream) -> f64 {
-    (f64::from(words.word()) + 0.5) / 4_294_967_296.0
 }
 
 /// A direction within an angle of a heading, evenly over the cap: by two numbers in (0, 1).
@@ -176,7 +219,7 @@ impl Grow for GreeneModel {
 
     fn sow(&self, plant: &mut Plant) -> Thicket {
         plant.add_axis(NewAxis::OF_THE_SEED);
-        Thicket { taken: BTreeSet::from([[0; 3]]), tips: vec![Growing::SEED] }
+        Thicket { tips: vec![Growing::SEED], ..Thicket::default() }
     }
 
     fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Thicket, view: &View<'_>) -> Result<(), Overgrown> {
@@ -184,19 +227,39 @@ impl Grow for GreeneModel {
             plant.clear();
             *life = self.sow(plant);
         }
-        let around = Around { site: view.site, place: plant.place };
-        for birth in plant.age + 1..=age {
-            let mut tips = Vec::with_capacity(life.tips.len());
-            for from in std::mem::take(&mut life.tips) {
-                tips.extend(self.advance(plant, life, &from, birth, &around)?);
+        if view.site.cells.shared {
+            // Planned when it was claimed.
+            self.settle(plant, life, age, |number| view.granted.get(number) == Some(&true))?;
+        } else {
+            let space = Space::of(self.voxel, plant, view.site);
+            for birth in plant.age + 1..=age {
+                self.plan(plant, life, &space);
+                self.settle(plant, life, birth, |_| true)?;
             }
-            life.tips = tips;
         }
         plant.age = age;
         Ok(())
     }
 
+    fn cell_m(&self) -> Option<f64> {
+        Some(self.voxel)
+    }
+
+    fn claim(&self, plant: &Plant, life: &mut Thicket, site: &Site, claims: &mut Claims) {
+        let space = Space::of(self.voxel, plant, site);
+        self.plan(plant, life, &space);
+        let claimed = life.planned.iter().map(|planned| {
+            let seed = planned.is_first().then(|| space.lattice.seed());
+            seed.into_iter().chain(planned.voxels().copied()).collect()
+        });
+        claims.0.extend(claimed);
+    }
+
     fn thicken(&self, _age: Tick, plant: &mut Plant) {
         keep_diameters(plant);
+    }
+
+    fn expectation(&self, until: Tick) -> Option<Expectation> {
+        Some(foretold::at_most(until, self.branching))
     }
 }

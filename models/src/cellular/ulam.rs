@@ -6,12 +6,14 @@
 //! if of the cells that face it (the ones opposite at its corners, or beyond its edges) exactly one is coloured. Each
 //! cell is an internode that ends in its middle. The axis of a cell goes straight on in a grid of squares; in one of
 //! triangles, where growth turns by 60° at each cell, the turn that undoes the last one continues the axis. The other
-//! cells begin axes of the next order. Absent: patterns in space.
+//! cells begin axes of the next order. Absent: patterns in space, and patterns that meet: each has a
+//! grid of its own, from its seed.
 
 use super::body::{Segment, Tip, branch, habit, keep_diameters, lengthen};
 use super::grid::{Cell, Tiling};
+use super::stated::{DIAMETER, assumed_diameter};
 use crate::fault::{Fault, Path};
-use crate::law::{Constant, ConstantForm, ValueRange};
+use crate::law::{Constant, ValueRange};
 use phytomer_sim::clock::{LAST_TICK, Tick};
 use phytomer_sim::expectation::{Certainty, Expectation, OrderExpectation};
 use phytomer_sim::model::{Grow, Growth, Overgrown};
@@ -23,7 +25,6 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 const SIZE: ValueRange = ValueRange { min: 1e-6, max: 1000.0, what: "a length in m" };
-const DIAMETER: ValueRange = ValueRange { min: 0.0, max: 1e6, what: "a diameter in mm" };
 
 /// The most components of a pattern that is foretold by growing it.
 const MOST_FORETOLD: u32 = 300_000;
@@ -72,10 +73,6 @@ pub enum Plane {
     Upright,
     /// The plane of x and y, at the height of the first cell.
     Level,
-}
-
-fn assumed_diameter() -> Constant {
-    Constant::from(ConstantForm { value: 10.0, source: None, assumed: true })
 }
 
 impl Ulam {

@@ -9,17 +9,36 @@ pub(super) type Voxel = [i32; 3];
 /// The most voxels of a segment.
 const MOST: i64 = 10_000;
 
-/// The lattice of voxels of one plant: its seed lies in the middle of the base of the voxel [0, 0, 0].
+/// A lattice of voxels, as one plant sees it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lattice {
     /// The edge of a voxel, metres.
     pub edge: f64,
+    /// Where the seed lies, in edges from the lowest corner of the voxel [0, 0, 0].
+    seed: [f64; 3],
 }
 
 impl Lattice {
-    /// A point, metres from the seed, in edges from the lowest corner of the seed's voxel.
+    /// The lattice of a plant by itself: its seed lies in the middle of the base of the voxel [0, 0, 0].
+    pub fn of_one(edge: f64) -> Self {
+        Self { edge, seed: [0.5, 0.5, 0.0] }
+    }
+
+    /// The lattice that the plants of a plot share, of a plant whose seed lies so far from the middle of the base of
+    /// the voxel [0, 0, 0], metres.
+    pub fn shared(edge: f64, seed: [f64; 3]) -> Self {
+        let [x, y, z] = seed.map(|x| x / edge);
+        Self { edge, seed: [x + 0.5, y + 0.5, z] }
+    }
+
+    /// The voxel of the seed.
+    pub fn seed(self) -> Voxel {
+        self.voxel_of([0.0; 3])
+    }
+
+    /// A point, metres from the seed, in edges from the lowest corner of the voxel [0, 0, 0].
     fn scaled(self, point: [f64; 3]) -> [f64; 3] {
-        [point[0] / self.edge + 0.5, point[1] / self.edge + 0.5, point[2] / self.edge]
+        [0, 1, 2].map(|k| point[k] / self.edge + self.seed[k])
     }
 
     /// The voxel that holds a point.
@@ -30,8 +49,7 @@ impl Lattice {
 
     /// The middle of a voxel, metres from the seed.
     pub fn middle_of(self, voxel: Voxel) -> [f64; 3] {
-        let [x, y, z] = voxel.map(f64::from);
-        [x * self.edge, y * self.edge, (z + 0.5) * self.edge]
+        [0, 1, 2].map(|k| (f64::from(voxel[k]) + 0.5 - self.seed[k]) * self.edge)
     }
 
     /// The voxels from that of `start` to that of `end`, each sharing a face with the next.
@@ -68,7 +86,8 @@ mod tests {
         let ends = [[0.31, 0.52, -0.13], [-1.7, 2.9, 0.44], [0.31, 0.52, 3.0], [5.0, -4.0, -3.0], [0.35, 0.55, -0.11]];
         for start in ends {
             for end in ends {
-                let lattice = Lattice { edge: 0.4 };
+                let lattice =
+                    if start[0] > 1.0 { Lattice::shared(0.4, [3.1, -7.3, 0.2]) } else { Lattice::of_one(0.4) };
                 let passed = lattice.passed(start, end);
                 for step in 0..=1000 {
                     let share = f64::from(step) / 1000.0;

@@ -12,6 +12,7 @@ use crate::fault::{Fault, Path, Segment};
 use crate::law::{Constant, Domain, ValueRange, Variate, VariateTable};
 use crate::parameters::{Card, Keys, Parameters, Surroundings};
 use crate::shapes::{Named, ShapeOrName, Shapes, one};
+use phytomer_rewriting::Limits;
 use phytomer_sim::Tick;
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::model::GrowthModel;
@@ -156,8 +157,16 @@ impl Lsystem {
     /// # Errors
     /// Every fault of the file, of what lies beside it, and of what is stated of it.
     pub fn text_model(&self, top: &Path) -> Option<Result<TextModel, Vec<Fault>>> {
-        let system = self.of_file(self.file.as_ref().filter(|_| !self.is_of_cells())?, top);
+        let system = self.text_system(top)?;
         Some(system.and_then(|system| system.compile().map_err(|wrong| Self::all_placed(wrong, top))))
+    }
+
+    /// The L-system of the file that this names, with all that is stated of it; `None` for a D0L-system of cells.
+    ///
+    /// # Errors
+    /// Every fault of what is stated of it.
+    pub fn text_system(&self, top: &Path) -> Option<Result<TextSystem, Vec<Fault>>> {
+        Some(self.of_file(self.file.as_ref().filter(|_| !self.is_of_cells())?, top))
     }
 
     /// The L-system of a file.
@@ -195,6 +204,7 @@ impl Lsystem {
             environment,
             kinds,
             continues_last: last.map(|(name, _)| name.clone()).collect(),
+            limits: Limits::default(),
             step_m: step_m.unwrap_or(1.0),
             width_m,
         };

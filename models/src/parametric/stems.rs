@@ -257,7 +257,7 @@ fn azimuth(rotate: f64) -> f64 {
 /// Uniform in (0, 1), and in (−1, 1): the word at a place of a stream.
 fn unit(words: &mut Stream, place: u64) -> f64 {
     words.seek(place);
-    (f64::from(words.word()) + 0.5) / 4_294_967_296.0
+    words.share()
 }
 
 fn signed(words: &mut Stream, place: u64) -> f64 {

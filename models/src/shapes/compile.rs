@@ -16,7 +16,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// The most parts of a shape: names are replaced by their shapes, so that a few lines could state a shape without end.
-const MOST_PARTS: usize = 100_000;
+/// Also the most parts that the shapes of obstacles have together where they are stated without a name, and those of
+/// events.
+pub const MOST_PARTS: usize = 100_000;
+/// The most parts of all shapes that have names together.
+const MOST_PARTS_OF_NAMES: usize = 400_000;
 /// The most shapes within one another.
 const DEEPEST: usize = 50;
 
@@ -39,9 +43,17 @@ struct Made {
 impl Named {
     /// The shapes of a table that stands at `path`, and their faults.
     pub fn of(stated: &Shapes, path: &Path, faults: &mut Vec<Fault>) -> Self {
-        let mut compiler = Compiler { stated, path, done: Self::default(), open: Vec::new(), depth: 0, faults };
+        let mut compiler =
+            Compiler { stated, path, done: Self::default(), parts: 0, open: Vec::new(), depth: 0, faults };
         for name in stated.keys() {
             compiler.named(name, path);
+            if compiler.parts > MOST_PARTS_OF_NAMES {
+                let problem = format!("the named shapes up to `{name}` have more than {MOST_PARTS_OF_NAMES} parts");
+                let expected =
+                    format!("at most {MOST_PARTS_OF_NAMES} of all together, shapes within shapes counted anew");
+                compiler.faults.push(Fault::new(&path.key(name), problem, expected));
+                break;
+            }
         }
         compiler.done
     }
@@ -76,7 +88,7 @@ pub fn one(shape: &ShapeOrName, named: &Named, path: &Path, faults: &mut Vec<Fau
         ShapeOrName::Shape(stated) => {
             let none = Shapes::new();
             let mut compiler =
-                Compiler { stated: &none, path, done: named.clone(), open: Vec::new(), depth: 0, faults };
+                Compiler { stated: &none, path, done: named.clone(), parts: 0, open: Vec::new(), depth: 0, faults };
             compiler.shape(stated, path).map(|made| made.shape)
         }
     }
@@ -97,6 +109,8 @@ struct Compiler<'a> {
     /// Where the table of names stands.
     path: &'a Path,
     done: Named,
+    /// The parts of all shapes that are done.
+    parts: usize,
     /// The names whose shapes are being compiled, each within the one before.
     open: Vec<String>,
     /// The shapes that are being compiled, each within the one before.
@@ -136,6 +150,7 @@ impl Compiler<'_> {
         self.open.push(name.to_owned());
         let compiled = self.shape(stated, &self.path.key(name));
         self.open.pop();
+        self.parts += compiled.as_ref().map_or(0, |made| made.parts);
         self.done.shapes.insert(name.to_owned(), compiled.clone());
         compiled
     }
@@ -238,7 +253,11 @@ impl Compiler<'_> {
                 let points = points_m.iter().copied().zip(radii_m.iter().copied()).collect();
                 Some(Shape::Polyline(Polyline::of(points)))
             }
-            StatedShape::Mesh { points_m, faces } => match Mesh::of(points_m, faces) {
+            StatedShape::Mesh { file: Some(file), .. } => {
+                let problem = format!("the mesh `{file}` has not been read");
+                self.fault(&path.key("file"), problem, "`points_m` and `faces`, where no files are read")
+            }
+            StatedShape::Mesh { file: None, points_m, faces } => match Mesh::of(points_m, faces) {
                 Ok(mesh) => Some(Shape::Mesh(Arc::new(mesh))),
                 Err(fault) => {
                     let expected = "triangles that enclose space, each edge between two of them";
@@ -252,8 +271,8 @@ impl Compiler<'_> {
                 }
                 Some(Shape::Soft(Soft::of(parts)))
             }
-            StatedShape::HalfSpace { normal, .. } if *normal == [0.0; 3] => {
-                let problem = "the normal of the half space has the length 0";
+            StatedShape::HalfSpace { normal, .. } if HalfSpace::is_too_short(*normal) => {
+                let problem = format!("the normal of the half space has {}", length_of(*normal));
                 self.fault(&path.key("normal"), problem, "a direction, such as [0, 0, 1]")
             }
             plainly => plain(plainly),
@@ -269,6 +288,14 @@ impl Compiler<'_> {
         // The length of the axis is of no account, but a tiny one would count as none.
         let most = about.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         Some(Rotation::about(about.map(|x| x / most), angle_deg.to_radians()))
+    }
+}
+
+/// What is told of the length of a normal that is too short.
+pub fn length_of(normal: [f64; 3]) -> String {
+    match normal == [0.0; 3] {
+        true => "the length 0".to_owned(),
+        false => format!("a length below {:e}", HalfSpace::SHORTEST),
     }
 }
 

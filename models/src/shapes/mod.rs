@@ -6,7 +6,7 @@
 
 mod compile;
 
-pub use compile::{Named, one};
+pub use compile::{MOST_PARTS, Named, length_of, one};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -172,12 +172,18 @@ pub enum StatedShape {
         #[schemars(length(max = 10_000))]
         ellipsoids: Vec<SoftEllipsoid>,
     },
-    /// A closed mesh of triangles.
+    /// A closed mesh of triangles: of a file, or stated by its points and triangles.
     Mesh {
-        /// Its points.
+        /// The PLY file that has it, in metres, z upward: a file in the folder of the file that names it.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(length(min = 1))]
+        file: Option<String>,
+        /// Its points, where no file has them.
+        #[serde(default)]
         #[schemars(length(min = 4, max = 1_000_000), inner(inner(range(min = -1e6, max = 1e6))))]
         points_m: Vec<[f64; 3]>,
         /// Its triangles, each by the numbers of its points, from 0. All face outward, or all inward.
+        #[serde(default)]
         #[schemars(length(min = 4, max = 1_000_000))]
         faces: Vec<[u32; 3]>,
     },

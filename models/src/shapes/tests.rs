@@ -84,17 +84,23 @@ fn what_has_no_meaning_is_told_with_its_place() {
         "open": {"form": "mesh", "points_m": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
             "faces": [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 2, 3]]},
         "soft": {"form": "soft"},
+        "short": {"form": "half_space", "point_m": [0, 0, 0], "normal": [0, 1e-170, 0]},
+        "file": {"form": "mesh", "file": "house.ply"},
         "still": {"form": "placed", "of": "good", "turn": {"about": [0, 0, 0], "angle_deg": 9}},
     }));
     assert_eq!(
         faults,
         [
             "shape.b.of.of[0]: the shape `a` is made of itself; expected shapes that do not lead back to it",
+            "shape.file.file: the mesh `house.ply` has not been read; expected `points_m` and `faces`, where no files are \
+             read",
             "shape.flat.normal: the normal of the half space has the length 0; expected a direction, such as [0, 0, 1]",
             "shape.line.radii_m: there are 1 radii and 2 points; expected a radius for each point",
             "shape.none.of: there is no shape `god`; expected the name of a shape; the nearest is `good`",
             "shape.open.faces: the mesh is not closed at 3 of its edges, the first from [0.0, 0.0, 0.0] to \
              [0.0, 0.0, 1.0]; expected triangles that enclose space, each edge between two of them",
+            "shape.short.normal: the normal of the half space has a length below 1e-100; expected a direction, such as \
+             [0, 0, 1]",
             "shape.soft: the soft object has no skeleton; expected `points`, `lines` or `ellipsoids`",
             "shape.still.turn.about: the axis of the turn has the length 0; expected a direction, such as [0, 0, 1]",
         ]
@@ -150,4 +156,15 @@ fn shapes_without_end_are_refused() {
     }
     let (named, faults) = compiled(Value::Object(built));
     assert_eq!((named.iter().count(), faults.len()), (50, 1), "{faults:?}");
+    // Each of these is small enough, and all together are not.
+    let many = json!({"form": "union", "of": vec!["line"; 200]});
+    let mut all: serde_json::Map<String, Value> = (0..40).map(|k| (format!("s{k:02}"), many.clone())).collect();
+    all.insert("line".to_owned(), line);
+    let (named, faults) = compiled(Value::Object(all));
+    assert_eq!(
+        faults,
+        ["shape.s04: the named shapes up to `s04` have more than 400000 parts; expected at most 400000 of all \
+             together, shapes within shapes counted anew"]
+    );
+    assert_eq!(named.iter().count(), 6, "no more are made");
 }

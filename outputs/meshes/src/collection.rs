@@ -8,7 +8,7 @@
 
 use super::chunk::{Chunk, Face, MOST_VERTICES, Vertex};
 use super::ply::{header_of, in_words, place_comment};
-use super::{About, Counts, Scene};
+use super::{About, Counts, Scene, Tolerance};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -25,6 +25,8 @@ pub struct Collection {
     counts: Counts,
     ends: Option<[About; 2]>,
     scenes: u64,
+    /// The tolerance of the last scene; all scenes of a file have the same.
+    tolerance: Option<Tolerance>,
 }
 
 impl Collection {
@@ -38,7 +40,7 @@ impl Collection {
         vertices.write_all(&[b' '; HEADER])?;
         let faces =
             BufWriter::new(File::options().read(true).write(true).create(true).truncate(true).open(&faces_path)?);
-        Ok(Self { vertices, faces, faces_path, counts: Counts::default(), ends: None, scenes: 0 })
+        Ok(Self { vertices, faces, faces_path, counts: Counts::default(), ends: None, scenes: 0, tolerance: None })
     }
 
     /// Writes a scene after the scenes that were added before.
@@ -69,6 +71,7 @@ impl Collection {
         self.counts.faces += more.faces;
         self.ends = Some([self.ends.map_or(*about, |[first, _]| first), *about]);
         self.scenes += 1;
+        self.tolerance = scene.tolerance();
         Ok(())
     }
 
@@ -101,11 +104,11 @@ impl Collection {
             comments.push(format!("{word}: {}", in_words(about)));
         }
         comments.extend(self.ends.map(|[first, _]| place_comment(first.place)));
-        let short = header_of(comments.clone(), self.counts)?;
+        let short = header_of(self.tolerance, comments.clone(), self.counts)?;
         let filling = HEADER.checked_sub(short.len() + "comment \n".len());
         let filling = filling.ok_or_else(|| io::Error::other("the header does not fit into its room"))?;
         comments.push(".".repeat(filling));
-        header_of(comments, self.counts)
+        header_of(self.tolerance, comments, self.counts)
     }
 }
 

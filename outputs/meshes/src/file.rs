@@ -27,7 +27,7 @@ pub enum MeshError {
     /// The mesh has more vertices than its format can index.
     #[error(
         "the mesh of plant {plant} at age {age} would have {vertices} vertices, and a mesh file holds at most {}: \
-         choose fewer sides or kinds",
+         choose fewer sides or kinds, or a larger tolerance",
         MOST_VERTICES
     )]
     TooLarge {

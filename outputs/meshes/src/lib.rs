@@ -7,6 +7,7 @@
 //! which format is written is the caller's choice. Vertices are not shared between components. Absent: buds, which have
 //! no form, and bending, which is part of the pose.
 
+mod budget;
 mod chunk;
 mod collection;
 mod colour;
@@ -18,20 +19,30 @@ mod outline;
 mod palette;
 mod plot;
 mod ply;
+mod reduced;
 mod scene;
+mod section;
+mod solid;
+mod stem;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod tests_stated;
 mod tube;
 
+pub use budget::{TooFew, fitting};
 pub use chunk::{Chunk, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
 pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
 pub use plot::{PlotBody, PlotMember, PlotMesh};
 pub use ply::Ply;
-pub use scene::{Counts, Scene};
+pub use reduced::chain::{Found, Sample, chains};
+pub use reduced::simplify::{fits, simplify};
+pub use scene::{Counts, DrawnOrgan, Scene};
+pub use solid::{Solid, Undrawn};
+pub use stem::Stems;
+pub use tube::Frustum;
 
 use phytomer_looks::place_of_own;
 use phytomer_sim::clock::Tick;
@@ -39,11 +50,52 @@ use phytomer_sim::plant::{Form, Kind, Plant};
 use std::io::{self, Write};
 use std::sync::Arc;
 
+/// How near wood is drawn to its internodes, with as few triangles as that allows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// The distance, metres: internodes of an axis are drawn as one while the line of the axis and its radius stay
+    /// within it, and a tube is as round as it asks. No point of the round tubes of the internodes is farther than twice
+    /// this distance from the mesh.
+    pub distance: f32,
+    /// The most that colours differ, in each of three bytes, between internodes that are drawn as one.
+    pub colour: u8,
+    /// What the polygons around the wood keep of its circles.
+    pub keeps: Keeping,
+}
+
+/// What a polygon keeps of the circle that it is drawn for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Keeping {
+    /// Its area, so that wood keeps its volume.
+    Section,
+    /// Its circumference, which is π times the mean width, so that thin wood is seen as wide as it is.
+    Width,
+}
+
+impl Tolerance {
+    /// The least distance, metres: a hundredth of a millimetre. Single precision holds the places of a plant of a
+    /// hundred metres no better.
+    pub const LEAST: f32 = 1e-5;
+
+    /// Within a distance, metres, whatever the colours.
+    pub fn of(distance: f32) -> Self {
+        Self { distance: distance.max(Self::LEAST), colour: u8::MAX, keeps: Keeping::Section }
+    }
+
+    /// Within a distance, metres, for a picture: wood keeps its width, and a face has one colour, which is nearly that
+    /// of all internodes along it.
+    pub fn of_a_picture(distance: f32) -> Self {
+        Self { colour: 6, keeps: Keeping::Width, ..Self::of(distance) }
+    }
+}
+
 /// Options for drawing plants.
 #[derive(Debug, Clone)]
 pub struct MeshOptions {
     /// The number of sides of an internode's tube, at least 3.
     pub sides: u8,
+    /// How near the wood is drawn; `None`: each internode by itself.
+    pub tolerance: Option<Tolerance>,
     /// For each kind, by the number of [`Kind`], whether it is drawn.
     pub kinds: [bool; Kind::ALL.len()],
     /// The mesh files that the species names as forms; empty where it names none.
@@ -61,7 +113,7 @@ impl MeshOptions {
 impl Default for MeshOptions {
     /// Eight sides, every kind.
     fn default() -> Self {
-        Self { sides: 8, kinds: [true; Kind::ALL.len()], own: Arc::default() }
+        Self { sides: 8, tolerance: None, kinds: [true; Kind::ALL.len()], own: Arc::default() }
     }
 }
 

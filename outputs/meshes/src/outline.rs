@@ -1,17 +1,50 @@
 //! Organs that state their form: their outline, a polygon in triangles that may be concave, or a curved surface.
 //!
 //! The corners are the vertices, in their order. The upper side is the side from which they run counterclockwise. The
-//! polygon grows from the organ's base as the organ expands. Its triangles are computed once per scene. A polygon that is
-//! not plane has at each corner the mean normal of its triangles; a surface has normals of its own.
+//! polygon grows from the organ's base as the organ expands. Its triangles are computed once per scene. A polygon that
+//! is not plane has at each corner the mean normal of its triangles; a surface has normals of its own.
 
 use super::chunk::{Tag, Vertex};
-use super::forms::plane_normal;
+use super::forms::{FormMesh, plane_normal};
 use super::tube::cross;
 use phytomer_looks::polygon::{is_plane, triangles};
 use phytomer_looks::{Surface, SurfacePoint};
 use phytomer_sim::plant::{OrganId, Plant};
 use phytomer_sim::pose::Frame;
 use std::ops::Range;
+
+/// The form of an organ.
+#[derive(Debug, Clone, Copy)]
+pub enum OrganForm<'s> {
+    /// A form of the library, or a mesh file.
+    Shape(&'s FormMesh),
+    /// A polygon: its corners and triangles.
+    Outline(&'s [[f32; 3]], &'s [[u32; 3]]),
+    /// A curved surface, and its factors along the axes of the organ when it is full-grown.
+    Surface(&'s Surface, [f32; 3]),
+}
+
+impl<'s> OrganForm<'s> {
+    /// The number of its vertices.
+    #[inline]
+    pub fn vertices(self) -> usize {
+        match self {
+            Self::Shape(shape) => shape.points.len(),
+            Self::Outline(corners, _) => corners.len(),
+            Self::Surface(surface, _) => surface.points().len(),
+        }
+    }
+
+    /// Its triangles.
+    #[inline]
+    pub fn faces(self) -> &'s [[u32; 3]] {
+        match self {
+            Self::Shape(shape) => &shape.faces,
+            Self::Outline(_, faces) => faces,
+            Self::Surface(surface, _) => surface.faces(),
+        }
+    }
+}
 
 /// The triangles of every outline of a plant.
 #[derive(Debug, Default)]

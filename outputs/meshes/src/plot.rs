@@ -1,16 +1,17 @@
-//! All plants of a plot in one PLY file, each in its place, in the order of the plot.
+//! All plants of a plot in one PLY file, each in its place, in the order of the plot, and its obstacles after them.
 //!
 //! Vertices are relative to the place of the plot, which is in the comments, so that single precision holds a plot of a
 //! hundred metres to 0.004 mm wherever it stands. A comment for each plant states its name and its number of vertices
-//! in the file. A plant that stands at several places is made once and kept. The profile of vertices and triangles is
-//! that of a single plant's file.
+//! in the file. Vertices of obstacles have the component number −1. A plant that stands at several places is made once
+//! and kept. The profile of vertices and triangles is that of a single plant's file.
 
 use super::chunk::{Chunk, Face, Vertex};
 use super::ply::{header_of, place_comment};
-use super::{Counts, Mesh, MeshOptions, Scene, mesh_plant};
+use super::{Counts, Mesh, MeshOptions, Scene, Tolerance, mesh_plant};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::io::{self, Write};
+use std::sync::Arc;
 
 /// The most vertices of one mesh file: 32-bit signed indices reach no further.
 const MOST_VERTICES: u64 = i32::MAX as u64;
@@ -44,6 +45,8 @@ pub struct PlotMesh<'a> {
     pub bodies: Vec<PlotBody<'a>>,
     /// The members of the plot, in their order.
     pub members: Vec<PlotMember>,
+    /// Closed meshes of what stands among the plants, metres from the place of the plot.
+    pub obstacles: Vec<Arc<Mesh>>,
     /// The name of the plot for the comments: its number, tick and run.
     pub name: String,
     /// The place of the plot, metres. Added to the vertices, it gives their places in the run.
@@ -59,6 +62,21 @@ struct Ready<'a> {
 }
 
 impl PlotMesh<'_> {
+    /// Draws the wood of all plants within a tolerance.
+    pub fn within(&mut self, tolerance: Tolerance) {
+        self.bodies.iter_mut().for_each(|body| body.options.tolerance = Some(tolerance));
+    }
+
+    /// The number of triangles of the file, were its wood drawn within a tolerance.
+    pub fn faces_within(&self, tolerance: &Tolerance) -> u64 {
+        let faces = |body: &PlotBody| {
+            let options = MeshOptions { tolerance: Some(*tolerance), ..body.options.clone() };
+            Scene::new(body.plant, body.age, &options).counts().faces
+        };
+        let faces: Vec<u64> = self.bodies.iter().map(faces).collect();
+        self.members.iter().filter_map(|member| faces.get(member.body)).sum()
+    }
+
     /// Writes the file. Plants that stand at one place are made while they are written.
     ///
     /// # Errors
@@ -74,21 +92,33 @@ impl PlotMesh<'_> {
             all.faces += counts.faces;
             comments.push(format!("{} age {} vertices {}", member.name, scene.age(), counts.vertices));
         }
+        for (number, mesh) in self.obstacles.iter().enumerate() {
+            all.vertices += mesh.vertices.len() as u64;
+            all.faces += mesh.faces.len() as u64;
+            comments.push(format!("obstacle {number} vertices {}", mesh.vertices.len()));
+        }
         if all.vertices > MOST_VERTICES {
             return Err(io::Error::other(format!(
                 "the mesh of {} would have {} vertices, and a mesh file holds at most {MOST_VERTICES}: choose fewer \
-                 sides",
+                 sides or a larger tolerance",
                 self.name, all.vertices
             )));
         }
-        out.write_all(&header_of(comments, all)?)?;
+        let tolerance = self.bodies.first().and_then(|body| body.options.tolerance);
+        out.write_all(&header_of(tolerance, comments, all)?)?;
         members().try_for_each(|(member, body)| body.write_vertices(member.place, out))?;
+        self.obstacles.iter().try_for_each(|mesh| out.write_all(bytemuck::cast_slice(&mesh.vertices)))?;
         let mut first = 0;
-        members().try_for_each(|(_, body)| {
+        for (_, body) in members() {
             body.write_faces(first, out)?;
             first += body.counts.vertices as u32;
-            Ok(())
-        })
+        }
+        for mesh in &self.obstacles {
+            let faces = mesh.faces.iter().map(|face| Face::new(face.indices().map(|corner| corner + first)));
+            out.write_all(bytemuck::cast_slice(&faces.collect::<Vec<_>>()))?;
+            first += mesh.vertices.len() as u32;
+        }
+        Ok(())
     }
 
     fn ready<'s>(&self, place: usize, body: &'s PlotBody) -> Ready<'s> {
@@ -138,7 +168,8 @@ impl Ready<'_> {
 mod tests {
     use super::*;
     use crate::tests::specimen;
-    use crate::{MeshWriter, Ply};
+    use crate::{MeshWriter, Ply, Solid};
+    use phytomer_sim::shape::{Cuboid, Shape};
 
     fn payload(bytes: &[u8]) -> (&str, &[u8]) {
         let end = b"end_header\n";
@@ -147,13 +178,18 @@ mod tests {
     }
 
     fn plot(places: &[[f64; 3]], bodies: [usize; 3]) -> Vec<u8> {
+        plot_with(places, bodies, Vec::new())
+    }
+
+    fn plot_with(places: &[[f64; 3]], bodies: [usize; 3], obstacles: Vec<Arc<Mesh>>) -> Vec<u8> {
         let plant = specimen();
         let body = || PlotBody { plant: &plant, age: 6, options: MeshOptions::default() };
         let member = |(place, body): (&[f64; 3], usize)| PlotMember { body, place: *place, name: "plant".to_owned() };
         let members = places.iter().zip(bodies).map(member).collect();
         let count = bodies.into_iter().max().map_or(0, |most| most + 1);
         let bodies = (0..count).map(|_| body()).collect();
-        let mesh = PlotMesh { bodies, members, name: "plot 0 tick 6 seed 1".to_owned(), place: [100.0, 0.0, 0.0] };
+        let mesh =
+            PlotMesh { bodies, members, obstacles, name: "plot 0 tick 6 seed 1".to_owned(), place: [100.0, 0.0, 0.0] };
         let mut bytes = Vec::new();
         mesh.write(&mut bytes).expect("written");
         bytes
@@ -187,6 +223,27 @@ mod tests {
         assert_eq!(faces.len() as u64, 3 * counts.faces);
         let last = faces.iter().flat_map(Face::indices).max();
         assert_eq!(last, Some(3 * counts.vertices as u32 - 1));
+    }
+
+    /// The house stands behind the plants, which it does not move.
+    #[test]
+    fn obstacles_follow_the_plants() {
+        let places = [[0.0; 3], [3.0, -2.0, 0.25], [-1.0, 0.5, 0.0]];
+        let house = Shape::Cuboid(Cuboid::on([5.0, 0.0, 0.0], [2.0, 3.0, 4.0]));
+        let mesh = Arc::new(Solid::of(&house).expect("it has an end").obstacle(Some([1, 2, 3])));
+        assert_eq!((mesh.vertices.len(), mesh.faces.len()), (24, 12));
+        let (alone, with) = (plot(&places, [0, 0, 0]), plot_with(&places, [0, 0, 0], vec![Arc::clone(&mesh)]));
+        let ((_, alone), (header, with)) = (payload(&alone), payload(&with));
+        assert!(header.contains("comment obstacle 0 vertices 24\n"), "{header}");
+        assert_eq!(with.len() - alone.len(), 24 * Vertex::BYTES + 12 * Face::BYTES);
+        let plants = 3 * Scene::new(&specimen(), 6, &MeshOptions::default()).counts().vertices as usize;
+        assert_eq!(with[..plants * Vertex::BYTES], alone[..plants * Vertex::BYTES]);
+        let vertices: Vec<Vertex> = read(&with[plants * Vertex::BYTES..(plants + 24) * Vertex::BYTES]);
+        assert!(vertices.iter().all(|vertex| (vertex.tag().component, vertex.tag().colour) == (-1, [1, 2, 3, 255])));
+        let faces: Vec<Face> = read(&with[with.len() - 12 * Face::BYTES..]);
+        let corners: Vec<u32> = faces.iter().flat_map(Face::indices).collect();
+        let ends = [corners.iter().min(), corners.iter().max()].map(|end| end.copied().unwrap_or(0) as usize);
+        assert_eq!(ends, [plants, plants + 23]);
     }
 
     /// Packed entries of a file, wherever they lie in memory.

@@ -6,7 +6,7 @@
 //! file has no face properties and no edges.
 
 use super::chunk::{Chunk, Face, Vertex};
-use super::{About, Counts, MeshWriter, Scene};
+use super::{About, Counts, MeshWriter, Scene, Tolerance};
 use ply_rs_bw::ply::{Addable, DefaultElement, ElementDef, Encoding, Header, PropertyDef, PropertyType, ScalarType};
 use ply_rs_bw::writer::Writer;
 use std::io::{self, Write};
@@ -30,7 +30,7 @@ impl MeshWriter for Ply {
 
     fn write(&self, scene: &Scene, about: &About, out: &mut (dyn Write + Send)) -> io::Result<()> {
         let counts = scene.counts();
-        out.write_all(&header_of(vec![in_words(about), place_comment(about.place)], counts)?)?;
+        out.write_all(&header_of(scene.tolerance(), vec![in_words(about), place_comment(about.place)], counts)?)?;
         if counts.vertices * Vertex::BYTES as u64 + counts.faces * Face::BYTES as u64 > OVERLAP_FROM {
             write_overlapped(scene, out)
         } else {
@@ -91,21 +91,31 @@ pub(super) fn place_comment([x, y, z]: [f64; 3]) -> String {
     format!("place_m {x:?} {y:?} {z:?}")
 }
 
-/// The whole header, with comments of what the file holds.
-pub(super) fn header_of(comments: Vec<String>, counts: Counts) -> io::Result<Vec<u8>> {
+/// What a comment says of the wood.
+fn wood_comment(tolerance: Option<Tolerance>) -> String {
+    let Some(Tolerance { distance, .. }) = tolerance else {
+        return "tubes keep the section of their diameters and the volume of the wood".into();
+    };
+    format!(
+        "tolerance_m {distance:?}: wood in tubes of several internodes, a ring has the number of the one that begins there"
+    )
+}
+
+/// The whole header, with comments of how its wood is drawn and of what the file holds.
+pub(super) fn header_of(tolerance: Option<Tolerance>, comments: Vec<String>, counts: Counts) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    Writer::<DefaultElement>::new().write_header(&mut bytes, &header(comments, counts))?;
+    Writer::<DefaultElement>::new().write_header(&mut bytes, &header(tolerance, comments, counts))?;
     Ok(bytes)
 }
 
-fn header(comments: Vec<String>, counts: Counts) -> Header {
+fn header(tolerance: Option<Tolerance>, comments: Vec<String>, counts: Counts) -> Header {
     let mut header = Header::new();
     header.encoding = Encoding::BinaryLittleEndian;
     header.comments = vec![
         format!("phytomer {}", env!("CARGO_PKG_VERSION")),
         "unit metre, Z up".into(),
         "ages in ticks since the seed, death_age inf while the component lives".into(),
-        "tubes keep the section of their diameters and the volume of the wood".into(),
+        wood_comment(tolerance),
         "leaves keep area_m2 of the tables: one side, of closed forms half the surface".into(),
     ];
     header.comments.extend(comments);

@@ -5,17 +5,19 @@
 //! fate is shown; an internode that stands dead has the age of its death. The base of an organ is moved from the axis
 //! line to the surface of the stem, by half the tip's diameter towards the organ.
 
-use super::MeshOptions;
 use super::chunk::{Chunk, Face, Sink, Tag, Vertex};
 use super::forms::{FormMesh, Placement};
-use super::outline::{self, Outlines};
-use super::tube::{Frustum, Strip, Tube};
+use super::outline::{self, OrganForm, Outlines};
+use super::reduced::Reduced;
+use super::stem::Stems;
 use super::{About, Mesh, colour};
+use super::{MeshOptions, Tolerance};
 use bytemuck::Zeroable;
-use phytomer_looks::{Paints, Surface};
+use phytomer_looks::Paints;
 use phytomer_sim::clock::Tick;
-use phytomer_sim::plant::{AxisId, InternodeLook, NodeId, OrganId, Plant, Shape as Stem};
+use phytomer_sim::plant::{NodeId, OrganId, Plant};
 use phytomer_sim::pose::{Frame, organ_frame, stated_organ_frame};
+use std::convert::Infallible;
 use std::io;
 use std::ops::Range;
 
@@ -43,90 +45,54 @@ pub struct Scene<'a> {
     age: Tick,
     options: MeshOptions,
     paints: &'a Paints,
-    /// The form of internodes by the index of their look in the habit; the last entry is for internodes without a look.
-    stems: Vec<Drawn>,
+    stems: Stems<'a>,
+    /// The tubes along several internodes, where the mesh has a tolerance.
+    reduced: Option<Reduced>,
     /// The triangles of organs that state an outline.
     outlines: Outlines,
 }
 
-/// The form of an organ.
-#[derive(Debug, Clone, Copy)]
-enum OrganForm<'s> {
-    Shape(&'s FormMesh),
-    Outline(&'s [[f32; 3]], &'s [[u32; 3]]),
-    /// A curved surface, and its factors along the axes of the organ when it is full-grown.
-    Surface(&'s Surface, [f32; 3]),
-}
-
-impl<'s> OrganForm<'s> {
-    #[inline]
-    fn vertices(self) -> usize {
-        match self {
-            Self::Shape(shape) => shape.points.len(),
-            Self::Outline(corners, _) => corners.len(),
-            Self::Surface(surface, _) => surface.points().len(),
-        }
-    }
-
-    #[inline]
-    fn faces(self) -> &'s [[u32; 3]] {
-        match self {
-            Self::Shape(shape) => &shape.faces,
-            Self::Outline(_, faces) => faces,
-            Self::Surface(surface, _) => surface.faces(),
-        }
-    }
-}
-
-/// The form of an internode.
-#[derive(Debug)]
-enum Drawn {
-    Tube(Tube),
-    Strip,
-    /// A form of an organ, with the internode's length and diameter.
-    Form(FormMesh),
-}
-
-impl Drawn {
-    fn of(look: &InternodeLook, paints: &Paints, options: &MeshOptions) -> Self {
-        let paint = paints.internode(look.paint);
-        match (paint.form, look.shape) {
-            (Some(form), _) => Self::Form(options.shape(form).clone()),
-            (None, Stem::Blade) => Self::Strip,
-            (None, Stem::Cylinder | Stem::Cone) => Self::Tube(Tube::new(paint.sides.unwrap_or(options.sides))),
-        }
-    }
-
-    fn vertices(&self) -> usize {
-        match self {
-            Self::Tube(tube) => tube.vertices(),
-            Self::Strip => Strip::VERTICES,
-            Self::Form(shape) => shape.points.len(),
-        }
-    }
-
-    fn faces(&self) -> &[[u32; 3]] {
-        match self {
-            Self::Tube(tube) => tube.faces(),
-            Self::Strip => &Strip::FACES,
-            Self::Form(shape) => &shape.faces,
-        }
-    }
+/// An organ as it is drawn: where, how large and in what colours.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DrawnOrgan {
+    /// Its base, metres.
+    pub base: [f32; 3],
+    /// The unit vector along it.
+    pub heading: [f32; 3],
+    /// The unit vector of its upper side.
+    pub up: [f32; 3],
+    /// Its length and width at its age, metres; of an organ with an outline or a surface of its own, the share of it.
+    pub size: [f32; 2],
+    /// How much fuller it is than its form, so that it has its area.
+    pub fullness: f32,
+    /// The colours of the organ and of its stalk.
+    pub colours: [[u8; 4]; 2],
+    /// Whether it has an outline, or a surface, of its own.
+    pub outlined: bool,
 }
 
 impl<'a> Scene<'a> {
     /// The scene of `plant` at `age`; its frames and diameters must be those of that age.
     pub fn new(plant: &'a Plant, age: Tick, options: &MeshOptions) -> Self {
-        let looks = plant.habit.looks.internodes.iter().chain(&plant.habit.looks.apart);
+        let stems = Stems::of(plant, age, options);
+        let reduced = options.tolerance.as_ref().map(|tolerance| Reduced::of(&stems, tolerance));
         let paints = Paints::of(&plant.habit);
-        let mut stems: Vec<Drawn> = looks.map(|look| Drawn::of(look, paints, options)).collect();
-        stems.push(Drawn::Tube(Tube::new(options.sides)));
-        Self { plant, age, options: options.clone(), paints, stems, outlines: Outlines::of(plant) }
+        Self { plant, age, options: options.clone(), paints, stems, reduced, outlines: Outlines::of(plant) }
+    }
+
+    /// The same scene with its wood drawn within a tolerance.
+    pub fn within(&self, tolerance: Tolerance) -> Self {
+        Self::new(self.plant, self.age, &MeshOptions { tolerance: Some(tolerance), ..self.options.clone() })
     }
 
     /// The age of the plant.
     pub fn age(&self) -> Tick {
         self.age
+    }
+
+    /// How near the wood is drawn; `None`: each internode by itself.
+    pub fn tolerance(&self) -> Option<Tolerance> {
+        self.options.tolerance
     }
 
     /// The identity of the mesh, for its file.
@@ -136,15 +102,16 @@ impl<'a> Scene<'a> {
 
     /// The size of the mesh, by one scan of births and deaths.
     pub fn counts(&self) -> Counts {
-        let mut counts = Counts::default();
+        let mut counts = self.reduced.as_ref().map(Reduced::counts).unwrap_or_default();
         let mut count = |vertices: usize, faces: usize| {
             counts.components += 1;
             counts.vertices += vertices as u64;
             counts.faces += faces as u64;
         };
-        self.nodes().for_each(|node| {
-            let stem = self.stem(node);
+        let Ok::<(), Infallible>(()) = self.each_stem(0..self.stem_places(), |node| {
+            let stem = self.stems.form(node);
             count(stem.vertices(), stem.faces().len());
+            Ok(())
         });
         self.organs().for_each(|organ| {
             let form = self.form(organ);
@@ -158,10 +125,20 @@ impl<'a> Scene<'a> {
     /// # Errors
     /// The errors of `sink`.
     pub fn vertices(&self, chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
-        for node in self.nodes() {
-            let stem = self.stem(node);
-            self.write_stem(stem, node, chunk.room(stem.vertices(), sink)?);
+        if let Some(reduced) = &self.reduced {
+            let mut places = Vec::new();
+            for tube in 0..reduced.tubes() {
+                reduced.each_part(&self.stems, tube, &mut places, &mut |vertices, write| {
+                    write(chunk.room(vertices, sink)?);
+                    Ok(())
+                })?;
+            }
         }
+        self.each_stem(0..self.stem_places(), |node| {
+            let stem = self.stems.form(node);
+            self.stems.write(stem, node, chunk.room(stem.vertices(), sink)?);
+            io::Result::Ok(())
+        })?;
         for organ in self.organs() {
             let form = self.form(organ);
             self.write_organ(form, organ, chunk.room::<Vertex>(form.vertices(), sink)?);
@@ -176,11 +153,21 @@ impl<'a> Scene<'a> {
     /// The errors of `sink`.
     pub fn faces(&self, chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
         let mut first = 0;
-        for node in self.nodes() {
-            let stem = self.stem(node);
+        if let Some(reduced) = &self.reduced {
+            for tube in 0..reduced.tubes() {
+                reduced.each_skin(tube, first, &mut |skin| {
+                    skin.write(chunk.room(skin.faces(), sink)?);
+                    Ok(())
+                })?;
+                first += reduced.vertices(tube) as u32;
+            }
+        }
+        self.each_stem(0..self.stem_places(), |node| {
+            let stem = self.stems.form(node);
             put_faces(first, stem.faces(), chunk, sink)?;
             first += stem.vertices() as u32;
-        }
+            io::Result::Ok(())
+        })?;
         for organ in self.organs() {
             let form = self.form(organ);
             put_faces(first, form.faces(), chunk, sink)?;
@@ -191,7 +178,8 @@ impl<'a> Scene<'a> {
 
     /// The number of blocks of the scene, for [`Scene::block`].
     pub fn blocks(&self) -> usize {
-        self.plant.nodes.len().div_ceil(BLOCK) + self.plant.organs.len().div_ceil(BLOCK)
+        let tubes = self.reduced.as_ref().map_or(0, |reduced| reduced.blocks().len());
+        tubes + self.stem_places().div_ceil(BLOCK) + self.plant.organs.len().div_ceil(BLOCK)
     }
 
     /// Replaces `mesh` by one block of neighbouring components; triangles refer to the block's own vertices. All blocks
@@ -200,33 +188,84 @@ impl<'a> Scene<'a> {
     pub fn block(&self, block: usize, mesh: &mut Mesh) {
         mesh.vertices.clear();
         mesh.faces.clear();
-        let of_nodes = self.plant.nodes.len().div_ceil(BLOCK);
-        if block < of_nodes {
-            self.nodes_of(span(block, self.plant.nodes.len())).for_each(|node| {
-                let stem = self.stem(node);
-                self.write_stem(stem, node, appended(mesh, stem.vertices(), stem.faces()));
+        let tubes = self.reduced.as_ref().map_or(&[][..], Reduced::blocks);
+        let of_stems = self.stem_places().div_ceil(BLOCK);
+        if let (Some(tubes), Some(reduced)) = (tubes.get(block), &self.reduced) {
+            return self.append_tubes(reduced, tubes.clone(), mesh);
+        }
+        let block = block - tubes.len();
+        if block < of_stems {
+            let Ok::<(), Infallible>(()) = self.each_stem(span(block, self.stem_places()), |node| {
+                let stem = self.stems.form(node);
+                self.stems.write(stem, node, appended(mesh, stem.vertices(), stem.faces()));
+                Ok(())
             });
         } else {
-            self.organs_of(span(block - of_nodes, self.plant.organs.len())).for_each(|organ| {
+            self.organs_of(span(block - of_stems, self.plant.organs.len())).for_each(|organ| {
                 let form = self.form(organ);
                 self.write_organ(form, organ, appended(mesh, form.vertices(), form.faces()));
             });
         }
     }
 
-    /// The internodes that are drawn.
-    fn nodes(&self) -> impl Iterator<Item = NodeId> {
-        self.nodes_of(0..self.plant.nodes.len())
+    fn append_tubes(&self, reduced: &Reduced, tubes: Range<usize>, mesh: &mut Mesh) {
+        let mut places = Vec::new();
+        for tube in tubes {
+            let first = mesh.vertices.len();
+            let put = reduced.each_part(&self.stems, tube, &mut places, &mut |vertices, write| {
+                write(with_room(&mut mesh.vertices, vertices));
+                Ok(())
+            });
+            let joined = reduced.each_skin(tube, first as u32, &mut |skin| {
+                skin.write(with_room(&mut mesh.faces, skin.faces()));
+                Ok(())
+            });
+            debug_assert!(put.is_ok() && joined.is_ok(), "memory does not fail");
+        }
     }
 
-    fn nodes_of(&self, range: Range<usize>) -> impl Iterator<Item = NodeId> {
-        let (plant, age, kinds) = (self.plant, self.age, self.options.kinds);
-        let drawn = move |&node: &NodeId| plant.stands(node, age) && kinds[plant.kind_of(node) as usize];
-        range.map(|node| NodeId(node as u32)).filter(drawn)
+    /// The number of places of [`Scene::each_stem`].
+    fn stem_places(&self) -> usize {
+        self.reduced.as_ref().map_or(self.plant.nodes.len(), |reduced| reduced.apart().len())
+    }
+
+    /// Calls `draw` with the internodes of some places that are drawn by themselves.
+    #[inline]
+    fn each_stem<E>(&self, places: Range<usize>, draw: impl FnMut(NodeId) -> Result<(), E>) -> Result<(), E> {
+        match &self.reduced {
+            Some(reduced) => reduced.apart()[places].iter().copied().try_for_each(draw),
+            None => self.stems.drawn_of(places).try_for_each(draw),
+        }
+    }
+
+    /// The plant.
+    pub fn plant(&self) -> &'a Plant {
+        self.plant
+    }
+
+    /// Its internodes.
+    pub fn stems(&self) -> &Stems<'a> {
+        &self.stems
+    }
+
+    /// An organ as it is drawn.
+    pub fn organ(&self, organ: OrganId) -> DrawnOrgan {
+        let colours = colour::organ(self.plant, self.paints, organ, self.age);
+        match self.form(organ) {
+            OrganForm::Shape(shape) => {
+                let Placement { base, heading, up, size, fullness } = self.placement(organ, shape);
+                DrawnOrgan { base, heading, up, size, fullness, colours, outlined: false }
+            }
+            OrganForm::Outline(..) | OrganForm::Surface(..) => {
+                let Frame { base, heading, up } = self.organ_base(organ);
+                let size = [self.plant.expanded(organ, self.age); 2];
+                DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, outlined: true }
+            }
+        }
     }
 
     /// The organs that are drawn.
-    fn organs(&self) -> impl Iterator<Item = OrganId> {
+    pub fn organs(&self) -> impl Iterator<Item = OrganId> {
         self.organs_of(0..self.plant.organs.len())
     }
 
@@ -267,44 +306,6 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The form of an internode.
-    #[inline]
-    fn stem(&self, node: NodeId) -> &Drawn {
-        let Plant { axes, nodes, habit, own_looks, .. } = self.plant;
-        if let Some(apart) = own_looks.of_node(node).filter(|&place| place < habit.looks.apart.len()) {
-            return &self.stems[habit.looks.internodes.len() + apart];
-        }
-        let axis: AxisId = nodes.axis[node.index()];
-        let place = habit.looks.place(axes.order[axis.index()], axes.state[axis.index()]);
-        &self.stems[place.unwrap_or(self.stems.len() - 1)]
-    }
-
-    #[inline]
-    fn write_stem(&self, stem: &Drawn, node: NodeId, out: &mut [Vertex]) {
-        match stem {
-            Drawn::Tube(tube) => tube.write(&self.frustum(node), &self.wood_tag(node), out),
-            Drawn::Strip => Strip::write(&self.frustum(node), &self.wood_tag(node), out),
-            Drawn::Form(shape) => shape.write(&self.stands(node), &[self.wood_tag(node); 2], out),
-        }
-    }
-
-    /// The placement of an internode that has the form of an organ.
-    fn stands(&self, node: NodeId) -> Placement {
-        let frame = self.plant.frames.at(node);
-        let nodes = &self.plant.nodes;
-        let size = [self.plant.posed_length(node), nodes.diameter[node.index()]];
-        Placement { base: frame.base, heading: frame.heading, up: frame.up, size, fullness: 1.0 }
-    }
-
-    #[inline]
-    fn frustum(&self, node: NodeId) -> Frustum {
-        let frame = self.plant.frames.at(node);
-        let (nodes, length) = (&self.plant.nodes, self.plant.posed_length(node));
-        let node = node.index();
-        let radii = [nodes.diameter[node] * 0.5, nodes.diameter_tip[node] * 0.5];
-        Frustum { base: frame.base, heading: frame.heading, up: frame.up, length, radii }
-    }
-
     /// The placement of an organ, with its size at its age, and with the fullness that gives it the area in the tables.
     fn placement(&self, organ: OrganId, shape: &FormMesh) -> Placement {
         let frame = self.organ_base(organ);
@@ -330,27 +331,6 @@ impl<'a> Scene<'a> {
         Frame { base: [0, 1, 2].map(|k| frame.base[k] + radius * out[k]), ..frame }
     }
 
-    #[inline]
-    fn wood_tag(&self, node: NodeId) -> Tag {
-        let look = self.plant.look_of_node(node);
-        let nodes = &self.plant.nodes;
-        let death = self.plant.death_of(node);
-        let node = node.index();
-        let dead = death <= self.age;
-        Tag {
-            colour: colour::wood(
-                look.kind,
-                &self.paints.internode(look.paint).bark,
-                self.age - nodes.birth[node],
-                dead,
-            ),
-            birth: nodes.birth[node] as f32,
-            death: if dead { death as f32 } else { f32::INFINITY },
-            component: nodes.component[node] as i32,
-            kind: look.kind(nodes.formation[node].is_short()) as u8,
-        }
-    }
-
     /// The tags of an organ and of its stalk.
     fn organ_tags(&self, organ: OrganId) -> [Tag; 2] {
         let organs = &self.plant.organs;
@@ -368,6 +348,13 @@ impl<'a> Scene<'a> {
 /// The entries of a column of `length` entries in a block.
 fn span(block: usize, length: usize) -> Range<usize> {
     block * BLOCK..((block + 1) * BLOCK).min(length)
+}
+
+/// Adds room for `more` entries at the end of a list.
+fn with_room<T: Zeroable + Clone>(list: &mut Vec<T>, more: usize) -> &mut [T] {
+    let first = list.len();
+    list.resize(first + more, T::zeroed());
+    &mut list[first..]
 }
 
 /// Adds room for `vertices` vertices at the end of `mesh`, and adds their triangles.

@@ -115,7 +115,8 @@ impl Strip {
 }
 
 /// The normal of the side as its parts along the radius and along the axis.
-fn lean(length: f32, narrowing: f32) -> [f32; 2] {
+#[inline]
+pub(super) fn lean(length: f32, narrowing: f32) -> [f32; 2] {
     let norm = (length * length + narrowing * narrowing).sqrt();
     if norm > 0.0 { [length / norm, narrowing / norm] } else { [1.0, 0.0] }
 }

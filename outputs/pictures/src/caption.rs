@@ -92,6 +92,17 @@ pub fn fitting(text: &str, size: f32, room: f32) -> String {
     fitting
 }
 
+/// Where the middle of the label of a single plant is written, whose foot is at `x`: on the line where there is room
+/// between the scale bar and the title, which leave the part from `free[0]` to `free[1]`. A label that would meet the
+/// title is written above the line. One that would meet the scale bar is moved into the free part or, where it is too
+/// long, is written above the length of the bar.
+pub fn lone_label(x: f32, half: f32, free: [f32; 2], (line, size): (f32, f32)) -> [f32; 2] {
+    if x - half >= free[0] {
+        return [x, if x + half > free[1] { line - 1.9 * size } else { line }];
+    }
+    if free[1] - free[0] >= 2.0 * half { [free[0] + half, line] } else { [x, line - 2.4 * size] }
+}
+
 /// Writes labels around their places on a line. A label that does not fit there is written on a second line above, or
 /// left out where that is taken too.
 pub fn write_row(canvas: &mut Canvas, labels: &[(f32, &str)], size: f32, line: f32) {

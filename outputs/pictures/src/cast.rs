@@ -6,21 +6,18 @@
 
 use super::camera::{Camera, Frame, tangents};
 use super::canvas::Canvas;
-use super::caption::{Align, fitting, letter_size, scale_bar, write, write_row};
+use super::caption::{Align, fitting, letter_size, lone_label, scale_bar, write, write_row};
 use super::colouring::{self, Legend, colours};
 use super::draw::{self, Set};
 use super::extent::Extent;
+use super::framing::{Framing, wide_side};
 use super::placed::{Body, PlacedStand};
 use super::{MOST_SUBJECTS, Picture, Placed, Stand, View, letters};
 use glam::Vec3;
 use phytomer_meshes::MeshOptions;
 use phytomer_sim::Tick;
 use std::collections::BTreeMap;
-use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
-
-/// A plant is flat if from some side it is this many times as wide as from another.
-const FLAT: f32 = 1.4;
 
 /// The plants of a picture, with their labels.
 pub struct Cast<'a> {
@@ -29,6 +26,8 @@ pub struct Cast<'a> {
     legend: Option<Legend>,
     /// The angle, radians, by which the viewer has moved around them.
     turn: f32,
+    /// What the camera holds, where that is known before.
+    held: Option<Framing>,
 }
 
 impl<'a> Cast<'a> {
@@ -40,10 +39,10 @@ impl<'a> Cast<'a> {
         let mut coloured =
             |count: usize| -> Vec<_> { (0..count).map(|_| colours.as_mut().and_then(Iterator::next)).collect() };
         let placed = stands.iter().zip(0_u8..).map(|(stand, number)| {
-            PlacedStand::new(bodies(stand, picture.sides, coloured(stand.plants.len())), number)
+            PlacedStand::new(bodies(stand, picture.sides, coloured(stand.plants.len())), &stand.obstacles, number)
         });
         let labels = stands.iter().map(|stand| stand.label.as_str()).collect();
-        Self { stands: placed.collect(), labels, legend: legend.flatten(), turn: 0.0 }
+        Self { stands: placed.collect(), labels, legend: legend.flatten(), turn: 0.0, held: None }
     }
 
     /// Puts the plants side by side, the first at the left, and returns the camera that sees all of them, at no more
@@ -69,12 +68,23 @@ impl<'a> Cast<'a> {
         Camera::fitting(&all, &frame, height, most)
     }
 
+    /// Leaves the first stand, which is to be the only one, in its place, and returns the camera that holds what is to
+    /// be held. The viewer goes around from the place of the framing to the `turn` of the picture.
+    pub fn hold(&mut self, picture: &Picture, framing: &Framing) -> Camera {
+        self.held = Some(*framing);
+        self.turn = framing.turn;
+        let gaze = picture.view.gaze(picture.turn.unwrap_or(framing.turn));
+        let extent = Extent { gaze, ..framing.extent }.moved(framing.pivot.unwrap_or_default());
+        Camera::fitting(&extent, &self.frame(picture), picture.size[1] as f32, f32::INFINITY)
+    }
+
     /// Draws the plants as a camera sees them, with their labels.
     pub fn draw(&self, picture: &Picture, camera: &Camera, title: &str) -> Canvas {
         let sun = picture.sun.unwrap_or_else(|| picture.view.sun(self.turn));
         let lights: Vec<_> = self.stands.iter().map(|stand| stand.light(sun)).collect();
         let Picture { ground, transparent, .. } = *picture;
-        let set = Set { stands: &self.stands, lights: &lights, camera: *camera, ground, transparent };
+        let around = self.held.map(|held| (held.middle, held.size));
+        let set = Set { stands: &self.stands, lights: &lights, camera: *camera, ground, transparent, around };
         let mut canvas = draw::draw(&set, picture.size);
         if picture.caption {
             self.write_below(&mut canvas, title, camera);
@@ -84,25 +94,13 @@ impl<'a> Cast<'a> {
 
     /// The angle around the first plant, radians, from which it is seen wide; 0 for a plant that is not flat.
     fn wide(&self, view: View) -> f32 {
-        let Some(stand) = self.stands.first().filter(|_| view == View::Perspective) else { return 0.0 };
-        let quarter = FRAC_PI_2 / 2.0;
-        let width = |step: u8| stand.width(view.gaze(f32::from(step) * quarter).right);
-        let straight = width(0);
-        let widest = (1..4).fold((0, straight), |best, step| {
-            let width = width(step);
-            if width > 1.02 * best.1 { (step, width) } else { best }
-        });
-        if widest.1 > FLAT * straight { f32::from(widest.0) * quarter } else { 0.0 }
+        let stand = self.stands.first().filter(|_| view == View::Perspective);
+        stand.map_or(0.0, |stand| wide_side(stand, view))
     }
 
     /// The part of a picture that is free for plants.
     fn frame(&self, picture: &Picture) -> Frame {
-        let [width, height] = picture.size.map(|side| side as f32);
-        let margin = 0.045 * width.min(height);
-        let size = letter_size(picture.size[1]);
-        let lines = if self.stands.len() > 1 { 7.6 } else { 4.6 };
-        let (below, aside) = if picture.caption { (lines * size, self.legend_width(size)) } else { (0.0, 0.0) };
-        Frame { left: margin, top: margin, right: width - margin.max(aside), bottom: height - margin.max(below) }
+        frame(picture, self.stands.len(), self.legend_width(letter_size(picture.size[1])))
     }
 
     fn legend_width(&self, size: f32) -> f32 {
@@ -113,24 +111,41 @@ impl<'a> Cast<'a> {
         let size = letter_size(canvas.height);
         let (width, height) = (canvas.width as f32, canvas.height as f32);
         let line = height - 1.4 * size;
-        let scale = self.stands.first().map_or(1.0, |stand| camera.scale_at(stand.offset + stand.middle()));
+        let middle = |stand: &PlacedStand| self.held.map_or(stand.offset + stand.middle(), |held| held.middle);
+        let scale = self.stands.first().map_or(1.0, |stand| camera.scale_at(middle(stand)));
         scale_bar(canvas, scale, 0.16 * width, size, [1.6 * size, line]);
         let (title, edge) = (fitting(title, size, 0.78 * width), width - 1.6 * size);
         write(canvas, &title, size, [edge, line], Align::Right);
-        let foot = |stand: &PlacedStand| camera.project(stand.offset + stand.middle()).map_or(0.0, |foot| foot.x);
+        let foot = |stand: &PlacedStand| camera.project(middle(stand)).map_or(0.0, |foot| foot.x);
         let feet = self.stands.iter().map(foot);
         let labels: Vec<(f32, &str)> = feet.zip(self.labels.iter().copied()).collect();
         if let [(x, label)] = labels[..] {
-            let half = 0.5 * letters::width(label, size);
+            // A label among others keeps its beginning, which is that of the widest in the middle.
+            let half = 0.5 * self.held.map_or_else(|| letters::width(label, size), |held| held.label);
             let x = x.max(half + size).min(width - half - size);
             let free = [2.6 * size + 0.16 * width, edge - letters::width(&title, size) - size];
-            let crowded = x - half < free[0] || x + half > free[1];
-            write(canvas, label, size, [x, if crowded { line - 1.9 * size } else { line }], Align::Middle);
+            let [x, line] = lone_label(x, half, free, (line, size));
+            write(canvas, label, size, [x - half, line], Align::Left);
         } else {
             write_row(canvas, &labels, size, line - 2.9 * size);
         }
         self.legend.iter().for_each(|legend| legend.draw(canvas, size));
     }
+}
+
+/// The part of a picture of so many stands that is free for plants, beside a legend of this width.
+pub fn frame(picture: &Picture, stands: usize, legend: f32) -> Frame {
+    let [width, height] = picture.size.map(|side| side as f32);
+    let margin = 0.045 * width.min(height);
+    let size = letter_size(picture.size[1]);
+    let lines = if stands > 1 { 7.6 } else { 4.6 };
+    let (below, aside) = if picture.caption { (lines * size, legend) } else { (0.0, 0.0) };
+    Frame { left: margin, top: margin, right: width - margin.max(aside), bottom: height - margin.max(below) }
+}
+
+/// A stand in its natural colours, as the first of a picture.
+pub fn placed<'a>(stand: &'a Stand, picture: &Picture) -> PlacedStand<'a> {
+    PlacedStand::new(bodies(stand, picture.sides, vec![None; stand.plants.len()]), &stand.obstacles, 0)
 }
 
 /// The plants of a stand, each once with all places where it stands. Two plants are the same if they are one reference

@@ -34,13 +34,15 @@ pub struct Set<'a> {
     pub ground: bool,
     /// Whether the background is transparent.
     pub transparent: bool,
+    /// The middle and the size of the ground around the plants, where they are not those of the stands.
+    pub around: Option<(Vec3, f32)>,
 }
 
 /// Draws a picture of this size, pixels, without text.
 pub fn draw(set: &Set, [width, height]: [u32; 2]) -> Canvas {
     let mut canvas = Canvas::new(width, height);
     let footings: Vec<Footing> =
-        set.stands.iter().zip(set.lights).map(|(stand, light)| footing(stand, light)).collect();
+        set.stands.iter().zip(set.lights).map(|(stand, light)| footing(stand, light, set.around)).collect();
     let ground = Ground {
         camera: &set.camera,
         footings: &footings,
@@ -68,9 +70,13 @@ pub fn draw(set: &Set, [width, height]: [u32; 2]) -> Canvas {
     canvas
 }
 
-fn footing<'a>(stand: &PlacedStand, light: &'a Light) -> Footing<'a> {
-    let [low, high] = stand.bounds();
-    Footing { light, offset: stand.offset, foot: stand.offset + stand.middle(), size: (high - low).length() }
+fn footing<'a>(stand: &PlacedStand, light: &'a Light, around: Option<(Vec3, f32)>) -> Footing<'a> {
+    let own = || {
+        let [low, high] = stand.bounds();
+        (stand.offset + stand.middle(), (high - low).length())
+    };
+    let (foot, size) = around.unwrap_or_else(own);
+    Footing { light, offset: stand.offset, foot, size }
 }
 
 /// Turns samples into pixels.

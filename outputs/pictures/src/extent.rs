@@ -52,6 +52,28 @@ impl Extent {
         self.high = self.high.max(point);
     }
 
+    /// Adds all places to which a point comes when it is turned around the Z axis. In each direction that bounds a
+    /// picture the farthest of them lies at r √(a² + b²), where a and b are the parts of that direction to the right
+    /// and along the level, and r is the distance of the point from the axis.
+    #[inline]
+    pub fn sweep(&mut self, point: Vec3) {
+        let radius = (point.x * point.x + point.y * point.y).sqrt();
+        let Gaze { up, forward, .. } = self.gaze;
+        let ([left, right, above, below], level) = (self.tangents, |v: Vec3| (v.x * v.x + v.y * v.y).sqrt());
+        let aside = |tangent: f32| {
+            let ahead = tangent * level(forward);
+            radius * (1.0 + ahead * ahead).sqrt() - tangent * point.z * forward.z
+        };
+        let along = |direction: Vec3| radius * level(direction) + point.z * direction.z;
+        let beyond = [aside(left), aside(right), along(up - forward * above), along(-up - forward * below)];
+        (0..4).for_each(|k| self.most[k] = self.most[k].max(beyond[k]));
+        let (far, level) = (point.z * forward.z, radius * level(forward));
+        self.depths = [self.depths[0].min(far - level), self.depths[1].max(far + level)];
+        self.across = [self.across[0].min(-radius), self.across[1].max(radius)];
+        self.low = self.low.min(Vec3::new(-radius, -radius, point.z));
+        self.high = self.high.max(Vec3::new(radius, radius, point.z));
+    }
+
     /// The extent of the points of both extents.
     pub fn join(mut self, other: &Self) -> Self {
         (0..4).for_each(|k| self.most[k] = self.most[k].max(other.most[k]));
@@ -75,4 +97,12 @@ impl Extent {
         self.high += offset;
         self
     }
+}
+
+/// The corners of a box.
+pub fn corners([low, high]: [Vec3; 2]) -> impl Iterator<Item = Vec3> {
+    (0..8).map(move |corner| {
+        let side = |bit: usize| if corner >> bit & 1 == 0 { low } else { high };
+        Vec3::new(side(0).x, side(1).y, side(2).z)
+    })
 }

@@ -4,7 +4,8 @@
 //! layout of their own. Plants are put side by side (`placed`), a camera is fitted to them (`camera`, `extent`), the
 //! light of sun and sky on each is computed (`shadow`, `sky`), triangles are turned into samples (`raster`, `film`),
 //! samples are shaded and averaged (`shade`, `ground`, `draw`), and the caption is written (`caption`). Equal plants
-//! and an equal [`Picture`] give equal bytes on any number of threads. Absent: films; textures.
+//! and an equal [`Picture`] give equal bytes on any number of threads. Pictures of a film share a camera (`framing`).
+//! Absent: textures.
 
 mod camera;
 mod canvas;
@@ -14,6 +15,7 @@ mod colouring;
 mod draw;
 mod extent;
 mod film;
+mod framing;
 mod gaze;
 mod ground;
 mod letters;
@@ -23,8 +25,11 @@ mod raster;
 mod shade;
 mod shadow;
 mod sky;
+mod survey;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_framing;
 mod tone;
 mod value_colours;
 
@@ -32,11 +37,13 @@ pub use self::png::write_png;
 pub use ::png::Compression;
 pub use canvas::Canvas;
 pub use colouring::{Colouring, Scale};
+pub use framing::Framing;
+pub use survey::Survey;
 
 use cast::Cast;
 use gaze::Gaze;
 use glam::Vec3;
-use phytomer_meshes::OwnForms;
+use phytomer_meshes::{Mesh, OwnForms};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::f32::consts::{FRAC_PI_2, PI};
@@ -148,6 +155,8 @@ pub struct Stand<'a> {
     /// The plants; any number. A plant that stands at several places is in the list once per place, as the same
     /// reference, and its mesh is made once.
     pub plants: Vec<Placed<'a>>,
+    /// Closed meshes of what stands among them, metres from the origin of the stand: the obstacles of a plot.
+    pub obstacles: Vec<Arc<Mesh>>,
     /// The text below them.
     pub label: String,
 }
@@ -180,13 +189,26 @@ pub fn draw_stands(stands: &[Stand], title: &str, picture: &Picture) -> Canvas {
     cast.draw(picture, &camera, title)
 }
 
+/// Draws a stand by a camera that holds what several pictures of it need. The `turn` of the picture, if given, is where
+/// the viewer has gone; a sun that is not given stays over the left shoulder of the viewer of the first picture.
+pub fn draw_framed(stand: &Stand, title: &str, picture: &Picture, framing: &Framing) -> Canvas {
+    let mut cast = Cast::of(std::slice::from_ref(stand), picture);
+    let camera = cast.hold(picture, framing);
+    cast.draw(picture, &camera, title)
+}
+
 /// A stand for each plant.
 fn alone<'a>(subjects: &[Subject<'a>], picture: &Picture) -> Vec<Stand<'a>> {
     let placed = |subject: &Subject<'a>| {
         let own = Arc::clone(&picture.own);
         Placed { plant: subject.plant, age: subject.age, place: [0.0; 3], own }
     };
-    subjects.iter().map(|subject| Stand { plants: vec![placed(subject)], label: subject.label.clone() }).collect()
+    let alone = |subject: &Subject<'a>| Stand {
+        plants: vec![placed(subject)],
+        obstacles: Vec::new(),
+        label: subject.label.clone(),
+    };
+    subjects.iter().map(alone).collect()
 }
 
 /// Draws the four parallel views of plants on one sheet, in one scale: front and side above, top and oblique below.

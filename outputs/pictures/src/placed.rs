@@ -1,12 +1,12 @@
-//! The plants that stand together in a picture, at their places, and the passes over their triangles: a single plant,
-//! or all plants of a plot.
+//! The plants that stand together in a picture, at their places, with the obstacles among them, and the passes over
+//! their triangles: a single plant, or all plants of a plot.
 //!
 //! Meshes are those of [`phytomer_meshes`], made block by block on any free thread, used and dropped: a picture of ten
 //! million triangles needs no more memory than one of ten. A plant that stands at several places is made once and kept.
 //! Triangles only add to sums of whole numbers and to maxima, so their order has no effect.
 
 use super::camera::Camera;
-use super::extent::Extent;
+use super::extent::{Extent, corners};
 use super::film::{Film, Paint};
 use super::gaze::Gaze;
 use super::raster::{Window, turn};
@@ -14,12 +14,13 @@ use super::shade::Light;
 use super::shadow::Shadow;
 use super::sky::Crown;
 use glam::Vec3;
-use phytomer_looks::Paints;
+use phytomer_looks::{Paints, Section};
 use phytomer_meshes::{Mesh, MeshOptions, Scene, Tag, Vertex};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The visible place of a plant of which nothing is left: one metre up from its seed.
 const EMPTY: Vec3 = Vec3::Z;
@@ -27,10 +28,10 @@ const EMPTY: Vec3 = Vec3::Z;
 /// The number of places of one plant that a thread handles with one block.
 const PLACES_AT_ONCE: usize = 16;
 
-/// A plant at an age, with the places where it stands.
+/// A plant at an age, with the places where it stands; or an obstacle, whose meshes are all kept.
 #[derive(Debug)]
 pub struct Body<'a> {
-    scene: Scene<'a>,
+    scene: Option<Scene<'a>>,
     /// The colours of its components by number; `None` for natural colours.
     colours: Option<Vec<[u8; 3]>>,
     /// The bounding boxes of its blocks; an empty block has its lower corner above its upper corner.
@@ -38,13 +39,15 @@ pub struct Body<'a> {
     stuff: [Stuff; Kind::ALL.len()],
     places: Vec<Vec3>,
     /// The meshes of its blocks, where it stands at several places; else empty, and blocks are made when they are used.
-    kept: Vec<Mesh>,
+    kept: Vec<Arc<Mesh>>,
 }
 
 /// The plants that stand together, at their place in the picture.
 #[derive(Debug)]
 pub struct PlacedStand<'a> {
     bodies: Vec<Body<'a>>,
+    /// How many of the bodies are plants; obstacles follow them.
+    plants: usize,
     looks: Vec<Look>,
     /// The offset from their origin to their place in the picture.
     pub offset: Vec3,
@@ -80,23 +83,37 @@ impl<'a> Body<'a> {
         let kept = blocks.into_par_iter().map(|block| {
             let mut mesh = Mesh::default();
             scene.block(block, &mut mesh);
-            mesh
+            Arc::new(mesh)
         });
-        let kept = kept.collect();
-        let mut body = Self { scene, colours, boxes: Vec::new(), stuff: stuff(plant), places, kept };
-        let boxes = (0..body.scene.blocks()).into_par_iter().map_init(Mesh::default, |mesh, block| {
+        let (kept, blocks) = (kept.collect(), scene.blocks());
+        Self { scene: Some(scene), colours, boxes: Vec::new(), stuff: stuff(plant), places, kept }.boxed(blocks)
+    }
+
+    /// An obstacle: a closed mesh in the coordinates of its stand.
+    pub fn obstacle(mesh: &Arc<Mesh>) -> Self {
+        let (kept, stuff) = (vec![Arc::clone(mesh)], [Stuff { thin: false, closed: true }; Kind::ALL.len()]);
+        Self { scene: None, colours: None, boxes: Vec::new(), stuff, places: vec![Vec3::ZERO], kept }.boxed(1)
+    }
+
+    /// With the bounding boxes of its blocks.
+    fn boxed(mut self, blocks: usize) -> Self {
+        let body = &self;
+        let boxes = (0..blocks).into_par_iter().map_init(Mesh::default, |mesh, block| {
             let vertices = body.block(block, mesh).vertices.iter().map(at);
             vertices.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)])
         });
-        body.boxes = boxes.collect();
-        body
+        self.boxes = boxes.collect();
+        self
     }
 
     fn block<'m>(&'m self, block: usize, mesh: &'m mut Mesh) -> &'m Mesh {
-        self.kept.get(block).unwrap_or_else(|| {
-            self.scene.block(block, mesh);
-            mesh
-        })
+        if let Some(kept) = self.kept.get(block) {
+            return kept;
+        }
+        if let Some(scene) = &self.scene {
+            scene.block(block, mesh);
+        }
+        mesh
     }
 
     fn is_empty(&self) -> bool {
@@ -148,9 +165,10 @@ impl<'a> Body<'a> {
 }
 
 impl<'a> PlacedStand<'a> {
-    /// A stand of these plants, with its index in the picture.
-    pub fn new(bodies: Vec<Body<'a>>, number: u8) -> Self {
-        let mut looks = Vec::new();
+    /// A stand of these plants and obstacles, with its index in the picture.
+    pub fn new(mut bodies: Vec<Body<'a>>, obstacles: &[Arc<Mesh>], number: u8) -> Self {
+        let (plants, mut looks) = (bodies.len(), Vec::new());
+        bodies.extend(obstacles.iter().map(Body::obstacle));
         for (body, of) in bodies.iter().enumerate() {
             for block in 0..of.boxes.len() {
                 let starts = (0..of.places.len()).step_by(PLACES_AT_ONCE);
@@ -160,11 +178,12 @@ impl<'a> PlacedStand<'a> {
                 }));
             }
         }
-        Self { bodies, looks, offset: Vec3::ZERO, number }
+        Self { bodies, plants, looks, offset: Vec3::ZERO, number }
     }
 
+    /// The places of its plants.
     fn places(&self) -> impl Iterator<Item = Vec3> {
-        self.bodies.iter().flat_map(|body| body.places.iter().copied())
+        self.bodies[..self.plants].iter().flat_map(|body| body.places.iter().copied())
     }
 
     /// The middle of the places of its plants, in its own coordinates.
@@ -178,6 +197,11 @@ impl<'a> PlacedStand<'a> {
         let feet = self.places().map(|place| [place; 2]);
         let boxes = feet.chain(self.bodies.iter().flat_map(Body::placed_boxes));
         boxes.reduce(|[low, high], [a, b]| [low.min(a), high.max(b)]).unwrap_or_default()
+    }
+
+    /// The box around the feet of its plants, in its own coordinates; `None` without plants.
+    pub fn feet(&self) -> Option<[Vec3; 2]> {
+        self.places().map(|place| [place; 2]).reduce(|[low, high], [a, b]| [low.min(a), high.max(b)])
     }
 
     /// Its width along a direction, about: from the boxes of its blocks.
@@ -195,26 +219,43 @@ impl<'a> PlacedStand<'a> {
     /// Its extent in its own coordinates, for a gaze and the tangents of a frame. With `buried`, the parts below its
     /// foot count too.
     pub fn extent(&self, gaze: Gaze, tangents: [f32; 4], buried: bool) -> Extent {
+        self.extent_beyond(&Extent::new(gaze, tangents), None, buried)
+    }
+
+    /// The extent of the points of `known` and its own. With a pivot its points count, relative to the pivot, at every
+    /// place to which a turn around the vertical axis there brings them.
+    pub fn extent_beyond(&self, known: &Extent, pivot: Option<Vec3>, buried: bool) -> Extent {
         let lowest = if buried { f32::NEG_INFINITY } else { 0.0 };
-        let empty = || Extent::new(gaze, tangents);
+        let add = |extent: &mut Extent, point: Vec3| match pivot {
+            Some(pivot) => extent.sweep(point - pivot),
+            None => extent.add(point),
+        };
+        let is_beyond = |look: &Look| {
+            let body = &self.bodies[look.body];
+            let mut with = *known;
+            for place in &body.places[look.places.clone()] {
+                corners(body.boxes[look.block]).for_each(|corner| add(&mut with, corner + *place));
+            }
+            with != *known
+        };
         let mut extent = self.each_look(
-            |_| true,
+            is_beyond,
             |look, scratch| {
-                let mut extent = empty();
+                let mut extent = *known;
                 let body = &self.bodies[look.body];
                 let mesh = body.block(look.block, &mut scratch.mesh);
                 for place in &body.places[look.places.clone()] {
                     let points = mesh.vertices.iter().map(|vertex| at(vertex) + *place);
-                    points.filter(|point| point.z >= lowest).for_each(|point| extent.add(point));
+                    points.filter(|point| point.z >= lowest).for_each(|point| add(&mut extent, point));
                 }
                 extent
             },
-            empty,
+            || *known,
             |a, b| a.join(&b),
         );
-        self.places().for_each(|place| extent.add(place));
+        self.places().for_each(|place| add(&mut extent, place));
         if self.bodies.iter().all(Body::is_empty) {
-            extent.add(self.middle() + EMPTY);
+            add(&mut extent, self.middle() + EMPTY);
         }
         extent
     }
@@ -234,7 +275,11 @@ impl<'a> PlacedStand<'a> {
                     let vertices = face.indices().map(|index| &mesh.vertices[index as usize]);
                     let corners = vertices.map(|vertex| at(vertex) + *place);
                     shadow.cast(&corners);
-                    crown.add(&corners, body.stuff_of(&vertices[0].tag()).thin);
+                    if body.scene.is_none() {
+                        crown.add_obstacle(&corners);
+                    } else {
+                        crown.add(&corners, body.stuff_of(&vertices[0].tag()).thin);
+                    }
                 }
             },
             || (),
@@ -274,9 +319,8 @@ impl<'a> PlacedStand<'a> {
         if low.x > high.x {
             return None;
         }
-        for corner in 0..8 {
-            let side = |bit: usize| if corner >> bit & 1 == 0 { low } else { high };
-            let seen = camera.project(Vec3::new(side(0).x, side(1).y, side(2).z) + place)?;
+        for corner in corners([low, high]) {
+            let seen = camera.project(corner + place)?;
             rows = [rows[0].min(seen.y * fine - 1.0), rows[1].max(seen.y * fine + 1.0)];
         }
         Some(rows)
@@ -322,6 +366,7 @@ struct Stuff {
 /// The optical properties of each kind of a plant.
 fn stuff(plant: &Plant) -> [Stuff; Kind::ALL.len()] {
     let paints = Paints::of(&plant.habit);
+    let solid = paints.sections().iter().all(Section::is_closed);
     let looks = plant.habit.looks.internodes.iter().chain(&plant.habit.looks.apart);
     Kind::ALL.map(|kind| {
         let stem = kind.class() == Class::Internode;
@@ -330,6 +375,7 @@ fn stuff(plant: &Plant) -> [Stuff; Kind::ALL.len()] {
         let thin =
             if stem { looks.clone().filter(look).any(|look| look.shape == Shape::Blade) } else { is_leafy(kind) };
         let closed = stem
+            && solid
             && looks
                 .clone()
                 .filter(look)

@@ -5,7 +5,7 @@
 //! makes them do.
 
 use super::camera::Camera;
-use super::extent::Extent;
+use super::extent::{Extent, corners};
 use super::film::keep_nearest;
 use super::gaze::Gaze;
 use super::raster::{UPRIGHT, Window, cover};
@@ -58,10 +58,7 @@ impl Shadow {
     pub fn over(low: Vec3, high: Vec3, [azimuth, elevation]: [f32; 2]) -> Self {
         let gaze = Gaze::towards(azimuth + std::f32::consts::PI, elevation);
         let mut seen = Extent::new(gaze, [0.0; 4]);
-        for corner in 0..8 {
-            let side = |bit: usize| if corner >> bit & 1 == 0 { low } else { high };
-            seen.add(Vec3::new(side(0).x, side(1).y, side(2).z));
-        }
+        corners([low, high]).for_each(|corner| seen.add(corner));
         let [west, east, north, south] = seen.most;
         let (wide, tall) = ((west + east).max(1e-3), (north + south).max(1e-3));
         let scale = TEXELS / wide.max(tall);

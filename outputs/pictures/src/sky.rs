@@ -18,6 +18,8 @@ const CELLS: f32 = 72.0;
 const AIR: usize = 10;
 /// The unit of area: this part of a cell's face. Sums of whole numbers do not depend on their order.
 const PARTS: f32 = 65536.0;
+/// The most pieces into which a side of a plant's triangle is cut.
+const MOST_CUTS: f32 = 12.0;
 /// The rings of the sky: elevation in degrees, number of directions, share of the sky.
 const RINGS: [(f32, u16, f32); 4] = [(22.0, 8, 0.50), (42.0, 7, 0.30), (64.0, 4, 0.16), (90.0, 1, 0.04)];
 /// The number of directions that are swept at once; fixed, so that sums have one order.
@@ -54,15 +56,28 @@ impl Crown {
         Self { low, cell, size, areas }
     }
 
-    /// Adds a triangle. A leaf, which is drawn once, shows half its area to a random direction; a closed surface shows
-    /// a quarter (Cauchy).
+    /// Adds a triangle of a plant. A leaf, which is drawn once, shows half its area to a random direction; a closed
+    /// surface shows a quarter (Cauchy).
     #[inline]
-    pub fn add(&self, [a, b, c]: &[Vec3; 3], thin: bool) {
+    pub fn add(&self, corners: &[Vec3; 3], thin: bool) {
+        self.add_cut(corners, thin, MOST_CUTS);
+    }
+
+    /// Adds a triangle of an obstacle, which may be as large as the grid: as one of a closed surface, in pieces that
+    /// are no larger than a cell.
+    #[inline]
+    pub fn add_obstacle(&self, corners: &[Vec3; 3]) {
+        self.add_cut(corners, false, 4.0 * CELLS);
+    }
+
+    /// Adds a triangle in pieces; no side is cut into more than `most`.
+    #[inline]
+    fn add_cut(&self, [a, b, c]: &[Vec3; 3], thin: bool, most: f32) {
         let (ab, ac) = (*b - *a, *c - *a);
         let area = 0.5 * ab.cross(ac).length() * if thin { 0.5 } else { 0.25 };
         let longest = ab.length_squared().max(ac.length_squared()).max((*c - *b).length_squared());
-        let cuts = (longest.sqrt() / self.cell).ceil().clamp(1.0, 12.0) as u16;
-        let pieces = f32::from(cuts * (cuts + 1) / 2);
+        let cuts = (longest.sqrt() / self.cell).ceil().clamp(1.0, most) as u16;
+        let pieces = (u32::from(cuts) * (u32::from(cuts) + 1) / 2) as f32;
         let parts = (area / pieces / (self.cell * self.cell) * PARTS + 0.5) as u32;
         let at = |i: u16, j: u16| (f32::from(i) + 1.0 / 3.0, f32::from(j) + 1.0 / 3.0);
         for (i, j) in (0..cuts).flat_map(|i| (0..cuts - i).map(move |j| at(i, j))) {

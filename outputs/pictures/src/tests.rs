@@ -4,16 +4,18 @@
 //! Pictures made with different numbers of threads are compared as well.
 
 use super::camera::{Camera, Frame, Lens, tangents};
-use super::caption::{INK, bar_length, length_in_words, letter_size};
+use super::caption::{INK, bar_length, length_in_words, letter_size, lone_label};
 use super::extent::Extent;
 use super::film::{Film, Paint};
 use super::raster::{UPRIGHT, Window, cover};
 use super::shadow::Shadow;
 use super::sky::{Crown, falling_on};
 use super::*;
+use phytomer_meshes::Solid;
 use phytomer_sim::math::{sincosf, tan};
 use phytomer_sim::plant::{Habit, NewAxis, NewNode, Seed, Trend};
 use phytomer_sim::pose::pose;
+use phytomer_sim::shape::{Cuboid, Shape};
 use std::sync::Arc;
 
 const WHITE: Paint = Paint { colour: [255; 3], thin: false, stained: false, subject: 0 };
@@ -27,7 +29,7 @@ fn picture(size: [u32; 2], view: View) -> Picture {
 }
 
 /// One upright internode.
-fn pole(length: f32, diameter: f32) -> Plant {
+pub fn pole(length: f32, diameter: f32) -> Plant {
     let habit = Habit { trends: vec![Trend::STRAIGHT], ..Habit::default() };
     let seed = Seed { plant: 0, draws: 0, run_seed: 1, component_limit: 9, keep_events: false };
     let mut plant = Plant::new(&seed, Arc::new(habit));
@@ -281,4 +283,43 @@ fn values_become_colours_and_a_legend() {
     let told = format!("{:?}", legend.expect("a legend"));
     assert!(told.contains("order 2") && told.contains("order 3") && !told.contains("order 1"), "{told}");
     assert_eq!(of(Scale::Amounts, vec![f64::NAN]), (vec![vec![NOTHING]], None));
+}
+
+/// A wall of 2 × 1 m, seen from the front in parallel projection: as high as half of its width, in the colour that is
+/// stated. It hides the pole behind it, and where the plant stands does not move.
+#[test]
+fn an_obstacle_is_drawn_with_its_stand() {
+    let plant = pole(0.5, 0.05);
+    let wall = Shape::Cuboid(Cuboid::on([0.0, -1.0, 0.0], [2.0, 0.2, 1.0]));
+    let mesh = Arc::new(Solid::of(&wall).expect("it has an end").obstacle(Some([200, 30, 30])));
+    let drawn = |obstacles: Vec<Arc<Mesh>>, view: View| {
+        let placed = Placed { plant: &plant, age: 1, place: [0.0; 3], own: Arc::default() };
+        let stand = Stand { plants: vec![placed], obstacles, label: String::new() };
+        draw_stands(&[stand], "", &picture([200, 160], view))
+    };
+    let canvas = drawn(vec![Arc::clone(&mesh)], View::Front);
+    let seen: Vec<(u32, u32)> =
+        (0..160).flat_map(|y| (0..200).map(move |x| (x, y))).filter(|(x, y)| canvas.at(*x, *y)[3] == 255).collect();
+    let extent = |of: &dyn Fn(&(u32, u32)) -> u32| {
+        let all = seen.iter().map(of);
+        all.clone().max().unwrap_or(0) - all.min().unwrap_or(0)
+    };
+    let (wide, tall) = (extent(&|at| at.0), extent(&|at| at.1));
+    assert!(wide.abs_diff(2 * tall) <= 3, "{wide} × {tall}");
+    assert_eq!(seen.len() as u32, (wide + 1) * (tall + 1), "nothing but the wall");
+    assert!(seen.iter().all(|(x, y)| canvas.at(*x, *y)[0] > 2 * canvas.at(*x, *y)[1]), "it is red");
+    assert!(drawn(vec![mesh], View::Top) != drawn(Vec::new(), View::Top));
+}
+
+/// The scale bar has 0.16 of the width, the title the right part; the label is written under its foot, or beside the
+/// bar, or above both, so that no text meets another.
+#[test]
+fn a_label_gives_way_to_the_scale_bar() {
+    let (free, of) = ([160.0, 500.0], (400.0, 10.0));
+    assert_eq!(lone_label(300.0, 50.0, free, of), [300.0, 400.0], "there is room");
+    assert_eq!(lone_label(60.0, 50.0, free, of), [210.0, 400.0], "beside the bar");
+    assert_eq!(lone_label(480.0, 50.0, free, of), [480.0, 381.0], "above the title");
+    let [x, line] = lone_label(220.0, 200.0, free, of);
+    // The length of the bar is written 0.75 sizes above the line, a size high; stems reach a third of a size down.
+    assert!(x == 220.0 && line + 10.0 / 3.0 < 400.0 - 7.5 - 10.0, "{line}");
 }

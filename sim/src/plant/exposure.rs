@@ -8,6 +8,7 @@
 
 use crate::clock::{NEVER, Tick};
 use crate::math::{expm1, log1p};
+use crate::random::share;
 
 /// The least share that survives a tick: even a hazard of 1 leaves it, so that sums of logarithms stay finite.
 const LEAST_LEFT: f64 = 1e-15;
@@ -116,8 +117,7 @@ impl Survival {
         else {
             return NEVER;
         };
-        let draw = (f64::from(word) + 0.5) / 4_294_967_296.0;
-        let reached = before - log1p(-draw);
+        let reached = before - log1p(-share(word));
         let end = self.sum.partition_point(|sum| *sum < reached);
         if end < self.sum.len() { (end as Tick).max(birth + 1) } else { NEVER }
     }

@@ -97,8 +97,8 @@ impl Plant {
         self.organs.area[organ.index()] = area(&corners[..count]) as f32;
     }
 
-    /// Gives an organ a curved surface as its form: the place of the surface among those of the habit, its factors along
-    /// the organ, to its left and to its upper side when it is full-grown, and the area of one side then, m².
+    /// Gives an organ a curved surface as its form: the place of the surface among those of the habit, its factors
+    /// along the organ, to its left and to its upper side when it is full-grown, and the area of one side then, m².
     pub fn state_surface(&mut self, organ: OrganId, place: u32, scale: [f32; 3], area: f32) {
         self.stated_organs.surfaces.set(organ.index(), (place.saturating_add(1), scale));
         self.organs.area[organ.index()] = area;

@@ -2,7 +2,8 @@
 //! flower made of parts needs.
 //!
 //! A look is named by its place among [`super::Looks::apart`] or [`super::Looks::organs_apart`]. A place past their end
-//! names no look. A plant without own looks has empty columns.
+//! names no look. Beside its look a node may have a cross section of its own. A plant without own looks has empty
+//! columns.
 
 use super::Plant;
 use super::handle::{NodeId, OrganId};
@@ -15,13 +16,16 @@ pub struct OwnLooks {
     nodes: Rare<u16>,
     /// For each organ the place of its look, counted from 1; 0 for none.
     organs: Rare<u16>,
+    /// For each node the place of its cross section among those that the habit carries for drawing, counted from 1; 0
+    /// for a circle.
+    sections: Rare<u16>,
 }
 
 impl OwnLooks {
-    /// Whether no node and no organ has an own look.
+    /// Whether no node and no organ has an own look or section.
     #[inline]
     pub fn is_empty(&self) -> bool {
-        self.nodes.is_empty() && self.organs.is_empty()
+        self.nodes.is_empty() && self.organs.is_empty() && self.sections.is_empty()
     }
 
     /// The place of the own look of a node among [`super::Looks::apart`]; `None` where it has none.
@@ -36,15 +40,23 @@ impl OwnLooks {
         usize::from(self.organs.at(organ.index())).checked_sub(1)
     }
 
+    /// The place of the cross section of a node among those of the habit; `None` where it is a circle.
+    #[inline]
+    pub fn section_of(&self, node: NodeId) -> Option<usize> {
+        usize::from(self.sections.at(node.index())).checked_sub(1)
+    }
+
     /// Adds the own looks of a fragment, whose first node and organ become `node` and `organ`.
     pub(super) fn join(&mut self, more: &Self, [node, organ]: [usize; 2]) {
         self.nodes.join(&more.nodes, |at| node + at);
         self.organs.join(&more.organs, |at| organ + at);
+        self.sections.join(&more.sections, |at| node + at);
     }
 
     pub(super) fn clear(&mut self) {
         self.nodes.clear();
         self.organs.clear();
+        self.sections.clear();
     }
 }
 
@@ -52,6 +64,11 @@ impl Plant {
     /// Gives a node the look at a place of [`super::Looks::apart`], below 65,535.
     pub fn give_look(&mut self, node: NodeId, place: u16) {
         self.own_looks.nodes.set(node.index(), place.saturating_add(1));
+    }
+
+    /// Gives a node the cross section at a place among those of the habit, below 65,535.
+    pub fn give_section(&mut self, node: NodeId, place: u16) {
+        self.own_looks.sections.set(node.index(), place.saturating_add(1));
     }
 
     /// Gives an organ the look at a place of [`super::Looks::organs_apart`], below 65,535.

@@ -6,6 +6,7 @@
 //! two members that are nearer than twice that distance run together, and alone each keeps its surface.
 
 use super::bounds::Bounds;
+use super::soft::to_surface;
 use super::tree::Tree;
 use super::{Measure, Point, SURFACE, Shape};
 
@@ -23,12 +24,21 @@ impl Union {
         Self { members, tree }
     }
 
+    /// Its members.
+    pub fn members(&self) -> &[Shape] {
+        &self.members
+    }
+
     pub(super) fn inside(&self, point: Point) -> bool {
         self.tree.any(point, |member| self.members[member].inside(point))
     }
 
     pub(super) fn level(&self, point: Point, measure: Measure) -> f64 {
         self.members.iter().map(|member| member.level(point, measure)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    pub(super) fn distance(&self, point: Point) -> f64 {
+        self.members.iter().map(|member| member.distance(point)).fold(f64::INFINITY, f64::min)
     }
 
     pub(super) fn bounds(&self) -> Bounds {
@@ -58,6 +68,14 @@ impl Intersection {
         self.members.iter().map(|member| member.level(point, measure)).fold(f64::INFINITY, f64::min)
     }
 
+    pub(super) fn distance(&self, point: Point) -> f64 {
+        self.members.iter().map(|member| member.distance(point)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    pub(super) fn members(&self) -> &[Shape] {
+        &self.members
+    }
+
     pub(super) fn bounds(&self) -> Bounds {
         self.bounds
     }
@@ -85,6 +103,15 @@ impl Difference {
         self.whole.level(point, measure).min(2.0 * SURFACE - self.taken.level(point, measure))
     }
 
+    pub(super) fn distance(&self, point: Point) -> f64 {
+        self.whole.distance(point).max(-self.taken.distance(point))
+    }
+
+    /// The number of its parts, without itself.
+    pub(super) fn parts(&self) -> usize {
+        self.whole.parts() + self.taken.members.iter().map(Shape::parts).sum::<usize>()
+    }
+
     pub(super) fn bounds(&self) -> Bounds {
         self.whole.bounds()
     }
@@ -94,6 +121,8 @@ impl Difference {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blend {
     members: Vec<Shape>,
+    /// The bounds of each member, which it may be farther from than its distance says.
+    bounds: Vec<Bounds>,
     /// The distance from the surface of each member at which its field ends, metres.
     reach: f64,
     tree: Tree,
@@ -102,19 +131,45 @@ pub struct Blend {
 impl Blend {
     /// The blend of members, each reaching so many metres beyond its surface.
     pub fn of(members: Vec<Shape>, reach: f64) -> Self {
-        let tree = Tree::of(&members.iter().map(|member| member.bounds().with_margin(reach)).collect::<Vec<_>>());
-        Self { members, reach, tree }
+        let bounds: Vec<Bounds> = members.iter().map(Shape::bounds).collect();
+        let tree = Tree::of(&bounds.iter().map(|bounds| bounds.with_margin(reach)).collect::<Vec<_>>());
+        Self { members, bounds, reach, tree }
     }
 
-    /// The sum of the fields of the members.
+    /// The sum of the fields of the members. A member whose distances are too small, as those of one that is scaled
+    /// unequally, is as far away as its bounds at least: so its field ends where it is no longer asked.
     pub(super) fn level(&self, point: Point) -> f64 {
         let measure = Measure { factor: 1.0, reach: Some(self.reach) };
         let mut sum = 0.0;
         self.tree.any(point, |member| {
-            sum += self.members[member].level(point, measure);
+            let (square, level) =
+                (self.bounds[member].square_distance(point), self.members[member].level(point, measure));
+            sum += if square > 0.0 { level.min(measure.field(square.sqrt())) } else { level };
             false
         });
         sum
+    }
+
+    /// The distance to the surface, metres, negative inside, along the line to the nearest place of the nearest member.
+    pub(super) fn distance(&self, point: Point) -> f64 {
+        let distances = self.members.iter().map(|member| (member, member.distance(point)));
+        let Some((member, distance)) = distances.min_by(|a, b| a.1.total_cmp(&b.1)) else { return f64::INFINITY };
+        if !distance.is_finite() {
+            return distance;
+        }
+        let step = 1e-4 * self.reach;
+        let slope = [0, 1, 2].map(|axis| {
+            let beside = |by: f64| [0, 1, 2].map(|k| point[k] + if k == axis { by } else { 0.0 });
+            (member.distance(beside(step)) - member.distance(beside(-step))) / (2.0 * step)
+        });
+        // A little within the surface of the member, where the field of the blend is above that of the surface.
+        let back = distance.abs() + 1e-6 * self.reach;
+        let core = [0, 1, 2].map(|k| point[k] - back * slope[k]);
+        to_surface(|at| self.level(at), core, point, &self.tree.bounds()).unwrap_or(distance)
+    }
+
+    pub(super) fn members(&self) -> &[Shape] {
+        &self.members
     }
 
     pub(super) fn bounds(&self) -> Bounds {

@@ -93,6 +93,11 @@ impl Mesh {
         Ok(Self { triangles, tree, dipoles })
     }
 
+    /// Its triangles by their corners.
+    pub fn triangles(&self) -> &[[Point; 3]] {
+        &self.triangles
+    }
+
     /// How often the mesh winds about a point.
     fn winding(&self, point: Point) -> f64 {
         let mut angle = 0.0;

@@ -35,6 +35,8 @@ use std::sync::Arc;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_distance;
+#[cfg(test)]
 mod tests_mesh;
 #[cfg(test)]
 mod tests_volumes;
@@ -128,7 +130,38 @@ impl Shape {
     }
 
     fn level(&self, point: Point, measure: Measure) -> f64 {
-        let solid: &dyn Solid = match self {
+        match self {
+            Self::Soft(soft) => soft.field(point),
+            Self::Blend(blend) => blend.level(point),
+            Self::Union(union) => union.level(point, measure),
+            Self::Intersection(all) => all.level(point, measure),
+            Self::Difference(rest) => rest.level(point, measure),
+            Self::Placed(placed) => {
+                let factor = measure.factor * placed.least_scale();
+                placed.shape().level(placed.before(point), Measure { factor, ..measure })
+            }
+            solid => solid.solid().map_or(f64::NEG_INFINITY, |solid| measure.field(solid.distance(point))),
+        }
+    }
+
+    /// The distance to the surface, metres, negative inside. Of solids and of what is made of them it is ½ less the
+    /// field. Of soft objects and blends it is measured along the line to the nearest part: exact for a lone point or
+    /// line, else not below the true distance; infinite where that line meets no surface.
+    pub fn distance(&self, point: Point) -> f64 {
+        match self {
+            Self::Soft(soft) => soft.distance(point),
+            Self::Blend(blend) => blend.distance(point),
+            Self::Union(union) => union.distance(point),
+            Self::Intersection(all) => all.distance(point),
+            Self::Difference(rest) => rest.distance(point),
+            Self::Placed(placed) => placed.least_scale() * placed.shape().distance(placed.before(point)),
+            solid => solid.solid().map_or(f64::INFINITY, |solid| solid.distance(point)),
+        }
+    }
+
+    /// The solid that it is; `None` of what is made of other shapes, of soft objects and of blends.
+    fn solid(&self) -> Option<&dyn Solid> {
+        Some(match self {
             Self::Sphere(solid) => solid,
             Self::Ellipsoid(solid) => solid,
             Self::Cuboid(solid) => solid,
@@ -140,17 +173,24 @@ impl Shape {
             Self::Polyline(solid) => solid,
             Self::Shell(solid) => solid,
             Self::Mesh(solid) => &**solid,
-            Self::Soft(soft) => return soft.field(point),
-            Self::Blend(blend) => return blend.level(point),
-            Self::Union(union) => return union.level(point, measure),
-            Self::Intersection(all) => return all.level(point, measure),
-            Self::Difference(rest) => return rest.level(point, measure),
-            Self::Placed(placed) => {
-                let factor = measure.factor * placed.least_scale();
-                return placed.shape().level(placed.before(point), Measure { factor, ..measure });
-            }
-        };
-        measure.field(solid.distance(point))
+            _ => return None,
+        })
+    }
+
+    /// The number of its parts, itself among them: shapes, points of polylines and parts of skeletons. A mesh, which is
+    /// kept once, is one part.
+    pub fn parts(&self) -> usize {
+        let sum = |members: &[Self]| members.iter().map(Self::parts).sum::<usize>();
+        1 + match self {
+            Self::Polyline(line) => line.len(),
+            Self::Soft(soft) => soft.len(),
+            Self::Union(union) => sum(union.members()),
+            Self::Intersection(all) => sum(all.members()),
+            Self::Blend(blend) => sum(blend.members()),
+            Self::Difference(rest) => rest.parts(),
+            Self::Placed(placed) => placed.shape().parts(),
+            _ => 0,
+        }
     }
 
     /// The shape `by` metres farther.

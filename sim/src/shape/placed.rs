@@ -36,6 +36,12 @@ impl Placed {
         [0, 1, 2].map(|k| super::dot(at, self.axes[k]) / self.scale[k])
     }
 
+    /// Where a point of the shape before it was placed comes to lie.
+    pub fn after(&self, point: Point) -> Point {
+        let along = [0, 1, 2].map(|axis| point[axis] * self.scale[axis]);
+        [0, 1, 2].map(|k| self.to[k] + (0..3).map(|axis| along[axis] * self.axes[axis][k]).sum::<f64>())
+    }
+
     /// The length of what was at least a metre long.
     pub fn least_scale(&self) -> f64 {
         self.scale[0].min(self.scale[1]).min(self.scale[2])

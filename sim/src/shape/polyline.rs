@@ -24,6 +24,16 @@ impl Polyline {
         Self { points, tree }
     }
 
+    /// The number of its points.
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Whether it has no points.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
     fn piece(&self, number: usize) -> ((Point, f64), (Point, f64)) {
         (self.points[number], self.points[(number + 1).min(self.points.len() - 1)])
     }

@@ -32,12 +32,13 @@ pub struct Shell {
 const MOST_TURNS: f64 = 1000.0;
 
 impl Shell {
-    fn last(&self) -> f64 {
+    /// The turns that it has: at most a thousand.
+    pub fn last(&self) -> f64 {
         self.turns.clamp(0.0, MOST_TURNS)
     }
 
     /// The circle after t turns: the distance of its centre from the axis, its height and its radius.
-    fn circle(&self, turns: f64) -> [f64; 3] {
+    pub fn circle(&self, turns: f64) -> [f64; 3] {
         let size = pow(self.shrink, turns);
         [self.spiral * size, self.height * (1.0 - size), self.tube * size]
     }

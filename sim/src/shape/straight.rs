@@ -11,8 +11,18 @@ use super::{Point, Solid, dot, from, length};
 pub struct HalfSpace {
     /// A point on the plane, metres.
     pub point: Point,
-    /// The direction out of the half space; of any length but 0.
+    /// The direction out of the half space; of any length that is not below [`HalfSpace::SHORTEST`].
     pub normal: Point,
+}
+
+impl HalfSpace {
+    /// The shortest length of a normal: the square of a length far below it is 0, and distances would be no numbers.
+    pub const SHORTEST: f64 = 1e-100;
+
+    /// Whether a vector has no direction that can be told, being shorter than any normal may be.
+    pub fn is_too_short(normal: Point) -> bool {
+        length(normal) < Self::SHORTEST
+    }
 }
 
 impl Solid for HalfSpace {

@@ -9,7 +9,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// Shapes of every form, each within 4 m of the origin.
-fn every() -> Vec<(&'static str, Shape)> {
+pub(super) fn every() -> Vec<(&'static str, Shape)> {
     let sphere = Shape::Sphere(Sphere { centre: [0.5, 0.2, 0.3], radius: 1.1 });
     let ellipsoid = Ellipsoid { centre: [0.1, 0.2, 0.3], radii: [0.7, 1.5, 1.0] };
     let cuboid = Shape::Cuboid(Cuboid::on([0.3, -0.4, -1.0], [1.0, 2.0, 2.5]));
@@ -43,7 +43,7 @@ fn every() -> Vec<(&'static str, Shape)> {
     ]
 }
 
-fn points(number: usize, seed: u64) -> impl Iterator<Item = Point> {
+pub(super) fn points(number: usize, seed: u64) -> impl Iterator<Item = Point> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     (0..number).map(move |_| [0, 1, 2].map(|_| 8.0 * random.random::<f64>() - 4.0))
 }

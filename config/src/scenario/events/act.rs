@@ -3,6 +3,7 @@
 //! Absent: its times, and the faults of its keys.
 
 use super::{Event, Plane, Work};
+use phytomer_models::shapes::ShapeOrName;
 use phytomer_sim::NEVER;
 use phytomer_sim::management::{Act, Kept, Region, Support, Training};
 use phytomer_sim::shape::Shape;
@@ -39,6 +40,14 @@ impl Event {
             Work::Bending | Work::Staking | Work::Tying => {
                 Act::Train(Training { support: self.support(row_direction), stays: self.stays.unwrap_or(NEVER) })
             }
+        }
+    }
+
+    /// The parts of the shape that it states without a name, of what it does.
+    pub(super) fn own_parts(&self, act: &Act) -> usize {
+        match (&self.shape, act) {
+            (Some(ShapeOrName::Shape(_)), Act::Clear(Region::Outside(shape), _)) => shape.parts(),
+            _ => 0,
         }
     }
 

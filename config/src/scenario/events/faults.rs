@@ -6,6 +6,8 @@
 
 use super::Event;
 use phytomer_law::fault::{Fault, Path};
+use phytomer_models::shapes::length_of;
+use phytomer_sim::shape::HalfSpace;
 
 impl Event {
     pub(super) fn check_keys(&self, path: &Path, faults: &mut Vec<Fault>) {
@@ -47,8 +49,10 @@ impl Event {
             let problem = "a harvest at a height takes fruits whether they are ripe or not";
             faults.push(Fault::new(&path.key("ripe_share"), problem, "`ripe_share` or `harvest_cut_height`"));
         }
-        for (number, plane) in self.planes.iter().enumerate().filter(|(_, plane)| plane.normal == [0.0; 3]) {
-            let problem = format!("the normal of the plane through {:?} has the length 0", plane.point_m);
+        for (number, plane) in self.planes.iter().enumerate().filter(|(_, plane)| HalfSpace::is_too_short(plane.normal))
+        {
+            let problem =
+                format!("the normal of the plane through {:?} has {}", plane.point_m, length_of(plane.normal));
             let path = path.key("planes").index(number).key("normal");
             faults.push(Fault::new(&path, problem, "a direction, such as [0, 1, 0]"));
         }

@@ -3,7 +3,9 @@
 //!
 //! A season of days belongs to the ticks that span its first and its last day. A plant that is sown in the midst of an
 //! attack meets the rest of it, at the hazard of each tick that the whole attack has. Of an attack that goes on after
-//! the run, the ticks are counted as in the year before. Absent: how severe an attack is.
+//! the run, the ticks are counted as in the year before. A yearly attack that is under way when the run begins has the
+//! ticks that its rest has in the run, and before them as many more as its days before the run are worth at the same
+//! days a tick. Absent: how severe an attack is.
 
 use super::super::days;
 use super::{Host, Pest, Run};
@@ -24,6 +26,32 @@ pub(super) struct Attack {
     pub ticks: u32,
     /// The ages, from the first up to before the second, of the season after it; `None` where it does not come again.
     pub next: Option<[u32; 2]>,
+}
+
+/// One season of attacks, in ticks of the plot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Season {
+    /// Its number, from 0.
+    number: u32,
+    first: u32,
+    last: u32,
+    /// The ticks of the whole attack, of which some may lie before the run.
+    ticks: u32,
+}
+
+impl Season {
+    /// The rest of an attack on days of which the first lies before the run and the last in it or behind it.
+    fn under_way(number: u32, [first, last]: [Date; 2], calendar: &Calendar) -> Option<Self> {
+        let begun = calendar.at(0).date;
+        if first >= begun || last < begun {
+            return None;
+        }
+        let ends = calendar.tick_of(last).unwrap_or(calendar.ticks().len() as u32 - 1);
+        let days = u64::from(calendar.at(ends).date.since(begun).max(1).unsigned_abs());
+        let before = u64::from(begun.since(first).max(0).unsigned_abs());
+        let ticks = u64::from(ends) + (before * u64::from(ends) + days / 2) / days;
+        (ends > 0).then_some(Self { number, first: 1, last: ends, ticks: u32::try_from(ticks).unwrap_or(u32::MAX) })
+    }
 }
 
 impl Pest {
@@ -51,26 +79,32 @@ impl Pest {
         let seasons = self.seasons_of(calendar);
         let age = |tick: u32| tick.saturating_sub(host.sown);
         let end = host.sown.saturating_add(host.until).saturating_add(1);
-        let of_plant = |(place, [season, first, last]): (usize, &[u32; 3])| {
-            let begins = |later: usize| seasons.get(place + later).map_or(end, |[_, first, _]| *first);
+        let of_plant = |(place, season): (usize, &Season)| {
+            let begins = |later: usize| seasons.get(place + later).map_or(end, |season| season.first);
             let next = self.yearly.then(|| [age(begins(1)), age(begins(2))]);
-            let (from, until, ticks) = (age(*first).max(1), age(*last), last - first + 1);
-            (*last > host.sown).then_some(Attack { season: *season, from, until, ticks, next })
+            let Season { number, first, last, ticks } = *season;
+            let (from, until) = (age(first).max(1), age(last));
+            (last > host.sown).then_some(Attack { season: number, from, until, ticks, next })
         };
         seasons.iter().enumerate().filter_map(of_plant).collect()
     }
 
-    /// The number of each season with its first and its last tick.
-    fn seasons_of(&self, calendar: &Calendar) -> Vec<[u32; 3]> {
+    /// The seasons that lie in the run or reach into it.
+    fn seasons_of(&self, calendar: &Calendar) -> Vec<Season> {
         let Some([first, last]) = self.days() else { return Vec::new() };
-        let mut seasons: Vec<[u32; 3]> = Vec::new();
+        let mut seasons: Vec<Season> = Vec::new();
         let lasts = days::years_on(days::lying_in(last, calendar));
         let years = days::years(first, self.yearly, calendar).zip(lasts);
-        for (season, (first, last)) in (0..).zip(years) {
+        for (number, (first, last)) in (0..).zip(years) {
+            let under_way = Season::under_way(number, [first, last], calendar).filter(|_| self.yearly);
+            if let Some(under_way) = under_way {
+                seasons.push(under_way);
+                continue;
+            }
             let Some(first) = calendar.tick_of(first) else { continue };
-            let as_before = || seasons.last().map_or(first, |[_, from, until]| first + (until - from));
-            let last = calendar.tick_of(last).unwrap_or_else(as_before);
-            seasons.push([season, first, last.max(first)]);
+            let as_before = || seasons.last().map_or(first, |season| first + (season.ticks - 1));
+            let last = calendar.tick_of(last).unwrap_or_else(as_before).max(first);
+            seasons.push(Season { number, first, last, ticks: last - first + 1 });
         }
         seasons
     }
@@ -84,7 +118,9 @@ impl Pest {
     /// The fault of an attack whose days do not lie in the run.
     pub(super) fn fault_of_days(&self, calendar: &Calendar, path: &Path) -> Option<Fault> {
         let [first, last] = self.days()?;
-        let outside = days::fault_of(first, self.yearly, calendar, &path.key("dates").index(0));
+        let outside = || days::fault_of(first, self.yearly, calendar, &path.key("dates").index(0));
+        let is_in_the_run = !self.seasons_of(calendar).is_empty();
+        let outside = if is_in_the_run { None } else { outside() };
         outside.or_else(|| days::fault_of(last, self.yearly, calendar, &path.key("dates").index(1)))
     }
 
@@ -181,6 +217,29 @@ mod tests {
         assert_eq!(met(0), [attack(0, 5, 8, [17, 27]), attack(1, 17, 20, [27, 27])]);
         assert_eq!(met(6), [attack(0, 1, 2, [11, 21]), attack(1, 11, 14, [21, 21])]);
         assert_eq!(met(8), [attack(1, 9, 12, [19, 19])]);
+        // Planted in the midst of the attack, 61 days after its first day: its rest has the ticks 1 and 2, which span
+        // 60 days, so two more ticks lie before the run. The next season has what it always has.
+        let planted = Terms { planted: Date::parse("2020-06-30").expect("a day"), ..terms };
+        let midst = Calendar::of(&planted, 26, |_| None).expect("a calendar");
+        let in_the_midst = Host { calendar: Some(&midst), ..host };
+        assert_eq!(
+            yearly.attacks_on(&in_the_midst),
+            [
+                attack(0, 1, 2, [11, 23]),
+                attack(1, 11, 14, [23, 27]),
+                Attack { season: 2, from: 23, until: 26, ticks: 4, next: Some([27, 27]) },
+            ]
+        );
+        // A run that ends before the next season still meets the rest, and its days are no fault; those of an attack
+        // that is over are, and so are those of one that does not come again.
+        let short = Calendar::of(&planted, 5, |_| None).expect("a calendar");
+        let path = Path::root();
+        assert_eq!(yearly.attacks_on(&Host { calendar: Some(&short), until: 5, ..host }).len(), 1);
+        assert_eq!(yearly.fault_of_days(&short, &path), None);
+        assert!(Pest { yearly: false, ..yearly.clone() }.fault_of_days(&short, &path).is_some());
+        let over = Terms { planted: Date::parse("2020-08-18").expect("a day"), ..planted };
+        let over = Calendar::of(&over, 5, |_| None).expect("a calendar");
+        assert!(yearly.fault_of_days(&over, &path).is_some());
         let exposed = exposure(std::slice::from_ref(&yearly), &host).expect("an exposure");
         let at_ages = Pest { ages: Some([5, 8]), dates: None, yearly: false, every: Some(12), ..yearly.clone() };
         let by_age = exposure(&[at_ages], &host).expect("an exposure");

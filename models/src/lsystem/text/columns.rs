@@ -5,7 +5,7 @@
 //! and where it begins. Absent: what departs (`model`).
 
 use super::draft::{BASE, Draft, Internode};
-use super::form::Stated;
+use super::form::{Stated, metres};
 use super::numbers::{Born, Bud, Numbered};
 use crate::lsystem::turtle::{Frame, Vector};
 use phytomer_looks::FormName;
@@ -130,8 +130,8 @@ fn write_node(
         short: false,
         neoformed: false,
         trend: 0,
-        length: (node.length * measures.step) as f32,
-        diameter: (node.width * measures.width) as f32,
+        length: metres(node.length * measures.step),
+        diameter: metres(node.width * measures.width),
         azimuth: 0.0,
     };
     let id = plant.place_node(new, born.number);
@@ -139,6 +139,9 @@ fn write_node(
     state(plant, Part::Node(id), &bearer, node.frame, measures.step);
     if let Some(look) = measures.look(node) {
         plant.give_look(id, look);
+    }
+    if let Some(section) = node.section {
+        plant.give_section(id, section);
     }
 }
 
@@ -171,7 +174,7 @@ fn bearing(draft: &Draft, node: u32, to: &Places) -> Bearer {
 fn relative(bearer: &Bearer, frame: Frame, step: f64) -> (Rotation, [f32; 3]) {
     let turned = Rotation::to(bearer.frame.coordinates(frame.heading), bearer.frame.coordinates(frame.up));
     let beside = [0, 1, 2].map(|i| frame.position[i] - bearer.tip[i]);
-    (turned, bearer.frame.coordinates(beside).map(|along| (along * step) as f32))
+    (turned, bearer.frame.coordinates(beside).map(|along| metres(along * step)))
 }
 
 fn state(plant: &mut Plant, part: Part, bearer: &Bearer, frame: Frame, step: f64) {
@@ -191,8 +194,8 @@ fn write_organ(
 ) {
     let organ = &draft.organs[place];
     let node = to.place(organ.on);
-    let size = (organ.size * measures.width) as f32;
-    let form = Stated::of(organ, draft, measures.step, plant);
+    let size = metres(organ.size * measures.width);
+    let form = Stated::of(&organ.form, &organ.frame, &draft.corners, measures.step, plant);
     let [length, width] = form.extents().unwrap_or([size; 2]);
     let new = NewOrgan {
         node: NodeId(node as u32),

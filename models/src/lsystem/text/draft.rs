@@ -5,12 +5,12 @@
 //! stands on the base of that internode; where the trunk has none, on a foot of length 0, which is an internode.
 //! Absent: numbers and ages (`numbers`), and the columns of a plant (`columns`).
 
+use super::form::{Form, ViewForms};
 use super::role::{Role, Roles};
 use crate::lsystem::turtle::{Command, Drawing, Frame, Turtle, Vector};
 use phytomer_rewriting::{Derived, Drawn, Module, Slot};
 use phytomer_sim::key::LineageKey;
 use phytomer_sim::plant::Kind;
-use std::ops::Range;
 
 /// The place of what stands before the first internode of the trunk.
 pub(super) const BASE: u32 = u32::MAX;
@@ -27,6 +27,8 @@ pub(super) struct Internode {
     pub frame: Frame,
     pub length: f64,
     pub width: f64,
+    /// The place of its cross section among those of the habit; `None` for a circle.
+    pub section: Option<u16>,
     pub kind: Kind,
     pub colour: i32,
 }
@@ -47,28 +49,6 @@ pub(super) struct Organ {
     pub colour: i32,
     /// The module that was rewritten into its module.
     pub predecessor: LineageKey,
-}
-
-/// What an organ is drawn as.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Form {
-    /// What its kind is drawn as.
-    OfKind,
-    /// The polygon of these among the corners.
-    Outline(Range<usize>),
-    /// The curved surface with this place among those of the view file, with factors along H, L and U.
-    Surface(usize, [f64; 3]),
-}
-
-impl Form {
-    /// Whether anything is stated that can be drawn.
-    fn is_drawn(&self) -> bool {
-        match self {
-            Self::OfKind => false,
-            Self::Outline(corners) => !corners.is_empty(),
-            Self::Surface(..) => true,
-        }
-    }
 }
 
 /// An axis.
@@ -119,13 +99,10 @@ struct Bracket {
     last: u32,
 }
 
-/// The symbols of the curved surfaces, each at the place of its surface among those of the habit.
-pub(super) type Surfaces = Vec<char>;
-
 /// A walk along the modules of a string.
 pub(super) struct Walk<'w> {
     roles: &'w Roles,
-    surfaces: &'w Surfaces,
+    view: &'w ViewForms,
     turtle: &'w mut Turtle,
     draft: &'w mut Draft,
     open: Vec<Bracket>,
@@ -143,7 +120,7 @@ impl<'w> Walk<'w> {
     /// A walk from the beginning of the string, for a draft that forgets what it held.
     pub fn begin(
         roles: &'w Roles,
-        surfaces: &'w Surfaces,
+        view: &'w ViewForms,
         turtle: &'w mut Turtle,
         draft: &'w mut Draft,
         derived: &'w Derived,
@@ -154,19 +131,7 @@ impl<'w> Walk<'w> {
         let at = Bracket { key: LineageKey::SEED, module, axis: Some(0), last: BASE };
         let following = Box::new(derived.string().modules());
         let predecessor = LineageKey::SEED;
-        Self {
-            roles,
-            surfaces,
-            turtle,
-            draft,
-            open: Vec::new(),
-            at,
-            following,
-            of: None,
-            named: None,
-            module,
-            predecessor,
-        }
+        Self { roles, view, turtle, draft, open: Vec::new(), at, following, of: None, named: None, module, predecessor }
     }
 
     /// Goes on by a module as it is drawn; what a query that stands there asks for.
@@ -188,23 +153,33 @@ impl<'w> Walk<'w> {
         if !silent {
             self.state_of(role, drawn.key);
         }
-        let Self { turtle, draft, surfaces, .. } = self;
+        let Self { turtle, draft, view, .. } = self;
         let colour = turtle.state().colour[0];
         let frame = turtle.state().frame;
         match turtle.follow(command, drawn.parameters)? {
-            Drawing::Line { from, length, width } if !silent => {
+            Drawing::Line { from, length, width, contour } if !silent => {
                 let kind = if let Role::Internode(kind) = role { kind } else { Kind::Internode };
-                let key = drawn.key;
-                let place =
-                    Internode { key, module: key, axis: 0, below: BASE, frame: from, length, width, kind, colour };
-                self.add_node(place);
+                let module = drawn.key;
+                let node = Internode {
+                    key: drawn.key,
+                    module,
+                    axis: 0,
+                    below: BASE,
+                    frame: from,
+                    length,
+                    width,
+                    section: view.section(contour),
+                    kind,
+                    colour,
+                };
+                self.add_node(node);
             }
             Drawing::Polygon { from, corners } => {
                 let outline = draft.add_outline(corners.iter().copied());
                 self.drawn_as(silent, role, drawn.key, from, outline, colour);
             }
             Drawing::Surface { symbol, scale } => {
-                let place = surfaces.iter().position(|known| *known == symbol);
+                let place = view.surfaces.iter().position(|known| *known == symbol);
                 let [across, along, above] = scale;
                 let form = place.map_or(Form::OfKind, |place| Form::Surface(place, [along, across, above]));
                 self.drawn_as(silent, role, drawn.key, frame, form, colour);
@@ -242,6 +217,7 @@ impl<'w> Walk<'w> {
                 frame,
                 length: 0.0,
                 width: 0.0,
+                section: None,
                 kind: Kind::Internode,
                 colour: 0,
             };

@@ -8,7 +8,7 @@
 //! Absent: light.
 
 use super::draft::Internode;
-use super::forms::in_metres;
+use super::shapes::in_metres;
 use crate::lsystem::turtle::Vector;
 use phytomer_rewriting::Slot;
 use phytomer_sim::shape::Shape;

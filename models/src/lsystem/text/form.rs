@@ -1,12 +1,55 @@
 //! The forms that organs state of themselves: the outline of a polygon, or a curved surface, in metres and in the frame
-//! of the organ.
+//! of the organ; and what the view file names.
 //!
 //! The area of a surface, and of a polygon that is not plane, is that of the triangles that it is drawn with. Absent:
-//! where forms come from (`draft`), and what an organ without a form of its own is drawn as (`columns`).
+//! where forms stand (`draft`), and what an organ without a form of its own is drawn as (`columns`).
 
-use super::draft::{Draft, Form, Organ};
+use crate::lsystem::turtle::{Frame, Vector};
 use phytomer_looks::{Paints, polygon};
 use phytomer_sim::plant::{OrganId, Plant};
+use std::ops::Range;
+
+/// The longest length, metres: a text may state any number.
+const FARTHEST: f64 = 1e12;
+
+/// What an organ is drawn as.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Form {
+    /// What its kind is drawn as.
+    OfKind,
+    /// The polygon of these among the corners.
+    Outline(Range<usize>),
+    /// The curved surface with this place among those of the view file, with factors along H, L and U.
+    Surface(usize, [f64; 3]),
+}
+
+impl Form {
+    /// Whether anything is stated that can be drawn.
+    pub fn is_drawn(&self) -> bool {
+        match self {
+            Self::OfKind => false,
+            Self::Outline(corners) => !corners.is_empty(),
+            Self::Surface(..) => true,
+        }
+    }
+}
+
+/// What the view file names, each at its place among what the habit has for drawing.
+#[derive(Debug, Clone, Default)]
+pub(super) struct ViewForms {
+    /// The symbols of the curved surfaces.
+    pub surfaces: Vec<char>,
+    /// The numbers of the contours.
+    pub contours: Vec<i32>,
+}
+
+impl ViewForms {
+    /// The place of the section of a contour; `None` for a circle.
+    pub fn section(&self, contour: i32) -> Option<u16> {
+        let place = if contour == 0 { None } else { self.contours.iter().position(|known| *known == contour) };
+        place.map(|place| place as u16)
+    }
+}
 
 /// The form of an organ, ready to be stated.
 pub(super) enum Stated {
@@ -19,22 +62,23 @@ pub(super) enum Stated {
 }
 
 impl Stated {
-    /// The form of an organ of a draft, for a step of so many metres and a plant whose habit has the surfaces.
-    pub fn of(organ: &Organ, draft: &Draft, step: f64, plant: &Plant) -> Self {
-        match &organ.form {
+    /// The form of an organ with a frame, for a step of so many metres and a plant whose habit has the surfaces; the
+    /// corners are those of all outlines, in the coordinates of the turtle.
+    pub fn of(form: &Form, frame: &Frame, corners: &[Vector], step: f64, plant: &Plant) -> Self {
+        match form {
             Form::OfKind => Self::OfKind,
             Form::Outline(range) => {
-                let beside = |corner: &[f64; 3]| [0, 1, 2].map(|i| corner[i] - organ.frame.position[i]);
-                let metres = |corner| organ.frame.coordinates(beside(corner)).map(|along| (along * step) as f32);
-                let corners: Vec<[f32; 3]> = draft.corners[range.clone()].iter().map(metres).collect();
+                let beside = |corner: &Vector| [0, 1, 2].map(|i| corner[i] - frame.position[i]);
+                let corner = |corner| frame.coordinates(beside(corner)).map(|along| metres(along * step));
+                let corners: Vec<[f32; 3]> = corners[range.clone()].iter().map(corner).collect();
                 if corners.len() < 3 { Self::OfKind } else { Self::Outline(corners) }
             }
             Form::Surface(place, scale) => {
                 let Some(surface) = Paints::of(&plant.habit).surface(*place) else { return Self::OfKind };
-                let metres = scale.map(|factor| factor * step);
-                let factors = metres.map(|factor| factor as f32);
-                let extents = [0, 1].map(|axis| factors[axis].abs() * surface.extent(axis));
-                Self::Surface(*place as u32, factors, surface.area(metres) as f32, extents)
+                let factors = scale.map(|factor| metres(factor * step));
+                let extents = [0, 1].map(|axis| metres(f64::from(factors[axis].abs() * surface.extent(axis))));
+                let area = surface.area(factors.map(f64::from)).min(FARTHEST * FARTHEST);
+                Self::Surface(*place as u32, factors, area as f32, extents)
             }
         }
     }
@@ -69,4 +113,9 @@ fn extent(corners: &[[f32; 3]], axis: usize) -> f32 {
     let along = corners.iter().map(|corner| corner[axis]);
     let (least, most) = along.fold((0.0_f32, 0.0_f32), |(least, most), x| (least.min(x), most.max(x)));
     most - least
+}
+
+/// A length in single precision; none is so long that its cube is no number there.
+pub(super) fn metres(length: f64) -> f32 {
+    length.clamp(-FARTHEST, FARTHEST) as f32
 }

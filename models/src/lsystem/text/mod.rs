@@ -3,7 +3,7 @@
 //! `role` is what each module is to a plant, `draft` the plant of a string in the coordinates of the turtle, `numbers`
 //! what lasts from age to age, `columns` the columns of a plant, `events` its events, `model` goes from tick to tick;
 //! `system` reads and compiles the texts to a `script`; `world` is what they call and do not state: functions of the
-//! view file (`curves`) and shapes (`forms`); `environment` answers `?E`. Absent: the language (`phytomer_rewriting`),
+//! view file (`curves`) and shapes (`shapes`); `environment` answers `?E`. Absent: the language (`phytomer_rewriting`),
 //! the turtle and its view files (beside), and the keys of a species.
 
 mod columns;
@@ -12,11 +12,11 @@ mod draft;
 mod environment;
 mod events;
 mod form;
-mod forms;
 mod model;
 mod numbers;
 mod role;
 mod script;
+mod shapes;
 mod system;
 #[cfg(test)]
 mod tests;

@@ -4,9 +4,10 @@
 //! (`phytomer_rewriting`), drawing (`draft`), numbers (`numbers`).
 
 use super::columns::{Measures, write};
-use super::draft::{Draft, Surfaces, Walk};
+use super::draft::{Draft, Walk};
 use super::environment::{Asked, Environment};
 use super::events::{self, Noted};
+use super::form::ViewForms;
 use super::numbers::{Bud, Numbered, Numbers};
 use super::script::{Script, Scripts};
 use crate::lsystem::turtle::{Query, Turtle};
@@ -27,7 +28,7 @@ pub struct TextModel {
     /// Where plants draw constants: the script is then of one plant each.
     pub(super) drawn: Option<Box<dyn Scripts>>,
     pub(super) turtle: Turtle,
-    pub(super) surfaces: Surfaces,
+    pub(super) view: ViewForms,
     /// What answers `?E`; `None`: it keeps its parameters.
     pub(super) environment: Option<Environment>,
     pub(super) measures: Measures,
@@ -103,7 +104,7 @@ impl Drawing<'_> {
         mut answer: impl FnMut(&Drawn<'_>, Query, &Walk<'_>),
     ) -> Result<(), Stopped> {
         let Scratch { turtle, draft, .. } = &mut *self.scratch;
-        let mut walk = Walk::begin(&self.script.roles, &self.model.surfaces, turtle, draft, derived);
+        let mut walk = Walk::begin(&self.script.roles, &self.model.view, turtle, draft, derived);
         program.draw(derived, |drawn| {
             if let Some(query) = walk.go_on(&drawn) {
                 answer(&drawn, query, &walk);

@@ -6,17 +6,18 @@
 use super::columns::Measures;
 use super::curves::Curves;
 use super::environment::Environment;
-use super::forms::Forms;
+use super::form::ViewForms;
 use super::model::{TextModel, shape};
 use super::role::Roles;
 use super::script::{Script, Scripts};
+use super::shapes::ShapeFunctions;
 use super::world::World;
 use crate::law::{At, VariateTable};
 use crate::lsystem::turtle::Turtle;
-use crate::lsystem::view::{Colours, Function, Surface, TextFault, View};
+use crate::lsystem::view::{Colours, Contour, Function, Surface, TextFault, View};
 use crate::shapes::Named;
-use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints, Surface as Form};
-use phytomer_rewriting::{Outside, Program, Reading, Refused};
+use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints, Section, Surface as Form};
+use phytomer_rewriting::{Limits, Outside, Program, Reading, Refused};
 use phytomer_sim::key::{LineageKey, mix};
 use phytomer_sim::plant::{Class, Habit, InternodeLook, Kind, Looks, OrganLook, Trend};
 use phytomer_sim::random::{PlantRandom, Purpose};
@@ -50,6 +51,8 @@ pub struct TextSystem {
     pub environment: Option<Environment>,
     /// The kinds of modules, by their names.
     pub kinds: BTreeMap<String, Kind>,
+    /// The most that a derivation may come to.
+    pub limits: Limits,
     /// The modules that go on as the last of their symbol in a successor.
     pub continues_last: Vec<String>,
     /// The length of a step of 1, metres.
@@ -91,16 +94,16 @@ impl TextSystem {
     pub fn compile(&self) -> Result<TextModel, Vec<Wrong>> {
         let mut wrong = Vec::new();
         let view = self.view(&mut wrong);
-        let surfaces = self.surfaces(&view, &mut wrong);
-        let forms = Forms::of(&self.shapes, self.step_m);
-        let world = Arc::new(World { curves: self.curves(&view, &mut wrong), forms });
+        let shown = Shown { surfaces: self.surfaces(&view, &mut wrong), contours: self.contours(&view, &mut wrong) };
+        let shapes = ShapeFunctions::of(&self.shapes, self.step_m);
+        let world = Arc::new(World { curves: self.curves(&view, &mut wrong), shapes });
         let colours = self.colours(&mut wrong);
         let middle: Vec<(String, f64)> = self.constants(|_| u32::MAX / 2);
         match self.script(&middle, &world) {
             Ok(script) if self.environment.is_some() && script.program.symbols().symbol(ENVIRONMENT).is_none() => {
                 Err(wrong.into_iter().chain([Wrong::Unasked]).collect())
             }
-            Ok(script) if wrong.is_empty() => Ok(self.model(script, &world, &view, surfaces, colours.as_ref())),
+            Ok(script) if wrong.is_empty() => Ok(self.model(script, &world, &view, shown, colours.as_ref())),
             Ok(_) => Err(wrong),
             Err(more) => Err(wrong.into_iter().chain(more).collect()),
         }
@@ -127,7 +130,7 @@ impl TextSystem {
         script: Script,
         world: &Arc<World>,
         view: &View,
-        surfaces: Vec<(char, Form)>,
+        shown: Shown,
         colours: Option<&Colours>,
     ) -> TextModel {
         let angle_deg = script.program.settings().angle_deg.unwrap_or(view.angle_deg);
@@ -139,11 +142,7 @@ impl TextSystem {
         kinds.dedup();
         let (looks, places, mut paints) = looks(&kinds, view.tapered_lines, colours);
         let measures = Measures { step: self.step_m, width, looks: places, coloured: colours.is_some() };
-        let surfaces = surfaces.into_iter().map(|(symbol, form)| {
-            paints.add_surface(form);
-            symbol
-        });
-        let surfaces = surfaces.collect();
+        let named = shown.named(&mut paints);
         let for_drawing = paints.into_habit();
         let habit = Habit { trends: vec![Trend::STRAIGHT], looks, for_drawing, ..Habit::default() };
         let tapered = view.tapered_lines;
@@ -151,7 +150,7 @@ impl TextSystem {
         let of_each = || Box::new(OfEachPlant { system: self.clone(), world: Arc::clone(world) });
         let drawn = is_drawn.then(|| of_each() as Box<dyn Scripts>);
         let (script, environment) = (Arc::new(script), self.environment.clone());
-        TextModel { script, drawn, turtle, surfaces, environment, measures, tapered, habit: Arc::new(habit) }
+        TextModel { script, drawn, turtle, view: named, environment, measures, tapered, habit: Arc::new(habit) }
     }
 
     fn view(&self, wrong: &mut Vec<Wrong>) -> View {
@@ -187,6 +186,19 @@ impl TextSystem {
         surfaces
     }
 
+    /// The contours of the view file by their numbers.
+    fn contours(&self, view: &View, wrong: &mut Vec<Wrong>) -> Vec<(i32, Section)> {
+        let mut contours = Vec::new();
+        for (number, file) in &view.contours {
+            let Some((name, text)) = self.text(file, wrong) else { continue };
+            match Contour::read(text) {
+                Ok(contour) => contours.push((*number, contour.section(view.contour_sides))),
+                Err(fault) => wrong.push(in_text(name, fault)),
+            }
+        }
+        contours
+    }
+
     fn curves(&self, view: &View, wrong: &mut Vec<Wrong>) -> Curves {
         let mut curves = Vec::new();
         if let Some((name, text)) = view.function_set.as_ref().and_then(|name| self.text(name, wrong)) {
@@ -219,10 +231,12 @@ impl TextSystem {
         let mut wrong = Vec::new();
         let Some((_, text)) = self.text(&self.file, &mut wrong) else { return Err(wrong) };
         let include = |name: &str| {
-            self.texts
-                .get(name)
-                .cloned()
-                .ok_or_else(|| "there is no such file in the folder of the L-system".to_owned())
+            let missing = || {
+                let problem = "there is no file of this name in the folder of the L-system that can be read";
+                let outside = name.starts_with('/') || name.split(['/', '\\']).any(|part| part == "..");
+                if outside { "it may lie outside the folder of the L-system" } else { problem }.to_owned()
+            };
+            self.texts.get(name).cloned().ok_or_else(missing)
         };
         let reading = Reading {
             define,
@@ -231,7 +245,9 @@ impl TextSystem {
             continues_last: &self.continues_last,
             ..Reading::of(&self.file)
         };
-        Program::read(text, &reading).map_err(|refused| Wrong::all(&refused))
+        let mut program = Program::read(text, &reading).map_err(|refused| Wrong::all(&refused))?;
+        program.limits = self.limits;
+        Ok(program)
     }
 }
 
@@ -250,6 +266,28 @@ impl Wrong {
     /// There is no text of this name.
     pub(in crate::lsystem) fn missing(file: &str) -> Self {
         in_text(file, missing())
+    }
+}
+
+/// What the view file names, ready to be drawn.
+struct Shown {
+    surfaces: Vec<(char, Form)>,
+    contours: Vec<(i32, Section)>,
+}
+
+impl Shown {
+    /// Puts all into the paints; the names in their places there.
+    fn named(self, paints: &mut Paints) -> ViewForms {
+        let mut named = ViewForms::default();
+        for (symbol, form) in self.surfaces {
+            paints.add_surface(form);
+            named.surfaces.push(symbol);
+        }
+        for (number, section) in self.contours {
+            paints.add_section(section);
+            named.contours.push(number);
+        }
+        named
     }
 }
 

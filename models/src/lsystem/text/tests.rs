@@ -5,7 +5,7 @@ use super::{TextModel, TextSystem};
 use crate::contract;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::model::Grow as _;
-use phytomer_sim::plant::{Cause, Kind, Plant};
+use phytomer_sim::plant::{Cause, Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::{node_frame, pose};
 use std::collections::BTreeMap;
 
@@ -168,6 +168,67 @@ fn a_simple_tree_responds_to_pruning() {
     assert!(plant.ledger.iter().all(|gone| gone.cause == Cause::Rewritten));
 }
 
+/// Fig. 4: the signal S stands at (0, 5) in steps 7 and 10, and at (0, 3) in step 20. S draws nothing, so that it
+/// stands where the turtle comes to it.
+#[test]
+fn the_signal_stands_where_figure_4_shows_it() {
+    use crate::lsystem::turtle::{Command, Turtle};
+    use crate::lsystem::view::View;
+    use phytomer_sim::random::PlantRandom;
+    let pruned = model(BOX, "angle increment: 32", &[]);
+    for (step, expected) in [(7, 5.0), (10, 5.0), (20, 3.0)] {
+        let derived = pruned.derive(PlantRandom::new(1, 0), step).expect("a step");
+        let mut turtle = Turtle::new(&View { angle_deg: 32.0, ..View::default() });
+        let mut found = Vec::new();
+        for module in derived.string().modules() {
+            let name = pruned.program().symbols().name(module.symbol);
+            if name == "S" {
+                found.push(turtle.state().frame.position);
+            }
+            turtle.follow(Command::of(name), module.parameters);
+        }
+        let [[x, y, z]] = found[..] else { panic!("one signal in step {step}: {found:?}") };
+        assert!(x.abs() + (y - expected).abs() + z.abs() < 1e-12, "step {step}: {x} {y} {z}");
+    }
+}
+
+/// Numbers of any size in a surface, a view file and a string make a plant of finite numbers.
+#[test]
+fn numbers_of_any_size_are_drawn() {
+    use super::TextSystem;
+    let head = [
+        "-1e308 1e308 -1e308 1e308 -1e308 1e308",
+        "CONTACT POINT X: 0.0 Y: 0.0 Z: 0.0",
+        "END POINT X: 0.0 Y: 1.0 Z: 0.0",
+        "HEADING X: 0.0 Y: 1.0 Z: 0.0",
+        "UP X: 0.0 Y: 0.0 Z: 1.0",
+        "SIZE: 1e-300",
+        "p",
+        "TOP COLOR: 0 DIFFUSE: 1.0 BOTTOM COLOR: 0 DIFFUSE: 1.0",
+        "AL: ~ A: ~ AR: ~",
+        "L: ~ R: ~",
+        "BL: ~ B: ~ BR: ~\n",
+    ];
+    let row = |y: &str| format!("-1e306 {y} 0 -1e303 {y} 1e305 1e303 {y} 0 1e306 {y} 0\n");
+    let surface = format!("{}{}{}{}{}", head.join("\n"), row("-1e306"), row("0"), row("1e300"), row("1e306"));
+    let text = "Axiom: F(1e300)[+(30)~p(1e300)]F(1e300){.f(1e200)+(90).f(1e200)+(90).}\n";
+    let texts = [("plant.l", text), ("plant.v", "surface: p p.s 1e300\n"), ("p.s", &surface)];
+    let system = TextSystem {
+        file: "plant.l".to_owned(),
+        view: Some("plant.v".to_owned()),
+        texts: texts.map(|(name, text)| (name.to_owned(), text.to_owned())).into(),
+        step_m: 1000.0,
+        ..TextSystem::default()
+    };
+    let model = system.compile().unwrap_or_else(|wrong| panic!("{wrong:?}"));
+    let plant = grown(&model, 0);
+    assert_eq!((plant.nodes.len(), plant.organs.len()), (2, 2));
+    let organs = [0, 1].map(phytomer_sim::plant::OrganId).into_iter();
+    let corners = organs.flat_map(|organ| plant.outline_of(organ).to_vec()).flatten();
+    let numbers = plant.nodes.length.iter().chain(&plant.organs.area).chain(plant.frames.base.as_flattened());
+    assert!(numbers.copied().chain(corners).all(f32::is_finite), "{:?}", plant.organs.area);
+}
+
 /// What follows `%` is cut off and pruned; what becomes a flower has flowered.
 #[test]
 fn what_vanishes_has_a_cause() {
@@ -220,6 +281,39 @@ fn a_tree_of_ternary_branching() {
 }
 
 /// A plant draws a constant once for its whole life; a constant that is drawn changes no other.
+/// A cylinder of two parts over a contour, and a leaf that is a curved surface: both stated where they stand, at their
+/// size in metres.
+#[test]
+fn cylinders_have_their_contours_and_leaves_their_surfaces() {
+    let surface = "0 1 0 1 0 0\nCONTACT POINT X: 0 Y: 0 Z: 0\nEND POINT X: 0 Y: 1 Z: 0\nHEADING X: 0 Y: 1 Z: 0\n\
+                   UP X: 0 Y: 0 Z: 1\nSIZE: 1\npatch\n";
+    let rows = ["0", "0.4", "0.6", "1"].map(|y| ["0", "0.4", "0.6", "1"].map(|x| format!("{x} {y} 0")).join(" "));
+    let texts = [
+        ("a.l", "Axiom: @#(2)@Gsf@Gcf@Ge~l(2)F\nA --> A\n".to_owned()),
+        ("a.v", "initial line width: 1\nsurface: l l.s 3 4 4\ncontour: 2 c.con\n".to_owned()),
+        ("l.s", format!("{surface}{}\n", rows.join("\n"))),
+        ("c.con", "4 2 closed\n1 0\n0 1\n-1 0\n0 -1\n".to_owned()),
+    ];
+    let system = TextSystem {
+        file: "a.l".to_owned(),
+        view: Some("a.v".to_owned()),
+        texts: texts.map(|(name, text)| (name.to_owned(), text)).into(),
+        step_m: 0.1,
+        ..TextSystem::default()
+    };
+    let model = system.compile().unwrap_or_else(|wrong| panic!("{wrong:?}"));
+    let plant = grown(&model, 1);
+    let sections: Vec<_> = (0..3).map(|node| plant.own_looks.section_of(NodeId(node))).collect();
+    assert_eq!(sections, [Some(0), Some(0), None]);
+    let (place, scale) = plant.stated_organs.surface(OrganId(0)).expect("a surface");
+    assert_eq!((place, scale), (0, [0.2; 3]));
+    // A square of three steps of 0.1 m, twice as large.
+    assert!((plant.organ_area::<f64>(OrganId(0), 1) - 0.36).abs() < 1e-6);
+    assert!((plant.organs.length[0] - 0.6).abs() < 1e-6);
+    let sheets = phytomer_looks::Paints::of(&plant.habit);
+    assert_eq!((sheets.surface(0).map(|surface| surface.faces().len()), sheets.sections().len()), (Some(32), 1));
+}
+
 #[test]
 fn plants_draw_constants() {
     use crate::fault::Path;

@@ -112,6 +112,8 @@ pub enum Command {
     Corner,
     /// `@Gs`, `@Gc`, `@Ge`.
     Spline(Spline),
+    /// `@#`: the contour of generalised cylinders, by its number.
+    Contour,
     /// `@o`, `@c`, `@O`.
     Mark(Mark),
     /// `~` and the symbol of a surface.
@@ -182,6 +184,7 @@ impl Command {
             "@Gs" => Self::Spline(Spline::Start),
             "@Gc" => Self::Spline(Spline::Continue),
             "@Ge" => Self::Spline(Spline::End),
+            "@#" => Self::Contour,
             "@o" => Self::Mark(Mark::Circle),
             "@c" => Self::Mark(Mark::Disc),
             "@O" => Self::Mark(Mark::Sphere),

@@ -7,6 +7,8 @@
 //! Decided where the book and cpfg are silent or differ:
 //! - The tropism turns after each `F` and `f` (`G`, `g`), by the angle e |H × T| about H × T, T as given; L and U turn
 //!   with H. The numbered tropisms of cpfg (`tropism:`) turn before the line, as there.
+//! - The lines `torque:` of cpfg are numbered with its tropisms, and roll the turtle after these have bent it. Its
+//!   manual does not tell of them; what they do follows its source (`movements.c`).
 //! - Between `{` and `}` lines are edges of the polygon, and are not drawn. Between `@Gs` and `@Ge` a line is drawn
 //!   from each point to the next, at `@Gc` and `@Ge`, and `F` only moves. `{(1)` and `}(1)` are `@Gs` and `@Ge`.
 //! - A parameter that is no number counts as 0, and none is larger than 10³⁰ in size, so that no position overflows.
@@ -17,14 +19,14 @@ mod frame;
 mod settings;
 #[cfg(test)]
 mod tests;
+mod tropism;
 
 pub use super::vector::Vector;
 pub use command::{Axis, Change, Command, Counter, Mark, Query, Spline};
 pub use frame::Frame;
 
-use super::vector::{cross, dot, unit};
+use super::vector::{dot, unit};
 use super::view::View;
-use phytomer_sim::math::sincos;
 use settings::{Settings, bounded};
 
 /// Colours are counted around so many.
@@ -43,8 +45,10 @@ pub struct State {
     pub scale: f64,
     /// The susceptibility e to the tropism.
     elasticity: f64,
-    /// The point from which a generalised cylinder goes on.
-    spline: Option<(Vector, f64)>,
+    /// The frame and the width with which a generalised cylinder goes on.
+    spline: Option<(Frame, f64)>,
+    /// The number of the contour of generalised cylinders; 0 for a circle.
+    contour: i32,
 }
 
 impl State {
@@ -56,6 +60,7 @@ impl State {
             scale: settings.scale,
             elasticity: settings.elasticity,
             spline: None,
+            contour: 0,
         }
     }
 }
@@ -71,6 +76,8 @@ pub enum Drawing<'t> {
         length: f64,
         /// Its width where it begins.
         width: f64,
+        /// The number of its contour, if it is a part of a generalised cylinder; 0 for a circle.
+        contour: i32,
     },
     /// A polygon, in the frame where it began.
     Polygon {
@@ -182,6 +189,7 @@ impl Turtle {
             Command::PolygonEnd => return self.polygon(),
             Command::Corner => self.corner(),
             Command::Spline(part) => return self.cylinder(part),
+            Command::Contour => self.state.contour = first(parameters).unwrap_or(0.0) as i32,
             Command::Elasticity => {
                 let more = self.state.elasticity + self.settings.elasticity_increment;
                 self.state.elasticity = first(parameters).unwrap_or(more);
@@ -295,7 +303,7 @@ impl Turtle {
     }
 
     fn spline(&mut self, part: Spline) -> Option<()> {
-        let here = (self.state.frame.position, self.state.width);
+        let here = (self.state.frame, self.state.width);
         self.state.spline = (part != Spline::End).then_some(here);
         Some(())
     }
@@ -304,49 +312,18 @@ impl Turtle {
     fn cylinder(&mut self, part: Spline) -> Option<Drawing<'_>> {
         let before = self.state.spline.filter(|_| part != Spline::Start);
         self.spline(part);
-        let (position, width) = before?;
-        let along = [0, 1, 2].map(|i| self.state.frame.position[i] - position[i]);
+        let (before, width) = before?;
+        let along = [0, 1, 2].map(|i| self.state.frame.position[i] - before.position[i]);
         unit(along)?;
-        let mut from = Frame { position, ..self.state.frame };
+        let untwisted = self.settings.untwisted;
+        let mut from = if untwisted { before } else { Frame { position: before.position, ..self.state.frame } };
         from.head(along);
-        Some(line_of(from, dot(along, along).sqrt(), width))
-    }
-
-    fn elasticity_of(&mut self, change: Change, parameters: &[f64]) {
-        let place = first(parameters).unwrap_or(1.0) - 1.0;
-        let number = (place >= 0.0 && place < self.elasticities.len() as f64).then_some(place as usize);
-        let Some(number) = number else { return };
-        let by = parameters.get(1).copied().map(bounded);
-        let increment = self.settings.tropisms[number].elasticity_increment;
-        let elasticity = &mut self.elasticities[number];
-        if !self.stack.is_empty() {
-            self.changed.push((number, *elasticity));
+        if let Some((next, _)) = self.state.spline.as_mut().filter(|_| untwisted) {
+            // The next part goes on from the frame of this one.
+            *next = Frame { position: next.position, ..from };
         }
-        match change {
-            Change::Up => *elasticity += by.unwrap_or(increment),
-            Change::Down => *elasticity -= by.unwrap_or(increment),
-            Change::Set => *elasticity = by.unwrap_or(0.0),
-        }
-    }
-
-    /// The numbered tropisms turn H by |H × D|, at most 1 rad, towards D = Σ e (cos γ T + sin γ T × (H × T) / |H × T|),
-    /// of the angle γ to T (cpfg).
-    fn bend_by_numbers(&mut self) {
-        if self.elasticities.iter().all(|elasticity| *elasticity == 0.0) {
-            return;
-        }
-        let frame = &mut self.state.frame;
-        let mut towards = [0.0; 3];
-        let felt = self.settings.tropisms.iter().zip(&self.elasticities).filter(|(_, elasticity)| **elasticity != 0.0);
-        for (tropism, elasticity) in felt {
-            let (sin, cos) = sincos(tropism.angle_deg.to_radians());
-            let torque = unit(cross(frame.heading, tropism.direction)).unwrap_or(frame.left);
-            let across = cross(tropism.direction, torque);
-            (0..3).for_each(|i| towards[i] += elasticity * (cos * tropism.direction[i] + sin * across[i]));
-        }
-        let torque = cross(frame.heading, towards);
-        let size = dot(torque, torque).sqrt();
-        frame.bend(towards, if size > 1.0 { 1.0 / size } else { 1.0 });
+        let length = dot(along, along).sqrt();
+        Some(Drawing::Line { from, length, width, contour: self.state.contour })
     }
 
     fn mark(&self, mark: Mark, parameters: &[f64]) -> Drawing<'static> {
@@ -369,11 +346,11 @@ impl Turtle {
 /// A line of a length, which may be negative: the turtle then goes backwards, and the line is told from its other end.
 fn line_of(from: Frame, length: f64, width: f64) -> Drawing<'static> {
     if length >= 0.0 {
-        return Drawing::Line { from, length, width };
+        return Drawing::Line { from, length, width, contour: 0 };
     }
     let mut end = from;
     end.turn_around();
-    Drawing::Line { from: end, length: -length, width }
+    Drawing::Line { from: end, length: -length, width, contour: 0 }
 }
 
 /// Whether the parameter of a brace asks for a generalised cylinder.

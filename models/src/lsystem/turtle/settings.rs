@@ -22,6 +22,8 @@ pub(super) struct Settings {
     pub tropisms: Vec<Tropism>,
     pub scale: f64,
     pub scale_multiplier: f64,
+    /// Whether generalised cylinders twist no more than they bend.
+    pub untwisted: bool,
 }
 
 impl Settings {
@@ -39,6 +41,8 @@ impl Settings {
             tropisms: view.tropisms.iter().map(within).collect(),
             scale: bounded(view.scale),
             scale_multiplier: bounded(view.scale_multiplier),
+            // Of round cylinders a twist is not seen.
+            untwisted: !view.contours.is_empty() && !view.cylinders_twist,
         }
     }
 }

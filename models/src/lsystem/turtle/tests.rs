@@ -12,7 +12,7 @@ fn turtle_of(view: &str) -> Turtle {
 fn lines(turtle: &mut Turtle, modules: &[(&str, &[f64])]) -> Vec<(Vector, Vector, f64, f64)> {
     let mut lines = Vec::new();
     for (name, parameters) in modules {
-        if let Some(Drawing::Line { from, length, width }) = turtle.follow(Command::of(name), parameters) {
+        if let Some(Drawing::Line { from, length, width, .. }) = turtle.follow(Command::of(name), parameters) {
             lines.push((from.position, from.heading, length, width));
         }
     }
@@ -212,6 +212,62 @@ fn a_generalised_cylinder_goes_from_point_to_point() {
         assert!(near(drawn[0].1, [half, half, 0.0]) && (drawn[0].2 - 2.0_f64.sqrt()).abs() < 1e-15, "{drawn:?}");
         assert!(near(drawn[1].0, [1.0, 1.0, 0.0]) && drawn[2].2 == 1.0, "{drawn:?}");
     }
+}
+
+/// Without contours and where `twist of cylinders` is on, a part has the upper side of the turtle where it ends; else
+/// it turns no more than the cylinder bends, whatever rolls between.
+#[test]
+fn cylinders_with_contours_do_not_twist() {
+    let ups = |view: &str| {
+        let mut turtle = turtle_of(view);
+        let told: [(&str, &[f64]); 8] = [
+            ("@#", &[3.0]),
+            ("@Gs", &[]),
+            ("f", &[]),
+            ("@Gc", &[]),
+            ("/", &[90.0]),
+            ("f", &[]),
+            ("@Ge", &[]),
+            ("F", &[]),
+        ];
+        let mut ups = Vec::new();
+        for (name, parameters) in told {
+            if let Some(Drawing::Line { from, contour, .. }) = turtle.follow(Command::of(name), parameters) {
+                ups.push((from.up, contour));
+            }
+        }
+        ups
+    };
+    let [start, rolled] = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]];
+    for (view, second) in
+        [("", rolled), ("contour: 3 a.con\ntwist of cylinders: on", rolled), ("contour: 3 a.con", start)]
+    {
+        let ups = ups(view);
+        assert!(near(ups[0].0, start) && near(ups[1].0, second) && near(ups[2].0, rolled), "{view}: {ups:?}");
+        assert_eq!(ups.iter().map(|(_, contour)| *contour).collect::<Vec<_>>(), [3, 3, 0]);
+    }
+}
+
+/// The source of cpfg, with its U = −H × L: a torque E T rolls the turtle about H towards the part of T across H by E
+/// |U × part|, at most 1 rad. H is up, U of cpfg is −z, and T = (3, 0, 4) / 5 of the length 1: the part across H is T,
+/// and |U × T| is 0.6. Torques are numbered with tropisms.
+#[test]
+fn a_torque_rolls_the_turtle_towards_its_vector() {
+    let rolled = |strength: f64| {
+        let mut turtle = turtle_of("tropism: T: 1 0 0 A: 10\ntorque: T: 3 0 4");
+        lines(&mut turtle, &[("@Ts", &[2.0, strength]), ("f", &[])]);
+        let frame = turtle.state().frame;
+        assert!(near(frame.heading, [0.0, 1.0, 0.0]), "the heading stays");
+        frame.up.map(|x| -x)
+    };
+    let (sin, cos) = phytomer_sim::math::sincos(0.5 * 0.6);
+    assert!(near(rolled(0.5), [sin, 0.0, -cos]), "{:?}", rolled(0.5));
+    let (sin, cos) = phytomer_sim::math::sincos(1.0);
+    assert!(near(rolled(90.0), [sin, 0.0, -cos]), "no more than 1 rad: {:?}", rolled(90.0));
+    assert!(near(rolled(0.0), [0.0, 0.0, -1.0]));
+    let mut along = turtle_of("torque: T: 0 1 0 E: 1");
+    lines(&mut along, &[("f", &[])]);
+    assert!(near(along.state().frame.up, [0.0, 0.0, 1.0]), "along H nothing turns");
 }
 
 #[test]

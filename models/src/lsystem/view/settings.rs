@@ -10,6 +10,8 @@ use super::text::{Line, TextFault, Words, bounded, lines, without_comments};
 
 /// How many surfaces, functions, contours or tropisms a file may name.
 const MOST_OF_A_KIND: usize = 256;
+/// The sides of a contour where they are not stated.
+const CONTOUR_SIDES: u8 = 24;
 
 /// What a view file states of the drawing.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +38,7 @@ pub struct View {
     pub elasticity: f64,
     /// What `_` adds to the susceptibility.
     pub elasticity_increment: f64,
-    /// The tropisms that modules `@T…` name by number.
+    /// The tropisms and torques that modules `@T…` name by number, in the order of their lines.
     pub tropisms: Vec<Tropism>,
     /// The scale of lengths at first.
     pub scale: f64,
@@ -50,6 +52,10 @@ pub struct View {
     pub function_set: Option<String>,
     /// The contours that `@#` names: number and file.
     pub contours: Vec<(i32, String)>,
+    /// The sides of a contour.
+    pub contour_sides: u8,
+    /// Whether contours follow the rolls of the turtle; else they twist no more than the cylinder bends.
+    pub cylinders_twist: bool,
     /// The lines that have no meaning here.
     pub skipped: Vec<SkippedLine>,
 }
@@ -65,7 +71,7 @@ pub enum LineStyle {
     Cylinder,
 }
 
-/// A tropism that modules name by number: towards a vector, at an angle to it.
+/// A tropism or a torque that modules name by number: towards a vector, at an angle to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tropism {
     /// The vector, of the length of its intensity, at most 1.
@@ -76,6 +82,9 @@ pub struct Tropism {
     pub elasticity: f64,
     /// What `@Ti` adds to the susceptibility, and `@Td` takes off.
     pub elasticity_increment: f64,
+    /// Whether it rolls the turtle about its heading, so that the upper side of cpfg turns to the vector; else it bends
+    /// the heading.
+    pub rolls: bool,
 }
 
 /// A surface: the symbol behind `~`, its file, and its largest dimension in units of the turtle.
@@ -122,6 +131,8 @@ impl Default for View {
             functions: Vec::new(),
             function_set: None,
             contours: Vec::new(),
+            contour_sides: CONTOUR_SIDES,
+            cylinders_twist: false,
             skipped: Vec::new(),
         }
     }
@@ -167,11 +178,16 @@ impl View {
             "elasticity increment" => self.elasticity_increment = words.number("a susceptibility")?,
             "initial scale" => self.scale = not_zero(words, "a scale other than 0")?,
             "scale multiplier" => self.scale_multiplier = not_zero(words, "a factor other than 0")?,
-            "tropism" => add(&mut self.tropisms, tropism(values)?, line)?,
+            "tropism" => add(&mut self.tropisms, tropism(values, false)?, line)?,
+            "torque" => add(&mut self.tropisms, tropism(values, true)?, line)?,
             "surface" => add(&mut self.surfaces, surface(words)?, line)?,
             "function" => add(&mut self.functions, words.text("the name of a file")?.text.to_owned(), line)?,
             "function set" => self.function_set = Some(words.text("the name of a file")?.text.to_owned()),
             "contour" => add(&mut self.contours, contour(words)?, line)?,
+            "contour sides" => {
+                self.contour_sides = words.whole(3, 1024, "a number of sides from 3 to 1024")?.min(64) as u8
+            }
+            "twist of cylinders" => self.cylinders_twist = on_or_off(words)?,
             _ => return Ok(false),
         }
         Ok(true)
@@ -254,11 +270,12 @@ fn contour(words: &mut Words<'_>) -> Result<(i32, String), TextFault> {
 }
 
 /// `T: x y z`, `I: intensity`, `A: angle`, `E: susceptibility`, `S: increment`, in any order.
-fn tropism(line: Line<'_>) -> Result<Tropism, TextFault> {
+fn tropism(line: Line<'_>, rolls: bool) -> Result<Tropism, TextFault> {
     let spaced = |character: char| character.is_whitespace() || character == ',' || character == ':';
     let mut words = line.words_between(spaced).into_iter();
     let end = line.words().end();
-    let mut tropism = Tropism { direction: [0.0; 3], angle_deg: 0.0, elasticity: 0.0, elasticity_increment: 0.0 };
+    let mut tropism =
+        Tropism { direction: [0.0; 3], angle_deg: 0.0, elasticity: 0.0, elasticity_increment: 0.0, rolls };
     let mut intensity = 1.0;
     while let Some(letter) = words.next() {
         let mut number = || words.next().unwrap_or(end).number("a number");

@@ -3,13 +3,16 @@
 //! The file states the box of its points, how finely it is drawn, a contact point, the heading and the upper side at
 //! which it sits on the turtle, and its size; then each patch by its name, its colours, its neighbours (`AL:` …) and 16
 //! points. Here the points are told in the coordinates of the turtle (along H, L and U), from the contact point, with
-//! the stated size as 1. The upper side of the file is that of cpfg, whose U is ours turned round: it comes to lie along
-//! −U. A patch becomes a grid of cells of two triangles each, with the normals of the patch itself. Names, colours and
-//! neighbours are not used.
+//! the stated size as 1. The upper side of the file is that of cpfg, whose U is ours turned round: it comes to lie
+//! along −U. A patch becomes a grid of cells of two triangles each, with the normals of the patch itself. Names,
+//! colours and neighbours are not used.
 
 use super::text::{Line, TextFault, bounded, full_lines};
 use crate::lsystem::vector::{cross, dot};
 use phytomer_looks::Surface as Form;
+
+/// The farthest that a point of a surface is from the turtle, steps.
+const FARTHEST: f64 = 1e12;
 
 /// The most patches of a surface.
 const MOST_PATCHES: usize = 256;
@@ -68,7 +71,7 @@ impl Surface {
             let first = points.len() as u32;
             for (t, s) in (0..=steps[1]).flat_map(|t| (0..=steps[0]).map(move |s| (t, s))) {
                 let at = [f64::from(s) / f64::from(steps[0]), f64::from(t) / f64::from(steps[1])];
-                points.push((Self::point(patch, at[0], at[1]).map(|x| x * size), normal(patch, at), at));
+                points.push((Self::point(patch, at[0], at[1]).map(|x| near(x * size)), normal(patch, at), at));
             }
             for (t, s) in (0..u32::from(steps[1])).flat_map(|t| (0..u32::from(steps[0])).map(move |s| (t, s))) {
                 let [a, b] = [first + t * row + s, first + (t + 1) * row + s];
@@ -88,6 +91,11 @@ impl Surface {
         }
         steps
     }
+}
+
+/// A coordinate no farther than [`FARTHEST`]; 0 where a text states numbers of which none can be made.
+fn near(coordinate: f64) -> f64 {
+    if coordinate.is_nan() { 0.0 } else { coordinate.clamp(-FARTHEST, FARTHEST) }
 }
 
 /// The vector across a patch on the side from which s and t run counterclockwise; 0 where it is drawn together.

@@ -1,7 +1,7 @@
 //! Files of our own in the formats of cpfg, against closed forms of the curves and surfaces that they state, and what
 //! is told of files that are wrong.
 
-use super::{Colours, Function, LineStyle, Surface, TextFault, View};
+use super::{Colours, Contour, Function, LineStyle, Surface, TextFault, View};
 
 const VIEW: &str = "\
 /* a view
@@ -25,6 +25,9 @@ surface: p petal.s 0
 function: width.func 100
 function: length.func
 contour: 2 blade.con
+contour sides: 100
+twist of cylinders: on
+torque: T: 0 0 2
 light: V: 0 1 0.5
 ";
 
@@ -42,8 +45,13 @@ fn a_view_file_is_read_and_what_has_no_meaning_is_listed() {
     assert_eq!(surfaces, [('l', "leaf.s", 1.5, [8, 4]), ('p', "petal.s", 1.0, [0, 0])]);
     assert_eq!(view.functions, ["width.func", "length.func"]);
     assert_eq!(view.contours, [(2, "blade.con".to_owned())]);
+    assert_eq!((view.contour_sides, view.cylinders_twist), (64, true));
+    assert_eq!(
+        view.tropisms.iter().map(|of| (of.direction, of.rolls)).collect::<Vec<_>>(),
+        [([0.0, 1.0, 0.0], false), ([0.0, 0.0, 1.0], true)]
+    );
     let skipped: Vec<_> = view.skipped.iter().map(|line| (line.line, line.text.as_str())).collect();
-    assert_eq!(skipped, [(10, "viewpoint: 0,0,1"), (22, "light: V: 0 1 0.5")]);
+    assert_eq!(skipped, [(10, "viewpoint: 0,0,1"), (25, "light: V: 0 1 0.5")]);
     assert_eq!(View::read("").expect("an empty file"), View::default());
     let pixels = View::read("initial line width: 2 pixels\nfunction set: all.fset").expect("it can be read");
     assert_eq!((pixels.line_width, pixels.width_in_units, pixels.line_style), (2.0, false, LineStyle::Pixel));
@@ -248,6 +256,55 @@ fn what_is_wrong_in_a_surface_is_told_at_its_word() {
     assert!(of(&cut.join("\n")).ends_with("the line ends here; expected 16 points of three numbers each"));
     assert!(of(&surface_text("")).ends_with("expected a patch"));
     assert!(of(&format!("{whole}1 2 3\n")).contains("expected 16 points"), "{}", of(&format!("{whole}1 2 3\n")));
+}
+
+/// The points of a square count three times each: the curve passes through them, straight from each to the next. With
+/// four sides the section is the square, turned until it begins on the x axis, along −U. An open contour begins at its
+/// first point that counts three times. Blends of four points: a lone point counts 4/6 where it is nearest.
+#[test]
+fn contours_are_splines_in_sides_of_equal_length() {
+    let corners = ["1 1 0 3", "-1 1 0 3", "-1 -1 0 3", "1 -1 0 3"].join("\n");
+    let text = |kind: &str| format!("cver 1 3\nname: a b\npoints: 4 12\ntype: {kind}\nsamples: 8\n{corners}\n");
+    let near = |one: &[[f32; 2]], other: &[[f32; 2]]| {
+        let close = |(a, b): (&[f32; 2], &[f32; 2])| (a[0] - b[0]).abs() < 1e-5 && (a[1] - b[1]).abs() < 1e-5;
+        one.len() == other.len() && one.iter().zip(other).all(close)
+    };
+    let closed = Contour::read(&text("cr")).expect("it can be read").section(4);
+    let far = 2.0_f32.sqrt();
+    // The first of the pieces ends at the first corner; sides of equal length go on from where it begins.
+    assert!(closed.is_closed() && closed.corners().len() == 4);
+    for corner in closed.corners() {
+        assert!((corner[0] * corner[0] + corner[1] * corner[1] - 2.0).abs() < 1e-4, "{closed:?}");
+    }
+    assert!(
+        closed.corners().iter().any(|corner| near(&[*corner], &[[-far, 0.0]])),
+        "it begins on the x axis: {closed:?}"
+    );
+    let open = Contour::read(&text("open")).expect("it can be read").section(3);
+    assert!(near(open.corners(), &[[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]]), "{open:?}");
+    let old = Contour::read("4 3 closed\n1 0 5\n0 1 5\n-1 0 5\n0 -1 5\n").expect("it can be read").section(16);
+    let farthest = old.corners().iter().map(|[x, y]| x.abs().max(y.abs())).fold(0.0, f32::max);
+    assert!((farthest - 4.0 / 6.0).abs() < 1e-6, "{farthest}");
+    let lengths: Vec<f32> = (0..16)
+        .map(|k| {
+            let ([a, b], [x, y]) = (old.corners()[k], old.corners()[(k + 1) % 16]);
+            ((x - a) * (x - a) + (y - b) * (y - b)).sqrt()
+        })
+        .collect();
+    assert!(lengths.iter().all(|length| (length / lengths[0] - 1.0).abs() < 1e-2), "{lengths:?}");
+}
+
+#[test]
+fn what_is_wrong_in_a_contour_is_told_at_its_word() {
+    let of = |text: &str| Contour::read(text).expect_err("it is wrong").to_string();
+    assert_eq!(of(""), "line 1, column 1: the file is empty; expected a contour");
+    assert_eq!(of("3 2 closed"), "line 1, column 1: `3` stands here; expected the number of points, from 4 to 4096");
+    assert_eq!(of("4 2 round"), "line 1, column 5: `round` stands here; expected `open` or `closed`");
+    assert_eq!(of("4 2 open\n0 0\n1 x\n"), "line 3, column 3: `x` stands here; expected the coordinates of a point");
+    assert!(of("4 2 open\n0 0\n1 1\n").ends_with("expected as many points as the file says, at least four"));
+    assert!(of("cver 1 1\nname: a\n0 0 0 1\n").ends_with("expected `points:` and `type:` before the points"));
+    assert!(of("cver 1 1\npoints: 2 2\ntype: cr\n0 0 0 1\n1 1 0 1\n").contains("at least four"));
+    assert!(of("cver 1 1\npoints: 1 9\ntype: cr\n0 0 0 9999\n").contains("at most 4096 points"));
 }
 
 #[test]

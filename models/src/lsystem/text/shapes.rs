@@ -39,7 +39,7 @@ impl Question {
 
 /// A shape that a file may call.
 #[derive(Debug, Clone)]
-struct Form {
+struct Called {
     name: String,
     shape: Arc<Shape>,
     /// The number of its parts.
@@ -48,37 +48,37 @@ struct Form {
 
 /// The shapes that a file may call.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Forms {
-    forms: Vec<Form>,
+pub(super) struct ShapeFunctions {
+    shapes: Vec<Called>,
     step: f64,
 }
 
-impl Forms {
+impl ShapeFunctions {
     /// The functions of shapes, where a step is so many metres.
     pub fn of(shapes: &Named, step: f64) -> Self {
-        let form = |(name, shape): (&str, &Arc<Shape>)| Form {
+        let called = |(name, shape): (&str, &Arc<Shape>)| Called {
             name: name.to_owned(),
             shape: Arc::clone(shape),
             parts: shapes.parts(name),
         };
-        Self { forms: shapes.iter().map(form).collect(), step }
+        Self { shapes: shapes.iter().map(called).collect(), step }
     }
 
     /// The number of a function of two or three arguments: a shape and a question to it.
     pub fn function(&self, name: &str, arguments: usize) -> Option<u32> {
         let (question, shape) = Question::of(name).filter(|_| matches!(arguments, 2 | 3))?;
-        let place = self.forms.iter().position(|form| form.name == shape)?;
+        let place = self.shapes.iter().position(|called| called.name == shape)?;
         Some(3 * place as u32 + question as u32)
     }
 
     /// How many parts the shape of a function has.
     pub fn parts(&self, function: u32) -> usize {
-        self.forms.get(function as usize / 3).map_or(0, |form| form.parts)
+        self.shapes.get(function as usize / 3).map_or(0, |called| called.parts)
     }
 
     /// The value of a function at a point of the turtle.
     pub fn call(&self, function: u32, arguments: &[f64]) -> f64 {
-        let Some(form) = self.forms.get(function as usize / 3) else { return 0.0 };
+        let Some(form) = self.shapes.get(function as usize / 3) else { return 0.0 };
         let at = |axis: usize| arguments.get(axis).copied().unwrap_or(0.0);
         let point = in_metres([at(0), at(1), at(2)], self.step);
         match function % 3 {
@@ -90,18 +90,18 @@ impl Forms {
 
     /// The names of all functions.
     pub fn names(&self) -> impl Iterator<Item = String> {
-        let is_prune = self.forms.iter().any(|form| form.name == PRUNE);
-        let of_shape = |form: &Form| [INSIDE, FIELD].map(|start| format!("{start}{}", form.name));
-        is_prune.then(|| PRUNE.to_owned()).into_iter().chain(self.forms.iter().flat_map(of_shape))
+        let is_prune = self.shapes.iter().any(|called| called.name == PRUNE);
+        let of_shape = |called: &Called| [INSIDE, FIELD].map(|start| format!("{start}{}", called.name));
+        is_prune.then(|| PRUNE.to_owned()).into_iter().chain(self.shapes.iter().flat_map(of_shape))
     }
 
     /// What is missing where a file calls a function of a shape that nothing states.
     pub fn missing(&self, function: &str) -> Option<String> {
         let (_, name) = Question::of(function)?;
-        if self.forms.iter().any(|form| form.name == name) {
+        if self.shapes.iter().any(|called| called.name == name) {
             return Some(format!("`{function}(x, y, z)`, or `{function}(x, y)`"));
         }
-        let known: Vec<&str> = self.forms.iter().map(|form| form.name.as_str()).collect();
+        let known: Vec<&str> = self.shapes.iter().map(|called| called.name.as_str()).collect();
         let known = if known.is_empty() { String::new() } else { format!("; there is {}", known.join(", ")) };
         Some(format!("the shape `{name}`: `[shape.{name}]` of the species, or `[site.shape.{name}]`{known}"))
     }

@@ -1,0 +1,208 @@
+//! One description of a life: what a plant looks like at every age, made in one pass over a plant that is grown once.
+//!
+//! A [`Life`] has the axes of a plant as lines of few points, and its organs, each with the ages at which they stand
+//! and with keyframes. Points that the others' line passes within the tolerance are left out, and so are keyframes that
+//! linear interpolation passes within it. [`Maker`] is shown a plant age by age, and remembers of each point and organ
+//! that stands its last key and its last state: memory does not grow with the number of ages, but with what is kept.
+//! Any growth model will do: components are known again by their numbers. [`Lives`] records a whole plot. Absent:
+//! triangles and files, which are made from a life by its writers, and poses between ticks.
+//!
+//! Ages are ticks in single precision, exact up to 2²⁴. Only whole ticks are shown today; a pose at an age between two
+//! ticks would be shown by [`Maker::show`] with that age, and no keyframe need know of it.
+
+mod kept;
+mod lines;
+mod lives;
+mod maker;
+mod parts;
+#[cfg(test)]
+mod tests;
+mod track;
+
+pub use lives::Lives;
+pub use maker::Maker;
+pub use track::{Key, between};
+
+use phytomer_sim::plant::{Form, Kind};
+use std::ops::Range;
+
+/// How near the keyframes of a life are to the plant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearness {
+    /// The distance, metres, from a place of an axis or of an organ to the place that the life gives back, and between
+    /// their radii and sizes.
+    pub distance: f32,
+    /// The most by which a colour is off, in each of three bytes.
+    pub colour: f32,
+}
+
+impl Nearness {
+    /// Within a distance, metres, and four parts of 255 of a colour.
+    pub fn of(distance: f32) -> Self {
+        Self { distance, colour: 4.0 }
+    }
+}
+
+/// A plant from its first age to its last.
+#[derive(Debug, Clone, Default)]
+pub struct Life {
+    /// The plant's number in the run.
+    pub plant: u32,
+    /// The place of its seed, metres; all other places are relative to it.
+    pub place: [f64; 3],
+    /// The ages at which it was shown.
+    pub ages: Vec<f32>,
+    /// The lines of its axes.
+    pub lines: Vec<Line>,
+    /// The points of all lines, line by line in their order along it.
+    pub points: Vec<Point>,
+    /// Its organs, and internodes that are no tubes.
+    pub parts: Vec<Part>,
+    /// The outlines that organs state, corner by corner in their own plane.
+    pub outlines: Vec<Vec<[f32; 3]>>,
+    places: Vec<Key<4>>,
+    poses: Vec<Key<12>>,
+    tints: Vec<Key<3>>,
+}
+
+/// The line of an axis, or of a part of it that is one tube.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Line {
+    /// The component number of the apical bud of the axis.
+    pub axis: u32,
+    /// Its order, from 1.
+    pub order: u8,
+    /// Its points, as places among those of the life.
+    pub points: Range<usize>,
+}
+
+/// A point of a line: the base of an internode, the tip of one where the radius steps, or the moving end of the line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// The component number of the internode that begins here, or that ends here.
+    pub component: u32,
+    /// Its kind.
+    pub kind: Kind,
+    /// Whether the internode ends here.
+    pub end: bool,
+    /// Whether this is the end of the line, which moves on from internode to internode as the axis grows.
+    pub tip: bool,
+    /// The age at the birth of the internode; of a tip, of the first internode of the line.
+    pub birth: f32,
+    /// The first age at which the line has the point; before, it lies on the line of the other points.
+    pub from: f32,
+    /// The age from which the line does not have it any more: its internode has fallen, was cut off or rewritten. +∞
+    /// where it stands at the last age.
+    pub death: f32,
+    places: Range<u32>,
+    tints: Range<u32>,
+}
+
+/// What a part is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum What {
+    /// An organ of a form.
+    Organ(Form),
+    /// An organ with an outline of its own, by its place among those of the life; its sizes are shares of the outline.
+    Outlined(u32),
+    /// An internode that is no tube or has sides of its own: drawn as its species states, by itself.
+    Internode,
+}
+
+/// An organ, or an internode that is drawn by itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Its component number.
+    pub component: u32,
+    /// The component number of the internode at whose tip it stands; its own, of an internode.
+    pub bearer: u32,
+    /// Its kind.
+    pub kind: Kind,
+    /// What it is.
+    pub what: What,
+    /// How much fuller it is than its form, so that it has its area.
+    pub fullness: f32,
+    /// The colour of its stalk.
+    pub stalk: [u8; 3],
+    /// The age at its birth.
+    pub birth: f32,
+    /// The first age at which it was shown.
+    pub from: f32,
+    /// The age from which it does not stand any more; +∞ where it stands at the last age.
+    pub death: f32,
+    poses: Range<u32>,
+    tints: Range<u32>,
+}
+
+/// A part at an age.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Its base, metres.
+    pub base: [f32; 3],
+    /// The unit vector along it.
+    pub heading: [f32; 3],
+    /// The unit vector of its upper side.
+    pub up: [f32; 3],
+    /// Its length; its width, or of an internode its diameter at the base; and that at its tip. Metres, or shares of an
+    /// outline.
+    pub size: [f32; 3],
+}
+
+impl Point {
+    /// Whether the line has the point at an age.
+    pub fn stands(&self, age: f32) -> bool {
+        self.from <= age && age < self.death
+    }
+}
+
+impl Part {
+    /// Whether it stands at an age.
+    pub fn stands(&self, age: f32) -> bool {
+        self.from <= age && age < self.death
+    }
+}
+
+impl Life {
+    /// The keyframes of a point: x, y, z and the radius, metres.
+    pub fn places(&self, point: &Point) -> &[Key<4>] {
+        &self.places[point.places.start as usize..point.places.end as usize]
+    }
+
+    /// The keyframes of the colour of the internode of a point.
+    pub fn tints_of_point(&self, point: &Point) -> &[Key<3>] {
+        &self.tints[point.tints.start as usize..point.tints.end as usize]
+    }
+
+    /// The keyframes of a part: base, heading, upper side and sizes, as in [`Pose`].
+    pub fn poses(&self, part: &Part) -> &[Key<12>] {
+        &self.poses[part.poses.start as usize..part.poses.end as usize]
+    }
+
+    /// The keyframes of the colour of a part.
+    pub fn tints_of_part(&self, part: &Part) -> &[Key<3>] {
+        &self.tints[part.tints.start as usize..part.tints.end as usize]
+    }
+
+    /// The points that a line has at an age, in their order: x, y, z and the radius.
+    pub fn line_at(&self, line: &Line, age: f32) -> impl Iterator<Item = (&Point, [f32; 4])> {
+        let points = self.points[line.points.clone()].iter().filter(move |point| point.stands(age));
+        points.map(move |point| (point, between(self.places(point), age)))
+    }
+
+    /// A part at an age.
+    pub fn pose_at(&self, part: &Part, age: f32) -> Pose {
+        let values = between(self.poses(part), age);
+        let three = |first: usize| [values[first], values[first + 1], values[first + 2]];
+        Pose { base: three(0), heading: unit(three(3)), up: unit(three(6)), size: three(9) }
+    }
+
+    /// The number of its keyframes.
+    pub fn keys(&self) -> usize {
+        self.places.len() + self.poses.len() + self.tints.len()
+    }
+}
+
+fn unit(direction: [f32; 3]) -> [f32; 3] {
+    let length = direction.iter().map(|x| x * x).sum::<f32>().sqrt();
+    if length > 0.0 { direction.map(|x| x / length) } else { direction }
+}

@@ -1,0 +1,285 @@
+//! The lines of axes while a life is made: which samples of an axis are points, and how they move.
+//!
+//! A line has its first base and its end, which moves on from tip to tip as the axis grows, and between them the
+//! samples that are needed at some age: a sample becomes a point at the first age at which the line of the other points
+//! is farther from it than half of the tolerance, and stays one while its internode stands; the other half is that of
+//! the keyframes. Points are known again by the numbers of their internodes, so an axis may be written anew at each
+//! age, with internodes put in between. What comes back in another order is a new point.
+
+use super::kept::Kept;
+use super::track::Track;
+use super::{Life, Line, Nearness, Point};
+use phytomer_meshes::{Found, Keeping, Sample, Stems, Tolerance, fits, simplify};
+use phytomer_sim::plant::NodeId;
+use std::collections::BTreeMap;
+
+const NONE: u32 = u32::MAX;
+
+/// The lines of a plant, up to the last age that was shown.
+#[derive(Debug, Clone, Default)]
+pub struct Lines {
+    lines: Vec<Growing>,
+    points: Vec<State>,
+    /// The line of an axis by the number of its bud, and which of its lines it is.
+    known: BTreeMap<(u32, u32), u32>,
+    /// The point at the base and at the tip of each internode by its number.
+    of_internode: Vec<[u32; 2]>,
+    places: Kept<4>,
+    tints: Kept<3>,
+    scratch: Scratch,
+}
+
+/// A line, with its points but for the end.
+#[derive(Debug, Clone)]
+struct Growing {
+    axis: u32,
+    order: u8,
+    points: Vec<u32>,
+    end: u32,
+    seen: f32,
+    stands: bool,
+}
+
+/// A point, with its tracks.
+#[derive(Debug, Clone)]
+struct State {
+    point: Point,
+    line: u32,
+    /// The place among the points of the line.
+    rank: u32,
+    seen: f32,
+    place: Track<4>,
+    tint: Track<3>,
+}
+
+#[derive(Debug, Clone, Default)]
+struct Scratch {
+    /// The samples that are points, with the point where it is known.
+    kept: Vec<(u32, u32)>,
+    between: Vec<u32>,
+    order: Vec<u32>,
+}
+
+/// What one age shows.
+pub struct Showing<'a, 's> {
+    pub stems: &'a Stems<'s>,
+    pub age: f32,
+    pub nearness: Nearness,
+    pub lines: &'a mut Lines,
+    /// The internodes that are in no line.
+    pub apart: Vec<NodeId>,
+    /// The axis of the last chain, and how many lines of it came before.
+    pub last: (u32, u32),
+}
+
+impl Found for Showing<'_, '_> {
+    fn chain(&mut self, samples: &[Sample], _: usize) {
+        let Some(first) = samples.first() else { return };
+        let plant = self.stems.plant();
+        let axis = plant.nodes.axis[first.node.index()];
+        let bud = plant.axes.component[axis.index()];
+        self.last = (bud, if self.last.0 == bud { self.last.1 + 1 } else { 0 });
+        let line = self.lines.line(self.last, plant.axes.order[axis.index()]);
+        self.choose(line, samples);
+        self.begin_points(line, samples);
+        self.put_in_order(line);
+        self.take(line, samples);
+    }
+
+    fn apart(&mut self, node: NodeId) {
+        self.apart.push(node);
+    }
+}
+
+impl Showing<'_, '_> {
+    fn number(&self, sample: &Sample) -> usize {
+        self.stems.plant().nodes.component[sample.node.index()] as usize
+    }
+
+    /// Finds the samples that are points, and those that become points.
+    fn choose(&mut self, line: u32, samples: &[Sample]) {
+        let mut scratch = std::mem::take(&mut self.lines.scratch);
+        scratch.kept.clear();
+        let last = samples.len() - 1;
+        let mut rank = None;
+        for (place, sample) in samples[..last].iter().enumerate() {
+            let known =
+                self.lines.of_internode.get(self.number(sample)).map_or(NONE, |ends| ends[usize::from(sample.end)]);
+            let state = self.lines.points.get(known as usize);
+            let goes_on = state.filter(|state| {
+                state.line == line && state.point.death.is_infinite() && rank.is_none_or(|rank| rank < state.rank)
+            });
+            rank = goes_on.map(|state| state.rank).or(rank);
+            if goes_on.is_some() || place == 0 {
+                scratch.kept.push((place as u32, if goes_on.is_some() { known } else { NONE }));
+            }
+        }
+        scratch.kept.push((last as u32, NONE));
+        let tolerance = Tolerance { distance: 0.5 * self.nearness.distance, colour: u8::MAX, keeps: Keeping::Section };
+        for gap in 1..scratch.kept.len() {
+            let [from, to] = [gap - 1, gap].map(|k| scratch.kept[k].0 as usize);
+            let samples = &samples[from..=to];
+            if samples.len() > 2 && !fits(samples, &tolerance) {
+                simplify(samples, &tolerance, &mut scratch.between);
+                let inner = &scratch.between[1..scratch.between.len() - 1];
+                scratch.kept.extend(inner.iter().map(|place| (from as u32 + place, NONE)));
+            }
+        }
+        scratch.kept.sort_unstable_by_key(|(place, _)| *place);
+        self.lines.scratch = scratch;
+    }
+
+    /// Begins the points that are new.
+    fn begin_points(&mut self, line: u32, samples: &[Sample]) {
+        let mut kept = std::mem::take(&mut self.lines.scratch.kept);
+        if let Some(((last, tip), others)) = kept.split_last_mut() {
+            for (place, point) in others.iter_mut().filter(|(_, point)| *point == NONE) {
+                let sample = &samples[*place as usize];
+                *point = self.begin(line, sample, false, sample.node);
+                let number = self.number(sample);
+                let numbers = &mut self.lines.of_internode;
+                numbers.resize(numbers.len().max(number + 1), [NONE; 2]);
+                numbers[number][usize::from(sample.end)] = *point;
+            }
+            let known = self.lines.lines[line as usize].end;
+            *tip =
+                if known == NONE { self.begin(line, &samples[*last as usize], true, samples[0].node) } else { known };
+            self.lines.lines[line as usize].end = *tip;
+        }
+        self.lines.scratch.kept = kept;
+    }
+
+    fn begin(&mut self, line: u32, sample: &Sample, tip: bool, born: NodeId) -> u32 {
+        let (plant, age) = (self.stems.plant(), self.age);
+        let number = self.lines.points.len() as u32;
+        let (place, tint) = ((age, place_of(sample)), (age, tint_of(sample)));
+        self.lines.places.keep(number, Some(place));
+        self.lines.tints.keep(number, Some(tint));
+        let point = Point {
+            component: plant.nodes.component[sample.node.index()],
+            kind: plant.kind_of(sample.node),
+            end: sample.end,
+            tip,
+            birth: plant.nodes.birth[born.index()] as f32,
+            from: age,
+            death: f32::INFINITY,
+            places: 0..0,
+            tints: 0..0,
+        };
+        let (place, tint) = (Track::begin(place), Track::begin(tint));
+        self.lines.points.push(State { point, line, rank: NONE, seen: age, place, tint });
+        number
+    }
+
+    /// Puts new points among those of the line; points that have ended keep their places.
+    fn put_in_order(&mut self, line: u32) {
+        let Lines { lines, points, scratch, .. } = &mut *self.lines;
+        let Scratch { kept, order, .. } = scratch;
+        let others = &kept[..kept.len() - 1];
+        if others.iter().all(|(_, point)| points[*point as usize].rank != NONE) {
+            return;
+        }
+        order.clear();
+        let old = &mut lines[line as usize].points;
+        let mut next = 0;
+        for (_, point) in others {
+            let rank = points[*point as usize].rank;
+            if rank == NONE {
+                order.push(*point);
+            } else {
+                order.extend_from_slice(&old[next..=rank as usize]);
+                next = rank as usize + 1;
+            }
+        }
+        order.extend_from_slice(&old[next..]);
+        std::mem::swap(old, order);
+        old.iter().enumerate().for_each(|(rank, point)| points[*point as usize].rank = rank as u32);
+    }
+
+    /// Takes the places of the points at this age.
+    fn take(&mut self, line: u32, samples: &[Sample]) {
+        let half = 0.5 * self.nearness.distance;
+        // Within half of the tolerance in three coordinates together.
+        let part = half / 3.0_f32.sqrt();
+        let near = [part, part, part, half];
+        let colour = [self.nearness.colour; 3];
+        let (plant, age) = (self.stems.plant(), self.age);
+        let Lines { lines, points, places, tints, scratch, .. } = &mut *self.lines;
+        (lines[line as usize].seen, lines[line as usize].stands) = (age, true);
+        for &(place, number) in &scratch.kept {
+            let (sample, state) = (&samples[place as usize], &mut points[number as usize]);
+            state.seen = age;
+            if state.point.tip {
+                state.point.component = plant.nodes.component[sample.node.index()];
+                state.point.kind = plant.kind_of(sample.node);
+            }
+            if state.point.from < age {
+                places.keep(number, state.place.add(age, place_of(sample), &near));
+                tints.keep(number, state.tint.add(age, tint_of(sample), &colour));
+            }
+        }
+    }
+}
+
+impl Lines {
+    /// The line of an axis, which is begun where it does not stand.
+    fn line(&mut self, key: (u32, u32), order: u8) -> u32 {
+        let known = self.known.get(&key).copied();
+        if let Some(line) = known.filter(|line| self.lines[*line as usize].stands) {
+            return line;
+        }
+        let line = self.lines.len() as u32;
+        self.known.insert(key, line);
+        self.lines.push(Growing { axis: key.0, order, points: Vec::new(), end: NONE, seen: 0.0, stands: true });
+        line
+    }
+
+    /// Ends the points that were not seen at an age.
+    pub fn end_unseen(&mut self, age: f32) {
+        let Self { lines, points, places, tints, .. } = self;
+        for line in lines.iter_mut().filter(|line| line.stands) {
+            line.stands = line.seen == age;
+            for &number in line.points.iter().chain([&line.end]) {
+                let state = &mut points[number as usize];
+                if state.point.death.is_infinite() && state.seen != age {
+                    state.point.death = age;
+                    places.keep(number, state.place.end());
+                    tints.keep(number, state.tint.end());
+                }
+            }
+        }
+    }
+
+    /// Writes all lines into a life.
+    pub fn finish(mut self, life: &mut Life) {
+        for (number, state) in self.points.iter().enumerate().filter(|(_, state)| state.point.death.is_infinite()) {
+            self.places.keep(number as u32, state.place.end());
+            self.tints.keep(number as u32, state.tint.end());
+        }
+        let mut tracks = Vec::with_capacity(self.points.len());
+        for Growing { axis, order, points, end, .. } in &self.lines {
+            let start = tracks.len();
+            tracks.extend(points.iter().chain([end]).copied());
+            life.lines.push(Line { axis: *axis, order: *order, points: start..tracks.len() });
+        }
+        let (places, of_places) = self.places.sorted(&tracks);
+        let (tints, of_tints) = self.tints.sorted(&tracks);
+        let shift = life.tints.len() as u32;
+        let points = tracks.iter().zip(of_places.into_iter().zip(of_tints)).map(|(track, (places, tints))| {
+            let tints = tints.start + shift..tints.end + shift;
+            Point { places, tints, ..self.points[*track as usize].point.clone() }
+        });
+        life.points = points.collect();
+        life.places = places;
+        life.tints.extend(tints);
+    }
+}
+
+fn place_of(sample: &Sample) -> [f32; 4] {
+    let [x, y, z] = sample.at.to_array();
+    [x, y, z, sample.radius]
+}
+
+fn tint_of(sample: &Sample) -> [f32; 3] {
+    sample.colour.map(f32::from)
+}

@@ -1,0 +1,201 @@
+//! Organs, and internodes that are no tubes, while a life is made.
+//!
+//! A part has one track of its base, two directions and sizes, and one of its colour. Of the tolerance a quarter each
+//! goes to the base, to what the two directions move its farthest point, and to its size. Absent: forms, which are named
+//! and not made.
+
+use super::kept::Kept;
+use super::track::Track;
+use super::{Life, Nearness, Part, What};
+use phytomer_meshes::{Scene, Stems};
+use phytomer_sim::plant::{Kind, NodeId, OrganId};
+
+const NONE: u32 = u32::MAX;
+
+/// The parts of a plant, up to the last age that was shown.
+#[derive(Debug, Clone, Default)]
+pub struct Parts {
+    states: Vec<State>,
+    /// The part of each component by its number.
+    of_component: Vec<u32>,
+    /// The parts that stand.
+    standing: Vec<u32>,
+    outlines: Vec<Vec<[f32; 3]>>,
+    poses: Kept<12>,
+    tints: Kept<3>,
+}
+
+#[derive(Debug, Clone)]
+struct State {
+    part: Part,
+    seen: f32,
+    /// The extent of its outline, metres; 1 for other parts, whose sizes are metres.
+    extent: f32,
+    pose: Track<12>,
+    tint: Track<3>,
+}
+
+/// A part as it stands at an age.
+struct Shown {
+    pose: [f32; 12],
+    tint: [f32; 3],
+}
+
+impl Parts {
+    /// Takes every organ of a scene, and some internodes.
+    pub fn show(&mut self, scene: &Scene, apart: &[NodeId], age: f32, nearness: Nearness) {
+        let organs = &scene.plant().organs;
+        for organ in scene.organs() {
+            let drawn = scene.organ(organ);
+            let ([length, width], [blade, stalk]) = (drawn.size, drawn.colours);
+            let shown =
+                Shown { pose: pose(drawn.base, drawn.heading, drawn.up, [length, width, 0.0]), tint: rgb(blade) };
+            let component = organs.component[organ.index()];
+            let known = self.known(component);
+            if known == NONE {
+                let part = Part {
+                    bearer: scene.plant().nodes.component[organs.node[organ.index()].index()],
+                    fullness: drawn.fullness,
+                    stalk: [stalk[0], stalk[1], stalk[2]],
+                    what: self.what(scene, organ, drawn.outlined),
+                    ..begun(component, organs.kind[organ.index()], organs.birth[organ.index()] as f32, age)
+                };
+                self.begin(part, &shown);
+            } else {
+                self.take(known, &shown, age, nearness);
+            }
+        }
+        apart.iter().for_each(|node| self.show_internode(scene.stems(), *node, age, nearness));
+        self.end_unseen(age);
+    }
+
+    fn show_internode(&mut self, stems: &Stems, node: NodeId, age: f32, nearness: Nearness) {
+        let frustum = stems.frustum(node);
+        let size = [frustum.length, 2.0 * frustum.radii[0], 2.0 * frustum.radii[1]];
+        let colour = stems.colour(node);
+        let shown = Shown { pose: pose(frustum.base, frustum.heading, frustum.up, size), tint: colour.map(f32::from) };
+        let plant = stems.plant();
+        let component = plant.nodes.component[node.index()];
+        let known = self.known(component);
+        if known == NONE {
+            let birth = plant.nodes.birth[node.index()] as f32;
+            self.begin(Part { stalk: colour, ..begun(component, plant.kind_of(node), birth, age) }, &shown);
+        } else {
+            self.take(known, &shown, age, nearness);
+        }
+    }
+
+    /// The part of a component that stands.
+    fn known(&self, component: u32) -> u32 {
+        let known = self.of_component.get(component as usize).copied().unwrap_or(NONE);
+        let stands = self.states.get(known as usize).is_some_and(|state| state.part.death.is_infinite());
+        if stands { known } else { NONE }
+    }
+
+    fn what(&mut self, scene: &Scene, organ: OrganId, outlined: bool) -> What {
+        if !outlined {
+            return What::Organ(scene.plant().organs.form[organ.index()]);
+        }
+        let corners = scene.plant().outline_of(organ);
+        // Neighbouring organs of one kind mostly have one outline.
+        if self.outlines.last().is_none_or(|last| last != corners) {
+            self.outlines.push(corners.to_vec());
+        }
+        What::Outlined(self.outlines.len() as u32 - 1)
+    }
+
+    fn begin(&mut self, part: Part, shown: &Shown) {
+        let number = self.states.len() as u32;
+        let (pose, tint) = ((part.from, shown.pose), (part.from, shown.tint));
+        self.poses.keep(number, Some(pose));
+        self.tints.keep(number, Some(tint));
+        let component = part.component as usize;
+        self.of_component.resize(self.of_component.len().max(component + 1), NONE);
+        self.of_component[component] = number;
+        self.standing.push(number);
+        let extent = match part.what {
+            What::Outlined(outline) => extent_of(&self.outlines[outline as usize]),
+            What::Organ(_) | What::Internode => 1.0,
+        };
+        let (pose, tint) = (Track::begin(pose), Track::begin(tint));
+        self.states.push(State { seen: part.from, part, extent, pose, tint });
+    }
+
+    fn take(&mut self, number: u32, shown: &Shown, age: f32, nearness: Nearness) {
+        let state = &mut self.states[number as usize];
+        state.seen = age;
+        // A quarter of the tolerance in three coordinates together.
+        let part = 0.25 * nearness.distance / 3.0_f32.sqrt();
+        let [length, width, tip] = [9, 10, 11].map(|k| shown.pose[k]);
+        let reach = (length.max(width).max(tip) * state.extent).max(part);
+        let (turn, size) = (part / reach, part / state.extent);
+        let near = [part, part, part, turn, turn, turn, turn, turn, turn, size, size, size];
+        self.poses.keep(number, state.pose.add(age, shown.pose, &near));
+        self.tints.keep(number, state.tint.add(age, shown.tint, &[nearness.colour; 3]));
+    }
+
+    fn end_unseen(&mut self, age: f32) {
+        let Self { states, standing, poses, tints, .. } = self;
+        standing.retain(|number| {
+            let state = &mut states[*number as usize];
+            let stands = state.seen == age;
+            if !stands {
+                state.part.death = age;
+                poses.keep(*number, state.pose.end());
+                tints.keep(*number, state.tint.end());
+            }
+            stands
+        });
+    }
+
+    /// Writes all parts into a life.
+    pub fn finish(mut self, life: &mut Life) {
+        for number in self.standing {
+            self.poses.keep(number, self.states[number as usize].pose.end());
+            self.tints.keep(number, self.states[number as usize].tint.end());
+        }
+        let tracks: Vec<u32> = (0..self.states.len() as u32).collect();
+        let (poses, of_poses) = self.poses.sorted(&tracks);
+        let (tints, of_tints) = self.tints.sorted(&tracks);
+        let shift = life.tints.len() as u32;
+        let parts = self.states.into_iter().zip(of_poses.into_iter().zip(of_tints));
+        let ended = parts.map(|(state, (poses, tints))| {
+            let tints = tints.start + shift..tints.end + shift;
+            Part { poses, tints, ..state.part }
+        });
+        life.parts = ended.collect();
+        life.poses = poses;
+        life.tints.extend(tints);
+        life.outlines = self.outlines;
+    }
+}
+
+/// A part that is no organ, until more is said of it.
+fn begun(component: u32, kind: Kind, birth: f32, from: f32) -> Part {
+    Part {
+        component,
+        bearer: component,
+        kind,
+        what: What::Internode,
+        fullness: 1.0,
+        stalk: [0; 3],
+        birth,
+        from,
+        death: f32::INFINITY,
+        poses: 0..0,
+        tints: 0..0,
+    }
+}
+
+fn pose(base: [f32; 3], heading: [f32; 3], up: [f32; 3], size: [f32; 3]) -> [f32; 12] {
+    std::array::from_fn(|k| [base, heading, up, size][k / 3][k % 3])
+}
+
+fn rgb([red, green, blue, _]: [u8; 4]) -> [f32; 3] {
+    [red, green, blue].map(f32::from)
+}
+
+/// The farthest distance of a corner of an outline from its base along an axis.
+fn extent_of(outline: &[[f32; 3]]) -> f32 {
+    outline.iter().flatten().map(|x| x.abs()).fold(f32::MIN_POSITIVE, f32::max)
+}

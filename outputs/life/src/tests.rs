@@ -1,0 +1,117 @@
+//! Lives of a small plant that is written by hand: what is kept, and what is known again.
+//!
+//! A trunk of six internodes, one a tick, bends at the third node; whole species are compared with their lives in
+//! `tests/lives.rs` of the root.
+
+use super::{Life, Maker, Nearness};
+use phytomer_meshes::MeshOptions;
+use phytomer_sim::Tick;
+use phytomer_sim::plant::{Cause, Form, Habit, Kind, NewAxis, NewNode, NewOrgan, NodeId, Plant, Seed};
+use phytomer_sim::pose::pose;
+use std::sync::Arc;
+
+const TALL: Tick = 6;
+
+fn plant() -> Plant {
+    let seed = Seed { plant: 3, draws: 3, run_seed: 1, component_limit: 100, keep_events: false };
+    let mut plant = Plant::new(&seed, Arc::new(Habit::default()));
+    plant.habit = Arc::new(Habit { trends: vec![phytomer_sim::plant::Trend::STRAIGHT], ..Habit::default() });
+    let axis = plant.add_axis(NewAxis::OF_THE_SEED);
+    let mut parent = NodeId::NONE;
+    for rank in 1..=TALL {
+        let node = NewNode { parent, axis, birth: rank, rank, length: 0.1, diameter: 0.01, ..NewNode::OF_THE_TRUNK };
+        parent = plant.add_node(node);
+    }
+    plant.add_organ(NewOrgan {
+        node: NodeId(0),
+        kind: Kind::Leaf,
+        position: 0,
+        birth: 2,
+        death: 5,
+        cause: Cause::LifeLength,
+        form: Form::default(),
+        length: 0.1,
+        width: 0.04,
+        area: 0.002,
+        azimuth: 0.0,
+        insertion: 1.0,
+    });
+    pose(&mut plant, TALL);
+    plant
+}
+
+fn life(plant: &Plant, ages: impl IntoIterator<Item = Tick>) -> Life {
+    let mut maker = Maker::new(Nearness::of(1e-3), &MeshOptions::default());
+    ages.into_iter().for_each(|age| maker.show(plant, age));
+    maker.finish()
+}
+
+/// A straight trunk that grows evenly is two points: its base stands, and its tip has two keys.
+#[test]
+fn a_trunk_that_grows_evenly_is_two_points() {
+    let plant = plant();
+    let life = life(&plant, 0..=TALL);
+    assert_eq!((life.lines.len(), life.points.len()), (1, 2));
+    let [base, tip] = &life.points[..] else { panic!("two points") };
+    assert_eq!((life.places(base).len(), life.places(tip).len()), (1, 2));
+    assert_eq!(
+        [base, tip].map(|point| (point.component, point.birth, point.from, point.tip)),
+        [(plant.nodes.component[0], 1.0, 1.0, false), (plant.nodes.component[5], 1.0, 1.0, true)]
+    );
+    for age in 1..=TALL {
+        let heights: Vec<f32> = life.line_at(&life.lines[0], age as f32).map(|(_, place)| place[2]).collect();
+        assert!((heights[1] - 0.1 * age as f32).abs() < 1e-6 && heights[0] == 0.0, "{heights:?} at {age}");
+    }
+    assert!(life.line_at(&life.lines[0], 0.0).next().is_none());
+}
+
+/// A plant that stands still needs no further key, at however many ages it is shown; and an age that is not later than
+/// the last is left out.
+#[test]
+fn a_plant_that_stands_still_needs_no_more_keys() {
+    let plant = plant();
+    let few = life(&plant, TALL..TALL + 3);
+    // Bark changes its colour for a while, within two keys or so an internode.
+    let many = life(&plant, (TALL..TALL + 2000).flat_map(|age| [age, age, 1]));
+    assert_eq!(many.ages.len(), 2000);
+    assert_eq!((few.points.len(), few.places(&few.points[0]).len()), (2, 1));
+    assert_eq!((many.points.len(), many.places(&many.points[0]).len(), many.places(&many.points[1]).len()), (2, 1, 1));
+    assert!(many.keys() < 40, "{}", many.keys());
+}
+
+/// A node that the line passes at first and no more after the trunk has bent there becomes a point at that age.
+#[test]
+fn a_node_becomes_a_point_when_the_line_leaves_it() {
+    let straight = plant();
+    let mut bent = straight.clone();
+    for (k, node) in (3..6).enumerate() {
+        bent.frames.base[node] = [0.1 * k as f32, 0.0, 0.3];
+        (bent.frames.heading[node], bent.frames.up[node]) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
+    }
+    let mut maker = Maker::new(Nearness::of(1e-3), &MeshOptions::default());
+    maker.show(&straight, 6);
+    maker.show(&bent, 7);
+    maker.show(&straight, 8);
+    let life = maker.finish();
+    let of = |age: f32| -> Vec<u32> { life.line_at(&life.lines[0], age).map(|(point, _)| point.component).collect() };
+    let number = |node: usize| bent.nodes.component[node];
+    assert_eq!(of(6.0), [number(0), number(5)]);
+    assert_eq!(of(7.0), [number(0), number(3), number(5)]);
+    assert_eq!(of(8.0), of(7.0), "it stays a point");
+    let corner = &life.points[1];
+    assert_eq!((corner.birth, corner.from, corner.death), (4.0, 7.0, f32::INFINITY));
+}
+
+#[test]
+fn a_leaf_stands_from_its_birth_to_its_fall_and_a_trunk_until_it_is_shed() {
+    let mut plant = plant();
+    plant.axes.shed[0] = 6;
+    let life = life(&plant, 0..=8);
+    let [leaf] = &life.parts[..] else { panic!("one leaf") };
+    assert_eq!((leaf.birth, leaf.from, leaf.death), (2.0, 2.0, 5.0));
+    assert_eq!((leaf.component, leaf.bearer), (plant.organs.component[0], plant.nodes.component[0]));
+    assert_eq!(life.poses(leaf).len(), 1, "it does not move");
+    assert_eq!([1.0, 2.0, 4.0, 5.0].map(|age| leaf.stands(age)), [false, true, true, false]);
+    assert!(life.points.iter().all(|point| point.death == 6.0));
+    assert_eq!(Maker::new(Nearness::of(0.0), &MeshOptions::default()).finish().keys(), 0);
+}

@@ -1,0 +1,205 @@
+//! Internodes with a cross section of their own: prisms and frusta over a closed section, strips over an open one.
+//!
+//! An internode that goes on where an internode with a section ends begins with the last ring of that one, so that a
+//! generalised cylinder has no gap where it bends. The ends of a closed section are closed by caps, which lie within
+//! the cylinder but at its ends. Normals stand across the section and do not lean with a change of width. Absent:
+//! circles, which are tubes.
+
+use super::chunk::{Tag, Vertex};
+use super::tube::{Frustum, cross};
+use phytomer_looks::{Section, polygon};
+
+/// The corners and triangles of internodes with a section, computed once per mesh.
+#[derive(Debug, Clone)]
+pub struct Prism {
+    /// Each corner with its normal and its share of the way around; the first is repeated at the end of a closed one.
+    corners: Vec<Corner>,
+    caps: bool,
+    faces: Vec<[u32; 3]>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Corner {
+    at: [f32; 2],
+    normal: [f32; 2],
+    share: f32,
+}
+
+/// A ring about the axis line.
+#[derive(Debug, Clone, Copy)]
+pub struct Ring {
+    /// Its middle.
+    pub middle: [f32; 3],
+    /// The direction across it.
+    pub heading: [f32; 3],
+    /// The direction of the first axis of the section.
+    pub up: [f32; 3],
+    /// Half the width.
+    pub radius: f32,
+}
+
+impl Ring {
+    /// The ring at the base of an internode.
+    pub fn base(of: &Frustum) -> Self {
+        Self { middle: of.base, heading: of.heading, up: of.up, radius: of.radii[0] }
+    }
+
+    /// The ring at its tip.
+    pub fn tip(of: &Frustum) -> Self {
+        let middle = [0, 1, 2].map(|k| of.base[k] + of.length * of.heading[k]);
+        Self { middle, heading: of.heading, up: of.up, radius: of.radii[1] }
+    }
+
+    /// Whether another ring lies about the same point.
+    pub fn meets(&self, other: &Self) -> bool {
+        let apart: f32 = (0..3).map(|k| (self.middle[k] - other.middle[k]) * (self.middle[k] - other.middle[k])).sum();
+        let near = 1e-3 * self.radius.max(other.radius);
+        apart <= near * near
+    }
+
+    fn turned(&self, [x, y]: [f32; 2]) -> [f32; 3] {
+        let side = cross(self.heading, self.up);
+        [0, 1, 2].map(|k| x * self.up[k] + y * side[k])
+    }
+
+    fn at(&self, corner: [f32; 2]) -> [f32; 3] {
+        let out = self.turned(corner);
+        [0, 1, 2].map(|k| self.middle[k] + self.radius * out[k])
+    }
+}
+
+impl Prism {
+    /// Internodes with a section.
+    pub fn new(section: &Section) -> Self {
+        let (corners, caps) = (around(section), section.is_closed());
+        let ring = corners.len() as u32;
+        let sides = ring.saturating_sub(1);
+        let mut faces: Vec<[u32; 3]> =
+            (0..sides).flat_map(|k| [[k, k + 1, ring + k + 1], [k, ring + k + 1, ring + k]]).collect();
+        if caps {
+            let flat: Vec<[f32; 3]> = section.corners().iter().map(|[x, y]| [*x, *y, 0.0]).collect();
+            for face in polygon::triangles(&flat) {
+                let [a, b, c] = face.map(|corner| 2 * ring + corner as u32);
+                faces.extend([[a, c, b], [sides + a, sides + b, sides + c]]);
+            }
+        }
+        Self { corners, caps, faces }
+    }
+
+    /// The number of vertices of an internode.
+    pub fn vertices(&self) -> usize {
+        let ring = self.corners.len();
+        2 * ring + if self.caps { 2 * (ring - 1) } else { 0 }
+    }
+
+    /// The triangles of an internode, by the indices of its own vertices.
+    pub fn faces(&self) -> &[[u32; 3]] {
+        &self.faces
+    }
+
+    /// Writes the vertices of an internode between two rings; `out` has exactly [`Prism::vertices`] places.
+    pub fn write(&self, rings: [Ring; 2], tag: &Tag, out: &mut [Vertex]) {
+        let (sides, ends) = out.split_at_mut(2 * self.corners.len());
+        for ((ring, out), along) in rings.iter().zip(sides.chunks_mut(self.corners.len())).zip([0.0, 1.0]) {
+            for (corner, vertex) in self.corners.iter().zip(out) {
+                *vertex = Vertex::new(ring.at(corner.at), ring.turned(corner.normal), [corner.share, along], tag);
+            }
+        }
+        if !self.caps {
+            return;
+        }
+        for ((ring, out), way) in rings.iter().zip(ends.chunks_mut(self.corners.len() - 1)).zip([-1.0, 1.0]) {
+            let normal = ring.heading.map(|x| way * x);
+            for (corner, vertex) in self.corners.iter().zip(out) {
+                let round = corner.at.map(|x| 0.5 + 0.5 * x);
+                *vertex = Vertex::new(ring.at(corner.at), normal, round, tag);
+            }
+        }
+    }
+}
+
+/// The corners of a section with their normals, which stand across the line between their neighbours.
+fn around(section: &Section) -> Vec<Corner> {
+    let (corners, closed) = (section.corners(), section.is_closed());
+    let count = corners.len();
+    if count < 2 {
+        return Vec::new();
+    }
+    let last = if closed { count } else { count - 1 };
+    let normal = |k: usize| {
+        let before = if closed { corners[(k + count - 1) % count] } else { corners[k.saturating_sub(1)] };
+        let after = if closed { corners[(k + 1) % count] } else { corners[(k + 1).min(count - 1)] };
+        let [x, y] = [after[1] - before[1], before[0] - after[0]];
+        let length = (x * x + y * y).sqrt();
+        if length > 0.0 { [x / length, y / length] } else { [1.0, 0.0] }
+    };
+    (0..=last)
+        .map(|k| Corner { at: corners[k % count], normal: normal(k % count), share: k as f32 / last as f32 })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::chunk::Face;
+    use super::super::measure::{assert_closed, assert_unit_normals, outward_share, surface, volume};
+    use super::*;
+    use bytemuck::Zeroable;
+
+    const TAG: Tag = Tag { colour: [9, 9, 9, 255], birth: 1.0, death: f32::INFINITY, component: 0, kind: 0 };
+
+    fn drawn(section: &Section, rings: [Ring; 2]) -> (Vec<Vertex>, Vec<Face>) {
+        let prism = Prism::new(section);
+        let mut vertices = vec![Vertex::zeroed(); prism.vertices()];
+        prism.write(rings, &TAG, &mut vertices);
+        (vertices, prism.faces().iter().map(|&face| Face::new(face)).collect())
+    }
+
+    fn frustum(radii: [f32; 2]) -> Frustum {
+        Frustum { base: [0.1, -0.2, 0.3], heading: [0.6, 0.0, 0.8], up: [0.8, 0.0, -0.6], length: 1.5, radii }
+    }
+
+    /// An L of three squares of half the width: a prism of 3 r² h, a frustum of 3 h/3 (r² + R² + r R). Either way
+    /// round.
+    #[test]
+    fn a_closed_section_is_a_solid_of_its_volume() {
+        let mut corners = vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+        for _ in 0..2 {
+            let section = Section::of(corners.clone(), true);
+            for radii in [[0.4, 0.4], [0.5, 0.2]] {
+                let of = frustum(radii);
+                let (vertices, faces) = drawn(&section, [Ring::base(&of), Ring::tip(&of)]);
+                assert_closed(&vertices, &faces);
+                assert_unit_normals(&vertices);
+                let [a, b] = radii.map(f64::from);
+                let expected = 1.5 * (a * a + b * b + a * b);
+                let measured = volume(&vertices, &faces);
+                assert!((measured / expected - 1.0).abs() < 1e-5, "{radii:?}: {measured} {expected}");
+            }
+            corners.reverse();
+        }
+    }
+
+    /// A regular polygon of 24 sides: a tube of that many, whose normals point out.
+    #[test]
+    fn a_round_section_is_seen_from_outside() {
+        let corner = |k: u32| {
+            let (sin, cos) = phytomer_sim::math::sincos(std::f64::consts::TAU * f64::from(k) / 24.0);
+            [cos as f32, sin as f32]
+        };
+        let of = frustum([0.3, 0.3]);
+        let (vertices, faces) =
+            drawn(&Section::of((0..24).map(corner).collect(), true), [Ring::base(&of), Ring::tip(&of)]);
+        assert_eq!(outward_share(&vertices, &faces), 1.0);
+    }
+
+    /// An open section of two sides, each half the width long, is a strip of twice half the width times the length.
+    #[test]
+    fn an_open_section_is_a_bent_strip() {
+        let section = Section::of(vec![[0.0, 1.0], [0.0, 0.0], [1.0, 0.0]], false);
+        let of = frustum([0.4, 0.4]);
+        let (vertices, faces) = drawn(&section, [Ring::base(&of), Ring::tip(&of)]);
+        assert_eq!((vertices.len(), faces.len()), (6, 4));
+        assert_unit_normals(&vertices);
+        assert!((surface(&vertices, &faces) - 2.0 * 0.4 * 1.5).abs() < 1e-6);
+    }
+}

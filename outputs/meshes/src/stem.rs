@@ -1,0 +1,192 @@
+//! Internodes as they are drawn, each by itself: the form of each look, and how it is placed, sized and tagged.
+//!
+//! An internode is a closed tube, a strip where it is a blade, a tube of a cross section of its own, or the form of an
+//! organ where its species says so. It stands from its birth until its branch falls; one that stands dead has the age of its death. Absent: tubes that run
+//! along several internodes (`reduced`), and organs, which are the scene's.
+
+use super::MeshOptions;
+use super::chunk::{Tag, Vertex};
+use super::colour;
+use super::forms::{FormMesh, Placement};
+use super::section::{Prism, Ring};
+use super::tube::{Frustum, Strip, Tube};
+use phytomer_looks::Paints;
+use phytomer_sim::clock::Tick;
+use phytomer_sim::plant::{AxisId, InternodeLook, Kind, NodeId, Plant, Shape as Stem};
+use std::ops::Range;
+
+/// The internodes of a plant at an age, ready to be drawn.
+#[derive(Debug)]
+pub struct Stems<'a> {
+    pub(super) plant: &'a Plant,
+    pub(super) age: Tick,
+    kinds: [bool; Kind::ALL.len()],
+    paints: &'a Paints,
+    /// The forms by the index of their look in the habit; the last entry is for internodes without a look.
+    forms: Vec<Drawn>,
+    /// The forms of internodes with a cross section of their own, in the places of the sections.
+    sections: Vec<Drawn>,
+}
+
+/// The form of an internode.
+#[derive(Debug)]
+pub enum Drawn {
+    /// A tube; the flag tells whether the species states the number of its sides.
+    Tube(Tube, bool),
+    /// A plane strip.
+    Strip,
+    /// A tube with a cross section of its own.
+    Prism(Prism),
+    /// A form of an organ, with the internode's length and diameter.
+    Form(FormMesh),
+}
+
+impl Drawn {
+    fn of(look: &InternodeLook, paints: &Paints, options: &MeshOptions) -> Self {
+        let paint = paints.internode(look.paint);
+        match (paint.form, look.shape) {
+            (Some(form), _) => Self::Form(options.shape(form).clone()),
+            (None, Stem::Blade) => Self::Strip,
+            (None, Stem::Cylinder | Stem::Cone) => {
+                Self::Tube(Tube::new(paint.sides.unwrap_or(options.sides)), paint.sides.is_some())
+            }
+        }
+    }
+
+    /// The number of its vertices.
+    #[inline]
+    pub fn vertices(&self) -> usize {
+        match self {
+            Self::Tube(tube, _) => tube.vertices(),
+            Self::Strip => Strip::VERTICES,
+            Self::Prism(prism) => prism.vertices(),
+            Self::Form(shape) => shape.points.len(),
+        }
+    }
+
+    /// Its triangles, by the indices of its own vertices.
+    #[inline]
+    pub fn faces(&self) -> &[[u32; 3]] {
+        match self {
+            Self::Tube(tube, _) => tube.faces(),
+            Self::Strip => &Strip::FACES,
+            Self::Prism(prism) => prism.faces(),
+            Self::Form(shape) => &shape.faces,
+        }
+    }
+}
+
+impl<'a> Stems<'a> {
+    /// The internodes of `plant` at `age`; its frames and diameters must be those of that age.
+    pub fn of(plant: &'a Plant, age: Tick, options: &MeshOptions) -> Self {
+        let looks = plant.habit.looks.internodes.iter().chain(&plant.habit.looks.apart);
+        let paints = Paints::of(&plant.habit);
+        let mut forms: Vec<Drawn> = looks.map(|look| Drawn::of(look, paints, options)).collect();
+        forms.push(Drawn::Tube(Tube::new(options.sides), false));
+        let sections = paints.sections().iter().map(|section| Drawn::Prism(Prism::new(section))).collect();
+        Self { plant, age, kinds: options.kinds, paints, forms, sections }
+    }
+
+    /// The internodes of a range of nodes that are drawn.
+    pub fn drawn_of(&self, range: Range<usize>) -> impl Iterator<Item = NodeId> {
+        let (plant, age, kinds) = (self.plant, self.age, self.kinds);
+        let drawn = move |&node: &NodeId| plant.stands(node, age) && kinds[plant.kind_of(node) as usize];
+        range.map(|node| NodeId(node as u32)).filter(drawn)
+    }
+
+    /// The plant.
+    pub fn plant(&self) -> &'a Plant {
+        self.plant
+    }
+
+    /// Whether the kind of an internode is drawn.
+    #[inline]
+    pub fn shows(&self, node: NodeId) -> bool {
+        self.kinds[self.plant.kind_of(node) as usize]
+    }
+
+    /// The form of an internode.
+    #[inline]
+    pub(super) fn form(&self, node: NodeId) -> &Drawn {
+        let Plant { axes, nodes, habit, own_looks, .. } = self.plant;
+        if let Some(section) = own_looks.section_of(node).and_then(|place| self.sections.get(place)) {
+            return section;
+        }
+        if let Some(apart) = own_looks.of_node(node).filter(|&place| place < habit.looks.apart.len()) {
+            return &self.forms[habit.looks.internodes.len() + apart];
+        }
+        let axis: AxisId = nodes.axis[node.index()];
+        let place = habit.looks.place(axes.order[axis.index()], axes.state[axis.index()]);
+        &self.forms[place.unwrap_or(self.forms.len() - 1)]
+    }
+
+    /// Writes the vertices of an internode; `out` must have as many places as its form has vertices.
+    #[inline]
+    pub(super) fn write(&self, stem: &Drawn, node: NodeId, out: &mut [Vertex]) {
+        match stem {
+            Drawn::Tube(tube, _) => tube.write(&self.frustum(node), &self.tag(node), out),
+            Drawn::Strip => Strip::write(&self.frustum(node), &self.tag(node), out),
+            Drawn::Prism(prism) => prism.write(self.rings(node), &self.tag(node), out),
+            Drawn::Form(shape) => shape.write(&self.stands(node), &[self.tag(node); 2], out),
+        }
+    }
+
+    /// The placement of an internode that has the form of an organ.
+    fn stands(&self, node: NodeId) -> Placement {
+        let frame = self.plant.frames.at(node);
+        let nodes = &self.plant.nodes;
+        let size = [self.plant.posed_length(node), nodes.diameter[node.index()]];
+        Placement { base: frame.base, heading: frame.heading, up: frame.up, size, fullness: 1.0 }
+    }
+
+    /// The rings of an internode with a section: it begins with that at the tip of the internode with a section that it
+    /// continues, if there is one.
+    fn rings(&self, node: NodeId) -> [Ring; 2] {
+        let own = self.frustum(node);
+        let [base, tip] = [Ring::base(&own), Ring::tip(&own)];
+        let before = self.plant.nodes.parent[node.index()].some();
+        let before = before.filter(|parent| self.plant.own_looks.section_of(*parent).is_some());
+        let joint = before.map(|parent| Ring::tip(&self.frustum(parent))).filter(|end| end.meets(&base));
+        [joint.map_or(base, |end| Ring { middle: base.middle, radius: base.radius, ..end }), tip]
+    }
+
+    /// An internode as a frustum.
+    #[inline]
+    pub fn frustum(&self, node: NodeId) -> Frustum {
+        let frame = self.plant.frames.at(node);
+        let (nodes, length) = (&self.plant.nodes, self.plant.posed_length(node));
+        let node = node.index();
+        let radii = [nodes.diameter[node] * 0.5, nodes.diameter_tip[node] * 0.5];
+        Frustum { base: frame.base, heading: frame.heading, up: frame.up, length, radii }
+    }
+
+    /// The tag of an internode.
+    #[inline]
+    pub fn tag(&self, node: NodeId) -> Tag {
+        let (look, nodes) = (self.plant.look_of_node(node), &self.plant.nodes);
+        let death = self.plant.death_of(node);
+        let dead = death <= self.age;
+        let colour = self.bark(look, node, dead);
+        let node = node.index();
+        Tag {
+            colour,
+            birth: nodes.birth[node] as f32,
+            death: if dead { death as f32 } else { f32::INFINITY },
+            component: nodes.component[node] as i32,
+            kind: look.kind(nodes.formation[node].is_short()) as u8,
+        }
+    }
+
+    /// The colour of an internode.
+    pub fn colour(&self, node: NodeId) -> [u8; 3] {
+        let dead = self.plant.death_of(node) <= self.age;
+        let [red, green, blue, _] = self.bark(self.plant.look_of_node(node), node, dead);
+        [red, green, blue]
+    }
+
+    #[inline]
+    fn bark(&self, look: &InternodeLook, node: NodeId, dead: bool) -> [u8; 4] {
+        let old = self.age - self.plant.nodes.birth[node.index()];
+        colour::wood(look.kind, &self.paints.internode(look.paint).bark, old, dead)
+    }
+}

@@ -1,0 +1,96 @@
+//! Framings compared with closed forms: cameras that hold several pictures, points that are swept around an axis, and a
+//! ground that stands still.
+
+use super::camera::{Camera, Frame, tangents};
+use super::extent::Extent;
+use super::gaze::Gaze;
+use super::tests::pole;
+use super::*;
+use phytomer_sim::math::sincosf;
+
+fn stand(plant: &Plant) -> Stand<'_> {
+    let placed = Placed { plant, age: 1, place: [0.0; 3], own: Arc::default() };
+    Stand { plants: vec![placed], obstacles: Vec::new(), label: "age 1".to_owned() }
+}
+
+fn style(view: View) -> Picture {
+    Picture { size: [160, 120], view, ..Picture::default() }
+}
+
+#[test]
+fn the_framing_of_one_picture_gives_that_picture() {
+    let plant = pole(1.3, 0.2);
+    for view in [View::Perspective, View::Top, View::Front, View::Side, View::Oblique] {
+        for turn in [None, Some(0.7)] {
+            let style = Picture { turn, ..style(view) };
+            let mut survey = Survey::new(&style, None);
+            survey.add(&stand(&plant));
+            let framing = survey.framing().unwrap();
+            let alone = draw_stands(&[stand(&plant)], "pole", &style);
+            assert!(draw_framed(&stand(&plant), "pole", &style, &framing) == alone, "{view:?} {turn:?}");
+        }
+    }
+}
+
+#[test]
+fn a_framing_of_several_is_that_of_the_largest_in_any_order() {
+    let poles = [0.4, 1.3, 0.9].map(|length| pole(length, 0.1));
+    let survey = |order: [usize; 3]| {
+        let mut survey = Survey::new(&style(View::Perspective), None);
+        order.iter().for_each(|k| survey.add(&stand(&poles[*k])));
+        survey.framing().unwrap()
+    };
+    let framing = survey([0, 1, 2]);
+    assert_eq!(framing, survey([2, 1, 0]));
+    let largest = draw_framed(&stand(&poles[1]), "", &style(View::Perspective), &framing);
+    assert!(largest == draw_stands(&[stand(&poles[1])], "", &style(View::Perspective)));
+    assert!(Survey::new(&style(View::Front), None).framing().is_none(), "of nothing there is no framing");
+}
+
+/// The bounds of a swept point are those of the same point at many places of its circle, seen from anywhere.
+#[test]
+fn a_point_swept_around_the_axis_is_held_from_every_side() {
+    let frame = Frame { left: 20.0, top: 10.0, right: 380.0, bottom: 260.0 };
+    let points = [Vec3::new(1.0, 2.0, 0.5), Vec3::new(-0.3, 0.1, 4.0), Vec3::new(2.5, -1.5, 2.0)];
+    for perspective in [true, false] {
+        let tangents = tangents(&frame, 300.0, perspective);
+        let gaze = Gaze::towards(0.4, 0.3);
+        let (mut swept, mut around) = (Extent::new(gaze, tangents), Extent::new(gaze, tangents));
+        points.iter().for_each(|point| swept.sweep(*point));
+        for (step, point) in (0..3600_u16).flat_map(|step| points.map(|point| (step, point))) {
+            let (sin, cos) = sincosf(f32::from(step) * PI / 1800.0);
+            around.add(Vec3::new(cos * point.x - sin * point.y, sin * point.x + cos * point.y, point.z));
+        }
+        // A tenth of a degree off the farthest place: r (1 − cos 0.05°) = 4·10⁻⁷ r.
+        (0..4).for_each(|k| assert!((swept.most[k] - around.most[k]).abs() < 1e-5, "{swept:?} {around:?}"));
+        (0..2).for_each(|k| assert!((swept.depths[k] - around.depths[k]).abs() < 1e-5));
+        for turn in 0..8_u8 {
+            let gaze = Gaze::towards(f32::from(turn), 0.3);
+            let camera = Camera::fitting(&Extent { gaze, ..swept }, &frame, 300.0, f32::INFINITY);
+            for point in points {
+                let seen = camera.project(point).unwrap();
+                let inside = seen.x > 19.9 && seen.x < 380.1 && seen.y > 9.9 && seen.y < 260.1;
+                assert!(inside, "{seen} from {turn}");
+            }
+        }
+    }
+}
+
+#[test]
+fn bare_ground_is_the_same_whatever_stands_on_it() {
+    let poles = [0.3, 1.0].map(|length| pole(length, 0.05));
+    let style = Picture { caption: false, ..style(View::Perspective) };
+    let mut survey = Survey::new(&style, None);
+    poles.iter().for_each(|plant| survey.add(&stand(plant)));
+    let framing = survey.framing().unwrap();
+    let [small, large] = poles.each_ref().map(|plant| draw_framed(&stand(plant), "", &style, &framing));
+    let differs = |at: &usize| small.pixels[*at] != large.pixels[*at];
+    let count = (0..small.pixels.len()).filter(differs).count();
+    assert!(count > 50, "the poles differ");
+    // The pole stands in the middle, and its shade falls to the right of it, away from the sun over the left shoulder.
+    let left = (0..small.pixels.len()).filter(|at| at % 160 < 40);
+    assert!(left.into_iter().all(|at| !differs(&at)));
+    let (a, b) = (draw_stands(&[stand(&poles[0])], "", &style), &large);
+    let corner = |canvas: &Canvas| canvas.at(2, 117);
+    assert!(corner(&a) != corner(b), "each by its own camera has a ground of its own");
+}
