@@ -231,8 +231,8 @@ fn clipped_plants_keep_within_their_forms() {
     for (name, at_m, least) in [
         ("topiary/box_and_cylinder", 0.0, 800),
         ("topiary/spiral", 0.0, 800),
-        ("topiary/dinosaur", 0.51, 800),
-        ("topiary/dinosaur_tail", -0.51, 800),
+        ("topiary/dinosaur_fore", 0.51, 800),
+        ("topiary/dinosaur_hind", -0.51, 800),
         ("topiary/hedge", 0.0, 500),
         ("topiary/hedge_across", 0.0, 500),
         ("topiary/hedge_ring", 0.0, 800),
