@@ -14,6 +14,8 @@ use phytomer_looks::Section;
 const FEWEST: usize = 4;
 /// The most points, repeated ones included.
 const MOST: usize = 4096;
+/// The largest coordinate, in halves of the width.
+const FARTHEST: f64 = 1e6;
 /// Into so many parts each piece of the curve is cut to measure its length.
 const PARTS: usize = 16;
 
@@ -41,8 +43,12 @@ impl Contour {
         let mut points = Vec::new();
         for line in lines.iter().skip(head.lines).take(head.points) {
             let mut words = line.words();
-            let expected = "the coordinates of a point";
-            let point = [words.number(expected)?, words.number(expected)?];
+            let mut coordinate = || {
+                let (word, expected) = (words.next(), "a coordinate of a point, from -1000000 to 1000000");
+                let number = word.number(expected)?;
+                if number.abs() <= FARTHEST { Ok(number) } else { Err(word.fault(expected)) }
+            };
+            let point = [coordinate()?, coordinate()?];
             let [_, times] = [words.next(), words.next()];
             let often =
                 if versioned && !times.text.is_empty() { times.number("how often the point counts")? } else { 1.0 };

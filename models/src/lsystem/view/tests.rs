@@ -300,7 +300,9 @@ fn what_is_wrong_in_a_contour_is_told_at_its_word() {
     assert_eq!(of(""), "line 1, column 1: the file is empty; expected a contour");
     assert_eq!(of("3 2 closed"), "line 1, column 1: `3` stands here; expected the number of points, from 4 to 4096");
     assert_eq!(of("4 2 round"), "line 1, column 5: `round` stands here; expected `open` or `closed`");
-    assert_eq!(of("4 2 open\n0 0\n1 x\n"), "line 3, column 3: `x` stands here; expected the coordinates of a point");
+    let expected = "expected a coordinate of a point, from -1000000 to 1000000";
+    assert_eq!(of("4 2 open\n0 0\n1 x\n"), format!("line 3, column 3: `x` stands here; {expected}"));
+    assert_eq!(of("4 2 open\n0 0\n1e9 1\n"), format!("line 3, column 1: `1e9` stands here; {expected}"));
     assert!(of("4 2 open\n0 0\n1 1\n").ends_with("expected as many points as the file says, at least four"));
     assert!(of("cver 1 1\nname: a\n0 0 0 1\n").ends_with("expected `points:` and `type:` before the points"));
     assert!(of("cver 1 1\npoints: 2 2\ntype: cr\n0 0 0 1\n1 1 0 1\n").contains("at least four"));

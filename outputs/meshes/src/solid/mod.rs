@@ -19,6 +19,8 @@ use std::collections::BTreeMap;
 
 /// The colour of an obstacle whose colour is not stated.
 const PLASTER: [u8; 3] = [203, 192, 175];
+/// The most triangles of a union.
+const MOST_FACES: usize = 2_000_000;
 /// The kind of what is no component of a plant.
 const NO_KIND: u8 = 255;
 
@@ -35,6 +37,9 @@ pub enum Undrawn {
     /// It reaches to infinity.
     #[error("it has no end")]
     Endless,
+    /// It would have more triangles than a picture or a mesh should have.
+    #[error("it has too many parts")]
+    TooLarge,
     /// There is nothing of it, or too little to be seen.
     #[error("there is nothing of it")]
     Empty,
@@ -82,7 +87,10 @@ impl Solid {
             match Self::of(shape) {
                 Ok(one) => all.add(&one),
                 Err(Undrawn::Empty) => {}
-                Err(Undrawn::Endless) => return Err(Undrawn::Endless),
+                Err(why) => return Err(why),
+            }
+            if all.faces.len() > MOST_FACES {
+                return Err(Undrawn::TooLarge);
             }
         }
         if all.faces.is_empty() { Err(Undrawn::Empty) } else { Ok(all) }
