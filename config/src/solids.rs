@@ -39,15 +39,13 @@ struct Filling<'f> {
 impl Filling<'_> {
     fn walk(&mut self, node: &mut Node, path: &Path) {
         if node.get("form").and_then(Node::text) == Some("mesh") {
-            self.fill(node, path);
+            return self.fill(node, path);
         }
         match &mut node.value {
             Value::Table(entries) => {
                 entries.iter_mut().for_each(|entry| self.walk(&mut entry.node, &path.key(&entry.key)));
             }
-            Value::Array(items)
-                if items.first().is_some_and(|item| matches!(item.value, Value::Table(_) | Value::Array(_))) =>
-            {
+            Value::Array(items) if items.iter().any(|item| matches!(item.value, Value::Table(_) | Value::Array(_))) => {
                 items.iter_mut().enumerate().for_each(|(number, item)| self.walk(item, &path.index(number)));
             }
             _ => {}
@@ -58,15 +56,17 @@ impl Filling<'_> {
     /// that nothing else is told of it.
     fn fill(&mut self, node: &mut Node, path: &Path) {
         let stated = node.get("points_m").is_some() || node.get("faces").is_some();
-        let Some((name, span)) = node.get("file").and_then(|file| Some((file.text()?.to_owned(), file.span))) else {
-            return;
-        };
-        let path = path.key("file");
-        let triangles = if stated {
-            let problem = "the mesh has a file, and points or triangles of its own";
-            Err(Fault::new(span, &path, problem, "`file` alone, or `points_m` and `faces`"))
-        } else {
-            self.read(&name, span, &path)
+        let file = node.get("file").map(|file| (file.text().map(str::to_owned), file.span));
+        let expected = "`file` alone, or `points_m` and `faces`";
+        let (triangles, span) = match file {
+            Some((Some(name), span)) if !stated => (self.read(&name, span, &path.key("file")), span),
+            Some((Some(_), span)) => {
+                let problem = "the mesh has a file, and points or triangles of its own";
+                (Err(Fault::new(span, &path.key("file"), problem, expected)), span)
+            }
+            None if !stated => (Err(Fault::new(node.span, path, "the mesh has no triangles", expected)), node.span),
+            // What is stated is checked with all other keys.
+            _ => return,
         };
         let triangles = triangles.unwrap_or_else(|fault| {
             self.reading.faults.push(fault);

@@ -192,7 +192,7 @@ mod tests {
         assert_eq!(told("4 0 1 2 3", "4 0 1 2 4"), "face 0: it names the vertex 4, counted from 0");
         assert_eq!(told("4 0 1 2 3", "2 0 1"), "face 0: it has 2 corners");
         assert_eq!(told("4 0 1 2 3", "0"), "face 0: it has no corners");
-        assert_eq!(told("1 1 0\n", "nan 1 0\n"), "vertex 2: a coordinate is no finite number");
+        assert_eq!(told("1 1 0\n", "1e999 1 0\n"), "vertex 2: a coordinate is no finite number");
         assert_eq!(told("property double y", "property double q"), "vertex 0: the numbers x, y and z are missing");
         assert_eq!(told("vertex_indices", "corners"), "face 0: it has no list of vertices");
         assert_eq!(told("element vertex 4", "element vertex 400"), "its header: it announces 400 elements `vertex`");
