@@ -29,7 +29,7 @@ mod tests_stated;
 mod tube;
 
 pub use budget::{TooFew, fitting};
-pub use chunk::{Chunk, Face, Sink, Tag, Vertex};
+pub use chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
 pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
@@ -37,7 +37,7 @@ pub use plot::{PlotBody, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use reduced::chain::{Found, Sample, chains};
 pub use reduced::simplify::{fits, simplify};
-pub use scene::{Counts, DrawnOrgan, Scene};
+pub use scene::{DrawnOrgan, Scene};
 pub use stem::Stems;
 pub use tube::Frustum;
 

@@ -15,7 +15,7 @@ use super::shadow::Shadow;
 use super::sky::Crown;
 use glam::Vec3;
 use phytomer_looks::Paints;
-use phytomer_meshes::{Mesh, MeshOptions, Scene, Tag, Vertex};
+use phytomer_meshes::{Mesh, MeshOptions, Scene, Tag, Tolerance, Vertex};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
 use rayon::prelude::*;
@@ -75,7 +75,10 @@ impl<'a> Body<'a> {
         colours: Option<Vec<[u8; 3]>>,
         places: Vec<Vec3>,
     ) -> Self {
-        let scene = Scene::new(plant, age, options);
+        Self::of(Scene::new(plant, age, options), colours, places)
+    }
+
+    fn of(scene: Scene<'a>, colours: Option<Vec<[u8; 3]>>, places: Vec<Vec3>) -> Self {
         let blocks = 0..if places.len() > 1 { scene.blocks() } else { 0 };
         let kept = blocks.into_par_iter().map(|block| {
             let mut mesh = Mesh::default();
@@ -83,13 +86,21 @@ impl<'a> Body<'a> {
             mesh
         });
         let kept = kept.collect();
-        let mut body = Self { scene, colours, boxes: Vec::new(), stuff: stuff(plant), places, kept };
+        let scene_plant = scene.plant();
+        let mut body = Self { scene, colours, boxes: Vec::new(), stuff: stuff(scene_plant), places, kept };
         let boxes = (0..body.scene.blocks()).into_par_iter().map_init(Mesh::default, |mesh, block| {
             let vertices = body.block(block, mesh).vertices.iter().map(at);
             vertices.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)])
         });
         body.boxes = boxes.collect();
         body
+    }
+
+    /// The same plant with its wood within half a pixel of a camera that sees its stand at `offset`.
+    fn near(&self, camera: &Camera, offset: Vec3) -> Self {
+        let seen = self.placed_boxes().flat_map(corners).map(|corner| camera.scale_at(corner + offset));
+        let most = seen.fold(f32::MIN_POSITIVE, f32::max);
+        Self::of(self.scene.within(Tolerance::of_a_picture(0.5 / most)), None, self.places.clone())
     }
 
     fn block<'m>(&'m self, block: usize, mesh: &'m mut Mesh) -> &'m Mesh {
@@ -161,6 +172,13 @@ impl<'a> PlacedStand<'a> {
             }
         }
         Self { bodies, looks, offset: Vec3::ZERO, number }
+    }
+
+    /// The same stand with the wood of its plants within half a pixel of a camera, in natural colours: trunks are round
+    /// from near, and twigs have few faces from afar.
+    pub fn near(&self, camera: &Camera) -> Self {
+        let bodies = self.bodies.iter().map(|body| body.near(camera, self.offset)).collect();
+        Self { offset: self.offset, ..Self::new(bodies, self.number) }
     }
 
     fn places(&self) -> impl Iterator<Item = Vec3> {
