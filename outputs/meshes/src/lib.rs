@@ -51,8 +51,8 @@ use std::sync::Arc;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
     /// The distance, metres: internodes of an axis are drawn as one while the line of the axis and its radius stay
-    /// within it, and a tube is as round as it asks. No point of the round tubes of the internodes is farther than twice
-    /// this distance from the mesh.
+    /// within it, and a tube is as round as it asks. No point of the round tubes of the internodes is farther than
+    /// twice this distance from the mesh.
     pub distance: f32,
     /// The most that colours differ, in each of three bytes, between internodes that are drawn as one.
     pub colour: u8,
