@@ -1,5 +1,5 @@
-//! The willow of eleven years within a tolerance: triangles, the time of writing, and the farthest corner of the full
-//! mesh from the reduced one.
+//! The willow of eleven years within a tolerance: triangles, the time of writing, the farthest corner of the full mesh
+//! from the reduced one, and the time of its picture with tubes of single internodes and within half a pixel.
 //!
 //! `cargo run --release --example budget` prints a table; it takes a few minutes. The tests have younger plants
 //! (`tests/budget.rs`).
@@ -10,6 +10,7 @@ mod near;
 use near::Triangles;
 use phytomer::config::validate;
 use phytomer::outputs::meshes::{MeshOptions, MeshWriter, Ply, Scene, Tolerance, mesh_plant};
+use phytomer::outputs::pictures::{Picture, Subject, draw};
 use phytomer::run::regrowth::Regrowth;
 use phytomer::sim::Tick;
 use phytomer::sim::plant::{Class, Kind, Plant};
@@ -35,6 +36,17 @@ fn time(plant: &Plant, tolerance: Option<f32>) -> f64 {
     (0..5).map(write).fold(f64::INFINITY, f64::min)
 }
 
+/// The shortest of three times of a picture of 1280 × 720, ms.
+fn drawing(plant: &Plant, sides: Option<u8>) -> f64 {
+    let style = Picture { size: [1280, 720], sides, ..Picture::default() };
+    let time = |_| {
+        let begun = Instant::now();
+        draw(&[Subject { plant, age: AGE, label: String::new() }], "", &style);
+        begun.elapsed().as_secs_f64() * 1e3
+    };
+    (0..3).map(time).fold(f64::INFINITY, f64::min)
+}
+
 fn farthest(plant: &Plant, tolerance: f32) -> f32 {
     let near = Triangles::of(&mesh_plant(plant, AGE, &options(Some(tolerance), 8, false)), 2.5 * tolerance);
     let full = mesh_plant(plant, AGE, &options(None, SIDES, false));
@@ -53,6 +65,11 @@ fn main() {
             let (count, time) = (count(Some(tolerance)), time(plant, Some(tolerance)));
             println!("{tolerance}, {count}, {time:.1}, {:.2}", farthest(plant, tolerance));
         }
+        println!(
+            "picture, ms: {:.0} in full, {:.0} within half a pixel",
+            drawing(plant, Some(8)),
+            drawing(plant, None)
+        );
         Ok(())
     });
     shown.expect("a plant");

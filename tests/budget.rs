@@ -45,13 +45,13 @@ fn farthest(plant: &Plant, age: Tick, tolerance: f32) -> f32 {
 #[test]
 fn no_corner_of_the_full_mesh_is_farther_than_twice_the_tolerance() {
     for (name, age, tolerance) in [
-        ("willow", 20, 5e-4),
-        ("willow", 28, 5e-3),
-        ("coffee", 16, 1e-3),
-        ("fir", 8, 5e-4),
-        ("fir", 8, 2e-3),
-        ("apple", 8, 1e-3),
-        ("cotton", 40, 1e-3),
+        ("willow", 12, 5e-4),
+        ("willow", 20, 5e-3),
+        ("coffee", 10, 1e-3),
+        ("fir", 5, 5e-4),
+        ("fir", 7, 2e-3),
+        ("apple", 6, 1e-3),
+        ("cotton", 30, 1e-3),
     ] {
         show(name, age, &mut |plant| {
             let farthest = farthest(plant, age, tolerance);

@@ -2,6 +2,7 @@
 //!
 //! The plant is one of the small run of the tests. Absent: how near the mesh is to the plant (`budget`).
 
+#[allow(dead_code, reason = "the place is told elsewhere")]
 mod ply;
 mod program;
 

@@ -1,17 +1,23 @@
-//! A mesh with a tolerance and a life, beside the full mesh and beside growing and standing at all ages.
+//! A mesh with a tolerance, a picture and a life, beside the full mesh, the picture of it, and growing and standing at
+//! all ages.
 //!
-//! Both are asked of the plant as it is recorded, bent at each tick. Aims: a mesh within 1 mm is written in at most half
-//! of the time of the full one; a life takes at most twice the time of growing and standing at every age.
+//! All are asked of the plant as it is recorded, bent at each tick. Aims: a mesh within 1 mm is written in at most half
+//! of the time of the full one; a picture is drawn in at most two fifths; a life takes at most twice the time of
+//! growing and standing at every age.
 
 use super::{Specimen, memory_backed};
 use criterion::{Criterion, Throughput};
 use phytomer::outputs::life::{Lives, Nearness};
 use phytomer::outputs::meshes::{MeshOptions, MeshWriter, Ply, Scene, Tolerance};
+use phytomer::outputs::pictures::{Picture, Subject, draw};
 use phytomer::run::regrowth::Regrowth;
 use phytomer::run::seed_of;
 use phytomer::sim::{Plot, RecordError, Recorder, Tick, grow};
 use std::fs::File;
 use std::hint::black_box;
+
+/// The size of a picture, pixels.
+const SIZE: [u32; 2] = [1280, 720];
 
 /// The tolerance, metres.
 const NEAR: f32 = 1e-3;
@@ -31,7 +37,8 @@ impl Recorder for EveryTick {
 }
 
 impl Specimen {
-    /// The PLY file of the first plant at an age, in full and within a millimetre.
+    /// The PLY file of the first plant at an age, in full and within a millimetre, and its picture, with tubes of
+    /// single internodes and within half a pixel.
     pub fn within_a_millimetre(&self, criterion: &mut Criterion, age: Tick) {
         let mut plant = None;
         let shown = Regrowth::of(&self.resolved).show(0, &[age], &mut |_, shown| {
@@ -50,6 +57,12 @@ impl Specimen {
         let mut group = self.group(criterion, "mesh within 1 mm (internodes)", Throughput::Elements(internodes));
         group.bench_function("within 1 mm", |bencher| bencher.iter(|| write(Some(Tolerance::of(NEAR)))));
         group.bench_function("in full (baseline)", |bencher| bencher.iter(|| write(None)));
+        let drawn = |sides: Option<u8>| {
+            let subject = Subject { plant: &plant, age, label: String::new() };
+            black_box(draw(&[subject], "", &Picture { size: SIZE, sides, ..Picture::default() }));
+        };
+        group.bench_function("picture within half a pixel", |bencher| bencher.iter(|| drawn(None)));
+        group.bench_function("picture in full (its baseline)", |bencher| bencher.iter(|| drawn(Some(8))));
         group.finish();
         std::fs::remove_file(path).expect("the file goes");
     }

@@ -94,9 +94,10 @@ pub struct Animate {
     /// shoulder of whoever looks at the first frame if not given.
     #[arg(long, value_name = "AZIMUTH,ELEVATION", allow_negative_numbers = true, value_parser = picture::sun)]
     sun: Option<[f32; 2]>,
-    /// Sides of the tube that an internode is drawn as.
-    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u8).range(3..=64))]
-    sides: u8,
+    /// Sides of the tube that each internode is drawn as. If not given, wood is drawn along its axes, as round as half
+    /// a pixel asks.
+    #[arg(long, value_parser = clap::value_parser!(u8).range(3..=64))]
+    sides: Option<u8>,
     /// The quality of WebP: small files at 1, fine ones at 100.
     #[arg(long, default_value_t = 80, value_parser = clap::value_parser!(u8).range(1..=100))]
     quality: u8,

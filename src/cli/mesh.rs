@@ -25,7 +25,7 @@ const FORMATS: [Format; 1] = [Format { name: "PLY", extension: "ply" }];
 Examples:
   phytomer mesh coffee --plant 0 --age 12 --out coffee.ply
   phytomer mesh coffee --age 36 --tolerance 1mm --out light.ply
-  phytomer mesh coffee --age 36 --triangles 60k --out lighter.ply
+  phytomer mesh coffee --age 36 --triangles 10k --out lighter.ply
   phytomer mesh runs/coffee --plant 3 --out third.ply --sides 12
   phytomer mesh my_plant/scenario.toml --age 24 --wind 8 --time 0.40 --out frame-010.ply
   phytomer mesh under_a_roof --plot --age 12 --out plot.ply

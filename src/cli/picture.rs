@@ -93,9 +93,10 @@ pub struct Picture {
     /// shoulder of whoever looks if not given.
     #[arg(long, value_name = "AZIMUTH,ELEVATION", allow_negative_numbers = true, value_parser = sun)]
     sun: Option<[f32; 2]>,
-    /// Sides of the tube that an internode is drawn as.
-    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u8).range(3..=64))]
-    sides: u8,
+    /// Sides of the tube that each internode is drawn as. If not given, wood is drawn along its axes, as round as half
+    /// a pixel asks.
+    #[arg(long, value_parser = clap::value_parser!(u8).range(3..=64))]
+    sides: Option<u8>,
     /// Colour the components by a column of `records`, with a legend.
     #[arg(long, value_name = "COLUMN", value_parser = PossibleValuesParser::new(colour_columns()), hide_possible_values = true)]
     colour_by: Option<String>,

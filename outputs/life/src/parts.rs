@@ -1,8 +1,8 @@
 //! Organs, and internodes that are no tubes, while a life is made.
 //!
 //! A part has one track of its base, two directions and sizes, and one of its colour. Of the tolerance a quarter each
-//! goes to the base, to what the two directions move its farthest point, and to its size. Absent: forms, which are named
-//! and not made.
+//! goes to the base, to what the two directions move its farthest point, and to its size. Absent: forms, which are
+//! named and not made.
 
 use super::kept::Kept;
 use super::track::Track;

@@ -12,6 +12,17 @@ type Word = [u8; 4];
 /// The most vertices of one mesh file: 32-bit signed indices reach no further.
 pub const MOST_VERTICES: u64 = i32::MAX as u64;
 
+/// The size of a mesh.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// The number of its components.
+    pub components: u64,
+    /// The number of its vertices.
+    pub vertices: u64,
+    /// The number of its triangles.
+    pub faces: u64,
+}
+
 /// A vertex with the layout of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]

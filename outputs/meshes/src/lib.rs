@@ -31,7 +31,7 @@ mod tests_stated;
 mod tube;
 
 pub use budget::{TooFew, fitting};
-pub use chunk::{Chunk, Face, Sink, Tag, Vertex};
+pub use chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
 pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
@@ -39,7 +39,7 @@ pub use plot::{PlotBody, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use reduced::chain::{Found, Sample, chains};
 pub use reduced::simplify::{fits, simplify};
-pub use scene::{Counts, DrawnOrgan, Scene};
+pub use scene::{DrawnOrgan, Scene};
 pub use solid::{Solid, Undrawn};
 pub use stem::Stems;
 pub use tube::Frustum;
@@ -54,8 +54,8 @@ use std::sync::Arc;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
     /// The distance, metres: internodes of an axis are drawn as one while the line of the axis and its radius stay
-    /// within it, and a tube is as round as it asks. No point of the round tubes of the internodes is farther than twice
-    /// this distance from the mesh.
+    /// within it, and a tube is as round as it asks. No point of the round tubes of the internodes is farther than
+    /// twice this distance from the mesh.
     pub distance: f32,
     /// The most that colours differ, in each of three bytes, between internodes that are drawn as one.
     pub colour: u8,

@@ -5,7 +5,7 @@
 //! fate is shown; an internode that stands dead has the age of its death. The base of an organ is moved from the axis
 //! line to the surface of the stem, by half the tip's diameter towards the organ.
 
-use super::chunk::{Chunk, Face, Sink, Tag, Vertex};
+use super::chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 use super::forms::{FormMesh, Placement};
 use super::outline::{self, OrganForm, Outlines};
 use super::reduced::Reduced;
@@ -26,17 +26,6 @@ const BLOCK: usize = 256;
 
 /// An organ whose insertion angle has a smaller sine stands on the tip of the stem, not on its side.
 const TERMINAL: f32 = 1e-3;
-
-/// The size of a mesh.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Counts {
-    /// The number of its components.
-    pub components: u64,
-    /// The number of its vertices.
-    pub vertices: u64,
-    /// The number of its triangles.
-    pub faces: u64,
-}
 
 /// A plant at an age, ready to be drawn.
 #[derive(Debug)]

@@ -81,10 +81,14 @@ impl<'a> Cast<'a> {
     /// Draws the plants as a camera sees them, with their labels.
     pub fn draw(&self, picture: &Picture, camera: &Camera, title: &str) -> Canvas {
         let sun = picture.sun.unwrap_or_else(|| picture.view.sun(self.turn));
-        let lights: Vec<_> = self.stands.iter().map(|stand| stand.light(sun)).collect();
+        // A colour that stands for a value is that of each internode by itself.
+        let full = picture.sides.is_some() || picture.colour_by.is_some();
+        let near: Vec<PlacedStand> = self.stands.iter().filter(|_| !full).map(|stand| stand.near(camera)).collect();
+        let stands = if full { &self.stands } else { &near };
+        let lights: Vec<_> = stands.iter().map(|stand| stand.light(sun)).collect();
         let Picture { ground, transparent, .. } = *picture;
         let around = self.held.map(|held| (held.middle, held.size));
-        let set = Set { stands: &self.stands, lights: &lights, camera: *camera, ground, transparent, around };
+        let set = Set { stands, lights: &lights, camera: *camera, ground, transparent, around };
         let mut canvas = draw::draw(&set, picture.size);
         if picture.caption {
             self.write_below(&mut canvas, title, camera);
@@ -150,7 +154,7 @@ pub fn placed<'a>(stand: &'a Stand, picture: &Picture) -> PlacedStand<'a> {
 
 /// The plants of a stand, each once with all places where it stands. Two plants are the same if they are one reference
 /// at one age.
-fn bodies<'a>(stand: &'a Stand, sides: u8, colours: Vec<Option<Vec<[u8; 3]>>>) -> Vec<Body<'a>> {
+fn bodies<'a>(stand: &'a Stand, sides: Option<u8>, colours: Vec<Option<Vec<[u8; 3]>>>) -> Vec<Body<'a>> {
     let key = |placed: &Placed| (std::ptr::from_ref(placed.plant).addr(), placed.age);
     let mut places: BTreeMap<(usize, Tick), Vec<Vec3>> = BTreeMap::new();
     for placed in &stand.plants {
@@ -159,7 +163,8 @@ fn bodies<'a>(stand: &'a Stand, sides: u8, colours: Vec<Option<Vec<[u8; 3]>>>) -
     let mut bodies = Vec::new();
     for (placed, colours) in stand.plants.iter().zip(colours) {
         let Some(places) = places.remove(&key(placed)) else { continue };
-        let options = MeshOptions { sides, own: Arc::clone(&placed.own), ..MeshOptions::default() };
+        let mut options = MeshOptions { own: Arc::clone(&placed.own), ..MeshOptions::default() };
+        options.sides = sides.unwrap_or(options.sides);
         bodies.push(Body::new((placed.plant, placed.age), &options, colours, places));
     }
     bodies

@@ -112,8 +112,9 @@ pub struct Picture {
     /// Azimuth of the sun, from the X axis to the Y axis, and its elevation, radians. Over the left shoulder of the
     /// viewer if not given.
     pub sun: Option<[f32; 2]>,
-    /// The number of sides of the tube that an internode is drawn as.
-    pub sides: u8,
+    /// The number of sides of the tube that each internode is drawn as. If not given, wood is drawn in tubes along its
+    /// axes, within half a pixel, unless values colour it.
+    pub sides: Option<u8>,
     /// The mesh files that the species names as forms, for pictures of single plants.
     pub own: Arc<OwnForms>,
     /// Values that colour the components of the picture's plants; natural colours if not given.
@@ -131,7 +132,7 @@ impl Default for Picture {
             ground: true,
             caption: true,
             sun: None,
-            sides: 8,
+            sides: None,
             own: Arc::default(),
             colour_by: None,
         }

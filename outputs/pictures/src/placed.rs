@@ -15,7 +15,7 @@ use super::shadow::Shadow;
 use super::sky::Crown;
 use glam::Vec3;
 use phytomer_looks::{Paints, Section};
-use phytomer_meshes::{Mesh, MeshOptions, Scene, Tag, Vertex};
+use phytomer_meshes::{Mesh, MeshOptions, Scene, Tag, Tolerance, Vertex};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
 use rayon::prelude::*;
@@ -78,7 +78,10 @@ impl<'a> Body<'a> {
         colours: Option<Vec<[u8; 3]>>,
         places: Vec<Vec3>,
     ) -> Self {
-        let scene = Scene::new(plant, age, options);
+        Self::of(Scene::new(plant, age, options), colours, places)
+    }
+
+    fn of(scene: Scene<'a>, colours: Option<Vec<[u8; 3]>>, places: Vec<Vec3>) -> Self {
         let blocks = 0..if places.len() > 1 { scene.blocks() } else { 0 };
         let kept = blocks.into_par_iter().map(|block| {
             let mut mesh = Mesh::default();
@@ -86,7 +89,8 @@ impl<'a> Body<'a> {
             Arc::new(mesh)
         });
         let (kept, blocks) = (kept.collect(), scene.blocks());
-        Self { scene: Some(scene), colours, boxes: Vec::new(), stuff: stuff(plant), places, kept }.boxed(blocks)
+        let stuff = stuff(scene.plant());
+        Self { scene: Some(scene), colours, boxes: Vec::new(), stuff, places, kept }.boxed(blocks)
     }
 
     /// An obstacle: a closed mesh in the coordinates of its stand.
@@ -104,6 +108,15 @@ impl<'a> Body<'a> {
         });
         self.boxes = boxes.collect();
         self
+    }
+
+    /// The same plant with its wood within half a pixel of a camera that sees its stand at `offset`; `None` for an
+    /// obstacle.
+    fn near(&self, camera: &Camera, offset: Vec3) -> Option<Self> {
+        let scene = self.scene.as_ref()?;
+        let seen = self.placed_boxes().flat_map(corners).map(|corner| camera.scale_at(corner + offset));
+        let most = seen.fold(f32::MIN_POSITIVE, f32::max);
+        Some(Self::of(scene.within(Tolerance::of_a_picture(0.5 / most)), None, self.places.clone()))
     }
 
     fn block<'m>(&'m self, block: usize, mesh: &'m mut Mesh) -> &'m Mesh {
@@ -179,6 +192,15 @@ impl<'a> PlacedStand<'a> {
             }
         }
         Self { bodies, plants, looks, offset: Vec3::ZERO, number }
+    }
+
+    /// The same stand with the wood of its plants within half a pixel of a camera, in natural colours: trunks are round
+    /// from near, and twigs have few faces from afar. Obstacles stay as they are.
+    pub fn near(&self, camera: &Camera) -> Self {
+        let (plants, obstacles) = self.bodies.split_at(self.plants);
+        let plants = plants.iter().filter_map(|body| body.near(camera, self.offset)).collect();
+        let obstacles: Vec<Arc<Mesh>> = obstacles.iter().flat_map(|body| body.kept.iter().cloned()).collect();
+        Self { offset: self.offset, ..Self::new(plants, &obstacles, self.number) }
     }
 
     /// The places of its plants.

@@ -34,7 +34,8 @@ pub trait Found {
 }
 
 /// Finds every chain, axis by axis in the order of the axes. An internode may begin so far from the tip before, metres.
-/// Takes O(n) for n internodes of a plant whose nodes are in the order of its axes, else O(n + s log s) for s stretches.
+/// Takes O(n) for n internodes of a plant whose nodes are in the order of its axes, else O(n + s log s) for s
+/// stretches.
 pub fn chains(stems: &Stems, gap: f32, found: &mut dyn Found) {
     let mut stretches: Vec<Stretch> = Vec::new();
     stems.plant.each_standing(stems.age, |stretch| stretches.push(stretch));
