@@ -112,8 +112,11 @@ fn refused(error: &ParseError) -> Refused {
     let place = error.line().map_or_else(|| "as a whole".to_owned(), |line| format!("line {line}"));
     let problem: String = error.to_string().chars().take(200).collect();
     let rest = problem.split_once(": ").filter(|(head, _)| head.starts_with("Line ")).map(|(_, rest)| rest.to_owned());
-    let lines: Vec<&str> = rest.as_deref().unwrap_or(&problem).split_whitespace().collect();
-    Refused::new(place, lines.join(" "), "a PLY, ASCII or binary")
+    let words: Vec<&str> = rest.as_deref().unwrap_or(&problem).split_whitespace().collect();
+    let words = words.join(" ");
+    // What follows is the parser's own state.
+    let problem = words.split_once(" Error: ").map_or(words.as_str(), |(problem, _)| problem);
+    Refused::new(place, problem, "a PLY, ASCII or binary")
 }
 
 fn real(property: &Property) -> Option<f64> {
