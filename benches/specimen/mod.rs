@@ -14,7 +14,7 @@ pub mod picture;
 
 use criterion::measurement::WallTime;
 use criterion::{BatchSize, BenchmarkGroup, Criterion, SamplingMode, Throughput};
-use phytomer::config::{Resolved, validate};
+use phytomer::config::{Resolved, validate, validate_texts};
 use phytomer::outputs::meshes::{Chunk, MeshOptions, MeshWriter, Ply, Scene, Vertex};
 use phytomer::run::{self, Program, Progress, Settings, plan_of, seed_of};
 use phytomer::sim::plant::Plant;
@@ -38,6 +38,13 @@ pub struct Specimen {
 impl Specimen {
     pub fn of(name: &'static str) -> Self {
         let resolved = validate(name).unwrap_or_else(|report| panic!("{}", report.render(false)));
+        Self { name, resolved }
+    }
+
+    /// A scenario stated in a text.
+    pub fn of_text(name: &'static str, scenario: &str) -> Self {
+        let resolved =
+            validate_texts(name, &[(name, scenario)]).unwrap_or_else(|report| panic!("{}", report.render(false)));
         Self { name, resolved }
     }
 

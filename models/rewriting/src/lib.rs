@@ -16,6 +16,7 @@ mod fault;
 mod letters;
 mod origins;
 mod outside;
+mod parameters;
 mod program;
 mod string;
 mod symbol;
@@ -27,7 +28,7 @@ pub use derived::{Derived, Drawn};
 pub use fault::{Fault, MOST_FAULTS, Place, Refused, Stopped};
 pub use outside::{Nothing, Outside};
 pub use program::{Answers, Interpreter, Limits, Program, Reading, Settings, Unanswered};
-pub use string::{Identity, Module, ModuleString, Slot};
+pub use string::{Identity, Module, ModuleString, Modules, Slot};
 pub use symbol::{MOST_SYMBOLS, Symbol, SymbolTable};
 
 #[cfg(test)]

@@ -61,6 +61,11 @@ impl Origins {
         (self.predecessor[origin as usize], self.birth[origin as usize])
     }
 
+    /// How many bytes they take.
+    pub fn bytes(&self) -> usize {
+        (self.uses.len() - self.free.len()) * (size_of::<LineageKey>() + 2 * size_of::<u32>())
+    }
+
     /// How many origins are kept, with those that are free.
     #[cfg(test)]
     pub fn len(&self) -> usize {

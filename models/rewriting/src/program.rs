@@ -213,13 +213,13 @@ impl Program {
         // What a homomorphism draws is bounded as a string is.
         let mut left = self.limits.modules;
         for slot in string.slots_in_order() {
-            let module = string.module(slot);
             let kind = string.kind(slot);
             if rules.of(kind).is_empty() {
-                let (symbol, parameters, key) = (module.symbol, module.parameters, module.identity.key);
-                visit(Drawn { symbol, parameters, key, of: slot, depth: 0 });
+                let symbol = self.symbols.kinds().get(usize::from(kind.0)).map_or(Symbol(0), |kind| kind.0);
+                visit(Drawn { symbol, parameters: string.parameters(slot), key: string.key(slot), of: slot, depth: 0 });
                 continue;
             }
+            let module = string.module(slot);
             roots.clear();
             roots.push(kind, module.parameters, module.identity);
             expansion.begin(&roots);

@@ -5,6 +5,7 @@
 //! closing bracket knows its opening one. A slot that is free is used again. Absent: which module becomes what.
 
 use crate::origins::Origins;
+use crate::parameters::Parameters;
 use crate::symbol::{CLOSE, Kind, OPEN, Symbol};
 use phytomer_sim::key::LineageKey;
 
@@ -31,9 +32,6 @@ pub(crate) const NONE: u32 = u32::MAX;
 /// The kind of a slot that holds no module.
 const FREE: Kind = Kind(u16::MAX);
 
-/// The parameters of no module that a string may keep beside as many as its modules have.
-const MOST_FREE: usize = 4096;
-
 /// Whence a module comes, and since when it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Identity {
@@ -58,6 +56,24 @@ pub struct Module<'s> {
     pub identity: Identity,
 }
 
+/// The modules of a string in their order.
+#[derive(Debug, Clone)]
+pub struct Modules<'s> {
+    string: &'s ModuleString,
+    at: u32,
+}
+
+impl<'s> Iterator for Modules<'s> {
+    type Item = Module<'s>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Module<'s>> {
+        let slot = (self.at != NONE).then_some(Slot(self.at))?;
+        self.at = self.string.next[slot.index()];
+        Some(self.string.module(slot))
+    }
+}
+
 /// A string of modules in its order.
 #[derive(Debug, Clone)]
 pub struct ModuleString {
@@ -72,12 +88,8 @@ pub struct ModuleString {
     /// The number of its origin: predecessor and birth.
     origin: Vec<u32>,
     origins: Origins,
-    parameters: Vec<f64>,
+    parameters: Parameters,
     free: Vec<u32>,
-    /// Where parameters may begin that belong to no module, by their number.
-    free_parameters: Vec<Vec<u32>>,
-    /// How many parameters belong to no module.
-    free_count: usize,
     head: u32,
     tail: u32,
     length: usize,
@@ -95,10 +107,8 @@ impl ModuleString {
             key: Vec::new(),
             origin: Vec::new(),
             origins: Origins::default(),
-            parameters: Vec::new(),
+            parameters: Parameters::new(most),
             free: Vec::new(),
-            free_parameters: vec![Vec::new(); most + 1],
-            free_count: 0,
             head: NONE,
             tail: NONE,
             length: 0,
@@ -108,6 +118,12 @@ impl ModuleString {
     /// How many modules there are.
     pub fn len(&self) -> usize {
         self.length
+    }
+
+    /// How many bytes its modules take: their kinds, links, keys, origins and parameters.
+    pub fn bytes(&self) -> usize {
+        let of_module = size_of::<Kind>() + 4 * size_of::<u32>() + size_of::<LineageKey>();
+        self.length * of_module + self.parameter_count() * size_of::<f64>() + self.origins.bytes()
     }
 
     /// Whether there is no module.
@@ -121,8 +137,8 @@ impl ModuleString {
     }
 
     /// The modules in their order.
-    pub fn modules(&self) -> impl Iterator<Item = Module<'_>> {
-        self.slots_in_order().map(|slot| self.module(slot))
+    pub fn modules(&self) -> Modules<'_> {
+        Modules { string: self, at: self.head }
     }
 
     /// The slots of the modules in their order.
@@ -151,14 +167,14 @@ impl ModuleString {
     /// Sets the first parameters of a module, as many as it has.
     pub fn set_parameters(&mut self, slot: Slot, values: &[f64]) {
         let range = self.parameter_range(slot);
-        for (parameter, value) in self.parameters[range].iter_mut().zip(values) {
+        for (parameter, value) in self.parameters.values[range].iter_mut().zip(values) {
             *parameter = *value;
         }
     }
 
     #[inline]
     pub(crate) fn parameters(&self, slot: Slot) -> &[f64] {
-        &self.parameters[self.parameter_range(slot)]
+        &self.parameters.values[self.parameter_range(slot)]
     }
 
     #[inline]
@@ -213,13 +229,13 @@ impl ModuleString {
 
     /// How many parameters all modules have.
     pub(crate) fn parameter_count(&self) -> usize {
-        self.parameters.len().saturating_sub(self.free_count)
+        self.parameters.count()
     }
 
     /// How many parameters the column holds, with those of no module.
     #[cfg(test)]
     pub(crate) fn parameter_column(&self) -> usize {
-        self.parameters.len()
+        self.parameters.values.len()
     }
 
     /// Makes room for so many modules.
@@ -243,26 +259,25 @@ impl ModuleString {
     #[inline]
     pub(crate) fn rewrite(&mut self, slot: Slot, kind: Kind, values: &[f64], identity: Identity) {
         let index = slot.index();
-        if self.arity(self.kind[index]) != values.len() {
-            self.release_parameters(slot);
-            self.first[index] = self.claim_parameters(values.len());
+        let arity = self.arity(self.kind[index]);
+        if arity != values.len() {
+            self.parameters.release(self.first[index], arity);
+            self.first[index] = self.parameters.claim(values);
+        } else if !values.is_empty() {
+            let first = self.first[index] as usize;
+            self.parameters.values[first..first + values.len()].copy_from_slice(values);
         }
         self.kind[index] = kind;
         self.key[index] = identity.key;
         self.origins.release(self.origin[index]);
         self.origin[index] = self.origins.claim(identity.predecessor, identity.birth);
-        if !values.is_empty() {
-            let first = self.first[index] as usize;
-            self.parameters[first..first + values.len()].copy_from_slice(values);
-        }
     }
 
     /// Puts a new module behind `slot`, or before all others.
     pub(crate) fn insert(&mut self, after: Option<Slot>, kind: Kind, values: &[f64], identity: Identity) -> Slot {
         let next = after.map_or(self.head, |slot| self.next[slot.index()]);
         let previous = after.map_or(NONE, |slot| slot.0);
-        let first = self.claim_parameters(values.len());
-        self.parameters[first as usize..first as usize + values.len()].copy_from_slice(values);
+        let first = self.parameters.claim(values);
         let slot = match self.free.pop() {
             Some(free) => free,
             None => {
@@ -288,7 +303,7 @@ impl ModuleString {
     /// Whether modules that are put in one after the other stand one after the other in the columns: nothing is free.
     #[inline]
     pub(crate) fn is_dense(&self) -> bool {
-        self.free.is_empty() && self.free_count == 0
+        self.free.is_empty() && self.parameters.is_dense()
     }
 
     /// Puts a row of new modules behind `after`, of a string that is dense; returns the slot of the first, which the
@@ -300,11 +315,11 @@ impl ModuleString {
         parameters: &[f64],
     ) -> Slot {
         let (start, count) = (self.kind.len() as u32, modules.len() as u32);
-        let (base, next) = (self.parameters.len() as u32, self.next[after.index()]);
+        let (base, next) = (self.parameters.values.len() as u32, self.next[after.index()]);
         if count == 0 {
             return after;
         }
-        self.parameters.extend_from_slice(parameters);
+        self.parameters.values.extend_from_slice(parameters);
         self.kind.extend(modules.clone().map(|module| module.0));
         self.first.extend(modules.clone().map(|module| base + module.1));
         self.key.extend(modules.clone().map(|module| module.2.key));
@@ -328,7 +343,7 @@ impl ModuleString {
             (previous, NONE) => (self.tail, self.next[previous as usize]) = (previous, NONE),
             _ => self.link(previous, next),
         }
-        self.release_parameters(slot);
+        self.parameters.release(self.first[index], self.arity(self.kind[index]));
         self.origins.release(self.origin[index]);
         self.kind[index] = FREE;
         self.free.push(slot.0);
@@ -354,42 +369,16 @@ impl ModuleString {
 
     /// Puts the parameters close together where most of their column belongs to no module.
     pub(crate) fn close_up(&mut self) {
-        if self.free_count <= MOST_FREE + self.parameter_count() {
+        if !self.parameters.is_loose() {
             return;
         }
-        let mut parameters = Vec::with_capacity(self.parameter_count());
+        let mut closed = self.parameters.anew();
         for slot in (0..self.kind.len() as u32).map(Slot) {
-            let range = if self.is_free(slot) { 0..0 } else { self.parameter_range(slot) };
-            if !range.is_empty() {
-                self.first[slot.index()] = parameters.len() as u32;
-                parameters.extend_from_slice(&self.parameters[range]);
+            if !self.is_free(slot) && self.arity(self.kind(slot)) > 0 {
+                let first = closed.claim(self.parameters(slot));
+                self.first[slot.index()] = first;
             }
         }
-        self.parameters = parameters;
-        self.free_parameters.iter_mut().for_each(|free| *free = Vec::new());
-        self.free_count = 0;
-    }
-
-    fn claim_parameters(&mut self, arity: usize) -> u32 {
-        if arity == 0 {
-            return 0;
-        }
-        if let Some(first) = self.free_parameters.get_mut(arity).and_then(Vec::pop) {
-            self.free_count -= arity;
-            return first;
-        }
-        let first = self.parameters.len();
-        self.parameters.resize(first + arity, 0.0);
-        first as u32
-    }
-
-    fn release_parameters(&mut self, slot: Slot) {
-        let arity = self.arity(self.kind[slot.index()]);
-        if arity > 0
-            && let Some(free) = self.free_parameters.get_mut(arity)
-        {
-            free.push(self.first[slot.index()]);
-            self.free_count += arity;
-        }
+        self.parameters = closed;
     }
 }

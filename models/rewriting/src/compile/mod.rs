@@ -2,6 +2,7 @@
 //! the file says is checked. All faults are told at once.
 
 mod blocks;
+mod functions;
 mod names;
 mod productions;
 mod weights;
