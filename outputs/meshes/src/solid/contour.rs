@@ -24,7 +24,7 @@ const NONE: u32 = u32::MAX;
 pub(super) fn of(shape: &Shape, bounds: &Bounds) -> Solid {
     let size = [0, 1, 2].map(|k| bounds.high[k] - bounds.low[k]);
     let longest = size[0].max(size[1]).max(size[2]);
-    if !(longest > 0.0) {
+    if longest <= 0.0 {
         return Solid::default();
     }
     let cube = longest / CUBES;

@@ -127,7 +127,7 @@ fn length(of: Point) -> f64 {
 
 /// Three directions at right angles, the last along a vector of a length; upright where it has none.
 fn axes(way: Point, long: f64) -> [Point; 3] {
-    if !(long > 0.0) {
+    if long <= 0.0 {
         return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     }
     let z = way.map(|x| x / long);
