@@ -62,14 +62,16 @@ impl Filling<'_> {
             Some((Some(name), span)) if !stated => (self.read(&name, span, &path.key("file")), span),
             Some((Some(_), span)) => {
                 let problem = "the mesh has a file, and points or triangles of its own";
-                (Err(Fault::new(span, &path.key("file"), problem, expected)), span)
+                (Err(Box::new(Fault::new(span, &path.key("file"), problem, expected))), span)
             }
-            None if !stated => (Err(Fault::new(node.span, path, "the mesh has no triangles", expected)), node.span),
+            None if !stated => {
+                (Err(Box::new(Fault::new(node.span, path, "the mesh has no triangles", expected))), node.span)
+            }
             // What is stated is checked with all other keys.
             _ => return,
         };
         let triangles = triangles.unwrap_or_else(|fault| {
-            self.reading.faults.push(fault);
+            self.reading.faults.push(*fault);
             Triangles::tetrahedron()
         });
         for key in ["file", "points_m", "faces"] {
@@ -89,13 +91,13 @@ impl Filling<'_> {
         entries.extend([points, faces]);
     }
 
-    fn read(&mut self, name: &str, span: Span, path: &Path) -> Result<Triangles, Fault> {
-        let fault = |problem: String, expected: &str| Fault::new(span, path, problem, expected);
+    fn read(&mut self, name: &str, span: Span, path: &Path) -> Result<Triangles, Box<Fault>> {
+        let fault = |problem: String, expected: &str| Box::new(Fault::new(span, path, problem, expected));
         let Reading { library, sources, .. } = &mut self.reading;
         let beside = sources.get(span.source).origin.clone();
         let source = library.beside(name, &beside).map_err(|missing| {
             let fault = fault(missing.problem, "a PLY file in the folder of this file");
-            fault.suggest(missing.suggestion)
+            Box::new(fault.suggest(missing.suggestion))
         })?;
         let bytes = source.bytes.clone().unwrap_or_else(|| source.text.as_bytes().into());
         sources.add(source);
