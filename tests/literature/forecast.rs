@@ -94,7 +94,8 @@ fn grown(model: &dyn GrowthModel, plant: u32, age: Tick) -> Plant {
 fn counted(plant: &Plant, ages: &[Tick], orders: usize) -> Counts {
     let mut counts = vec![vec![[0.0; 4]; ages.len()]; orders];
     let mut count = |axis: usize, what: usize, birth: Tick| {
-        let order = usize::from(plant.axes.order[axis]) - 1;
+        // The last order of a bound has the higher ones too.
+        let order = (usize::from(plant.axes.order[axis]) - 1).min(orders - 1);
         let by = counts[order].iter_mut().zip(ages).filter(|(_, age)| birth <= **age);
         by.for_each(|(counts, _)| counts[what] += 1.0);
     };

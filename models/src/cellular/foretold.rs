@@ -41,7 +41,21 @@ pub(super) fn at_most(until: Tick, branching: f64) -> Expectation {
         }
     }
     orders.iter_mut().for_each(OrderExpectation::accumulate);
+    fold_the_rare(&mut orders);
     Expectation { orders, axes: Certainty::Bound, organs: Certainty::Exact }
+}
+
+/// Tells orders of which less than one axis is expected together with the order before them.
+fn fold_the_rare(orders: &mut Vec<OrderExpectation>) {
+    let told = orders.iter().rposition(|order| order.axes.last().is_some_and(|axes| *axes >= 1.0));
+    let rare = orders.split_off(told.map_or(1, |last| last + 1));
+    let Some(last) = orders.last_mut() else { return };
+    for order in &rare {
+        let columns = [(&mut last.axes, &order.axes), (&mut last.units, &order.units), (&mut last.nodes, &order.nodes)];
+        for (sum, more) in columns {
+            sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+        }
+    }
 }
 
 #[cfg(test)]
