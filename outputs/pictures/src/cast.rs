@@ -87,8 +87,12 @@ impl<'a> Cast<'a> {
         let stands = if full { &self.stands } else { &near };
         let lights: Vec<_> = stands.iter().map(|stand| stand.light(sun)).collect();
         let Picture { ground, transparent, .. } = *picture;
-        let around = self.held.map(|held| (held.middle, held.size));
-        let set = Set { stands, lights: &lights, camera: *camera, ground, transparent, around };
+        let around = self
+            .stands
+            .iter()
+            .map(|stand| self.held.map_or_else(|| draw::ground_of(stand), |held| (held.middle, held.size)));
+        let around: Vec<_> = around.collect();
+        let set = Set { stands, lights: &lights, camera: *camera, ground, transparent, around: &around };
         let mut canvas = draw::draw(&set, picture.size);
         if picture.caption {
             self.write_below(&mut canvas, title, camera);

@@ -34,15 +34,20 @@ pub struct Set<'a> {
     pub ground: bool,
     /// Whether the background is transparent.
     pub transparent: bool,
-    /// The middle and the size of the ground around the plants, where they are not those of the stands.
-    pub around: Option<(Vec3, f32)>,
+    /// The middle and the size of the ground around each stand.
+    pub around: &'a [(Vec3, f32)],
 }
 
 /// Draws a picture of this size, pixels, without text.
 pub fn draw(set: &Set, [width, height]: [u32; 2]) -> Canvas {
     let mut canvas = Canvas::new(width, height);
-    let footings: Vec<Footing> =
-        set.stands.iter().zip(set.lights).map(|(stand, light)| footing(stand, light, set.around)).collect();
+    let footings: Vec<Footing> = set
+        .stands
+        .iter()
+        .zip(set.lights)
+        .zip(set.around)
+        .map(|((stand, light), around)| footing(stand, light, *around))
+        .collect();
     let ground = Ground {
         camera: &set.camera,
         footings: &footings,
@@ -70,13 +75,14 @@ pub fn draw(set: &Set, [width, height]: [u32; 2]) -> Canvas {
     canvas
 }
 
-fn footing<'a>(stand: &PlacedStand, light: &'a Light, around: Option<(Vec3, f32)>) -> Footing<'a> {
-    let own = || {
-        let [low, high] = stand.bounds();
-        (stand.offset + stand.middle(), (high - low).length())
-    };
-    let (foot, size) = around.unwrap_or_else(own);
+fn footing<'a>(stand: &PlacedStand, light: &'a Light, (foot, size): (Vec3, f32)) -> Footing<'a> {
     Footing { light, offset: stand.offset, foot, size }
+}
+
+/// The middle of a stand and its size, which are those of the ground around it.
+pub fn ground_of(stand: &PlacedStand) -> (Vec3, f32) {
+    let [low, high] = stand.bounds();
+    (stand.offset + stand.middle(), (high - low).length())
 }
 
 /// Turns samples into pixels.

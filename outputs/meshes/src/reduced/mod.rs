@@ -35,6 +35,9 @@ const GAP: f32 = 1.0 / 16.0;
 /// at one place.
 const BESIDE: usize = 2;
 
+/// A function that takes a number of vertices and a function that writes them.
+pub type Put<'p> = dyn FnMut(usize, &dyn Fn(&mut [Vertex])) -> io::Result<()> + 'p;
+
 /// A ring of a tube.
 #[derive(Debug, Clone, Copy)]
 struct Ring {
@@ -146,13 +149,7 @@ impl Reduced {
     ///
     /// # Errors
     /// Those of `put`.
-    pub fn each_part(
-        &self,
-        stems: &Stems,
-        tube: usize,
-        places: &mut Vec<Place>,
-        put: &mut dyn FnMut(usize, &dyn Fn(&mut [Vertex])) -> io::Result<()>,
-    ) -> io::Result<()> {
+    pub fn each_part(&self, stems: &Stems, tube: usize, places: &mut Vec<Place>, put: &mut Put) -> io::Result<()> {
         let rings = self.rings_of(tube);
         place(rings, stems, places);
         let polygon = |ring: &Ring| &self.polygons[usize::from(ring.sides)];

@@ -153,7 +153,7 @@ mod tests {
             let apothem = f64::from(polygon.reach) * cos(part);
             let at_corner = (apothem - cos(part)) * radius;
             assert!(at_corner < 0.67 && (1.0 - apothem) * radius < 0.5, "{sides}: {at_corner}");
-            let area = 0.5 * f64::from(sides) * f64::from(polygon.reach).powi(2) * sin(2.0 * part);
+            let area = 0.5 * f64::from(sides) * f64::from(polygon.reach * polygon.reach) * sin(2.0 * part);
             assert!((area / PI - 1.0).abs() < 1e-6);
         }
     }
