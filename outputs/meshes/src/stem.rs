@@ -1,8 +1,8 @@
 //! Internodes as they are drawn, each by itself: the form of each look, and how it is placed, sized and tagged.
 //!
 //! An internode is a closed tube, a strip where it is a blade, a tube of a cross section of its own, or the form of an
-//! organ where its species says so. It stands from its birth until its branch falls; one that stands dead has the age of its death. Absent: tubes that run
-//! along several internodes (`reduced`), and organs, which are the scene's.
+//! organ where its species says so. It stands from its birth until its branch falls; one that stands dead has the age
+//! of its death. Absent: tubes that run along several internodes (`reduced`), and organs, which are the scene's.
 
 use super::MeshOptions;
 use super::chunk::{Tag, Vertex};

@@ -4,6 +4,7 @@
 //! gaze, as far apart as their crowns need. The plants of a plot are put as one, each in its place. Absent: pixels
 //! (`draw`).
 
+use super::body::Body;
 use super::camera::{Camera, Frame, tangents};
 use super::canvas::Canvas;
 use super::caption::{Align, fitting, letter_size, lone_label, scale_bar, write, write_row};
@@ -11,7 +12,7 @@ use super::colouring::{self, Legend, colours};
 use super::draw::{self, Set};
 use super::extent::Extent;
 use super::framing::{Framing, wide_side};
-use super::placed::{Body, PlacedStand};
+use super::placed::PlacedStand;
 use super::{MOST_SUBJECTS, Picture, Placed, Stand, View, letters};
 use glam::Vec3;
 use phytomer_meshes::MeshOptions;

@@ -7,6 +7,7 @@
 //! and an equal [`Picture`] give equal bytes on any number of threads. Pictures of a film share a camera (`framing`).
 //! Absent: textures.
 
+mod body;
 mod camera;
 mod canvas;
 mod caption;

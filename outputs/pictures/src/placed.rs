@@ -3,21 +3,20 @@
 //!
 //! Meshes are those of [`phytomer_meshes`], made block by block on any free thread, used and dropped: a picture of ten
 //! million triangles needs no more memory than one of ten. A plant that stands at several places is made once and kept.
-//! Triangles only add to sums of whole numbers and to maxima, so their order has no effect.
+//! Triangles only add to sums of whole numbers and to maxima, so their order has no effect. Absent: the plants and
+//! obstacles one by one (`body`).
 
+use super::body::{Body, at};
 use super::camera::Camera;
 use super::extent::{Extent, corners};
-use super::film::{Film, Paint};
+use super::film::Film;
 use super::gaze::Gaze;
-use super::raster::{Window, turn};
+use super::raster::Window;
 use super::shade::Light;
 use super::shadow::Shadow;
 use super::sky::Crown;
 use glam::Vec3;
-use phytomer_looks::{Paints, Section};
-use phytomer_meshes::{Mesh, MeshOptions, Scene, Tag, Tolerance, Vertex};
-use phytomer_sim::Tick;
-use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
+use phytomer_meshes::{Mesh, Vertex};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
@@ -27,20 +26,6 @@ const EMPTY: Vec3 = Vec3::Z;
 
 /// The number of places of one plant that a thread handles with one block.
 const PLACES_AT_ONCE: usize = 16;
-
-/// A plant at an age, with the places where it stands; or an obstacle, whose meshes are all kept.
-#[derive(Debug)]
-pub struct Body<'a> {
-    scene: Option<Scene<'a>>,
-    /// The colours of its components by number; `None` for natural colours.
-    colours: Option<Vec<[u8; 3]>>,
-    /// The bounding boxes of its blocks; an empty block has its lower corner above its upper corner.
-    boxes: Vec<[Vec3; 2]>,
-    stuff: [Stuff; Kind::ALL.len()],
-    places: Vec<Vec3>,
-    /// The meshes of its blocks, where it stands at several places; else empty, and blocks are made when they are used.
-    kept: Vec<Arc<Mesh>>,
-}
 
 /// The plants that stand together, at their place in the picture.
 #[derive(Debug)]
@@ -70,113 +55,6 @@ struct Scratch {
     corners: Vec<Vec3>,
 }
 
-impl<'a> Body<'a> {
-    /// A plant at `age`, at each of some places.
-    pub fn new(
-        (plant, age): (&'a Plant, Tick),
-        options: &MeshOptions,
-        colours: Option<Vec<[u8; 3]>>,
-        places: Vec<Vec3>,
-    ) -> Self {
-        Self::of(Scene::new(plant, age, options), colours, places)
-    }
-
-    fn of(scene: Scene<'a>, colours: Option<Vec<[u8; 3]>>, places: Vec<Vec3>) -> Self {
-        let blocks = 0..if places.len() > 1 { scene.blocks() } else { 0 };
-        let kept = blocks.into_par_iter().map(|block| {
-            let mut mesh = Mesh::default();
-            scene.block(block, &mut mesh);
-            Arc::new(mesh)
-        });
-        let (kept, blocks) = (kept.collect(), scene.blocks());
-        let stuff = stuff(scene.plant());
-        Self { scene: Some(scene), colours, boxes: Vec::new(), stuff, places, kept }.boxed(blocks)
-    }
-
-    /// An obstacle: a closed mesh in the coordinates of its stand.
-    pub fn obstacle(mesh: &Arc<Mesh>) -> Self {
-        let (kept, stuff) = (vec![Arc::clone(mesh)], [Stuff { thin: false, closed: true }; Kind::ALL.len()]);
-        Self { scene: None, colours: None, boxes: Vec::new(), stuff, places: vec![Vec3::ZERO], kept }.boxed(1)
-    }
-
-    /// With the bounding boxes of its blocks.
-    fn boxed(mut self, blocks: usize) -> Self {
-        let body = &self;
-        let boxes = (0..blocks).into_par_iter().map_init(Mesh::default, |mesh, block| {
-            let vertices = body.block(block, mesh).vertices.iter().map(at);
-            vertices.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)])
-        });
-        self.boxes = boxes.collect();
-        self
-    }
-
-    /// The same plant with its wood within half a pixel of a camera that sees its stand at `offset`; `None` for an
-    /// obstacle.
-    fn near(&self, camera: &Camera, offset: Vec3) -> Option<Self> {
-        let scene = self.scene.as_ref()?;
-        let seen = self.placed_boxes().flat_map(corners).map(|corner| camera.scale_at(corner + offset));
-        let most = seen.fold(f32::MIN_POSITIVE, f32::max);
-        Some(Self::of(scene.within(Tolerance::of_a_picture(0.5 / most)), None, self.places.clone()))
-    }
-
-    fn block<'m>(&'m self, block: usize, mesh: &'m mut Mesh) -> &'m Mesh {
-        if let Some(kept) = self.kept.get(block) {
-            return kept;
-        }
-        if let Some(scene) = &self.scene {
-            scene.block(block, mesh);
-        }
-        mesh
-    }
-
-    fn is_empty(&self) -> bool {
-        self.boxes.iter().all(|[low, high]| low.x > high.x)
-    }
-
-    /// The bounding boxes of its blocks that are not empty, at all its places.
-    fn placed_boxes(&self) -> impl Iterator<Item = [Vec3; 2]> {
-        let full = self.boxes.iter().filter(|[low, high]| low.x <= high.x);
-        full.flat_map(|[low, high]| self.places.iter().map(|place| [*low + *place, *high + *place]))
-    }
-
-    #[inline]
-    fn stuff_of(&self, tag: &Tag) -> Stuff {
-        self.stuff[usize::from(tag.kind) % Kind::ALL.len()]
-    }
-
-    fn expose(&self, mesh: &Mesh, corners: &[Vec3], film: &Film, window: &Window, (subject, painting): (u8, bool)) {
-        for face in &mesh.faces {
-            let indices = face.indices().map(|index| index as usize);
-            let corners = indices.map(|index| corners[index]);
-            let vertices = indices.map(|index| &mesh.vertices[index]);
-            let tag = vertices[0].tag();
-            let Stuff { thin, closed } = self.stuff_of(&tag);
-            // The far side of a closed surface is never seen. Corners behind the eye are NaN, so the comparison is
-            // false.
-            if closed && turn(&corners) > 0.0 {
-                continue;
-            }
-            if painting {
-                let normals = vertices.map(|vertex| Vec3::from_array(vertex.normal()));
-                film.paint(&corners, &normals, &self.paint(&tag, thin, subject), window);
-            } else {
-                film.deepen(&corners, window);
-            }
-        }
-    }
-
-    fn paint(&self, tag: &Tag, thin: bool, subject: u8) -> Paint {
-        let [r, g, b, _] = tag.colour;
-        let component = tag.component.unsigned_abs();
-        let colour = match &self.colours {
-            Some(colours) => colours.get(component as usize).copied().unwrap_or([128; 3]),
-            None if thin => varied([r, g, b], component),
-            None => [r, g, b],
-        };
-        Paint { colour, thin, stained: self.colours.is_some(), subject }
-    }
-}
-
 impl<'a> PlacedStand<'a> {
     /// A stand of these plants and obstacles, with its index in the picture.
     pub fn new(mut bodies: Vec<Body<'a>>, obstacles: &[Arc<Mesh>], number: u8) -> Self {
@@ -199,7 +77,7 @@ impl<'a> PlacedStand<'a> {
     pub fn near(&self, camera: &Camera) -> Self {
         let (plants, obstacles) = self.bodies.split_at(self.plants);
         let plants = plants.iter().filter_map(|body| body.near(camera, self.offset)).collect();
-        let obstacles: Vec<Arc<Mesh>> = obstacles.iter().flat_map(|body| body.kept.iter().cloned()).collect();
+        let obstacles: Vec<Arc<Mesh>> = obstacles.iter().flat_map(|body| body.meshes().iter().cloned()).collect();
         Self { offset: self.offset, ..Self::new(plants, &obstacles, self.number) }
     }
 
@@ -297,7 +175,7 @@ impl<'a> PlacedStand<'a> {
                     let vertices = face.indices().map(|index| &mesh.vertices[index as usize]);
                     let corners = vertices.map(|vertex| at(vertex) + *place);
                     shadow.cast(&corners);
-                    if body.scene.is_none() {
+                    if body.is_obstacle() {
                         crown.add_obstacle(&corners);
                     } else {
                         crown.add(&corners, body.stuff_of(&vertices[0].tag()).thin);
@@ -369,53 +247,4 @@ fn project(mesh: &Mesh, camera: &Camera, offset: Vec3, fine: f32, corners: &mut 
     };
     corners.clear();
     corners.extend(mesh.vertices.iter().map(place));
-}
-
-#[inline]
-fn at(vertex: &Vertex) -> Vec3 {
-    Vec3::from_array(vertex.position())
-}
-
-/// The optical properties of the components of a kind.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Stuff {
-    /// Light passes through, and both sides are seen: leaves, flowers, internodes that are blades.
-    thin: bool,
-    /// The far side is never seen: internodes that are tubes and nothing else.
-    closed: bool,
-}
-
-/// The optical properties of each kind of a plant.
-fn stuff(plant: &Plant) -> [Stuff; Kind::ALL.len()] {
-    let paints = Paints::of(&plant.habit);
-    let solid = paints.sections().iter().all(Section::is_closed);
-    let looks = plant.habit.looks.internodes.iter().chain(&plant.habit.looks.apart);
-    Kind::ALL.map(|kind| {
-        let stem = kind.class() == Class::Internode;
-        let look =
-            |look: &&InternodeLook| look.kind == kind || (kind == Kind::ShortInternode && look.kind == Kind::Internode);
-        let thin =
-            if stem { looks.clone().filter(look).any(|look| look.shape == Shape::Blade) } else { is_leafy(kind) };
-        let closed = stem
-            && solid
-            && looks
-                .clone()
-                .filter(look)
-                .all(|look| paints.internode(look.paint).form.is_none() && look.shape != Shape::Blade);
-        Stuff { thin, closed }
-    })
-}
-
-fn is_leafy(kind: Kind) -> bool {
-    matches!(kind.class(), Class::Leaf | Class::Flower)
-}
-
-/// A colour made a little lighter or darker, warmer or cooler, as leaves differ; constant for a component at every age.
-fn varied(colour: [u8; 3], component: u32) -> [u8; 3] {
-    // Two bytes of a multiplicative hash (Knuth).
-    let hash = component.wrapping_mul(2_654_435_761) >> 16;
-    let (light, warm) = ((hash & 255) as f32 / 255.0 - 0.5, (hash >> 8 & 255) as f32 / 255.0 - 0.5);
-    let scale = 1.0 + 0.16 * light;
-    let tint = [0.10 * warm, 0.03 * warm, -0.08 * warm];
-    [0, 1, 2].map(|k| (f32::from(colour[k]) * (scale + tint[k]) + 0.5).clamp(0.0, 255.0) as u8)
 }
