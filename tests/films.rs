@@ -15,9 +15,10 @@ use tempfile::tempdir;
 const SIZE: &str = "160x120";
 type Pixels = Vec<[u8; 3]>;
 
-/// Makes a film of the bush of the tests.
+/// Makes a film of the bush of the tests, of the size of the tests unless the words state another.
 fn animate(folder: &Path, words: &[&str]) -> Said {
-    run(folder, &[&["animate", &data("small.toml"), "--size", SIZE][..], words].concat())
+    let small: &[&str] = if words.contains(&"--size") { &[] } else { &["--size", SIZE] };
+    run(folder, &[&["animate", &data("small.toml")][..], small, words].concat())
 }
 
 /// The pictures of an animated PNG, or the one of a plain one, laid over one another, with the seconds that each lasts.

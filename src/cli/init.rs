@@ -41,7 +41,7 @@ Examples:
   phytomer init my_plant
   phytomer grow my_plant/scenario.toml
   phytomer init my_herb --model lsystem
-  phytomer picture my_herb/species.toml
+  phytomer picture my_herb/species.toml --out my_herb.png
 
 Nothing is ever overwritten.")]
 pub struct Init {

@@ -74,7 +74,8 @@ impl PlotMesh<'_> {
             Scene::new(body.plant, body.age, &options).counts().faces
         };
         let faces: Vec<u64> = self.bodies.iter().map(faces).collect();
-        self.members.iter().filter_map(|member| faces.get(member.body)).sum()
+        let of_plants: u64 = self.members.iter().filter_map(|member| faces.get(member.body)).sum();
+        of_plants + self.obstacles.iter().map(|mesh| mesh.faces.len() as u64).sum::<u64>()
     }
 
     /// Writes the file. Plants that stand at one place are made while they are written.
