@@ -122,6 +122,10 @@ impl Cohorts {
     }
 }
 
+/// What tells cohorts apart: the species, its dates, which are the place of its calendar and its tick of sowing, and the
+/// place of its surroundings.
+type Distinction = (usize, Option<(usize, u32)>, Option<usize>);
+
 /// The cohorts that are found so far.
 #[derive(Default)]
 struct Finding<'a> {
@@ -130,9 +134,8 @@ struct Finding<'a> {
     calendars: Vec<Arc<Calendar>>,
     /// What scenarios state for their species, where it differs.
     surroundings: Vec<Arc<Surroundings>>,
-    /// The place of each cohort, by its species, its dates, which are the place of its calendar and its tick of sowing,
-    /// and the place of its surroundings.
-    places: BTreeMap<(usize, Option<(usize, u32)>, Option<usize>), usize>,
+    /// The place of each cohort.
+    places: BTreeMap<Distinction, usize>,
     all: Vec<Cohort>,
 }
 

@@ -194,7 +194,8 @@ fn the_seasons_of_borchert_and_slade_have_the_shoots_of_their_formula() {
         shoots = if birth == 0 { 1.0 } else { (maximum * shoots).min(area * season * season) };
         let born: Vec<usize> = (0..plant.nodes.len()).filter(|node| plant.nodes.birth[*node] == birth).collect();
         assert_eq!(born.len(), shoots.floor() as usize, "season {season}");
-        let section: f64 = born.iter().map(|node| f64::from(plant.nodes.primary_diameter[*node]).powi(2)).sum();
+        let section: f64 =
+            born.iter().map(|node| f64::from(plant.nodes.primary_diameter[*node])).map(|width| width * width).sum();
         assert!((section / (814.0 * 1e-4) - 1.0).abs() < 1e-4, "season {season}: {section}");
     }
     // Of 814 shoots each has six leaves; those of earlier seasons have fallen.

@@ -140,7 +140,7 @@ impl Picture {
         };
         let (whose, _) = shown(regrown, (self.plant.unwrap_or(0), self.plot), Some(framed), "--framed-for")?;
         let age = self.age.unwrap_or(framed.last);
-        if age < framed.first || age > framed.last || (age - framed.first) % framed.step != 0 {
+        if age < framed.first || age > framed.last || !(age - framed.first).is_multiple_of(framed.step) {
             return Err(Misuse(format!("--age {age}: it is none of the ages of --framed-for")).into());
         }
         let (regrowth, species) = (regrown.regrowth(&self.breeze)?, regrown.species());

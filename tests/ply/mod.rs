@@ -2,8 +2,6 @@
 //!
 //! Nothing here knows how a mesh is made. Absent: elements and properties, of which each test reads what it asks.
 
-#![allow(dead_code, reason = "each test program uses a part of it")]
-
 use std::fs;
 use std::path::Path;
 

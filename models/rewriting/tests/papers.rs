@@ -231,7 +231,7 @@ fn l_system_5_has_its_tips_at_every_step() {
     }
     let n = PLANTS as f64;
     for (steps, [sum, squares]) in (0_u32..).zip(sums).skip(2) {
-        let (mean, exact) = (sum / n, 4.0 * f64::from(steps + 1).powi(2) / 9.0);
+        let (mean, exact) = (sum / n, 4.0 * f64::from((steps + 1) * (steps + 1)) / 9.0);
         let error = ((squares / n - mean * mean).max(0.0) / n).sqrt();
         assert!((mean - exact).abs() <= 4.0 * error + 1e-9, "{steps} steps: {mean} ± {error}, not {exact}");
     }

@@ -168,7 +168,7 @@ fn read_gif(file: &[u8]) -> (Vec<(Canvas, u16)>, Vec<u8>) {
 /// The root of the mean squared difference of the channels of two pictures.
 fn difference(a: &Canvas, b: &Canvas) -> f64 {
     let channels = a.pixels.iter().flatten().zip(b.pixels.iter().flatten());
-    let squares: f64 = channels.map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2)).sum();
+    let squares: f64 = channels.map(|(a, b)| f64::from(*a) - f64::from(*b)).map(|x| x * x).sum();
     (squares / (3.0 * a.pixels.len() as f64)).sqrt()
 }
 
