@@ -122,8 +122,8 @@ impl Cohorts {
     }
 }
 
-/// What tells cohorts apart: the species, its dates, which are the place of its calendar and its tick of sowing, and the
-/// place of its surroundings.
+/// What tells cohorts apart: the species, its dates, which are the place of its calendar and its tick of sowing, and
+/// the place of its surroundings.
 type Distinction = (usize, Option<(usize, u32)>, Option<usize>);
 
 /// The cohorts that are found so far.
