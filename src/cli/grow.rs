@@ -33,7 +33,7 @@ Examples:
   phytomer grow coffee --shard 1/2
   phytomer grow coffee --progress json
   phytomer grow halle/massart
-  phytomer grow plant.l -D ANGLE=25
+  phytomer grow abop/2.8a -D lr=1.2
 
 Exit code 1 where a plant came to its limit, where another process fills the folder, where the disk is too small or a file
 could not be written, 3 where the scenario is wrong, 130 after Ctrl-C; --resume then goes on and ends with the same bytes.
