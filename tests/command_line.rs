@@ -1,17 +1,14 @@
-//! The program as people and scripts use it: every verb, every exit code, the two streams, the examples of `--help`.
+//! The program as people and scripts use it: every verb, every exit code, the two streams.
 //!
-//! Only files, streams and exit codes are tested. Absent: damaged folders (`trouble`) and destinations (`written`).
+//! Only files, streams and exit codes are tested. Absent: damaged folders (`trouble`), destinations (`written`) and the
+//! examples of `--help` (`examples_of_help`).
 
 mod program;
 
-use program::{data, grown, program as phytomer, run, small_film, write};
+use program::{data, grown, program as phytomer, run, write};
 use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
-
-const VERBS: [&str; 12] = [
-    "init", "grow", "merge", "validate", "derive", "verify", "describe", "list", "schema", "mesh", "picture", "animate",
-];
 
 /// A scenario of one fast plant, with these lines added.
 fn scenario(folder: &Path, lines: &str) {
@@ -345,58 +342,4 @@ fn a_closed_pipe_is_no_failure() {
         phytomer(folder.path(), &["schema", "species"]).stdout(std::process::Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());
     assert!(child.wait().unwrap().success());
-}
-
-/// The examples of a verb's help: the lines that begin with the program's name.
-fn examples(help: &str) -> Vec<Vec<&str>> {
-    let commands = help.lines().filter_map(|line| line.strip_prefix("  phytomer "));
-    commands.map(|line| line.split("   ").next().unwrap_or(line).split_whitespace().collect()).collect()
-}
-
-/// Every example as it stands, but with fewer plants for `grow`, so that the tests stay short.
-#[test]
-fn every_example_of_help_runs() {
-    let folder = tempdir().unwrap();
-    let top = run(folder.path(), &["--help"]).ending(0).stdout;
-    let shown = examples(&top);
-    assert_eq!(shown.iter().map(|words| words[0]).collect::<Vec<_>>(), VERBS, "an example for each verb");
-    run(folder.path(), &["init", "my_plant"]).ending(0);
-    run(folder.path(), &["init", "my_herb", "--model", "lsystem"]).ending(0);
-    run(folder.path(), &["grow", "coffee", "--plants", "4", "--quiet"]).ending(0);
-    for share in ["1/2", "2/2"] {
-        run(folder.path(), &["grow", "coffee", "--plants", DEALT, "--quiet", "--shard", share]).ending(0);
-    }
-    let mut helps = vec![top.clone()];
-    helps.extend(VERBS.map(|verb| run(folder.path(), &["help", verb]).ending(0).stdout));
-    for (number, help) in helps.iter().enumerate() {
-        let examples = examples(help);
-        assert!(!examples.is_empty(), "no example in\n{help}");
-        for words in examples {
-            obey_example(folder.path(), number, &words);
-        }
-    }
-}
-
-/// So many plants of coffee that there are several parts to be dealt into shards.
-const DEALT: &str = "24";
-
-fn obey_example(folder: &Path, number: usize, words: &[&str]) {
-    let mut words = words.to_vec();
-    let name = format!("example-{}-{number}", words.len());
-    match words[0] {
-        "init" | "merge" => words[1] = &name,
-        "grow" => {
-            let plants = if words.contains(&"--shard") { DEALT } else { "4" };
-            let few = ["--plants", plants, "--quiet", "--overwrite"];
-            let kept = if words.contains(&"--plants") || words.contains(&"--dry-run") { 2..2 } else { 0..2 };
-            words.extend(&few[kept]);
-            words.extend((!words.contains(&"--resume")).then_some("--overwrite"));
-        }
-        "animate" => words = small_film(&words),
-        _ => {}
-    }
-    // A film that goes into a pipe is no text.
-    let output = phytomer(folder, &words).output().unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{words:?}\n{told}");
 }
