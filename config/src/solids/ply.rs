@@ -1,14 +1,17 @@
 //! Triangles from a PLY, ASCII or binary, by the crate ply-rs-bw: `vertex` with x, y, z and `face` with
-//! `vertex_indices` or `vertex_index`; a polygon becomes a fan of triangles.
+//! `vertex_indices` or `vertex_index`; a polygon, which may be concave, is cut into triangles.
 //!
 //! The header is compared with what a shape may have before the rest is read. Absent: all other elements and
 //! properties, which are read and skipped; and whether the triangles enclose space.
 
+use phytomer_looks::polygon;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{DefaultElement, Header, Property};
 
 /// The most triangles of a mesh.
 const MOST_TRIANGLES: usize = 50_000;
+/// The most corners of a polygon, since cutting it takes the square of their number.
+const MOST_CORNERS: usize = 1000;
 /// The most elements of any other kind: of triangles that share no corners three each.
 const MOST_ELEMENTS: usize = 3 * MOST_TRIANGLES;
 
@@ -73,7 +76,7 @@ fn point((number, vertex): (usize, &DefaultElement)) -> Result<[f64; 3], Refused
     Ok([x, y, z])
 }
 
-/// Adds a polygon as a fan about its first corner.
+/// Adds the triangles of a polygon.
 fn add(triangles: &mut Triangles, number: usize, face: &DefaultElement) -> Result<(), Refused> {
     let place = || format!("face {number}");
     let corners = ["vertex_indices", "vertex_index"].iter().find_map(|name| face.get(*name)).and_then(indices);
@@ -84,11 +87,16 @@ fn add(triangles: &mut Triangles, number: usize, face: &DefaultElement) -> Resul
         let problem = format!("it names the vertex {outside}, counted from 0");
         return Err(Refused::new(place(), problem, format!("one of the {points} vertices")));
     }
-    let [first, rest @ ..] = corners.as_slice() else { return Err(Refused::new(place(), "it has no corners", "3")) };
-    if rest.len() < 2 {
-        return Err(Refused::new(place(), format!("it has {} corners", corners.len()), "at least 3"));
+    if !(3..=MOST_CORNERS).contains(&corners.len()) {
+        let problem = format!("it has {} corners", corners.len());
+        return Err(Refused::new(place(), problem, format!("3 to {MOST_CORNERS}")));
     }
-    triangles.faces.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
+    let at = |corner: &u32| triangles.points[*corner as usize];
+    let first = at(&corners[0]);
+    // From the first corner, so that single precision is enough to cut it.
+    let beside: Vec<[f32; 3]> =
+        corners.iter().map(|corner| [0, 1, 2].map(|k| (at(corner)[k] - first[k]) as f32)).collect();
+    triangles.faces.extend(polygon::triangles(&beside).into_iter().map(|face| face.map(|corner| corners[corner])));
     if triangles.faces.len() > MOST_TRIANGLES {
         let problem = format!("up to here there are more than {MOST_TRIANGLES} triangles");
         return Err(Refused::new(place(), problem, format!("a mesh of at most {MOST_TRIANGLES}")));
@@ -156,10 +164,20 @@ mod tests {
         element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0.1 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
 
     #[test]
-    fn polygons_are_fans_and_numbers_keep_their_precision() {
+    fn polygons_are_cut_and_numbers_keep_their_precision() {
         let read = read(SQUARE.as_bytes()).expect("a square");
         assert_eq!(read.faces, [[0, 1, 2], [0, 2, 3]]);
         assert_eq!(read.points[0], [0.0, 0.1, 0.0], "a double is a double");
+        // An arrow head, whose notch no triangle covers: a fan would have the area 1.5 twice over its notch.
+        let arrow = SQUARE.replace("0 0.1 0\n1 0 0\n1 1 0\n0 1 0\n", "0 0 0\n2 1 0\n0 2 0\n1 1 0\n");
+        let arrow = arrow.replace("4 0 1 2 3", "4 1 2 3 0");
+        let arrow = super::read(arrow.as_bytes()).expect("an arrow");
+        let area = |face: &[u32; 3]| {
+            let [a, b, c] = face.map(|corner| arrow.points[corner as usize]);
+            0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+        };
+        let areas: Vec<f64> = arrow.faces.iter().map(area).collect();
+        assert!(areas.iter().all(|area| *area > 0.0) && areas.iter().sum::<f64>() == 1.0, "{areas:?}");
     }
 
     #[test]
@@ -194,7 +212,7 @@ mod tests {
         };
         assert_eq!(told("4 0 1 2 3", "4 0 1 2 4"), "face 0: it names the vertex 4, counted from 0");
         assert_eq!(told("4 0 1 2 3", "2 0 1"), "face 0: it has 2 corners");
-        assert_eq!(told("4 0 1 2 3", "0"), "face 0: it has no corners");
+        assert_eq!(told("4 0 1 2 3", "0"), "face 0: it has 0 corners");
         assert_eq!(told("1 1 0\n", "1e999 1 0\n"), "vertex 2: a coordinate is no finite number");
         assert_eq!(told("property double y", "property double q"), "vertex 0: the numbers x, y and z are missing");
         assert_eq!(told("vertex_indices", "corners"), "face 0: it has no list of vertices");
