@@ -41,10 +41,9 @@ impl Frame {
         [self.heading, self.left, self.up].map(|axis| dot(axis, vector))
     }
 
-    /// Turns by an angle, radians, about one of its axes.
+    /// Turns by the angle of a sine and a cosine about one of its axes.
     #[inline]
-    pub fn turn(&mut self, about: Axis, angle: f64) {
-        let (sin, cos) = sincos(angle);
+    pub fn turn(&mut self, about: Axis, sin: f64, cos: f64) {
         let (first, second) = match about {
             Axis::Up => (&mut self.heading, &mut self.left),
             Axis::Left => (&mut self.up, &mut self.heading),

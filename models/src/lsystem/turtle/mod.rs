@@ -14,6 +14,7 @@
 //! - A parameter that is no number counts as 0, and none is larger than 10³⁰ in size, so that no position overflows.
 //! - A bracket that closes nothing is passed over.
 
+mod angles;
 mod command;
 mod frame;
 mod settings;
@@ -27,6 +28,7 @@ pub use frame::Frame;
 
 use super::vector::{dot, unit};
 use super::view::View;
+use angles::Angles;
 use settings::{Settings, bounded};
 
 /// Colours are counted around so many.
@@ -111,6 +113,7 @@ pub struct Turtle {
     /// The corners of the polygon that ended last.
     ended: Vec<Vector>,
     settings: Settings,
+    angles: Angles,
     /// The susceptibilities to the numbered tropisms, and the values that changed within open brackets, with their
     /// numbers, as they were.
     elasticities: Vec<f64>,
@@ -129,6 +132,7 @@ impl Turtle {
             polygons: Vec::new(),
             ended: Vec::new(),
             settings,
+            angles: Angles::default(),
             elasticities: Vec::new(),
             changed: Vec::new(),
         };
@@ -205,7 +209,8 @@ impl Turtle {
 
     fn turn(&mut self, about: Axis, positive: bool, parameters: &[f64]) {
         let angle = first(parameters).map_or(self.settings.angle, f64::to_radians);
-        self.state.frame.turn(about, if positive { angle } else { -angle });
+        let (sin, cos) = self.angles.sincos(if positive { angle } else { -angle });
+        self.state.frame.turn(about, sin, cos);
     }
 
     /// The length of a step: its parameter, or 1, in the scale.

@@ -64,5 +64,6 @@ fn roll(frame: &mut Frame, towards: Vector) {
     }
     let across = [0, 1, 2].map(|i| direction[i] - along * frame.heading[i]);
     let angle = -length * dot(cross(frame.up, across), frame.heading);
-    frame.turn(Axis::Heading, angle.clamp(-1.0, 1.0));
+    let (sin, cos) = sincos(angle.clamp(-1.0, 1.0));
+    frame.turn(Axis::Heading, sin, cos);
 }
