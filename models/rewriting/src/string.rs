@@ -63,14 +63,22 @@ pub struct Modules<'s> {
     at: u32,
 }
 
+impl Modules<'_> {
+    /// Passes the next module; its slot.
+    #[inline]
+    pub fn pass(&mut self) -> Option<Slot> {
+        let slot = (self.at != NONE).then_some(Slot(self.at))?;
+        self.at = self.string.next[slot.index()];
+        Some(slot)
+    }
+}
+
 impl<'s> Iterator for Modules<'s> {
     type Item = Module<'s>;
 
     #[inline]
     fn next(&mut self) -> Option<Module<'s>> {
-        let slot = (self.at != NONE).then_some(Slot(self.at))?;
-        self.at = self.string.next[slot.index()];
-        Some(self.string.module(slot))
+        self.pass().map(|slot| self.string.module(slot))
     }
 }
 
@@ -152,6 +160,7 @@ impl ModuleString {
     }
 
     /// The module in a slot that [`ModuleString::modules`] has told.
+    #[inline]
     pub fn module(&self, slot: Slot) -> Module<'_> {
         let index = slot.index();
         let (symbol, _) = self.kinds[usize::from(self.kind[index].0)];
@@ -196,8 +205,9 @@ impl ModuleString {
         self.kind[slot.index()] == FREE
     }
 
+    /// Whence the module in a slot comes.
     #[inline]
-    pub(crate) fn identity(&self, slot: Slot) -> Identity {
+    pub fn identity(&self, slot: Slot) -> Identity {
         let (predecessor, birth) = self.origins.of(self.origin[slot.index()]);
         Identity { key: self.key[slot.index()], birth, predecessor }
     }

@@ -68,7 +68,7 @@ pub(super) fn write(
         write_node(draft, place, numbered.nodes[place], &to, &mut ranks, measures, plant);
     }
     for (place, axis) in draft.axes.iter().enumerate().filter(|(place, _)| ranks[*place] == 0) {
-        if let Some((_, frame)) = axis.apex {
+        if let Some((_, frame)) = &axis.apex {
             let part = Part::Axis(AxisId(place as u32));
             state(plant, part, &bearing(draft, axis.on, &to), frame, measures.step);
         }
@@ -135,8 +135,8 @@ fn write_node(
         azimuth: 0.0,
     };
     let id = plant.place_node(new, born.number);
-    let bearer = if is_first { Bearer { frame: GROUND, tip: [0.0; 3] } } else { bearing(draft, node.below, to) };
-    state(plant, Part::Node(id), &bearer, node.frame, measures.step);
+    let bearer = if is_first { Bearer::GROUND } else { bearing(draft, node.below, to) };
+    state(plant, Part::Node(id), &bearer, &node.frame, measures.step);
     if let Some(look) = measures.look(node) {
         plant.give_look(id, look);
     }
@@ -157,27 +157,34 @@ impl Measures {
 }
 
 /// The frame of a bearer, and its tip.
-struct Bearer {
-    frame: Frame,
+struct Bearer<'d> {
+    frame: &'d Frame,
     tip: Vector,
 }
 
-fn bearing(draft: &Draft, node: u32, to: &Places) -> Bearer {
+impl Bearer<'_> {
+    const GROUND: Self = Self { frame: &GROUND, tip: [0.0; 3] };
+}
+
+#[inline]
+fn bearing<'d>(draft: &'d Draft, node: u32, to: &Places) -> Bearer<'d> {
     let place = if node == BASE { to.first } else { Some(node as usize) };
-    let Some(node) = place.map(|place| &draft.nodes[place]) else { return Bearer { frame: GROUND, tip: [0.0; 3] } };
+    let Some(node) = place.map(|place| &draft.nodes[place]) else { return Bearer::GROUND };
     let mut end = node.frame;
     end.go(node.length);
-    Bearer { frame: node.frame, tip: end.position }
+    Bearer { frame: &node.frame, tip: end.position }
 }
 
 /// How a frame is turned in that of its bearer, and where it begins from the tip of that, metres.
-fn relative(bearer: &Bearer, frame: Frame, step: f64) -> (Rotation, [f32; 3]) {
+#[inline]
+fn relative(bearer: &Bearer<'_>, frame: &Frame, step: f64) -> (Rotation, [f32; 3]) {
     let turned = Rotation::to(bearer.frame.coordinates(frame.heading), bearer.frame.coordinates(frame.up));
     let beside = [0, 1, 2].map(|i| frame.position[i] - bearer.tip[i]);
     (turned, bearer.frame.coordinates(beside).map(|along| metres(along * step)))
 }
 
-fn state(plant: &mut Plant, part: Part, bearer: &Bearer, frame: Frame, step: f64) {
+#[inline]
+fn state(plant: &mut Plant, part: Part, bearer: &Bearer<'_>, frame: &Frame, step: f64) {
     let (turned, start) = relative(bearer, frame, step);
     plant.state_rest(part, Rest::Turned(turned));
     plant.state_start(part, start);
@@ -212,7 +219,7 @@ fn write_organ(
         insertion: 0.0,
     };
     let id = plant.place_organ(new, born.number);
-    let (turned, start) = relative(&bearing(draft, organ.on, to), organ.frame, measures.step);
+    let (turned, start) = relative(&bearing(draft, organ.on, to), &organ.frame, measures.step);
     plant.state_organ(id, turned, start);
     if !form.state(plant, id) && organ.kind.class() == Class::Leaf {
         plant.organs.area[id.index()] = length * width * form_of(organ.kind).area_share();

@@ -8,7 +8,7 @@
 use super::form::{Form, ViewForms};
 use super::role::{Role, Roles};
 use crate::lsystem::turtle::{Command, Drawing, Frame, Turtle, Vector};
-use phytomer_rewriting::{Derived, Drawn, Module, Slot};
+use phytomer_rewriting::{Derived, Drawn, Identity, ModuleString, Modules, Slot};
 use phytomer_sim::key::LineageKey;
 use phytomer_sim::plant::Kind;
 
@@ -73,6 +73,14 @@ pub(super) enum Item {
     Organ(usize),
 }
 
+/// A component in the order of the string.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Placed {
+    pub item: Item,
+    /// Whether its module was made in the last step, so that the component never stood before.
+    pub is_new: bool,
+}
+
 /// All that a string describes.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Draft {
@@ -83,18 +91,18 @@ pub(super) struct Draft {
     /// The corners of outlines, in the coordinates of the turtle.
     pub corners: Vec<Vector>,
     /// Every component but the trunk, in the order of the string.
-    pub order: Vec<Item>,
+    pub order: Vec<Placed>,
     /// The internode that bears what stands at the base: the first of the trunk, or a foot.
     pub first: Option<usize>,
     /// Whether anything stands at the base before the first internode of the trunk.
     pub has_base: bool,
 }
 
-/// What a bracket holds: its key, its axis once it is one, and the internode drawn last.
+/// What a bracket holds: its key and its module, its axis once it is one, and the internode drawn last.
 #[derive(Debug, Clone, Copy)]
 struct Bracket {
     key: LineageKey,
-    module: LineageKey,
+    module: Option<Slot>,
     axis: Option<u32>,
     last: u32,
 }
@@ -107,13 +115,15 @@ pub(super) struct Walk<'w> {
     draft: &'w mut Draft,
     open: Vec<Bracket>,
     at: Bracket,
+    string: &'w ModuleString,
+    /// The step that made the string.
+    step: u32,
     /// The modules that come next in the string itself.
-    following: Box<dyn Iterator<Item = Module<'w>> + 'w>,
-    /// The module whose drawing is walked along, and whether the species names its kind, with its organ if it is one.
+    following: Modules<'w>,
+    /// The module that is passed or whose drawing is walked along, and whether the species names its kind, with its
+    /// organ if it is one.
     of: Option<Slot>,
     named: Option<Option<usize>>,
-    module: LineageKey,
-    predecessor: LineageKey,
 }
 
 impl<'w> Walk<'w> {
@@ -127,11 +137,10 @@ impl<'w> Walk<'w> {
     ) -> Self {
         turtle.restart();
         draft.clear();
-        let module = LineageKey::SEED;
-        let at = Bracket { key: LineageKey::SEED, module, axis: Some(0), last: BASE };
-        let following = Box::new(derived.string().modules());
-        let predecessor = LineageKey::SEED;
-        Self { roles, view, turtle, draft, open: Vec::new(), at, following, of: None, named: None, module, predecessor }
+        let at = Bracket { key: LineageKey::SEED, module: None, axis: Some(0), last: BASE };
+        let (string, step) = (derived.string(), derived.step());
+        let following = string.modules();
+        Self { roles, view, turtle, draft, open: Vec::new(), at, string, step, following, of: None, named: None }
     }
 
     /// Goes on by a module as it is drawn; what a query that stands there asks for.
@@ -143,7 +152,7 @@ impl<'w> Walk<'w> {
         match command {
             Command::Open => {
                 self.open.push(self.at);
-                self.at = Bracket { key: drawn.key, module: self.module, axis: None, last: self.at.last };
+                self.at = Bracket { key: drawn.key, module: self.of, axis: None, last: self.at.last };
             }
             Command::Close => self.at = self.open.pop().unwrap_or(self.at),
             _ => {}
@@ -155,14 +164,12 @@ impl<'w> Walk<'w> {
         }
         let Self { turtle, draft, view, .. } = self;
         let colour = turtle.state().colour[0];
-        let frame = turtle.state().frame;
         match turtle.follow(command, drawn.parameters)? {
             Drawing::Line { from, length, width, contour } if !silent => {
                 let kind = if let Role::Internode(kind) = role { kind } else { Kind::Internode };
-                let module = drawn.key;
                 let node = Internode {
                     key: drawn.key,
-                    module,
+                    module: drawn.key,
                     axis: 0,
                     below: BASE,
                     frame: from,
@@ -181,6 +188,7 @@ impl<'w> Walk<'w> {
             Drawing::Surface { symbol, scale } => {
                 let place = view.surfaces.iter().position(|known| *known == symbol);
                 let [across, along, above] = scale;
+                let frame = turtle.state().frame;
                 let form = place.map_or(Form::OfKind, |place| Form::Surface(place, [along, across, above]));
                 self.drawn_as(silent, role, drawn.key, frame, form, colour);
             }
@@ -227,13 +235,16 @@ impl<'w> Walk<'w> {
     }
 
     /// Comes to the first module that is drawn for another module of the string.
+    #[inline]
     fn come_to(&mut self, drawn: &Drawn<'_>) {
-        self.of = Some(drawn.of);
         self.named = None;
-        let Some(module) = self.pass_to(Some(drawn.of)) else { return };
-        self.look_at(&module);
+        self.pass_to(Some(drawn.of));
+        if drawn.depth == 0 {
+            return;
+        }
+        let module = self.string.module(drawn.of);
         let role = self.roles.get(module.symbol).1;
-        if drawn.depth > 0 && matches!(role, Role::Apex | Role::Organ(_)) {
+        if matches!(role, Role::Apex | Role::Organ(_)) {
             let before = self.draft.organs.len();
             self.state_of(role, module.identity.key);
             self.named = Some((self.draft.organs.len() > before).then_some(before));
@@ -241,34 +252,44 @@ impl<'w> Walk<'w> {
     }
 
     /// Passes modules of the string up to one, or to the end: those of a stated kind stand where nothing is drawn too.
-    fn pass_to(&mut self, slot: Option<Slot>) -> Option<Module<'w>> {
-        loop {
-            let module = self.following.next()?;
-            if Some(module.slot) == slot {
-                return Some(module);
+    #[inline]
+    fn pass_to(&mut self, slot: Option<Slot>) {
+        while let Some(passed) = self.following.pass() {
+            self.of = Some(passed);
+            if self.of == slot {
+                return;
             }
-            self.look_at(&module);
+            let module = self.string.module(passed);
             let role = self.roles.get(module.symbol).1;
             self.state_of(role, module.identity.key);
         }
     }
 
-    /// Remembers whose drawing comes.
-    fn look_at(&mut self, module: &Module<'_>) {
-        self.module = module.identity.key;
-        self.predecessor = module.identity.predecessor;
+    /// Whence a module comes; the seed where there is none.
+    fn identity(&self, module: Option<Slot>) -> Identity {
+        let seed = Identity { key: LineageKey::SEED, birth: 0, predecessor: LineageKey::SEED };
+        module.map_or(seed, |slot| self.string.identity(slot))
+    }
+
+    /// Puts a component that is a module, or that is drawn for it, in the order of the string.
+    fn place(&mut self, item: Item, of: &Identity) {
+        self.draft.order.push(Placed { item, is_new: of.birth == self.step });
     }
 
     /// The component that a module of a stated kind is, beside what it draws; organs that draw an outline come with it.
+    #[inline]
     fn state_of(&mut self, role: Role, key: LineageKey) {
-        let state = self.turtle.state();
-        let (frame, size, colour) = (state.frame, state.width, state.colour[0]);
         match role {
             Role::Apex => {
                 let axis = self.axis();
-                self.draft.axes[axis as usize].apex = Some((self.module, frame));
+                let apex = (self.identity(self.of).key, self.turtle.state().frame);
+                self.draft.axes[axis as usize].apex = Some(apex);
             }
-            Role::Organ(kind) => self.add_organ(key, kind, frame, size, Form::OfKind, colour),
+            Role::Organ(kind) => {
+                let state = self.turtle.state();
+                let (frame, size, colour) = (state.frame, state.width, state.colour[0]);
+                self.add_organ(key, kind, frame, size, Form::OfKind, colour);
+            }
             Role::AsDrawn | Role::Internode(_) => {}
         }
     }
@@ -282,23 +303,25 @@ impl<'w> Walk<'w> {
         let bearing = if self.at.last == BASE { 0 } else { self.draft.nodes[self.at.last as usize].axis };
         let order = self.draft.axes[bearing as usize].order.saturating_add(1);
         let Bracket { key, module, last: on, .. } = self.at;
-        self.draft.axes.push(Axis { key, module, on, order, apex: None });
-        self.draft.order.push(Item::Axis(axis as usize));
+        let module = self.identity(module);
+        self.draft.axes.push(Axis { key, module: module.key, on, order, apex: None });
+        self.place(Item::Axis(axis as usize), &module);
         self.at.axis = Some(axis);
         axis
     }
 
     fn add_node(&mut self, node: Internode) {
         let axis = self.axis();
-        let place = self.draft.nodes.len();
-        self.draft.nodes.push(Internode { axis, below: self.at.last, module: self.module, ..node });
-        self.draft.order.push(Item::Node(place));
+        let (place, module) = (self.draft.nodes.len(), self.identity(self.of));
+        self.draft.nodes.push(Internode { axis, below: self.at.last, module: module.key, ..node });
+        self.place(Item::Node(place), &module);
         self.at.last = place as u32;
     }
 
     fn add_organ(&mut self, key: LineageKey, kind: Kind, frame: Frame, size: f64, form: Form, colour: i32) {
-        self.draft.order.push(Item::Organ(self.draft.organs.len()));
-        let Self { module, predecessor, .. } = *self;
+        let of = self.identity(self.of);
+        self.place(Item::Organ(self.draft.organs.len()), &of);
+        let (module, predecessor) = (of.key, of.predecessor);
         self.draft.organs.push(Organ { key, module, on: self.at.last, frame, kind, size, form, colour, predecessor });
     }
 

@@ -190,7 +190,8 @@ impl TextModel {
         }
         depart(plant, numbered, numbers, &lost, age, &mut noted);
         plant.begin_rewriting();
-        write(draft, numbered, &self.measures, plant, |number| *numbers.bud(number));
+        let bud = |number| if script.roles.states_apices { *numbers.bud(number) } else { Bud::ALIVE };
+        write(draft, numbered, &self.measures, plant, bud);
         plant.age = age;
         events::note(plant, age, noted);
         Ok(())
@@ -263,7 +264,7 @@ fn depart(plant: &mut Plant, numbered: &Numbered, numbers: &mut Numbers, lost: &
     for organ in (0..plant.organs.len()).map(|place| OrganId(place as u32)) {
         let number = plant.organs.component[organ.index()];
         if !stands(number) {
-            let cause = lost.fate_of(numbers.forget(number)).cause();
+            let cause = lost.fate_of(numbers.module(number)).cause();
             let axis = plant.nodes.axis[plant.organs.node[organ.index()].index()];
             noted.add(plant.axes.component[axis.index()], EventKind::Rewritten, 1);
             plant.depart_organ(organ, age, cause);
@@ -272,7 +273,7 @@ fn depart(plant: &mut Plant, numbered: &Numbered, numbers: &mut Numbers, lost: &
     for node in (0..plant.nodes.len()).map(|place| NodeId(place as u32)) {
         let number = plant.nodes.component[node.index()];
         if !stands(number) {
-            let cause = lost.fate_of(numbers.forget(number)).cause();
+            let cause = lost.fate_of(numbers.module(number)).cause();
             noted.add(plant.axes.component[plant.nodes.axis[node.index()].index()], EventKind::Rewritten, 1);
             plant.depart(node, age, cause);
         }
@@ -280,7 +281,7 @@ fn depart(plant: &mut Plant, numbered: &Numbered, numbers: &mut Numbers, lost: &
     for axis in (0..plant.axes.len()).map(|place| AxisId(place as u32)) {
         let number = plant.axes.component[axis.index()];
         if !stands(number) {
-            let bracket = numbers.forget(number);
+            let bracket = numbers.module(number);
             let bud: Bud = *numbers.bud(number);
             let fate = lost.fate_of(bud.apex.unwrap_or(bracket));
             if bud.end.1 == ApexFate::Alive {
