@@ -43,10 +43,12 @@ impl Bud {
 pub(super) struct Numbers {
     /// What stands but the trunk, with its keys, in the order in which it was looked at.
     standing: Vec<(LineageKey, Born)>,
-    /// The bud of each axis, by the number of the bud; in the order of the numbers.
-    buds: Vec<(u32, Bud)>,
+    /// The bud of each axis, in the order of the numbers.
+    buds: Vec<Bud>,
     /// By their numbers: the keys of the modules of the string that they are or that are drawn as them.
     modules: Vec<LineageKey>,
+    /// By the numbers of buds: their places among the buds. Of no meaning for other components.
+    places: Vec<u32>,
 }
 
 /// The numbers of the components of a draft, in its order.
@@ -118,7 +120,8 @@ impl Numbers {
         if self.modules.is_empty() {
             plant.next_number_on(None);
             self.modules.push(LineageKey::SEED);
-            self.buds.push((0, Bud::ALIVE));
+            self.places.push(0);
+            self.buds.push(Bud::ALIVE);
         }
         numbered.axes[0] = Born::TRUNK;
         numbered.before.begin(&mut self.standing);
@@ -155,8 +158,9 @@ impl Numbers {
                 let on = if on == BASE { first } else { Some(on as usize) };
                 let number = plant.next_number_on(on.map(|node| numbered.nodes[node].number));
                 self.modules.push(module);
+                self.places.push(self.buds.len() as u32);
                 if let Item::Axis(_) = item {
-                    self.buds.push((number, Bud::ALIVE));
+                    self.buds.push(Bud::ALIVE);
                 }
                 Born { number, at: age }
             }
@@ -176,8 +180,7 @@ impl Numbers {
 
     /// The bud of an axis by its number.
     pub fn bud(&mut self, number: u32) -> &mut Bud {
-        let place = self.buds.partition_point(|(known, _)| *known < number);
-        &mut self.buds[place].1
+        &mut self.buds[self.places[number as usize] as usize]
     }
 }
 
