@@ -2,8 +2,8 @@
 //!
 //! A component is numbered when it appears, in the order of the string; the internode that bears what stands at the
 //! base is numbered before that. A component that has gone loses its key: what comes back is new. So every number is
-//! alive for one unbroken span of ages. Modules mostly keep their order from step to step, so what stood before is found
-//! beside what was found last. Absent: the columns.
+//! alive for one unbroken span of ages. Modules mostly keep their order from step to step, so what stood before is
+//! found beside what was found last. Absent: the columns.
 
 use super::draft::{BASE, Draft, Item, Placed};
 use phytomer_sim::clock::{NEVER, Tick};
