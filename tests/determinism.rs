@@ -1,18 +1,30 @@
 //! The same scenario gives the same bytes in every table and mesh: on any number of threads, and in debug and release.
 //!
-//! Both profiles run this file against the same hashes (`tests/data/*.sha256`): of a bush in its pose at rest, and of
-//! trees that bend in a wind, with the columns of mechanics. Where a change of growth or of a format is intended,
-//! `PHYTOMER_BLESS=1 cargo test --test determinism` writes new hashes.
+//! Known hashes (`tests/data/*.sha256`) are of a bush in its pose at rest, and of trees that bend in a wind, with the
+//! columns of mechanics. Where a change of growth or of a format is intended,
+//! `PHYTOMER_BLESS=1 cargo test --test determinism` writes new hashes. Where `PHYTOMER_RELEASE` names the program of
+//! the same sources in the release profile, that program writes the bytes of the one that is tested.
 
+#[path = "program/absent.rs"]
+mod absent;
 mod program;
 
 use phytomer::config::{Kind, Resolved, presets, validate};
 use phytomer::run::{self, Program, Progress, Settings, seed_of};
 use phytomer::sim::Plot;
 use phytomer::sim::plant::ThreadBudget;
-use program::{data, hashes, run as phytomer};
+use program::{PROGRAM, data, hashes, program_at, run as phytomer, said};
 use std::collections::BTreeMap;
 use std::path::Path;
+
+/// Trees of an L-system that draws, asks where it stands and is pruned.
+const CUBE: &str = r#"
+name = "cube"
+species = "topiary/6"
+plants = 30
+ages = { until = 9, record = "all" }
+output = { plants_per_part = 5 }
+"#;
 
 #[test]
 fn one_two_and_seven_threads_write_the_same_bytes() {
@@ -128,13 +140,10 @@ fn the_shipped_vine_is_the_same_on_any_number_of_threads() {
     assert_eq!(shipped(folder.path(), "greene/vine", "5").len(), 6 * 3 + 1, "three parts, the table of treatments");
 }
 
-/// Trees of an L-system that draws, asks where it stands and is pruned.
 #[test]
 fn plants_of_an_l_system_are_the_same_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
-    let scenario = "name = \"cube\"\nspecies = \"topiary/6\"\nplants = 30\nages = { until = 9, record = \"all\" }\n\
-        output = { plants_per_part = 5 }\n";
-    std::fs::write(folder.path().join("cube.toml"), scenario).unwrap();
+    std::fs::write(folder.path().join("cube.toml"), CUBE).unwrap();
     let grown = ["1", "2", "8"].map(|threads| {
         phytomer(folder.path(), &["grow", "cube.toml", "--threads", threads, "--name", threads]).ending(0);
         hashes(&folder.path().join("runs").join(threads))
@@ -162,13 +171,43 @@ fn another_seed_gives_other_plants() {
     assert!(grown[0].iter().all(|(file, hash)| grown[1].get(file) != Some(hash)));
 }
 
+/// The scenarios of both, so that buds, bending wood, parametric trees, a vine and an L-system are compared.
 #[test]
-fn debug_and_release_write_the_bytes_that_are_known() {
+fn the_release_profile_writes_the_same_bytes() {
+    let Some(release) = std::env::var_os("PHYTOMER_RELEASE") else {
+        assert!(!absent::in_ci(), "PHYTOMER_RELEASE names no program of the release profile");
+        absent::skip("PHYTOMER_RELEASE names no program of the release profile");
+        return;
+    };
+    // A relative path is one from the folder of the manifest; the program runs in another.
+    let release = Path::new(env!("CARGO_MANIFEST_DIR")).join(release);
+    let programs = [("tested", Path::new(PROGRAM)), ("release", &release)];
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("cube.toml"), CUBE).unwrap();
+    let own = ["small.toml", "bending.toml", "clump.toml", "large.toml"].map(|name| (data(name), "2"));
+    let others = [("cube.toml", "10"), ("gmt1", "5"), ("greene/vine", "5"), ("coffee", "4")];
+    let others = others.map(|(name, plants)| (name.to_owned(), plants));
+    for (scenario, plants) in own.into_iter().chain(others) {
+        let [tested, release] = programs.map(|(name, at)| {
+            let words = ["grow", &scenario, "--plants", plants, "--name", name];
+            said(program_at(at, folder.path(), &words).output().unwrap()).ending(0);
+            let run = folder.path().join("runs").join(name);
+            let written = hashes(&run);
+            std::fs::remove_dir_all(run).unwrap();
+            written
+        });
+        assert!(!tested.is_empty(), "{scenario}");
+        assert_eq!(tested, release, "{scenario}");
+    }
+}
+
+#[test]
+fn a_bush_has_the_bytes_that_are_known() {
     writes_the_known_bytes("small");
 }
 
 #[test]
-fn debug_and_release_bend_alike() {
+fn trees_that_bend_have_the_bytes_that_are_known() {
     writes_the_known_bytes("bending");
 }
 

@@ -11,9 +11,17 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use tempfile::{TempDir, tempdir};
 
+/// The program that is tested.
+pub const PROGRAM: &str = env!("CARGO_BIN_EXE_phytomer");
+
 /// The program, in `folder`, with these words.
 pub fn program(folder: &Path, words: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_phytomer"));
+    program_at(Path::new(PROGRAM), folder, words)
+}
+
+/// A program of these sources, perhaps of another profile, in `folder`, with these words.
+pub fn program_at(path: &Path, folder: &Path, words: &[&str]) -> Command {
+    let mut command = Command::new(path);
     command.current_dir(folder).args(words).env("NO_COLOR", "1");
     command
 }
