@@ -4,6 +4,9 @@
 //! The areas are those of one side: of closed forms half the surface. Tables and meshes are read from the files of one
 //! run. Absent: blades and internodes of other forms, which are drawn as sheets without volume.
 
+#[path = "program/side_by_side.rs"]
+mod side_by_side;
+
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Int8Type, Int32Type};
 use arrow_array::{Array, RecordBatch};
@@ -12,6 +15,7 @@ use phytomer_config::scenario::{MeshAges, MeshFile, MeshPlants, Meshes, Record, 
 use phytomer_config::{Kind, Resolved, presets, validate};
 use phytomer_outputs::read::Run;
 use phytomer_sim::{Ending, Plot, Tick, grow};
+use side_by_side::each;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
@@ -118,15 +122,16 @@ fn dot(a: Point, b: Point) -> f64 {
 
 /// Whether triangles meet in pairs of either direction at every edge.
 fn is_closed(triangles: &[[Point; 3]]) -> bool {
-    let mut edges: BTreeMap<[[u64; 3]; 2], i32> = BTreeMap::new();
+    let mut edges = Vec::with_capacity(3 * triangles.len());
     for corners in triangles.iter().map(|triangle| triangle.map(|point| point.map(f64::to_bits))) {
         for k in 0..3 {
             let (from, to) = (corners[k], corners[(k + 1) % 3]);
-            let (edge, direction) = if from < to { ([from, to], 1) } else { ([to, from], -1) };
-            *edges.entry(edge).or_default() += direction;
+            edges.push(if from < to { (from, to, 1) } else { (to, from, -1) });
         }
     }
-    edges.into_values().all(|balance| balance == 0)
+    edges.sort_unstable();
+    let of_an_edge = edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
+    of_an_edge.into_iter().all(|same| same.iter().map(|edge| edge.2).sum::<i32>() == 0)
 }
 
 fn one_side(triangles: &[[Point; 3]]) -> f64 {
@@ -180,15 +185,18 @@ fn sums(folder: &Path) -> Sums {
 #[test]
 fn meshes_of_every_shipped_species_have_the_areas_and_the_volumes_of_the_tables() {
     let home = tempfile::tempdir().expect("a folder");
-    let mut wrong = Vec::new();
-    let mut kinds = BTreeSet::new();
-    for (name, _) in presets(Kind::Species) {
+    let species: Vec<&str> = presets(Kind::Species).iter().map(|(name, _)| *name).collect();
+    let measured = each(species, |name| {
         let folder = home.path().join(name.replace('/', "-"));
         run(&plant_of(name), &Settings::in_folder(&folder), &Progress::default())
             .unwrap_or_else(|error| panic!("{name}: {error:#}"));
-        let Sums { areas, volumes } = sums(&folder);
+        (name, sums(&folder))
+    });
+    let mut wrong = Vec::new();
+    let mut kinds = BTreeSet::new();
+    for (name, Sums { areas, volumes }) in measured {
         // Of the first L-system of Synthetic Topiary nothing is drawn: its modules are buds.
-        assert!(!volumes.is_empty() || *name == "topiary/1", "{name} has no wood");
+        assert!(!volumes.is_empty() || name == "topiary/1", "{name} has no wood");
         for (what, (kind, [drawn, stated])) in
             areas.iter().map(|of| ("area", of)).chain(volumes.iter().map(|of| ("volume", of)))
         {

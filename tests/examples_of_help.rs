@@ -4,8 +4,11 @@
 //! (`command_line`).
 
 mod program;
+#[path = "program/side_by_side.rs"]
+mod side_by_side;
 
 use program::{program as phytomer, run, small_film};
+use side_by_side::each;
 use std::path::Path;
 use tempfile::tempdir;
 
@@ -34,13 +37,15 @@ fn every_example_of_help_runs() {
     }
     let mut helps = vec![top.clone()];
     helps.extend(VERBS.map(|verb| run(folder.path(), &["help", verb]).ending(0).stdout));
-    for (number, help) in helps.iter().enumerate() {
+    let all = helps.iter().enumerate().flat_map(|(number, help)| {
         let examples = examples(help);
         assert!(!examples.is_empty(), "no example in\n{help}");
-        for words in examples {
-            obey_example(folder.path(), number, &words);
-        }
-    }
+        examples.into_iter().map(move |words| (number, words))
+    });
+    // What only draws runs side by side, after all that makes the runs that it draws.
+    let (drawn, run): (Vec<_>, Vec<_>) = all.partition(|(_, words)| ["mesh", "picture", "animate"].contains(&words[0]));
+    run.into_iter().for_each(|(number, words)| obey_example(folder.path(), number, &words));
+    each(drawn, |(number, words)| obey_example(folder.path(), number, &words));
 }
 
 /// So many plants of coffee that there are several parts to be dealt into shards.

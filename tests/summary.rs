@@ -7,14 +7,16 @@
 //! rounding of single precision, in which `records` holds each of them and `summary` does not.
 
 mod read;
+#[path = "program/side_by_side.rs"]
+mod side_by_side;
 
 use phytomer::config::scenario::{Every, Record};
 use phytomer::config::{self, Kind, Resolved, SPECIES_ALONE_UNTIL, presets, validate, validate_species};
 use phytomer::run::{self, Progress, Settings};
 use read::Columns;
+use side_by_side::each;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use std::sync::Mutex;
 
 /// The most components that a plant is expected to have at the last tested age.
 const COMPONENTS: f64 = 1500.0;
@@ -260,23 +262,13 @@ fn compare(resolved: Resolved) -> [u32; 2] {
 
 #[test]
 fn summary_says_what_records_and_components_say() {
-    // Plain threads: a run has threads of its own, and would begin a second comparison within the first while it waits.
-    let (waiting, seen) = (Mutex::new(all()), Mutex::new([0; 2]));
-    let next = || waiting.lock().expect("no thread has failed").pop();
-    let compare_all = || {
-        while let Some(resolved) = next() {
-            let name = resolved.scenario.name.clone();
-            let [rows, budless] = compare(small(resolved));
-            println!("{name}: {rows} rows, {budless} of plants alive without a bud");
-            let mut seen = seen.lock().expect("no thread has failed");
-            *seen = [seen[0] + rows, seen[1] + budless];
-        }
-    };
-    std::thread::scope(|scope| {
-        scope.spawn(compare_all);
-        scope.spawn(compare_all);
+    let compared = each(all(), |resolved| {
+        let name = resolved.scenario.name.clone();
+        let [rows, budless] = compare(small(resolved));
+        println!("{name}: {rows} rows, {budless} of plants alive without a bud");
+        [rows, budless]
     });
-    let seen = seen.into_inner().expect("no thread has failed");
+    let seen = compared.into_iter().fold([0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
     println!("{} plants at ages, {} of them alive without a bud", seen[0], seen[1]);
     assert!(seen[0] > 2000 && seen[1] > 10, "{seen:?}: too little is compared");
 }

@@ -3,6 +3,9 @@
 //!
 //! This clause is part of the contract of growth models. Absent: conditions on a single run.
 
+#[path = "../../tests/program/side_by_side.rs"]
+mod side_by_side;
+
 use std::fs;
 use std::path::Path;
 
@@ -11,6 +14,7 @@ use phytomer_models::contract::{seed_of, sown, the_length_of_the_run_leaves_no_t
 use phytomer_sim::Tick;
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::Seed;
+use side_by_side::each;
 use std::sync::Arc;
 
 /// The last compared age, where plants stay small enough: past the life of most herbs, in ticks.
@@ -54,8 +58,8 @@ fn compiled(name: &str, species: &Model) -> (Tick, Arc<dyn GrowthModel>) {
 fn every_species_grows_alike_in_runs_of_any_length() {
     let all = species();
     assert!(all.len() > 70, "{} species", all.len());
-    for (name, species) in &all {
-        let (age, short) = compiled(name, species);
+    each(all, |(name, species)| {
+        let (age, short) = compiled(&name, &species);
         // A law may be refused for a longer run, as a table that ends is.
         let longer = [age + 1, age + 11, 3 * age + 5].into_iter().filter_map(|until| species.compile(until).ok());
         for long in longer {
@@ -70,5 +74,5 @@ fn every_species_grows_alike_in_runs_of_any_length() {
             let long = species.compile(age).expect("it compiles for its age");
             the_length_of_the_run_leaves_no_trace(short.as_ref(), long.as_ref(), young, &seed_of(5, 2));
         }
-    }
+    });
 }
