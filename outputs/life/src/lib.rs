@@ -5,7 +5,8 @@
 //! linear interpolation passes within it. [`Maker`] is shown a plant age by age, and remembers of each point and organ
 //! that stands its last key and its last state: memory does not grow with the number of ages, but with what is kept.
 //! Any growth model will do: components are known again by their numbers. [`Lives`] records a whole plot. Absent:
-//! triangles and files, which are made from a life by its writers, and poses between ticks.
+//! triangles and files, which are made from a life by its writers, and poses between ticks, which are
+//! [`phytomer_sim::between`]'s.
 //!
 //! **To draw a life** at an age, whole or not: for each [`Line`] a tube through the points of [`Life::line_at`], and for
 //! each [`Part`] that [`Part::stands`] its form at [`Life::pose_at`], as [`What`] says. Values between two keys are
@@ -13,7 +14,8 @@
 //! ages that it states, so the topology is constant between two neighbours of those ages.
 //!
 //! Ages are ticks in single precision, exact up to 2²⁴, and may have a fraction: a writer should not take them for whole
-//! numbers.
+//! numbers. A plant that is shown between ticks ([`Lives::between`]) has what appears at a tick from just after the tick
+//! before on (`from`), with next to no size at first; `birth` is the tick by which it has appeared, as in the tables.
 
 mod kept;
 mod lines;
@@ -98,7 +100,8 @@ pub struct Point {
     pub tip: bool,
     /// The age at the birth of the internode; of a tip, of the first internode of the line.
     pub birth: f32,
-    /// The first age at which the line has the point; before, it lies on the line of the other points.
+    /// The first age at which the line has the point; before, it lies on the line of the other points. It may be up to a
+    /// tick before the birth, where the plant is shown between ticks.
     pub from: f32,
     /// The age from which the line does not have it any more: its internode has fallen, was cut off or rewritten. +∞
     /// where it stands at the last age.

@@ -78,8 +78,9 @@ impl Found for Showing<'_, '_> {
         let plant = self.stems.plant();
         let axis = plant.nodes.axis[first.node.index()];
         let bud = plant.axes.component[axis.index()];
-        self.last = (bud, if self.last.0 == bud { self.last.1 + 1 } else { 0 });
-        let line = self.lines.line(self.last, plant.axes.order[axis.index()]);
+        let next = (bud, if self.last.0 == bud { self.last.1 + 1 } else { 0 });
+        let line;
+        (line, self.last) = self.lines.line(next, plant.axes.order[axis.index()], self.age);
         self.choose(line, samples);
         self.begin_points(line, samples);
         self.put_in_order(line);
@@ -222,16 +223,23 @@ impl Showing<'_, '_> {
 }
 
 impl Lines {
-    /// The line of an axis, which is begun where it does not stand.
-    fn line(&mut self, key: (u32, u32), order: u8) -> u32 {
-        let known = self.known.get(&key).copied();
-        if let Some(line) = known.filter(|line| self.lines[*line as usize].stands) {
-            return line;
+    /// The line of an axis, which is begun where it does not stand: that of the key, or the next one that was not seen at
+    /// this age, since what has gone from an axis may be shown beside what takes its place.
+    fn line(&mut self, mut key: (u32, u32), order: u8, age: f32) -> (u32, (u32, u32)) {
+        let known = loop {
+            let known = self.known.get(&key).copied().filter(|line| self.lines[*line as usize].stands);
+            if known.is_none_or(|line| self.lines[line as usize].seen != age) {
+                break known;
+            }
+            key.1 += 1;
+        };
+        if let Some(line) = known {
+            return (line, key);
         }
         let line = self.lines.len() as u32;
         self.known.insert(key, line);
-        self.lines.push(Growing { axis: key.0, order, points: Vec::new(), end: NONE, seen: 0.0, stands: true });
-        line
+        self.lines.push(Growing { axis: key.0, order, points: Vec::new(), end: NONE, seen: f32::NAN, stands: true });
+        (line, key)
     }
 
     /// Ends the points that were not seen at an age.

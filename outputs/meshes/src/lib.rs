@@ -122,8 +122,8 @@ impl Default for MeshOptions {
 pub struct About {
     /// The plant's number in the run.
     pub plant: u32,
-    /// Its age, in ticks since the seed.
-    pub age: Tick,
+    /// The age that it shows, in ticks since the seed; between two ticks it has a fraction.
+    pub age: f64,
     /// The seed of the run's random draws.
     pub run_seed: u64,
     /// The place of the plant's seed in the plot, metres. Added to the vertices, it gives their places in the plot.

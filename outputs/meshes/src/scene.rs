@@ -2,8 +2,9 @@
 //!
 //! An internode stands from its birth until its branch falls, an organ from its birth until its death. A living
 //! component has the death age +∞, so that `birth_age <= a and a < death_age` holds without a special case and no later
-//! fate is shown; an internode that stands dead has the age of its death. The base of an organ is moved from the axis
-//! line to the surface of the stem, by half the tip's diameter towards the organ.
+//! fate is shown; an internode that stands dead has the age of its death. Between two ticks all that stands at either is
+//! there, and what is yet to appear by the later one has the birth age of that. The base of an organ is moved from the
+//! axis line to the surface of the stem, by half the tip's diameter towards the organ.
 
 use super::chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 use super::forms::{FormMesh, Placement};
@@ -73,7 +74,8 @@ pub enum OwnForm {
 }
 
 impl<'a> Scene<'a> {
-    /// The scene of `plant` at `age`; its frames and diameters must be those of that age.
+    /// The scene of `plant` at `age`; its frames and diameters must be those of that age. Of a plant that is shown between
+    /// two ticks `age` is the later one.
     pub fn new(plant: &'a Plant, age: Tick, options: &MeshOptions) -> Self {
         let stems = Stems::of(plant, age, options);
         let reduced = options.tolerance.as_ref().map(|tolerance| Reduced::of(&stems, tolerance));
@@ -86,9 +88,9 @@ impl<'a> Scene<'a> {
         Self::new(self.plant, self.age, &MeshOptions { tolerance: Some(tolerance), ..self.options.clone() })
     }
 
-    /// The age of the plant.
-    pub fn age(&self) -> Tick {
-        self.age
+    /// The age that the plant shows, ticks.
+    pub fn age(&self) -> f64 {
+        self.plant.shown_age(self.age)
     }
 
     /// How near the wood is drawn; `None`: each internode by itself.
@@ -98,7 +100,7 @@ impl<'a> Scene<'a> {
 
     /// The identity of the mesh, for its file.
     pub fn about(&self, run_seed: u64) -> About {
-        About { plant: self.plant.id, age: self.age, run_seed, place: self.plant.place }
+        About { plant: self.plant.id, age: self.age(), run_seed, place: self.plant.place }
     }
 
     /// The size of the mesh, by one scan of births and deaths.

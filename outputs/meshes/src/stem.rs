@@ -165,8 +165,8 @@ impl<'a> Stems<'a> {
     pub fn tag(&self, node: NodeId) -> Tag {
         let (look, nodes) = (self.plant.look_of_node(node), &self.plant.nodes);
         let death = self.plant.death_of(node);
-        let dead = death <= self.age;
-        let colour = self.bark(look, node, dead);
+        let dead = death <= self.plant.fallen_by(self.age);
+        let colour = self.bark(look, node, death);
         let node = node.index();
         Tag {
             colour,
@@ -179,14 +179,19 @@ impl<'a> Stems<'a> {
 
     /// The colour of an internode.
     pub fn colour(&self, node: NodeId) -> [u8; 3] {
-        let dead = self.plant.death_of(node) <= self.age;
-        let [red, green, blue, _] = self.bark(self.plant.look_of_node(node), node, dead);
+        let [red, green, blue, _] = self.bark(self.plant.look_of_node(node), node, self.plant.death_of(node));
         [red, green, blue]
     }
 
+    /// The bark of an internode; between two ticks it goes from the colour at the one to that at the other.
     #[inline]
-    fn bark(&self, look: &InternodeLook, node: NodeId, dead: bool) -> [u8; 4] {
-        let old = self.age - self.plant.nodes.birth[node.index()];
-        colour::wood(look.kind, &self.paints.internode(look.paint).bark, old, dead)
+    fn bark(&self, look: &InternodeLook, node: NodeId, death: Tick) -> [u8; 4] {
+        let bark = &self.paints.internode(look.paint).bark;
+        let birth = self.plant.nodes.birth[node.index()];
+        let at = |age: Tick| colour::wood(look.kind, bark, age - birth, death <= age);
+        match self.plant.partway() {
+            Some(share) if birth < self.age => colour::between(at(self.age - 1), at(self.age), share),
+            _ => at(self.age),
+        }
     }
 }
