@@ -7,8 +7,13 @@
 //! Any growth model will do: components are known again by their numbers. [`Lives`] records a whole plot. Absent:
 //! triangles and files, which are made from a life by its writers, and poses between ticks.
 //!
-//! Ages are ticks in single precision, exact up to 2²⁴. Only whole ticks are shown today; a pose at an age between two
-//! ticks would be shown by [`Maker::show`] with that age, and no keyframe need know of it.
+//! **To draw a life** at an age, whole or not: for each [`Line`] a tube through the points of [`Life::line_at`], and for
+//! each [`Part`] that [`Part::stands`] its form at [`Life::pose_at`], as [`What`] says. Values between two keys are
+//! linear ([`between`]); directions are made unit vectors again. What is born, falls or becomes a point does so at the
+//! ages that it states, so the topology is constant between two neighbours of those ages.
+//!
+//! Ages are ticks in single precision, exact up to 2²⁴, and may have a fraction: a writer should not take them for whole
+//! numbers.
 
 mod kept;
 mod lines;
@@ -21,6 +26,7 @@ mod track;
 
 pub use lives::Lives;
 pub use maker::Maker;
+pub use phytomer_looks::{Surface, SurfacePoint};
 pub use track::{Key, between};
 
 use phytomer_sim::plant::{Form, Kind};
@@ -58,8 +64,11 @@ pub struct Life {
     pub points: Vec<Point>,
     /// Its organs, and internodes that are no tubes.
     pub parts: Vec<Part>,
-    /// The outlines that organs state, corner by corner in their own plane.
+    /// The outlines that organs state, corner by corner: x along the organ, y to its left, z to its upper side, metres.
+    /// They are drawn as the polygon that they are; they may be concave.
     pub outlines: Vec<Vec<[f32; 3]>>,
+    /// The curved surfaces that organs are: points, normals and triangles, in the same coordinates.
+    pub surfaces: Vec<Surface>,
     places: Vec<Key<4>>,
     poses: Vec<Key<12>>,
     tints: Vec<Key<3>>,
@@ -107,6 +116,10 @@ pub enum What {
     Organ(Form),
     /// An organ with an outline of its own, by its place among those of the life; its sizes are shares of the outline.
     Outlined(u32),
+    /// An organ that is a curved surface, by its place among those of the life. A point (x, y, z) of the surface is at
+    /// base + x · s₀ · heading + y · s₁ · (up × heading) + z · s₂ · up with the sizes s of the pose, and its normal is
+    /// [`Surface::normal_scaled`] of them, turned alike.
+    Surface(u32),
     /// An internode that is no tube or has sides of its own: drawn as its species states, by itself.
     Internode,
 }
@@ -147,8 +160,8 @@ pub struct Pose {
     pub heading: [f32; 3],
     /// The unit vector of its upper side.
     pub up: [f32; 3],
-    /// Its length; its width, or of an internode its diameter at the base; and that at its tip. Metres, or shares of an
-    /// outline.
+    /// Its length; its width, or of an internode its diameter at the base; and that at its tip, metres. Of an outline its
+    /// share, twice; of a surface its factors along the organ, to its left and to its upper side.
     pub size: [f32; 3],
 }
 

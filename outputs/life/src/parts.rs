@@ -7,7 +7,8 @@
 use super::kept::Kept;
 use super::track::Track;
 use super::{Life, Nearness, Part, What};
-use phytomer_meshes::{Scene, Stems};
+use phytomer_looks::{Paints, Surface};
+use phytomer_meshes::{OwnForm, Scene, Stems};
 use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
 
 const NONE: u32 = u32::MAX;
@@ -21,6 +22,8 @@ pub struct Parts {
     /// The parts that stand.
     standing: Vec<u32>,
     outlines: Vec<Vec<[f32; 3]>>,
+    /// The curved surfaces that were met, with their places in the habit.
+    surfaces: Vec<(usize, Surface)>,
     poses: Kept<12>,
     tints: Kept<3>,
 }
@@ -29,7 +32,7 @@ pub struct Parts {
 struct State {
     part: Part,
     seen: f32,
-    /// The extent of its outline, metres; 1 for other parts, whose sizes are metres.
+    /// The extent of its outline or surface; 1 for other parts, whose sizes are metres.
     extent: f32,
     pose: Track<12>,
     tint: Track<3>,
@@ -47,9 +50,8 @@ impl Parts {
         let organs = &scene.plant().organs;
         for organ in scene.organs() {
             let drawn = scene.organ(organ);
-            let ([length, width], [blade, stalk]) = (drawn.size, drawn.colours);
-            let shown =
-                Shown { pose: pose(drawn.base, drawn.heading, drawn.up, [length, width, 0.0]), tint: rgb(blade) };
+            let [blade, stalk] = drawn.colours;
+            let shown = Shown { pose: pose(drawn.base, drawn.heading, drawn.up, drawn.size), tint: rgb(blade) };
             let component = organs.component[organ.index()];
             let known = self.known(component);
             if known == NONE {
@@ -58,7 +60,7 @@ impl Parts {
                     axis: axis_of(scene.plant(), organs.node[organ.index()]),
                     fullness: drawn.fullness,
                     stalk: [stalk[0], stalk[1], stalk[2]],
-                    what: self.what(scene, organ, drawn.outlined),
+                    what: self.what(scene, organ, drawn.own),
                     ..begun(component, organs.kind[organ.index()], organs.birth[organ.index()] as f32, age)
                 };
                 self.begin(part, &shown);
@@ -94,16 +96,28 @@ impl Parts {
         if stands { known } else { NONE }
     }
 
-    fn what(&mut self, scene: &Scene, organ: OrganId, outlined: bool) -> What {
-        if !outlined {
-            return What::Organ(scene.plant().organs.form[organ.index()]);
+    fn what(&mut self, scene: &Scene, organ: OrganId, own: OwnForm) -> What {
+        let plant = scene.plant();
+        match own {
+            OwnForm::None => What::Organ(plant.organs.form[organ.index()]),
+            OwnForm::Outline => {
+                let corners = plant.outline_of(organ);
+                // Neighbouring organs of one kind mostly have one outline.
+                if self.outlines.last().is_none_or(|last| last != corners) {
+                    self.outlines.push(corners.to_vec());
+                }
+                What::Outlined(self.outlines.len() as u32 - 1)
+            }
+            OwnForm::Surface(place) => {
+                let known = self.surfaces.iter().position(|(known, _)| *known == place);
+                let number = known.unwrap_or_else(|| {
+                    let surface = Paints::of(&plant.habit).surface(place).cloned().unwrap_or_default();
+                    self.surfaces.push((place, surface));
+                    self.surfaces.len() - 1
+                });
+                What::Surface(number as u32)
+            }
         }
-        let corners = scene.plant().outline_of(organ);
-        // Neighbouring organs of one kind mostly have one outline.
-        if self.outlines.last().is_none_or(|last| last != corners) {
-            self.outlines.push(corners.to_vec());
-        }
-        What::Outlined(self.outlines.len() as u32 - 1)
     }
 
     fn begin(&mut self, part: Part, shown: &Shown) {
@@ -116,7 +130,10 @@ impl Parts {
         self.of_component[component] = number;
         self.standing.push(number);
         let extent = match part.what {
-            What::Outlined(outline) => extent_of(&self.outlines[outline as usize]),
+            What::Outlined(outline) => extent_of(self.outlines[outline as usize].iter().copied()),
+            What::Surface(surface) => {
+                extent_of(self.surfaces[surface as usize].1.points().iter().map(|point| point.at))
+            }
             What::Organ(_) | What::Internode => 1.0,
         };
         let (pose, tint) = (Track::begin(pose), Track::begin(tint));
@@ -169,6 +186,7 @@ impl Parts {
         life.poses = poses;
         life.tints.extend(tints);
         life.outlines = self.outlines;
+        life.surfaces = self.surfaces.into_iter().map(|(_, surface)| surface).collect();
     }
 }
 
@@ -203,7 +221,7 @@ fn rgb([red, green, blue, _]: [u8; 4]) -> [f32; 3] {
     [red, green, blue].map(f32::from)
 }
 
-/// The farthest distance of a corner of an outline from its base along an axis.
-fn extent_of(outline: &[[f32; 3]]) -> f32 {
-    outline.iter().flatten().map(|x| x.abs()).fold(f32::MIN_POSITIVE, f32::max)
+/// The farthest distance of a corner of an outline, or of a point of a surface, from its base along an axis.
+fn extent_of(points: impl Iterator<Item = [f32; 3]>) -> f32 {
+    points.flatten().map(f32::abs).fold(f32::MIN_POSITIVE, f32::max)
 }

@@ -39,7 +39,7 @@ pub use plot::{PlotBody, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use reduced::chain::{Found, Sample, chains};
 pub use reduced::simplify::{fits, simplify};
-pub use scene::{DrawnOrgan, Scene};
+pub use scene::{DrawnOrgan, OwnForm, Scene};
 pub use solid::{Solid, Undrawn};
 pub use stem::Stems;
 pub use tube::Frustum;
