@@ -29,6 +29,7 @@ mod track;
 pub use lives::Lives;
 pub use maker::Maker;
 pub use phytomer_looks::{Surface, SurfacePoint};
+pub use phytomer_meshes::Model;
 pub use track::{Key, between};
 
 use phytomer_sim::plant::{Form, Kind};
@@ -71,6 +72,8 @@ pub struct Life {
     pub outlines: Vec<Vec<[f32; 3]>>,
     /// The curved surfaces that organs are: points, normals and triangles, in the same coordinates.
     pub surfaces: Vec<Surface>,
+    /// The forms of internodes that are drawn by themselves.
+    pub stems: Vec<Model>,
     places: Vec<Key<4>>,
     poses: Vec<Key<12>>,
     tints: Vec<Key<3>>,
@@ -81,6 +84,8 @@ pub struct Life {
 pub struct Line {
     /// The component number of the apical bud of the axis.
     pub axis: u32,
+    /// The component number of the apical bud of the axis that bears it, when it was first seen; `None` for a trunk.
+    pub bearer: Option<u32>,
     /// Its order, from 1.
     pub order: u8,
     /// Its points, as places among those of the life.
@@ -132,10 +137,14 @@ pub struct Part {
     pub component: u32,
     /// The component number of the internode at whose tip it stands; its own, of an internode.
     pub bearer: u32,
+    /// The component number of the apical bud of that internode's axis.
+    pub axis: u32,
     /// Its kind.
     pub kind: Kind,
     /// What it is.
     pub what: What,
+    /// Of an internode its form, by its place among those of the life.
+    pub stem: u32,
     /// How much fuller it is than its form, so that it has its area.
     pub fullness: f32,
     /// The colour of its stalk.

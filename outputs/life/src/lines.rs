@@ -33,6 +33,7 @@ pub struct Lines {
 #[derive(Debug, Clone)]
 struct Growing {
     axis: u32,
+    bearer: Option<u32>,
     order: u8,
     points: Vec<u32>,
     end: u32,
@@ -79,8 +80,10 @@ impl Found for Showing<'_, '_> {
         let axis = plant.nodes.axis[first.node.index()];
         let bud = plant.axes.component[axis.index()];
         let next = (bud, if self.last.0 == bud { self.last.1 + 1 } else { 0 });
+        let bearer = plant.nodes.parent[first.node.index()].some().map(|node| plant.nodes.axis[node.index()]);
+        let bearer = bearer.map(|bearer| plant.axes.component[bearer.index()]).filter(|bearer| *bearer != bud);
         let line;
-        (line, self.last) = self.lines.line(next, plant.axes.order[axis.index()], self.age);
+        (line, self.last) = self.lines.line(next, bearer, plant.axes.order[axis.index()], self.age);
         self.choose(line, samples);
         self.begin_points(line, samples);
         self.put_in_order(line);
@@ -225,7 +228,7 @@ impl Showing<'_, '_> {
 impl Lines {
     /// The line of an axis, which is begun where it does not stand: that of the key, or the next one that was not seen at
     /// this age, since what has gone from an axis may be shown beside what takes its place.
-    fn line(&mut self, mut key: (u32, u32), order: u8, age: f32) -> (u32, (u32, u32)) {
+    fn line(&mut self, mut key: (u32, u32), bearer: Option<u32>, order: u8, age: f32) -> (u32, (u32, u32)) {
         let known = loop {
             let known = self.known.get(&key).copied().filter(|line| self.lines[*line as usize].stands);
             if known.is_none_or(|line| self.lines[line as usize].seen != age) {
@@ -238,7 +241,7 @@ impl Lines {
         }
         let line = self.lines.len() as u32;
         self.known.insert(key, line);
-        self.lines.push(Growing { axis: key.0, order, points: Vec::new(), end: NONE, seen: f32::NAN, stands: true });
+        self.lines.push(Growing { axis: key.0, bearer, order, points: Vec::new(), end: NONE, seen: f32::NAN, stands: true });
         (line, key)
     }
 
@@ -265,10 +268,10 @@ impl Lines {
             self.tints.keep(number as u32, state.tint.end());
         }
         let mut tracks = Vec::with_capacity(self.points.len());
-        for Growing { axis, order, points, end, .. } in &self.lines {
+        for Growing { axis, bearer, order, points, end, .. } in &self.lines {
             let start = tracks.len();
             tracks.extend(points.iter().chain([end]).copied());
-            life.lines.push(Line { axis: *axis, order: *order, points: start..tracks.len() });
+            life.lines.push(Line { axis: *axis, bearer: *bearer, order: *order, points: start..tracks.len() });
         }
         let (places, of_places) = self.places.sorted(&tracks);
         let (tints, of_tints) = self.tints.sorted(&tracks);

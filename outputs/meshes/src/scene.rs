@@ -88,8 +88,13 @@ impl<'a> Scene<'a> {
         Self::new(self.plant, self.age, &MeshOptions { tolerance: Some(tolerance), ..self.options.clone() })
     }
 
+    /// The age of the plant; between two ticks that at the later one.
+    pub fn age(&self) -> Tick {
+        self.age
+    }
+
     /// The age that the plant shows, ticks.
-    pub fn age(&self) -> f64 {
+    pub fn shown_age(&self) -> f64 {
         self.plant.shown_age(self.age)
     }
 
@@ -100,7 +105,7 @@ impl<'a> Scene<'a> {
 
     /// The identity of the mesh, for its file.
     pub fn about(&self, run_seed: u64) -> About {
-        About { plant: self.plant.id, age: self.age(), run_seed, place: self.plant.place }
+        About { plant: self.plant.id, age: self.shown_age(), run_seed, place: self.plant.place }
     }
 
     /// The size of the mesh, by one scan of births and deaths.
