@@ -151,6 +151,7 @@ impl Animate {
             whose,
             style: self.style(),
             time: ages.timeline(frames),
+            stepped: ages.step.is_some(),
             fps: self.fps,
             orbit: self.orbit.to_radians() as f32,
             follow: self.follow,

@@ -22,6 +22,7 @@ mod lines;
 mod lives;
 mod maker;
 mod parts;
+mod still;
 #[cfg(test)]
 mod tests;
 mod track;

@@ -258,7 +258,7 @@ impl<'a> Scene<'a> {
 
     /// An organ as it is drawn.
     pub fn organ(&self, organ: OrganId) -> DrawnOrgan {
-        let colours = colour::organ(self.plant, self.paints, organ, self.age);
+        let colours = self.organ_colours(organ);
         match self.form(organ) {
             OrganForm::Shape(shape) => {
                 let Placement { base, heading, up, size, fullness } = self.placement(organ, shape);
@@ -278,6 +278,11 @@ impl<'a> Scene<'a> {
                 DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, own: OwnForm::Surface(place) }
             }
         }
+    }
+
+    /// The colours of an organ and of its stalk.
+    pub fn organ_colours(&self, organ: OrganId) -> [[u8; 4]; 2] {
+        colour::organ(self.plant, self.paints, organ, self.age)
     }
 
     /// The organs that are drawn.

@@ -30,6 +30,35 @@ pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
     if plant.habit.organ_trends.is_empty() { inserted } else { turned(plant, organ, inserted, age) }
 }
 
+/// All that the pose of an organ and its size follow from, to be compared with that of another age.
+pub type OrganInputs = [f32; 17];
+
+/// What the pose of an organ and its size follow from at an age; `None` where organs state frames or forms, and between two
+/// ticks, where more decides.
+#[inline]
+pub fn organ_follows_from(plant: &Plant, organ: OrganId, age: Tick) -> Option<OrganInputs> {
+    let stated = !plant.stated_organs.keep_insertion() || !plant.stated_organs.have_forms();
+    if stated || plant.partway().is_some() {
+        return None;
+    }
+    let Plant { organs, nodes, axes, habit, frames, .. } = plant;
+    let (share, organ) = (plant.expanded(organ, age), organ.index());
+    let node = organs.node[organ];
+    let turned = if habit.organ_trends.is_empty() {
+        0.0
+    } else {
+        let order = axes.order[nodes.axis[node.index()].index()];
+        let trend = habit.organ_trend(order, organs.kind[organ]);
+        trend.map_or(0.0, |trend| trend.at(age.saturating_sub(organs.birth[organ])).share as f32)
+    };
+    let ([x, y, z], [u, v, w]) = (frames.base[node.index()], frames.heading[node.index()]);
+    let [a, b, c] = frames.up[node.index()];
+    let (azimuth, insertion) = (organs.azimuth[organ], organs.insertion[organ]);
+    let (length, width) = (organs.length[organ], organs.width[organ]);
+    let tip = nodes.diameter_tip[node.index()];
+    Some([x, y, z, u, v, w, a, b, c, plant.posed_length(node), tip, azimuth, insertion, length, width, share, turned])
+}
+
 /// The frame of an organ by its insertion.
 #[inline]
 fn inserted(plant: &Plant, organ: OrganId) -> Frame {
