@@ -147,7 +147,7 @@ fn obstacles_are_drawn_in_their_plot() {
     let reach = |k: usize| vertices.iter().map(|vertex| vertex.position()[k]).fold(0.0_f32, f32::max);
     assert_eq!([reach(0), reach(1), reach(2)], [4.0, 0.5, 4.0]);
     let mut bytes = Vec::new();
-    let mesh = plot_mesh(&shown.stands[0], &Regrowth::of(&resolved), (0, 2), (&resolved.all_species(), &[]), 8);
+    let mesh = plot_mesh(&shown.stands[0], &Regrowth::of(&resolved), (0, 2.0), (&resolved.all_species(), &[]), 8);
     mesh.write(&mut bytes).expect("written");
     let header = String::from_utf8_lossy(&bytes[..1000]).into_owned();
     assert!(header.contains("comment obstacle 0 vertices 24\n"), "{header}");

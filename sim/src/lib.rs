@@ -2,6 +2,7 @@
 //!
 //! Absent on purpose: files, TOML, Arrow, triangles and species.
 
+pub mod between;
 pub mod cells;
 pub mod clock;
 pub mod expectation;

@@ -3,7 +3,7 @@
 //! The coordinates of a frame are x along its heading, y to its left (up × heading) and z along its upper side. A
 //! rotation turns within those: `a.then(b)` is a, and then b in the frame that a has made, as a turtle turns.
 
-use crate::math::sincos;
+use crate::math::{atan2, sincos};
 use crate::vector::Vector;
 
 /// The square of the turn from which on it is no longer small, rad².
@@ -84,6 +84,17 @@ impl Rotation {
             scalar * scalar + vector.dot(vector)
         };
         apart(if cosine < 0.0 { -1.0 } else { 1.0 }) < 2.5e-13
+    }
+
+    /// The rotation a share of the way from this one to another, by the shorter of the two ways and at an even speed
+    /// (Shoemake 1985, *Animating rotation with quaternion curves*, §3.3).
+    pub(crate) fn toward(self, other: Self, share: f64) -> Self {
+        let step = self.inverse().then(other).normalized();
+        let sign = if step.scalar < 0.0 { -1.0 } else { 1.0 };
+        let sine = step.vector.dot(step.vector).sqrt();
+        let angle = 2.0 * atan2(sine, sign * step.scalar);
+        let axis = step.vector * sign;
+        self.then(Self::about([axis.x, axis.y, axis.z], share * angle)).normalized()
     }
 
     /// The rotation that takes this one back.
@@ -227,6 +238,25 @@ mod tests {
             }
         }
         assert_eq!(Rotation::between(Vector::default(), x), Rotation::NONE);
+    }
+
+    /// Half of the way twice is the whole way, and of two ways around the shorter one is taken.
+    #[test]
+    fn the_way_to_another_rotation_is_even_and_the_shorter_one() {
+        let rotations =
+            [([1.0, 2.0, -0.5], 0.4), ([0.0, 0.0, 1.0], 3.0), ([0.3, 0.0, 1.0], -2.9), ([1.0, 0.0, 0.0], 1e-7)];
+        for (axis, angle) in rotations {
+            for (other, turn) in rotations {
+                let [from, to] = [Rotation::about(axis, angle), Rotation::about(other, turn)];
+                let half = from.toward(to, 0.5);
+                let seen = [0.2, -0.7, 1.1];
+                near(half.toward(to, 1.0).turned(seen), to.turned(seen));
+                near(from.toward(to, 0.0).turned(seen), from.turned(seen));
+                let (one, two) = (from.inverse().then(half), half.inverse().then(to));
+                near(one.turned(seen), two.turned(seen));
+                assert!(one.scalar >= (0.25 * PI).cos() - 1e-9, "more than half of half a turn: {one:?}");
+            }
+        }
     }
 
     #[test]

@@ -5,7 +5,7 @@
 
 mod formats;
 
-use super::regrown::{Breeze, Regrown, finite};
+use super::regrown::{Breeze, Fall, Regrown, finite};
 use super::span::{Span, shown, span};
 use super::{Verdict, amounts, bar, out, picture, terminal};
 use anyhow::{Context, Result};
@@ -32,6 +32,7 @@ const LONGEST: f64 = 600.0;
 Examples:
   phytomer animate coffee --out life.webp
   phytomer animate coffee --ages 1..48 --seconds 8 --size 640x480 --out coffee.gif
+  phytomer animate fir --ages 1..20 --fall --out years.webp
   phytomer animate coffee --ages 4..48/4 --orbit 90 --follow --out around.apng
   phytomer animate under_a_roof --plot --out plot.mp4
   phytomer animate willow --ages 60 --wind 8 --fps 12 --out wind.webp
@@ -52,12 +53,12 @@ pub struct Animate {
     /// All plants of a plot in their places; the plot's number, from 0.
     #[arg(long, value_name = "PLOT", num_args = 0..=1, default_missing_value = "0", conflicts_with = "plant")]
     plot: Option<u32>,
-    /// The ages, of a plot the ticks: from the first to the last, after a slash the step between them; from 1 to the
-    /// last of the run if not given. One age by itself is for films of wind and of a walk around the plant.
+    /// The ages, of a plot the ticks, from the first to the last; from 1 to the last of the run if not given. Where there
+    /// are more frames than ticks the plants grow on between ticks; with a step after a slash the ages are a step apart
+    /// and held. One age by itself is for films of wind and of a walk around the plant.
     #[arg(long, value_name = "FIRST..LAST[/STEP]", value_parser = span)]
     ages: Option<Span>,
-    /// The length of the film; 12 if not given, of one age in the wind that of a gust, 8. Ages are held where there are
-    /// more frames than ages.
+    /// The length of the film; 12 if not given, of one age in the wind that of a gust, 8.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = seconds)]
     seconds: Option<f64>,
     /// Frames a second.
@@ -105,6 +106,8 @@ pub struct Animate {
     #[arg(long, short)]
     quiet: bool,
     #[command(flatten)]
+    fall: Fall,
+    #[command(flatten)]
     breeze: Breeze,
 }
 
@@ -127,7 +130,7 @@ impl Animate {
     pub fn obey(self) -> Result<Verdict> {
         let format = Format::of(&self.out)?;
         format.check(self.size, self.fps)?;
-        let asked: Vec<Tick> = self.ages.iter().map(|ages| ages.last).collect();
+        let asked: Vec<Tick> = self.ages.iter().map(Span::until).collect();
         match Regrown::find(&self.name, &asked)? {
             Ok(regrown) => self.film(&regrown, format),
             Err(verdict) => Ok(verdict),
@@ -136,7 +139,7 @@ impl Animate {
 
     fn film(&self, regrown: &Regrown, format: Format) -> Result<Verdict> {
         let (whose, ages) = shown(regrown, (self.plant, self.plot), self.ages, "--ages")?;
-        let regrowth = regrown.regrowth(&self.breeze)?;
+        let regrowth = regrown.regrowth(&self.breeze)?.falling(self.fall.fall);
         let air_from = self.breeze.air().map(|air| air.time);
         let usual = if air_from.is_some() && ages.first == ages.last { GUSTS_S } else { SECONDS };
         let frames = (self.seconds.unwrap_or(usual) * f64::from(self.fps)).round().max(1.0) as u32;
@@ -148,6 +151,7 @@ impl Animate {
             whose,
             style: self.style(),
             time: ages.timeline(frames),
+            stepped: ages.step.is_some(),
             fps: self.fps,
             orbit: self.orbit.to_radians() as f32,
             follow: self.follow,

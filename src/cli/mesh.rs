@@ -5,15 +5,17 @@
 
 use super::budget::{Asked, Budget, in_words, too_few};
 use super::out::{self, Format};
-use super::regrown::{Breeze, Regrown};
+use super::regrown::{Breeze, Fall, Regrown};
+use super::span::age;
 use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::Args;
 use phytomer::run::drawing::{options_of, write_mesh};
-use phytomer::run::picturing::{pictured_plot, plot_mesh};
+use phytomer::run::picturing::{pictured_plot_at, plot_mesh};
 use phytomer_outputs::Destination;
 use phytomer_outputs::meshes::{MeshOptions, Scene, Tolerance, fitting};
 use phytomer_sim::Tick;
+use phytomer_sim::between::Moment;
 use std::path::PathBuf;
 
 /// The formats of meshes.
@@ -42,9 +44,9 @@ pub struct Mesh {
     /// plot's number, from 0.
     #[arg(long, value_name = "PLOT", num_args = 0..=1, default_missing_value = "0", conflicts_with = "plant")]
     plot: Option<u32>,
-    /// Its age in ticks, of a plot its tick; the last of the run if not given.
-    #[arg(long)]
-    age: Option<Tick>,
+    /// Its age in ticks, of a plot its tick; the last of the run if not given. 3.5 is halfway from tick 3 to tick 4.
+    #[arg(long, value_parser = age)]
+    age: Option<Moment>,
     /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written
     /// through.
     #[arg(long, value_name = "FILE.ply")]
@@ -55,13 +57,16 @@ pub struct Mesh {
     #[command(flatten)]
     budget: Budget,
     #[command(flatten)]
+    fall: Fall,
+    #[command(flatten)]
     breeze: Breeze,
 }
 
 impl Mesh {
     pub fn obey(self) -> Result<Verdict> {
         out::check(&self.out, "mesh", &FORMATS)?;
-        match Regrown::find(&self.name, self.age.as_slice())? {
+        let needed: Vec<Tick> = self.age.iter().map(|age| age.tick()).collect();
+        match Regrown::find(&self.name, &needed)? {
             Ok(regrown) => self.write(&regrown),
             Err(verdict) => Ok(verdict),
         }
@@ -75,15 +80,16 @@ impl Mesh {
     }
 
     fn write_plant(&self, regrown: &Regrown) -> Result<Verdict> {
-        let age = self.age.unwrap_or_else(|| regrown.trial.last_age_of(self.plant));
-        regrown.check(("--age", &[age]), ("--plant", &[self.plant]))?;
-        let regrowth = regrown.regrowth(&self.breeze)?;
+        let age = self.age.unwrap_or_else(|| regrown.trial.last_age_of(self.plant).into());
+        regrown.check(("--age", &[age.age()]), ("--plant", &[self.plant]))?;
+        let regrowth = regrown.regrowth(&self.breeze)?.falling(self.fall.fall);
         let mut file = Destination::create(&self.out)?;
         let own = regrown.forms.get(regrown.trial.species_of_plant(self.plant)).cloned().unwrap_or_default();
         let mut options = options_of(self.sides, &own);
-        let (seed, what) = (regrown.scenario.seed, format!("plant {} at age {age}", self.plant));
+        let (seed, what) = (regrown.scenario.seed, format!("plant {} at age {}", self.plant, age.age()));
         let mut refused = None;
-        regrowth.show(self.plant, &[age], &mut |age, plant| {
+        regrowth.show_at(self.plant, &[age], &mut |age, plant| {
+            let age = age.tick();
             let faces = |tolerance: &Tolerance| {
                 let options = MeshOptions { tolerance: Some(*tolerance), ..options.clone() };
                 Scene::new(plant, age, &options).counts().faces
@@ -105,12 +111,13 @@ impl Mesh {
     }
 
     fn write_plot(&self, regrown: &Regrown, plot: u32) -> Result<Verdict> {
-        let tick = self.age.unwrap_or(regrown.scenario.ages.until);
+        let at = self.age.unwrap_or(regrown.scenario.ages.until.into());
+        let tick = at.age();
         regrown.check_plot(("--age", &[tick]), plot)?;
-        let (regrowth, species) = (regrown.regrowth(&self.breeze)?, regrown.species());
+        let (regrowth, species) = (regrown.regrowth(&self.breeze)?.falling(self.fall.fall), regrown.species());
         let mut file = Destination::create(&self.out)?;
         let mut within = None;
-        let pictured = pictured_plot(&regrowth, &species, (plot, &[tick]), false)?;
+        let pictured = pictured_plot_at(&regrowth, &species, (plot, &[at]), false)?;
         for stand in &pictured.stands {
             let mut mesh = plot_mesh(stand, &regrowth, (plot, tick), (&species, &regrown.forms), self.sides);
             let what = format!("plot {plot} at tick {tick}");

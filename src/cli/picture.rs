@@ -5,20 +5,21 @@
 //! Absent: drawing, which is `phytomer_outputs::pictures`'.
 
 use super::out::{self, Format};
-use super::regrown::{Breeze, Regrown, finite};
-use super::span::{Span, shown, span};
+use super::regrown::{Breeze, Fall, Regrown, finite};
+use super::span::{Span, age, shown, span};
 use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use phytomer::run::filming::{Filming, Scene};
-use phytomer::run::picturing::{Pictured, pictured_plants, pictured_plot};
+use phytomer::run::picturing::{Pictured, pictured_plants_at, pictured_plot_at};
 use phytomer_outputs::Destination;
 use phytomer_outputs::colouring::{Belonging, ColouringError, colour_columns, colouring};
 use phytomer_outputs::pictures::{
     Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, draw_stands, sheet_of_stands, write_png,
 };
 use phytomer_sim::Tick;
+use phytomer_sim::between::Moment;
 use std::path::PathBuf;
 
 /// The formats of pictures.
@@ -33,6 +34,7 @@ const MOST_PIXELS: u32 = 16_384;
 Examples:
   phytomer picture coffee --age 48 --out coffee.png
   phytomer picture willow --ages 44,68,92 --size 2400x900 --out life.png
+  phytomer picture fir --ages 5,5.25,5.5,5.75,6 --out year.png
   phytomer picture runs/coffee --plants 0,1,2 --age 48 --view front --out three.png
   phytomer picture my_plant/species.toml --view sheet --out sheet.png
   phytomer picture coffee --age 60 --colour-by birth_age --out ages.png
@@ -55,12 +57,13 @@ pub struct Picture {
     /// from 0.
     #[arg(long, value_name = "PLOT", num_args = 0..=1, default_missing_value = "0", conflicts_with_all = ["plant", "plants"])]
     plot: Option<u32>,
-    /// Its age in ticks; that of its prime if not given. Of a plot its tick; the last if not given.
-    #[arg(long, conflicts_with = "ages")]
-    age: Option<Tick>,
+    /// Its age in ticks; that of its prime if not given. Of a plot its tick; the last if not given. 3.5 is halfway from
+    /// tick 3 to tick 4.
+    #[arg(long, conflicts_with = "ages", value_parser = age)]
+    age: Option<Moment>,
     /// Several ages, of a plot several ticks, side by side, in one scale.
-    #[arg(long, value_delimiter = ',', value_name = "AGE,AGE,…")]
-    ages: Vec<Tick>,
+    #[arg(long, value_delimiter = ',', value_name = "AGE,AGE,…", value_parser = age)]
+    ages: Vec<Moment>,
     /// Place the camera as for a film of these ages, of a plot ticks: it holds the largest extent, so that pictures of
     /// several ages lie over one another. The last of them is drawn if no age is given.
     #[arg(long, value_name = "FIRST..LAST[/STEP]", value_parser = span, conflicts_with_all = ["ages", "plants", "colour_by"])]
@@ -101,6 +104,8 @@ pub struct Picture {
     #[arg(long, value_name = "COLUMN", value_parser = PossibleValuesParser::new(colour_columns()), hide_possible_values = true)]
     colour_by: Option<String>,
     #[command(flatten)]
+    fall: Fall,
+    #[command(flatten)]
     breeze: Breeze,
 }
 
@@ -124,13 +129,28 @@ pub enum From {
 impl Picture {
     pub fn obey(self) -> Result<Verdict> {
         out::check(&self.out, "picture", &FORMATS)?;
-        let ages: Vec<Tick> = if self.ages.is_empty() { self.age.into_iter().collect() } else { self.ages.clone() };
-        let needed: Vec<Tick> = ages.iter().copied().chain(self.framed_for.map(|framed| framed.last)).collect();
+        let ages: Vec<Moment> = if self.ages.is_empty() { self.age.into_iter().collect() } else { self.ages.clone() };
+        self.whole_where_coloured(&ages)?;
+        let framed = self.framed_for.map(|framed| framed.until());
+        let needed: Vec<Tick> = ages.iter().map(|age| age.tick()).chain(framed).collect();
         match (Regrown::find(&self.name, &needed)?, self.framed_for) {
             (Ok(regrown), None) => self.write(&regrown, ages),
             (Ok(regrown), Some(framed)) => self.write_framed(&regrown, framed),
             (Err(verdict), _) => Ok(verdict),
         }
+    }
+
+    /// Refuses to colour plants between two ticks by a table that has whole ticks.
+    fn whole_where_coloured(&self, ages: &[Moment]) -> Result<()> {
+        let between = ages.iter().find(|age| age.share().is_some());
+        let Some((age, column)) = between.zip(self.colour_by.as_ref()) else { return Ok(()) };
+        let (option, age) = (self.age_option(), age.age());
+        Err(Misuse(format!(
+            "{option} {age}: `records` has whole ticks, so --colour-by {column} needs an age such as {} or {}",
+            age.floor(),
+            age.ceil()
+        ))
+        .into())
     }
 
     /// The picture of one age by the camera of a film of several.
@@ -139,18 +159,21 @@ impl Picture {
             return Err(Misuse("--framed-for: a sheet has four cameras; choose another --view".to_owned()).into());
         };
         let (whose, _) = shown(regrown, (self.plant.unwrap_or(0), self.plot), Some(framed), "--framed-for")?;
-        let age = self.age.unwrap_or(framed.last);
-        if age < framed.first || age > framed.last || !(age - framed.first).is_multiple_of(framed.step) {
-            return Err(Misuse(format!("--age {age}: it is none of the ages of --framed-for")).into());
+        let age = self.age.or(Moment::of(framed.last)).unwrap_or(Moment::from(0));
+        let at = age.age();
+        if !framed.has(at) {
+            return Err(Misuse(format!("--age {at}: it is none of the ages of --framed-for")).into());
         }
-        let (regrowth, species) = (regrown.regrowth(&self.breeze)?, regrown.species());
+        let regrowth = regrown.regrowth(&self.breeze)?.falling(self.fall.fall);
+        let species = regrown.species();
         let scene = Scene {
             regrowth: &regrowth,
             species: &species,
             forms: &regrown.forms,
             whose,
             style: Style { view, ..self.style() },
-            time: framed.timeline((framed.last - framed.first) / framed.step + 1),
+            time: framed.timeline(((framed.last - framed.first) / framed.step.unwrap_or(1.0)).round() as u32 + 1),
+            stepped: framed.step.is_some(),
             fps: 1,
             orbit: 0.0,
             follow: false,
@@ -159,13 +182,13 @@ impl Picture {
         let file = Destination::create(&self.out)?;
         let surveyed = scene.survey(false, &Filming::default())?;
         let canvas = scene.still(&surveyed, age)?.context("nothing stands at this age")?;
-        let note = format!("{} at {age} of the ages {} to {}", regrown.scenario.name, framed.first, framed.last);
+        let note = format!("{} at {at} of the ages {} to {}", regrown.scenario.name, framed.first, framed.last);
         let bytes = amounts::bytes(self.save(&canvas, &note, file)? as f64);
-        out::tell(&self.out, &format!("age {age} of {} to {}, {bytes}", framed.first, framed.last))?;
+        out::tell(&self.out, &format!("age {at} of {} to {}, {bytes}", framed.first, framed.last))?;
         Ok(Verdict::Done)
     }
 
-    fn write(&self, regrown: &Regrown, ages: Vec<Tick>) -> Result<Verdict> {
+    fn write(&self, regrown: &Regrown, ages: Vec<Moment>) -> Result<Verdict> {
         let (file, pictured, what) = match self.plot {
             Some(plot) => self.plot(regrown, plot, ages)?,
             None => self.plants(regrown, ages)?,
@@ -177,37 +200,37 @@ impl Picture {
     }
 
     /// The plants that are asked for, each at each age, and what they are in words; the file is there before they grow.
-    fn plants(&self, regrown: &Regrown, mut ages: Vec<Tick>) -> Result<(Destination, Pictured, String)> {
+    fn plants(&self, regrown: &Regrown, mut ages: Vec<Moment>) -> Result<(Destination, Pictured, String)> {
         let plants = if self.plants.is_empty() { vec![self.plant.unwrap_or(0)] } else { self.plants.clone() };
         let plant_option = if self.plants.is_empty() { "--plant" } else { "--plants" };
-        regrown.check((self.age_option(), &ages), (plant_option, &plants))?;
-        let regrowth = regrown.regrowth(&self.breeze)?;
+        regrown.check((self.age_option(), &in_ticks(&ages)), (plant_option, &plants))?;
+        let regrowth = regrown.regrowth(&self.breeze)?.falling(self.fall.fall);
         if ages.is_empty() {
-            ages.push(regrowth.shown_at(regrown.species_of(plants[0]), plants[0])?);
+            ages.push(regrowth.shown_at(regrown.species_of(plants[0]), plants[0])?.into());
         }
         self.few(ages.len() * plants.len(), "plants, counted at each age")?;
         let file = Destination::create(&self.out)?;
-        let pictured = pictured_plants(&regrowth, &regrown.species(), &plants, &ages)?;
+        let pictured = pictured_plants_at(&regrowth, &regrown.species(), &plants, &ages)?;
         let drawn = pictured.stands.len();
         let whom = if drawn == 1 { format!("plant {}", plants[0]) } else { format!("{drawn} plants") };
-        let when = if ages.len() == 1 { format!(" at age {}", ages[0]) } else { String::new() };
+        let when = if ages.len() == 1 { format!(" at age {}", ages[0].age()) } else { String::new() };
         Ok((file, pictured, whom + &when))
     }
 
     /// The plot that is asked for at each tick, and what it is in words; the file is there before it grows.
-    fn plot(&self, regrown: &Regrown, plot: u32, mut ticks: Vec<Tick>) -> Result<(Destination, Pictured, String)> {
-        regrown.check_plot((self.age_option(), &ticks), plot)?;
+    fn plot(&self, regrown: &Regrown, plot: u32, mut ticks: Vec<Moment>) -> Result<(Destination, Pictured, String)> {
+        regrown.check_plot((self.age_option(), &in_ticks(&ticks)), plot)?;
         if ticks.is_empty() {
-            ticks.push(regrown.scenario.ages.until);
+            ticks.push(regrown.scenario.ages.until.into());
         }
         self.few(ticks.len(), "plots, counted at each tick")?;
-        let regrowth = regrown.regrowth(&self.breeze)?;
+        let regrowth = regrown.regrowth(&self.breeze)?.falling(self.fall.fall);
         // A colour may tell plants apart that look alike.
         let apart = self.colour_by.is_some();
         let file = Destination::create(&self.out)?;
-        let pictured = pictured_plot(&regrowth, &regrown.species(), (plot, &ticks), apart)?;
+        let pictured = pictured_plot_at(&regrowth, &regrown.species(), (plot, &ticks), apart)?;
         let most = pictured.stands.iter().map(|stand| stand.members.len() as u64).max().unwrap_or_default();
-        let when = if ticks.len() == 1 { format!(" at tick {}", ticks[0]) } else { String::new() };
+        let when = if ticks.len() == 1 { format!(" at tick {}", ticks[0].age()) } else { String::new() };
         Ok((file, pictured, format!("plot {plot}{when}, {}", amounts::of(most, "plant"))))
     }
 
@@ -267,6 +290,11 @@ impl Picture {
         written.with_context(|| format!("cannot write {}", self.out.display()))?;
         Ok(file.finish()?)
     }
+}
+
+/// Ages as numbers of ticks.
+fn in_ticks(ages: &[Moment]) -> Vec<f64> {
+    ages.iter().map(|age| age.age()).collect()
 }
 
 pub fn size(text: &str) -> std::result::Result<[u32; 2], String> {

@@ -40,6 +40,15 @@ pub struct Regrown {
     pub forms: Vec<Arc<OwnForms>>,
 }
 
+/// What drops.
+#[derive(Debug, Clone, Copy, Args)]
+pub struct Fall {
+    /// Between two ticks, let leaves, petals and fruits that fall by the later one drop to the ground first. Without it
+    /// they stay until then.
+    #[arg(long)]
+    pub fall: bool,
+}
+
 /// The wind of one frame.
 #[derive(Debug, Clone, Args)]
 pub struct Breeze {
@@ -127,14 +136,19 @@ impl Regrown {
     ///
     /// # Errors
     /// An age or a plant outside of the run, by the option that names it.
-    pub fn check(&self, (age_option, ages): (&str, &[Tick]), (plant_option, plants): (&str, &[u32])) -> Result<()> {
+    pub fn check(
+        &self,
+        (age_option, ages): (&str, &[impl Into<f64> + Copy]),
+        (plant_option, plants): (&str, &[u32]),
+    ) -> Result<()> {
         let count = self.trial.plants();
         if let Some(plant) = plants.iter().find(|plant| **plant >= count) {
             return Err(Misuse(format!("{plant_option} {plant}: the run has the plants 0 to {}", count - 1)).into());
         }
         for &plant in plants {
             let until = self.trial.last_age_of(plant);
-            let Some(age) = ages.iter().find(|age| **age > until) else { continue };
+            let beyond = |age: &f64| *age > f64::from(until);
+            let Some(age) = ages.iter().map(|age| (*age).into()).find(beyond) else { continue };
             let sown = self.trial.sown_at(plant);
             let whose = if sown == 0 {
                 format!("the run has the ages 0 to {until}")
@@ -150,12 +164,12 @@ impl Regrown {
     ///
     /// # Errors
     /// By the option that names it.
-    pub fn check_plot(&self, (tick_option, ticks): (&str, &[Tick]), plot: u32) -> Result<()> {
+    pub fn check_plot(&self, (tick_option, ticks): (&str, &[impl Into<f64> + Copy]), plot: u32) -> Result<()> {
         let (until, plots) = (self.scenario.ages.until, self.trial.plots());
         if plot >= plots {
             return Err(Misuse(format!("--plot {plot}: the run has the plots 0 to {}", plots - 1)).into());
         }
-        match ticks.iter().find(|tick| **tick > until) {
+        match ticks.iter().map(|tick| (*tick).into()).find(|tick: &f64| *tick > f64::from(until)) {
             Some(tick) => Err(Misuse(format!("{tick_option} {tick}: the plot has the ticks 0 to {until}")).into()),
             None => Ok(()),
         }

@@ -1,28 +1,61 @@
-//! The ages of a film on the command line: `1..96`, `1..96/5`, or one age.
+//! Ages on the command line: `48` or `3.5`, and of a film `1..96`, `1..96/5`, or one age.
 
 use super::regrown::Regrown;
 use anyhow::Result;
 use phytomer::run::regrowth::Whose;
 use phytomer_outputs::films::Timeline;
 use phytomer_sim::Tick;
+use phytomer_sim::between::Moment;
 
-/// Ages from the first to the last, a step apart; the last is among them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Ages from the first to the last.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
     /// The first age.
-    pub first: Tick,
+    pub first: f64,
     /// The last age.
-    pub last: Tick,
-    /// The ticks from one to the next, at least 1.
-    pub step: Tick,
+    pub last: f64,
+    /// The ticks from one to the next, above 0, where they are stated; the last age is then among them.
+    pub step: Option<f64>,
 }
 
+/// The shortest step, ticks.
+const LEAST_STEP: f64 = 0.001;
+
 impl Span {
-    /// The ages over so many frames.
+    /// The ages over so many frames: those of the steps, else each frame its own where there are more frames than ticks,
+    /// else those that lie whole ticks after the first.
     pub fn timeline(&self, frames: u32) -> Timeline {
-        let [first, last, step] = [self.first, self.last, self.step].map(f64::from);
+        let Self { first, last, step } = *self;
+        let own = (last - first) / f64::from(frames.saturating_sub(1).max(1));
+        let step = step.unwrap_or(if 0.0 < own && own < 1.0 { own } else { 1.0 });
         Timeline { first, last, step, frames }
     }
+
+    /// The age that is so many steps after the first, or any where no step is stated.
+    pub fn has(&self, age: f64) -> bool {
+        let steps = (age - self.first) / self.step.unwrap_or(1.0);
+        let whole = self.step.is_none() || (steps - steps.round()).abs() < 1e-6;
+        self.first <= age && age <= self.last && whole
+    }
+
+    /// The tick to which the plants must grow.
+    pub fn until(&self) -> Tick {
+        until(self.last)
+    }
+}
+
+/// The tick to which plants must grow for an age.
+pub fn until(age: f64) -> Tick {
+    age.ceil() as Tick
+}
+
+/// Reads an age.
+///
+/// # Errors
+/// What is expected.
+pub fn age(text: &str) -> std::result::Result<Moment, String> {
+    let moment = text.trim().parse::<f64>().ok().and_then(Moment::of);
+    moment.ok_or_else(|| "an age in ticks is expected, such as 48, or 3.5 for halfway between two".to_owned())
 }
 
 /// Reads a span; of one that its steps do not fill the last age is that of the last step.
@@ -30,20 +63,23 @@ impl Span {
 /// # Errors
 /// What is expected.
 pub fn span(text: &str) -> std::result::Result<Span, String> {
-    let expected = || "ages in whole ticks are expected, such as 1..96, 1..96/4 for every fourth, or 60".to_owned();
-    let whole = |text: &str| text.trim().parse::<Tick>().map_err(|_| expected());
+    let expected = || "ages in ticks are expected, such as 1..96, 1..96/4 for every fourth, or 60".to_owned();
+    let number = |text: &str| age(text).map(Moment::age).map_err(|_| expected());
     let (ages, step) = match text.split_once('/') {
-        Some((ages, step)) => (ages, whole(step)?),
-        None => (text, 1),
+        Some((ages, step)) => (ages, Some(number(step)?)),
+        None => (text, None),
     };
     let (first, last) = match ages.split_once("..") {
-        Some((first, last)) => (whole(first)?, whole(last)?),
-        None => (whole(ages)?, whole(ages)?),
+        Some((first, last)) => (number(first)?, number(last)?),
+        None => (number(ages)?, number(ages)?),
     };
-    match last.checked_sub(first) {
-        None => Err(format!("the first age, {first}, is after the last, {last}")),
-        Some(_) if step == 0 => Err("a step of at least 1 is expected after the slash".to_owned()),
-        Some(length) => Ok(Span { first, last: first + length / step * step, step }),
+    if last < first {
+        return Err(format!("the first age, {first}, is after the last, {last}"));
+    }
+    match step {
+        Some(step) if step < LEAST_STEP => Err(format!("a step of at least {LEAST_STEP} is expected after the slash")),
+        Some(step) => Ok(Span { first, last: first + ((last - first) / step + 1e-6).floor() * step, step: Some(step) }),
+        None => Ok(Span { first, last, step: None }),
     }
 }
 
@@ -57,13 +93,13 @@ pub fn shown(
     ages: Option<Span>,
     option: &'static str,
 ) -> Result<(Whose, Span)> {
-    let all = |until: Tick| Span { first: until.min(1), last: until, step: 1 };
+    let all = |until: Tick| Span { first: until.min(1).into(), last: until.into(), step: None };
     if let Some(plot) = plot {
         let ages = ages.unwrap_or_else(|| all(regrown.scenario.ages.until));
         regrown.check_plot((option, &[ages.last]), plot)?;
         return Ok((Whose::Plot(plot), ages));
     }
-    regrown.check((option, &[]), ("--plant", &[plant]))?;
+    regrown.check((option, &[] as &[f64]), ("--plant", &[plant]))?;
     let ages = ages.unwrap_or_else(|| all(regrown.trial.last_age_of(plant)));
     regrown.check((option, &[ages.last]), ("--plant", &[plant]))?;
     Ok((Whose::Plant(plant), ages))
@@ -77,20 +113,59 @@ mod tests {
     fn spans_are_read_and_the_rest_is_refused() {
         let of = |first, last, step| Span { first, last, step };
         for (text, meant) in [
-            ("1..96", of(1, 96, 1)),
-            (" 1 .. 96 / 5 ", of(1, 96, 5)),
-            ("1..95/5", of(1, 91, 5)),
-            ("60", of(60, 60, 1)),
-            ("0..0", of(0, 0, 1)),
-            ("3..4/9", of(3, 3, 9)),
-            ("0..4294967295/4294967295", of(0, u32::MAX, u32::MAX)),
+            ("1..96", of(1.0, 96.0, None)),
+            (" 1 .. 96 / 5 ", of(1.0, 96.0, Some(5.0))),
+            ("1..95/5", of(1.0, 91.0, Some(5.0))),
+            ("60", of(60.0, 60.0, None)),
+            ("0..0", of(0.0, 0.0, None)),
+            ("3..4/9", of(3.0, 3.0, Some(9.0))),
+            ("1.5..3", of(1.5, 3.0, None)),
+            ("5..6/0.25", of(5.0, 6.0, Some(0.25))),
+            ("0..4294967295/4294967295", of(0.0, 4_294_967_295.0, Some(4_294_967_295.0))),
         ] {
             assert_eq!(span(text), Ok(meant), "{text}");
         }
-        for text in
-            ["", "..", "1..", "..9", "9..1", "1..9/0", "1..9/", "-1..9", "1.5..3", "1..4294967296", "a", "1,2", "1..=9"]
-        {
+        for text in [
+            "",
+            "..",
+            "1..",
+            "..9",
+            "9..1",
+            "1..9/0",
+            "1..9/",
+            "-1..9",
+            "1..4294967296",
+            "a",
+            "1,2",
+            "1..=9",
+            "nan..3",
+            "1..inf",
+            "1..9/nan",
+            "1..9/-1",
+            "1..9/0.0001",
+            "1..2..3",
+        ] {
             assert!(span(text).is_err(), "{text}");
         }
+    }
+
+    /// A film of more frames than ticks shows an age of its own in each; its first and last are whole.
+    #[test]
+    fn frames_between_ticks_have_ages_of_their_own() {
+        let ages = |text: &str, frames| -> Vec<f64> {
+            let time = span(text).unwrap().timeline(frames);
+            time.held().iter().map(|(number, _)| Moment::of(time.age(*number)).unwrap().age()).collect()
+        };
+        assert_eq!(ages("1..3", 5), [1.0, 1.5, 2.0, 2.5, 3.0]);
+        assert_eq!(ages("1..3/1", 5), [1.0, 2.0, 3.0]);
+        assert_eq!(ages("1..9", 5), [1.0, 3.0, 5.0, 7.0, 9.0]);
+        assert_eq!(ages("5..6/0.25", 5), [5.0, 5.25, 5.5, 5.75, 6.0]);
+        assert_eq!(ages("4..4", 5), [4.0]);
+        let many = ages("1..96", 289);
+        assert_eq!((many.len(), many[0], many[288]), (289, 1.0, 96.0));
+        for text in ["", "-1", "nan", "inf", "1e99", "3.5.1", "x"] {
+            assert!(age(text).is_err(), "{text}");
+        }
+        assert!(span("2..12/5").unwrap().has(7.0) && !span("2..12/5").unwrap().has(8.0));
     }
 }

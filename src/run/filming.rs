@@ -4,8 +4,8 @@
 //! age as they come to it. A frame is the picture of its age by that camera, so a film is as many pictures; where
 //! neither the viewer nor the air moves, a picture is drawn once for as many frames as it is held. Each is drawn on all
 //! threads and handed on in order; a thread of its own encodes it while the next is drawn. Memory holds a plant, a few
-//! pictures, and for each age what its camera holds. Absent: formats of films, which are `phytomer_films`'; plants
-//! between ticks; several treatments side by side.
+//! pictures, and for each age what its camera holds. Absent: formats of films, which are `phytomer_films`'; several
+//! treatments side by side.
 
 use super::RunError;
 use super::picturing::{PicturedStand, kept, obstacles_of, stand_of_plant, stand_of_plot, titles_of};
@@ -14,6 +14,7 @@ use phytomer_config::{Species, Trial};
 use phytomer_outputs::films::{Encoder, Timeline};
 use phytomer_outputs::meshes::{Mesh, OwnForms};
 use phytomer_outputs::pictures::{Canvas, Framing, Picture, Survey, draw_framed, draw_stands};
+use phytomer_sim::between::Moment;
 use phytomer_sim::mechanics::sway::GUSTS_S;
 use phytomer_sim::{RecordError, Tick};
 use std::collections::BTreeSet;
@@ -47,6 +48,8 @@ pub struct Scene<'a> {
     pub style: Picture,
     /// The ages, of a plot the ticks.
     pub time: Timeline,
+    /// Whether the ages are those of steps that were stated, and no others are looked at.
+    pub stepped: bool,
     /// Frames a second.
     pub fps: u32,
     /// How far the viewer walks around the plants over the film, counterclockwise from above, radians.
@@ -141,61 +144,79 @@ impl Scene<'_> {
         self.orbit != 0.0 || self.air_from.is_some()
     }
 
-    fn tick(&self, number: u32) -> Tick {
-        self.time.age(number).round() as Tick
+    /// The age with a number.
+    fn age(&self, number: u32) -> Moment {
+        Moment::of(self.time.age(number)).unwrap_or(Moment::from(0))
     }
 
-    /// The moments at which an age is shown, seconds: one for each of its frames where the air moves. A film of one age
+    /// The times at which an age is shown, seconds: one for each of its frames where the air moves. A film of one age
     /// lasts as many gusts as come nearest to its length, so that it goes on from its end to its beginning.
-    fn moments(&self, held: &[(u32, u32)]) -> Vec<(Tick, Vec<f64>)> {
+    fn times(&self, held: &[(u32, u32)]) -> Vec<(Moment, Vec<f64>)> {
         let one_age = held.len() == 1;
         let seconds = f64::from(self.time.frames) / f64::from(self.fps.max(1));
         let loops = (seconds / GUSTS_S).round().max(1.0) * GUSTS_S;
         let length = if one_age { loops } else { seconds };
         let mut frame = 0;
-        let moments = |&(number, frames): &(u32, u32)| {
+        let times = |&(number, frames): &(u32, u32)| {
             let first = frame;
             frame += frames;
             let at = |frame: u32| length * f64::from(frame) / f64::from(self.time.frames);
             let times = self.air_from.map_or_else(|| vec![0.0], |from| (first..frame).map(|k| from + at(k)).collect());
-            (self.tick(number), times)
+            (self.age(number), times)
         };
-        held.iter().map(moments).collect()
+        held.iter().map(times).collect()
     }
 
-    /// Shows the stand of each age that is shown, once for each of its moments, with its number among them.
+    /// The ages by which the camera is placed, with their times: where it follows, in steps and in moving air those that
+    /// are shown, else the first, the last and all ticks between, so that one camera serves any age.
+    fn surveyed(&self, held: &[(u32, u32)]) -> Vec<(Moment, Vec<f64>)> {
+        let shown = self.times(held);
+        let (Some((first, _)), Some((last, _))) = (shown.first(), shown.last()) else { return shown };
+        if self.stepped || self.follow || self.air_from.is_some() {
+            return shown;
+        }
+        let ticks = (first.tick()..=last.tick()).map(Moment::from).filter(|tick| tick < last);
+        let ages = [*first].into_iter().chain(ticks.filter(|tick| first < tick)).chain([*last]);
+        let mut ages: Vec<Moment> = ages.collect();
+        ages.dedup();
+        ages.into_iter().map(|age| (age, vec![0.0])).collect()
+    }
+
+    /// Shows the stand at each of some ages, once for each of its times, with its number among them.
     fn each_stand(
         &self,
-        held: &[(u32, u32)],
+        times: &[(Moment, Vec<f64>)],
         show: &mut dyn FnMut(usize, &PicturedStand) -> Result<(), RecordError>,
     ) -> Result<(), RunError> {
-        let moments = self.moments(held);
         let obstacles = match self.whose {
             Whose::Plot(plot) => obstacles_of(self.regrowth.trial(), plot),
             Whose::Plant(_) => Vec::new(),
         };
-        let ticks: Vec<Tick> = moments.iter().map(|(tick, _)| *tick).collect();
-        let place = |tick: Tick| moments.binary_search_by_key(&tick, |(tick, _)| *tick).ok();
-        let times = |tick: Tick| place(tick).map(|place| moments[place].1.clone()).unwrap_or_default();
-        self.regrowth.show_moments(self.whose, &ticks, &times, &mut |tick, standing| {
-            place(tick).map_or(Ok(()), |place| show(place, &self.stand(tick, standing, &obstacles)))
+        let ages: Vec<Moment> = times.iter().map(|(age, _)| *age).collect();
+        let place = |age: Moment| times.binary_search_by_key(&age, |(age, _)| *age).ok();
+        let of_age = |age: Moment| place(age).map(|place| times[place].1.clone()).unwrap_or_default();
+        self.regrowth.show_timed(self.whose, &ages, &of_age, &mut |age, standing| {
+            place(age).map_or(Ok(()), |place| show(place, &self.stand(age, standing, &obstacles)))
         })
     }
 
-    /// What stands at an age, with its caption, among the obstacles of a plot.
-    fn stand(&self, at: Tick, standing: &[Standing], obstacles: &[Arc<Mesh>]) -> PicturedStand {
+    /// What stands at an age, with its caption, among the obstacles of a plot. Between two ticks the caption has the
+    /// earlier one: a fraction would flicker.
+    fn stand(&self, at: Moment, standing: &[Standing], obstacles: &[Arc<Mesh>]) -> PicturedStand {
         let trial = self.regrowth.trial();
+        let tick = at.age() as Tick;
+        let told = Moment::from(tick);
         match (self.whose, standing) {
             (Whose::Plant(plant), [alone, ..]) => {
-                let mut stand = stand_of_plant(trial, self.species, alone.plant.clone().into_owned(), at);
-                let season = self.species[trial.species_of_plant(plant)].about.season(at);
+                let mut stand = stand_of_plant(trial, self.species, alone.plant.clone().into_owned(), (at, told));
+                let season = self.species[trial.species_of_plant(plant)].about.season(tick);
                 stand.label.extend(season.into_iter().flat_map(|season| [" · ", season]));
                 stand
             }
             (Whose::Plant(_), []) => kept(&[], false),
             (Whose::Plot(plot), standing) => {
                 let stand = PicturedStand { obstacles: obstacles.to_vec(), ..kept(standing, false) };
-                stand_of_plot(trial, self.species, stand, (plot, at))
+                stand_of_plot(trial, self.species, stand, (plot, at, told))
             }
         }
     }
@@ -219,16 +240,17 @@ impl Scene<'_> {
     /// Those of growing; [`RunError::Stopped`].
     pub fn survey(&self, samples: bool, filming: &Filming) -> Result<Surveyed, RunError> {
         let held = self.time.held();
-        filming.in_all.store(COSTS[0] * held.len() as u32 + COSTS[1] * self.pictures(), Relaxed);
+        let looks = self.surveyed(&held);
+        filming.in_all.store(COSTS[0] * looks.len() as u32 + COSTS[1] * self.pictures(), Relaxed);
         let mut survey = Survey::new(&self.style, self.pivot());
-        let mut found = Surveyed { framings: vec![None; held.len()], samples: Vec::new() };
-        let apart = held.len().div_ceil(LEARNT_FROM);
+        let mut found = Surveyed { framings: vec![None; looks.len()], samples: Vec::new() };
+        let apart = looks.len().div_ceil(LEARNT_FROM);
         let title = self.title();
-        self.each_stand(&held, &mut |place, stand| {
+        self.each_stand(&looks, &mut |place, stand| {
             filming.check()?;
             let stand = stand.stand(self.forms);
             survey.add(&stand);
-            let learns = samples && (held.len() - 1 - place).is_multiple_of(apart) && found.framings[place].is_none();
+            let learns = samples && (looks.len() - 1 - place).is_multiple_of(apart) && found.framings[place].is_none();
             if learns {
                 found.samples.push(draw_stands(&[stand], &title, &self.sample_style()));
             }
@@ -249,18 +271,18 @@ impl Scene<'_> {
         Picture { size: [wide as u32, small], colour_by: None, ..self.style.clone() }
     }
 
-    /// The picture of one of the ages that are shown, as the film has it.
+    /// The picture of an age by the camera of the film; of one of the ages that are shown, as the film has it.
     ///
     /// # Errors
     /// Those of growing.
-    pub fn still(&self, surveyed: &Surveyed, age: Tick) -> Result<Option<Canvas>, RunError> {
+    pub fn still(&self, surveyed: &Surveyed, age: Moment) -> Result<Option<Canvas>, RunError> {
         let held = self.time.held();
-        let place = held.iter().position(|(number, _)| self.tick(*number) == age);
+        let place = held.iter().position(|(number, _)| self.age(*number) == age);
+        let framing = place.map_or(surveyed.framings.last(), |place| surveyed.framings.get(place));
+        let Some(framing) = framing.copied().flatten() else { return Ok(None) };
+        let times = place.map(|place| self.times(&held).swap_remove(place));
         let mut still = None;
-        let Some((place, framing)) = place.and_then(|place| Some((place, surveyed.framings[place]?))) else {
-            return Ok(None);
-        };
-        self.each_stand(&held[place..=place], &mut |_, stand| {
+        self.each_stand(&[times.unwrap_or_else(|| (age, vec![0.0]))], &mut |_, stand| {
             if still.is_none() {
                 still = Some(draw_framed(&stand.stand(self.forms), &self.title(), &self.style, &framing));
             }
@@ -280,7 +302,7 @@ impl Scene<'_> {
         let firsts: Vec<u32> =
             held.iter().scan(0, |first, (_, frames)| Some(std::mem::replace(first, *first + frames))).collect();
         let mut shown_of = vec![0; held.len()];
-        self.each_stand(&held, &mut |place, stand| {
+        self.each_stand(&self.times(&held), &mut |place, stand| {
             let Some(framing) = surveyed.framings[place] else { return Ok(()) };
             let stand = stand.stand(self.forms);
             // In moving air an age comes once for each of its frames.

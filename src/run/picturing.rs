@@ -13,6 +13,7 @@ use phytomer_outputs::meshes::{Chunk, Mesh, MeshOptions, OwnForms, PlotBody, Plo
 use phytomer_outputs::pictures::{Placed, Stand, Subject};
 use phytomer_outputs::tables::Membership;
 use phytomer_sim::Tick;
+use phytomer_sim::between::Moment;
 use phytomer_sim::plant::Plant;
 use phytomer_sim::site::calendar::Calendar;
 use sha2::{Digest, Sha256};
@@ -58,7 +59,7 @@ pub struct PicturedMember {
     pub plant: usize,
     /// Its species, as an index into those of the run.
     pub species: usize,
-    /// Its age.
+    /// Its age; between two ticks that at the later one.
     pub age: Tick,
     /// Its place, metres from that of the plot.
     pub place: [f64; 3],
@@ -123,6 +124,19 @@ pub fn pictured_plants(
     plants: &[u32],
     ages: &[Tick],
 ) -> Result<Pictured, RunError> {
+    pictured_plants_at(regrowth, species, plants, &moments(ages))
+}
+
+/// As [`pictured_plants`] at ages that may lie between two ticks.
+///
+/// # Errors
+/// Those of growing.
+pub fn pictured_plants_at(
+    regrowth: &Regrowth,
+    species: &[&Species],
+    plants: &[u32],
+    ages: &[Moment],
+) -> Result<Pictured, RunError> {
     let trial = regrowth.trial();
     let mut stands = Vec::new();
     let mut shown = BTreeSet::new();
@@ -130,21 +144,21 @@ pub fn pictured_plants(
         let place = trial.species_of_plant(number);
         shown.insert(place);
         let mut seen = BTreeMap::new();
-        regrowth.show(number, ages, &mut |age, plant| {
+        regrowth.show_at(number, ages, &mut |age, plant| {
             seen.insert(age, plant.clone());
             Ok(())
         })?;
         for &age in ages {
             let whose = if plants.len() > 1 { format!("plant {number}, ") } else { String::new() };
             let Some(plant) = seen.get(&age).cloned() else { continue };
-            let mut stand = stand_of_plant(trial, species, plant, age);
+            let mut stand = stand_of_plant(trial, species, plant, (age, age));
             stand.label.insert_str(0, &whose);
             stands.push(stand);
         }
     }
     let names: Vec<&str> = shown.iter().map(|place| species[*place].about.name.as_str()).collect();
-    let note =
-        format!("{}: plants {plants:?} at the ages {ages:?} of seed {}", names.join(", "), trial.scenario().seed);
+    let seed = trial.scenario().seed;
+    let note = format!("{}: plants {plants:?} at the ages {} of seed {seed}", names.join(", "), list(ages));
     Ok(Pictured { stands, title: titles_of(species, &shown), note })
 }
 
@@ -159,6 +173,19 @@ pub fn pictured_plot(
     (plot, ticks): (u32, &[Tick]),
     apart: bool,
 ) -> Result<Pictured, RunError> {
+    pictured_plot_at(regrowth, species, (plot, &moments(ticks)), apart)
+}
+
+/// As [`pictured_plot`] at ticks and between them.
+///
+/// # Errors
+/// Those of growing.
+pub fn pictured_plot_at(
+    regrowth: &Regrowth,
+    species: &[&Species],
+    (plot, ticks): (u32, &[Moment]),
+    apart: bool,
+) -> Result<Pictured, RunError> {
     let trial = regrowth.trial();
     let scenario = trial.scenario();
     let mut seen = BTreeMap::new();
@@ -167,47 +194,67 @@ pub fn pictured_plot(
         Ok(())
     })?;
     let obstacles = obstacles_of(trial, plot);
-    let of_members = |mut stand: PicturedStand, tick: Tick| {
+    let of_members = |mut stand: PicturedStand, tick: Moment| {
         stand.obstacles.clone_from(&obstacles);
-        stand_of_plot(trial, species, stand, (plot, tick))
+        stand_of_plot(trial, species, stand, (plot, tick, tick))
     };
     let stands = ticks.iter().filter_map(|tick| seen.remove(tick).map(|stand| of_members(stand, *tick)));
     let stands: Vec<PicturedStand> = stands.collect();
     let shown = stands.iter().flat_map(|stand| stand.members.iter().map(|member| member.species)).collect();
-    let note = format!("{}: plot {plot} at the ticks {ticks:?} of seed {}", scenario.name, scenario.seed);
+    let note = format!("{}: plot {plot} at the ticks {} of seed {}", scenario.name, list(ticks), scenario.seed);
     Ok(Pictured { stands, title: titles_of(species, &shown), note })
 }
 
-/// A plant at an age, by itself.
-pub(super) fn stand_of_plant(trial: &Trial, species: &[&Species], plant: Plant, age: Tick) -> PicturedStand {
+/// Ages that lie at ticks.
+fn moments(ages: &[Tick]) -> Vec<Moment> {
+    ages.iter().copied().map(Moment::from).collect()
+}
+
+/// Ages as a list in words.
+fn list(ages: &[Moment]) -> String {
+    format!("[{}]", ages.iter().map(|age| told(*age)).collect::<Vec<_>>().join(", "))
+}
+
+/// An age to be read: to a hundredth of a tick.
+fn told(age: Moment) -> String {
+    ((age.age() * 100.0).round() / 100.0).to_string()
+}
+
+/// A plant at an age, by itself, with the age that is told of it.
+pub(super) fn stand_of_plant(
+    trial: &Trial,
+    species: &[&Species],
+    plant: Plant,
+    (at, told_age): (Moment, Moment),
+) -> PicturedStand {
     let (number, place) = (plant.id, trial.species_of_plant(plant.id));
     let (of, sown) = (trial.plant(number), trial.sown_at(number));
     let years = match trial.calendar_of(of.treatment, of.replicate) {
-        Some(calendar) => on_the_calendar(calendar, sown, age),
-        None => species[place].ticks_per_year().map(|ticks| in_years(age, ticks)).unwrap_or_default(),
+        Some(calendar) => on_the_calendar(calendar, sown, told_age),
+        None => species[place].ticks_per_year().map(|ticks| in_years(told_age, ticks)).unwrap_or_default(),
     };
-    let (plot, treatment) = (of.plot, of.treatment as u32);
+    let (plot, treatment, age) = (of.plot, of.treatment as u32, at.tick());
     let member = PicturedMember { number, plot, treatment, sown, plant: 0, species: place, age, place: [0.0; 3] };
-    let label = format!("age {age}{years}");
+    let label = format!("age {}{years}", told(told_age));
     PicturedStand { plants: vec![plant], members: vec![member], obstacles: Vec::new(), label }
 }
 
-/// A plot at a tick, of which it is still to be filled in where its plants belong.
+/// A plot at a tick, with the tick that is told of it; it is still to be filled in where its plants belong.
 pub(super) fn stand_of_plot(
     trial: &Trial,
     species: &[&Species],
     mut stand: PicturedStand,
-    (plot, tick): (u32, Tick),
+    (plot, at, told_tick): (u32, Moment, Moment),
 ) -> PicturedStand {
     let of_plot = trial.plot(plot);
     for member in &mut stand.members {
         let place = trial.member_of(member.number).place();
-        (member.plot, member.sown, member.place) = (plot, tick.saturating_sub(member.age), place);
+        (member.plot, member.sown, member.place) = (plot, at.tick().saturating_sub(member.age), place);
         member.treatment = of_plot.treatment as u32;
     }
     let calendar = trial.calendar_of(of_plot.treatment, of_plot.replicate);
-    let years = calendar.map_or_else(|| years_of(species, tick), |calendar| on_the_calendar(calendar, 0, tick));
-    stand.label = format!("tick {tick}{years}");
+    let years = calendar.map_or_else(|| years_of(species, told_tick), |of| on_the_calendar(of, 0, told_tick));
+    stand.label = format!("tick {}{years}", told(told_tick));
     stand
 }
 
@@ -226,7 +273,7 @@ fn drawn(site: &Site) -> Vec<Arc<Mesh>> {
 pub fn plot_mesh<'a>(
     stand: &'a PicturedStand,
     regrowth: &Regrowth,
-    (plot, tick): (u32, Tick),
+    (plot, tick): (u32, f64),
     (species, forms): (&[&Species], &[Arc<OwnForms>]),
     sides: u32,
 ) -> PlotMesh<'a> {
@@ -311,7 +358,7 @@ fn title_of(about: &About) -> String {
 }
 
 /// A tick in years, where all species have the same year.
-fn years_of(species: &[&Species], tick: Tick) -> String {
+fn years_of(species: &[&Species], tick: Moment) -> String {
     let mut years = species.iter().map(|species| species.ticks_per_year());
     let first = years.next().flatten();
     first.filter(|first| years.all(|year| year == Some(*first))).map(|ticks| in_years(tick, ticks)).unwrap_or_default()
@@ -320,16 +367,17 @@ fn years_of(species: &[&Species], tick: Tick) -> String {
 /// The days of a year of the calendar, on the average.
 const DAYS_OF_A_YEAR: f64 = 365.2425;
 
-/// The date at which an age is reached, and the years from sowing to it: ticks of degree-days are not of one length.
-fn on_the_calendar(calendar: &Calendar, sown: Tick, age: Tick) -> String {
-    let [from, date] = [sown, sown.saturating_add(age)].map(|tick| calendar.at(tick).date);
+/// The date at which the ticks of an age are over, and the years from sowing to it: ticks of degree-days are not of one
+/// length.
+fn on_the_calendar(calendar: &Calendar, sown: Tick, age: Moment) -> String {
+    let [from, date] = [sown, sown.saturating_add(age.age() as Tick)].map(|tick| calendar.at(tick).date);
     format!(" · {date}{}", years_in_words(f64::from(date.since(from)) / DAYS_OF_A_YEAR))
 }
 
 /// An age in years, where a tick is not one itself.
-fn in_years(age: Tick, ticks_per_year: f64) -> String {
+fn in_years(age: Moment, ticks_per_year: f64) -> String {
     let of_a_year = (ticks_per_year - 1.0).abs() < 1e-9;
-    if of_a_year { String::new() } else { years_in_words(f64::from(age) / ticks_per_year) }
+    if of_a_year { String::new() } else { years_in_words(age.age() / ticks_per_year) }
 }
 
 fn years_in_words(years: f64) -> String {

@@ -3,12 +3,13 @@
 //! Draws are keyed by the run's seed and the plant, so it is the same plant, with the same component numbers, that the
 //! run has recorded. A plant is asked for by its number and its own ages, a plot by its number and its ticks. Where
 //! something in a plot feeds back, a plant is grown with its whole plot, else by itself. In a wind each age is shown as
-//! a frame that the wind has moved, for that age alone. Where no age is given, a plant is shown at that of its species
-//! or in its prime. Absent: what is made of it.
+//! a frame that the wind has moved, for that age alone. Ages may lie between two ticks. Where no age is given, a plant is
+//! shown at that of its species or in its prime. Absent: what is made of it.
 
 use super::RunError;
 use super::plots::Plots;
 use phytomer_config::{Resolved, Species, Trial};
+use phytomer_sim::between::{Moment, Passage};
 use phytomer_sim::mechanics::Scratch;
 use phytomer_sim::mechanics::sway::sway;
 use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant, ThreadBudget};
@@ -31,17 +32,21 @@ pub struct Regrowth<'a> {
     plots: Plots<'a>,
     /// What moves the plants, if anything does.
     air: Option<Air>,
+    /// Whether what falls drops to the ground in its last tick.
+    falls: bool,
 }
 
 /// What is done with a plant at an age.
 pub type Show<'a> = dyn FnMut(Tick, &Plant) -> Result<(), RecordError> + 'a;
 
-/// What is done with the plants of a plot at a tick: those that are sown, in the order of
-/// the plot.
-pub type ShowPlot<'a> = dyn FnMut(Tick, &[Standing]) -> Result<(), RecordError> + 'a;
+/// What is done with a plant at an age that may lie between two ticks. It stands at the later one, [`Moment::tick`].
+pub type ShowAt<'a> = dyn FnMut(Moment, &Plant) -> Result<(), RecordError> + 'a;
 
-/// What moves the plants at each of the moments at which they are shown at a tick.
-type Airs<'a> = dyn Fn(Tick) -> Vec<Option<Air>> + 'a;
+/// What is done with the plants of a plot at a tick, or between two: those that are sown, in the order of the plot.
+pub type ShowPlot<'a> = dyn FnMut(Moment, &[Standing]) -> Result<(), RecordError> + 'a;
+
+/// What moves the plants, once for each time that they are shown at an age.
+type Airs<'a> = dyn Fn(Moment) -> Vec<Option<Air>> + 'a;
 
 /// A plant or a plot, by its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,7 +62,7 @@ pub enum Whose {
 pub struct Standing<'p> {
     /// The plant as it stands.
     pub plant: Cow<'p, Plant>,
-    /// Its age.
+    /// Its age; between two ticks that at the later one.
     pub age: Tick,
     /// Its species, as an index into the species of the run.
     pub species: usize,
@@ -66,7 +71,14 @@ pub struct Standing<'p> {
 impl<'a> Regrowth<'a> {
     /// The plants of a trial whose cohorts have these models.
     pub fn new(trial: Trial, models: Vec<&'a dyn GrowthModel>, air: Option<Air>) -> Self {
-        Self { plots: Plots::of(trial, models), air }
+        Self { plots: Plots::of(trial, models), air, falls: false }
+    }
+
+    /// The same plants, whose leaves, petals and fruits drop to the ground in the tick in which they fall, where they
+    /// are shown within it.
+    #[must_use]
+    pub fn falling(self, falls: bool) -> Self {
+        Self { falls, ..self }
     }
 
     /// The plants of a checked scenario, in still air.
@@ -93,36 +105,45 @@ impl<'a> Regrowth<'a> {
     /// # Errors
     /// What `show` says; a plant that comes to its limit before the last of the ages.
     pub fn show(&self, plant: u32, ages: &[Tick], show: &mut Show<'_>) -> Result<(), RunError> {
+        self.show_at(plant, &moments(ages), &mut |age, plant| show(age.tick(), plant))
+    }
+
+    /// As [`Regrowth::show`] at ages that may lie between two ticks.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn show_at(&self, plant: u32, ages: &[Moment], show: &mut ShowAt<'_>) -> Result<(), RunError> {
         self.check_sown(plant)?;
         let sown = self.sown(plant);
-        let ticks: Vec<Tick> = ages.iter().map(|age| age.saturating_add(sown.at)).collect();
-        self.show_ticks(sown.plot, sown.until, &ticks, &mut |_, standing| {
+        let at = sown.at;
+        let ticks: Vec<Moment> = ages.iter().map(|age| age.later(at)).collect();
+        self.show_moved(sown.plot, sown.until, &ticks, &mut |tick, standing| {
             let shown = standing.iter().find(|standing| standing.plant.id == plant);
-            shown.map_or(Ok(()), |shown| show(shown.age, &shown.plant))
+            shown.map_or(Ok(()), |shown| show(tick.earlier(at), &shown.plant))
         })
     }
 
-    /// Grows a plot and shows its plants that are sown at `ticks`, in their order of time.
+    /// Grows a plot and shows its plants that are sown at `ticks`, or between two, in their order of time.
     ///
     /// # Errors
     /// What `show` says; a plant that comes to its limit before the last of the ticks.
-    pub fn show_plot(&self, plot: u32, ticks: &[Tick], show: &mut ShowPlot<'_>) -> Result<(), RunError> {
-        self.show_ticks(self.plots.sow(plot, ThreadBudget::default()), self.until(), ticks, show)
+    pub fn show_plot(&self, plot: u32, ticks: &[Moment], show: &mut ShowPlot<'_>) -> Result<(), RunError> {
+        self.show_moved(self.plots.sow(plot, ThreadBudget::default()), self.until(), ticks, show)
     }
 
-    /// As [`Regrowth::show`] of a plant and [`Regrowth::show_plot`] of a plot, once for each of the moments that
-    /// `moments` has for a tick, seconds; without air that moves the plants a moment is like any other.
+    /// As [`Regrowth::show_at`] of a plant and [`Regrowth::show_plot`] of a plot, once for each of the times that
+    /// `times` has for an age, seconds; without air that moves the plants a time is like any other.
     ///
     /// # Errors
     /// As those.
-    pub fn show_moments(
+    pub fn show_timed(
         &self,
         whose: Whose,
-        ages: &[Tick],
-        moments: &dyn Fn(Tick) -> Vec<f64>,
+        ages: &[Moment],
+        times: &dyn Fn(Moment) -> Vec<f64>,
         show: &mut ShowPlot<'_>,
     ) -> Result<(), RunError> {
-        let airs = |at: Tick| moments(at).into_iter().map(|time| self.air.map(|air| Air { time, ..air })).collect();
+        let airs = |at: Moment| times(at).into_iter().map(|time| self.air.map(|air| Air { time, ..air })).collect();
         match whose {
             Whose::Plot(plot) => {
                 self.show_in(self.plots.sow(plot, ThreadBudget::default()), self.until(), (ages, &airs), show)
@@ -130,17 +151,24 @@ impl<'a> Regrowth<'a> {
             Whose::Plant(plant) => {
                 self.check_sown(plant)?;
                 let sown = self.sown(plant);
-                let ticks: Vec<Tick> = ages.iter().map(|age| age.saturating_add(sown.at)).collect();
-                let airs = |tick: Tick| airs(tick.saturating_sub(sown.at));
-                self.show_in(sown.plot, sown.until, (&ticks, &airs), &mut |_, standing| {
+                let at = sown.at;
+                let ticks: Vec<Moment> = ages.iter().map(|age| age.later(at)).collect();
+                let airs = |tick: Moment| airs(tick.earlier(at));
+                self.show_in(sown.plot, sown.until, (&ticks, &airs), &mut |tick, standing| {
                     let shown = standing.iter().find(|standing| standing.plant.id == plant);
-                    shown.map_or(Ok(()), |shown| show(shown.age, std::slice::from_ref(shown)))
+                    shown.map_or(Ok(()), |shown| show(tick.earlier(at), std::slice::from_ref(shown)))
                 })
             }
         }
     }
 
-    fn show_ticks(&self, plot: Plot<'_>, until: Tick, ticks: &[Tick], show: &mut ShowPlot<'_>) -> Result<(), RunError> {
+    fn show_moved(
+        &self,
+        plot: Plot<'_>,
+        until: Tick,
+        ticks: &[Moment],
+        show: &mut ShowPlot<'_>,
+    ) -> Result<(), RunError> {
         self.show_in(plot, until, (ticks, &|_| vec![self.air]), show)
     }
 
@@ -148,15 +176,20 @@ impl<'a> Regrowth<'a> {
         &self,
         mut plot: Plot<'_>,
         until: Tick,
-        (ticks, airs): (&[Tick], &Airs<'_>),
+        (ticks, airs): (&[Moment], &Airs<'_>),
         show: &mut ShowPlot<'_>,
     ) -> Result<(), RunError> {
-        let mut shown = ShownTicks { ticks, airs, trial: self.trial(), show };
+        let mut ticks = ticks.to_vec();
+        ticks.sort_unstable();
+        ticks.dedup();
+        let last = ticks.last().map(|last| last.tick());
+        let passage = Passage::new(self.falls);
+        let mut shown = ShownTicks { ticks, passage, airs, trial: self.trial(), show };
         // To the last tick of the run, not to the last that is shown: that is what numbers the components.
         let ending = grow(&mut plot, until, &mut shown).map_err(RunError::of_recorder)?;
-        match (ending, ticks.iter().max()) {
-            (Ending::Overgrown { age, limit }, Some(last)) if age <= *last => {
-                Err(RunError::Overgrown { limit, age, last: *last })
+        match (ending, last) {
+            (Ending::Overgrown { age, limit }, Some(last)) if age <= last => {
+                Err(RunError::Overgrown { limit, age, last })
             }
             _ => Ok(()),
         }
@@ -281,9 +314,16 @@ fn last_of_most(lives: impl Iterator<Item = (Tick, Tick, f64)>, last: Tick, year
     Some(start as Tick)
 }
 
-/// Shows the plants of a plot at some ticks.
+/// Ages that lie at ticks.
+fn moments(ages: &[Tick]) -> Vec<Moment> {
+    ages.iter().copied().map(Moment::from).collect()
+}
+
+/// Shows the plants of a plot at some ticks, and between them.
 struct ShownTicks<'a, 's> {
-    ticks: &'a [Tick],
+    /// In their order.
+    ticks: Vec<Moment>,
+    passage: Passage,
     airs: &'a Airs<'a>,
     trial: &'a Trial,
     show: &'a mut ShowPlot<'s>,
@@ -291,26 +331,48 @@ struct ShownTicks<'a, 's> {
 
 impl Recorder for ShownTicks<'_, '_> {
     fn wants(&self, tick: Tick) -> bool {
-        self.ticks.contains(&tick)
+        Passage::needs(&self.ticks, tick)
     }
 
     fn record(&mut self, tick: Tick, plot: &Plot) -> Result<(), RecordError> {
-        (self.airs)(tick).into_iter().try_for_each(|air| self.show_once(tick, plot, air))
+        self.passage.arrive(tick, plot);
+        let from = self.ticks.partition_point(|moment| moment.tick() < tick);
+        let due: Vec<Moment> = self.ticks[from..].iter().copied().take_while(|moment| moment.tick() == tick).collect();
+        let mut passage = std::mem::take(&mut self.passage);
+        for moment in due {
+            let at = |member: usize| plot.members[member].age_at(tick).map(|age| (&plot.plants[member], age));
+            let standing = match moment.share() {
+                Some(share) => passage.at(share),
+                None => (0..plot.plants.len()).map(at).collect(),
+            };
+            (self.airs)(moment).into_iter().try_for_each(|air| self.show_once(moment, plot, &standing, air))?;
+        }
+        self.passage = passage;
+        if Passage::begins(&self.ticks, tick) {
+            self.passage.keep(tick, plot);
+        }
+        Ok(())
     }
 }
 
 impl ShownTicks<'_, '_> {
-    fn show_once(&mut self, tick: Tick, plot: &Plot, air: Option<Air>) -> Result<(), RecordError> {
+    fn show_once(
+        &mut self,
+        moment: Moment,
+        plot: &Plot,
+        shown: &[Option<(&Plant, Tick)>],
+        air: Option<Air>,
+    ) -> Result<(), RecordError> {
         let mut standing = Vec::new();
-        for (plant, member) in plot.plants.iter().zip(&plot.members) {
-            let Some(age) = member.age_at(tick) else { continue };
+        for (shown, member) in shown.iter().zip(&plot.members) {
+            let Some((plant, age)) = *shown else { continue };
             let mut plant = Cow::Borrowed(plant);
             if let Some(Air { wind, time }) = air {
                 sway(plant.to_mut(), age, &plot.site, wind, time, &mut Scratch::default())?;
             }
             standing.push(Standing { plant, age, species: self.trial.cohorts()[member.species].species });
         }
-        (self.show)(tick, &standing)
+        (self.show)(moment, &standing)
     }
 }
 

@@ -3,7 +3,7 @@
 //!
 //! Time goes evenly from the first age at the first frame to the last age at the last. A frame shows the nearest of the
 //! ages that there are; of two that are equally near the earlier one. So where a film has more frames than ages each
-//! age is held, the first and the last half as long as the others. Absent: plants between ticks.
+//! age is held, the first and the last half as long as the others. Absent: what stands at an age.
 
 /// The ages of a film.
 #[derive(Debug, Clone, Copy, PartialEq)]

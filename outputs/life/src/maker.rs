@@ -33,9 +33,10 @@ impl Maker {
         Self { nearness, options, life: Life::default(), lines: Lines::default(), parts: Parts::default() }
     }
 
-    /// Shows the plant at a later age than before. Takes O(n log n) for n components that stand, at most.
+    /// Shows the plant at a later age than before, or on its way to `age` ([`phytomer_sim::between`]). Takes O(n log n)
+    /// for n components that stand, at most.
     pub fn show(&mut self, plant: &Plant, age: Tick) {
-        let at = age as f32;
+        let at = plant.shown_age(age) as f32;
         if self.life.ages.last().is_some_and(|last| *last >= at) {
             return;
         }

@@ -35,9 +35,29 @@ pub fn wood(kind: Kind, bark: &Bark, old: Tick, dead: bool) -> [u8; 4] {
     })
 }
 
-/// The colours of an organ and of its stalk, at an age of the plant.
+/// The colours of an organ and of its stalk, at an age of the plant; between two ticks they go from those at the one to
+/// those at the other. What appears in the tick has its first colours, and what falls its last.
 #[inline]
 pub fn organ(plant: &Plant, paints: &Paints, organ: OrganId, age: Tick) -> [[u8; 4]; 2] {
+    let at = |age: Tick| organ_at(plant, paints, organ, age);
+    let (birth, death) = (plant.organs.birth[organ.index()], plant.organs.death[organ.index()]);
+    match plant.partway() {
+        Some(_) if death <= age => at(age - 1),
+        Some(share) if birth < age => {
+            let (from, to) = (at(age - 1), at(age));
+            [0, 1].map(|k| between(from[k], to[k], share))
+        }
+        _ => at(age),
+    }
+}
+
+/// The colour a share of the way to another.
+pub fn between(from: [u8; 4], to: [u8; 4], share: f32) -> [u8; 4] {
+    let mid = |k: usize| (f32::from(from[k]) + (f32::from(to[k]) - f32::from(from[k])) * share + 0.5) as u8;
+    [0, 1, 2, 3].map(mid)
+}
+
+fn organ_at(plant: &Plant, paints: &Paints, organ: OrganId, age: Tick) -> [[u8; 4]; 2] {
     let organs = &plant.organs;
     let place = organ.index();
     let (kind, form) = (organs.kind[place], organs.form[place]);

@@ -15,6 +15,7 @@ mod file;
 mod forms;
 #[cfg(test)]
 mod measure;
+mod model;
 mod outline;
 mod palette;
 mod plot;
@@ -35,11 +36,12 @@ pub use chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
 pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
+pub use model::Model;
 pub use plot::{PlotBody, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use reduced::chain::{Found, Sample, chains};
 pub use reduced::simplify::{fits, simplify};
-pub use scene::{DrawnOrgan, Scene};
+pub use scene::{DrawnOrgan, OwnForm, Scene};
 pub use solid::{Solid, Undrawn};
 pub use stem::Stems;
 pub use tube::Frustum;
@@ -122,8 +124,8 @@ impl Default for MeshOptions {
 pub struct About {
     /// The plant's number in the run.
     pub plant: u32,
-    /// Its age, in ticks since the seed.
-    pub age: Tick,
+    /// The age that it shows, in ticks since the seed; between two ticks it has a fraction.
+    pub age: f64,
     /// The seed of the run's random draws.
     pub run_seed: u64,
     /// The place of the plant's seed in the plot, metres. Added to the vertices, it gives their places in the plot.

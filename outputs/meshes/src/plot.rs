@@ -91,7 +91,7 @@ impl PlotMesh<'_> {
             all.components += counts.components;
             all.vertices += counts.vertices;
             all.faces += counts.faces;
-            comments.push(format!("{} age {} vertices {}", member.name, scene.age(), counts.vertices));
+            comments.push(format!("{} age {} vertices {}", member.name, scene.shown_age(), counts.vertices));
         }
         for (number, mesh) in self.obstacles.iter().enumerate() {
             all.vertices += mesh.vertices.len() as u64;

@@ -2,8 +2,9 @@
 //!
 //! An internode stands from its birth until its branch falls, an organ from its birth until its death. A living
 //! component has the death age +∞, so that `birth_age <= a and a < death_age` holds without a special case and no later
-//! fate is shown; an internode that stands dead has the age of its death. The base of an organ is moved from the axis
-//! line to the surface of the stem, by half the tip's diameter towards the organ.
+//! fate is shown; an internode that stands dead has the age of its death. Between two ticks all that stands at either is
+//! there, and what is yet to appear by the later one has the birth age of that. The base of an organ is moved from the
+//! axis line to the surface of the stem, by half the tip's diameter towards the organ.
 
 use super::chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 use super::forms::{FormMesh, Placement};
@@ -50,18 +51,31 @@ pub struct DrawnOrgan {
     pub heading: [f32; 3],
     /// The unit vector of its upper side.
     pub up: [f32; 3],
-    /// Its length and width at its age, metres; of an organ with an outline or a surface of its own, the share of it.
-    pub size: [f32; 2],
+    /// Its length and width at its age, metres, and 0; of an organ with an outline of its own the share of it, twice,
+    /// and 0; of a curved surface the factors along the organ, to its left and to its upper side.
+    pub size: [f32; 3],
     /// How much fuller it is than its form, so that it has its area.
     pub fullness: f32,
     /// The colours of the organ and of its stalk.
     pub colours: [[u8; 4]; 2],
-    /// Whether it has an outline, or a surface, of its own.
-    pub outlined: bool,
+    /// The form that it has instead of that of its column.
+    pub own: OwnForm,
+}
+
+/// The form that an organ states for itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OwnForm {
+    /// None: it has the form of its column.
+    None,
+    /// An outline, [`Plant::outline_of`].
+    Outline,
+    /// A curved surface, by its place among the [`Paints`] of the habit.
+    Surface(usize),
 }
 
 impl<'a> Scene<'a> {
-    /// The scene of `plant` at `age`; its frames and diameters must be those of that age.
+    /// The scene of `plant` at `age`; its frames and diameters must be those of that age. Of a plant that is shown between
+    /// two ticks `age` is the later one.
     pub fn new(plant: &'a Plant, age: Tick, options: &MeshOptions) -> Self {
         let stems = Stems::of(plant, age, options);
         let reduced = options.tolerance.as_ref().map(|tolerance| Reduced::of(&stems, tolerance));
@@ -74,9 +88,14 @@ impl<'a> Scene<'a> {
         Self::new(self.plant, self.age, &MeshOptions { tolerance: Some(tolerance), ..self.options.clone() })
     }
 
-    /// The age of the plant.
+    /// The age of the plant; between two ticks that at the later one.
     pub fn age(&self) -> Tick {
         self.age
+    }
+
+    /// The age that the plant shows, ticks.
+    pub fn shown_age(&self) -> f64 {
+        self.plant.shown_age(self.age)
     }
 
     /// How near the wood is drawn; `None`: each internode by itself.
@@ -86,7 +105,7 @@ impl<'a> Scene<'a> {
 
     /// The identity of the mesh, for its file.
     pub fn about(&self, run_seed: u64) -> About {
-        About { plant: self.plant.id, age: self.age, run_seed, place: self.plant.place }
+        About { plant: self.plant.id, age: self.shown_age(), run_seed, place: self.plant.place }
     }
 
     /// The size of the mesh, by one scan of births and deaths.
@@ -239,18 +258,31 @@ impl<'a> Scene<'a> {
 
     /// An organ as it is drawn.
     pub fn organ(&self, organ: OrganId) -> DrawnOrgan {
-        let colours = colour::organ(self.plant, self.paints, organ, self.age);
+        let colours = self.organ_colours(organ);
         match self.form(organ) {
             OrganForm::Shape(shape) => {
                 let Placement { base, heading, up, size, fullness } = self.placement(organ, shape);
-                DrawnOrgan { base, heading, up, size, fullness, colours, outlined: false }
+                let size = [size[0], size[1], 0.0];
+                DrawnOrgan { base, heading, up, size, fullness, colours, own: OwnForm::None }
             }
-            OrganForm::Outline(..) | OrganForm::Surface(..) => {
+            OrganForm::Outline(..) => {
                 let Frame { base, heading, up } = self.organ_base(organ);
-                let size = [self.plant.expanded(organ, self.age); 2];
-                DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, outlined: true }
+                let share = self.plant.expanded(organ, self.age);
+                let size = [share, share, 0.0];
+                DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, own: OwnForm::Outline }
+            }
+            OrganForm::Surface(_, scale) => {
+                let Frame { base, heading, up } = self.organ_base(organ);
+                let size = scale.map(|x| x * self.plant.expanded(organ, self.age));
+                let place = self.plant.stated_organs.surface(organ).map_or(0, |(place, _)| place);
+                DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, own: OwnForm::Surface(place) }
             }
         }
+    }
+
+    /// The colours of an organ and of its stalk.
+    pub fn organ_colours(&self, organ: OrganId) -> [[u8; 4]; 2] {
+        colour::organ(self.plant, self.paints, organ, self.age)
     }
 
     /// The organs that are drawn.

@@ -55,6 +55,12 @@ pub fn bend(plant: &mut Plant, age: Tick, site: &Site, scratch: &mut Scratch) ->
     outcome
 }
 
+/// Poses a plant with the curvatures that it has, whatever its loads.
+pub(crate) fn pose_bent(plant: &mut Plant, age: Tick, scratch: &mut Scratch) {
+    scratch.prepare(plant, age);
+    scratch.pose(plant, age);
+}
+
 impl Scratch {
     /// Keeps the diameters of the last tick, before the plant thickens, where the righting of axes needs them.
     pub fn remember(&mut self, plant: &Plant) {

@@ -17,6 +17,7 @@ mod uprighting;
 mod wood;
 
 pub use crate::plant::{Drag, OrganMass, Strain, Thickening, Tissue, Uprighting, Wood};
+pub(crate) use bend::pose_bent;
 pub use bend::{MOST_STEPS, Outcome, SETTLED, bend};
 pub use scratch::Scratch;
 pub use secondary::{taper, thicken};

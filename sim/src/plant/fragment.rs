@@ -86,6 +86,7 @@ impl Plant {
             bearers: Vec::new(),
             dormant: self.dormant.begun(),
             budget: self.budget,
+            partway: None,
             components: 0,
             component_limit: self.component_limit.saturating_sub(self.components),
             named_by_number: self.named_by_number,

@@ -89,8 +89,12 @@ impl Plant {
         !self.rewritten.changes.is_empty() || self.habit.looks.lengthen()
     }
 
-    /// Stores the lengths at `age` in the frames; none where they are the lengths in the column.
+    /// Stores the lengths at `age` in the frames; none where they are the lengths in the column. Between two ticks they
+    /// are there already.
     pub(crate) fn measure(&mut self, age: Tick) {
+        if self.partway.is_some() {
+            return;
+        }
         let mut lengths = std::mem::take(&mut self.frames.lengths);
         lengths.clear();
         if self.lengths_change() {

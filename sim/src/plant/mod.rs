@@ -24,6 +24,7 @@ mod habit;
 mod handle;
 mod joint;
 mod kind;
+mod lasting;
 mod ledger;
 mod length;
 mod look;
@@ -31,6 +32,7 @@ mod node;
 mod organ;
 mod outline;
 mod own_look;
+mod partway;
 mod placed;
 mod rare;
 pub(crate) mod standing;
@@ -52,6 +54,7 @@ pub use habit::{Habit, OrganTrend, OrganTrends, OwnTrends, Trend};
 pub use handle::{AxisId, NodeId, OrganId};
 pub use joint::Joint;
 pub use kind::{Cause, Class, Kind, PartOfPlant};
+pub(crate) use lasting::Lasting;
 pub use ledger::Departed;
 pub use length::Rewritten;
 pub use look::{InternodeLook, Looks, OrganLook, OrganLooks, PaintNumber, Shape};
@@ -59,6 +62,7 @@ pub use node::{NewNode, Nodes};
 pub use organ::{NewOrgan, Organs};
 pub use outline::StatedOrgans;
 pub use own_look::OwnLooks;
+pub use partway::Partway;
 pub use stated::{Part, Rest, StatedFrames};
 pub use strain::{Hold, Strain};
 pub use wood::{Drag, OrganMass, Thickening, Tissue, Uprighting, Wood};
@@ -131,6 +135,8 @@ pub struct Plant {
     pub dormant: DormantBuds,
     /// Thread budget of its growth; never changes the result.
     pub budget: ThreadBudget,
+    /// What it has beside its columns where it is shown between two ticks.
+    pub(crate) partway: Option<Box<Partway>>,
     components: u32,
     component_limit: u32,
     /// Whether lineage keys follow from the numbers of components instead of their places on the axes.
@@ -183,6 +189,7 @@ impl Plant {
             bearers: Vec::new(),
             dormant: DormantBuds::default(),
             budget: ThreadBudget::default(),
+            partway: None,
             components: 0,
             component_limit: seed.component_limit.min(MOST_COMPONENTS),
             named_by_number: false,
@@ -216,6 +223,7 @@ impl Plant {
     /// Empties the columns, for a model that writes them anew; component numbers, events and the ledger continue.
     pub fn begin_rewriting(&mut self) {
         self.death = NEVER;
+        self.partway = None;
         self.axes.clear();
         self.nodes.clear();
         self.appeared.clear();
@@ -352,6 +360,9 @@ impl Plant {
     /// The share of its full length and width that an organ has at `age`; its area is [`Plant::organ_area`].
     #[inline]
     pub fn expanded(&self, organ: OrganId, age: Tick) -> f32 {
+        if let Some(partway) = &self.partway {
+            return partway.sizes[organ.index()];
+        }
         let own_age = age.saturating_sub(self.organs.birth[organ.index()]);
         self.look_of_organ(organ).map_or(1.0, |look| look.share(own_age))
     }

@@ -65,13 +65,14 @@ impl Plant {
     /// Calls `show` for each stretch of internodes that stands at `age`, along their axes.
     #[inline]
     pub fn each_standing(&self, age: Tick, mut show: impl FnMut(Stretch)) {
+        let fallen = self.fallen_by(age);
         for &stretch in self.stretches(age).iter() {
-            if self.axes.shed[stretch.axis.index()] <= age {
+            if self.axes.shed[stretch.axis.index()] <= fallen {
                 continue;
             }
             if self.cuts.is_empty() {
                 show(stretch);
-            } else if let Some(left) = self.left_of(stretch, age) {
+            } else if let Some(left) = self.left_of(stretch, fallen) {
                 show(left);
             }
         }
@@ -116,7 +117,7 @@ impl Plant {
     /// Whether an internode is on the plant at `age`, living or dead.
     #[inline]
     pub fn stands(&self, node: NodeId, age: Tick) -> bool {
-        self.nodes.birth[node.index()] <= age && age < self.shed_of(node)
+        self.nodes.birth[node.index()] <= age && self.fallen_by(age) < self.shed_of(node)
     }
 
     /// Whether an internode was on the plant at the end of the tick before `tick`, and no cut takes it at `tick`: what
@@ -129,7 +130,7 @@ impl Plant {
     /// Whether an organ is on the plant at `age`; valid after [`crate::shed`].
     #[inline]
     pub fn organ_stands(&self, organ: OrganId, age: Tick) -> bool {
-        self.organs.birth[organ.index()] <= age && age < self.organs.death[organ.index()]
+        self.organs.birth[organ.index()] <= age && self.fallen_by(age) < self.organs.death[organ.index()]
     }
 
     /// The tick at which an organ is gone: at its own fall or that of its branch, whichever comes first.

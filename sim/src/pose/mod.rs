@@ -9,16 +9,19 @@
 
 pub(crate) mod bent;
 mod course;
+pub(crate) mod organs;
+pub(crate) mod placed;
 mod rest;
 mod scan;
 
 use crate::clock::Tick;
 use crate::plant::frames::{Stated, Trended};
 use crate::plant::stated::{Part, Rest};
-use crate::plant::{AxisId, NodeId, OrganId, Plant};
+use crate::plant::{AxisId, NodeId, Plant};
 use crate::vector::Vector;
 
 pub use crate::plant::frames::{Frame, Frames};
+pub use organs::{OrganInputs, organ_follows_from, organ_frame, stated_organ_frame};
 
 /// Poses every internode of `plant` that appeared by `age` and has no frame yet. Other frames stay: the pose at rest of
 /// a node depends on the nodes before it alone, and to the last bit neither on the order in which the axes grew nor on
@@ -39,50 +42,18 @@ pub fn pose(plant: &mut Plant, age: Tick) {
     }
 }
 
+/// Makes every frame of a plant that does not bend anew, with the lengths that its frames have.
+pub(crate) fn pose_anew(plant: &mut Plant, age: Tick) {
+    plant.frames.make_anew();
+    pose(plant, age);
+}
+
 /// Whether the frames are not those of `age`: a rest frame or a length differs, or the first frame was stated after
 /// they were made.
 fn is_stale(plant: &Plant, age: Tick) -> bool {
     let Plant { stated, frames, .. } = plant;
     let newly = !stated.is_empty() && frames.courses.is_empty();
     newly || stated.differ(frames.age, age) || plant.lengths_differ(frames.age, age)
-}
-
-/// The pose at `age` of an organ on its node, which must have a frame: its insertion, turned by the habit's trend for
-/// its kind as far as the ticks since its birth go, and twisted to face the sky where leaves do. The base lies on the
-/// line of the axis, at the node; a mesh moves it to the surface of the stem.
-#[inline]
-pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
-    let Plant { organs, nodes, axes, habit, .. } = plant;
-    let organ = organ.index();
-    let node = organs.node[organ];
-    if let Some(stated) = stated_organ_frame(plant, OrganId(organ as u32)) {
-        return stated;
-    }
-    let inserted = node_frame(plant, node).inserted(organs.azimuth[organ], organs.insertion[organ]);
-    if habit.organ_trends.is_empty() {
-        return inserted;
-    }
-    let order = axes.order[nodes.axis[node.index()].index()];
-    let kind = organs.kind[organ];
-    let turned = match habit.organ_trend(order, kind) {
-        Some(trend) => course::turned(inserted, &trend.at(age.saturating_sub(organs.birth[organ]))),
-        None => inserted,
-    };
-    if habit.faces_the_sky(order, kind) { course::facing_the_sky(turned) } else { turned }
-}
-
-/// The frame that an organ states: the same at all ages, at its own start.
-#[inline]
-pub fn stated_organ_frame(plant: &Plant, organ: OrganId) -> Option<Frame> {
-    if plant.stated_organs.keep_insertion() {
-        return None;
-    }
-    let (rotation, start) = plant.stated_organs.frame(organ)?;
-    let bearing = node_frame(plant, plant.organs.node[organ.index()]);
-    let directions = [bearing.heading, bearing.up].map(Vector::from);
-    let base = Vector::from(bearing.base) + rest::placed(directions, start.map(f64::from));
-    let [heading, up] = rest::within(directions, rotation).map(Vector::single);
-    Some(Frame { base: base.single(), heading, up })
 }
 
 /// The frame at the tip of an internode, where its node is: the directions of the internode, its end as the base.
