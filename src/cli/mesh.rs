@@ -4,6 +4,9 @@
 //! plant, which the wind moves for the mesh alone.
 
 mod formats;
+mod keyed;
+mod life;
+mod rig;
 
 use super::budget::{Asked, Budget, in_words, too_few};
 use super::out;
@@ -12,11 +15,13 @@ use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::Args;
 use formats::Format;
+use life::Growing;
 use phytomer::run::drawing::{check_size, options_of};
 use phytomer::run::picturing::{pictured_plot, plot_mesh};
 use phytomer_outputs::Destination;
 use phytomer_outputs::meshes::{MeshOptions, Scene, Tolerance, fitting};
 use phytomer_sim::Tick;
+use rig::Rig;
 use std::path::PathBuf;
 
 /// Grow one plant or one plot of a run or a scenario again, and write it as a mesh.
@@ -30,6 +35,8 @@ Examples:
   phytomer mesh my_plant/scenario.toml --age 24 --wind 8 --time 0.40 --out frame-010.ply
   phytomer mesh under_a_roof --plot --age 12 --out plot.ply
   phytomer mesh coffee --age 36 --tolerance 1mm --out coffee.glb
+  phytomer mesh coffee --ages 1..48 --keys 12 --seconds 8 --tolerance 2mm --out life.glb
+  phytomer mesh willow --age 20 --tolerance 5mm --wind 8 --rig 60 --out sway.glb
   phytomer mesh coffee --age 36 --tolerance 1mm --out print.stl
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
@@ -57,20 +64,33 @@ pub struct Mesh {
     #[command(flatten)]
     budget: Budget,
     #[command(flatten)]
+    growing: Growing,
+    #[command(flatten)]
+    rig: Rig,
+    #[command(flatten)]
     breeze: Breeze,
 }
 
 impl Mesh {
     pub fn obey(self) -> Result<Verdict> {
         let format = Format::of(&self.out)?;
-        match Regrown::find(&self.name, self.age.as_slice())? {
+        let asked = [("ages", self.growing.is_asked()), ("rig", self.rig.asked().is_some())];
+        if let Some((option, _)) = asked.iter().find(|(option, asked)| *asked && !format.holds(option)) {
+            return Err(format.holds_no(option).into());
+        }
+        let ages: Vec<Tick> = self.age.into_iter().chain(self.growing.last()).collect();
+        match Regrown::find(&self.name, &ages)? {
             Ok(regrown) => self.write(&regrown, format),
             Err(verdict) => Ok(verdict),
         }
     }
 
     fn write(&self, regrown: &Regrown, format: Format) -> Result<Verdict> {
+        if let Some(joints) = self.rig.asked() {
+            return rig::write(self, regrown, format, joints);
+        }
         match self.plot {
+            _ if self.growing.is_asked() => keyed::write(self, regrown),
             Some(plot) => self.write_plot(regrown, plot, format),
             None => self.write_plant(regrown, format),
         }

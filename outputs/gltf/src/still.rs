@@ -52,7 +52,7 @@ struct Plan {
 /// # Errors
 /// Those of `out`; a mesh that is larger than the format can hold, before anything is written.
 pub fn write_still(mesh: &dyn Drawing, out: &mut (dyn Write + Send)) -> io::Result<()> {
-    Still::of(mesh, None)?.write(Document::default(), out)
+    Still::of(mesh, None)?.write(Document::default(), &[], out)
 }
 
 /// A mesh that is counted and ready to be written.
@@ -91,11 +91,12 @@ impl<'a> Still<'a> {
         STRIDE + self.skin.map_or(0, |_| OF_SKIN)
     }
 
-    /// Writes the file; `file` has what else is in it. A mesh that has a skin gets the first of the file.
+    /// Writes the file; `file` has what else is in it, and `bytes` are those of its views. A mesh that is bound to joints
+    /// gets the first skin of the file.
     ///
     /// # Errors
     /// As [`write_still`].
-    pub fn write(&self, mut file: Document, out: &mut (dyn Write + Send)) -> io::Result<()> {
+    pub fn write(&self, mut file: Document, bytes: &[u8], out: &mut (dyn Write + Send)) -> io::Result<()> {
         file.extras.extend(extras_of(self.mesh));
         let name = self.mesh.notes().into_iter().next().unwrap_or_default();
         let node = if let Some(mesh) = self.enter(&mut file, &name) {
@@ -109,6 +110,7 @@ impl<'a> Still<'a> {
         let node = file.node(node);
         file.roots.push(node);
         file.write_head(out)?;
+        out.write_all(bytes)?;
         for class in self.classes() {
             self.write_vertices(class, out)?;
             self.write_faces(class, out)?;

@@ -41,6 +41,7 @@ pub use forms::own::{MeshFault, OwnForms, check as check_form};
 pub use plot::{PlotBody, PlotDrawing, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use reduced::chain::{Found, Sample, chains};
+pub use reduced::sides;
 pub use reduced::simplify::{fits, simplify};
 pub use scene::{DrawnOrgan, Scene};
 pub use solid::{Solid, Undrawn};

@@ -38,6 +38,25 @@ impl Format {
         Ok(FORMATS.iter().find(asked).map_or(FORMATS[0].0, |(format, _)| *format))
     }
 
+    /// Whether a file of it holds what an option asks for: a whole life, or a skeleton.
+    pub fn holds(self, option: &str) -> bool {
+        match self {
+            Self::Glb => ["ages", "rig"].contains(&option),
+            Self::Ply | Self::Stl => false,
+        }
+    }
+
+    /// That the format cannot hold what an option asks for, with those that can.
+    pub fn holds_no(self, option: &str) -> Misuse {
+        let named = |(_, format): &(Self, out::Format)| format!("{} (.{})", format.name, format.extension);
+        let own = FORMATS.iter().find(|(format, _)| *format == self).map(named).unwrap_or_default();
+        let can: Vec<String> = FORMATS.iter().filter(|(format, _)| format.holds(option)).map(named).collect();
+        Misuse(format!(
+            "--{option}: {own} holds a plant that stands still at one age; the formats that hold more: {}",
+            can.join(", ")
+        ))
+    }
+
     /// Writes a plant at an age.
     ///
     /// # Errors
