@@ -1,8 +1,8 @@
 //! A GLB file: the JSON that says what is in it, and the binary part that follows (glTF 2.0 §4.4).
 //!
-//! Views and accessors are entered before their bytes are made, so that the JSON, which stands first in the file, can be
-//! written first, and the bytes after it as they come. Every view begins at a multiple of four bytes. Absent: what the
-//! bytes are, and anything that refers to other files.
+//! Views and accessors are entered before their bytes are made, so that the JSON, which stands first in the file, can
+//! be written first, and the bytes after it as they come. Every view begins at a multiple of four bytes. Absent: what
+//! the bytes are, and anything that refers to other files.
 
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};

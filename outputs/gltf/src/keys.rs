@@ -2,9 +2,9 @@
 //!
 //! The plant is shown once for each key, in the order of age. Its wood is the lines of a [`Life`]; what is drawn by
 //! itself, organs and internodes that are no plain tubes, is kept with its corners at each key at which it stands. What
-//! does not stand at a key is a point there: the tip of the internode that bears it, or of the nearest one below it that
-//! stands. So a part grows out of its bearer, and goes into it again. Memory grows with the number of keys, not with
-//! the number of ages that lie between them. Absent: tubes (`wood`), and the file (`life`).
+//! does not stand at a key is a point there: the tip of the internode that bears it, or of the nearest one below it
+//! that stands. So a part grows out of its bearer, and goes into it again. Memory grows with the number of keys, not
+//! with the number of ages that lie between them. Absent: tubes (`wood`), and the file (`life`).
 
 use super::paint::class_of;
 use phytomer_life::{Life, Maker, Nearness};

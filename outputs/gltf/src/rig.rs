@@ -1,12 +1,12 @@
 //! A skeleton for a plant that sways: joints along its thick axes, and what of the plant hangs on them.
 //!
-//! One joint is the ground. The others go to axes by the length of an axis times the diameter at its base, divided among
-//! them as seats are by d'Hondt; an axis gets none before the axis that bears it has one. Of m joints of an axis the
-//! i-th is at i / (m + ½) of its length: for a cantilever, whose deflection grows with the square of the length, a single
-//! joint at two thirds leaves the same error, a ninth of the deflection, at the tip and at one third. Between two joints
-//! a place is moved by both, in shares that change evenly along the axis; above the last joint by that one, and what has
-//! no joint of its own as the place that bears it. A vertex has at most four joints, in shares of 255. Absent: the
-//! motion (`sway`).
+//! One joint is the ground. The others go to axes by the length of an axis times the diameter at its base, divided
+//! among them as seats are by d'Hondt; an axis gets none before the axis that bears it has one. Of m joints of an axis
+//! the i-th is at i / (m + ½) of its length: for a cantilever, whose deflection grows with the square of the length, a
+//! single joint at two thirds leaves the same error, a ninth of the deflection, at the tip and at one third. Between
+//! two joints a place is moved by both, in shares that change evenly along the axis; above the last joint by that one,
+//! and what has no joint of its own as the place that bears it. A vertex has at most four joints, in shares of 255.
+//! Absent: the motion (`sway`).
 
 use super::still::{Bound, y_up};
 use glam::{Mat3, Quat, Vec3};
@@ -89,7 +89,7 @@ impl Rig {
         if weights.iter().all(|weight| *weight <= 0.0) {
             return None;
         }
-        let seats = seats(plant, &weights, most.min(MOST_JOINTS).saturating_sub(1));
+        let seats = rig.seats(plant, &weights, most.min(MOST_JOINTS).saturating_sub(1));
         rig.set_joints(plant, age, &seats);
         Some(rig)
     }
@@ -134,6 +134,25 @@ impl Rig {
         sizes.into_iter().map(|(length, diameter)| f64::from(length) * f64::from(diameter)).collect()
     }
 
+    /// How many joints each axis gets: at most one an internode.
+    fn seats(&self, plant: &Plant, weights: &[f64], joints: u32) -> Vec<u32> {
+        let (mut seats, mut most) = (vec![0_u32; weights.len()], vec![0_u32; weights.len()]);
+        self.along.iter().for_each(|(axis, _)| most.get_mut(*axis as usize).into_iter().for_each(|most| *most += 1));
+        let bearer = |axis: usize| plant.axes.bearer[axis].some().map(|node| plant.nodes.axis[node.index()].index());
+        for _ in 0..joints {
+            let may = |axis: &usize| {
+                weights[*axis] > 0.0
+                    && seats[*axis] < most[*axis]
+                    && bearer(*axis).is_none_or(|bearer| seats[bearer] > 0)
+            };
+            let asks = |axis: usize| weights[axis] / f64::from(seats[axis] + 1);
+            let next = (0..weights.len()).filter(may).max_by(|a, b| asks(*a).total_cmp(&asks(*b)).then(b.cmp(a)));
+            let Some(next) = next else { break };
+            seats[next] += 1;
+        }
+        seats
+    }
+
     /// Sets so many joints on each axis, bearing axes first.
     fn set_joints(&mut self, plant: &Plant, age: Tick, seats: &[u32]) {
         let mut nodes_of: Vec<Vec<u32>> = vec![Vec::new(); plant.axes.len()];
@@ -148,19 +167,18 @@ impl Rig {
             let mut limb = Limb { base, joints: Vec::new() };
             let nodes = &nodes_of[axis];
             let length = nodes.last().map_or(0.0, |node| self.along[*node as usize].1[1]);
-            for seat in 1..=seats[axis] {
-                let wanted = length * seat as f32 / (seats[axis] as f32 + 0.5);
-                let reached = nodes.iter().find(|node| self.along[**node as usize].1[1] >= wanted * 0.999_99);
-                let Some(node) = reached.or(nodes.last()) else { break };
-                let at = self.along[*node as usize].1[1];
-                // Two joints of a short axis may come to one place: one is enough.
-                if limb.joints.last().is_some_and(|(last, _)| *last >= at) {
-                    continue;
-                }
+            let (count, mut next) = (seats[axis] as usize, 0);
+            for seat in 1..=count {
+                let wanted = length * seat as f32 / (count as f32 + 0.5);
+                let reached = nodes.iter().position(|node| self.along[*node as usize].1[1] >= wanted * 0.999_99);
+                // Each joint is at an internode of its own, and leaves one to each that follows.
+                let place =
+                    reached.unwrap_or(nodes.len()).max(next).min((nodes.len() + seat).saturating_sub(count + 1));
+                let Some(node) = nodes.get(place) else { break };
                 let joint = self.joints.len() as u8;
                 self.joints.push(Joint { node: Some(NodeId(*node)), parent: Some(parent) });
-                limb.joints.push((at, joint));
-                parent = joint;
+                limb.joints.push((self.along[*node as usize].1[1], joint));
+                (parent, next) = (joint, place + 1);
             }
             self.limbs[axis] = limb;
         }
@@ -246,18 +264,4 @@ fn bound(shares: &[(u8, f32)]) -> Bound {
     }
     (joints[0], parts[0]) = (most.first().map_or(0, |(joint, _)| *joint), left.clamp(0, 255) as u8);
     (joints, parts)
-}
-
-/// How many joints each axis gets.
-fn seats(plant: &Plant, weights: &[f64], joints: u32) -> Vec<u32> {
-    let mut seats = vec![0_u32; weights.len()];
-    let bearer = |axis: usize| plant.axes.bearer[axis].some().map(|node| plant.nodes.axis[node.index()].index());
-    for _ in 0..joints {
-        let may = |axis: &usize| weights[*axis] > 0.0 && bearer(*axis).is_none_or(|bearer| seats[bearer] > 0);
-        let asks = |axis: usize| weights[axis] / f64::from(seats[axis] + 1);
-        let next = (0..weights.len()).filter(may).max_by(|a, b| asks(*a).total_cmp(&asks(*b)).then(b.cmp(a)));
-        let Some(next) = next else { break };
-        seats[next] += 1;
-    }
-    seats
 }

@@ -91,11 +91,10 @@ impl<'a> Still<'a> {
         STRIDE + self.skin.map_or(0, |_| OF_SKIN)
     }
 
-    /// Writes the file; `file` has what else is in it, and `bytes` are those of its views. A mesh that is bound to joints
-    /// gets the first skin of the file.
+    /// Writes the file; `file` has what else is in it, and `bytes` are those of its views. A mesh that is bound to
+    /// joints gets the first skin of the file.
     ///
-    /// # Errors
-    /// As [`write_still`].
+    /// # Errors As [`write_still`].
     pub fn write(&self, mut file: Document, bytes: &[u8], out: &mut (dyn Write + Send)) -> io::Result<()> {
         file.extras.extend(extras_of(self.mesh));
         let name = self.mesh.notes().into_iter().next().unwrap_or_default();

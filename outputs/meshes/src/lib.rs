@@ -3,9 +3,9 @@
 //!
 //! A [`Scene`] is the standing part of a plant at an age, relative to the plant's seed: single precision then suffices
 //! wherever the plant stands, and a comment of the file states the place. A scene gives vertices and triangles in
-//! chunks of packed bytes, and a [`MeshWriter`] writes them to a file. Other formats are functions of a [`Drawing`], one
-//! file each and one line here; which format is written is the caller's choice. Vertices are not shared between components. Absent: buds, which have
-//! no form, and bending, which is part of the pose.
+//! chunks of packed bytes, and a [`MeshWriter`] writes them to a file. Other formats are functions of a [`Drawing`],
+//! one file each and one line here; which format is written is the caller's choice. Vertices are not shared between
+//! components. Absent: buds, which have no form, and bending, which is part of the pose.
 
 mod budget;
 mod chunk;

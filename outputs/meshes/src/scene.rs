@@ -214,7 +214,8 @@ impl<'a> Scene<'a> {
     }
 
     /// Calls `take` with the vertices and the triangles of each component that is drawn by itself, in the order of the
-    /// mesh: organs, and internodes along which no tube of several runs. Triangles refer to the component's own vertices.
+    /// mesh: organs, and internodes along which no tube of several runs. Triangles refer to the component's own
+    /// vertices.
     pub fn each_alone(&self, take: &mut dyn FnMut(&[Vertex], &[[u32; 3]])) {
         let mut vertices = Vec::new();
         let Ok::<(), Infallible>(()) = self.each_stem(0..self.stem_places(), |node| {

@@ -18,8 +18,8 @@ use phytomer_outputs::meshes::{MeshOptions, PlantDrawing, Scene, Tolerance};
 /// What belongs to a skeleton.
 #[derive(Debug, Clone, Args)]
 pub struct Rig {
-    /// Hang the plant on a skeleton of at most so many joints along its thick axes, which sways in the wind: an animation
-    /// of 8 seconds that loops. How far it is from the full solution is told.
+    /// Hang the plant on a skeleton of at most so many joints along its thick axes, which sways in the wind: an
+    /// animation of 8 seconds that loops. How far it is from the full solution is told.
     #[arg(long, value_name = "JOINTS", requires = "wind", conflicts_with_all = ["plot", "ages", "time"],
         value_parser = clap::value_parser!(u32).range(2..=i64::from(MOST_JOINTS)))]
     rig: Option<u32>,
