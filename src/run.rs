@@ -16,6 +16,7 @@ pub mod forecast;
 pub mod forms;
 mod in_memory;
 mod in_turn;
+pub mod keying;
 pub mod picturing;
 mod plan;
 pub mod plots;

@@ -1,27 +1,32 @@
-//! `mesh`: one plant at one age, or all plants of a plot at one tick, as a PLY file, grown again from their seeds.
+//! `mesh`: one plant at one age, or all plants of a plot at one tick, as a mesh file, grown again from their seeds.
 //!
 //! It is the same plant, with the same component numbers, that the run has recorded. In a wind it is a frame of that
 //! plant, which the wind moves for the mesh alone.
 
+mod formats;
+mod keyed;
+mod life;
+mod rig;
+
 use super::budget::{Asked, Budget, in_words, too_few};
-use super::out::{self, Format};
+use super::out;
 use super::regrown::{Breeze, Fall, Regrown};
 use super::span::age;
 use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::Args;
-use phytomer::run::drawing::{options_of, write_mesh};
+use formats::Format;
+use life::Growing;
+use phytomer::run::drawing::{check_size, options_of};
 use phytomer::run::picturing::{pictured_plot_at, plot_mesh};
 use phytomer_outputs::Destination;
 use phytomer_outputs::meshes::{MeshOptions, Scene, Tolerance, fitting};
 use phytomer_sim::Tick;
 use phytomer_sim::between::Moment;
+use rig::Rig;
 use std::path::PathBuf;
 
-/// The formats of meshes.
-const FORMATS: [Format; 1] = [Format { name: "PLY", extension: "ply" }];
-
-/// Grow one plant or one plot of a run or a scenario again, and write it as a PLY mesh.
+/// Grow one plant or one plot of a run or a scenario again, and write it as a mesh.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -31,6 +36,10 @@ Examples:
   phytomer mesh runs/coffee --plant 3 --out third.ply --sides 12
   phytomer mesh my_plant/scenario.toml --age 24 --wind 8 --time 0.40 --out frame-010.ply
   phytomer mesh under_a_roof --plot --age 12 --out plot.ply
+  phytomer mesh coffee --age 36 --tolerance 1mm --out coffee.glb
+  phytomer mesh coffee --ages 1..48 --keys 12 --seconds 8 --tolerance 2mm --out life.glb
+  phytomer mesh willow --age 20 --tolerance 5mm --wind 8 --rig 60 --out sway.glb
+  phytomer mesh coffee --age 36 --tolerance 1mm --out print.stl
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
 pub struct Mesh {
@@ -47,9 +56,9 @@ pub struct Mesh {
     /// Its age in ticks, of a plot its tick; the last of the run if not given. 3.5 is halfway from tick 3 to tick 4.
     #[arg(long, value_parser = age)]
     age: Option<Moment>,
-    /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written
-    /// through.
-    #[arg(long, value_name = "FILE.ply")]
+    /// The file to write; its ending tells the format: `.ply`, `.glb` (glTF, Y up) or `.stl` (binary, triangles
+    /// alone). `-` is PLY on stdout. A link stays, and its target is replaced; a pipe or a device is written through.
+    #[arg(long, value_name = "FILE.ply|.glb|.stl")]
     out: PathBuf,
     /// Sides of the tube that an internode is drawn as.
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(3..=64))]
@@ -59,27 +68,39 @@ pub struct Mesh {
     #[command(flatten)]
     fall: Fall,
     #[command(flatten)]
+    growing: Growing,
+    #[command(flatten)]
+    rig: Rig,
+    #[command(flatten)]
     breeze: Breeze,
 }
 
 impl Mesh {
     pub fn obey(self) -> Result<Verdict> {
-        out::check(&self.out, "mesh", &FORMATS)?;
-        let needed: Vec<Tick> = self.age.iter().map(|age| age.tick()).collect();
-        match Regrown::find(&self.name, &needed)? {
-            Ok(regrown) => self.write(&regrown),
+        let format = Format::of(&self.out)?;
+        let asked = [("ages", self.growing.is_asked()), ("rig", self.rig.asked().is_some())];
+        if let Some((option, _)) = asked.iter().find(|(option, asked)| *asked && !format.holds(option)) {
+            return Err(format.holds_no(option).into());
+        }
+        let ages: Vec<Tick> = self.age.iter().map(|age| age.tick()).chain(self.growing.last()).collect();
+        match Regrown::find(&self.name, &ages)? {
+            Ok(regrown) => self.write(&regrown, format),
             Err(verdict) => Ok(verdict),
         }
     }
 
-    fn write(&self, regrown: &Regrown) -> Result<Verdict> {
+    fn write(&self, regrown: &Regrown, format: Format) -> Result<Verdict> {
+        if let Some(joints) = self.rig.asked() {
+            return rig::write(self, regrown, format, joints);
+        }
         match self.plot {
-            Some(plot) => self.write_plot(regrown, plot),
-            None => self.write_plant(regrown),
+            _ if self.growing.is_asked() => keyed::write(self, regrown),
+            Some(plot) => self.write_plot(regrown, plot, format),
+            None => self.write_plant(regrown, format),
         }
     }
 
-    fn write_plant(&self, regrown: &Regrown) -> Result<Verdict> {
+    fn write_plant(&self, regrown: &Regrown, format: Format) -> Result<Verdict> {
         let age = self.age.unwrap_or_else(|| regrown.trial.last_age_of(self.plant).into());
         regrown.check(("--age", &[age.age()]), ("--plant", &[self.plant]))?;
         let regrowth = regrown.regrowth(&self.breeze)?.falling(self.fall.fall);
@@ -101,7 +122,8 @@ impl Mesh {
                     return Ok(());
                 }
             }
-            let written = write_mesh(plant, age, seed, &options, &mut file);
+            let scene = Scene::new(plant, age, &options);
+            let written = check_size(&scene).and_then(|()| format.write_plant(&scene, seed, &mut file));
             Ok(written.with_context(|| self.failing())?)
         })?;
         match refused {
@@ -110,7 +132,7 @@ impl Mesh {
         }
     }
 
-    fn write_plot(&self, regrown: &Regrown, plot: u32) -> Result<Verdict> {
+    fn write_plot(&self, regrown: &Regrown, plot: u32, format: Format) -> Result<Verdict> {
         let at = self.age.unwrap_or(regrown.scenario.ages.until.into());
         let tick = at.age();
         regrown.check_plot(("--age", &[tick]), plot)?;
@@ -123,7 +145,7 @@ impl Mesh {
             let what = format!("plot {plot} at tick {tick}");
             within = self.tolerance(&what, |tolerance| mesh.faces_within(tolerance))?;
             within.iter().for_each(|tolerance| mesh.within(*tolerance));
-            mesh.write(&mut file).with_context(|| self.failing())?;
+            format.write_plot(&mesh, &mut file).with_context(|| self.failing())?;
         }
         let plants = amounts::of(pictured.stands.iter().map(|stand| stand.members.len() as u64).sum(), "plant");
         self.tell(file, &format!("plot {plot} at tick {tick}, {plants}{}", in_words(within.as_ref())))

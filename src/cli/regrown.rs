@@ -49,8 +49,8 @@ pub struct Fall {
     pub fall: bool,
 }
 
-/// The wind of one frame.
-#[derive(Debug, Clone, Args)]
+/// The wind of one frame; by default none.
+#[derive(Debug, Clone, Default, Args)]
 pub struct Breeze {
     /// A gusty wind of so many metres a second, for this frame alone; the species needs wood that bends. 0 is calm.
     #[arg(long, value_name = "M/S", allow_negative_numbers = true, value_parser = wind_speed)]

@@ -1,0 +1,26 @@
+//! glTF 2.0 in one binary file (GLB): what viewers, engines and Blender open without an importer of ours.
+//!
+//! [`write_still`] writes a mesh at one age, [`write_growth`] a whole life as morph targets, and [`Sway`] a plant on a
+//! skeleton that the wind moves. Metres, Y up, colours of vertices in linear light. JSON by serde_json; the
+//! bytes are ours, since no crate writes accessors as a stream. Absent: meshopt and Draco, which few programs read, and
+//! textures.
+
+mod body;
+mod document;
+mod growth;
+mod keys;
+mod morph;
+mod paint;
+mod rig;
+mod still;
+mod sway;
+#[cfg(test)]
+mod tests;
+mod wood;
+
+pub use body::Body;
+pub use growth::{Growth, Written, write_growth};
+pub use keys::{KeyMaker, Keyed};
+pub use rig::MOST_JOINTS;
+pub use still::write_still;
+pub use sway::Sway;

@@ -1,0 +1,46 @@
+//! A whole life in one file: `mesh --ages`, a plant or a plot grown once and shown from its first age to its last.
+//!
+//! Absent: how each format writes it (`keyed`).
+
+use super::super::span::{Span, span};
+use clap::Args;
+use phytomer_sim::Tick;
+
+/// The longest animation, seconds.
+const LONGEST: f64 = 3600.0;
+
+/// A life instead of an age.
+#[derive(Debug, Clone, Args)]
+pub struct Growing {
+    /// A whole life instead of one age, in a file that plays (GLB): the ages from the first to the last, of a plot the
+    /// ticks; after a slash the step between them, such as 1..48/4. Wood is within 1 mm, or within --tolerance.
+    #[arg(long, value_name = "FIRST..LAST[/STEP]", value_parser = span, conflicts_with_all = ["age", "wind", "triangles", "sides"])]
+    pub ages: Option<Span>,
+    /// The length of a life, seconds; of a GLB file 12 if not given.
+    #[arg(long, value_name = "SECONDS", requires = "ages", allow_negative_numbers = true, value_parser = seconds)]
+    pub seconds: Option<f64>,
+    /// At how many of its ages, evenly from the first to the last, a life in a GLB file stands exactly as it has grown:
+    /// its morph targets. Between two of them everything goes evenly from one to the other.
+    #[arg(long, value_name = "AGES", default_value_t = 16, requires = "ages", value_parser = clap::value_parser!(u32).range(2..=256))]
+    pub keys: u32,
+}
+
+impl Growing {
+    /// Whether a life is asked for.
+    pub fn is_asked(&self) -> bool {
+        self.ages.is_some()
+    }
+
+    /// The last age, to which a species by itself must grow.
+    pub fn last(&self) -> Option<Tick> {
+        self.ages.map(|ages| ages.last)
+    }
+}
+
+/// A length of a life.
+fn seconds(text: &str) -> std::result::Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds > 0.0 && seconds <= LONGEST => Ok(seconds),
+        _ => Err(format!("a length above 0 and up to {LONGEST} seconds is expected")),
+    }
+}

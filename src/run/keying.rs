@@ -1,0 +1,129 @@
+//! A plant, or a plot, grown once and shown at the key ages of a life in one file.
+//!
+//! Keys lie evenly between the first age and the last, on whole ticks, each once. Absent: the file, which is a writer's
+//! (`phytomer_outputs::gltf`), and ages between ticks.
+
+use super::RunError;
+use super::picturing::obstacles_of;
+use super::regrowth::{Regrowth, Whose};
+use phytomer_outputs::gltf::{Body, Growth, KeyMaker, Keyed};
+use phytomer_outputs::meshes::{MeshOptions, OwnForms, Tolerance};
+use phytomer_sim::Tick;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// How a life is keyed.
+#[derive(Debug, Clone)]
+pub struct Keying {
+    /// The keys, each later than the one before.
+    pub ages: Vec<Tick>,
+    /// How near the wood is drawn.
+    pub tolerance: Tolerance,
+    /// How long the animation is, seconds.
+    pub seconds: f64,
+}
+
+/// So many of the ages from the first to the last, a step apart, evenly; all where there are not as many.
+pub fn keys_of(first: Tick, last: Tick, step: Tick, keys: u32) -> Vec<Tick> {
+    let steps = u64::from(last.saturating_sub(first) / step.max(1));
+    let gaps = steps.min(u64::from(keys.saturating_sub(1)));
+    if gaps == 0 {
+        return vec![first];
+    }
+    (0..=gaps).map(|key| first + step * ((2 * key * steps + gaps) / (2 * gaps)) as Tick).collect()
+}
+
+/// Grows a plant or a plot and shows it at the keys; `forms` are those of its own that each species names.
+///
+/// # Errors
+/// Those of growing.
+pub fn keyed(regrowth: &Regrowth, whose: Whose, keying: &Keying, forms: &[Arc<OwnForms>]) -> Result<Growth, RunError> {
+    let count = keying.ages.len();
+    let options = |species: usize| {
+        let own = forms.get(species).cloned().unwrap_or_default();
+        MeshOptions { own, ..MeshOptions::default() }
+    };
+    let maker = |species: usize| KeyMaker::new(keying.tolerance, &options(species), count);
+    let (bodies, name, origin) = match whose {
+        Whose::Plant(plant) => {
+            let (body, place) = plant_keyed(regrowth, plant, &keying.ages, &maker)?;
+            (vec![body], format!("plant {plant}"), place)
+        }
+        Whose::Plot(plot) => {
+            (plot_keyed(regrowth, plot, &keying.ages, &maker)?, format!("plot {plot}"), regrowth.plot_place(plot))
+        }
+    };
+    Ok(Growth {
+        bodies,
+        ages: keying.ages.iter().map(|age| *age as f32).collect(),
+        seconds: keying.seconds,
+        tolerance: keying.tolerance.distance,
+        note: format!("{name} seed {}", regrowth.trial().scenario().seed),
+        origin,
+    })
+}
+
+/// A plant, and its place.
+fn plant_keyed(
+    regrowth: &Regrowth,
+    plant: u32,
+    ages: &[Tick],
+    maker: &dyn Fn(usize) -> KeyMaker,
+) -> Result<(Body, [f64; 3]), RunError> {
+    let mut maker = maker(regrowth.trial().species_of_plant(plant));
+    let mut place = [0.0; 3];
+    regrowth.show(plant, ages, &mut |age, plant| {
+        place = plant.place;
+        ages.binary_search(&age).into_iter().for_each(|key| maker.show(key, plant, age));
+        Ok(())
+    })?;
+    Ok((Body { name: format!("plant {plant}"), place: [0.0; 3], keyed: maker.finish() }, place))
+}
+
+/// The plants of a plot in their places, and its obstacles.
+fn plot_keyed(
+    regrowth: &Regrowth,
+    plot: u32,
+    ticks: &[Tick],
+    maker: &dyn Fn(usize) -> KeyMaker,
+) -> Result<Vec<Body>, RunError> {
+    let trial = regrowth.trial();
+    let mut makers: BTreeMap<u32, KeyMaker> = BTreeMap::new();
+    regrowth.show_plot(plot, ticks, &mut |tick, standing| {
+        let Ok(key) = ticks.binary_search(&tick) else { return Ok(()) };
+        for shown in standing {
+            let of_plant = makers.entry(shown.plant.id).or_insert_with(|| maker(shown.species));
+            of_plant.show(key, &shown.plant, shown.age);
+        }
+        Ok(())
+    })?;
+    let body = |(plant, maker): (u32, KeyMaker)| Body {
+        name: format!("plant {plant}"),
+        place: trial.member_of(plant).place(),
+        keyed: maker.finish(),
+    };
+    let mut bodies: Vec<Body> = makers.into_iter().map(body).collect();
+    let obstacles = obstacles_of(trial, plot);
+    if !obstacles.is_empty() {
+        let keyed = Keyed::still(&obstacles, ticks.len());
+        bodies.push(Body { name: "obstacles".to_owned(), place: [0.0; 3], keyed });
+    }
+    Ok(bodies)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_even_and_each_is_once() {
+        assert_eq!(keys_of(1, 96, 1, 2), [1, 96]);
+        assert_eq!(keys_of(0, 12, 1, 4), [0, 4, 8, 12]);
+        assert_eq!(keys_of(0, 12, 6, 4), [0, 6, 12]);
+        assert_eq!(keys_of(1, 4, 1, 16), [1, 2, 3, 4]);
+        assert_eq!(keys_of(7, 7, 1, 16), [7]);
+        assert_eq!(keys_of(1, 8, 1, 5), [1, 3, 5, 6, 8]);
+        let keys = keys_of(0, u32::MAX, 1, 256);
+        assert!(keys.len() == 256 && keys.windows(2).all(|pair| pair[0] < pair[1]) && keys[255] == u32::MAX);
+    }
+}
