@@ -9,6 +9,7 @@ use super::regrowth::{Regrowth, Whose};
 use phytomer_outputs::gltf::{Body, Growth, KeyMaker, Keyed};
 use phytomer_outputs::meshes::{MeshOptions, OwnForms, Tolerance};
 use phytomer_sim::Tick;
+use phytomer_sim::between::Moment;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -89,8 +90,9 @@ fn plot_keyed(
 ) -> Result<Vec<Body>, RunError> {
     let trial = regrowth.trial();
     let mut makers: BTreeMap<u32, KeyMaker> = BTreeMap::new();
-    regrowth.show_plot(plot, ticks, &mut |tick, standing| {
-        let Ok(key) = ticks.binary_search(&tick) else { return Ok(()) };
+    let moments: Vec<Moment> = ticks.iter().copied().map(Moment::from).collect();
+    regrowth.show_plot(plot, &moments, &mut |moment, standing| {
+        let Ok(key) = ticks.binary_search(&moment.tick()) else { return Ok(()) };
         for shown in standing {
             let of_plant = makers.entry(shown.plant.id).or_insert_with(|| maker(shown.species));
             of_plant.show(key, &shown.plant, shown.age);
