@@ -1,25 +1,25 @@
-//! `mesh`: one plant at one age, or all plants of a plot at one tick, as a PLY file, grown again from their seeds.
+//! `mesh`: one plant at one age, or all plants of a plot at one tick, as a mesh file, grown again from their seeds.
 //!
 //! It is the same plant, with the same component numbers, that the run has recorded. In a wind it is a frame of that
 //! plant, which the wind moves for the mesh alone.
 
+mod formats;
+
 use super::budget::{Asked, Budget, in_words, too_few};
-use super::out::{self, Format};
+use super::out;
 use super::regrown::{Breeze, Regrown};
 use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::Args;
-use phytomer::run::drawing::{options_of, write_mesh};
+use formats::Format;
+use phytomer::run::drawing::{check_size, options_of};
 use phytomer::run::picturing::{pictured_plot, plot_mesh};
 use phytomer_outputs::Destination;
 use phytomer_outputs::meshes::{MeshOptions, Scene, Tolerance, fitting};
 use phytomer_sim::Tick;
 use std::path::PathBuf;
 
-/// The formats of meshes.
-const FORMATS: [Format; 1] = [Format { name: "PLY", extension: "ply" }];
-
-/// Grow one plant or one plot of a run or a scenario again, and write it as a PLY mesh.
+/// Grow one plant or one plot of a run or a scenario again, and write it as a mesh.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -29,6 +29,7 @@ Examples:
   phytomer mesh runs/coffee --plant 3 --out third.ply --sides 12
   phytomer mesh my_plant/scenario.toml --age 24 --wind 8 --time 0.40 --out frame-010.ply
   phytomer mesh under_a_roof --plot --age 12 --out plot.ply
+  phytomer mesh coffee --age 36 --tolerance 1mm --out print.stl
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
 pub struct Mesh {
@@ -45,9 +46,9 @@ pub struct Mesh {
     /// Its age in ticks, of a plot its tick; the last of the run if not given.
     #[arg(long)]
     age: Option<Tick>,
-    /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written
-    /// through.
-    #[arg(long, value_name = "FILE.ply")]
+    /// The file to write; its ending tells the format: `.ply` or `.stl` (binary, triangles alone). `-` is PLY on
+    /// stdout. A link stays, and its target is replaced; a pipe or a device is written through.
+    #[arg(long, value_name = "FILE.ply|.stl")]
     out: PathBuf,
     /// Sides of the tube that an internode is drawn as.
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(3..=64))]
@@ -60,21 +61,21 @@ pub struct Mesh {
 
 impl Mesh {
     pub fn obey(self) -> Result<Verdict> {
-        out::check(&self.out, "mesh", &FORMATS)?;
+        let format = Format::of(&self.out)?;
         match Regrown::find(&self.name, self.age.as_slice())? {
-            Ok(regrown) => self.write(&regrown),
+            Ok(regrown) => self.write(&regrown, format),
             Err(verdict) => Ok(verdict),
         }
     }
 
-    fn write(&self, regrown: &Regrown) -> Result<Verdict> {
+    fn write(&self, regrown: &Regrown, format: Format) -> Result<Verdict> {
         match self.plot {
-            Some(plot) => self.write_plot(regrown, plot),
-            None => self.write_plant(regrown),
+            Some(plot) => self.write_plot(regrown, plot, format),
+            None => self.write_plant(regrown, format),
         }
     }
 
-    fn write_plant(&self, regrown: &Regrown) -> Result<Verdict> {
+    fn write_plant(&self, regrown: &Regrown, format: Format) -> Result<Verdict> {
         let age = self.age.unwrap_or_else(|| regrown.trial.last_age_of(self.plant));
         regrown.check(("--age", &[age]), ("--plant", &[self.plant]))?;
         let regrowth = regrown.regrowth(&self.breeze)?;
@@ -95,7 +96,8 @@ impl Mesh {
                     return Ok(());
                 }
             }
-            let written = write_mesh(plant, age, seed, &options, &mut file);
+            let scene = Scene::new(plant, age, &options);
+            let written = check_size(&scene).and_then(|()| format.write_plant(&scene, seed, &mut file));
             Ok(written.with_context(|| self.failing())?)
         })?;
         match refused {
@@ -104,7 +106,7 @@ impl Mesh {
         }
     }
 
-    fn write_plot(&self, regrown: &Regrown, plot: u32) -> Result<Verdict> {
+    fn write_plot(&self, regrown: &Regrown, plot: u32, format: Format) -> Result<Verdict> {
         let tick = self.age.unwrap_or(regrown.scenario.ages.until);
         regrown.check_plot(("--age", &[tick]), plot)?;
         let (regrowth, species) = (regrown.regrowth(&self.breeze)?, regrown.species());
@@ -116,7 +118,7 @@ impl Mesh {
             let what = format!("plot {plot} at tick {tick}");
             within = self.tolerance(&what, |tolerance| mesh.faces_within(tolerance))?;
             within.iter().for_each(|tolerance| mesh.within(*tolerance));
-            mesh.write(&mut file).with_context(|| self.failing())?;
+            format.write_plot(&mesh, &mut file).with_context(|| self.failing())?;
         }
         let plants = amounts::of(pictured.stands.iter().map(|stand| stand.members.len() as u64).sum(), "plant");
         self.tell(file, &format!("plot {plot} at tick {tick}, {plants}{}", in_words(within.as_ref())))

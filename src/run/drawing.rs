@@ -38,11 +38,8 @@ pub fn options_of(sides: u32, own: &Arc<OwnForms>) -> MeshOptions {
     MeshOptions { sides, own: Arc::clone(own), ..MeshOptions::default() }
 }
 
-/// Writes the mesh of what stands of `plant` at `age`.
-///
-/// # Errors
-/// Where the mesh has too many vertices for its format, and those of `out`.
-pub fn write_mesh(
+/// Writes the PLY mesh of what stands of `plant` at `age`.
+fn write_mesh(
     plant: &Plant,
     age: Tick,
     run_seed: u64,
@@ -50,15 +47,25 @@ pub fn write_mesh(
     out: &mut (dyn Write + Send),
 ) -> io::Result<()> {
     let scene = Scene::new(plant, age, options);
+    check_size(&scene)?;
+    Ply.write(&scene, &scene.about(run_seed), out)
+}
+
+/// Refuses a scene of more vertices than mesh files can index.
+///
+/// # Errors
+/// The number of vertices, and what makes it smaller.
+pub fn check_size(scene: &Scene) -> io::Result<()> {
     let vertices = scene.counts().vertices;
     if vertices > MOST_VERTICES {
         return Err(io::Error::other(format!(
-            "the mesh of plant {} at age {age} would have {vertices} vertices, and a mesh file holds at most \
+            "the mesh of plant {} at age {} would have {vertices} vertices, and a mesh file holds at most \
              {MOST_VERTICES}: choose fewer sides or a larger tolerance",
-            plant.id
+            scene.plant().id,
+            scene.age()
         )));
     }
-    Ply.write(&scene, &scene.about(run_seed), out)
+    Ok(())
 }
 
 impl<'a> RunMeshes<'a> {

@@ -7,7 +7,7 @@
 //! them to 0.06 mm at a distance of a kilometre; a file per plant has no such limit.
 
 use super::chunk::{Chunk, Face, MOST_VERTICES, Vertex};
-use super::ply::{header_of, in_words, place_comment};
+use super::ply::{header_of, place_comment};
 use super::{About, Counts, Scene, Tolerance};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -101,7 +101,7 @@ impl Collection {
     fn header(&self) -> io::Result<Vec<u8>> {
         let mut comments = vec![format!("{} scenes, one after another", self.scenes)];
         for (word, about) in ["first", "last"].iter().zip(self.ends.iter().flatten()) {
-            comments.push(format!("{word}: {}", in_words(about)));
+            comments.push(format!("{word}: {}", about.in_words()));
         }
         comments.extend(self.ends.map(|[first, _]| place_comment(first.place)));
         let short = header_of(self.tolerance, comments.clone(), self.counts)?;

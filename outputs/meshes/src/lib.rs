@@ -3,14 +3,15 @@
 //!
 //! A [`Scene`] is the standing part of a plant at an age, relative to the plant's seed: single precision then suffices
 //! wherever the plant stands, and a comment of the file states the place. A scene gives vertices and triangles in
-//! chunks of packed bytes, and a [`MeshWriter`] writes them to a file. A new format is one file and one line here;
-//! which format is written is the caller's choice. Vertices are not shared between components. Absent: buds, which have
+//! chunks of packed bytes, and a [`MeshWriter`] writes them to a file. Other formats are functions of a [`Drawing`], one
+//! file each and one line here; which format is written is the caller's choice. Vertices are not shared between components. Absent: buds, which have
 //! no form, and bending, which is part of the pose.
 
 mod budget;
 mod chunk;
 mod collection;
 mod colour;
+mod drawing;
 mod file;
 mod forms;
 #[cfg(test)]
@@ -25,6 +26,7 @@ mod scene;
 mod section;
 mod solid;
 mod stem;
+mod stl;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
@@ -34,16 +36,18 @@ mod tube;
 pub use budget::{TooFew, fitting};
 pub use chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
+pub use drawing::{Drawing, PlantDrawing, Take};
 pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
 pub use model::Model;
-pub use plot::{PlotBody, PlotMember, PlotMesh};
+pub use plot::{PlotBody, PlotDrawing, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use reduced::chain::{Found, Sample, chains};
 pub use reduced::simplify::{fits, simplify};
 pub use scene::{DrawnOrgan, OwnForm, Scene};
 pub use solid::{Solid, Undrawn};
 pub use stem::Stems;
+pub use stl::write_stl;
 pub use tube::Frustum;
 
 use phytomer_looks::place_of_own;
@@ -130,6 +134,13 @@ pub struct About {
     pub run_seed: u64,
     /// The place of the plant's seed in the plot, metres. Added to the vertices, it gives their places in the plot.
     pub place: [f64; 3],
+}
+
+impl About {
+    /// The plant, its age and its run.
+    pub(crate) fn in_words(&self) -> String {
+        format!("plant {} age {} seed {}", self.plant, self.age, self.run_seed)
+    }
 }
 
 /// A format of mesh files.

@@ -1,4 +1,4 @@
-//! All plants of a plot in one PLY file, each in its place, in the order of the plot, and its obstacles after them.
+//! All plants of a plot in one mesh file, each in its place, in the order of the plot, and its obstacles after them.
 //!
 //! Vertices are relative to the place of the plot, which is in the comments, so that single precision holds a plot of a
 //! hundred metres to 0.004 mm wherever it stands. A comment for each plant states its name and its number of vertices
@@ -6,6 +6,7 @@
 //! and kept. The profile of vertices and triangles is that of a single plant's file.
 
 use super::chunk::{Chunk, Face, Vertex};
+use super::drawing::{Drawing, Take};
 use super::ply::{header_of, place_comment};
 use super::{Counts, Mesh, MeshOptions, Scene, Tolerance, mesh_plant};
 use phytomer_sim::Tick;
@@ -53,7 +54,13 @@ pub struct PlotMesh<'a> {
     pub place: [f64; 3],
 }
 
-/// A body that is ready to be written.
+/// A plot that is ready to be drawn in any format.
+pub struct PlotDrawing<'a> {
+    mesh: &'a PlotMesh<'a>,
+    bodies: Vec<Ready<'a>>,
+}
+
+/// A body that is ready to be drawn.
 struct Ready<'a> {
     scene: Scene<'a>,
     counts: Counts,
@@ -78,48 +85,35 @@ impl PlotMesh<'_> {
         of_plants + self.obstacles.iter().map(|mesh| mesh.faces.len() as u64).sum::<u64>()
     }
 
-    /// Writes the file. Plants that stand at one place are made while they are written.
+    /// The plot, ready to be drawn. Plants that stand at one place are made while they are drawn.
+    ///
+    /// # Errors
+    /// Where it has more vertices than the formats can index.
+    pub fn drawing(&self) -> io::Result<PlotDrawing<'_>> {
+        let bodies = self.bodies.iter().enumerate().map(|(place, body)| self.ready(place, body)).collect();
+        let drawing = PlotDrawing { mesh: self, bodies };
+        let vertices = drawing.counts().vertices;
+        if vertices > MOST_VERTICES {
+            return Err(io::Error::other(format!(
+                "the mesh of {} would have {vertices} vertices, and a mesh file holds at most {MOST_VERTICES}: choose \
+                 fewer sides or a larger tolerance",
+                self.name
+            )));
+        }
+        Ok(drawing)
+    }
+
+    /// Writes the PLY file.
     ///
     /// # Errors
     /// The errors of `out`, or an error where the file would have more vertices than its format can index.
     pub fn write(&self, out: &mut (dyn Write + Send)) -> io::Result<()> {
-        let bodies: Vec<Ready> = self.bodies.iter().enumerate().map(|(place, body)| self.ready(place, body)).collect();
-        let members = || self.members.iter().filter_map(|member| Some((member, bodies.get(member.body)?)));
-        let mut all = Counts::default();
-        let mut comments = vec![self.name.clone(), place_comment(self.place)];
-        for (member, Ready { scene, counts, .. }) in members() {
-            all.components += counts.components;
-            all.vertices += counts.vertices;
-            all.faces += counts.faces;
-            comments.push(format!("{} age {} vertices {}", member.name, scene.age(), counts.vertices));
-        }
-        for (number, mesh) in self.obstacles.iter().enumerate() {
-            all.vertices += mesh.vertices.len() as u64;
-            all.faces += mesh.faces.len() as u64;
-            comments.push(format!("obstacle {number} vertices {}", mesh.vertices.len()));
-        }
-        if all.vertices > MOST_VERTICES {
-            return Err(io::Error::other(format!(
-                "the mesh of {} would have {} vertices, and a mesh file holds at most {MOST_VERTICES}: choose fewer \
-                 sides or a larger tolerance",
-                self.name, all.vertices
-            )));
-        }
-        let tolerance = self.bodies.first().and_then(|body| body.options.tolerance);
-        out.write_all(&header_of(tolerance, comments, all)?)?;
-        members().try_for_each(|(member, body)| body.write_vertices(member.place, out))?;
-        self.obstacles.iter().try_for_each(|mesh| out.write_all(bytemuck::cast_slice(&mesh.vertices)))?;
-        let mut first = 0;
-        for (_, body) in members() {
-            body.write_faces(first, out)?;
-            first += body.counts.vertices as u32;
-        }
-        for mesh in &self.obstacles {
-            let faces = mesh.faces.iter().map(|face| Face::new(face.indices().map(|corner| corner + first)));
-            out.write_all(bytemuck::cast_slice(&faces.collect::<Vec<_>>()))?;
-            first += mesh.vertices.len() as u32;
-        }
-        Ok(())
+        let drawing = self.drawing()?;
+        let mut comments = drawing.notes();
+        comments.insert(1, place_comment(self.place));
+        out.write_all(&header_of(drawing.tolerance(), comments, drawing.counts())?)?;
+        drawing.vertices(&mut |vertices| out.write_all(bytemuck::cast_slice(vertices)))?;
+        drawing.faces(&mut |faces| out.write_all(bytemuck::cast_slice(faces)))
     }
 
     fn ready<'s>(&self, place: usize, body: &'s PlotBody) -> Ready<'s> {
@@ -130,13 +124,75 @@ impl PlotMesh<'_> {
     }
 }
 
+impl PlotDrawing<'_> {
+    fn members(&self) -> impl Iterator<Item = (&PlotMember, &Ready<'_>)> {
+        self.mesh.members.iter().filter_map(|member| Some((member, self.bodies.get(member.body)?)))
+    }
+}
+
+impl Drawing for PlotDrawing<'_> {
+    fn counts(&self) -> Counts {
+        let mut all = Counts::default();
+        for (_, Ready { counts, .. }) in self.members() {
+            all.components += counts.components;
+            all.vertices += counts.vertices;
+            all.faces += counts.faces;
+        }
+        for mesh in &self.mesh.obstacles {
+            all.vertices += mesh.vertices.len() as u64;
+            all.faces += mesh.faces.len() as u64;
+        }
+        all
+    }
+
+    fn tolerance(&self) -> Option<Tolerance> {
+        self.mesh.bodies.first().and_then(|body| body.options.tolerance)
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let member = |(member, Ready { scene, counts, .. }): (&PlotMember, &Ready)| {
+            format!("{} age {} vertices {}", member.name, scene.age(), counts.vertices)
+        };
+        let obstacle =
+            |(number, mesh): (usize, &Arc<Mesh>)| format!("obstacle {number} vertices {}", mesh.vertices.len());
+        let obstacles = self.mesh.obstacles.iter().enumerate().map(obstacle);
+        [self.mesh.name.clone()].into_iter().chain(self.members().map(member)).chain(obstacles).collect()
+    }
+
+    fn place(&self) -> [f64; 3] {
+        self.mesh.place
+    }
+
+    fn vertices(&self, take: &mut Take<'_, Vertex>) -> io::Result<()> {
+        self.members().try_for_each(|(member, body)| body.vertices(member.place, take))?;
+        self.mesh.obstacles.iter().try_for_each(|mesh| take(&mesh.vertices))
+    }
+
+    fn faces(&self, take: &mut Take<'_, Face>) -> io::Result<()> {
+        let mut first = 0;
+        let mut shifted = |first: u32, faces: &[Face]| {
+            let faces = faces.iter().map(|face| Face::new(face.indices().map(|corner| corner + first)));
+            take(&faces.collect::<Vec<_>>())
+        };
+        for (_, body) in self.members() {
+            body.faces(&mut |faces| shifted(first, faces))?;
+            first += body.counts.vertices as u32;
+        }
+        for mesh in &self.mesh.obstacles {
+            shifted(first, &mesh.faces)?;
+            first += mesh.vertices.len() as u32;
+        }
+        Ok(())
+    }
+}
+
 impl Ready<'_> {
-    fn write_vertices(&self, place: [f64; 3], out: &mut (dyn Write + Send)) -> io::Result<()> {
+    fn vertices(&self, place: [f64; 3], take: &mut Take<'_, Vertex>) -> io::Result<()> {
         let mut put = |vertices: &mut [Vertex]| {
             if place != [0.0; 3] {
                 vertices.iter_mut().for_each(|vertex| vertex.move_by(place));
             }
-            out.write_all(bytemuck::cast_slice(vertices))
+            take(vertices)
         };
         if let Some(mesh) = &self.kept {
             return put(&mut mesh.vertices.clone());
@@ -148,17 +204,12 @@ impl Ready<'_> {
         })
     }
 
-    /// Writes the plant's triangles; `first` is the index in the file of its first vertex.
-    fn write_faces(&self, first: u32, out: &mut (dyn Write + Send)) -> io::Result<()> {
-        let mut put = |faces: &[Face]| {
-            let shifted = faces.iter().map(|face| Face::new(face.indices().map(|corner| corner + first)));
-            out.write_all(bytemuck::cast_slice(&shifted.collect::<Vec<_>>()))
-        };
+    fn faces(&self, take: &mut Take<'_, Face>) -> io::Result<()> {
         if let Some(mesh) = &self.kept {
-            return put(&mesh.faces);
+            return take(&mesh.faces);
         }
         self.scene.faces(&mut Chunk::new(), &mut |chunk| {
-            put(bytemuck::cast_slice(chunk.filled()))?;
+            take(bytemuck::cast_slice(chunk.filled()))?;
             chunk.clear();
             Ok(())
         })

@@ -30,7 +30,7 @@ impl MeshWriter for Ply {
 
     fn write(&self, scene: &Scene, about: &About, out: &mut (dyn Write + Send)) -> io::Result<()> {
         let counts = scene.counts();
-        out.write_all(&header_of(scene.tolerance(), vec![in_words(about), place_comment(about.place)], counts)?)?;
+        out.write_all(&header_of(scene.tolerance(), vec![about.in_words(), place_comment(about.place)], counts)?)?;
         if counts.vertices * Vertex::BYTES as u64 + counts.faces * Face::BYTES as u64 > OVERLAP_FROM {
             write_overlapped(scene, out)
         } else {
@@ -79,11 +79,6 @@ fn write_overlapped(scene: &Scene, out: &mut (dyn Write + Send)) -> io::Result<(
         let drawn = drawing.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         written.and(drawn)
     })
-}
-
-/// The plant, age and run of a scene, as a comment.
-pub(super) fn in_words(about: &About) -> String {
-    format!("plant {} age {} seed {}", about.plant, about.age, about.run_seed)
 }
 
 /// The comment with the origin of a file's vertices, in the shortest decimals that read back as the same numbers.

@@ -1,0 +1,79 @@
+//! The formats of `mesh` by the endings of their names: the one list, and what writes each.
+//!
+//! A new format is a line in `FORMATS`, a variant, and its two arms. Absent: how each is written
+//! (`phytomer_outputs::meshes`).
+
+use super::super::{Misuse, out};
+use phytomer_outputs::meshes::{MeshWriter, PlantDrawing, PlotMesh, Ply, Scene, write_stl};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// A format of meshes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    Ply,
+    Stl,
+}
+
+/// The formats, with their names and endings. A name without an ending, and stdout, get the first.
+const FORMATS: [(Format, out::Format); 2] = [
+    (Format::Ply, out::Format { name: "PLY", extension: "ply" }),
+    (Format::Stl, out::Format { name: "STL", extension: "stl" }),
+];
+
+impl Format {
+    /// The format that a name asks for.
+    ///
+    /// # Errors
+    /// A folder; an ending of no mesh, with those that there are.
+    pub fn of(path: &Path) -> Result<Self, Misuse> {
+        out::check(path, "mesh", &FORMATS.map(|(_, format)| format))?;
+        let asked = |(_, format): &&(Self, out::Format)| {
+            path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(format.extension))
+        };
+        Ok(FORMATS.iter().find(asked).map_or(FORMATS[0].0, |(format, _)| *format))
+    }
+
+    /// Writes a plant at an age.
+    ///
+    /// # Errors
+    /// Those of `out`; a mesh that is larger than the format can hold.
+    pub fn write_plant(self, scene: &Scene, run_seed: u64, out: &mut (dyn Write + Send)) -> io::Result<()> {
+        let about = scene.about(run_seed);
+        match self {
+            Self::Ply => Ply.write(scene, &about, out),
+            Self::Stl => write_stl(&PlantDrawing { scene, about }, out),
+        }
+    }
+
+    /// Writes the plants of a plot, with its obstacles.
+    ///
+    /// # Errors
+    /// As [`Format::write_plant`].
+    pub fn write_plot(self, plot: &PlotMesh, out: &mut (dyn Write + Send)) -> io::Result<()> {
+        match self {
+            Self::Ply => plot.write(out),
+            Self::Stl => write_stl(&plot.drawing()?, out),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ending_decides() {
+        for (name, format) in [
+            ("a.ply", Format::Ply),
+            ("A.STL", Format::Stl),
+            ("a.ply.stl", Format::Stl),
+            ("plain", Format::Ply),
+            ("-", Format::Ply),
+        ] {
+            assert_eq!(Format::of(Path::new(name)).map_err(|misuse| misuse.0), Ok(format), "{name}");
+        }
+        let told = Format::of(Path::new("a.obj")).expect_err("no format").0;
+        assert_eq!(told, "--out a.obj: `mesh` cannot write `.obj`; the formats that it has: PLY (.ply), STL (.stl)");
+    }
+}
