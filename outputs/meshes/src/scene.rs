@@ -86,6 +86,11 @@ impl<'a> Scene<'a> {
         Self::new(self.plant, self.age, &MeshOptions { tolerance: Some(tolerance), ..self.options.clone() })
     }
 
+    /// How it is drawn.
+    pub fn options(&self) -> &MeshOptions {
+        &self.options
+    }
+
     /// The age of the plant.
     pub fn age(&self) -> Tick {
         self.age

@@ -4,8 +4,10 @@
 //! (`phytomer_outputs::meshes`).
 
 use super::super::{Misuse, out};
+use phytomer_outputs::Destination;
 use phytomer_outputs::meshes::{MeshWriter, PlantDrawing, PlotMesh, Ply, Scene, write_stl};
-use std::io::{self, Write};
+use phytomer_outputs::usd::{self, Asked, Encoding, Organs};
+use std::io;
 use std::path::Path;
 
 /// A format of meshes.
@@ -13,12 +15,16 @@ use std::path::Path;
 pub enum Format {
     Ply,
     Stl,
+    Usd(Encoding, Organs),
 }
 
 /// The formats, with their names and endings. A name without an ending, and stdout, get the first.
-const FORMATS: [(Format, out::Format); 2] = [
+const FORMATS: [(Format, out::Format); 5] = [
     (Format::Ply, out::Format { name: "PLY", extension: "ply" }),
     (Format::Stl, out::Format { name: "STL", extension: "stl" }),
+    (Format::Usd(Encoding::Binary, Organs::Instances), out::Format { name: "USD", extension: "usdc" }),
+    (Format::Usd(Encoding::Text, Organs::Instances), out::Format { name: "USD", extension: "usda" }),
+    (Format::Usd(Encoding::Package, Organs::Instances), out::Format { name: "USD", extension: "usdz" }),
 ];
 
 impl Format {
@@ -38,11 +44,15 @@ impl Format {
     ///
     /// # Errors
     /// Those of `out`; a mesh that is larger than the format can hold.
-    pub fn write_plant(self, scene: &Scene, run_seed: u64, out: &mut (dyn Write + Send)) -> io::Result<()> {
+    pub fn write_plant(self, scene: &Scene, run_seed: u64, out: &mut Destination) -> io::Result<()> {
         let about = scene.about(run_seed);
         match self {
             Self::Ply => Ply.write(scene, &about, out),
             Self::Stl => write_stl(&PlantDrawing { scene, about }, out),
+            Self::Usd(encoding, organs) => {
+                let asked = Asked { encoding, organs, words: about.in_words() };
+                usd::write_plant(&asked, scene, run_seed, out)
+            }
         }
     }
 
@@ -50,10 +60,13 @@ impl Format {
     ///
     /// # Errors
     /// As [`Format::write_plant`].
-    pub fn write_plot(self, plot: &PlotMesh, out: &mut (dyn Write + Send)) -> io::Result<()> {
+    pub fn write_plot(self, plot: &PlotMesh, out: &mut Destination) -> io::Result<()> {
         match self {
             Self::Ply => plot.write(out),
             Self::Stl => write_stl(&plot.drawing()?, out),
+            Self::Usd(encoding, organs) => {
+                usd::write_plot(&Asked { encoding, organs, words: plot.name.clone() }, plot, out)
+            }
         }
     }
 }
