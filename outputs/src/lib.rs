@@ -1,8 +1,8 @@
 //! The output of a run: the run folder with its tables (Parquet), and reading it back.
 //!
-//! Meshes, lives, pictures and films are crates of their own, `phytomer-meshes`, `phytomer-life`, `phytomer-pictures`
-//! and `phytomer-films`, which need neither Arrow nor Parquet; they are re-exported here as [`meshes`], [`life`],
-//! [`pictures`] and [`films`]. [`colouring`] colours a picture by a column of a table. [`RunFolder::create`] makes a
+//! Meshes, lives, GLB files, pictures and films are crates of their own, `phytomer-meshes`, `phytomer-life`,
+//! `phytomer-gltf`, `phytomer-pictures` and `phytomer-films`, which need neither Arrow nor Parquet; they are re-exported
+//! here as [`meshes`], [`life`], [`gltf`], [`pictures`] and [`films`]. [`colouring`] colours a picture by a column of a table. [`RunFolder::create`] makes a
 //! run folder, which is filled shard by shard and closed by [`RunFolder::finish`].
 //! Its format is described in `docs` and in its own `datapackage.json`. [`read`] opens it again, [`check()`] tells
 //! whether it is whole. Absent: growth rules.
@@ -23,6 +23,7 @@ pub mod tables;
 pub use destination::Destination;
 pub use frames::Frames;
 pub use phytomer_films as films;
+pub use phytomer_gltf as gltf;
 pub use phytomer_life as life;
 pub use phytomer_meshes as meshes;
 pub use phytomer_pictures as pictures;

@@ -29,6 +29,7 @@ Examples:
   phytomer mesh runs/coffee --plant 3 --out third.ply --sides 12
   phytomer mesh my_plant/scenario.toml --age 24 --wind 8 --time 0.40 --out frame-010.ply
   phytomer mesh under_a_roof --plot --age 12 --out plot.ply
+  phytomer mesh coffee --age 36 --tolerance 1mm --out coffee.glb
   phytomer mesh coffee --age 36 --tolerance 1mm --out print.stl
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
@@ -46,9 +47,9 @@ pub struct Mesh {
     /// Its age in ticks, of a plot its tick; the last of the run if not given.
     #[arg(long)]
     age: Option<Tick>,
-    /// The file to write; its ending tells the format: `.ply` or `.stl` (binary, triangles alone). `-` is PLY on
-    /// stdout. A link stays, and its target is replaced; a pipe or a device is written through.
-    #[arg(long, value_name = "FILE.ply|.stl")]
+    /// The file to write; its ending tells the format: `.ply`, `.glb` (glTF, Y up) or `.stl` (binary, triangles
+    /// alone). `-` is PLY on stdout. A link stays, and its target is replaced; a pipe or a device is written through.
+    #[arg(long, value_name = "FILE.ply|.glb|.stl")]
     out: PathBuf,
     /// Sides of the tube that an internode is drawn as.
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(3..=64))]

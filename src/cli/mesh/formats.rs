@@ -1,10 +1,11 @@
 //! The formats of `mesh` by the endings of their names: the one list, and what writes each.
 //!
 //! A new format is a line in `FORMATS`, a variant, and its two arms. Absent: how each is written
-//! (`phytomer_outputs::meshes`).
+//! (`phytomer_outputs::meshes`, `phytomer_outputs::gltf` and `phytomer_outputs::usd`).
 
 use super::super::{Misuse, out};
 use phytomer_outputs::Destination;
+use phytomer_outputs::gltf::write_still;
 use phytomer_outputs::meshes::{MeshWriter, PlantDrawing, PlotMesh, Ply, Scene, write_stl};
 use phytomer_outputs::usd::{self, Asked, Encoding, Organs};
 use std::io;
@@ -14,13 +15,15 @@ use std::path::Path;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     Ply,
+    Glb,
     Stl,
     Usd(Encoding, Organs),
 }
 
 /// The formats, with their names and endings. A name without an ending, and stdout, get the first.
-const FORMATS: [(Format, out::Format); 5] = [
+const FORMATS: [(Format, out::Format); 6] = [
     (Format::Ply, out::Format { name: "PLY", extension: "ply" }),
+    (Format::Glb, out::Format { name: "GLB", extension: "glb" }),
     (Format::Stl, out::Format { name: "STL", extension: "stl" }),
     (Format::Usd(Encoding::Binary, Organs::Instances), out::Format { name: "USD", extension: "usdc" }),
     (Format::Usd(Encoding::Text, Organs::Instances), out::Format { name: "USD", extension: "usda" }),
@@ -48,6 +51,7 @@ impl Format {
         let about = scene.about(run_seed);
         match self {
             Self::Ply => Ply.write(scene, &about, out),
+            Self::Glb => write_still(&PlantDrawing { scene, about }, out),
             Self::Stl => write_stl(&PlantDrawing { scene, about }, out),
             Self::Usd(encoding, organs) => {
                 let asked = Asked { encoding, organs, words: about.in_words() };
@@ -63,6 +67,7 @@ impl Format {
     pub fn write_plot(self, plot: &PlotMesh, out: &mut Destination) -> io::Result<()> {
         match self {
             Self::Ply => plot.write(out),
+            Self::Glb => write_still(&plot.drawing()?, out),
             Self::Stl => write_stl(&plot.drawing()?, out),
             Self::Usd(encoding, organs) => {
                 usd::write_plot(&Asked { encoding, organs, words: plot.name.clone() }, plot, out)
@@ -80,6 +85,7 @@ mod tests {
         for (name, format) in [
             ("a.ply", Format::Ply),
             ("A.STL", Format::Stl),
+            ("a.Glb", Format::Glb),
             ("a.ply.stl", Format::Stl),
             ("plain", Format::Ply),
             ("-", Format::Ply),
@@ -87,6 +93,9 @@ mod tests {
             assert_eq!(Format::of(Path::new(name)).map_err(|misuse| misuse.0), Ok(format), "{name}");
         }
         let told = Format::of(Path::new("a.obj")).expect_err("no format").0;
-        assert_eq!(told, "--out a.obj: `mesh` cannot write `.obj`; the formats that it has: PLY (.ply), STL (.stl)");
+        assert_eq!(
+            told,
+            "--out a.obj: `mesh` cannot write `.obj`; the formats that it has: PLY (.ply), GLB (.glb), STL (.stl)"
+        );
     }
 }

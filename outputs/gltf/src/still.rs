@@ -1,0 +1,253 @@
+//! A mesh at one age as GLB: a plant or a plot, as PLY has it, with the properties of its vertices.
+//!
+//! Metres, Y up: our (x, y, z) is (x, z, −y) there. Each class of components (wood, leaves, flowers, fruits, obstacles)
+//! is a primitive with its own material. A vertex has position, normal, texture coordinates, colour in linear light,
+//! `_BIRTH_AGE`, `_DEATH_AGE` and `_COMPONENT_ID`, as floats, which hold whole numbers below 2²⁴; what lives has the
+//! largest float as `_DEATH_AGE`, because glTF knows no infinity. Texture coordinates run from the top, as glTF counts
+//! them. The mesh is drawn once to be counted and once more a class to be written, so that none of it is kept but a few
+//! bytes for each run of vertices of one class. Positions of a skinned mesh stand as they do in calm air.
+
+use super::document::{Accessor, Document, INDICES, MOST_BYTES, Number, VERTICES, pad, too_large};
+use super::paint::{CLASSES, class_of, linear, material};
+use phytomer_meshes::{Drawing, Vertex};
+use serde_json::{Map, Value, json};
+use std::io::{self, Write};
+
+/// The bytes of a vertex, and what a skin adds.
+const STRIDE: u64 = 52;
+const OF_SKIN: u64 = 8;
+
+/// The joints that move a vertex, and their shares of 255, which are the whole together.
+pub type Bound = ([u8; 4], [u8; 4]);
+
+/// The joints of a vertex.
+pub type Binding<'b> = dyn Fn(&Vertex) -> Bound + 'b;
+
+/// A vector in the axes of glTF, whose Y is up.
+#[inline]
+pub fn y_up([x, y, z]: [f32; 3]) -> [f32; 3] {
+    [x, z, -y]
+}
+
+/// Neighbouring vertices of one class.
+#[derive(Debug, Clone, Copy)]
+struct Run {
+    /// The first vertex in the mesh, and in its class.
+    first: u32,
+    own: u32,
+    class: u8,
+}
+
+/// What is counted before a file is written.
+#[derive(Debug, Default)]
+struct Plan {
+    runs: Vec<Run>,
+    vertices: [u64; CLASSES.len()],
+    faces: [u64; CLASSES.len()],
+    bounds: [Option<[[f32; 3]; 2]>; CLASSES.len()],
+}
+
+/// Writes a whole GLB file.
+///
+/// # Errors
+/// Those of `out`; a mesh that is larger than the format can hold, before anything is written.
+pub fn write_still(mesh: &dyn Drawing, out: &mut (dyn Write + Send)) -> io::Result<()> {
+    Still::of(mesh, None)?.write(Document::default(), out)
+}
+
+/// A mesh that is counted and ready to be written.
+pub struct Still<'a> {
+    mesh: &'a dyn Drawing,
+    skin: Option<&'a Binding<'a>>,
+    plan: Plan,
+}
+
+impl<'a> Still<'a> {
+    /// Counts a mesh; `skin` binds its vertices to the joints of a skin.
+    ///
+    /// # Errors
+    /// Where the file would be larger than its format allows: told before anything is drawn.
+    pub fn of(mesh: &'a dyn Drawing, skin: Option<&'a Binding<'a>>) -> io::Result<Self> {
+        let (counts, stride) = (mesh.counts(), STRIDE + skin.map_or(0, |_| OF_SKIN));
+        let bytes = counts.vertices * stride + counts.faces * 12;
+        if bytes > MOST_BYTES {
+            return Err(too_large(bytes));
+        }
+        let mut plan = Plan::default();
+        mesh.vertices(&mut |vertices| {
+            vertices.iter().for_each(|vertex| plan.count(vertex));
+            Ok(())
+        })?;
+        let (mut faces, mut at) = ([0; CLASSES.len()], 0);
+        mesh.faces(&mut |drawn| {
+            drawn.iter().for_each(|face| faces[usize::from(plan.run(face.indices()[0], &mut at).class)] += 1);
+            Ok(())
+        })?;
+        plan.faces = faces;
+        Ok(Self { mesh, skin, plan })
+    }
+
+    fn stride(&self) -> u64 {
+        STRIDE + self.skin.map_or(0, |_| OF_SKIN)
+    }
+
+    /// Writes the file; `file` has what else is in it. A mesh that has a skin gets the first of the file.
+    ///
+    /// # Errors
+    /// As [`write_still`].
+    pub fn write(&self, mut file: Document, out: &mut (dyn Write + Send)) -> io::Result<()> {
+        file.extras.extend(extras_of(self.mesh));
+        let name = self.mesh.notes().into_iter().next().unwrap_or_default();
+        let node = if let Some(mesh) = self.enter(&mut file, &name) {
+            let skin = self.skin.map(|_| json!(0));
+            let mut node = json!({ "name": name, "mesh": mesh });
+            skin.into_iter().for_each(|skin| node["skin"] = skin);
+            node
+        } else {
+            json!({ "name": name })
+        };
+        let node = file.node(node);
+        file.roots.push(node);
+        file.write_head(out)?;
+        for class in self.classes() {
+            self.write_vertices(class, out)?;
+            self.write_faces(class, out)?;
+        }
+        Ok(())
+    }
+
+    fn classes(&self) -> impl Iterator<Item = usize> {
+        (0..CLASSES.len()).filter(|class| self.plan.faces[*class] > 0)
+    }
+
+    /// Enters the mesh; `None` where it has no triangle.
+    fn enter(&self, file: &mut Document, name: &str) -> Option<usize> {
+        let primitives: Vec<Value> = self.classes().map(|class| self.enter_class(file, class)).collect();
+        if primitives.is_empty() {
+            return None;
+        }
+        file.meshes.push(json!({ "name": name, "primitives": primitives }));
+        Some(file.meshes.len() - 1)
+    }
+
+    fn enter_class(&self, file: &mut Document, class: usize) -> Value {
+        let (vertices, faces, stride) = (self.plan.vertices[class], self.plan.faces[class], self.stride());
+        let view = file.view(vertices * stride, Some(stride), Some(VERTICES));
+        let of = |number, shape, offset| Accessor::of(view, number, shape, vertices).at(offset);
+        let bounds = self.plan.bounds[class].unwrap_or_default();
+        let mut attributes = vec![
+            ("POSITION", of(Number::F32, "VEC3", 0).within(bounds)),
+            ("NORMAL", of(Number::F32, "VEC3", 12)),
+            ("TEXCOORD_0", of(Number::F32, "VEC2", 24)),
+            ("COLOR_0", of(Number::U16, "VEC4", 32).normalized()),
+            ("_BIRTH_AGE", of(Number::F32, "SCALAR", 40)),
+            ("_DEATH_AGE", of(Number::F32, "SCALAR", 44)),
+            ("_COMPONENT_ID", of(Number::F32, "SCALAR", 48)),
+        ];
+        if self.skin.is_some() {
+            attributes.push(("JOINTS_0", of(Number::U8, "VEC4", 52)));
+            attributes.push(("WEIGHTS_0", of(Number::U8, "VEC4", 56).normalized()));
+        }
+        let entered = attributes.into_iter().map(|(name, accessor)| (name.to_owned(), file.accessor(accessor).into()));
+        let attributes: Map<String, Value> = entered.collect();
+        let of_faces = file.view(faces * 12, None, Some(INDICES));
+        let indices = file.accessor(Accessor::of(of_faces, Number::U32, "SCALAR", 3 * faces));
+        json!({ "attributes": attributes, "indices": indices, "material": file.material(material(class)) })
+    }
+
+    fn write_vertices(&self, class: usize, out: &mut (dyn Write + Send)) -> io::Result<()> {
+        let mut bytes = Vec::new();
+        self.mesh.vertices(&mut |vertices| {
+            bytes.clear();
+            for vertex in vertices.iter().filter(|vertex| class_of(&vertex.tag()) == class) {
+                put(vertex, &mut bytes);
+                if let Some((joints, shares)) = self.skin.map(|bind| bind(vertex)) {
+                    bytes.extend_from_slice(&joints);
+                    bytes.extend_from_slice(&shares);
+                }
+            }
+            out.write_all(&bytes)
+        })?;
+        pad(self.plan.vertices[class] * self.stride(), out)
+    }
+
+    fn write_faces(&self, class: usize, out: &mut (dyn Write + Send)) -> io::Result<()> {
+        let (mut bytes, mut at) = (Vec::new(), 0);
+        self.mesh.faces(&mut |faces| {
+            bytes.clear();
+            for face in faces {
+                let run = self.plan.run(face.indices()[0], &mut at);
+                if usize::from(run.class) == class {
+                    let own = face.indices().map(|corner| self.plan.own(corner, run).to_le_bytes());
+                    own.iter().for_each(|corner| bytes.extend_from_slice(corner));
+                }
+            }
+            out.write_all(&bytes)
+        })
+    }
+}
+
+impl Plan {
+    fn count(&mut self, vertex: &Vertex) {
+        let class = class_of(&vertex.tag());
+        let first = self.vertices.iter().sum::<u64>() as u32;
+        if self.runs.last().is_none_or(|run| usize::from(run.class) != class) {
+            self.runs.push(Run { first, own: self.vertices[class] as u32, class: class as u8 });
+        }
+        self.vertices[class] += 1;
+        let at = y_up(vertex.position());
+        let [low, high] = self.bounds[class].get_or_insert([at, at]);
+        (0..3).for_each(|k| (low[k], high[k]) = (low[k].min(at[k]), high[k].max(at[k])));
+    }
+
+    /// The run of a vertex; `at` remembers the run of the last, near which the next mostly is.
+    fn run(&self, vertex: u32, at: &mut usize) -> Run {
+        let holds = |place: usize| {
+            self.runs.get(place).is_some_and(|run| run.first <= vertex)
+                && self.runs.get(place + 1).is_none_or(|next| vertex < next.first)
+        };
+        if !holds(*at) {
+            *at = if holds(*at + 1) {
+                *at + 1
+            } else {
+                self.runs.partition_point(|run| run.first <= vertex).saturating_sub(1)
+            };
+        }
+        self.runs.get(*at).copied().unwrap_or(Run { first: 0, own: 0, class: 0 })
+    }
+
+    /// The place of a vertex in its class; `near` is the run of a vertex of the same triangle.
+    fn own(&self, vertex: u32, near: Run) -> u32 {
+        // All corners of a triangle are of one component, whose vertices follow one another.
+        near.own + vertex.wrapping_sub(near.first)
+    }
+}
+
+/// Appends a vertex in the order of the attributes.
+fn put(vertex: &Vertex, bytes: &mut Vec<u8>) {
+    let tag = vertex.tag();
+    let [s, t] = vertex.texture();
+    let floats = |bytes: &mut Vec<u8>, of: &[f32]| of.iter().for_each(|x| bytes.extend_from_slice(&x.to_le_bytes()));
+    floats(bytes, &y_up(vertex.position()));
+    floats(bytes, &y_up(unit(vertex.normal())));
+    floats(bytes, &[s, 1.0 - t]);
+    linear(tag.colour).iter().for_each(|channel| bytes.extend_from_slice(&channel.to_le_bytes()));
+    floats(bytes, &[tag.birth, tag.death.min(f32::MAX), tag.component as f32]);
+}
+
+/// A vector of length 1 of the same direction; straight up where it has none.
+pub fn unit(of: [f32; 3]) -> [f32; 3] {
+    let length = of.iter().map(|x| x * x).sum::<f32>().sqrt();
+    if length > f32::MIN_POSITIVE && length.is_finite() { of.map(|x| x / length) } else { [0.0, 0.0, 1.0] }
+}
+
+/// What a file says of a mesh.
+pub fn extras_of(mesh: &dyn Drawing) -> Map<String, Value> {
+    let mut extras = Map::new();
+    extras.insert("notes".to_owned(), mesh.notes().into());
+    extras.insert("place_m".to_owned(), json!(mesh.place()));
+    if let Some(tolerance) = mesh.tolerance() {
+        extras.insert("tolerance_m".to_owned(), json!(tolerance.distance));
+    }
+    extras
+}
