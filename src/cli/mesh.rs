@@ -4,6 +4,7 @@
 //! plant, which the wind moves for the mesh alone.
 
 mod formats;
+mod life;
 
 use super::budget::{Asked, Budget, in_words, too_few};
 use super::out;
@@ -12,6 +13,7 @@ use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::Args;
 use formats::Format;
+use life::Growing;
 use phytomer::run::drawing::{check_size, options_of};
 use phytomer::run::picturing::{pictured_plot, plot_mesh};
 use phytomer_outputs::Destination;
@@ -30,6 +32,7 @@ Examples:
   phytomer mesh my_plant/scenario.toml --age 24 --wind 8 --time 0.40 --out frame-010.ply
   phytomer mesh under_a_roof --plot --age 12 --out plot.ply
   phytomer mesh coffee --age 36 --tolerance 1mm --out coffee.glb
+  phytomer mesh coffee --ages 1..48/4 --seconds 12 --out life.usdc
   phytomer mesh coffee --age 36 --tolerance 1mm --out print.stl
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
@@ -55,6 +58,8 @@ pub struct Mesh {
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(3..=64))]
     sides: u32,
     #[command(flatten)]
+    growing: Growing,
+    #[command(flatten)]
     budget: Budget,
     #[command(flatten)]
     breeze: Breeze,
@@ -62,8 +67,9 @@ pub struct Mesh {
 
 impl Mesh {
     pub fn obey(self) -> Result<Verdict> {
-        let format = Format::of(&self.out)?;
-        match Regrown::find(&self.name, self.age.as_slice())? {
+        let format = self.growing.of(Format::of(&self.out)?)?;
+        let last = self.growing.last().or(self.age);
+        match Regrown::find(&self.name, last.as_slice())? {
             Ok(regrown) => self.write(&regrown, format),
             Err(verdict) => Ok(verdict),
         }
@@ -71,6 +77,7 @@ impl Mesh {
 
     fn write(&self, regrown: &Regrown, format: Format) -> Result<Verdict> {
         match self.plot {
+            None if self.growing.is_asked() => self.write_life(regrown, format),
             Some(plot) => self.write_plot(regrown, plot, format),
             None => self.write_plant(regrown, format),
         }

@@ -117,12 +117,15 @@ fn write_faces(layer: &mut dyn Layer, mesh: &dyn Changing, course: &Course) -> i
     let faces = |span: usize| {
         let mut faces = Faces::default();
         mesh.faces(span, &mut faces);
-        faces
+        if i32::try_from(faces.corners.len()).is_err() {
+            return Err(io::Error::other("more than 2147483647 corners of faces: choose a larger tolerance"));
+        }
+        Ok(faces)
     };
     let counts = Attribute::new("faceVertexCounts", "int[]");
-    put(layer, counts, times, &mut |span, take| take(Data::Ints(&faces(span).counts)))?;
+    put(layer, counts, times, &mut |span, take| take(Data::Ints(&faces(span)?.counts)))?;
     let corners = Attribute::new("faceVertexIndices", "int[]");
-    put(layer, corners, times, &mut |span, take| take(Data::Ints(&faces(span).corners)))
+    put(layer, corners, times, &mut |span, take| take(Data::Ints(&faces(span)?.corners)))
 }
 
 fn write_points(layer: &mut dyn Layer, mesh: &dyn Changing, course: &Course) -> io::Result<()> {

@@ -87,6 +87,9 @@ mod tests {
             ("A.STL", Format::Stl),
             ("a.Glb", Format::Glb),
             ("a.ply.stl", Format::Stl),
+            ("a.usdc", Format::Usd(Encoding::Binary, Organs::Instances)),
+            ("a.USDA", Format::Usd(Encoding::Text, Organs::Instances)),
+            ("a.usdz", Format::Usd(Encoding::Package, Organs::Instances)),
             ("plain", Format::Ply),
             ("-", Format::Ply),
         ] {
@@ -95,7 +98,8 @@ mod tests {
         let told = Format::of(Path::new("a.obj")).expect_err("no format").0;
         assert_eq!(
             told,
-            "--out a.obj: `mesh` cannot write `.obj`; the formats that it has: PLY (.ply), GLB (.glb), STL (.stl)"
+            "--out a.obj: `mesh` cannot write `.obj`; the formats that it has: PLY (.ply), GLB (.glb), STL (.stl), \
+             USD (.usdc), USD (.usda), USD (.usdz)"
         );
     }
 }

@@ -101,3 +101,52 @@ pub fn compress(bytes: &[u8]) -> Vec<u8> {
     }
     packed
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Reads numbers as integerCoding.cpp does, of `size` bytes at most.
+    fn unpack(packed: &[u8], count: usize, size: usize) -> Vec<i64> {
+        assert_eq!(packed[0], 0, "one block");
+        let bytes = lz4_flex::block::decompress(&packed[1..], (size + 1) * (count + 2)).expect("LZ4");
+        let read = |at: usize, size: usize| {
+            let bytes: Vec<u8> = bytes[at..at + size].to_vec();
+            let sign = if bytes[size - 1] & 128 == 0 { 0 } else { 255 };
+            let mut long = [sign; 8];
+            long[..size].copy_from_slice(&bytes);
+            i64::from_le_bytes(long)
+        };
+        let (common, mut at, mut last) = (read(0, size), size + count.div_ceil(4), 0_i64);
+        let numbers = (0..count).map(|number| {
+            let size = match bytes[size + number / 4] >> (2 * (number % 4)) & 3 {
+                0 => 0,
+                code => size >> (3 - code),
+            };
+            last = last.wrapping_add(if size == 0 { common } else { read(at, size) });
+            at += size;
+            last
+        });
+        numbers.collect()
+    }
+
+    #[test]
+    fn numbers_come_back() {
+        let courses: [Vec<i64>; 5] = [
+            vec![3; 100],
+            (0..1000).collect(),
+            (0..777).map(|k| (k * 7919) % 1013 - 500).collect(),
+            (0..64).map(|k| if k % 2 == 0 { i64::from(i32::MAX) } else { i64::from(i32::MIN) }).collect(),
+            (0..20_000).map(|k| k / 7 + (k % 3) * 40_000).collect(),
+        ];
+        for course in courses {
+            let short: Vec<i32> = course.iter().map(|number| *number as i32).collect();
+            let of_short: Vec<i64> =
+                unpack(&pack(&short), course.len(), 4).iter().map(|x| i64::from(*x as i32)).collect();
+            assert_eq!(of_short, course);
+            let long: Vec<i64> = course.iter().map(|number| number << 17).collect();
+            assert_eq!(unpack(&pack_longs(&long), course.len(), 8), long);
+        }
+        assert!(pack(&vec![3; 1_000_000]).len() < 2000, "what is even is small");
+    }
+}
