@@ -12,11 +12,11 @@ use std::process::{Command, Output};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// A tree with branches, leaves that fall and wood that bends.
-const SCENARIO: &str = "name = \"usd\"\nspecies = \"willow\"\nplants = 1\nseed = 5\n\
-                        ages = { until = 16, record = [2, 6, 9, 13, 16] }\n";
+/// A tree with branches, flowers and fruits, and leaves that fall.
+const SCENARIO: &str = "name = \"usd\"\nspecies = \"coffee\"\nplants = 1\nseed = 5\n\
+                        ages = { until = 40, record = [4, 13, 22, 31, 40] }\n";
 
-const AGES: [&str; 5] = ["2", "6", "9", "13", "16"];
+const AGES: [&str; 5] = ["4", "13", "22", "31", "40"];
 
 /// The Python of an environment that has a module; `None`, with the reason printed, where it has not.
 fn python(environment: &str, module: &str) -> Option<PathBuf> {
@@ -60,11 +60,11 @@ fn openusd_and_blender_find_the_organs_of_the_records() {
     }
     for ending in ["usda", "usdc", "usdz"] {
         let out = at(&format!("still.{ending}"));
-        phytomer(&["mesh", &scenario, "--age", "16", "--tolerance", "0.1mm", "--out", &out]);
+        phytomer(&["mesh", &scenario, "--age", "40", "--tolerance", "0.1mm", "--out", &out]);
     }
-    phytomer(&["mesh", &scenario, "--ages", "2..16", "--tolerance", "0.5mm", "--out", &at("life.usdc")]);
+    phytomer(&["mesh", &scenario, "--ages", "4..40", "--tolerance", "0.5mm", "--out", &at("life.usdc")]);
     let merged = ["--tolerance", "0.5mm", "--leaves", "merged", "--out", &at("merged.usdc")];
-    phytomer(&[&["mesh", &scenario, "--ages", "2..16"][..], &merged].concat());
+    phytomer(&[&["mesh", &scenario, "--ages", "4..40"][..], &merged].concat());
     let told = read(&openusd, "usd.py", &[&[recorded.as_str(), &at("")][..], &AGES].concat());
     let organs = at("organs.json");
     std::fs::write(&organs, told.lines().last().unwrap_or_default()).expect("the organs");

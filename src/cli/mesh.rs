@@ -50,9 +50,10 @@ pub struct Mesh {
     /// Its age in ticks, of a plot its tick; the last of the run if not given.
     #[arg(long)]
     age: Option<Tick>,
-    /// The file to write; its ending tells the format: `.ply`, `.glb` (glTF, Y up) or `.stl` (binary, triangles
-    /// alone). `-` is PLY on stdout. A link stays, and its target is replaced; a pipe or a device is written through.
-    #[arg(long, value_name = "FILE.ply|.glb|.stl")]
+    /// The file to write; its ending tells the format: `.ply`, `.glb` (glTF, Y up), `.stl` (binary, triangles alone),
+    /// or USD: `.usdc` (binary), `.usda` (text), `.usdz` (a package). `-` is PLY on stdout. A link stays, and its target
+    /// is replaced; a pipe or a device is written through.
+    #[arg(long, value_name = "FILE.ply|.glb|.stl|.usdc")]
     out: PathBuf,
     /// Sides of the tube that an internode is drawn as.
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(3..=64))]
