@@ -1,8 +1,8 @@
 //! Files of USD in the hands of OpenUSD and of Blender, and what is refused.
 //!
 //! OpenUSD (the package usd-core) stands with the other independent readers in `.venv`; Blender comes as a module of
-//! Python in two environments of its own, `.venv-blender-4.2` and `.venv-blender`, which `.ci/run` fills. Where they are
-//! missing the tests skip and say so, but never in CI.
+//! Python in two environments of its own, `.venv-blender-4.2` and `.venv-blender`, which `.ci/run` fills. Where they
+//! are missing the tests skip and say so, but never in CI.
 
 #[path = "program/absent.rs"]
 mod absent;

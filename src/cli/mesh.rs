@@ -51,8 +51,8 @@ pub struct Mesh {
     #[arg(long)]
     age: Option<Tick>,
     /// The file to write; its ending tells the format: `.ply`, `.glb` (glTF, Y up), `.stl` (binary, triangles alone),
-    /// or USD: `.usdc` (binary), `.usda` (text), `.usdz` (a package). `-` is PLY on stdout. A link stays, and its target
-    /// is replaced; a pipe or a device is written through.
+    /// or USD: `.usdc` (binary), `.usda` (text), `.usdz` (a package). `-` is PLY on stdout. A link stays, and its
+    /// target is replaced; a pipe or a device is written through.
     #[arg(long, value_name = "FILE.ply|.glb|.stl|.usdc")]
     out: PathBuf,
     /// Sides of the tube that an internode is drawn as.

@@ -1,8 +1,8 @@
 //! A mesh that changes: its topology span by span, its points state by state, and its primvars.
 //!
 //! Primvars name the component of each vertex, its birth and its death as whole numbers, so that readers which know no
-//! more than the mesh can show an age or join a table: `birth_age <= a and a < death_age` holds of what stands at a, since
-//! what lives has the largest number of 32 bits for its death.
+//! more than the mesh can show an age or join a table: `birth_age <= a and a < death_age` holds of what stands at a,
+//! since what lives has the largest number of 32 bits for its death.
 
 use super::course::{Course, State};
 use super::layer::{Attribute, Data, Layer, Value, Values};

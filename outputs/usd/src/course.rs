@@ -1,11 +1,12 @@
 //! The course of a life in time codes: spans of constant topology, and the states at which they are written.
 //!
-//! USD goes linearly between two samples of equal length and holds any other. So a life is cut into spans in which nothing
-//! appears and nothing ends: what comes within the span is there from its beginning, collapsed to a point, and what goes
-//! at its end is there up to it. At the end of a span, at the time t, stand three samples: the old topology at t − 2ε,
-//! the new one at t − ε and again at t, all of them with the plant as it stands at t, but that the old one still has what
-//! goes and the new one has what is to come. With ε = 0.001 growth is smooth to the eye, and at t itself, where readers
-//! come by a division of frames that may be off in the last digit, nothing is shown but what stands.
+//! USD goes linearly between two samples of equal length and holds any other. So a life is cut into spans in which
+//! nothing appears and nothing ends: what comes within the span is there from its beginning, collapsed to a point, and
+//! what goes at its end is there up to it. At the end of a span, at the time t, stand three samples: the old topology
+//! at t − 2ε, the new one at t − ε and again at t, all of them with the plant as it stands at t, but that the old one
+//! still has what goes and the new one has what is to come. With ε = 0.001 growth is smooth to the eye, and at t
+//! itself, where readers come by a division of frames that may be off in the last digit, nothing is shown but what
+//! stands.
 
 use phytomer_life::Life;
 

@@ -1,8 +1,9 @@
 //! What a USD layer is made of: prims in a tree, with attributes, relationships and connections.
 //!
-//! A [`Layer`] is written from its first prim to its last, and each attribute as a whole, so that memory holds one value
-//! at a time. A value that changes is asked for by its number, once for each different value in a binary file, and once for
-//! each time in a text. Absent: what the prims mean, which is the schemas' of USD and of the writers above.
+//! A [`Layer`] is written from its first prim to its last, and each attribute as a whole, so that memory holds one
+//! value at a time. A value that changes is asked for by its number, once for each different value in a binary file,
+//! and once for each time in a text. Absent: what the prims mean, which is the schemas' of USD and of the writers
+//! above.
 
 use std::io::{self, Write};
 

@@ -1,7 +1,9 @@
-//! A package (`.usdz`): a zip without compression, whose one file is a binary layer that begins at a multiple of 64 bytes.
+//! A package (`.usdz`): a zip without compression, whose one file is a binary layer that begins at a multiple of 64
+//! bytes.
 //!
 //! The sum and the size of the layer stand before it and are known after it, so they are put right at the end, as the
-//! layer's own bootstrap is. The time of the file is the earliest of its format, so that the same plants are the same bytes.
+//! layer's own bootstrap is. The time of the file is the earliest of its format, so that the same plants are the same
+//! bytes.
 
 use super::layer::Sink;
 use crc32fast::Hasher;

@@ -2,8 +2,8 @@
 //!
 //! A point that the line does not need yet lies on the line, as far from the point before it as it will be, at most at
 //! the next one. An axis that is to come waits where it will stand on the line of its bearer, at most at the end of it,
-//! so that it is carried along by a shoot that grows; an organ likewise. What is cut off goes as a whole, so the end of a
-//! line of which something goes stays where it was until then.
+//! so that it is carried along by a shoot that grows; an organ likewise. What is cut off goes as a whole, so the end of
+//! a line of which something goes stays where it was until then.
 
 use super::course::{Course, Span, State};
 use glam::{Vec3, Vec4, Vec4Swizzles};

@@ -1,8 +1,8 @@
 //! The wood of a life: a tube along each line, of rings that follow its points.
 //!
 //! A ring has as many sides as its largest radius asks within the tolerance (the polygon of the circle's area, as in
-//! meshes within a tolerance), so that its number never changes. It stands across the mean of the two directions, and is
-//! wider in the plane of the bend, so that a tube keeps its section where it turns. Quads join rings of equal sides,
+//! meshes within a tolerance), so that its number never changes. It stands across the mean of the two directions, and
+//! is wider in the plane of the bend, so that a tube keeps its section where it turns. Quads join rings of equal sides,
 //! triangles others; the two ends are closed by a polygon each, on the vertices of their rings.
 
 use super::Member;

@@ -26,15 +26,15 @@ const LONGEST: f64 = 3600.0;
 /// A life instead of an age.
 #[derive(Debug, Clone, Args)]
 pub struct Growing {
-    /// A whole life instead of one age, in a file that plays (USD): the ages from the first to the last, after a slash the
-    /// step between them, such as 1..48/4. It is within 1 mm of the plant, or within --tolerance.
+    /// A whole life instead of one age, in a file that plays (USD): the ages from the first to the last, after a slash
+    /// the step between them, such as 1..48/4. It is within 1 mm of the plant, or within --tolerance.
     #[arg(long, value_name = "FIRST..LAST[/STEP]", value_parser = span, conflicts_with_all = ["age", "plot", "wind", "triangles", "sides"])]
     ages: Option<Span>,
     /// The length of a life, seconds, 24 frames each; if not given, a tick is a frame, so that frame 36 shows age 36.
     #[arg(long, value_name = "SECONDS", requires = "ages", allow_negative_numbers = true, value_parser = seconds)]
     seconds: Option<f64>,
-    /// How USD has leaves, flowers and fruits. Instances are small files; Blender plays them from 4.5 on, and before shows
-    /// them for ever as they are at the first age.
+    /// How USD has leaves, flowers and fruits. Instances are small files; Blender plays them from 4.5 on, and before
+    /// shows them for ever as they are at the first age.
     #[arg(long, value_enum)]
     leaves: Option<Leaves>,
 }

@@ -1,12 +1,13 @@
-//! A layer in the binary format of USD (`.usdc`, "crate", version 0.8.0): values as they come, then tables of what there is.
+//! A layer in the binary format of USD (`.usdc`, "crate", version 0.8.0): values as they come, then tables of what
+//! there is.
 //!
-//! The format is that of pxr/usd/sdf/crateFile.cpp and integerCoding.cpp of OpenUSD. A file begins with a bootstrap that
-//! points to the table of contents at the end. Values are written at once, so that memory holds the tables alone; a value
-//! is known by its representation, 64 bits with its type and its place in the file, or the value itself where it is small.
-//! Words are numbered (tokens), fields are pairs of a word and a value, sets of fields are shared, paths are a tree, and
-//! specs are triples of a path, a set of fields and a type. Whole numbers are coded by their differences and packed with
-//! LZ4. At the end the place of the table of contents is put right in the bootstrap. We wrote our own since the crates that
-//! write it keep every value in memory.
+//! The format is that of pxr/usd/sdf/crateFile.cpp and integerCoding.cpp of OpenUSD. A file begins with a bootstrap
+//! that points to the table of contents at the end. Values are written at once, so that memory holds the tables alone;
+//! a value is known by its representation, 64 bits with its type and its place in the file, or the value itself where
+//! it is small. Words are numbered (tokens), fields are pairs of a word and a value, sets of fields are shared, paths
+//! are a tree, and specs are triples of a path, a set of fields and a type. Whole numbers are coded by their
+//! differences and packed with LZ4. At the end the place of the table of contents is put right in the bootstrap. We
+//! wrote our own since the crates that write it keep every value in memory.
 
 mod ints;
 mod tables;

@@ -170,8 +170,9 @@ impl Tables {
         put_sized(out, &pack_all(self.sets.iter().copied()))
     }
 
-    /// The tree of paths, each before its children and those before its next sibling. A jump is 0 where the next element is
-    /// a sibling, −1 where it is a child and there is no sibling, −2 where there is neither, else how far the sibling is.
+    /// The tree of paths, each before its children and those before its next sibling. A jump is 0 where the next
+    /// element is a sibling, −1 where it is a child and there is no sibling, −2 where there is neither, else how far
+    /// the sibling is.
     fn write_paths(&self, out: &mut Values) -> io::Result<()> {
         let (mut order, mut jumps) = (Vec::with_capacity(self.paths.len()), vec![0_i32; self.paths.len()]);
         // The paths that wait, each with the place of the element before whose sibling it is.
