@@ -7,6 +7,7 @@ mod formats;
 mod keyed;
 mod life;
 mod rig;
+mod usd;
 
 use super::budget::{Asked, Budget, in_words, too_few};
 use super::out;
@@ -39,6 +40,7 @@ Examples:
   phytomer mesh coffee --age 36 --tolerance 1mm --out coffee.glb
   phytomer mesh coffee --ages 1..48 --keys 12 --seconds 8 --tolerance 2mm --out life.glb
   phytomer mesh willow --age 20 --tolerance 5mm --wind 8 --rig 60 --out sway.glb
+  phytomer mesh coffee --ages 1..48/4 --seconds 12 --out life.usdc
   phytomer mesh coffee --age 36 --tolerance 1mm --out print.stl
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
@@ -56,9 +58,10 @@ pub struct Mesh {
     /// Its age in ticks, of a plot its tick; the last of the run if not given. 3.5 is halfway from tick 3 to tick 4.
     #[arg(long, value_parser = age)]
     age: Option<Moment>,
-    /// The file to write; its ending tells the format: `.ply`, `.glb` (glTF, Y up) or `.stl` (binary, triangles
-    /// alone). `-` is PLY on stdout. A link stays, and its target is replaced; a pipe or a device is written through.
-    #[arg(long, value_name = "FILE.ply|.glb|.stl")]
+    /// The file to write; its ending tells the format: `.ply`, `.glb` (glTF, Y up), `.stl` (binary, triangles alone),
+    /// or USD: `.usdc` (binary), `.usda` (text), `.usdz` (a package). `-` is PLY on stdout. A link stays, and its
+    /// target is replaced; a pipe or a device is written through.
+    #[arg(long, value_name = "FILE.ply|.glb|.stl|.usdc")]
     out: PathBuf,
     /// Sides of the tube that an internode is drawn as.
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(3..=64))]
@@ -77,7 +80,7 @@ pub struct Mesh {
 
 impl Mesh {
     pub fn obey(self) -> Result<Verdict> {
-        let format = Format::of(&self.out)?;
+        let format = self.growing.of(Format::of(&self.out)?)?;
         let asked = [("ages", self.growing.is_asked()), ("rig", self.rig.asked().is_some())];
         if let Some((option, _)) = asked.iter().find(|(option, asked)| *asked && !format.holds(option)) {
             return Err(format.holds_no(option).into());
@@ -94,6 +97,7 @@ impl Mesh {
             return rig::write(self, regrown, format, joints);
         }
         match self.plot {
+            _ if self.growing.is_asked() && matches!(format, Format::Usd(..)) => usd::write(self, regrown, format),
             _ if self.growing.is_asked() => keyed::write(self, regrown),
             Some(plot) => self.write_plot(regrown, plot, format),
             None => self.write_plant(regrown, format),

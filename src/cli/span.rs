@@ -38,6 +38,33 @@ impl Span {
         self.first <= age && age <= self.last && whole
     }
 
+    /// How many steps there are from the first age to the last; without a stated step of a tick each.
+    pub fn steps(&self) -> u64 {
+        ((self.last - self.first) / self.step.unwrap_or(1.0) + 1e-6).floor().max(0.0) as u64
+    }
+
+    /// The age after so many steps.
+    pub fn after(&self, steps: u64) -> Moment {
+        let age = self.first + steps as f64 * self.step.unwrap_or(1.0);
+        Moment::of(age).unwrap_or_else(|| Moment::from(self.until()))
+    }
+
+    /// The ages of all steps, and the last.
+    pub fn moments(&self) -> Vec<Moment> {
+        let mut all: Vec<Moment> = (0..=self.steps()).map(|steps| self.after(steps)).collect();
+        let last = Moment::of(self.last);
+        all.extend(last.filter(|last| all.last().is_none_or(|end| end < last)));
+        all
+    }
+
+    /// So many of the ages of the steps, evenly from the first to the last of them; all where there are not as many.
+    pub fn keys(&self, keys: u32) -> Vec<Moment> {
+        let steps = self.steps();
+        let gaps = steps.min(u64::from(keys.saturating_sub(1)));
+        let key = |key: u64| if gaps == 0 { 0 } else { (2 * key * steps + gaps) / (2 * gaps) };
+        (0..=gaps).map(|number| self.after(key(number))).collect()
+    }
+
     /// The tick to which the plants must grow.
     pub fn until(&self) -> Tick {
         until(self.last)
@@ -108,6 +135,30 @@ pub fn shown(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn keys_are_even_and_each_is_once() {
+        let keys =
+            |text: &str, keys| span(text).expect(text).keys(keys).into_iter().map(Moment::age).collect::<Vec<_>>();
+        assert_eq!(keys("1..96", 2), [1.0, 96.0]);
+        assert_eq!(keys("0..12", 4), [0.0, 4.0, 8.0, 12.0]);
+        assert_eq!(keys("0..12/6", 4), [0.0, 6.0, 12.0]);
+        assert_eq!(keys("1..4", 16), [1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(keys("1..2/0.25", 3), [1.0, 1.5, 2.0]);
+        assert_eq!(keys("7", 16), [7.0]);
+        assert_eq!(keys("1..8", 5), [1.0, 3.0, 5.0, 6.0, 8.0]);
+        let many = keys(&format!("0..{}", u32::MAX), 256);
+        assert!(many.len() == 256 && many.windows(2).all(|pair| pair[0] < pair[1]));
+        assert_eq!(many.last(), Some(&f64::from(u32::MAX)));
+    }
+
+    #[test]
+    fn all_ages_of_a_span_have_its_last() {
+        let all = |text: &str| span(text).expect(text).moments().into_iter().map(Moment::age).collect::<Vec<_>>();
+        assert_eq!(all("1..3"), [1.0, 2.0, 3.0]);
+        assert_eq!(all("1..2.5"), [1.0, 2.0, 2.5]);
+        assert_eq!(all("1..2/0.5"), [1.0, 1.5, 2.0]);
+    }
 
     #[test]
     fn spans_are_read_and_the_rest_is_refused() {

@@ -8,7 +8,6 @@ use super::picturing::obstacles_of;
 use super::regrowth::{Regrowth, Whose};
 use phytomer_outputs::gltf::{Body, Growth, KeyMaker, Keyed};
 use phytomer_outputs::meshes::{MeshOptions, OwnForms, Tolerance};
-use phytomer_sim::Tick;
 use phytomer_sim::between::Moment;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,21 +16,11 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct Keying {
     /// The keys, each later than the one before.
-    pub ages: Vec<Tick>,
+    pub ages: Vec<Moment>,
     /// How near the wood is drawn.
     pub tolerance: Tolerance,
     /// How long the animation is, seconds.
     pub seconds: f64,
-}
-
-/// So many of the ages from the first to the last, a step apart, evenly; all where there are not as many.
-pub fn keys_of(first: Tick, last: Tick, step: Tick, keys: u32) -> Vec<Tick> {
-    let steps = u64::from(last.saturating_sub(first) / step.max(1));
-    let gaps = steps.min(u64::from(keys.saturating_sub(1)));
-    if gaps == 0 {
-        return vec![first];
-    }
-    (0..=gaps).map(|key| first + step * ((2 * key * steps + gaps) / (2 * gaps)) as Tick).collect()
 }
 
 /// Grows a plant or a plot and shows it at the keys; `forms` are those of its own that each species names.
@@ -56,7 +45,7 @@ pub fn keyed(regrowth: &Regrowth, whose: Whose, keying: &Keying, forms: &[Arc<Ow
     };
     Ok(Growth {
         bodies,
-        ages: keying.ages.iter().map(|age| *age as f32).collect(),
+        ages: keying.ages.iter().map(|age| age.age() as f32).collect(),
         seconds: keying.seconds,
         tolerance: keying.tolerance.distance,
         note: format!("{name} seed {}", regrowth.trial().scenario().seed),
@@ -68,14 +57,14 @@ pub fn keyed(regrowth: &Regrowth, whose: Whose, keying: &Keying, forms: &[Arc<Ow
 fn plant_keyed(
     regrowth: &Regrowth,
     plant: u32,
-    ages: &[Tick],
+    ages: &[Moment],
     maker: &dyn Fn(usize) -> KeyMaker,
 ) -> Result<(Body, [f64; 3]), RunError> {
     let mut maker = maker(regrowth.trial().species_of_plant(plant));
     let mut place = [0.0; 3];
-    regrowth.show(plant, ages, &mut |age, plant| {
+    regrowth.show_at(plant, ages, &mut |age, plant| {
         place = plant.place;
-        ages.binary_search(&age).into_iter().for_each(|key| maker.show(key, plant, age));
+        ages.binary_search(&age).into_iter().for_each(|key| maker.show(key, plant, age.tick()));
         Ok(())
     })?;
     Ok((Body { name: format!("plant {plant}"), place: [0.0; 3], keyed: maker.finish() }, place))
@@ -85,14 +74,13 @@ fn plant_keyed(
 fn plot_keyed(
     regrowth: &Regrowth,
     plot: u32,
-    ticks: &[Tick],
+    ticks: &[Moment],
     maker: &dyn Fn(usize) -> KeyMaker,
 ) -> Result<Vec<Body>, RunError> {
     let trial = regrowth.trial();
     let mut makers: BTreeMap<u32, KeyMaker> = BTreeMap::new();
-    let moments: Vec<Moment> = ticks.iter().copied().map(Moment::from).collect();
-    regrowth.show_plot(plot, &moments, &mut |moment, standing| {
-        let Ok(key) = ticks.binary_search(&moment.tick()) else { return Ok(()) };
+    regrowth.show_plot(plot, ticks, &mut |tick, standing| {
+        let Ok(key) = ticks.binary_search(&tick) else { return Ok(()) };
         for shown in standing {
             let of_plant = makers.entry(shown.plant.id).or_insert_with(|| maker(shown.species));
             of_plant.show(key, &shown.plant, shown.age);
@@ -111,21 +99,4 @@ fn plot_keyed(
         bodies.push(Body { name: "obstacles".to_owned(), place: [0.0; 3], keyed });
     }
     Ok(bodies)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn keys_are_even_and_each_is_once() {
-        assert_eq!(keys_of(1, 96, 1, 2), [1, 96]);
-        assert_eq!(keys_of(0, 12, 1, 4), [0, 4, 8, 12]);
-        assert_eq!(keys_of(0, 12, 6, 4), [0, 6, 12]);
-        assert_eq!(keys_of(1, 4, 1, 16), [1, 2, 3, 4]);
-        assert_eq!(keys_of(7, 7, 1, 16), [7]);
-        assert_eq!(keys_of(1, 8, 1, 5), [1, 3, 5, 6, 8]);
-        let keys = keys_of(0, u32::MAX, 1, 256);
-        assert!(keys.len() == 256 && keys.windows(2).all(|pair| pair[0] < pair[1]) && keys[255] == u32::MAX);
-    }
 }

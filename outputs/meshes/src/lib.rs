@@ -43,7 +43,7 @@ pub use model::Model;
 pub use plot::{PlotBody, PlotDrawing, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use reduced::chain::{Found, Sample, chains};
-pub use reduced::sides;
+pub use reduced::sides as sides_within;
 pub use reduced::simplify::{fits, simplify};
 pub use scene::{DrawnOrgan, OwnForm, Scene};
 pub use solid::{Solid, Undrawn};
@@ -139,7 +139,7 @@ pub struct About {
 
 impl About {
     /// The plant, its age and its run.
-    pub(crate) fn in_words(&self) -> String {
+    pub fn in_words(&self) -> String {
         format!("plant {} age {} seed {}", self.plant, self.age, self.run_seed)
     }
 }

@@ -8,12 +8,12 @@ use super::chunk::{Face, Tag, Vertex};
 use super::forms::{Depth, FormMesh, Placement};
 use super::outline;
 use super::section::{Prism, Ring};
-use super::stem::Drawn;
+use super::stem::{Drawn, Stems};
 use super::tube::{Frustum, Strip, Tube};
 use super::{Mesh, MeshOptions};
 use bytemuck::Zeroable;
 use phytomer_looks::{Surface, polygon};
-use phytomer_sim::plant::Form;
+use phytomer_sim::plant::{Form, NodeId};
 use phytomer_sim::pose::Frame;
 
 /// A form in a box of its own.
@@ -76,7 +76,7 @@ impl Model {
     }
 
     /// An internode that is drawn by itself.
-    pub(super) fn of_stem(stem: &Drawn, colour: [u8; 3]) -> Self {
+    fn of_stem(stem: &Drawn, colour: [u8; 3]) -> Self {
         let Frame { base, heading, up } = FRAME;
         let unit = Frustum { base, heading, up, length: 1.0, radii: [0.5; 2] };
         let narrowing = |mesh| Self { mesh, sized: Sized::Narrowing, in_parts: false };
@@ -115,6 +115,13 @@ impl Model {
     /// Whether the fullness of a component is in the mesh of its model.
     pub fn is_in_parts(&self) -> bool {
         self.in_parts
+    }
+}
+
+impl Stems<'_> {
+    /// The form of an internode that is drawn by itself, in the colour that it has.
+    pub fn model(&self, node: NodeId) -> Model {
+        Model::of_stem(self.form(node), self.colour(node))
     }
 }
 

@@ -88,6 +88,11 @@ impl<'a> Scene<'a> {
         Self::new(self.plant, self.age, &MeshOptions { tolerance: Some(tolerance), ..self.options.clone() })
     }
 
+    /// How it is drawn.
+    pub fn options(&self) -> &MeshOptions {
+        &self.options
+    }
+
     /// The age of the plant; between two ticks that at the later one.
     pub fn age(&self) -> Tick {
         self.age

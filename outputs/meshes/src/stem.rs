@@ -8,7 +8,6 @@ use super::MeshOptions;
 use super::chunk::{Tag, Vertex};
 use super::colour;
 use super::forms::{FormMesh, Placement};
-use super::model::Model;
 use super::section::{Prism, Ring};
 use super::tube::{Frustum, Strip, Tube};
 use phytomer_looks::Paints;
@@ -113,7 +112,8 @@ impl<'a> Stems<'a> {
         self.forms.get(place).unwrap_or_else(|| &self.sections[place - self.forms.len()])
     }
 
-    /// The place of the form of an internode in one list of forms and sections, which a plant keeps as long as it lives.
+    /// The place of the form of an internode in one list of forms and sections, which a plant keeps as long as it
+    /// lives.
     #[inline]
     pub fn place_of_form(&self, node: NodeId) -> usize {
         let Plant { axes, nodes, habit, own_looks, .. } = self.plant;
@@ -126,11 +126,6 @@ impl<'a> Stems<'a> {
         let axis: AxisId = nodes.axis[node.index()];
         let place = habit.looks.place(axes.order[axis.index()], axes.state[axis.index()]);
         place.unwrap_or(self.forms.len() - 1)
-    }
-
-    /// The form of an internode that is drawn by itself, in the colour that it has.
-    pub fn model(&self, node: NodeId) -> Model {
-        Model::of_stem(self.form(node), self.colour(node))
     }
 
     /// Writes the vertices of an internode; `out` must have as many places as its form has vertices.

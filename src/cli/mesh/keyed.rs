@@ -8,7 +8,7 @@ use super::super::span::shown;
 use super::super::{Misuse, Verdict, amounts, out};
 use super::Mesh;
 use anyhow::{Context, Result};
-use phytomer::run::keying::{Keying, keyed, keys_of};
+use phytomer::run::keying::{Keying, keyed};
 use phytomer::run::regrowth::Whose;
 use phytomer_outputs::Destination;
 use phytomer_outputs::gltf::write_growth;
@@ -30,9 +30,9 @@ pub fn write(mesh: &Mesh, regrown: &Regrown) -> Result<Verdict> {
         Asked::Full | Asked::Triangles(_) => Tolerance::of(NEARNESS),
     };
     let seconds = mesh.growing.seconds.unwrap_or(SECONDS);
-    let keying = Keying { ages: keys_of(ages.first, ages.last, ages.step, mesh.growing.keys), tolerance, seconds };
+    let keying = Keying { ages: ages.keys(mesh.growing.keys), tolerance, seconds };
     let mut file = Destination::create(&mesh.out)?;
-    let growth = keyed(&regrown.regrowth(&Breeze::default())?, whose, &keying, &regrown.forms)?;
+    let growth = keyed(&regrown.regrowth(&Breeze::default())?.falling(mesh.fall.fall), whose, &keying, &regrown.forms)?;
     let written = write_growth(&growth, &mut file).with_context(|| mesh.failing())?;
     let (what, unit) = match whose {
         Whose::Plant(plant) => (format!("plant {plant}"), "age"),

@@ -58,7 +58,7 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format, joints: u32) -> Res
         return Err(Misuse(format!("--rig {joints}: {what} has no wood that a skeleton could follow")).into());
     };
     let moments = |_| Sway::moments();
-    windy.show_moments(Whose::Plant(mesh.plant), &[age], &moments, &mut |_, standing| {
+    windy.show_timed(Whose::Plant(mesh.plant), &[asked], &moments, &mut |_, standing| {
         standing.iter().for_each(|standing| sway.show(&standing.plant));
         Ok(())
     })?;
@@ -73,7 +73,7 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format, joints: u32) -> Res
     let drawing = PlantDrawing { scene: &scene, about: scene.about(regrown.scenario.seed) };
     let written = match format {
         Format::Glb => check_size(&scene).and_then(|()| sway.write(&drawing, &wind, &mut file)),
-        Format::Ply | Format::Stl => return Err(format.holds_no("rig").into()),
+        Format::Ply | Format::Stl | Format::Usd(..) => return Err(format.holds_no("rig").into()),
     };
     written.with_context(|| mesh.failing())?;
     let bytes = amounts::bytes(file.finish()? as f64);

@@ -1,0 +1,64 @@
+//! A life as a USD file: the plant at each of some ages, as time samples.
+//!
+//! Absent: what a life is (`phytomer_outputs::life`), and the file (`phytomer_outputs::usd`).
+
+use super::super::budget::{Asked as Fineness, in_words};
+use super::super::regrown::Regrown;
+use super::super::span::{Span, shown};
+use super::super::{Misuse, Verdict};
+use super::{Format, Mesh};
+use anyhow::{Context, Result};
+use phytomer::run::drawing::options_of;
+use phytomer::run::regrowth::{Regrowth, Whose};
+use phytomer_outputs::Destination;
+use phytomer_outputs::life::{Life, Maker, Nearness};
+use phytomer_outputs::meshes::{MeshOptions, Tolerance};
+use phytomer_outputs::usd::{self, Asked, Member, Pace, Plants};
+
+/// How near a life is to the plant where nothing is said, metres.
+const NEAR: f32 = 1e-3;
+/// The time codes of a second.
+const A_SECOND: f64 = 24.0;
+
+/// Grows the plant of a mesh and writes its life.
+pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> {
+    let Format::Usd(encoding, organs) = format else { return Err(format.holds_no("ages").into()) };
+    let (whose, ages) = shown(regrown, (mesh.plant, mesh.plot), mesh.growing.ages, "--ages")?;
+    let Whose::Plant(plant) = whose else {
+        let told = "--ages: a life in USD is that of one plant; leave out --plot, or choose a name that ends in .glb";
+        return Err(Misuse(told.to_owned()).into());
+    };
+    let regrowth = regrown.regrowth(&mesh.breeze)?.falling(mesh.fall.fall);
+    let mut file = Destination::create(&mesh.out)?;
+    let own = regrown.forms.get(regrown.trial.species_of_plant(plant)).cloned().unwrap_or_default();
+    let within = match mesh.budget.asked() {
+        Fineness::Within(tolerance) => tolerance,
+        Fineness::Full | Fineness::Triangles(_) => Tolerance::of(NEAR),
+    };
+    let options = options_of(mesh.sides, &own);
+    let life = life_of(&regrowth, plant, ages, (within.distance, &options))?;
+    let what = format!("plant {plant} from age {} to age {}", ages.first, ages.last);
+    let words = format!("{what}, seed {}", regrown.scenario.seed);
+    let (lives, options) = ([life], [options]);
+    let plants = Plants { lives: &lives, options: &options, members: &[Member::default()] };
+    let asked = Asked { encoding, organs, words };
+    let pace = pace(ages, mesh.growing.seconds);
+    usd::write_life(&asked, &plants, within.distance, &pace, &mut file).with_context(|| mesh.failing())?;
+    mesh.tell(file, &format!("{what}{}", in_words(Some(&within))))
+}
+
+fn pace(ages: Span, seconds: Option<f64>) -> Pace {
+    let ticks = ages.last - ages.first;
+    let a_tick = seconds.filter(|_| ticks > 0.0).map_or(1.0, |seconds| seconds * A_SECOND / ticks);
+    Pace { a_tick, a_second: A_SECOND }
+}
+
+/// The life of a plant at the ages of a span.
+fn life_of(regrowth: &Regrowth, plant: u32, ages: Span, (distance, options): (f32, &MeshOptions)) -> Result<Life> {
+    let mut maker = Maker::new(Nearness::of(distance), options);
+    regrowth.show_at(plant, &ages.moments(), &mut |moment, plant| {
+        maker.show(plant, moment.tick());
+        Ok(())
+    })?;
+    Ok(maker.finish())
+}
