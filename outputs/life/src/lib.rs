@@ -79,6 +79,8 @@ pub struct Life {
 pub struct Line {
     /// The component number of the apical bud of the axis.
     pub axis: u32,
+    /// The component number of the apical bud of the axis that bears it, when it was first seen; `None` for a trunk.
+    pub bearer: Option<u32>,
     /// Its order, from 1.
     pub order: u8,
     /// Its points, as places among those of the life.
@@ -129,6 +131,8 @@ pub struct Part {
     pub component: u32,
     /// The component number of the internode at whose tip it stands; its own, of an internode.
     pub bearer: u32,
+    /// The component number of the apical bud of that internode's axis.
+    pub axis: u32,
     /// Its kind.
     pub kind: Kind,
     /// What it is.

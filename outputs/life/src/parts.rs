@@ -9,7 +9,7 @@ use super::track::Track;
 use super::{Life, Nearness, Part, What};
 use phytomer_looks::{Paints, Surface};
 use phytomer_meshes::{OwnForm, Scene, Stems};
-use phytomer_sim::plant::{Kind, NodeId, OrganId};
+use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
 
 const NONE: u32 = u32::MAX;
 
@@ -57,6 +57,7 @@ impl Parts {
             if known == NONE {
                 let part = Part {
                     bearer: scene.plant().nodes.component[organs.node[organ.index()].index()],
+                    axis: axis_of(scene.plant(), organs.node[organ.index()]),
                     fullness: drawn.fullness,
                     stalk: [stalk[0], stalk[1], stalk[2]],
                     what: self.what(scene, organ, drawn.own),
@@ -81,7 +82,8 @@ impl Parts {
         let known = self.known(component);
         if known == NONE {
             let birth = plant.nodes.birth[node.index()] as f32;
-            self.begin(Part { stalk: colour, ..begun(component, plant.kind_of(node), birth, age) }, &shown);
+            let axis = axis_of(plant, node);
+            self.begin(Part { axis, stalk: colour, ..begun(component, plant.kind_of(node), birth, age) }, &shown);
         } else {
             self.take(known, &shown, age, nearness);
         }
@@ -193,6 +195,7 @@ fn begun(component: u32, kind: Kind, birth: f32, from: f32) -> Part {
     Part {
         component,
         bearer: component,
+        axis: component,
         kind,
         what: What::Internode,
         fullness: 1.0,
@@ -203,6 +206,11 @@ fn begun(component: u32, kind: Kind, birth: f32, from: f32) -> Part {
         poses: 0..0,
         tints: 0..0,
     }
+}
+
+/// The number of the apical bud of an internode's axis.
+fn axis_of(plant: &Plant, node: NodeId) -> u32 {
+    plant.axes.component[plant.nodes.axis[node.index()].index()]
 }
 
 fn pose(base: [f32; 3], heading: [f32; 3], up: [f32; 3], size: [f32; 3]) -> [f32; 12] {
