@@ -1,8 +1,9 @@
 //! The output of a run: the run folder with its tables (Parquet), and reading it back.
 //!
-//! Meshes, lives, pictures and films are crates of their own, `phytomer-meshes`, `phytomer-life`, `phytomer-pictures`
-//! and `phytomer-films`, which need neither Arrow nor Parquet; they are re-exported here as [`meshes`], [`life`],
-//! [`pictures`] and [`films`]. [`colouring`] colours a picture by a column of a table. [`RunFolder::create`] makes a
+//! Meshes, lives, pictures, films and pages are crates of their own, `phytomer-meshes`, `phytomer-life`,
+//! `phytomer-pictures`, `phytomer-films` and `phytomer-pages`, which need neither Arrow nor Parquet; they are re-exported
+//! here as [`meshes`], [`life`], [`pictures`], [`films`] and [`pages`]. [`colouring`] colours a picture by a column of a
+//! table, [`paging`] fills the rows of a page. [`RunFolder::create`] makes a
 //! run folder, which is filled shard by shard and closed by [`RunFolder::finish`].
 //! Its format is described in `docs` and in its own `datapackage.json`. [`read`] opens it again, [`check()`] tells
 //! whether it is whole. Absent: growth rules.
@@ -10,6 +11,7 @@
 pub mod colouring;
 pub mod destination;
 mod frames;
+pub mod paging;
 pub mod read;
 pub mod rows;
 pub mod run_folder;
@@ -25,6 +27,7 @@ pub use frames::Frames;
 pub use phytomer_films as films;
 pub use phytomer_life as life;
 pub use phytomer_meshes as meshes;
+pub use phytomer_pages as pages;
 pub use phytomer_pictures as pictures;
 pub use run_folder::{
     Checking, Checkup, Depth, Difference, Differences, Error, FileReport, Finding, Holder, MergeFault, MergeFaults,

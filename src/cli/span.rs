@@ -18,6 +18,11 @@ pub struct Span {
 }
 
 impl Span {
+    /// The ages themselves.
+    pub fn ticks(&self) -> impl Iterator<Item = Tick> {
+        (self.first..=self.last).step_by(self.step as usize)
+    }
+
     /// The ages over so many frames.
     pub fn timeline(&self, frames: u32) -> Timeline {
         let [first, last, step] = [self.first, self.last, self.step].map(f64::from);

@@ -27,7 +27,7 @@ mod track;
 pub use lives::Lives;
 pub use maker::Maker;
 pub use phytomer_looks::{Surface, SurfacePoint};
-pub use track::{Key, between};
+pub use track::{Key, Track, between};
 
 use phytomer_sim::plant::{Form, Kind};
 use std::ops::Range;

@@ -35,6 +35,7 @@ pub use chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
 pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
+pub use forms::{Depth, FormMesh, Point as FormPoint};
 pub use plot::{PlotBody, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use reduced::chain::{Found, Sample, chains};
@@ -105,7 +106,7 @@ pub struct MeshOptions {
 impl MeshOptions {
     /// The shape of a form.
     #[inline]
-    pub(crate) fn shape(&self, form: Form) -> &forms::FormMesh {
+    pub fn shape(&self, form: Form) -> &forms::FormMesh {
         place_of_own(form).and_then(|place| self.own.shape(place)).unwrap_or_else(|| forms::shape(form))
     }
 }

@@ -32,7 +32,7 @@ pub struct Point {
     /// The position in the box.
     pub at: [f32; 3],
     /// The offset from the middle line of its part, in a form that is slim or full in its parts.
-    across: [f32; 3],
+    pub across: [f32; 3],
     /// The unit normal.
     pub normal: [f32; 3],
     /// The texture coordinates.
@@ -59,9 +59,10 @@ pub struct FormMesh {
     pub faces: Vec<[u32; 3]>,
     /// The plane polygons in it: the index of the first corner and the number of corners of each.
     polygons: Vec<[u32; 2]>,
-    depth: Depth,
+    /// What scales its z direction.
+    pub depth: Depth,
     /// Whether it becomes slim or full in each of its parts; else in its width.
-    in_parts: bool,
+    pub in_parts: bool,
     side: Side,
 }
 
