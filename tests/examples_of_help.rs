@@ -9,8 +9,9 @@ use program::{program as phytomer, run, small_film};
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 12] = [
-    "init", "grow", "merge", "validate", "derive", "verify", "describe", "list", "schema", "mesh", "picture", "animate",
+const VERBS: [&str; 13] = [
+    "init", "grow", "merge", "validate", "derive", "verify", "describe", "list", "schema", "mesh", "picture",
+    "animate", "view",
 ];
 
 /// The examples of a verb's help: the lines that begin with the program's name.

@@ -118,7 +118,10 @@ impl View {
         }
         regrown.check(("--ages", &[]), (if self.plants.is_empty() { "--plant" } else { "--plants" }, &plants))?;
         let mut last = Tick::MAX;
-        for plant in &plants {
+        for (place, plant) in plants.iter().enumerate() {
+            if plants[..place].contains(plant) {
+                return Err(Misuse(format!("--plants: plant {plant} is named twice")).into());
+            }
             let (_, ages) = shown(regrown, (*plant, None), self.ages, "--ages")?;
             last = last.min(ages.last);
         }

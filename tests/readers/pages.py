@@ -101,15 +101,16 @@ def measure(place):
     return header["least"] * 2 ** ((place - 1) / header["octave"]) if place > 0 else 0.0
 
 
-def tracks(counts, ages, values, begin):
-    """For each list its keys: (number of the age, value); values differ from the first of the list before."""
-    ages, values, first, found = iter(ages), iter(values), 0, []
-    for start, count in zip(begin, counts, strict=True):
-        keys, age, value = [], start, first
+def tracks(counts, ages, values, begin, kinds):
+    """For each list its keys: (number of the age, value); values differ from the first of the list of its kind before."""
+    ages, values, firsts, found = iter(ages), iter(values), {}, []
+    for start, count, kind in zip(begin, counts, kinds, strict=True):
+        keys, age, value = [], start, firsts.get(kind, 0)
         for key in range(count):
             age += next(ages) if key else 0
             value += next(values)
-            first = value if key == 0 else first
+            if key == 0:
+                firsts[kind] = value
             keys.append((age, value))
         found.append(keys)
     assert next(ages, None) is None and next(values, None) is None
@@ -150,45 +151,76 @@ for number, plant in enumerate(header["plants"]):
     assert len(start) == len(lasts) == plant["components"]
     kept = [column for column in header["columns"] if column["kept"]]
     values = {}
-    for place, column in enumerate(kept):
-        name = f"{number}.row.{place}"
-        values[column["name"]] = tracks(numbers(f"{name}.counts"), numbers(f"{name}.ages"), numbers(f"{name}.values"), start)
+    kinds = [0] * len(start)
+    for place, column in sorted(enumerate(kept), key=lambda entry: entry[1]["name"] != "kind"):
+        of = [numbers(f"{number}.row.{place}.{what}") for what in ("counts", "ages", "values")]
+        values[column["name"]] = tracks(*of, start, kinds if column["holds"] == "real" else [0] * len(start))
+        if column["name"] == "kind":
+            kinds = [keys[0][1] if keys else -1 for keys in values["kind"]]
 
-    # Parts: their first place differs from that of the point of their host.
-    points = sum(numbers(f"{number}.line.points"))
-    assert points == plant["points"] == len(numbers(f"{number}.point.flags"))
-    first, line, left = [], -1, 0
+    # Lines: the first key of a point differs from that of the point before, of a line from that of its host.
     counts, hosts = numbers(f"{number}.line.points"), sums(numbers(f"{number}.line.host"))
     steps = [iter(numbers(f"{number}.point.{axis}")) for axis in "xyz"]
-    keys_of = numbers(f"{number}.point.keys")
-    place, all_points = [0, 0, 0], []
-    for point in range(points):
-        while left == 0:
-            line += 1
-            left = counts[line]
-            place = list(first[hosts[line] - 1]) if hosts[line] > 0 else [0, 0, 0]
-        left -= 1
-        track, here = [], list(place)
-        for key in range(keys_of[point]):
-            here = [x + next(step) for x, step in zip(here, steps, strict=True)]
-            track.append(here)
-            if key == 0:
-                place = list(here)
-        first.append(tuple(track[0]))
-        all_points.append(track)
-    part_hosts = sums(numbers(f"{number}.part.host"))
+    keys_of, ages = numbers(f"{number}.point.keys"), iter(numbers(f"{number}.point.ages"))
+    from_of, lasts_of = sums(numbers(f"{number}.point.from")), numbers(f"{number}.point.lasts")
+    points, ends = [], []
+    for line, count in enumerate(counts):
+        ends += [len(points) + count] * count
+        for inner in range(count):
+            before = len(points) - 1 if inner else hosts[line] - 1
+            here, age, keys = list(points[before][0][1]) if before >= 0 else [0, 0, 0], from_of[len(points)], []
+            for key in range(keys_of[len(points)]):
+                age += next(ages) if key else 0
+                here = [x + next(step) for x, step in zip(here, steps, strict=True)]
+                keys.append((age, list(here)))
+            points.append(keys)
+    assert len(points) == plant["points"]
+
+    def point_at(point, when):
+        keys = points[point]
+        key = max((k for k, (age, _) in enumerate(keys) if age <= when), default=0)
+        if key + 1 == len(keys) or keys[key][0] > when:
+            return keys[key][1]
+        share = (when - keys[key][0]) / (keys[key + 1][0] - keys[key][0])
+        return [x + share * (y - x) for x, y in zip(keys[key][1], keys[key + 1][1], strict=True)]
+
+    def following(point, when):
+        return (next for next in range(point + 1, ends[point]) if stands(from_of[next], lasts_of[next], when))
+
+    def far(a, b):
+        x, y, z = (to - at for at, to in zip(a, b, strict=True))
+        return math.sqrt(x * x + y * y + z * z)
+
+    def carried(point, along, when):
+        """The place on the line, so far along from a point."""
+        here = point_at(point, when)
+        for next in following(point, when):
+            there = point_at(next, when)
+            way = far(here, there)
+            if way > 0 and along <= way:
+                here = [x + along / way * (y - x) for x, y in zip(here, there, strict=True)]
+                break
+            along, here = along - way, there
+        return [math.floor(x + 0.5) for x in here]
+
+    # Parts: their places differ from those to which their hosts have carried them.
+    part_hosts, shares = sums(numbers(f"{number}.part.host")), iter(numbers(f"{number}.part.share"))
     part_from, part_lasts = sums(numbers(f"{number}.part.from")), numbers(f"{number}.part.lasts")
     components = sums(numbers(f"{number}.part.component"))
     steps = [iter(numbers(f"{number}.part.{axis}")) for axis in "xyz"]
     ages = iter(numbers(f"{number}.part.ages"))
     parts = []
     for part, count in enumerate(numbers(f"{number}.part.keys")):
-        here = list(first[part_hosts[part] - 1]) if part_hosts[part] > 0 else [0, 0, 0]
-        age, keys = part_from[part], []
+        host, age, off, keys = part_hosts[part] - 1, part_from[part], [0, 0, 0], []
+        if host >= 0:
+            after = next(following(host, age), None)
+            share = next(shares) / 255
+            along = share * far(point_at(host, age), point_at(after, age)) if after is not None else 0.0
         for key in range(count):
             age += next(ages) if key else 0
-            here = [x + next(step) for x, step in zip(here, steps, strict=True)]
-            keys.append((age, list(here)))
+            off = [x + next(step) for x, step in zip(off, steps, strict=True)]
+            there = carried(host, along, age) if host >= 0 else [0, 0, 0]
+            keys.append((age, [x + y for x, y in zip(there, off, strict=True)]))
         parts.append(keys)
     assert len(parts) == plant["parts"]
 

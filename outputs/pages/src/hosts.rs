@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The parts into which the way between two points is divided.
-const SHARES: f32 = 255.0;
+pub const SHARES: f32 = 255.0;
 /// The points to either side of the last host that are looked at first, on a line of many.
 const AROUND: usize = 64;
 

@@ -4,6 +4,7 @@
 //! numbers that `streams` describes, and scripts of ours that draw them by WebGL 2 (`web`). `docs/view.md` has the format
 //! of the data. Absent: growth, the tables of a run, and pictures of other formats.
 
+mod carried;
 mod forms;
 mod hosts;
 mod html;
@@ -23,7 +24,7 @@ use phytomer_meshes::MeshOptions;
 use phytomer_sim::plant::Kind;
 use serde_json::{Value, json};
 use std::io::{self, Write};
-use streams::{LEAST, Last, OCTAVE, Streams, linear};
+use streams::{LEAST, Last, OCTAVE, Streams, linear, logarithmic};
 
 /// The part of the tolerance that the keyframes of a life may take: the rest is for places that become whole numbers.
 pub const OF_A_LIFE: f32 = 0.75;
@@ -91,6 +92,8 @@ struct Numbering<'a> {
 #[derive(Debug)]
 struct Scale {
     step: f64,
+    /// The tolerance on the logarithmic scale.
+    near: i64,
 }
 
 impl Numbering<'_> {
@@ -125,7 +128,8 @@ impl Page {
     /// # Errors
     /// Those of `out`.
     pub fn write(self, out: &mut dyn Write) -> io::Result<()> {
-        let scale = Scale { step: STEP * f64::from(self.tolerance) };
+        let tolerance = f64::from(self.tolerance);
+        let scale = Scale { step: STEP * tolerance, near: logarithmic(tolerance) };
         let (mut forms, mut streams, mut plants) = (Forms::default(), Streams::default(), Vec::new());
         for (number, subject) in self.subjects.into_iter().enumerate() {
             let Subject { life, table, options, .. } = subject;
@@ -149,7 +153,7 @@ impl Page {
         let header = json!({
             "format": 1, "version": env!("CARGO_PKG_VERSION"), "title": self.title, "note": self.note,
             "run": self.run, "seed": self.seed.to_string(), "tolerance_m": self.tolerance, "of_plot": self.of_plot,
-            "step_m": scale.step, "octave": OCTAVE, "least": LEAST,
+            "step_m": scale.step, "octave": OCTAVE, "least": LEAST, "near": scale.near,
             "ages": self.ages.iter().map(|(age, _)| *age).collect::<Vec<f32>>(),
             "captions": self.ages.iter().map(|(_, caption)| caption.as_str()).collect::<Vec<&str>>(),
             "events": self.events, "columns": self.columns.iter().map(of_column).collect::<Vec<Value>>(),

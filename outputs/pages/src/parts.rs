@@ -1,18 +1,22 @@
 //! The streams of the parts of a life: organs, and internodes that are drawn by themselves, with their keyframes.
 //!
-//! A part is a form of the page's list (`forms`) in a frame and of a size. The first place of a part is told as the
-//! difference to the first one of the point of its host, its frame as a unit quaternion without its largest component, in steps of 1/256, its sizes
-//! on the logarithmic scale. Parts of one form stand together.
+//! A part is a form of the page's list (`forms`) in a frame and of a size. Its place is told as the difference to that
+//! to which its host has carried it (`carried`), its frame as a unit quaternion without its largest component, as finely
+//! as its size asks, its sizes on the logarithmic scale. Parts of one form stand together.
 
+use super::carried::{Carried, Carriers};
 use super::forms::Forms;
 use super::hosts::{HostStreams, Hosts};
-use super::streams::{Last, Stream, Streams, logarithmic};
+use super::streams::{Last, OCTAVE, Stream, Streams, linear, logarithmic};
 use super::wood::Tints;
 use super::{Numbering, Scale};
 use phytomer_life::{Key, Life, Part, What};
 
-/// The steps of a component of a quaternion from 0 to 1.
-const TURNS: f32 = 256.0;
+/// The exponents of the finest and of the coarsest steps of a component of a quaternion, and that of forms that state
+/// no size in metres.
+const FINEST: i64 = 12;
+const COARSEST: i64 = 6;
+const OF_SHARES: i64 = 10;
 
 #[derive(Debug, Default)]
 struct Keys {
@@ -41,6 +45,7 @@ pub fn write(
     let [mut from, mut lasts] = [Stream::default(), Stream::default()];
     let [mut component, mut form, mut full, mut first] = [Last::default(); 4];
     let (mut hosted, mut keys, mut tints) = (HostStreams::default(), Keys::default(), Tints::default());
+    let carriers = Carriers::of(life, scale, numbering);
     for place in order {
         let part = &life.parts[place];
         components.put(component.step(i64::from(part.component)));
@@ -52,11 +57,9 @@ pub fn write(
         let host =
             poses.first().and_then(|(_, [x, y, z, ..])| hosts.find(part.axis, [*x, *y, *z], part.from, u32::MAX));
         hosted.put(host.as_ref());
-        let last = hosts.first_of(host.as_ref()).map_or([Last::default(); 3], |at| {
-            let [x, y, z, _] = scale.of_place(at);
-            [x, y, z]
-        });
-        keys.put(poses, last, part, scale, numbering);
+        let carried = host.map(|host| carriers.begin(&host, numbering.place(part.from)));
+        let carry = |number: i64| carried.map_or([0; 3], |carried: Carried| carriers.place(&carried, number));
+        keys.put(poses, &carry, part, scale, numbering);
         tints.put(life.tints_of_part(part), numbering);
     }
     let name = &format!("{name}.part");
@@ -67,20 +70,28 @@ pub fn write(
 }
 
 impl Keys {
-    fn put(&mut self, keys: &[Key<12>], first: [Last; 3], part: &Part, scale: &Scale, numbering: &Numbering) {
+    fn put(
+        &mut self,
+        keys: &[Key<12>],
+        carry: &dyn Fn(i64) -> [i64; 3],
+        part: &Part,
+        scale: &Scale,
+        numbering: &Numbering,
+    ) {
         self.counts.put(keys.len() as i64);
-        let (mut age, mut place, mut size) = (Last::default(), first, self.last);
+        let (mut age, mut off, mut size) = (Last::default(), [Last::default(); 3], self.last);
         let mut turn = (usize::MAX, [0; 3]);
+        let mut exponent = 0;
         for (number, (at, pose)) in keys.iter().enumerate() {
-            let step = age.step(numbering.place(*at));
+            let now = numbering.place(*at);
+            let step = age.step(now);
             if number > 0 {
                 self.ages.put(step);
             }
-            let base = scale.places([pose[0], pose[1], pose[2]]);
-            for ((stream, last), value) in self.places.iter_mut().zip(&mut place).zip(base) {
-                stream.put(last.step(value));
+            let (base, there) = (scale.places([pose[0], pose[1], pose[2]]), carry(now));
+            for (((stream, last), value), there) in self.places.iter_mut().zip(&mut off).zip(base).zip(there) {
+                stream.put(last.step(value - there));
             }
-            self.put_turn(quaternion([pose[3], pose[4], pose[5]], [pose[6], pose[7], pose[8]]), &mut turn);
             let sizes = [pose[9], pose[10], pose[11]].map(|size| logarithmic(f64::from(size)));
             let told = if matches!(part.what, What::Internode | What::Surface(_)) { 3 } else { 2 };
             for ((stream, last), value) in self.sizes.iter_mut().zip(&mut size).zip(sizes).take(told) {
@@ -88,16 +99,19 @@ impl Keys {
             }
             if number == 0 {
                 self.last = size;
+                exponent = exponent_of(part, sizes, scale.near);
             }
+            let turned = quaternion([pose[3], pose[4], pose[5]], [pose[6], pose[7], pose[8]]);
+            self.put_turn(turned, exponent, &mut turn);
         }
     }
 
     /// Adds a frame: the largest component of its quaternion, and the three others in their order.
-    fn put_turn(&mut self, turn: [f32; 4], last: &mut (usize, [i64; 3])) {
+    fn put_turn(&mut self, turn: [f32; 4], exponent: i64, last: &mut (usize, [i64; 3])) {
         let largest = (0..4).fold(0, |most, k| if turn[k].abs() > turn[most].abs() { k } else { most });
-        let sign = if turn[largest] < 0.0 { -TURNS } else { TURNS };
-        let mut others =
-            (0..4).filter(|k| *k != largest).map(|k| super::streams::linear(f64::from(sign * turn[k]), 1.0));
+        let steps = (1_i64 << exponent) as f32;
+        let sign = if turn[largest] < 0.0 { -steps } else { steps };
+        let mut others = (0..4).filter(|k| *k != largest).map(|k| linear(f64::from(sign * turn[k]), 1.0));
         let others: [i64; 3] = std::array::from_fn(|_| others.next().unwrap_or(0));
         self.largest.put(largest as i64);
         let before = if last.0 == largest { last.1 } else { [0; 3] };
@@ -116,6 +130,17 @@ impl Keys {
             while let Some(stream) = values.next() {
                 streams.add(name, [stream]);
             }
+        }
+    }
+}
+
+/// The exponent of two of the steps of a part's turns: the tip of a part as long as its first key says moves by less
+/// than the tolerance from step to step.
+fn exponent_of(part: &Part, [length, width, _]: [i64; 3], near: i64) -> i64 {
+    match part.what {
+        What::Outlined(_) | What::Surface(_) => OF_SHARES,
+        What::Organ(_) | What::Internode => {
+            ((length.max(width) - near).div_euclid(OCTAVE as i64) + 2).clamp(COARSEST, FINEST)
         }
     }
 }

@@ -3,14 +3,15 @@
 //! Of each component are kept the first age at which it has a row, the age from which it has none, and of each column
 //! the values that change. Whole numbers, words and truths hold until the next value, exactly. Real numbers are kept
 //! on a logarithmic scale (`streams`), as keyframes between which linear interpolation on that scale stays within
-//! [`NEAR`] steps: two parts in a hundred. Memory does not grow with the number of ages, but with what changes.
+//! [`NEAR`] steps: with rounding, three parts in a hundred. Memory does not grow with the number of ages, but with what changes.
 //! Absent: which columns there are, and where their values come from.
 
 use super::streams::{Last, Stream, Streams, logarithmic};
 use phytomer_life::{Key, Track};
+use std::collections::BTreeMap;
 
 /// The steps of the logarithmic scale by which a real number may be off.
-const NEAR: f32 = 1.4;
+const NEAR: f32 = 0.8;
 /// The places on that scale of nothing, and of no value.
 const NOTHING: f32 = -1024.0;
 const NO_VALUE: f32 = -2048.0;
@@ -68,6 +69,8 @@ pub struct Table {
     ages: Vec<f32>,
     spans: Vec<Span>,
     columns: Vec<Values>,
+    /// The column of the kinds.
+    kind: Option<usize>,
 }
 
 impl Table {
@@ -77,7 +80,9 @@ impl Table {
             Holds::Real => Values::Tracked(Vec::new(), Vec::new()),
             _ => Values::Held(Vec::new(), Vec::new()),
         };
-        Self { columns: columns.iter().filter(|column| column.kept).map(of).collect(), ..Self::default() }
+        let kept = || columns.iter().filter(|column| column.kept);
+        let kind = kept().position(|column| column.name == "kind");
+        Self { columns: kept().map(of).collect(), kind, ..Self::default() }
     }
 
     /// Begins a later age.
@@ -154,9 +159,9 @@ impl Table {
             lasts.put(begins.zip(at(span.until)).map_or(0, |(begins, ends)| i64::from(ends) - i64::from(begins)));
         }
         streams.add(name, [("from", from), ("lasts", lasts)]);
-        let count = self.spans.len();
+        let kinds = self.kind.map_or_else(|| vec![-1; self.spans.len()], |kind| self.first_values(kind));
         for (number, values) in self.columns.into_iter().enumerate() {
-            values.write(&format!("{name}.{number}"), count, &self.ages, place, streams);
+            values.write(&format!("{name}.{number}"), &kinds, &|number| place(self.ages[number as usize]), streams);
         }
     }
 }
@@ -193,41 +198,47 @@ impl Values {
         }
     }
 
-    fn write(self, name: &str, count: usize, ages: &[f32], place: &dyn Fn(f32) -> u32, streams: &mut Streams) {
-        let mut kept: Vec<(u32, u32, i64)> = match self {
-            Self::Held(_, kept) => kept.into_iter().map(|(of, at, value)| (of, at, i64::from(value))).collect(),
-            Self::Tracked(last, mut kept) => {
-                let ends = (0..).zip(&last).filter(|(of, _)| (*of as usize) < count);
-                kept.extend(ends.filter_map(|(of, (_, track))| track.end().map(|key| (of, key))));
-                kept.into_iter().map(|(of, (at, [value]))| (of, at as u32, of_scale(value))).collect()
-            }
-        };
-        // By component; keys of one keep their order.
-        kept.sort_by_key(|(of, ..)| *of);
+    /// Real numbers differ from those of the component of the same kind before, others from those of the component
+    /// before.
+    fn write(self, name: &str, kinds: &[i32], place: &dyn Fn(u32) -> u32, streams: &mut Streams) {
+        let by_kind = matches!(self, Self::Tracked(..));
+        let kept = self.into_keys();
         let [mut counts, mut at, mut values] = [const { Vec::new() }; 3].map(|_: Vec<u8>| Stream::default());
-        let (mut next, mut first) = (0, Last::default());
-        for component in 0..count as u32 {
-            let start = next;
-            while kept.get(next).is_some_and(|(of, ..)| *of == component) {
-                next += 1;
-            }
-            let own = &kept[start..next];
+        let mut firsts: BTreeMap<i32, Last> = BTreeMap::new();
+        let mut rest = kept.as_slice();
+        for (component, kind) in (0..).zip(kinds) {
+            let own;
+            (own, rest) = rest.split_at(rest.iter().take_while(|(of, ..)| *of == component).count());
             counts.put(own.len() as i64);
-            let (mut age, mut value) = (Last::default(), first);
+            let first = firsts.entry(if by_kind { *kind } else { 0 }).or_default();
+            let (mut age, mut value) = (Last::default(), *first);
             for (number, (_, when, what)) in own.iter().enumerate() {
-                let when = ages.get(*when as usize).map_or(0, |age| place(*age));
-                let step = age.step(i64::from(when));
+                let step = age.step(i64::from(place(*when)));
                 // The first key is at the first age of the component.
                 if number > 0 {
                     at.put(step);
                 }
                 values.put(value.step(*what));
                 if number == 0 {
-                    first = value;
+                    *first = value;
                 }
             }
         }
         streams.add(name, [("counts", counts), ("ages", at), ("values", values)]);
+    }
+
+    /// The keys by component, those of each in the order of their ages: component, number of the age, value.
+    fn into_keys(self) -> Vec<(u32, u32, i64)> {
+        let mut kept: Vec<(u32, u32, i64)> = match self {
+            Self::Held(_, kept) => kept.into_iter().map(|(of, at, value)| (of, at, i64::from(value))).collect(),
+            Self::Tracked(last, mut kept) => {
+                let ends = (0..).zip(&last).filter_map(|(of, (_, track))| track.end().map(|key| (of, key)));
+                kept.extend(ends);
+                kept.into_iter().map(|(of, (at, [value]))| (of, at as u32, of_scale(value))).collect()
+            }
+        };
+        kept.sort_by_key(|(of, ..)| *of);
+        kept
     }
 }
 

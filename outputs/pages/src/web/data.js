@@ -66,16 +66,18 @@ const Data = (() => {
     return ages;
   }
 
-  // Values of keys: the first of a list differs from the first of the list before, the others from the key before.
-  function keyValues(begin, steps) {
+  // Values of keys: the first of a list differs from the first of the list before (of that of the same kind, where there
+  // are kinds), the others from the key before.
+  function keyValues(begin, steps, kinds) {
     const values = new Int32Array(steps.length);
-    let first = 0;
+    const firsts = new Map();
     for (let i = 0; i + 1 < begin.length; i += 1) {
-      let value = first;
+      const kind = kinds ? kinds[i] : 0;
+      let value = firsts.get(kind) ?? 0;
       for (let key = begin[i]; key < begin[i + 1]; key += 1) {
         value += steps[key];
         values[key] = value;
-        if (key === begin[i]) first = value;
+        if (key === begin[i]) firsts.set(kind, value);
       }
     }
     return values;

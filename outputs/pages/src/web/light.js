@@ -83,13 +83,15 @@ const Light = (() => {
   // The tangent of half the field of view across the height: a short telephoto lens, as in pictures.
   const HALF = Math.tan((13 * Math.PI) / 180);
 
-  // The farthest that an eye on the gaze must be from `centre` to see a box.
-  function distanceFor(box, centre, axes, aspect) {
+  // How far from the middle of a box an eye must be to see places around it from every side, so that a turn does not
+  // change the distance: of each place its distance from the upright axis through the middle, and its height over it.
+  function distanceFor(places, aspect, pitch) {
+    const across = Math.hypot(1, 1 / (0.92 * HALF * aspect));
+    const [sin, cos] = [Math.sin, Math.cos].map((of) => Math.abs(of((pitch * Math.PI) / 180)));
     let distance = 0;
-    for (let corner = 0; corner < 8; corner += 1) {
-      const place = [0, 1, 2].map((k) => box[(corner >> k) & 1][k] - centre[k]);
-      const [x, y, z] = axes.map((axis) => dot(axis, place));
-      distance = Math.max(distance, Math.abs(x) / (0.92 * HALF * aspect) - z, Math.abs(y) / (0.86 * HALF) - z);
+    for (const [far, high] of places) {
+      const upright = (Math.abs(high) * cos + far * sin) / (0.84 * HALF) + far * cos;
+      distance = Math.max(distance, far * across, upright);
     }
     return distance;
   }
@@ -130,39 +132,39 @@ const Light = (() => {
 
     // The light in each cell: a mean and a vector towards its source, as four bytes.
     lighten() {
-      const [width, rows, layers] = this.size;
       const light = new Float32Array(4 * this.areas.length);
-      for (const [direction, share] of SKY) {
-        this.sweep(direction, [width, rows, layers], (cell, arrives) => {
-          light[4 * cell] += 0.5 * arrives * share;
-          for (let k = 0; k < 3; k += 1) light[4 * cell + k + 1] += (0.5 / OPEN) * arrives * share * direction[k];
-        });
-      }
+      for (const [direction, share] of SKY) this.sweep(direction, share, light);
       return Uint8Array.from(light, (value, i) => Math.round(255 * (i % 4 === 0 ? value : 0.5 + 0.5 * value)));
     }
 
-    // Follows the light of one direction from the top layer down.
-    sweep(direction, [width, rows, layers], tell) {
+    // Follows the light of one direction from the top layer down; it moves by as much from each layer to the next.
+    sweep(direction, share, light) {
+      const [width, rows, layers] = this.size;
       const [dx, dy] = [direction[0] / direction[2], direction[1] / direction[2]];
-      const layer = width * rows;
-      let leaves = new Float32Array(layer).fill(1);
-      const at = (x, y) => (x >= 0 && y >= 0 && x < width && y < rows ? leaves[y * width + x] : 1);
+      const [left, top] = [Math.floor(dx), Math.floor(dy)];
+      const [fx, fy] = [dx - left, dy - top];
+      const parts = [0.5 * share, ...direction.map((x) => (0.5 / OPEN) * share * x)];
+      // A border of open sky around each layer spares the question whether a cell is inside.
+      const border = Math.max(Math.abs(left), Math.abs(top)) + 2;
+      const wide = width + 2 * border;
+      let above = new Float32Array(wide * (rows + 2 * border)).fill(1);
       for (let z = layers - 1; z >= 0; z -= 1) {
-        const next = new Float32Array(layer);
+        const below = new Float32Array(above.length).fill(1);
         for (let y = 0; y < rows; y += 1) {
-          for (let x = 0; x < width; x += 1) {
-            const [left, top] = [Math.floor(x + dx), Math.floor(y + dy)];
-            const [fx, fy] = [x + dx - left, y + dy - top];
-            const upper = at(left, top) * (1 - fx) + at(left + 1, top) * fx;
-            const lower = at(left, top + 1) * (1 - fx) + at(left + 1, top + 1) * fx;
-            const cell = z * layer + y * width + x;
-            const half = this.areas[cell] > 0 ? Math.exp((-0.5 * this.areas[cell]) / direction[2]) : 1;
+          let from = (y + top + border) * wide + left + border;
+          let to = (y + border) * wide + border;
+          let cell = (z * rows + y) * width;
+          for (let x = 0; x < width; x += 1, from += 1, to += 1, cell += 1) {
+            const upper = above[from] * (1 - fx) + above[from + 1] * fx;
+            const lower = above[from + wide] * (1 - fx) + above[from + wide + 1] * fx;
+            const area = this.areas[cell];
+            const half = area > 0 ? Math.exp((-0.5 * area) / direction[2]) : 1;
             const arrives = (upper * (1 - fy) + lower * fy) * half;
-            tell(cell, arrives);
-            next[y * width + x] = arrives * half;
+            for (let k = 0; k < 4; k += 1) light[4 * cell + k] += arrives * parts[k];
+            below[to] = arrives * half;
           }
         }
-        leaves = next;
+        above = below;
       }
     }
   }

@@ -81,7 +81,7 @@ const Page = (() => {
     reset() {
       const [low, high] = this.scene.box;
       this.reach = Math.max(...[0, 1, 2].map((k) => high[k] - low[k]));
-      this.target = [0, 1, 2].map((k) => 0.5 * (low[k] + high[k]));
+      this.target = this.scene.middle.slice();
       this.yaw = -60;
       this.pitch = 7;
       this.zoom = 1;
@@ -96,8 +96,8 @@ const Page = (() => {
       const [width, height] = [canvas.width, canvas.height];
       const axes = Light.gaze(Light.towards(this.yaw + 180, -this.pitch));
       const { box } = this.scene;
-      const middle = [0, 1, 2].map((k) => 0.5 * (box[0][k] + box[1][k]));
-      const away = Light.distanceFor(box, middle, axes, width / height) / this.zoom;
+      const { middle } = this.scene;
+      const away = Light.distanceFor(this.scene.outline, width / height, this.pitch) / this.zoom;
       const eye = this.target.map((x, k) => x - away * axes[2][k]);
       const near = Math.max(away - 1.2 * this.reach, away / 200);
       const lens = Light.perspective(Light.HALF, width / height, near, away + 60 * this.reach);
@@ -141,7 +141,12 @@ const Page = (() => {
       if (!this.spanned || this.spanned.number !== number) {
         const next = Math.min(number + 1, this.ages.length - 1);
         this.painter.take(this.scene.span(number, next));
-        this.painter.takeSky(this.scene.crown);
+        // While it plays, the light of the sky follows a few times a second.
+        const now = performance.now();
+        if (!this.playing || !this.lightened || now - this.lightened > 400) {
+          this.painter.takeSky(this.scene.crown);
+          this.lightened = now;
+        }
         this.spanned = { number };
       }
       this.spanned.share = share;

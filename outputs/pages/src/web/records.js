@@ -17,14 +17,18 @@ const Records = (() => {
   // The kept columns of a plant, by name.
   function readColumns(data, name, from) {
     const columns = new Map();
-    data.header.columns
-      .filter((column) => column.kept)
-      .forEach((column, number) => {
-        const stream = (of) => data.stream(`${name}.row.${number}.${of}`);
-        const begin = Data.starts(stream('counts'));
-        const ages = Data.keyAges(begin, from, stream('ages'));
-        columns.set(column.name, { column, begin, ages, values: Data.keyValues(begin, stream('values')) });
-      });
+    const firstOf = ({ begin, values }, i) => (begin[i] < begin[i + 1] ? values[begin[i]] : -1);
+    const kept = data.header.columns.filter((column) => column.kept);
+    const read = (column, kinds) => {
+      const stream = (of) => data.stream(`${name}.row.${kept.indexOf(column)}.${of}`);
+      const begin = Data.starts(stream('counts'));
+      const ages = Data.keyAges(begin, from, stream('ages'));
+      const values = Data.keyValues(begin, stream('values'), column.holds === 'real' ? kinds : null);
+      columns.set(column.name, { column, begin, ages, values });
+    };
+    read(kept.find((column) => column.name === 'kind'));
+    const kinds = Int32Array.from(from, (_, i) => firstOf(columns.get('kind'), i));
+    kept.filter((column) => column.name !== 'kind').forEach((column) => read(column, kinds));
     return columns;
   }
 

@@ -13,6 +13,8 @@ const Scenery = (() => {
         return { plant, wood, parts: new States.Parts(data, name, wood), table: new Records.Table(data, plant, name) };
       });
       this.box = this.boxOfAll();
+      this.middle = [0, 1, 2].map((k) => 0.5 * (this.box[0][k] + this.box[1][k]));
+      this.outline = this.outlineOfAll();
       this.hidden = new Set();
       this.colouring = null;
       this.fewest = this.fewestSides();
@@ -36,6 +38,27 @@ const Scenery = (() => {
       }
       const room = 0.04 * Math.max(...[0, 1, 2].map((k) => high[k] - low[k]), 0.01);
       return [low.map((x, k) => (k === 2 ? Math.min(x, 0) : x - room)), high.map((x) => x + room)];
+    }
+
+    // Places around the plants at all ages, by their distance from the upright axis and their height over the middle: of
+    // each height the farthest.
+    outlineOfAll() {
+      const [low, high] = this.box;
+      const farthest = new Float32Array(65);
+      const tell = (x, y, z) => {
+        const place = Math.round((64 * (z - low[2])) / Math.max(high[2] - low[2], 1e-9));
+        if (place < 0 || place > 64) return;
+        farthest[place] = Math.max(farthest[place], Math.hypot(x - this.middle[0], y - this.middle[1]));
+      };
+      for (const { plant, wood, parts } of this.plants) {
+        const [px, py, pz] = plant.place;
+        tell(px, py, 0);
+        for (const { places } of [wood, parts]) {
+          for (let i = 0; i < places[0].length; i += 1) tell(places[0][i] + px, places[1][i] + py, places[2][i] + pz);
+        }
+      }
+      const told = Array.from(farthest, (far, k) => [far, low[2] + (k / 64) * (high[2] - low[2]) - this.middle[2]]);
+      return told.filter(([far], k) => far > 0 || k === 0 || k === 64);
     }
 
     // Twigs have more sides where there are few of them.

@@ -4,22 +4,9 @@
 // age does not have any more stands until then.
 
 const States = (() => {
-  // The keys of a plant's points or parts: their ages, and their values in columns.
-  function placesOf(data, name, begin, firsts) {
-    const step = data.header.step_m;
-    return ['x', 'y', 'z'].map((axis, k) => {
-      const steps = data.stream(`${name}.${axis}`);
-      const values = new Float32Array(steps.length);
-      for (let i = 0; i + 1 < begin.length; i += 1) {
-        let value = 0;
-        for (let key = begin[i]; key < begin[i + 1]; key += 1) {
-          if (key === begin[i]) value = firsts(i, k, steps[key]);
-          else value += steps[key];
-          values[key] = value * step;
-        }
-      }
-      return values;
-    });
+  // The places of keys: `next` tells the whole numbers of each key, axis by axis.
+  function placesOf(step, count, next) {
+    return [0, 1, 2].map((k) => Float32Array.from({ length: count }, (_, key) => step * next[k][key]));
   }
 
   function coloursOf(data, name, from) {
@@ -83,18 +70,17 @@ const States = (() => {
 
     // The first key of a line's first point differs from that of its host, of a further point from the one before.
     readPlaces(data, name, keys, radii) {
-      const last = [0, 0, 0];
-      const first = ['x', 'y', 'z'].map(() => new Int32Array(this.components.length));
-      const firsts = (i, k, step) => {
-        const line = this.lineOf[i];
-        const host = this.hosts.points[line];
-        if (i === this.begin[line]) last[k] = host >= 0 ? first[k][host] : 0;
-        last[k] += step;
-        first[k][i] = last[k];
-        return last[k];
-      };
-      this.places = placesOf(data, `${name}.point`, keys, firsts);
-      this.firsts = first;
+      this.codes = ['x', 'y', 'z'].map((axis) => {
+        const codes = data.stream(`${name}.point.${axis}`);
+        for (let i = 0; i + 1 < keys.length; i += 1) {
+          const line = this.lineOf[i];
+          const host = i === this.begin[line] ? this.hosts.points[line] : i - 1;
+          if (host >= 0) codes[keys[i]] += codes[keys[host]];
+          for (let key = keys[i] + 1; key < keys[i + 1]; key += 1) codes[key] += codes[key - 1];
+        }
+        return codes;
+      });
+      this.places = placesOf(data.header.step_m, radii.length, this.codes);
       this.radii = new Float32Array(radii.length);
       let code = 0;
       for (let i = 0; i + 1 < keys.length; i += 1) {
@@ -193,8 +179,59 @@ const States = (() => {
     }
   }
 
+  // Where hosts carry what they bear, in whole numbers: parts are told as the difference to it. Every step is exact to
+  // the last bit in any language, so that the whole numbers are those of whoever wrote the page.
+  class Carrier {
+    constructor(wood) {
+      this.wood = wood;
+    }
+
+    at(i, number) {
+      const { begin, ages } = this.wood.track;
+      const { codes } = this.wood;
+      const key = Math.max(Records.lastUpTo(ages, begin[i], begin[i + 1], number), begin[i]);
+      if (key + 1 >= begin[i + 1] || ages[key] > number) return codes.map((values) => values[key]);
+      const share = (number - ages[key]) / (ages[key + 1] - ages[key]);
+      return codes.map((values) => values[key] + share * (values[key + 1] - values[key]));
+    }
+
+    // The next point of the line that stands at an age; −1 where there is none.
+    after(i, number) {
+      const { begin, lineOf } = this.wood;
+      for (let next = i + 1; next < begin[lineOf[i] + 1]; next += 1) if (this.wood.stands(next, number)) return next;
+      return -1;
+    }
+
+    far(a, b) {
+      const [x, y, z] = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
+      return Math.sqrt(x * x + y * y + z * z);
+    }
+
+    along(point, share, number) {
+      const next = this.after(point, number);
+      return next < 0 ? 0 : share * this.far(this.at(point, number), this.at(next, number));
+    }
+
+    place(point, along, number) {
+      let here = this.at(point, number);
+      let rest = along;
+      for (let next = this.after(point, number); next >= 0; next = this.after(next, number)) {
+        const there = this.at(next, number);
+        const far = this.far(here, there);
+        if (far > 0 && rest <= far) {
+          const share = rest / far;
+          here = here.map((x, k) => x + share * (there[k] - x));
+          break;
+        }
+        rest -= far;
+        here = there;
+      }
+      return here.map((x) => Math.floor(x + 0.5));
+    }
+  }
+
   function hostsOf(points, shares) {
-    const hosts = { points: Data.sums(points), shares: new Float32Array(points.length) };
+    const hosts = { points: Data.sums(points), shares: new Float64Array(points.length) };
     let next = 0;
     for (let i = 0; i < points.length; i += 1) {
       hosts.points[i] -= 1;
@@ -220,26 +257,45 @@ const States = (() => {
       this.hosts = hostsOf(stream('host'), stream('share'));
       const begin = Data.starts(stream('keys'));
       this.track = { begin, ages: Data.keyAges(begin, this.from, stream('ages')) };
-      const firsts = (i, k, step) => (this.hosts.points[i] >= 0 ? wood.firsts[k][this.hosts.points[i]] : 0) + step;
-      this.places = placesOf(data, `${name}.part`, begin, firsts);
-      this.readTurns(stream, begin);
+      this.readPlaces(data.header.step_m, stream, begin);
       this.readSizes(data.header, stream, begin);
+      this.readTurns(data.header, stream, begin);
       this.tints = coloursOf(data, `${name}.part`, this.from);
     }
 
-    // Unit quaternions without their largest component.
-    readTurns(stream, begin) {
+    // Places differ from those to which their hosts have carried them.
+    readPlaces(step, stream, begin) {
+      const codes = ['x', 'y', 'z'].map(stream);
+      const carrier = new Carrier(this.wood);
+      for (let i = 0; i + 1 < begin.length; i += 1) {
+        const host = this.hosts.points[i];
+        const along = host >= 0 ? carrier.along(host, this.hosts.shares[i], this.from[i]) : 0;
+        const off = [0, 0, 0];
+        for (let key = begin[i]; key < begin[i + 1]; key += 1) {
+          const there = host >= 0 ? carrier.place(host, along, this.track.ages[key]) : [0, 0, 0];
+          for (let k = 0; k < 3; k += 1) {
+            off[k] += codes[k][key];
+            codes[k][key] = there[k] + off[k];
+          }
+        }
+      }
+      this.places = placesOf(step, codes[0].length, codes);
+    }
+
+    // Unit quaternions without their largest component, the finer the longer the part.
+    readTurns(header, stream, begin) {
       const largest = stream('largest');
       const others = ['a', 'b', 'c'].map(stream);
       this.turns = new Float32Array(4 * largest.length);
       for (let i = 0; i + 1 < begin.length; i += 1) {
         const last = [0, 0, 0];
+        const steps = 2 ** this.exponents[i];
         for (let key = begin[i]; key < begin[i + 1]; key += 1) {
           if (key === begin[i] || largest[key] !== largest[key - 1]) last.fill(0);
           let rest = 1;
           for (let k = 0; k < 3; k += 1) {
             last[k] += others[k][key];
-            const value = last[k] / 256;
+            const value = last[k] / steps;
             this.turns[4 * key + (k < largest[key] ? k : k + 1)] = value;
             rest -= value * value;
           }
@@ -251,10 +307,12 @@ const States = (() => {
     // Three sizes of forms that have three, two of the others.
     readSizes(header, stream, begin) {
       const three = header.forms.map((form) => form.scale === 'tube' || form.scale === 'each');
+      const metric = header.forms.map((form) => form.scale !== 'share' && form.scale !== 'each');
       const streams = ['length', 'width', 'tip'].map(stream);
       const next = [0, 0, 0];
       const first = [0, 0, 0];
       this.sizes = new Float32Array(3 * begin[begin.length - 1]);
+      this.exponents = new Uint8Array(this.forms.length).fill(10);
       for (let i = 0; i + 1 < begin.length; i += 1) {
         const last = first.slice();
         const told = three[this.forms[i]] ? 3 : 2;
@@ -264,10 +322,13 @@ const States = (() => {
             next[k] += 1;
             this.sizes[3 * key + k] = Data.measure(header, last[k]);
           }
-          if (key === begin[i])
+          if (key === begin[i]) {
             last.forEach((value, k) => {
               first[k] = value;
             });
+            const octaves = Math.floor((Math.max(last[0], last[1]) - header.near) / header.octave);
+            if (metric[this.forms[i]]) this.exponents[i] = Math.min(Math.max(octaves + 2, 6), 12);
+          }
         }
       }
     }
