@@ -27,6 +27,7 @@ mod track;
 pub use lives::Lives;
 pub use maker::Maker;
 pub use phytomer_looks::{Surface, SurfacePoint};
+pub use phytomer_meshes::Model;
 pub use track::{Key, Track, between};
 
 use phytomer_sim::plant::{Form, Kind};
@@ -69,6 +70,8 @@ pub struct Life {
     pub outlines: Vec<Vec<[f32; 3]>>,
     /// The curved surfaces that organs are: points, normals and triangles, in the same coordinates.
     pub surfaces: Vec<Surface>,
+    /// The forms of internodes that are drawn by themselves.
+    pub stems: Vec<Model>,
     places: Vec<Key<4>>,
     poses: Vec<Key<12>>,
     tints: Vec<Key<3>>,
@@ -137,6 +140,8 @@ pub struct Part {
     pub kind: Kind,
     /// What it is.
     pub what: What,
+    /// Of an internode its form, by its place among those of the life.
+    pub stem: u32,
     /// How much fuller it is than its form, so that it has its area.
     pub fullness: f32,
     /// The colour of its stalk.

@@ -8,7 +8,7 @@ use super::kept::Kept;
 use super::track::Track;
 use super::{Life, Nearness, Part, What};
 use phytomer_looks::{Paints, Surface};
-use phytomer_meshes::{OwnForm, Scene, Stems};
+use phytomer_meshes::{Model, OwnForm, Scene, Stems};
 use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
 
 const NONE: u32 = u32::MAX;
@@ -24,6 +24,8 @@ pub struct Parts {
     outlines: Vec<Vec<[f32; 3]>>,
     /// The curved surfaces that were met, with their places in the habit.
     surfaces: Vec<(usize, Surface)>,
+    /// The forms of internodes that were met, with their places.
+    stems: Vec<(usize, Model)>,
     poses: Kept<12>,
     tints: Kept<3>,
 }
@@ -82,11 +84,22 @@ impl Parts {
         let known = self.known(component);
         if known == NONE {
             let birth = plant.nodes.birth[node.index()] as f32;
-            let axis = axis_of(plant, node);
-            self.begin(Part { axis, stalk: colour, ..begun(component, plant.kind_of(node), birth, age) }, &shown);
+            let (axis, stem) = (axis_of(plant, node), self.stem(stems, node));
+            self.begin(Part { axis, stem, stalk: colour, ..begun(component, plant.kind_of(node), birth, age) }, &shown);
         } else {
             self.take(known, &shown, age, nearness);
         }
+    }
+
+    /// The place of the form of an internode.
+    fn stem(&mut self, stems: &Stems, node: NodeId) -> u32 {
+        let place = stems.place_of_form(node);
+        let known = self.stems.iter().position(|(known, _)| *known == place);
+        let number = known.unwrap_or_else(|| {
+            self.stems.push((place, stems.model(node)));
+            self.stems.len() - 1
+        });
+        number as u32
     }
 
     /// The part of a component that stands.
@@ -186,6 +199,7 @@ impl Parts {
         life.poses = poses;
         life.tints.extend(tints);
         life.outlines = self.outlines;
+        life.stems = self.stems.into_iter().map(|(_, model)| model).collect();
         life.surfaces = self.surfaces.into_iter().map(|(_, surface)| surface).collect();
     }
 }
@@ -198,6 +212,7 @@ fn begun(component: u32, kind: Kind, birth: f32, from: f32) -> Part {
         axis: component,
         kind,
         what: What::Internode,
+        stem: 0,
         fullness: 1.0,
         stalk: [0; 3],
         birth,

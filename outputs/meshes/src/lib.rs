@@ -15,6 +15,7 @@ mod file;
 mod forms;
 #[cfg(test)]
 mod measure;
+mod model;
 mod outline;
 mod palette;
 mod plot;
@@ -36,6 +37,7 @@ pub use collection::Collection;
 pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
 pub use forms::{Depth, FormMesh, Point as FormPoint};
+pub use model::Model;
 pub use plot::{PlotBody, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use reduced::chain::{Found, Sample, chains};

@@ -5,10 +5,11 @@
 //! as often as there are parts of it. Absent: where parts are and how large.
 
 use super::streams::linear;
-use phytomer_life::{Life, Part, What};
+use phytomer_life::{Life, Model, Part, What};
 use phytomer_looks::Surface;
 use phytomer_looks::polygon::triangles;
 use phytomer_meshes::{Depth, FormMesh, MeshOptions};
+use phytomer_sim::plant::Class;
 use serde_json::{Value, json};
 
 /// What tells forms apart: the plant's options, what it is, kind and stalk. Outlines and surfaces are told apart by their
@@ -22,7 +23,7 @@ enum Shape {
     Library(u8),
     Outline(usize, u32),
     Surface(usize, u32),
-    Internode,
+    Internode(usize, u32),
 }
 
 /// The forms of a page.
@@ -47,9 +48,10 @@ impl Forms {
             What::Organ(form) => Shape::Library(form.0),
             What::Outlined(place) => Shape::Outline(self.subject, place),
             What::Surface(place) => Shape::Surface(self.subject, place),
-            What::Internode => Shape::Internode,
+            What::Internode => Shape::Internode(self.subject, part.stem),
         };
-        let stalk = if shape == Shape::Internode { [0; 3] } else { part.stalk };
+        // The stalk of an internode is none: all of it has its own colour.
+        let stalk = if part.what == What::Internode { [0; 3] } else { part.stalk };
         let key = (self.species, shape, part.kind as u8, stalk);
         if let Some(known) = self.known.get(&key) {
             return *known;
@@ -70,8 +72,11 @@ impl Forms {
             What::Organ(form) => of_mesh(self.options.shape(form)),
             What::Outlined(place) => of_outline(life.outlines.get(place as usize).map_or(&[], Vec::as_slice)),
             What::Surface(place) => of_surface(life.surfaces.get(place as usize)),
-            What::Internode => json!({"scale": "tube", "corners": [], "faces": []}),
+            What::Internode => of_stem(life.stems.get(part.stem as usize)),
         };
+        let leafy = matches!(part.kind.class(), Class::Leaf | Class::Flower);
+        let plane = part.what == What::Internode && form["faces"].as_array().is_some_and(|faces| faces.len() == 2);
+        form["thin"] = json!(leafy || plane);
         form["kind"] = json!(part.kind as u8);
         form["stalk"] = json!(stalk);
         form
@@ -92,8 +97,24 @@ fn corner(at: [f32; 3], across: [f32; 3], normal: [f32; 3], stalk: bool) -> [i64
 fn of_mesh(mesh: &FormMesh) -> Value {
     let corners = mesh.points.iter().flat_map(|point| corner(point.at, point.across, point.normal, point.stalk));
     let corners: Vec<i64> = corners.collect();
-    let scale = if mesh.depth == Depth::Width { "width" } else { "length" };
-    json!({"scale": scale, "in_parts": mesh.in_parts, "corners": corners, "faces": mesh.faces})
+    let scale = if mesh.depth() == Depth::Width { "width" } else { "length" };
+    json!({"scale": scale, "in_parts": mesh.is_in_parts(), "corners": corners, "faces": mesh.faces})
+}
+
+/// An internode that is drawn by itself. Its model tells by a corner of its box what scales it.
+fn of_stem(model: Option<&Model>) -> Value {
+    let Some(model) = model else { return json!({"scale": "tube", "corners": [], "faces": []}) };
+    let [_, wide, deep] = model.at([1.0; 3], [1.0, 2.0, 3.0], 1.0);
+    let scale = match (wide > 2.5, deep > 1.5) {
+        (true, _) => "tube",
+        (false, true) => "width",
+        (false, false) => "length",
+    };
+    let vertices = model.mesh.vertices.iter();
+    let corners = vertices.flat_map(|vertex| corner(vertex.position(), [0.0; 3], vertex.normal(), false));
+    let corners: Vec<i64> = corners.collect();
+    let faces: Vec<[u32; 3]> = model.mesh.faces.iter().map(|face| face.indices()).collect();
+    json!({"scale": scale, "of_internode": true, "corners": corners, "faces": faces})
 }
 
 fn of_outline(corners: &[[f32; 3]]) -> Value {

@@ -59,10 +59,9 @@ pub struct FormMesh {
     pub faces: Vec<[u32; 3]>,
     /// The plane polygons in it: the index of the first corner and the number of corners of each.
     polygons: Vec<[u32; 2]>,
-    /// What scales its z direction.
-    pub depth: Depth,
+    depth: Depth,
     /// Whether it becomes slim or full in each of its parts; else in its width.
-    pub in_parts: bool,
+    in_parts: bool,
     side: Side,
 }
 
@@ -118,6 +117,16 @@ impl FormMesh {
     /// The area of one side as a share of length × width, for an organ with `aspect` = width / length.
     pub(super) fn area_share(&self, aspect: f64) -> f64 {
         self.side.share(aspect)
+    }
+
+    /// What scales its z direction.
+    pub fn depth(&self) -> Depth {
+        self.depth
+    }
+
+    /// Whether it becomes slim or full in each of its parts.
+    pub fn is_in_parts(&self) -> bool {
+        self.in_parts
     }
 
     /// The factor by which an organ of this length and width is fuller than its form, so that one side has the area

@@ -41,25 +41,13 @@ const Drawing = (() => {
     return new Float32Array(corners);
   }
 
-  // The corners of a form, and its triangles; of an internode by itself an eight-sided tube with its caps.
-  function meshOf(form) {
-    if (form.scale !== 'tube')
-      return { corners: Float32Array.from(form.corners, (x, i) => (i % 10 === 9 ? x : x / 1e4)), faces: form.faces };
-    const [corners, faces] = [[], []];
-    for (let k = 0; k < 8; k += 1) {
-      const [y, z] = [Math.cos((k * Math.PI) / 4), Math.sin((k * Math.PI) / 4)];
-      for (const x of [0, 1]) corners.push(x, y, z, 0, 0, 0, 0, y, z, 0);
-      const next = 2 * ((k + 1) % 8);
-      faces.push([2 * k, next, next + 1], [2 * k, next + 1, 2 * k + 1]);
-      if (k > 1) faces.push([1, 2 * k - 1, 2 * k + 1]);
-    }
-    return { corners: new Float32Array(corners), faces };
-  }
+  // The corners of a form; all but the last of the ten numbers of each are in ten-thousandths.
+  const cornersOf = (form) => Float32Array.from(form.corners, (x, i) => (i % 10 === 9 ? x : x / 1e4));
 
   class Painter {
     constructor(gl, header) {
       this.gl = gl;
-      this.forms = header.forms.map((form) => this.formOf(form, header.kinds[form.kind]));
+      this.forms = header.forms.map((form) => this.formOf(form));
       this.tubes = SIDES.map((sides) => ({ sides, buffer: this.buffer(tube(sides)), count: 2 * (sides + 1) }));
       this.programs = {
         wood: compile(gl, Shaders.WOOD, Shaders.SHADE),
@@ -91,18 +79,16 @@ const Drawing = (() => {
       return buffer;
     }
 
-    formOf(form, [, kindOf]) {
-      const { corners, faces } = meshOf(form);
-      const thin = kindOf === 'Leaf' || kindOf === 'Flower';
+    formOf(form) {
       this.gl.bindVertexArray(null);
       return {
-        thin,
+        thin: form.thin,
         scale: SCALES[form.scale],
         inParts: form.in_parts === true,
-        stalk: form.scale === 'tube' ? [-1, 0, 0] : form.stalk.map((x) => x / 255),
-        corners: this.buffer(corners),
-        faces: this.buffer(new Uint32Array(faces.flat()), this.gl.ELEMENT_ARRAY_BUFFER),
-        count: 3 * faces.length,
+        stalk: form.of_internode ? [-1, 0, 0] : form.stalk.map((x) => x / 255),
+        corners: this.buffer(cornersOf(form)),
+        faces: this.buffer(new Uint32Array(form.faces.flat()), this.gl.ELEMENT_ARRAY_BUFFER),
+        count: 3 * form.faces.length,
       };
     }
 

@@ -89,7 +89,7 @@ void main() {
   vec4 turn = normalize(turn_now * (1.0 - share) + turn_next * s);
   vec3 box = at, scales = size;
   if (scale == 3) {
-    float wide = 0.5 * mix(size.y, size.z, at.x);
+    float wide = mix(size.y, size.z, at.x);
     scales = vec3(size.x, wide, wide);
   } else if (scale == 2) {
     scales = vec3(size.x);

@@ -306,7 +306,7 @@ const States = (() => {
 
     // Three sizes of forms that have three, two of the others.
     readSizes(header, stream, begin) {
-      const three = header.forms.map((form) => form.scale === 'tube' || form.scale === 'each');
+      const three = header.forms.map((form) => form.of_internode || form.scale === 'each');
       const metric = header.forms.map((form) => form.scale !== 'share' && form.scale !== 'each');
       const streams = ['length', 'width', 'tip'].map(stream);
       const next = [0, 0, 0];
