@@ -8,7 +8,7 @@
 use super::RunError;
 use super::drawing::options_of;
 use super::filming::Filming;
-use super::picturing::{caption_of_plant, caption_of_plot, titles_of};
+use super::picturing::{caption_of_plant, caption_of_plot, obstacles_of, titles_of};
 use super::regrowth::{Regrowth, Standing, Whose};
 use phytomer_config::Species;
 use phytomer_outputs::life::{Maker, Nearness};
@@ -228,6 +228,10 @@ impl View<'_> {
             events: events.iter().map(|((age, what), count)| (*age as f32, *what, *count)).collect(),
             columns,
             subjects,
+            obstacles: match self.whose[0] {
+                Whose::Plot(plot) => obstacles_of(trial, plot),
+                Whose::Plant(_) => Vec::new(),
+            },
         }
     }
 }

@@ -8,7 +8,7 @@ use super::streams::linear;
 use phytomer_life::{Life, Model, Part, What};
 use phytomer_looks::Surface;
 use phytomer_looks::polygon::triangles;
-use phytomer_meshes::{Depth, FormMesh, MeshOptions};
+use phytomer_meshes::{Depth, Face, FormMesh, Mesh, MeshOptions};
 use phytomer_sim::plant::Class;
 use serde_json::{Value, json};
 
@@ -113,8 +113,19 @@ fn of_stem(model: Option<&Model>) -> Value {
     let vertices = model.mesh.vertices.iter();
     let corners = vertices.flat_map(|vertex| corner(vertex.position(), [0.0; 3], vertex.normal(), false));
     let corners: Vec<i64> = corners.collect();
-    let faces: Vec<[u32; 3]> = model.mesh.faces.iter().map(|face| face.indices()).collect();
+    let faces: Vec<[u32; 3]> = model.mesh.faces.iter().map(Face::indices).collect();
     json!({"scale": scale, "of_internode": true, "corners": corners, "faces": faces})
+}
+
+/// An obstacle, as a form that stands once, and its colour.
+pub fn of_solid(mesh: &Mesh) -> Value {
+    let vertices = mesh.vertices.iter();
+    let corners = vertices.flat_map(|vertex| corner(vertex.position(), [0.0; 3], vertex.normal(), false));
+    let [red, green, blue, _] = mesh.vertices.first().map_or([128; 4], |vertex| vertex.tag().colour);
+    let corners: Vec<i64> = corners.collect();
+    let faces: Vec<[u32; 3]> = mesh.faces.iter().map(Face::indices).collect();
+    json!({"scale": "share", "of_internode": true, "thin": false, "colour": [red, green, blue], "corners": corners,
+        "faces": faces})
 }
 
 fn of_outline(corners: &[[f32; 3]]) -> Value {

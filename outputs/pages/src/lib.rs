@@ -20,10 +20,11 @@ pub use table::{Column, Holds, Table};
 use forms::Forms;
 use hosts::Hosts;
 use phytomer_life::Life;
-use phytomer_meshes::MeshOptions;
+use phytomer_meshes::{Mesh, MeshOptions};
 use phytomer_sim::plant::Kind;
 use serde_json::{Value, json};
 use std::io::{self, Write};
+use std::sync::Arc;
 use streams::{LEAST, Last, OCTAVE, Streams, linear, logarithmic};
 
 /// The part of the tolerance that the keyframes of a life may take: the rest is for places that become whole numbers.
@@ -79,6 +80,8 @@ pub struct Page {
     pub columns: Vec<Column>,
     /// The plants.
     pub subjects: Vec<Subject>,
+    /// What stands among them at every age, such as a roof: places in metres.
+    pub obstacles: Vec<Arc<Mesh>>,
 }
 
 /// The numbers of ages.
@@ -158,6 +161,7 @@ impl Page {
             "captions": self.ages.iter().map(|(_, caption)| caption.as_str()).collect::<Vec<&str>>(),
             "events": self.events, "columns": self.columns.iter().map(of_column).collect::<Vec<Value>>(),
             "kinds": Kind::ALL.map(|kind| json!([kind.tag(), format!("{:?}", kind.class())])).to_vec(),
+            "solids": self.obstacles.iter().map(|mesh| forms::of_solid(mesh)).collect::<Vec<Value>>(),
             "forms": forms.list(), "plants": plants, "streams": lengths,
         });
         html::write(&self.title, &header, streams.bytes(), out)

@@ -103,6 +103,7 @@ fn page() -> Page {
         events: vec![(2.0, "grew", 1)],
         columns: columns(),
         subjects: vec![subject],
+        obstacles: Vec::new(),
     }
 }
 

@@ -96,9 +96,14 @@ const Data = (() => {
     return { header, stream: (name) => numbers(streams.get(name)) };
   }
 
-  // A measure of the logarithmic scale.
+  // A measure of the logarithmic scale; those that were asked for are remembered.
+  const measures = [0];
   function measure(header, place) {
-    return place > 0 ? header.least * 2 ** ((place - 1) / header.octave) : 0;
+    if (place <= 0) return 0;
+    if (place !== Math.floor(place)) return header.least * 2 ** ((place - 1) / header.octave);
+    for (let next = measures.length; next <= place; next += 1)
+      measures.push(header.least * 2 ** ((next - 1) / header.octave));
+    return measures[place];
   }
 
   return { read, sums, starts, keyAges, keyValues, measure };

@@ -47,7 +47,8 @@ const Drawing = (() => {
   class Painter {
     constructor(gl, header) {
       this.gl = gl;
-      this.forms = header.forms.map((form) => this.formOf(form));
+      // Obstacles come after the forms of the plants.
+      this.forms = [...header.forms, ...header.solids].map((form) => this.formOf(form));
       this.tubes = SIDES.map((sides) => ({ sides, buffer: this.buffer(tube(sides)), count: 2 * (sides + 1) }));
       this.programs = {
         wood: compile(gl, Shaders.WOOD, Shaders.SHADE),

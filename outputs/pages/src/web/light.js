@@ -134,7 +134,9 @@ const Light = (() => {
     lighten() {
       const light = new Float32Array(4 * this.areas.length);
       for (const [direction, share] of SKY) this.sweep(direction, share, light);
-      return Uint8Array.from(light, (value, i) => Math.round(255 * (i % 4 === 0 ? value : 0.5 + 0.5 * value)));
+      const bytes = new Uint8Array(light.length);
+      for (let i = 0; i < light.length; i += 1) bytes[i] = 255 * (i % 4 === 0 ? light[i] : 0.5 + 0.5 * light[i]) + 0.5;
+      return bytes;
     }
 
     // Follows the light of one direction from the top layer down; it moves by as much from each layer to the next.
@@ -143,7 +145,8 @@ const Light = (() => {
       const [dx, dy] = [direction[0] / direction[2], direction[1] / direction[2]];
       const [left, top] = [Math.floor(dx), Math.floor(dy)];
       const [fx, fy] = [dx - left, dy - top];
-      const parts = [0.5 * share, ...direction.map((x) => (0.5 / OPEN) * share * x)];
+      const mean = 0.5 * share;
+      const [east, north, upward] = direction.map((x) => (0.5 / OPEN) * share * x);
       // A border of open sky around each layer spares the question whether a cell is inside.
       const border = Math.max(Math.abs(left), Math.abs(top)) + 2;
       const wide = width + 2 * border;
@@ -160,7 +163,10 @@ const Light = (() => {
             const area = this.areas[cell];
             const half = area > 0 ? Math.exp((-0.5 * area) / direction[2]) : 1;
             const arrives = (upper * (1 - fy) + lower * fy) * half;
-            for (let k = 0; k < 4; k += 1) light[4 * cell + k] += arrives * parts[k];
+            light[4 * cell] += arrives * mean;
+            light[4 * cell + 1] += arrives * east;
+            light[4 * cell + 2] += arrives * north;
+            light[4 * cell + 3] += arrives * upward;
             below[to] = arrives * half;
           }
         }

@@ -18,7 +18,7 @@ const Page = (() => {
       this.side = new Panel.Side(this.scene, (what, value) => this.told(what, value));
       this.reset();
       this.listen();
-      this.setAge(this.askedAge() ?? this.ages.at(-1), true);
+      this.setAge(this.askedAge() ?? this.ages[this.side.prime()], true);
     }
 
     told(what, value) {
@@ -83,7 +83,8 @@ const Page = (() => {
       this.reach = Math.max(...[0, 1, 2].map((k) => high[k] - low[k]));
       this.target = this.scene.middle.slice();
       this.yaw = -60;
-      this.pitch = 7;
+      // What is wide is seen from a little higher.
+      this.pitch = this.reach > 1.8 * (high[2] - low[2]) ? 18 : 7;
       this.zoom = 1;
       this.sun = this.sun ?? [this.yaw + 222, 48];
       at('azimuth').value = (this.sun[0] + 360) % 360;

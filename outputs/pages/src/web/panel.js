@@ -43,6 +43,17 @@ const Panel = (() => {
       return this.countsOf.reduce((sum, counts) => sum + counts[kind][number], 0);
     }
 
+    // The number of the age at which the plants are shown first: the last with nine tenths of the most leaves and
+    // flowers, else of the most of all.
+    prime() {
+      const { ages, kinds } = this.header;
+      const counts = (chosen) =>
+        ages.map((_, number) => chosen.reduce((sum, kind) => sum + this.count(kind, number), 0));
+      const leafy = counts(this.present().filter((kind) => ['Leaf', 'Flower'].includes(kinds[kind][1])));
+      const of = Math.max(...leafy) > 0 ? leafy : counts(this.present());
+      return of.findLastIndex((count) => count >= 0.9 * Math.max(...of));
+    }
+
     present() {
       return this.header.kinds
         .map((_, kind) => kind)
@@ -181,7 +192,7 @@ const Panel = (() => {
           const value = Values.valueOf(one, column.name, component, number, share, drawn);
           const row = make('tr', undefined, { title: column.description, 'data-column': column.name });
           row.append(make('th', column.name, { scope: 'row' }), make('td', Values.inWords(column, value)));
-          if (typeof value === 'number' && Number.isInteger(value)) row.lastChild.setAttribute('data-value', value);
+          if (Number.isInteger(value) && !Array.isArray(column.holds)) row.lastChild.dataset.value = value;
           return row;
         }),
       );
@@ -268,24 +279,25 @@ const Panel = (() => {
       this.share = share;
       const { ages, captions, kinds } = this.header;
       const age = ages[number] + share * ((ages[number + 1] ?? ages[number]) - ages[number]);
-      at('caption').textContent = captions[number];
+      const told = Number(age.toFixed(1));
+      at('caption').textContent = share > 0 ? captions[number].replace(/\d+/, told) : captions[number];
       this.now.setAttribute('d', `M${this.x(age).toFixed(1)},0V40`);
-      const told = [];
+      const standing = [];
       for (const [kind, cell] of this.cells) {
         const count = this.count(kind, number);
         const words = String(count);
         if (cell.textContent !== words) cell.textContent = words;
-        if (count > 0) told.push(`${words} ${Values.words(kinds[kind][0])}${count === 1 ? '' : 's'}`);
+        if (count > 0) standing.push(`${words} ${Values.words(kinds[kind][0])}${count === 1 ? '' : 's'}`);
       }
       at('age').setAttribute('aria-valuetext', captions[number]);
       this.showRow(number, share);
       if (resting) {
         const happened = this.byAge.get(number);
         at('live').textContent =
-          `${captions[number]}: ${told.join(', ') || 'nothing stands'}.${happened ? ` ${happened.join(', ')}.` : ''}`;
+          `${captions[number]}: ${standing.join(', ') || 'nothing stands'}.${happened ? ` ${happened.join(', ')}.` : ''}`;
         at('canvas').setAttribute(
           'aria-label',
-          `Picture of ${this.header.title} at ${captions[number]}: ${told.join(', ')}`,
+          `Picture of ${this.header.title} at ${captions[number]}: ${standing.join(', ')}`,
         );
       }
     }

@@ -36,6 +36,13 @@ const Scenery = (() => {
           }
         }
       }
+      for (const { corners } of this.header.solids) {
+        for (let i = 0; i < corners.length; i += 1) {
+          if (i % 10 > 2) continue;
+          low[i % 10] = Math.min(low[i % 10], corners[i] / 1e4);
+          high[i % 10] = Math.max(high[i % 10], corners[i] / 1e4);
+        }
+      }
       const room = 0.04 * Math.max(...[0, 1, 2].map((k) => high[k] - low[k]), 0.01);
       return [low.map((x, k) => (k === 2 ? Math.min(x, 0) : x - room)), high.map((x) => x + room)];
     }
@@ -56,6 +63,9 @@ const Scenery = (() => {
         for (const { places } of [wood, parts]) {
           for (let i = 0; i < places[0].length; i += 1) tell(places[0][i] + px, places[1][i] + py, places[2][i] + pz);
         }
+      }
+      for (const { corners } of this.header.solids) {
+        for (let i = 0; i < corners.length; i += 10) tell(...[0, 1, 2].map((k) => corners[i + k] / 1e4));
       }
       const told = Array.from(farthest, (far, k) => [far, low[2] + (k / 64) * (high[2] - low[2]) - this.middle[2]]);
       return told.filter(([far], k) => far > 0 || k === 0 || k === 64);
@@ -186,7 +196,7 @@ const Scenery = (() => {
       });
       const formOf = ([of, i]) => this.plants[of].parts.forms[i];
       if (this.plants.length > 1) chosen.sort((a, b) => formOf(a) - formOf(b));
-      const buffer = new ArrayBuffer(Math.max(chosen.length, 1) * Drawing.PART);
+      const buffer = new ArrayBuffer(Math.max(chosen.length + this.header.solids.length, 1) * Drawing.PART);
       const writer = {
         floats: new Float32Array(buffer),
         words: new Uint32Array(buffer),
@@ -200,6 +210,10 @@ const Scenery = (() => {
           groups.push({ form: formOf(part), first: place, count: 0 });
         groups.at(-1).count += 1;
         this.writePart(part, place, writer, poses);
+      });
+      this.header.solids.forEach((solid, k) => {
+        groups.push({ form: this.header.forms.length + k, first: chosen.length + k, count: 1 });
+        this.writeSolid(solid, chosen.length + k, writer);
       });
       return { parts: buffer, groups };
     }
@@ -255,9 +269,17 @@ const Scenery = (() => {
       this.partOf.parts[place] = i;
     }
 
+    // An obstacle stands once, at its place and of its size.
+    writeSolid({ colour: [red, green, blue] }, place, writer) {
+      const at = (place * Drawing.PART) / 4;
+      for (const turn of [12, 16]) writer.turns[2 * at + turn + 3] = 32767;
+      for (let k = 10; k < 17; k += 1) writer.floats[at + k] = 1;
+      for (const word of [17, 18]) writer.words[at + word] = red | (green << 8) | (blue << 16) | 0xff000000;
+    }
+
     // What was drawn under a number: the plant, the component, and its point or part.
     found(id) {
-      if (id < 0) return null;
+      if (id < 0 || id >= this.woods + this.partOf.parts.length) return null;
       if (id >= this.woods) {
         const of = this.partOf.plants[id - this.woods];
         const part = this.partOf.parts[id - this.woods];

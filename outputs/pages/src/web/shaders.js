@@ -145,6 +145,11 @@ vec3 to_screen(vec3 light) {
   light = clamp(light, 0.0, 1.0);
   return mix(12.92 * light, 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, light));
 }
+// A screen colour with noise below a step of it, so that a smooth ground shows no bands.
+vec3 dithered(vec3 screen) {
+  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  return screen + (noise - 0.5) / 255.0;
+}
 vec3 shown(vec3 light) {
   light = max(light, 0.0) * 1.18;
   return min(light * (1.0 + light / 5.76) / (1.0 + light), 1.0);
@@ -218,7 +223,7 @@ vec3 paper(float y) {
 `;
   const SKY = `${HEAD}${LIGHT}${PAPER}
 out vec4 seen;
-void main() { vec3 roots = paper(height - gl_FragCoord.y); seen = vec4(to_screen(roots * roots), 1.0); }`;
+void main() { vec3 roots = paper(height - gl_FragCoord.y); seen = vec4(dithered(to_screen(roots * roots)), 1.0); }`;
   const GROUND = `${HEAD}
 uniform mat4 camera;
 uniform vec3 middle;
@@ -239,7 +244,7 @@ void main() {
   float open = min(falling_on(sky_at(place + vec3(0.0, 0.0, 1e-4)), vec3(0.0, 0.0, 1.0)), 1.0);
   vec3 gets = SUN * (sun.z * lit(place, vec3(0.0, 0.0, 1.0), texel * 2.2)) + SKY * mix(1.0, open, nearness);
   vec3 roots = earth * sqrt(gets / (SUN * sun.z + SKY));
-  seen = vec4(to_screen(roots * roots), 1.0);
+  seen = vec4(dithered(to_screen(roots * roots)), 1.0);
 }`;
 
   return { WOOD, PART, SHADE, DEPTH, NUMBER, BACK, SKY, GROUND, EARTH };

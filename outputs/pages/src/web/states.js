@@ -4,9 +4,15 @@
 // age does not have any more stands until then.
 
 const States = (() => {
-  // The places of keys: `next` tells the whole numbers of each key, axis by axis.
-  function placesOf(step, count, next) {
-    return [0, 1, 2].map((k) => Float32Array.from({ length: count }, (_, key) => step * next[k][key]));
+  const NOWHERE = [0, 0, 0];
+
+  // The places of keys, metres, of their whole numbers axis by axis.
+  function placesOf(step, codes) {
+    return codes.map((of) => {
+      const places = new Float32Array(of.length);
+      for (let key = 0; key < of.length; key += 1) places[key] = step * of[key];
+      return places;
+    });
   }
 
   function coloursOf(data, name, from) {
@@ -80,7 +86,7 @@ const States = (() => {
         }
         return codes;
       });
-      this.places = placesOf(data.header.step_m, radii.length, this.codes);
+      this.places = placesOf(data.header.step_m, this.codes);
       this.radii = new Float32Array(radii.length);
       let code = 0;
       for (let i = 0; i + 1 < keys.length; i += 1) {
@@ -184,49 +190,65 @@ const States = (() => {
   class Carrier {
     constructor(wood) {
       this.wood = wood;
+      this.here = new Float64Array(3);
+      this.there = new Float64Array(3);
     }
 
-    at(i, number) {
+    // Writes the place of a point at an age.
+    at(i, number, out) {
       const { begin, ages } = this.wood.track;
       const { codes } = this.wood;
       const key = Math.max(Records.lastUpTo(ages, begin[i], begin[i + 1], number), begin[i]);
-      if (key + 1 >= begin[i + 1] || ages[key] > number) return codes.map((values) => values[key]);
-      const share = (number - ages[key]) / (ages[key + 1] - ages[key]);
-      return codes.map((values) => values[key] + share * (values[key + 1] - values[key]));
+      const share =
+        key + 1 >= begin[i + 1] || ages[key] > number ? 0 : (number - ages[key]) / (ages[key + 1] - ages[key]);
+      for (let k = 0; k < 3; k += 1) {
+        const low = codes[k][key];
+        out[k] = share > 0 ? low + share * (codes[k][key + 1] - low) : low;
+      }
     }
 
     // The next point of the line that stands at an age; −1 where there is none.
     after(i, number) {
       const { begin, lineOf } = this.wood;
-      for (let next = i + 1; next < begin[lineOf[i] + 1]; next += 1) if (this.wood.stands(next, number)) return next;
+      const end = begin[lineOf[i] + 1];
+      for (let next = i + 1; next < end; next += 1) if (this.wood.stands(next, number)) return next;
       return -1;
     }
 
-    far(a, b) {
-      const [x, y, z] = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
+    far() {
+      const [a, b] = [this.here, this.there];
+      const x = b[0] - a[0];
+      const y = b[1] - a[1];
+      const z = b[2] - a[2];
       return Math.sqrt(x * x + y * y + z * z);
     }
 
     along(point, share, number) {
       const next = this.after(point, number);
-      return next < 0 ? 0 : share * this.far(this.at(point, number), this.at(next, number));
+      if (next < 0) return 0;
+      this.at(point, number, this.here);
+      this.at(next, number, this.there);
+      return share * this.far();
     }
 
+    // The place to which a host has carried what it bears, so far along from its point.
     place(point, along, number) {
-      let here = this.at(point, number);
+      const { here, there } = this;
       let rest = along;
+      this.at(point, number, here);
       for (let next = this.after(point, number); next >= 0; next = this.after(next, number)) {
-        const there = this.at(next, number);
-        const far = this.far(here, there);
+        this.at(next, number, there);
+        const far = this.far();
         if (far > 0 && rest <= far) {
           const share = rest / far;
-          here = here.map((x, k) => x + share * (there[k] - x));
+          for (let k = 0; k < 3; k += 1) here[k] += share * (there[k] - here[k]);
           break;
         }
         rest -= far;
-        here = there;
+        here.set(there);
       }
-      return here.map((x) => Math.floor(x + 0.5));
+      for (let k = 0; k < 3; k += 1) here[k] = Math.floor(here[k] + 0.5);
+      return here;
     }
   }
 
@@ -272,14 +294,14 @@ const States = (() => {
         const along = host >= 0 ? carrier.along(host, this.hosts.shares[i], this.from[i]) : 0;
         const off = [0, 0, 0];
         for (let key = begin[i]; key < begin[i + 1]; key += 1) {
-          const there = host >= 0 ? carrier.place(host, along, this.track.ages[key]) : [0, 0, 0];
+          const there = host >= 0 ? carrier.place(host, along, this.track.ages[key]) : NOWHERE;
           for (let k = 0; k < 3; k += 1) {
             off[k] += codes[k][key];
             codes[k][key] = there[k] + off[k];
           }
         }
       }
-      this.places = placesOf(step, codes[0].length, codes);
+      this.places = placesOf(step, codes);
     }
 
     // Unit quaternions without their largest component, the finer the longer the part.
