@@ -22,6 +22,7 @@ mod plan;
 pub mod plots;
 mod progress;
 pub mod regrowth;
+pub mod viewing;
 
 pub use error::RunError;
 pub use in_memory::{InMemory, in_memory};

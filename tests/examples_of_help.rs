@@ -12,8 +12,9 @@ use side_by_side::each;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 12] = [
-    "init", "grow", "merge", "validate", "derive", "verify", "describe", "list", "schema", "mesh", "picture", "animate",
+const VERBS: [&str; 13] = [
+    "init", "grow", "merge", "validate", "derive", "verify", "describe", "list", "schema", "mesh", "picture",
+    "animate", "view",
 ];
 
 /// The examples of a verb's help: the lines that begin with the program's name.

@@ -172,6 +172,33 @@ fn independent_readers_agree_on_the_mesh_of_a_plot() {
     read(&python, "meshes.py", &[folder.path().to_str().expect("a path in UTF-8")]);
 }
 
+/// Pages of plants side by side, of one that bends and of one whose rules put internodes between others, decoded from
+/// what `docs/view.md` says and held against the tables of their runs.
+#[test]
+fn an_independent_reader_reads_pages() {
+    let Some(python) = python() else {
+        return;
+    };
+    let bush = format!("{ROOT}/tests/data/runs");
+    for (name, species, until, plants) in [
+        ("bush", format!("{bush}/bush.toml"), 14, "0,1"),
+        ("sallow", format!("{bush}/sallow.toml"), 8, "0"),
+        ("topiary", "topiary/4".to_owned(), 9, "0"),
+    ] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let scenario = format!(
+            "name = \"{name}\"\nspecies = {species:?}\nplants = 2\nseed = 5\nspacing_m = 2\n\
+             ages = {{ until = {until}, record = \"all\" }}\noutput = {{ mechanics = true }}\n"
+        );
+        let file = folder.path().join("scenario.toml");
+        std::fs::write(&file, scenario).expect("a scenario file");
+        let run = grow(folder.path(), file.to_str().expect("a path in UTF-8"));
+        let page = folder.path().join("page.html").to_str().expect("a path in UTF-8").to_owned();
+        phytomer(&["view", &run, "--plants", plants, "--quiet", "--out", &page]);
+        read(&python, "pages.py", &[&page, &run]);
+    }
+}
+
 #[test]
 fn an_independent_reader_reads_pictures() {
     let Some(python) = python() else {

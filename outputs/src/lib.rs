@@ -1,15 +1,17 @@
 //! The output of a run: the run folder with its tables (Parquet), and reading it back.
 //!
-//! Meshes, lives, GLB files, pictures and films are crates of their own, `phytomer-meshes`, `phytomer-life`,
-//! `phytomer-gltf`, `phytomer-pictures` and `phytomer-films`, which need neither Arrow nor Parquet; they are
-//! re-exported here as [`meshes`], [`life`], [`gltf`], [`pictures`] and [`films`]. [`colouring`] colours a picture by a
-//! column of a table. [`RunFolder::create`] makes a run folder, which is filled shard by shard and closed by
-//! [`RunFolder::finish`]. Its format is described in `docs` and in its own `datapackage.json`. [`read`] opens it again,
-//! [`check()`] tells whether it is whole. Absent: growth rules.
+//! Meshes, lives, GLB and USD files, pictures, films and pages are crates of their own, `phytomer-meshes`,
+//! `phytomer-life`, `phytomer-gltf`, `phytomer-usd`, `phytomer-pictures`, `phytomer-films` and `phytomer-pages`, which need
+//! neither Arrow nor Parquet; they are re-exported here as [`meshes`], [`life`], [`gltf`], [`usd`], [`pictures`], [`films`] and
+//! [`pages`]. [`colouring`] colours a picture by a column of a table, [`paging`] fills the rows of a page.
+//! [`RunFolder::create`] makes a run folder, which is filled shard by shard and closed by [`RunFolder::finish`]. Its format
+//! is described in `docs` and in its own `datapackage.json`. [`read`] opens it again, [`check()`] tells whether it is whole.
+//! Absent: growth rules.
 
 pub mod colouring;
 pub mod destination;
 mod frames;
+pub mod paging;
 pub mod read;
 pub mod rows;
 pub mod run_folder;
@@ -26,6 +28,7 @@ pub use phytomer_films as films;
 pub use phytomer_gltf as gltf;
 pub use phytomer_life as life;
 pub use phytomer_meshes as meshes;
+pub use phytomer_pages as pages;
 pub use phytomer_pictures as pictures;
 pub use phytomer_usd as usd;
 pub use run_folder::{

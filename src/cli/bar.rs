@@ -57,6 +57,11 @@ pub fn filming<T>(filming: &Filming, frames: u32, hidden: bool, work: impl FnOnc
     beside(hidden, state, work)
 }
 
+/// Does `work` while a bar shows how many of the ages of a page have been grown.
+pub fn viewing<T>(filming: &Filming, hidden: bool, work: impl FnOnce() -> T) -> T {
+    beside(hidden, |_| (filming.share(), "growing".to_owned()), work)
+}
+
 /// "1.2 MB of 30 MB checked", or "copied" while a merge writes them.
 fn read_in_words(checking: &Checking) -> String {
     let [read, in_all] = [checking.bytes(), checking.in_all()].map(|bytes| amounts::bytes(bytes as f64));

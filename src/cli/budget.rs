@@ -58,7 +58,7 @@ pub fn in_words(tolerance: Option<&Tolerance>) -> String {
 }
 
 /// A length with three digits in the unit that people would take.
-fn length(metres: f64) -> String {
+pub fn length(metres: f64) -> String {
     let (number, unit) = match metres {
         m if m >= 0.9995 => (m, "m"),
         m if m >= 0.099_95 => (m * 100.0, "cm"),
@@ -72,7 +72,10 @@ fn length(metres: f64) -> String {
 }
 
 /// A tolerance in metres.
-fn tolerance(text: &str) -> Result<f32, String> {
+///
+/// # Errors
+/// What is expected.
+pub fn tolerance(text: &str) -> Result<f32, String> {
     let metres = metres(text)?;
     let within = f64::from(Tolerance::LEAST)..=MOST_TOLERANCE;
     // A bound of single precision is a little above the number that it is written as.

@@ -27,6 +27,7 @@ mod span;
 pub mod terminal;
 mod validate;
 mod verify;
+mod view;
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};
@@ -50,6 +51,7 @@ Examples:
   phytomer mesh coffee --plant 0 --age 12 --out coffee.ply
   phytomer picture coffee --age 48 --out coffee.png
   phytomer animate coffee --out life.webp       a film of its life
+  phytomer view coffee --out life.html          its life as a page that opens in a browser
 
 `phytomer help <verb>` has more of each.";
 
@@ -75,6 +77,7 @@ enum Verb {
     Mesh(mesh::Mesh),
     Picture(picture::Picture),
     Animate(animate::Animate),
+    View(view::View),
 }
 
 /// How the program ends, other than by an error.
@@ -122,6 +125,7 @@ impl Cli {
             Verb::Mesh(verb) => verb.obey(),
             Verb::Picture(verb) => verb.obey(),
             Verb::Animate(verb) => verb.obey(),
+            Verb::View(verb) => verb.obey(),
         }
     }
 }

@@ -114,6 +114,11 @@ impl Regrown {
         self.species.iter().collect()
     }
 
+    /// The models of the cohorts of the trial.
+    pub fn models(&self) -> Vec<&dyn GrowthModel> {
+        self.models.iter().map(AsRef::as_ref).collect()
+    }
+
     /// The species of a plant.
     pub fn species_of(&self, plant: u32) -> &Species {
         &self.species[self.trial.species_of_plant(plant)]
@@ -129,7 +134,7 @@ impl Regrown {
             let species = &self.species[cohort.species];
             yielding(&model.habit()).map_err(|unmoved| self.unmoved(species, unmoved, breeze))?;
         }
-        Ok(Regrowth::new(self.trial.clone(), self.models.iter().map(AsRef::as_ref).collect(), air))
+        Ok(Regrowth::new(self.trial.clone(), self.models(), air))
     }
 
     /// Refuses what the run does not have.

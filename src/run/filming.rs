@@ -8,7 +8,7 @@
 //! treatments side by side.
 
 use super::RunError;
-use super::picturing::{PicturedStand, kept, obstacles_of, stand_of_plant, stand_of_plot, titles_of};
+use super::picturing::{PicturedStand, caption_of_plant, kept, obstacles_of, stand_of_plant, stand_of_plot, titles_of};
 use super::regrowth::{Regrowth, Standing, Whose};
 use phytomer_config::{Species, Trial};
 use phytomer_outputs::films::{Encoder, Timeline};
@@ -119,7 +119,17 @@ impl Filming {
         self.frames.load(Relaxed)
     }
 
-    fn check(&self) -> Result<(), RunError> {
+    /// Says how many steps there are in all.
+    pub(super) fn begin(&self, steps: u32) {
+        self.in_all.store(steps, Relaxed);
+    }
+
+    /// A step is done.
+    pub(super) fn step(&self) {
+        self.done.fetch_add(1, Relaxed);
+    }
+
+    pub(super) fn check(&self) -> Result<(), RunError> {
         if self.is_stopped() { Err(RunError::Stopped) } else { Ok(()) }
     }
 }
@@ -209,8 +219,7 @@ impl Scene<'_> {
         match (self.whose, standing) {
             (Whose::Plant(plant), [alone, ..]) => {
                 let mut stand = stand_of_plant(trial, self.species, alone.plant.clone().into_owned(), (at, told));
-                let season = self.species[trial.species_of_plant(plant)].about.season(tick);
-                stand.label.extend(season.into_iter().flat_map(|season| [" · ", season]));
+                stand.label = caption_of_plant(trial, self.species, plant, told);
                 stand
             }
             (Whose::Plant(_), []) => kept(&[], false),

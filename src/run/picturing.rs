@@ -229,14 +229,39 @@ pub(super) fn stand_of_plant(
 ) -> PicturedStand {
     let (number, place) = (plant.id, trial.species_of_plant(plant.id));
     let (of, sown) = (trial.plant(number), trial.sown_at(number));
-    let years = match trial.calendar_of(of.treatment, of.replicate) {
-        Some(calendar) => on_the_calendar(calendar, sown, told_age),
-        None => species[place].ticks_per_year().map(|ticks| in_years(told_age, ticks)).unwrap_or_default(),
-    };
     let (plot, treatment, age) = (of.plot, of.treatment as u32, at.tick());
     let member = PicturedMember { number, plot, treatment, sown, plant: 0, species: place, age, place: [0.0; 3] };
-    let label = format!("age {}{years}", told(told_age));
+    let label = label_of_plant(trial, species, number, told_age);
     PicturedStand { plants: vec![plant], members: vec![member], obstacles: Vec::new(), label }
+}
+
+/// The age of a plant in words, with years or the date.
+fn label_of_plant(trial: &Trial, species: &[&Species], number: u32, age: Moment) -> String {
+    let of = trial.plant(number);
+    let years = match trial.calendar_of(of.treatment, of.replicate) {
+        Some(calendar) => on_the_calendar(calendar, trial.sown_at(number), age),
+        None => species[trial.species_of_plant(number)]
+            .ticks_per_year()
+            .map(|ticks| in_years(age, ticks))
+            .unwrap_or_default(),
+    };
+    format!("age {}{years}", told(age))
+}
+
+/// The age of a plant in words, with years or the date, and with its season.
+pub(super) fn caption_of_plant(trial: &Trial, species: &[&Species], number: u32, age: Moment) -> String {
+    let mut label = label_of_plant(trial, species, number, age);
+    let season = species[trial.species_of_plant(number)].about.season(age.age() as Tick);
+    label.extend(season.into_iter().flat_map(|season| [" · ", season]));
+    label
+}
+
+/// The tick of a plot in words, with years or the date.
+pub(super) fn caption_of_plot(trial: &Trial, species: &[&Species], plot: u32, tick: Moment) -> String {
+    let of_plot = trial.plot(plot);
+    let calendar = trial.calendar_of(of_plot.treatment, of_plot.replicate);
+    let years = calendar.map_or_else(|| years_of(species, tick), |calendar| on_the_calendar(calendar, 0, tick));
+    format!("tick {}{years}", told(tick))
 }
 
 /// A plot at a tick, with the tick that is told of it; it is still to be filled in where its plants belong.
@@ -252,9 +277,7 @@ pub(super) fn stand_of_plot(
         (member.plot, member.sown, member.place) = (plot, at.tick().saturating_sub(member.age), place);
         member.treatment = of_plot.treatment as u32;
     }
-    let calendar = trial.calendar_of(of_plot.treatment, of_plot.replicate);
-    let years = calendar.map_or_else(|| years_of(species, told_tick), |of| on_the_calendar(of, 0, told_tick));
-    stand.label = format!("tick {}{years}", told(told_tick));
+    stand.label = caption_of_plot(trial, species, plot, told_tick);
     stand
 }
 

@@ -31,7 +31,7 @@ pub use lives::Lives;
 pub use maker::Maker;
 pub use phytomer_looks::{Surface, SurfacePoint};
 pub use phytomer_meshes::Model;
-pub use track::{Key, between};
+pub use track::{Key, Track, between};
 
 use phytomer_sim::plant::{Form, Kind};
 use std::ops::Range;

@@ -67,6 +67,11 @@ impl<const N: usize> Track<N> {
         if self.held > self.last.0 { self.add(self.held, self.last.1, tolerance) } else { None }
     }
 
+    /// The values that were taken last.
+    pub fn latest(&self) -> [f32; N] {
+        self.last.1
+    }
+
     /// The last key; `None` where the key before, which holds from then on, is within the tolerance of all that came.
     pub fn end(&self) -> Option<Key<N>> {
         let holds = (0..N).all(|k| self.low[k] <= 0.0 && 0.0 <= self.high[k]);

@@ -39,6 +39,7 @@ pub use collection::Collection;
 pub use drawing::{Drawing, PlantDrawing, Take};
 pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
+pub use forms::{Depth, FormMesh, Point as FormPoint};
 pub use model::Model;
 pub use plot::{PlotBody, PlotDrawing, PlotMember, PlotMesh};
 pub use ply::Ply;
@@ -112,7 +113,7 @@ pub struct MeshOptions {
 impl MeshOptions {
     /// The shape of a form.
     #[inline]
-    pub(crate) fn shape(&self, form: Form) -> &forms::FormMesh {
+    pub fn shape(&self, form: Form) -> &forms::FormMesh {
         place_of_own(form).and_then(|place| self.own.shape(place)).unwrap_or_else(|| forms::shape(form))
     }
 }

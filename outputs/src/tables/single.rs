@@ -19,25 +19,43 @@ const ROWS: usize = 512;
 /// # Errors
 /// [`TableError::PlantTooLarge`].
 pub fn record_values(of: Membership, plant: &Plant, age: Tick, column: &Column) -> Result<Vec<f64>, TableError> {
-    let mut index = ComponentIndex::default();
+    let place = columns::RECORDS.iter().position(|known| known.name == column.name).unwrap_or(0);
+    let mut values = vec![f64::NAN; plant.components() as usize];
+    each_record((of, plant, age), &[place], &mut ComponentIndex::default(), &mut |number, row| {
+        values[number as usize] = row[0];
+    })?;
+    Ok(values)
+}
+
+/// Tells of each component that stands at an age its number and its values in some columns of `records`, by their
+/// places, as [`record_values`] has them; in the order of their numbers. `index` is working memory, kept between calls.
+///
+/// # Errors
+/// [`TableError::PlantTooLarge`].
+pub fn each_record(
+    (of, plant, age): (Membership, &Plant, Tick),
+    places: &[usize],
+    index: &mut ComponentIndex,
+    tell: &mut dyn FnMut(u32, &[f64]),
+) -> Result<(), TableError> {
     index.read(plant)?;
     index.find_tips(plant, age);
-    let place = columns::RECORDS.iter().position(|known| known.name == column.name).unwrap_or(0);
-    let shown = PlantAtAge { of, plant, index: &index, age, mechanics: true };
-    let mut values = vec![f64::NAN; index.len() as usize];
+    let shown = PlantAtAge { of, plant, index, age, mechanics: true };
     let (mut next, mut numbers, mut rows, mut filled) = (0, Vec::new(), Vec::new(), RecordColumns::default());
+    let mut row = vec![f64::NAN; places.len()];
     while next < index.len() {
         index.select(age, ROWS, &mut next, &mut numbers);
         filled.fill(&shown, &numbers, &mut rows);
         let mut taken = filled.take();
-        let column = numbers_of(&taken[place]);
-        for (number, value) in numbers.iter().zip(column) {
-            values[*number as usize] = value;
+        let columns: Vec<Vec<f64>> = places.iter().map(|place| numbers_of(&taken[*place])).collect();
+        for (at, number) in numbers.iter().enumerate() {
+            row.iter_mut().zip(&columns).for_each(|(value, column)| *value = column[at]);
+            tell(*number, &row);
         }
         taken.iter_mut().for_each(Values::clear);
         filled.give_back(taken);
     }
-    Ok(values)
+    Ok(())
 }
 
 /// The values of a buffer as numbers; NaN stands for null.

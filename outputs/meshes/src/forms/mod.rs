@@ -32,7 +32,7 @@ pub struct Point {
     /// The position in the box.
     pub at: [f32; 3],
     /// The offset from the middle line of its part, in a form that is slim or full in its parts.
-    across: [f32; 3],
+    pub across: [f32; 3],
     /// The unit normal.
     pub normal: [f32; 3],
     /// The texture coordinates.

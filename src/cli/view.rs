@@ -1,0 +1,151 @@
+//! `view`: the whole life of plants as one page that opens in a browser, without network and without a server.
+//!
+//! The plants are grown again as for meshes and films. Absent: growing, which is `run::viewing`'s, and the page, which
+//! is `phytomer_outputs::pages`'.
+
+use super::budget::{length, tolerance};
+use super::out::{self, Format};
+use super::regrown::Regrown;
+use super::span::{Span, shown, span};
+use super::{Misuse, Verdict, amounts, bar, terminal};
+use anyhow::{Context, Result};
+use clap::Args;
+use phytomer::run::RunError;
+use phytomer::run::filming::Filming;
+use phytomer::run::regrowth::{Regrowth, Whose};
+use phytomer::run::viewing::View as Shown;
+use phytomer_outputs::Destination;
+use phytomer_sim::Tick;
+use phytomer_sim::between::Moment;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+const FORMATS: [Format; 2] = [Format { name: "HTML", extension: "html" }, Format { name: "HTML", extension: "htm" }];
+/// The most plants side by side.
+const MOST_PLANTS: usize = 64;
+
+/// Write the whole life of plants of a run, a scenario or a species as one page for a browser.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  phytomer view coffee --out life.html
+  phytomer view coffee --plants 0,1,2 --ages 0..72 --out three.html
+  phytomer view coffee --ages 0..96/4 --tolerance 2mm --out small.html
+  phytomer view under_a_roof --plot --out plot.html
+
+The page is one file. It opens by a double click and asks for nothing from the network. A link may name an age:
+life.html#age=48. A mouse, touch or the keys turn the plants; the page itself tells its keys.")]
+pub struct View {
+    /// A run folder, a scenario or a species: a shipped one by its name, or a file by its path.
+    #[arg(value_name = "RUN|SCENARIO|SPECIES")]
+    name: String,
+    /// The plant's number, from 0.
+    #[arg(long, default_value_t = 0)]
+    plant: u32,
+    /// Several plants side by side, in one scale.
+    #[arg(long, value_delimiter = ',', value_name = "PLANT,PLANT,…", conflicts_with = "plant")]
+    plants: Vec<u32>,
+    /// All plants of a plot in their places; the plot's number, from 0.
+    #[arg(long, value_name = "PLOT", num_args = 0..=1, default_missing_value = "0", conflicts_with_all = ["plant", "plants"])]
+    plot: Option<u32>,
+    /// The ages, of a plot the ticks: from the first to the last, after a slash the step between them; from 0 to the
+    /// last of the run if not given. The page goes smoothly from one to the next.
+    #[arg(long, value_name = "FIRST..LAST[/STEP]", value_parser = span)]
+    ages: Option<Span>,
+    /// How near the page is to the plants, such as 1mm: axes and their motion are simplified within this distance. If
+    /// not given, half a pixel of a screen that shows the plants whole.
+    #[arg(long, value_name = "LENGTH", value_parser = tolerance, allow_hyphen_values = true)]
+    tolerance: Option<f32>,
+    /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written
+    /// through.
+    #[arg(long, value_name = "FILE.html")]
+    out: PathBuf,
+    /// Show no progress.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl View {
+    pub fn obey(self) -> Result<Verdict> {
+        out::check(&self.out, "view", &FORMATS)?;
+        if self.plants.len() > MOST_PLANTS {
+            return Err(Misuse(format!("--plants: one page has at most {MOST_PLANTS} plants side by side")).into());
+        }
+        let asked: Vec<Tick> = self.ages.iter().map(Span::until).collect();
+        match Regrown::find(&self.name, &asked)? {
+            Ok(regrown) => self.write(&regrown),
+            Err(verdict) => Ok(verdict),
+        }
+    }
+
+    fn write(&self, regrown: &Regrown) -> Result<Verdict> {
+        let (whose, ages) = self.shown(regrown)?;
+        let ages = whole(ages)?;
+        let regrowth = Regrowth::new(regrown.trial.clone(), regrown.models(), None);
+        let species = regrown.species();
+        let view = Shown {
+            regrowth: &regrowth,
+            species: &species,
+            forms: &regrown.forms,
+            whose,
+            ages,
+            tolerance: self.tolerance,
+            mechanics: regrown.scenario.output.mechanics,
+        };
+        let mut file = Destination::create(&self.out)?;
+        let filming = Arc::new(Filming::default());
+        listen(&filming)?;
+        let page = match bar::viewing(&filming, self.quiet, || view.page(&filming)) {
+            Err(RunError::Stopped) => {
+                terminal::say("stopped; nothing was written");
+                return Ok(Verdict::Interrupted);
+            }
+            page => page?,
+        };
+        let (plants, within) = (page.subjects.len(), length(f64::from(page.tolerance)));
+        page.write(&mut file).with_context(|| format!("cannot write {}", self.out.display()))?;
+        let bytes = amounts::bytes(file.finish()? as f64);
+        let plants = amounts::of(plants as u64, "plant");
+        let ages = amounts::of(view.ages.len() as u64, "age");
+        out::tell(&self.out, &format!("{plants} at {ages}, within {within}, {bytes}"))?;
+        Ok(Verdict::Done)
+    }
+
+    /// What is shown, and its ages.
+    fn shown(&self, regrown: &Regrown) -> Result<(Vec<Whose>, Span)> {
+        let plants = if self.plants.is_empty() { vec![self.plant] } else { self.plants.clone() };
+        if self.plot.is_some() {
+            let (whose, ages) = shown(regrown, (0, self.plot), self.ages, "--ages")?;
+            return Ok((vec![whose], Span { first: self.ages.map_or(0.0, |ages| ages.first), ..ages }));
+        }
+        regrown
+            .check(("--ages", &[] as &[f64]), (if self.plants.is_empty() { "--plant" } else { "--plants" }, &plants))?;
+        let mut last = f64::MAX;
+        for (place, plant) in plants.iter().enumerate() {
+            if plants[..place].contains(plant) {
+                return Err(Misuse(format!("--plants: plant {plant} is named twice")).into());
+            }
+            let (_, ages) = shown(regrown, (*plant, None), self.ages, "--ages")?;
+            last = last.min(ages.last);
+        }
+        let ages = self.ages.unwrap_or(Span { first: 0.0, last, step: None });
+        Ok((plants.into_iter().map(Whose::Plant).collect(), ages))
+    }
+}
+
+/// The ages of a span, which are whole: rows are recorded at ticks, and the page goes smoothly between them.
+fn whole(ages: Span) -> Result<Vec<Tick>, Misuse> {
+    let moments = ages.moments();
+    match moments.iter().find(|moment| moment.share().is_some()) {
+        Some(moment) => Err(Misuse(format!(
+            "--ages: {} lies between two ticks; a page has the rows of whole ticks, and goes smoothly from one to the next",
+            moment.age()
+        ))),
+        None => Ok(moments.into_iter().map(Moment::tick).collect()),
+    }
+}
+
+fn listen(filming: &Arc<Filming>) -> Result<()> {
+    let filming = Arc::clone(filming);
+    ctrlc::set_handler(move || filming.stop()).context("cannot listen for Ctrl-C")
+}
