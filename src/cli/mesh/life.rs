@@ -19,8 +19,8 @@ pub struct Growing {
     /// the ticks; after a slash the step between them, such as 1..48/4. Wood is within 1 mm, or within --tolerance.
     #[arg(long, value_name = "FIRST..LAST[/STEP]", value_parser = span, conflicts_with_all = ["age", "wind", "triangles", "sides"])]
     pub ages: Option<Span>,
-    /// The length of a life, seconds. If not given, a GLB file lasts 12, and in USD a tick is a frame of 24 a second, so
-    /// that frame 36 shows age 36.
+    /// The length of a life, seconds. If not given, a GLB file lasts 12, and in USD a tick is a frame of 24 a second,
+    /// so that frame 36 shows age 36.
     #[arg(long, value_name = "SECONDS", requires = "ages", allow_negative_numbers = true, value_parser = seconds)]
     pub seconds: Option<f64>,
     /// At how many of its ages, evenly from the first to the last, a life in a GLB file stands exactly as it has grown:
