@@ -5,6 +5,7 @@
 
 mod formats;
 
+use super::constants::Constants;
 use super::regrown::{Breeze, Regrown, finite};
 use super::span::{Span, shown, span};
 use super::{Verdict, amounts, bar, out, picture, terminal};
@@ -105,6 +106,8 @@ pub struct Animate {
     #[arg(long, short)]
     quiet: bool,
     #[command(flatten)]
+    constants: Constants,
+    #[command(flatten)]
     breeze: Breeze,
 }
 
@@ -128,7 +131,7 @@ impl Animate {
         let format = Format::of(&self.out)?;
         format.check(self.size, self.fps)?;
         let asked: Vec<Tick> = self.ages.iter().map(|ages| ages.last).collect();
-        match Regrown::find(&self.name, &asked)? {
+        match Regrown::find(&self.name, &self.constants, &asked)? {
             Ok(regrown) => self.film(&regrown, format),
             Err(verdict) => Ok(verdict),
         }

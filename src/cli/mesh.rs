@@ -4,6 +4,7 @@
 //! plant, which the wind moves for the mesh alone.
 
 use super::budget::{Asked, Budget, in_words, too_few};
+use super::constants::Constants;
 use super::out::{self, Format};
 use super::regrown::{Breeze, Regrown};
 use super::{Misuse, Verdict, amounts};
@@ -29,6 +30,7 @@ Examples:
   phytomer mesh runs/coffee --plant 3 --out third.ply --sides 12
   phytomer mesh my_plant/scenario.toml --age 24 --wind 8 --time 0.40 --out frame-010.ply
   phytomer mesh under_a_roof --plot --age 12 --out plot.ply
+  phytomer mesh abop/2.8a --age 4 -D lr=1.2 --out tall.ply
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
 pub struct Mesh {
@@ -53,6 +55,8 @@ pub struct Mesh {
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(3..=64))]
     sides: u32,
     #[command(flatten)]
+    constants: Constants,
+    #[command(flatten)]
     budget: Budget,
     #[command(flatten)]
     breeze: Breeze,
@@ -61,7 +65,7 @@ pub struct Mesh {
 impl Mesh {
     pub fn obey(self) -> Result<Verdict> {
         out::check(&self.out, "mesh", &FORMATS)?;
-        match Regrown::find(&self.name, self.age.as_slice())? {
+        match Regrown::find(&self.name, &self.constants, self.age.as_slice())? {
             Ok(regrown) => self.write(&regrown),
             Err(verdict) => Ok(verdict),
         }
