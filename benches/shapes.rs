@@ -1,11 +1,17 @@
 //! What it costs to ask whether a point is inside a shape: a box, fifty primitives in a bounding tree, a soft object of
 //! fifty parts and a closed mesh, each a thousand points that lie evenly about the shape.
 //!
-//! The box is the measure: fifty primitives are to cost ten times as much at most (`docs/performance.md`).
+//! The box is the measure: fifty primitives are to cost ten times as much at most (`docs/performance.md`), also where a
+//! production calls them as `prune`.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use phytomer::models::fault::Path;
+use phytomer::models::lsystem::text::{TextModel, TextSystem};
+use phytomer::models::shapes::{Named, Shapes};
 use phytomer::sim::math::sincos;
+use phytomer::sim::random::PlantRandom;
 use phytomer::sim::shape::{Capsule, Cuboid, Mesh, Point, Shape, Skeleton, Soft, Sphere, Torus, Union};
+use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::sync::Arc;
@@ -69,5 +75,43 @@ fn inside(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, inside);
+/// An L-system of a thousand modules, each of which asks at every step whether its point is pruned.
+fn asking(prune: &Value) -> TextModel {
+    let shapes: Shapes = serde_json::from_value(json!({"prune": prune})).expect("shapes");
+    let mut faults = Vec::new();
+    let shapes = Named::of(&shapes, &Path::root(), &mut faults);
+    assert_eq!(faults.len(), 0, "{faults:?}");
+    let modules = points(1000).iter().map(|[x, y, z]| format!("V({x},{z},{y},0)")).collect::<String>();
+    let text = format!("Lsystem: 1\nAxiom: {modules}\nV(x,y,z,n) --> V(x,y,z,n+prune(x,y,z))\nendlsystem\n");
+    let texts = [("plant.l".to_owned(), text)].into();
+    let system = TextSystem { file: "plant.l".to_owned(), texts, shapes, step_m: 1.0, ..TextSystem::default() };
+    system.compile().unwrap_or_else(|wrong| panic!("{wrong:?}"))
+}
+
+/// The fifty primitives as a species states them.
+fn fifty_stated() -> Value {
+    let member = |(k, at): (usize, Point)| match k % 3 {
+        0 => json!({"form": "sphere", "at_m": at, "radius_m": 0.7}),
+        1 => json!({"form": "placed", "of": {"form": "box", "size_m": [0.8, 1.0, 1.2]}, "move_m": at}),
+        _ => json!({"form": "capsule", "from_m": at, "to_m": at.map(|x| 0.8 * x), "radius_m": 0.3}),
+    };
+    json!({"form": "union", "of": points(50).into_iter().enumerate().map(member).collect::<Vec<_>>()})
+}
+
+fn through_the_language(criterion: &mut Criterion) {
+    const STEPS: u32 = 20;
+    let mut group = criterion.benchmark_group("prune of a production (calls)");
+    group.throughput(Throughput::Elements(1000 * u64::from(STEPS)));
+    for (name, shape) in
+        [("one box", json!({"form": "box", "size_m": [4, 4, 4]})), ("fifty primitives", fifty_stated())]
+    {
+        let model = asking(&shape);
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| black_box(model.derive(PlantRandom::new(1, 0), STEPS)).expect("a string"));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, inside, through_the_language);
 criterion_main!(benches);

@@ -1,4 +1,5 @@
-//! `derive`: the strings of L-systems on the two streams, with the exit codes of what goes wrong.
+//! `derive`: the strings of L-systems on the two streams, with the exit codes of what goes wrong; and `-D`, which sets
+//! constants for it and for what checks and draws plants.
 //!
 //! Absent: the language itself (`phytomer_rewriting`), and the plants that are made of the strings
 //! (`tests/lsystems.rs`).
@@ -56,6 +57,33 @@ fn constants_are_set() {
     run(folder.path(), &["derive", "f.l", "-D", "N"]).ending(2);
     let told = run(folder.path(), &["derive", "f.l", "-D", "M=1"]).ending(3);
     assert!(told.stderr.contains("no constant is named `M`"), "{}", told.stderr);
+}
+
+#[test]
+fn constants_are_set_where_plants_are_checked_and_drawn() {
+    let folder = tempdir().unwrap();
+    write(folder.path(), "open.l", "derivation length: 3\nAxiom: F(N)\nF(x) --> F(x+N)[+F(x)]\n");
+    let told = run(folder.path(), &["validate", "open.l"]).ending(3);
+    assert!(told.stderr.contains("nothing is named `N`"), "{}", told.stderr);
+    run(folder.path(), &["validate", "open.l", "-D", "N=2"]).ending(0);
+    let told = run(folder.path(), &["validate", "open.l", "-D", "N=2", "-D", "M=1"]).ending(3);
+    assert!(told.stderr.contains("no constant is named `M`"), "{}", told.stderr);
+    let drawn = |verb: &str, file: &str, constant: &str, small: &[&str]| {
+        let words = [&[verb, "open.l", "--age", "2", "--out", file, "-D", constant], small].concat();
+        run(folder.path(), &words).ending(0);
+        std::fs::read(folder.path().join(file)).unwrap()
+    };
+    for (verb, file, small) in [("mesh", "a.ply", &[][..]), ("picture", "a.png", &["--size", "160x120"][..])] {
+        let [two, again, three] = ["N=2", "N=2", "N=3"].map(|constant| drawn(verb, file, constant, small));
+        assert!(two == again && two != three, "{verb}");
+    }
+    // A run keeps the constants that it was grown with, a scenario states its own, and coffee has no L-system.
+    run(folder.path(), &["grow", "open.l", "--quiet", "-D", "N=2"]).ending(0);
+    for name in ["runs/open", "coffee", "halle/massart"] {
+        run(folder.path(), &["mesh", name, "--out", "b.ply", "-D", "N=2"]).ending(2);
+        run(folder.path(), &["picture", name, "--out", "b.png", "-D", "N=2"]).ending(2);
+        run(folder.path(), &["validate", name, "-D", "N=2"]).ending(2);
+    }
 }
 
 #[test]

@@ -211,15 +211,26 @@ fn l_system_1_stands_as_buds() {
     }
 }
 
-/// L-system 6: nothing stands a whole internode outside its cube, and what grew outside is gone.
+/// L-system 6: nothing stands a whole internode outside its cube, and what grew outside is gone. Of the three trees of
+/// Fig. 7, from left to right, each is denser than that before it.
 #[test]
 fn l_system_6_fills_its_cube() {
-    let plant = grown("topiary/6", 27, 2);
-    for node in 0..plant.nodes.len() as u32 {
-        let [x, y, z] = node_frame(&plant, NodeId(node)).base;
-        assert!(x.abs() < 7.001 && y.abs() < 7.001 && (-1.001..13.001).contains(&z), "{x} {y} {z}");
+    let mut before = 0;
+    for (name, age, least) in
+        [("topiary/6", 27, 300), ("topiary/7a", 31, 300), ("topiary/6", 31, 400), ("topiary/7c", 31, 1200)]
+    {
+        let plant = grown(name, age, 2);
+        for node in 0..plant.nodes.len() as u32 {
+            let [x, y, z] = node_frame(&plant, NodeId(node)).base;
+            assert!(x.abs() < 7.001 && y.abs() < 7.001 && (-1.001..13.001).contains(&z), "{x} {y} {z}");
+        }
+        let internodes = plant.nodes.len();
+        assert!(internodes > least && !plant.ledger.is_empty(), "{name} at {age}: {internodes} internodes");
+        if age == 31 {
+            assert!(internodes > before, "{name}: {internodes} internodes, {before} before");
+            before = internodes;
+        }
     }
-    assert!(plant.nodes.len() > 300 && !plant.ledger.is_empty(), "{} internodes", plant.nodes.len());
 }
 
 /// The scenes of *Synthetic Topiary*: each internode begins within the form that its plant is pruned to, so none is a

@@ -37,6 +37,7 @@ impl Rotation {
     /// The rotation after which a component has this heading and this upper side, both in the coordinates of the frame
     /// that bears it. Of `up` the part across the heading counts. Where either has no direction, or both have the same,
     /// the turn from x to the heading that is the shortest.
+    #[inline]
     pub fn to(heading: [f64; 3], up: [f64; 3]) -> Self {
         let heading = Vector::of(heading);
         let Some(x) = heading.unit() else { return Self::NONE };
@@ -47,6 +48,7 @@ impl Rotation {
 
     /// The quaternion of a right-handed basis (Shepperd 1978): the largest of its four parts is divided by, so that
     /// nothing is lost near half a turn.
+    #[inline]
     fn of_basis(x: Vector, y: Vector, z: Vector) -> Self {
         let squares = [1.0 + x.x + y.y + z.z, 1.0 + x.x - y.y - z.z, 1.0 - x.x + y.y - z.z, 1.0 - x.x - y.y + z.z];
         let [w, a, b, c] = squares;
@@ -173,6 +175,7 @@ impl Rotation {
     }
 
     /// The same rotation, its quaternion of length 1 again after rounding.
+    #[inline]
     pub(crate) fn normalized(self) -> Self {
         let scale = 1.0 / (self.scalar * self.scalar + self.vector.dot(self.vector)).sqrt();
         Self { scalar: self.scalar * scale, vector: self.vector * scale }
@@ -180,11 +183,13 @@ impl Rotation {
 }
 
 impl Vector {
+    #[inline]
     fn of([x, y, z]: [f64; 3]) -> Self {
         Self::new(x, y, z)
     }
 
     /// Its direction, where it has one.
+    #[inline]
     pub(crate) fn unit(self) -> Option<Self> {
         let square = self.dot(self);
         (square > NOTHING && square.is_finite()).then(|| self * (1.0 / square.sqrt()))

@@ -5,6 +5,7 @@
 
 mod formats;
 
+use super::constants::Constants;
 use super::regrown::{Breeze, Fall, Regrown, finite};
 use super::span::{Span, shown, span};
 use super::{Verdict, amounts, bar, out, picture, terminal};
@@ -108,6 +109,8 @@ pub struct Animate {
     #[command(flatten)]
     fall: Fall,
     #[command(flatten)]
+    constants: Constants,
+    #[command(flatten)]
     breeze: Breeze,
 }
 
@@ -131,7 +134,7 @@ impl Animate {
         let format = Format::of(&self.out)?;
         format.check(self.size, self.fps)?;
         let asked: Vec<Tick> = self.ages.iter().map(Span::until).collect();
-        match Regrown::find(&self.name, &asked)? {
+        match Regrown::find(&self.name, &self.constants, &asked)? {
             Ok(regrown) => self.film(&regrown, format),
             Err(verdict) => Ok(verdict),
         }

@@ -3,9 +3,14 @@
 //! They take the place of the `#define` of their names, or stand for names that the file leaves open, so that a file
 //! that is wrong alone is sound with them. Absent: what a scenario states (`[define]`).
 
+use super::Misuse;
+use super::named::Named;
 use clap::Args;
 use phytomer_models::law::Variate;
 use phytomer_models::parameters::Surroundings;
+
+/// What is told of constants beside a scenario.
+pub const OF_A_SCENARIO: &str = "-D is for an L-system by itself; a scenario states its constants in [define]";
 
 /// Constants of an L-system.
 #[derive(Debug, Clone, Default, Args)]
@@ -19,6 +24,21 @@ impl Constants {
     /// Whether none is set.
     pub fn is_empty(&self) -> bool {
         self.define.is_empty()
+    }
+
+    /// Refuses them for all but an L-system by itself.
+    ///
+    /// # Errors
+    /// Where else constants stand.
+    pub fn check(&self, name: &str, found: &Named) -> Result<(), Misuse> {
+        let problem = match found {
+            _ if self.is_empty() => return Ok(()),
+            Named::Species(found) if found.species.reads_surroundings() => return Ok(()),
+            Named::Species(_) => format!("-D: `{name}` has no L-system in a file of its own"),
+            Named::Scenario(_) => OF_A_SCENARIO.to_owned(),
+            Named::Run(_) => format!("-D: `{name}` is a run, which keeps the constants that it was grown with"),
+        };
+        Err(Misuse(problem))
     }
 
     /// The names and the numbers.

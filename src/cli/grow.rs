@@ -7,7 +7,7 @@ mod telling;
 
 pub use telling::{clock, species_in_words};
 
-use super::constants::Constants;
+use super::constants::{Constants, OF_A_SCENARIO};
 use super::named::RUNS;
 use super::{Misuse, Verdict, bar, causes, events, findings, refuse, terminal};
 use anyhow::{Context, Result};
@@ -100,8 +100,7 @@ enum Shown {
 impl Grow {
     pub fn obey(self) -> Result<Verdict> {
         if !self.constants.is_empty() && kind_of(&self.scenario) == Kind::Scenario {
-            let problem = "-D is for an L-system by itself; a scenario states its constants in [define]";
-            return Err(Misuse(problem.to_owned()).into());
+            return Err(Misuse(OF_A_SCENARIO.to_owned()).into());
         }
         let mut resolved = match validate_with(&self.scenario, &self.constants.surroundings()) {
             Ok(resolved) => resolved,

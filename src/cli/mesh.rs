@@ -10,6 +10,7 @@ mod rig;
 mod usd;
 
 use super::budget::{Asked, Budget, in_words, too_few};
+use super::constants::Constants;
 use super::out;
 use super::regrown::{Breeze, Fall, Regrown};
 use super::span::age;
@@ -42,6 +43,7 @@ Examples:
   phytomer mesh willow --age 20 --tolerance 5mm --wind 8 --rig 60 --out sway.glb
   phytomer mesh coffee --ages 1..48/4 --seconds 12 --out life.usdc
   phytomer mesh coffee --age 36 --tolerance 1mm --out print.stl
+  phytomer mesh abop/2.8a --age 4 -D lr=1.2 --out tall.ply
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
 pub struct Mesh {
@@ -67,6 +69,8 @@ pub struct Mesh {
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(3..=64))]
     sides: u32,
     #[command(flatten)]
+    constants: Constants,
+    #[command(flatten)]
     budget: Budget,
     #[command(flatten)]
     fall: Fall,
@@ -86,7 +90,7 @@ impl Mesh {
             return Err(format.holds_no(option).into());
         }
         let ages: Vec<Tick> = self.age.iter().map(|age| age.tick()).chain(self.growing.last()).collect();
-        match Regrown::find(&self.name, &ages)? {
+        match Regrown::find(&self.name, &self.constants, &ages)? {
             Ok(regrown) => self.write(&regrown, format),
             Err(verdict) => Ok(verdict),
         }

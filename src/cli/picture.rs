@@ -4,6 +4,7 @@
 //! With `--plot` all plants of a plot stand in their places, at each tick.
 //! Absent: drawing, which is `phytomer_outputs::pictures`'.
 
+use super::constants::Constants;
 use super::out::{self, Format};
 use super::regrown::{Breeze, Fall, Regrown, finite};
 use super::span::{Span, age, shown, span};
@@ -40,6 +41,7 @@ Examples:
   phytomer picture coffee --age 60 --colour-by birth_age --out ages.png
   phytomer picture coffee --age 24 --transparent --no-caption --sun 200,30 --out cut-out.png
   phytomer picture under_a_roof --plot --ages 3,6,12 --out plot.png
+  phytomer picture abop/2.8a --age 5 -D lr=1.2 --out tall.png
 
 A plant whose age is not given is drawn at the age that its species states (shown_at), else in its prime: in its
 last year with nine tenths of the largest leaf area that it ever bears, as soon as it bears it.")]
@@ -106,6 +108,8 @@ pub struct Picture {
     #[command(flatten)]
     fall: Fall,
     #[command(flatten)]
+    constants: Constants,
+    #[command(flatten)]
     breeze: Breeze,
 }
 
@@ -133,7 +137,7 @@ impl Picture {
         self.whole_where_coloured(&ages)?;
         let framed = self.framed_for.map(|framed| framed.until());
         let needed: Vec<Tick> = ages.iter().map(|age| age.tick()).chain(framed).collect();
-        match (Regrown::find(&self.name, &needed)?, self.framed_for) {
+        match (Regrown::find(&self.name, &self.constants, &needed)?, self.framed_for) {
             (Ok(regrown), None) => self.write(&regrown, ages),
             (Ok(regrown), Some(framed)) => self.write_framed(&regrown, framed),
             (Err(verdict), _) => Ok(verdict),

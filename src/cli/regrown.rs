@@ -5,6 +5,7 @@
 //! which is
 //! `run::regrowth`'s, and what is made of the plants.
 
+use super::constants::Constants;
 use super::named::{self, Named, Recorded};
 use super::{Misuse, Verdict, refuse};
 use anyhow::Result;
@@ -64,15 +65,18 @@ pub struct Breeze {
 }
 
 impl Regrown {
-    /// What a name stands for; `ages` are those asked for, to which a species by itself must grow.
+    /// What a name stands for, an L-system with these constants; `ages` are those asked for, to which a species by
+    /// itself must grow.
     ///
     /// # Errors
-    /// Where a run cannot be read. What is wrong with a file is told, and the verdict comes back instead.
-    pub fn find(name: &str, ages: &[Tick]) -> Result<std::result::Result<Self, Verdict>> {
-        let found = match named::find(name) {
+    /// Where a run cannot be read, or the constants are for nothing. What is wrong with a file is told, and the verdict
+    /// comes back instead.
+    pub fn find(name: &str, constants: &Constants, ages: &[Tick]) -> Result<std::result::Result<Self, Verdict>> {
+        let found = match named::find_with(name, &constants.surroundings()) {
             Ok(found) => found,
             Err(report) => return refuse(&report, false).map(Err),
         };
+        constants.check(name, &found)?;
         Ok(Ok(match found {
             Named::Run(folder) => {
                 let recorded = Recorded::of(&folder)?;

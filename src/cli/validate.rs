@@ -4,6 +4,7 @@
 //! Absent: the checks, which are `phytomer-config`'s, `phytomer::sample`'s and
 //! `phytomer::architecture`'s.
 
+use super::constants::Constants;
 use super::grow::{clock, species_in_words};
 use super::named::{self, Named};
 use super::{Verdict, amounts, terminal};
@@ -12,6 +13,7 @@ use clap::Args;
 use phytomer::{architecture, sample};
 use phytomer_config::{Report, Species};
 use phytomer_models::fault::Fault;
+use phytomer_models::parameters::Surroundings;
 use serde_json::{Value, json};
 
 type Found = std::result::Result<Named, Report>;
@@ -23,6 +25,7 @@ Examples:
   phytomer validate coffee
   phytomer validate my_plant/scenario.toml my_plant/species.toml
   phytomer validate my_plant/scenario.toml --json
+  phytomer validate abop/2.8a -D lr=1.2
 
 Where a species states published ranges (`[[published]]`), a sample of it is grown and held against them; where it
 names its architectural model, plants grown to the age `shown_at` must qualify for it.
@@ -31,6 +34,8 @@ pub struct Validate {
     /// Files by their paths, shipped scenarios and species by their names.
     #[arg(required = true, value_name = "FILE|NAME")]
     names: Vec<String>,
+    #[command(flatten)]
+    constants: Constants,
     /// All faults as one JSON object on stdout.
     #[arg(long)]
     json: bool,
@@ -38,7 +43,15 @@ pub struct Validate {
 
 impl Validate {
     pub fn obey(self) -> Result<Verdict> {
-        let found: Vec<(&String, Found)> = self.names.iter().map(|name| (name, find(name))).collect();
+        let around = self.constants.surroundings();
+        let mut found: Vec<(&String, Found)> = Vec::new();
+        for name in &self.names {
+            let one = find(name, &around);
+            if let Ok(one) = &one {
+                self.constants.check(name, one)?;
+            }
+            found.push((name, one));
+        }
         let wrong = found.iter().filter(|(_, found)| found.is_err()).count();
         if self.json {
             let files: Vec<Value> = found.iter().map(|(name, found)| as_json(name, found)).collect();
@@ -54,8 +67,8 @@ impl Validate {
 
 /// Finds what a name stands for, and holds plants grown from it against what was published of its species, and against
 /// the architectural model that it names.
-fn find(name: &str) -> Found {
-    let found = named::find(name)?;
+fn find(name: &str, around: &Surroundings) -> Found {
+    let found = named::find_with(name, around)?;
     let report = match &found {
         Named::Run(_) => None,
         Named::Scenario(scenario) => {

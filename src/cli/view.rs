@@ -4,6 +4,7 @@
 //! is `phytomer_outputs::pages`'.
 
 use super::budget::{length, tolerance};
+use super::constants::Constants;
 use super::out::{self, Format};
 use super::regrown::Regrown;
 use super::span::{Span, shown, span};
@@ -63,6 +64,8 @@ pub struct View {
     /// Show no progress.
     #[arg(long, short)]
     quiet: bool,
+    #[command(flatten)]
+    constants: Constants,
 }
 
 impl View {
@@ -72,7 +75,7 @@ impl View {
             return Err(Misuse(format!("--plants: one page has at most {MOST_PLANTS} plants side by side")).into());
         }
         let asked: Vec<Tick> = self.ages.iter().map(Span::until).collect();
-        match Regrown::find(&self.name, &asked)? {
+        match Regrown::find(&self.name, &self.constants, &asked)? {
             Ok(regrown) => self.write(&regrown),
             Err(verdict) => Ok(verdict),
         }

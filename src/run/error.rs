@@ -53,7 +53,7 @@ pub enum RunError {
     #[error("cannot start the threads")]
     Threads(#[source] rayon::ThreadPoolBuildError),
     /// A plant comes to its limit of components before the last age that it is asked for.
-    #[error("{limit} at age {age}, before the age {last} that is asked for")]
+    #[error("{limit}, on the way to the age {age}; the last age that is asked for is {last}")]
     Overgrown {
         /// The plant and the limit.
         limit: Overgrown,

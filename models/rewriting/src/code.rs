@@ -166,6 +166,8 @@ pub(crate) struct Rules {
     pub compete: bool,
     /// Whether any production looks at contexts.
     pub looks: bool,
+    /// Whether any production looks at a left context.
+    pub looks_left: bool,
     /// The most productions within one another.
     pub depth: u32,
     /// What `seed:` of the section adds to the key of its draws.
@@ -202,5 +204,10 @@ impl Script {
     /// The place of the axiom, for what is wrong with no production alone.
     pub fn place(&self) -> Place {
         self.axiom.first().map_or(Place { file: 0, line: 1, column: 1 }, |made| made.place)
+    }
+
+    /// Whether any production looks at a left context.
+    pub fn looks_left(&self) -> bool {
+        [&self.rewriting, &self.decomposition, &self.homomorphism].iter().any(|rules| rules.looks_left)
     }
 }

@@ -14,6 +14,7 @@ mod engine;
 mod evaluate;
 mod fault;
 mod letters;
+mod links;
 mod origins;
 mod outside;
 mod parameters;

@@ -145,7 +145,7 @@ impl Program {
         let arrays = self.script.arrays.iter().map(|array| array.values.clone()).collect();
         let seed = self.settings.seed.unwrap_or(0);
         let variables = Variables { values: vec![0.0; self.script.globals], arrays, seed };
-        let string = ModuleString::new(self.symbols.kinds());
+        let string = ModuleString::new(self.symbols.kinds(), self.script.looks_left());
         let mut derived =
             Derived { string, active: Vec::new(), updated: Vec::new(), variables, cut: Vec::new(), step: 0, random };
         let result = engine::sow(&self.script, &mut derived, self.outside.as_ref(), self.bounds());

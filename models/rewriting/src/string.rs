@@ -1,9 +1,9 @@
-//! The string of modules of one plant: symbols, parameters in one flat column, the identity of each module, and the
-//! order in which modules stand, as links.
+//! The string of modules of one plant: symbols, parameters in one flat column, and the identity of each module.
 //!
 //! A module keeps its [`Slot`] as long as it lives, so that a step touches what it rewrites and nothing else, and a
 //! closing bracket knows its opening one. A slot that is free is used again. Absent: which module becomes what.
 
+use crate::links::{Links, NONE};
 use crate::origins::Origins;
 use crate::parameters::Parameters;
 use crate::symbol::{CLOSE, Kind, OPEN, Symbol};
@@ -27,8 +27,6 @@ impl Slot {
     }
 }
 
-/// No slot: before the first module and after the last.
-pub(crate) const NONE: u32 = u32::MAX;
 /// The kind of a slot that holds no module.
 const FREE: Kind = Kind(u16::MAX);
 
@@ -68,7 +66,7 @@ impl Modules<'_> {
     #[inline]
     pub fn pass(&mut self) -> Option<Slot> {
         let slot = (self.at != NONE).then_some(Slot(self.at))?;
-        self.at = self.string.next[slot.index()];
+        self.at = self.string.links.behind(slot.0);
         Some(slot)
     }
 }
@@ -88,8 +86,7 @@ pub struct ModuleString {
     /// The symbol and the number of parameters of each kind.
     kinds: Box<[(Symbol, u16)]>,
     kind: Vec<Kind>,
-    next: Vec<u32>,
-    previous: Vec<u32>,
+    links: Links,
     /// Where the parameters begin; at a bracket the slot of its partner.
     first: Vec<u32>,
     key: Vec<LineageKey>,
@@ -98,27 +95,23 @@ pub struct ModuleString {
     origins: Origins,
     parameters: Parameters,
     free: Vec<u32>,
-    head: u32,
-    tail: u32,
     length: usize,
 }
 
 impl ModuleString {
-    pub(crate) fn new(kinds: &[(Symbol, u16)]) -> Self {
+    /// A string of no module. Where it is not linked `both_ways`, [`ModuleString::before`] tells nothing.
+    pub(crate) fn new(kinds: &[(Symbol, u16)], both_ways: bool) -> Self {
         let most = kinds.iter().map(|&(_, arity)| usize::from(arity)).max().unwrap_or(0);
         Self {
             kinds: kinds.into(),
             kind: Vec::new(),
-            next: Vec::new(),
-            previous: Vec::new(),
+            links: Links::new(both_ways),
             first: Vec::new(),
             key: Vec::new(),
             origin: Vec::new(),
             origins: Origins::default(),
             parameters: Parameters::new(most),
             free: Vec::new(),
-            head: NONE,
-            tail: NONE,
             length: 0,
         }
     }
@@ -130,7 +123,7 @@ impl ModuleString {
 
     /// How many bytes its modules take: their kinds, links, keys, origins and parameters.
     pub fn bytes(&self) -> usize {
-        let of_module = size_of::<Kind>() + 4 * size_of::<u32>() + size_of::<LineageKey>();
+        let of_module = size_of::<Kind>() + 2 * size_of::<u32>() + self.links.bytes_each() + size_of::<LineageKey>();
         self.length * of_module + self.parameter_count() * size_of::<f64>() + self.origins.bytes()
     }
 
@@ -146,17 +139,13 @@ impl ModuleString {
 
     /// The modules in their order.
     pub fn modules(&self) -> Modules<'_> {
-        Modules { string: self, at: self.head }
+        Modules { string: self, at: self.links.ends()[0] }
     }
 
     /// The slots of the modules in their order.
     pub fn slots_in_order(&self) -> impl Iterator<Item = Slot> {
-        let mut at = self.head;
-        std::iter::from_fn(move || {
-            let slot = (at != NONE).then_some(Slot(at))?;
-            at = self.next[at as usize];
-            Some(slot)
-        })
+        let mut modules = self.modules();
+        std::iter::from_fn(move || modules.pass())
     }
 
     /// The module in a slot that [`ModuleString::modules`] has told.
@@ -219,22 +208,22 @@ impl ModuleString {
 
     #[inline]
     pub(crate) fn after(&self, slot: Slot) -> Option<Slot> {
-        let next = self.next[slot.index()];
+        let next = self.links.behind(slot.0);
         (next != NONE).then_some(Slot(next))
     }
 
     #[inline]
     pub(crate) fn before(&self, slot: Slot) -> Option<Slot> {
-        let previous = self.previous[slot.index()];
+        let previous = self.links.before(slot.0);
         (previous != NONE).then_some(Slot(previous))
     }
 
     pub(crate) fn first_slot(&self) -> Option<Slot> {
-        (self.head != NONE).then_some(Slot(self.head))
+        self.links.ends().first().filter(|slot| **slot != NONE).map(|slot| Slot(*slot))
     }
 
     pub(crate) fn last_slot(&self) -> Option<Slot> {
-        (self.tail != NONE).then_some(Slot(self.tail))
+        self.links.ends().last().filter(|slot| **slot != NONE).map(|slot| Slot(*slot))
     }
 
     /// How many parameters all modules have.
@@ -252,8 +241,7 @@ impl ModuleString {
     pub(crate) fn reserve(&mut self, modules: usize) {
         let more = modules.saturating_sub(self.kind.len());
         self.kind.reserve_exact(more);
-        self.next.reserve_exact(more);
-        self.previous.reserve_exact(more);
+        self.links.reserve(more);
         self.first.reserve_exact(more);
         self.key.reserve_exact(more);
         self.origin.reserve_exact(more);
@@ -285,15 +273,12 @@ impl ModuleString {
 
     /// Puts a new module behind `slot`, or before all others.
     pub(crate) fn insert(&mut self, after: Option<Slot>, kind: Kind, values: &[f64], identity: Identity) -> Slot {
-        let next = after.map_or(self.head, |slot| self.next[slot.index()]);
-        let previous = after.map_or(NONE, |slot| slot.0);
         let first = self.parameters.claim(values);
         let slot = match self.free.pop() {
             Some(free) => free,
             None => {
                 self.kind.push(FREE);
-                self.next.push(NONE);
-                self.previous.push(NONE);
+                self.links.add();
                 self.first.push(0);
                 self.key.push(identity.key);
                 self.origin.push(0);
@@ -303,9 +288,7 @@ impl ModuleString {
         let index = slot as usize;
         (self.kind[index], self.first[index], self.key[index]) = (kind, first, identity.key);
         self.origin[index] = self.origins.claim(identity.predecessor, identity.birth);
-        (self.next[index], self.previous[index]) = (next, previous);
-        self.link(previous, slot);
-        self.link(slot, next);
+        self.links.insert(after.map_or(NONE, |slot| slot.0), slot);
         self.length += 1;
         Slot(slot)
     }
@@ -324,8 +307,7 @@ impl ModuleString {
         modules: impl ExactSizeIterator<Item = (Kind, u32, Identity)> + Clone,
         parameters: &[f64],
     ) -> Slot {
-        let (start, count) = (self.kind.len() as u32, modules.len() as u32);
-        let (base, next) = (self.parameters.values.len() as u32, self.next[after.index()]);
+        let (count, base) = (modules.len() as u32, self.parameters.values.len() as u32);
         if count == 0 {
             return after;
         }
@@ -335,41 +317,20 @@ impl ModuleString {
         self.key.extend(modules.clone().map(|module| module.2.key));
         let origins = &mut self.origins;
         self.origin.extend(modules.map(|module| origins.claim(module.2.predecessor, module.2.birth)));
-        self.next.extend((start + 1..start + count).chain([next]));
-        self.previous.extend([after.0].into_iter().chain(start..start + count - 1));
-        self.link(after.0, start);
-        self.link(start + count - 1, next);
         self.length += count as usize;
-        Slot(start)
+        Slot(self.links.insert_row(after.0, count))
     }
 
     /// Takes a module out; returns the slot before it.
     pub(crate) fn remove(&mut self, slot: Slot) -> Option<Slot> {
         let index = slot.index();
-        let (previous, next) = (self.previous[index], self.next[index]);
-        match (previous, next) {
-            (NONE, NONE) => (self.head, self.tail) = (NONE, NONE),
-            (NONE, next) => (self.head, self.previous[next as usize]) = (next, NONE),
-            (previous, NONE) => (self.tail, self.next[previous as usize]) = (previous, NONE),
-            _ => self.link(previous, next),
-        }
+        let previous = self.links.remove(slot.0);
         self.parameters.release(self.first[index], self.arity(self.kind[index]));
         self.origins.release(self.origin[index]);
         self.kind[index] = FREE;
         self.free.push(slot.0);
         self.length -= 1;
         (previous != NONE).then_some(Slot(previous))
-    }
-
-    fn link(&mut self, before: u32, after: u32) {
-        match before {
-            NONE => self.head = after,
-            before => self.next[before as usize] = after,
-        }
-        match after {
-            NONE => self.tail = before,
-            after => self.previous[after as usize] = before,
-        }
     }
 
     #[inline]

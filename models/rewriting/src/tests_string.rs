@@ -9,13 +9,20 @@ fn identity(key: u64) -> Identity {
     Identity { key: LineageKey(key), birth: (key / 3) as u32, predecessor: LineageKey(key / 5) }
 }
 
-/// Modules put in, rewritten and taken out at any place are those of a plain list.
+/// Modules put in, rewritten and taken out at any place are those of a plain list, whether the string is linked both
+/// ways from the beginning or from the first module on that is taken out.
 #[test]
 fn a_string_is_a_list() {
+    for both_ways in [true, false] {
+        in_any_order(both_ways);
+    }
+}
+
+fn in_any_order(both_ways: bool) {
     let mut table = SymbolTable::new();
     let symbol = table.add("A");
     let kinds: Vec<Kind> = (0..3).map(|arity| table.kind(symbol, arity)).collect();
-    let mut string = ModuleString::new(table.kinds());
+    let mut string = ModuleString::new(table.kinds(), both_ways);
     let mut list: Vec<(Slot, Vec<f64>)> = Vec::new();
     let mut state = 1_u64;
     for step in 0..20_000_u64 {
@@ -53,6 +60,9 @@ fn a_string_is_a_list() {
         let told: Vec<(Slot, Vec<f64>)> = string.modules().map(|m| (m.slot, m.parameters.to_vec())).collect();
         assert_eq!(told, list);
     }
+    for pair in list.windows(2) {
+        assert_eq!((string.after(pair[0].0), string.before(pair[1].0)), (Some(pair[1].0), Some(pair[0].0)));
+    }
     for &(slot, _) in &list {
         let Identity { key, birth, predecessor } = string.identity(slot);
         assert_eq!((u64::from(birth), predecessor.0), (key.0 / 3, key.0 / 5), "each module has its origin");
@@ -66,7 +76,7 @@ fn parameters_of_no_module_do_not_pile_up() {
     let mut table = SymbolTable::new();
     let symbol = table.add("A");
     let kinds: Vec<Kind> = (0..9).map(|arity| table.kind(symbol, arity)).collect();
-    let mut string = ModuleString::new(table.kinds());
+    let mut string = ModuleString::new(table.kinds(), false);
     let slots: Vec<Slot> = (0..5000).map(|key| string.insert(None, kinds[0], &[], identity(key))).collect();
     for arity in (1..9).chain(1..9) {
         for (number, &slot) in slots.iter().enumerate() {

@@ -187,6 +187,7 @@ impl Axes {
         self.spent[axis.index()] = tick;
     }
 
+    #[inline]
     pub(super) fn push(&mut self, axis: NewAxis, component: u32) -> AxisId {
         let id = AxisId(self.len() as u32);
         self.push_columns(axis, component);

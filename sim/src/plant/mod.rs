@@ -376,6 +376,7 @@ impl Plant {
         T::from(self.organs.area[organ.index()]) * share * share
     }
 
+    #[inline]
     fn number(&mut self) -> u32 {
         let component = self.components;
         self.components += 1;
@@ -384,6 +385,7 @@ impl Plant {
 }
 
 /// The lineage key of a component that is named by its number.
+#[inline]
 fn numbered(component: u32) -> LineageKey {
     LineageKey::SEED.child(key::Place::Numbered.on(component))
 }

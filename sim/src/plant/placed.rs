@@ -21,11 +21,13 @@ impl Plant {
     }
 
     /// Adds an axis with a component number that was given before; its key follows from the number.
+    #[inline]
     pub fn place_axis(&mut self, axis: NewAxis, component: u32) -> AxisId {
         self.axes.push(NewAxis { key: numbered(component), ..axis }, component)
     }
 
     /// Adds an internode with its node at the tip of its axis, with a component number that was given before.
+    #[inline]
     pub fn place_node(&mut self, node: NewNode, component: u32) -> NodeId {
         let id = self.nodes.push(node, component);
         self.axes.grown(node.axis, id);
@@ -33,14 +35,18 @@ impl Plant {
     }
 
     /// Adds an organ to a node, with a component number that was given before.
+    #[inline]
     pub fn place_organ(&mut self, organ: NewOrgan, component: u32) -> OrganId {
         self.organs.push(organ, component)
     }
 
     /// A new component number, of a component that the component `bearer` bears at its birth.
+    #[inline]
     pub fn next_number_on(&mut self, bearer: Option<u32>) -> u32 {
         let number = self.next_number();
-        self.bearers.resize(number as usize, NOTHING);
+        if self.bearers.len() != number as usize {
+            self.bearers.resize(number as usize, NOTHING);
+        }
         self.bearers.push(bearer.unwrap_or(NOTHING));
         number
     }

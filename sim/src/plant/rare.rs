@@ -24,8 +24,13 @@ impl<T: Copy + Default> Rare<T> {
     }
 
     /// States the value at a place.
+    #[inline]
     pub fn set(&mut self, place: usize, value: T) {
-        if self.values.len() <= place {
+        if self.values.len() == place {
+            self.values.push(value);
+            return;
+        }
+        if self.values.len() < place {
             self.values.resize(place + 1, T::default());
         }
         self.values[place] = value;

@@ -89,6 +89,7 @@ impl Column {
         if heading == [0.0; 3] { Rest::Follows } else { Rest::Heading(heading) }
     }
 
+    #[inline]
     fn state(&mut self, place: usize, rest: Rest) {
         let (turn, heading) = match rest {
             Rest::Follows => ([0.0; 4], [0.0; 3]),
@@ -194,6 +195,7 @@ impl StatedFrames {
 }
 
 /// The part under which statements are kept: for the first node of an axis the axis.
+#[inline]
 fn one_entry(nodes: &Nodes, part: Part) -> Part {
     match part {
         Part::Node(node) if nodes.rank[node.index()] == 1 => Part::Axis(nodes.axis[node.index()]),
@@ -213,7 +215,24 @@ impl Plant {
         self.pose_again(part);
     }
 
+    /// States both how a node or an axis is turned in the frame of its bearer and where it begins, as
+    /// [`Plant::state_rest`] and [`Plant::state_start`] do.
+    #[inline]
+    pub fn state_frame(&mut self, part: impl Into<Part>, turn: Rotation, offset: [f32; 3]) {
+        let part = one_entry(&self.nodes, part.into());
+        let (column, place) = match part {
+            Part::Axis(axis) => (&mut self.stated.axes, axis.index()),
+            Part::Node(node) => (&mut self.stated.nodes, node.index()),
+        };
+        column.state(place, Rest::Turned(turn));
+        if offset != [0.0; 3] || !column.starts.is_empty() {
+            column.starts.set(place, offset);
+        }
+        self.pose_again(part);
+    }
+
     /// Forgets all frames if the frame of `part` may have been made.
+    #[inline]
     fn pose_again(&mut self, part: Part) {
         let appeared = match part {
             Part::Axis(axis) => self.axes.appearance[axis.index()],

@@ -50,6 +50,7 @@ pub(super) fn rules(section: &Section, context: &mut Context<'_, '_>, faults: &m
             rules.by_kind[kind].push(rules.rules.len() as u32);
         }
         rules.compete |= rule.weight.is_some();
+        rules.looks_left |= !rule.left.is_empty();
         rules.looks |= !rule.left.is_empty() || !rule.right.is_empty();
         rules.rules.push(rule);
     }

@@ -83,7 +83,7 @@ pub(super) fn rewrite(
         parameters: derived.string.parameter_count(),
         most: bounds.modules,
     };
-    let mut string = std::mem::replace(&mut derived.string, ModuleString::new(&[]));
+    let mut string = std::mem::replace(&mut derived.string, ModuleString::new(&[], false));
     let mut machine = machine(script, derived, outside, &random, bounds);
     let result = rewriting.reserve(&before, &mut string).and_then(|()| {
         if looks {

@@ -11,7 +11,7 @@ use crate::lsystem::turtle::{Frame, Vector};
 use phytomer_looks::FormName;
 use phytomer_sim::clock::NEVER;
 use phytomer_sim::plant::{
-    ApexFate, AxisId, Cause, Class, Kind, LineageKey, NewAxis, NewNode, NewOrgan, NodeId, Origin, Part, Plant, Rest,
+    ApexFate, AxisId, Cause, Class, Kind, LineageKey, NewAxis, NewNode, NewOrgan, NodeId, Origin, Part, Plant,
 };
 use phytomer_sim::rotation::Rotation;
 
@@ -170,24 +170,22 @@ impl Bearer<'_> {
 fn bearing<'d>(draft: &'d Draft, node: u32, to: &Places) -> Bearer<'d> {
     let place = if node == BASE { to.first } else { Some(node as usize) };
     let Some(node) = place.map(|place| &draft.nodes[place]) else { return Bearer::GROUND };
-    let mut end = node.frame;
-    end.go(node.length);
-    Bearer { frame: &node.frame, tip: end.position }
+    Bearer { frame: &node.frame, tip: node.tip() }
 }
 
 /// How a frame is turned in that of its bearer, and where it begins from the tip of that, metres.
 #[inline]
 fn relative(bearer: &Bearer<'_>, frame: &Frame, step: f64) -> (Rotation, [f32; 3]) {
     let turned = Rotation::to(bearer.frame.coordinates(frame.heading), bearer.frame.coordinates(frame.up));
-    let beside = [0, 1, 2].map(|i| frame.position[i] - bearer.tip[i]);
-    (turned, bearer.frame.coordinates(beside).map(|along| metres(along * step)))
+    let ([x, y, z], tip) = (frame.position, bearer.tip);
+    let [along, left, up] = bearer.frame.coordinates([x - tip[0], y - tip[1], z - tip[2]]);
+    (turned, [metres(along * step), metres(left * step), metres(up * step)])
 }
 
 #[inline]
 fn state(plant: &mut Plant, part: Part, bearer: &Bearer<'_>, frame: &Frame, step: f64) {
     let (turned, start) = relative(bearer, frame, step);
-    plant.state_rest(part, Rest::Turned(turned));
-    plant.state_start(part, start);
+    plant.state_frame(part, turned, start);
 }
 
 fn write_organ(

@@ -28,8 +28,10 @@ impl Curves {
         let [number, x, ..] = *arguments else { return Ok(0.0) };
         let most = self.0.len();
         let place = if number >= 1.0 && number < most as f64 + 1.0 { number as usize - 1 } else { most };
-        let problem =
-            || (format!("there is no function {number}"), format!("a function from 1 to {most} of the view file"));
+        let problem = || match most {
+            0 => ("the view file states no function".to_owned(), "a view file with a line `function:`".to_owned()),
+            _ => (format!("there is no function {number}"), format!("a function from 1 to {most} of the view file")),
+        };
         self.0.get(place).map(|function| function.at(x)).ok_or_else(problem)
     }
 

@@ -33,6 +33,15 @@ pub(super) struct Internode {
     pub colour: i32,
 }
 
+impl Internode {
+    /// Where it ends.
+    #[inline]
+    pub fn tip(&self) -> Vector {
+        let Frame { position: [x, y, z], heading, .. } = self.frame;
+        [x + self.length * heading[0], y + self.length * heading[1], z + self.length * heading[2]]
+    }
+}
+
 /// A leaf, a flower, a fruit, or a bud in an axil.
 #[derive(Debug, Clone)]
 pub(super) struct Organ {
@@ -167,19 +176,10 @@ impl<'w> Walk<'w> {
         match turtle.follow(command, drawn.parameters)? {
             Drawing::Line { from, length, width, contour } if !silent => {
                 let kind = if let Role::Internode(kind) = role { kind } else { Kind::Internode };
-                let node = Internode {
-                    key: drawn.key,
-                    module: drawn.key,
-                    axis: 0,
-                    below: BASE,
-                    frame: from,
-                    length,
-                    width,
-                    section: view.section(contour),
-                    kind,
-                    colour,
-                };
-                self.add_node(node);
+                let (key, frame, section) = (drawn.key, from, view.section(contour));
+                let (axis, below, module) = self.place_node();
+                let node = Internode { key, module, axis, below, frame, length, width, section, kind, colour };
+                self.draft.nodes.push(node);
             }
             Drawing::Polygon { from, corners } => {
                 let outline = draft.add_outline(corners.iter().copied());
@@ -213,8 +213,6 @@ impl<'w> Walk<'w> {
     pub fn end(mut self) {
         self.pass_to(None);
         let draft = self.draft;
-        draft.first = draft.nodes.iter().position(|node| node.axis == 0);
-        draft.has_base = draft.stands_at_base();
         if draft.first.is_none() && draft.has_base {
             let frame = Frame::START;
             let foot = Internode {
@@ -266,12 +264,14 @@ impl<'w> Walk<'w> {
     }
 
     /// Whence a module comes; the seed where there is none.
+    #[inline]
     fn identity(&self, module: Option<Slot>) -> Identity {
         let seed = Identity { key: LineageKey::SEED, birth: 0, predecessor: LineageKey::SEED };
         module.map_or(seed, |slot| self.string.identity(slot))
     }
 
     /// Puts a component that is a module, or that is drawn for it, in the order of the string.
+    #[inline]
     fn place(&mut self, item: Item, of: &Identity) {
         self.draft.order.push(Placed { item, is_new: of.birth == self.step });
     }
@@ -303,6 +303,7 @@ impl<'w> Walk<'w> {
         let bearing = if self.at.last == BASE { 0 } else { self.draft.nodes[self.at.last as usize].axis };
         let order = self.draft.axes[bearing as usize].order.saturating_add(1);
         let Bracket { key, module, last: on, .. } = self.at;
+        self.draft.has_base |= on == BASE;
         let module = self.identity(module);
         self.draft.axes.push(Axis { key, module: module.key, on, order, apex: None });
         self.place(Item::Axis(axis as usize), &module);
@@ -310,16 +311,25 @@ impl<'w> Walk<'w> {
         axis
     }
 
-    fn add_node(&mut self, node: Internode) {
+    /// Places an internode that is about to be added: its axis, what is below it, and its module.
+    #[inline]
+    fn place_node(&mut self) -> (u32, u32, LineageKey) {
         let axis = self.axis();
         let (place, module) = (self.draft.nodes.len(), self.identity(self.of));
-        self.draft.nodes.push(Internode { axis, below: self.at.last, module: module.key, ..node });
+        let below = self.at.last;
+        if axis > 0 {
+            self.draft.has_base |= below == BASE;
+        } else if self.draft.first.is_none() {
+            self.draft.first = Some(place);
+        }
         self.place(Item::Node(place), &module);
         self.at.last = place as u32;
+        (axis, below, module.key)
     }
 
     fn add_organ(&mut self, key: LineageKey, kind: Kind, frame: Frame, size: f64, form: Form, colour: i32) {
         let of = self.identity(self.of);
+        self.draft.has_base |= self.at.last == BASE;
         self.place(Item::Organ(self.draft.organs.len()), &of);
         let (module, predecessor) = (of.key, of.predecessor);
         self.draft.organs.push(Organ { key, module, on: self.at.last, frame, kind, size, form, colour, predecessor });
@@ -373,13 +383,6 @@ impl Draft {
     pub fn lines(&self) -> &[Internode] {
         let is_foot = self.nodes.last().is_some_and(|last| last.key == foot_key());
         &self.nodes[..self.nodes.len() - usize::from(is_foot)]
-    }
-
-    /// Whether anything but the first internode of the trunk stands at the base.
-    fn stands_at_base(&self) -> bool {
-        self.nodes.iter().any(|node| node.below == BASE && node.axis != 0)
-            || self.axes.iter().skip(1).any(|axis| axis.on == BASE)
-            || self.organs.iter().any(|organ| organ.on == BASE)
     }
 }
 

@@ -70,8 +70,7 @@ struct Near {
 
 impl Near {
     fn of(asked: &[Asked], nodes: &[Internode], radius: f64) -> Self {
-        let tip = |node: &Internode| [0, 1, 2].map(|i| node.frame.position[i] + node.length * node.frame.heading[i]);
-        let nodes = nodes.iter().enumerate().map(|(number, node)| (tip(node), Owner::Node(number as u32)));
+        let nodes = nodes.iter().enumerate().map(|(number, node)| (node.tip(), Owner::Node(number as u32)));
         let queries = asked.iter().enumerate().map(|(number, asked)| (asked.at, Owner::Query(number)));
         let in_cell = |(point, owner)| (cell(point, radius), point, owner);
         let mut points: Vec<_> = nodes.chain(queries).map(in_cell).collect();

@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 
 /// What is to be noted of a tick, by the numbers of buds, and the buds of the axes in the columns before.
 pub(super) struct Noted {
+    /// Whether the plant keeps events.
+    keeps: bool,
     buds: Vec<u32>,
     new: BTreeMap<(u32, EventKind), u32>,
 }
@@ -16,13 +18,16 @@ pub(super) struct Noted {
 impl Noted {
     /// Nothing yet, before the columns of a plant are emptied.
     pub fn before(plant: &Plant) -> Self {
-        let buds = if plant.events.is_some() { plant.axes.component.clone() } else { Vec::new() };
-        Self { buds, new: BTreeMap::new() }
+        let keeps = plant.events.is_some();
+        let buds = if keeps { plant.axes.component.clone() } else { Vec::new() };
+        Self { keeps, buds, new: BTreeMap::new() }
     }
 
     /// An event of the bud with a number; events of a kind add up.
     pub fn add(&mut self, bud: u32, kind: EventKind, count: u32) {
-        *self.new.entry((bud, kind)).or_default() += count;
+        if self.keeps {
+            *self.new.entry((bud, kind)).or_default() += count;
+        }
     }
 }
 

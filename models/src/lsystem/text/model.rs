@@ -18,6 +18,7 @@ use phytomer_sim::model::{Grow, Growth, Overgrown};
 use phytomer_sim::plant::{ApexFate, AxisId, Class, EventKind, Habit, NodeId, OrganId, Plant, Shape};
 use phytomer_sim::random::PlantRandom;
 use phytomer_sim::site::View;
+use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -43,15 +44,19 @@ pub struct Life {
     derived: Result<Derived, Arc<str>>,
     script: Arc<Script>,
     numbers: Numbers,
-    scratch: Scratch,
+    turtle: Turtle,
 }
 
-/// Memory that is used again at each tick.
-#[derive(Debug, Clone)]
+/// Memory that is used again at each tick, and from plant to plant.
+#[derive(Debug, Default)]
 struct Scratch {
-    turtle: Turtle,
     draft: Draft,
     numbered: Numbered,
+}
+
+thread_local! {
+    /// The scratch of a thread, so that a plot of many plants needs no more of it. It is taken out while it is used.
+    static SCRATCH: Cell<Scratch> = Cell::default();
 }
 
 impl PartialEq for Life {
@@ -73,7 +78,8 @@ impl PartialEq for Life {
 struct Drawing<'d> {
     model: &'d TextModel,
     script: &'d Script,
-    scratch: &'d mut Scratch,
+    turtle: &'d mut Turtle,
+    draft: &'d mut Draft,
     /// Whether the string as it is now was drawn.
     drawn: bool,
 }
@@ -103,8 +109,7 @@ impl Drawing<'_> {
         derived: &Derived,
         mut answer: impl FnMut(&Drawn<'_>, Query, &Walk<'_>),
     ) -> Result<(), Stopped> {
-        let Scratch { turtle, draft, .. } = &mut *self.scratch;
-        let mut walk = Walk::begin(&self.script.roles, &self.model.view, turtle, draft, derived);
+        let mut walk = Walk::begin(&self.script.roles, &self.model.view, self.turtle, self.draft, derived);
         program.draw(derived, |drawn| {
             if let Some(query) = walk.go_on(&drawn) {
                 answer(&drawn, query, &walk);
@@ -135,7 +140,7 @@ impl Interpreter for Drawing<'_> {
         });
         told.map_err(|stopped| (stopped.problem, stopped.expected))?;
         let Some(environment) = &self.model.environment else { return Ok(()) };
-        let values = environment.answers(&asked, self.scratch.draft.lines(), self.model.measures.step);
+        let values = environment.answers(&asked, self.draft.lines(), self.model.measures.step);
         for (Asked { query, rest: [second, third], .. }, value) in asked.into_iter().zip(values) {
             if !value.is_finite() {
                 return Err((format!("the answer to a query `?E` is {value}"), "a finite number".to_owned()));
@@ -163,10 +168,10 @@ impl TextModel {
     /// # Errors
     /// Why a step cannot be made.
     pub fn derive(&self, random: PlantRandom, steps: Tick) -> Result<Derived, Stopped> {
-        let (draft, numbered) = (Draft::default(), Numbered::default());
-        let mut scratch = Scratch { turtle: self.turtle.clone(), draft, numbered };
+        let (mut turtle, mut draft) = (self.turtle.clone(), Draft::default());
         let Script { program, .. } = &*self.script;
-        let mut drawing = Drawing { model: self, script: &self.script, scratch: &mut scratch, drawn: false };
+        let mut drawing =
+            Drawing { model: self, script: &self.script, turtle: &mut turtle, draft: &mut draft, drawn: false };
         let mut derived = program.sow(random, &mut drawing)?;
         for _ in 0..steps {
             program.step(&mut derived, &mut drawing)?;
@@ -175,9 +180,9 @@ impl TextModel {
     }
 
     /// Draws a plant's string and writes its columns, at `age`; what stood before and stands no more departs.
-    fn stand(&self, age: Tick, plant: &mut Plant, life: &mut Life) -> Result<(), Overgrown> {
-        let Life { derived: Ok(derived), script, numbers, scratch } = life else { return Ok(()) };
-        let Scratch { draft, numbered, .. } = scratch;
+    fn stand(&self, age: Tick, plant: &mut Plant, life: &mut Life, scratch: &mut Scratch) -> Result<(), Overgrown> {
+        let Life { derived: Ok(derived), script, numbers, .. } = life else { return Ok(()) };
+        let Scratch { draft, numbered } = scratch;
         numbers.number(draft, age, plant, numbered);
         if plant.is_overgrown() {
             return Err(Overgrown::of(plant));
@@ -195,6 +200,19 @@ impl TextModel {
         plant.age = age;
         events::note(plant, age, noted);
         Ok(())
+    }
+
+    /// Makes a step, and writes the plant that the string describes then.
+    fn step(&self, plant: &mut Plant, life: &mut Life, scratch: &mut Scratch) -> Result<(), Overgrown> {
+        let Life { derived, script, turtle, .. } = &mut *life;
+        let derived = derived.as_mut().map_err(|why| Overgrown::stopped(plant, why))?;
+        let draft = &mut scratch.draft;
+        if let Err(stopped) = (Drawing { model: self, script, turtle, draft, drawn: false }).step(derived) {
+            let why: Arc<str> = stopped.to_string().into();
+            life.derived = Err(Arc::clone(&why));
+            return Err(Overgrown::stopped(plant, &why));
+        }
+        self.stand(plant.age + 1, plant, life, scratch)
     }
 
     /// The script of a plant: its own where plants draw constants.
@@ -305,20 +323,21 @@ impl Grow for TextModel {
 
     fn sow(&self, plant: &mut Plant) -> Life {
         plant.name_by_number();
-        let (draft, numbered) = (Draft::default(), Numbered::default());
-        let mut scratch = Scratch { turtle: self.turtle.clone(), draft, numbered };
+        let (mut turtle, mut scratch) = (self.turtle.clone(), SCRATCH.take());
         let own = self.script_of(plant);
         let script = own.as_ref().unwrap_or(&self.script);
-        let mut drawing = Drawing { model: self, script, scratch: &mut scratch, drawn: false };
+        let draft = &mut scratch.draft;
+        let mut drawing = Drawing { model: self, script, turtle: &mut turtle, draft, drawn: false };
         let sown = drawing.sow(plant).map_err(|stopped| stopped.to_string().into());
         let derived = own.clone().and(sown);
         let script = Arc::clone(script);
-        let mut life = Life { derived, script, numbers: Numbers::default(), scratch };
+        let mut life = Life { derived, script, numbers: Numbers::default(), turtle };
         if life.derived.is_ok()
-            && let Err(overgrown) = self.stand(0, plant, &mut life)
+            && let Err(overgrown) = self.stand(0, plant, &mut life, &mut scratch)
         {
             life.derived = Err(overgrown.to_string().into());
         }
+        SCRATCH.set(scratch);
         if life.derived.is_err() {
             plant.begin_rewriting();
             events::sow_alone(plant);
@@ -327,18 +346,13 @@ impl Grow for TextModel {
     }
 
     fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Life, _: &View<'_>) -> Result<(), Overgrown> {
-        while plant.age < age {
-            let Life { derived, script, scratch, .. } = &mut *life;
-            let derived = derived.as_mut().map_err(|why| Overgrown::stopped(plant, why))?;
-            let done = Drawing { model: self, script, scratch, drawn: false }.step(derived);
-            if let Err(stopped) = done {
-                let why: Arc<str> = stopped.to_string().into();
-                life.derived = Err(Arc::clone(&why));
-                return Err(Overgrown::stopped(plant, &why));
-            }
-            self.stand(plant.age + 1, plant, life)?;
+        let mut scratch = SCRATCH.take();
+        let mut grown = Ok(());
+        while grown.is_ok() && plant.age < age {
+            grown = self.step(plant, life, &mut scratch);
         }
-        Ok(())
+        SCRATCH.set(scratch);
+        grown
     }
 
     /// A line has its own width where it begins; where lines are tapered it ends with the width of the line that

@@ -37,8 +37,9 @@ impl Frame {
     }
 
     /// A vector in the coordinates of the frame: along H, L and U.
+    #[inline]
     pub fn coordinates(&self, vector: Vector) -> Vector {
-        [self.heading, self.left, self.up].map(|axis| dot(axis, vector))
+        [dot(self.heading, vector), dot(self.left, vector), dot(self.up, vector)]
     }
 
     /// Turns by the angle of a sine and a cosine about one of its axes.
@@ -50,8 +51,8 @@ impl Frame {
             Axis::Heading => (&mut self.left, &mut self.up),
         };
         let (a, b) = (*first, *second);
-        *first = [0, 1, 2].map(|i| cos * a[i] + sin * b[i]);
-        *second = [0, 1, 2].map(|i| cos * b[i] - sin * a[i]);
+        *first = [cos * a[0] + sin * b[0], cos * a[1] + sin * b[1], cos * a[2] + sin * b[2]];
+        *second = [cos * b[0] - sin * a[0], cos * b[1] - sin * a[1], cos * b[2] - sin * a[2]];
     }
 
     /// Half a turn about U.
@@ -85,7 +86,7 @@ impl Frame {
         let square = dot(torque, torque);
         if square > NOTHING {
             let length = square.sqrt();
-            self.rotate(torque.map(|x| x / length), elasticity * length);
+            self.rotate([torque[0] / length, torque[1] / length, torque[2] / length], elasticity * length);
         }
     }
 
@@ -118,6 +119,7 @@ impl Frame {
     }
 
     /// Turns by an angle about a unit vector.
+    #[inline]
     fn rotate(&mut self, axis: Vector, angle: f64) {
         let (sin, cos) = sincos(angle);
         self.rotate_by(axis, sin, cos);
@@ -127,7 +129,8 @@ impl Frame {
     fn rotate_by(&mut self, axis: Vector, sin: f64, cos: f64) {
         for vector in [&mut self.heading, &mut self.left, &mut self.up] {
             let (across, along) = (cross(axis, *vector), (1.0 - cos) * dot(axis, *vector));
-            *vector = [0, 1, 2].map(|i| cos * vector[i] + sin * across[i] + along * axis[i]);
+            let turned = |i: usize| cos * vector[i] + sin * across[i] + along * axis[i];
+            *vector = [turned(0), turned(1), turned(2)];
         }
     }
 }

@@ -47,8 +47,8 @@ pub struct State {
     pub scale: f64,
     /// The susceptibility e to the tropism.
     elasticity: f64,
-    /// The frame and the width with which a generalised cylinder goes on.
-    spline: Option<(Frame, f64)>,
+    /// The place, among those of the turtle, of the frame and the width with which a generalised cylinder goes on.
+    spline: Option<u32>,
     /// The number of the contour of generalised cylinders; 0 for a circle.
     contour: i32,
 }
@@ -101,12 +101,23 @@ pub enum Drawing<'t> {
     Query(Query),
 }
 
+/// What an open bracket gives back, and how many susceptibilities had changed and splines were kept before it.
+#[derive(Debug, Clone, Copy)]
+struct Saved {
+    state: State,
+    changed: usize,
+    splines: usize,
+}
+
 /// A turtle.
 #[derive(Debug, Clone)]
 pub struct Turtle {
     state: State,
-    /// What each open bracket gives back, and how many susceptibilities had changed before it.
-    stack: Vec<(State, usize)>,
+    /// What each open bracket gives back.
+    stack: Vec<Saved>,
+    /// The frames and the widths with which generalised cylinders go on, of the turtle and of open brackets: few states
+    /// have one, and all are copied.
+    splines: Vec<(Frame, f64)>,
     /// The corners of open polygons, all in one list; where the corners of each begin, and where the turtle was.
     corners: Vec<Vector>,
     polygons: Vec<(usize, Frame)>,
@@ -128,6 +139,7 @@ impl Turtle {
         let mut turtle = Self {
             state,
             stack: Vec::new(),
+            splines: Vec::new(),
             corners: Vec::new(),
             polygons: Vec::new(),
             ended: Vec::new(),
@@ -144,6 +156,7 @@ impl Turtle {
     pub fn restart(&mut self) {
         self.state = State::first(&self.settings);
         self.stack.clear();
+        self.splines.clear();
         self.corners.clear();
         self.polygons.clear();
         self.ended.clear();
@@ -234,7 +247,8 @@ impl Turtle {
 
     fn move_by(&mut self, length: f64, corner: bool) {
         self.state.frame.go(length);
-        self.state.frame.position = self.state.frame.position.map(bounded);
+        let [x, y, z] = self.state.frame.position;
+        self.state.frame.position = [bounded(x), bounded(y), bounded(z)];
         if corner && !self.polygons.is_empty() {
             self.corners.push(self.state.frame.position);
         }
@@ -244,12 +258,13 @@ impl Turtle {
     }
 
     fn open(&mut self) {
-        self.stack.push((self.state, self.changed.len()));
+        self.stack.push(Saved { state: self.state, changed: self.changed.len(), splines: self.splines.len() });
     }
 
     fn close(&mut self) {
-        let Some((state, changed)) = self.stack.pop() else { return };
+        let Some(Saved { state, changed, splines }) = self.stack.pop() else { return };
         self.state = state;
+        self.splines.truncate(splines);
         for (number, before) in self.changed.drain(changed..).rev() {
             self.elasticities[number] = before;
         }
@@ -308,14 +323,18 @@ impl Turtle {
     }
 
     fn spline(&mut self, part: Spline) -> Option<()> {
-        let here = (self.state.frame, self.state.width);
-        self.state.spline = (part != Spline::End).then_some(here);
+        self.splines.truncate(self.stack.last().map_or(0, |saved| saved.splines));
+        self.state.spline = (part != Spline::End).then_some(self.splines.len() as u32);
+        if part != Spline::End {
+            self.splines.push((self.state.frame, self.state.width));
+        }
         Some(())
     }
 
     /// The line of a generalised cylinder from its last point to here.
     fn cylinder(&mut self, part: Spline) -> Option<Drawing<'_>> {
         let before = self.state.spline.filter(|_| part != Spline::Start);
+        let before = before.and_then(|place| self.splines.get(place as usize)).copied();
         self.spline(part);
         let (before, width) = before?;
         let along = [0, 1, 2].map(|i| self.state.frame.position[i] - before.position[i]);
@@ -323,7 +342,8 @@ impl Turtle {
         let untwisted = self.settings.untwisted;
         let mut from = if untwisted { before } else { Frame { position: before.position, ..self.state.frame } };
         from.head(along);
-        if let Some((next, _)) = self.state.spline.as_mut().filter(|_| untwisted) {
+        let next = self.state.spline.filter(|_| untwisted);
+        if let Some((next, _)) = next.and_then(|place| self.splines.get_mut(place as usize)) {
             // The next part goes on from the frame of this one.
             *next = Frame { position: next.position, ..from };
         }
