@@ -2,8 +2,8 @@
 //! ticks themselves they are the recorded plants to the byte.
 //!
 //! Places of components are compared by their numbers from moment to moment. Plants of buds, one that bends among them,
-//! one that is made anew, one that stands there at once, and L-systems whose rules put internodes between others and take
-//! some away are shown. Absent: pictures and films of them (`tests/films.rs`), and their lives (`tests/lives.rs`).
+//! one that is made anew, one that stands there at once, and L-systems whose rules put internodes between others and
+//! take some away are shown. Absent: pictures and films of them (`tests/films.rs`), and their lives (`tests/lives.rs`).
 
 use phytomer::config::{Resolved, validate_texts};
 use phytomer::outputs::meshes::{Chunk, MeshOptions, Scene};

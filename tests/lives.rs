@@ -157,7 +157,8 @@ fn an_axis_into_which_internodes_are_put_comes_back_at_each_age() {
     }
 }
 
-/// Between ticks a life is the plant on its way: what appears grows from next to nothing, and what falls goes at the end.
+/// Between ticks a life is the plant on its way: what appears grows from next to nothing, and what falls goes at the
+/// end.
 #[test]
 fn a_life_between_ticks_grows() {
     let ages = [0.0, 3.25, 4.5, 5.75, 6.0].map(|age| Moment::of(age).unwrap());

@@ -48,8 +48,9 @@ pub struct Scene<'a> {
     pub style: Picture,
     /// The ages, of a plot the ticks.
     pub time: Timeline,
-    /// Whether the ages are those of steps that were stated, and no others are looked at.
-    pub stepped: bool,
+    /// Whether the camera is placed by every tick from the first age to the last, so that one camera serves any age
+    /// between; else by the ages that are shown.
+    pub every_tick: bool,
     /// Frames a second.
     pub fps: u32,
     /// How far the viewer walks around the plants over the film, counterclockwise from above, radians.
@@ -177,17 +178,15 @@ impl Scene<'_> {
         held.iter().map(times).collect()
     }
 
-    /// The ages by which the camera is placed, with their times: where it follows, in steps and in moving air those that
-    /// are shown, else the first, the last and all ticks between, so that one camera serves any age.
+    /// The ages by which the camera is placed, with their times: where it follows and in moving air always those that
+    /// are shown.
     fn surveyed(&self, held: &[(u32, u32)]) -> Vec<(Moment, Vec<f64>)> {
-        let shown = self.times(held);
-        let (Some((first, _)), Some((last, _))) = (shown.first(), shown.last()) else { return shown };
-        if self.stepped || self.follow || self.air_from.is_some() {
-            return shown;
-        }
-        let ticks = (first.tick()..=last.tick()).map(Moment::from).filter(|tick| tick < last);
-        let ages = [*first].into_iter().chain(ticks.filter(|tick| first < tick)).chain([*last]);
-        let mut ages: Vec<Moment> = ages.collect();
+        let ends = Moment::of(self.time.first).zip(Moment::of(self.time.last));
+        let Some((first, last)) = ends.filter(|_| self.every_tick && !self.follow && self.air_from.is_none()) else {
+            return self.times(held);
+        };
+        let ticks = (first.tick()..=last.tick()).map(Moment::from).filter(|tick| first < *tick && *tick < last);
+        let mut ages: Vec<Moment> = [first].into_iter().chain(ticks).chain([last]).collect();
         ages.dedup();
         ages.into_iter().map(|age| (age, vec![0.0])).collect()
     }

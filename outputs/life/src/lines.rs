@@ -256,8 +256,8 @@ impl Showing<'_, '_> {
 }
 
 impl Lines {
-    /// The line of an axis, which is begun where it does not stand: that of the key, or the next one that was not seen at
-    /// this age, since what has gone from an axis may be shown beside what takes its place.
+    /// The line of an axis, which is begun where it does not stand: that of the key, or the next one that was not seen
+    /// at this age, since what has gone from an axis may be shown beside what takes its place.
     fn line(&mut self, mut key: (u32, u32), bearer: Option<u32>, order: u8, age: f32) -> (u32, (u32, u32)) {
         let known = loop {
             let known = self.known.get(&key).copied().filter(|line| self.lines[*line as usize].stands);

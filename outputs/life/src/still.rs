@@ -1,8 +1,8 @@
 //! Which axes stand as they stood at the age before, so that their lines need not be looked at again.
 //!
-//! Of each internode place, direction, length and diameters are remembered, and of each axis which internodes it had and
-//! which lines it makes. An axis is known where all of these are the same to the bit. Colours are not among them: bark
-//! changes while wood stands still. Where single internodes have looks of their own nothing is known.
+//! Of each internode place, direction, length and diameters are remembered, and of each axis which internodes it had
+//! and which lines it makes. An axis is known where all of these are the same to the bit. Colours are not among them:
+//! bark changes while wood stands still. Where single internodes have looks of their own nothing is known.
 
 use phytomer_sim::plant::{AxisId, NodeId, Plant, Stretch};
 

@@ -10,7 +10,6 @@
 pub(crate) mod bent;
 mod course;
 pub(crate) mod organs;
-pub(crate) mod placed;
 mod rest;
 mod scan;
 

@@ -1,11 +1,12 @@
 //! The frames of organs, which are asked for and never stored: on the node, by insertion and trend or as stated.
 //!
 //! Between two ticks an organ is on the way from its frame at the one to that at the other, and an organ that drops on
-//! its way to the ground. The base lies on the line of the axis, at the node; a mesh moves it to the surface of the stem.
+//! its way to the ground. The base lies on the line of the axis, at the node; a mesh moves it to the surface of the
+//! stem.
 
-use super::placed::toward;
 use super::{course, node_frame, rest};
 use crate::clock::Tick;
+use crate::plant::placing::toward;
 use crate::plant::{Frame, OrganId, Plant};
 use crate::vector::Vector;
 use std::f64::consts::TAU;
@@ -33,8 +34,8 @@ pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
 /// All that the pose of an organ and its size follow from, to be compared with that of another age.
 pub type OrganInputs = [f32; 17];
 
-/// What the pose of an organ and its size follow from at an age; `None` where organs state frames or forms, and between two
-/// ticks, where more decides.
+/// What the pose of an organ and its size follow from at an age; `None` where organs state frames or forms, and between
+/// two ticks, where more decides.
 #[inline]
 pub fn organ_follows_from(plant: &Plant, organ: OrganId, age: Tick) -> Option<OrganInputs> {
     let stated = !plant.stated_organs.keep_insertion() || !plant.stated_organs.have_forms();
@@ -79,9 +80,15 @@ fn turned(plant: &Plant, organ: OrganId, inserted: Frame, age: Tick) -> Frame {
     if habit.faces_the_sky(order, kind) { course::facing_the_sky(turned) } else { turned }
 }
 
+/// The frame of an organ between two ticks, where its place on its node is kept.
+fn kept(plant: &Plant, organ: OrganId) -> Option<Frame> {
+    let placed = plant.partway.as_ref()?.organs.get(organ.index())?;
+    Some(placed.on(&node_frame(plant, plant.organs.node[organ.index()])))
+}
+
 /// The frame of an organ a share of the tick before `age`.
 fn between(plant: &Plant, organ: OrganId, age: Tick, share: f32) -> Frame {
-    let frame = plant.kept_frame(organ).unwrap_or_else(|| {
+    let frame = kept(plant, organ).unwrap_or_else(|| {
         let inserted = inserted(plant, organ);
         if plant.habit.organ_trends.is_empty() {
             return inserted;
@@ -99,7 +106,7 @@ pub fn stated_organ_frame(plant: &Plant, organ: OrganId) -> Option<Frame> {
         return None;
     }
     let (rotation, start) = plant.stated_organs.frame(organ)?;
-    if let Some(kept) = plant.kept_frame(organ) {
+    if let Some(kept) = kept(plant, organ) {
         return Some(dropped(plant, organ, kept));
     }
     let bearing = node_frame(plant, plant.organs.node[organ.index()]);
