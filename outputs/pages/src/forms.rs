@@ -12,8 +12,8 @@ use phytomer_meshes::{Depth, Face, FormMesh, Mesh, MeshOptions};
 use phytomer_sim::plant::Class;
 use serde_json::{Value, json};
 
-/// What tells forms apart: the plant's options, what it is, kind and stalk. Outlines and surfaces are told apart by their
-/// places in the life of a plant.
+/// What tells forms apart: the plant's options, what it is, kind and stalk. Outlines and surfaces are told apart by
+/// their places in the life of a plant.
 type Key = (usize, Shape, u8, [u8; 3]);
 
 /// A form without its mesh.

@@ -1,8 +1,8 @@
 //! A page that shows the whole life of plants in a browser: one HTML file, without network and without a server.
 //!
 //! A [`Page`] has one or several plants, each with its [`Life`] and the rows of its [`Table`], in the streams of whole
-//! numbers that `streams` describes, and scripts of ours that draw them by WebGL 2 (`web`). `docs/view.md` has the format
-//! of the data. Absent: growth, the tables of a run, and pictures of other formats.
+//! numbers that `streams` describes, and scripts of ours that draw them by WebGL 2 (`web`). `docs/view.md` has the
+//! format of the data. Absent: growth, the tables of a run, and pictures of other formats.
 
 mod carried;
 mod forms;

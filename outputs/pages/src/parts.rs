@@ -1,8 +1,8 @@
 //! The streams of the parts of a life: organs, and internodes that are drawn by themselves, with their keyframes.
 //!
 //! A part is a form of the page's list (`forms`) in a frame and of a size. Its place is told as the difference to that
-//! to which its host has carried it (`carried`), its frame as a unit quaternion without its largest component, as finely
-//! as its size asks, its sizes on the logarithmic scale. Parts of one form stand together.
+//! to which its host has carried it (`carried`), its frame as a unit quaternion without its largest component, as
+//! finely as its size asks, its sizes on the logarithmic scale. Parts of one form stand together.
 
 use super::carried::{Carried, Carriers};
 use super::forms::Forms;
