@@ -1,11 +1,11 @@
 //! The output of a run: the run folder with its tables (Parquet), and reading it back.
 //!
-//! Meshes, lives, pictures, films and pages are crates of their own, `phytomer-meshes`, `phytomer-life`,
-//! `phytomer-pictures`, `phytomer-films` and `phytomer-pages`, which need neither Arrow nor Parquet; they are re-exported
-//! here as [`meshes`], [`life`], [`pictures`], [`films`] and [`pages`]. [`colouring`] colours a picture by a column of a table,
-//! [`paging`] fills the rows of a page. [`RunFolder::create`] makes a run folder, which is filled shard by shard and
-//! closed by [`RunFolder::finish`]. Its format is described in `docs` and in its own `datapackage.json`. [`read`] opens
-//! it again, [`check()`] tells whether it is whole. Absent: growth rules.
+//! Meshes, lives, pictures, films and pages are crates of their own (`phytomer-meshes` and so on), which need neither
+//! Arrow nor Parquet; they are re-exported here as [`meshes`], [`life`], [`pictures`], [`films`] and [`pages`].
+//! [`colouring`] colours a picture by a column of a table, [`paging`] fills the rows of a page. [`RunFolder::create`]
+//! makes a run folder, which is filled shard by shard and closed by [`RunFolder::finish`]. Its format is described in
+//! `docs` and in its own `datapackage.json`. [`read`] opens it again, [`check()`] tells whether it is whole. Absent:
+//! growth rules.
 
 pub mod colouring;
 pub mod destination;
