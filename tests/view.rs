@@ -119,7 +119,7 @@ fn a_page_is_as_near_as_it_says() {
     let (told, fine) = size(&["--tolerance", "0.1mm"]);
     assert!(told.contains("17 ages, within 100 µm"), "{told}");
     let (told, coarse) = size(&["--tolerance", "1cm"]);
-    assert!(told.contains("within 1 cm") && coarse < fine, "{told}: {coarse} {fine}");
+    assert!(told.contains("within 10 mm") && coarse < fine, "{told}: {coarse} {fine}");
     let (told, _) = size(&["--ages", "4..12/4"]);
     assert!(told.contains("1 plant at 3 ages"), "{told}");
     let piped = run(folder.path(), &["view", "viewed.toml", "--ages", "3", "--out", "-"]).ending(0);

@@ -1,10 +1,10 @@
 //! The rows of `records` of one plant over its ages, column by column and component by component.
 //!
 //! Of each component are kept the first age at which it has a row, the age from which it has none, and of each column
-//! the values that change. Whole numbers, words and truths hold until the next value, exactly. Real numbers are kept
-//! on a logarithmic scale (`streams`), as keyframes between which linear interpolation on that scale stays within
-//! [`NEAR`] steps: with rounding, three parts in a hundred. Memory does not grow with the number of ages, but with what
-//! changes. Absent: which columns there are, and where their values come from.
+//! the values that change. Whole numbers, words and truths hold until the next value, exactly. Real numbers are kept on
+//! a logarithmic scale (`streams`), as keyframes between which linear interpolation on that scale stays within [`NEAR`]
+//! steps: with rounding, three parts in a hundred. Memory does not grow with the number of ages, but with what changes.
+//! Absent: which columns there are, and where their values come from.
 
 use super::streams::{Last, Stream, Streams, logarithmic};
 use phytomer_life::{Key, Track};
