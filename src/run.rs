@@ -7,6 +7,7 @@
 //!
 //! Absent: growth (`sim`, `models`), files (`outputs`), and everything that a person sees (`cli`).
 
+mod captions;
 pub mod disk;
 pub mod drawing;
 mod error;

@@ -8,7 +8,8 @@
 //! treatments side by side.
 
 use super::RunError;
-use super::picturing::{PicturedStand, caption_of_plant, kept, obstacles_of, stand_of_plant, stand_of_plot, titles_of};
+use super::captions::{caption_of_plant, titles_of};
+use super::picturing::{PicturedStand, kept, obstacles_of, stand_of_plant, stand_of_plot};
 use super::regrowth::{Regrowth, Standing, Whose};
 use phytomer_config::{Species, Trial};
 use phytomer_outputs::films::{Encoder, Timeline};

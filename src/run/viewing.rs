@@ -6,9 +6,10 @@
 //! Absent: the page itself, which is `phytomer_pages`'.
 
 use super::RunError;
+use super::captions::{caption_of_plant, caption_of_plot, titles_of};
 use super::drawing::options_of;
 use super::filming::Filming;
-use super::picturing::{caption_of_plant, caption_of_plot, obstacles_of, titles_of};
+use super::picturing::obstacles_of;
 use super::regrowth::{Regrowth, Standing, Whose};
 use phytomer_config::Species;
 use phytomer_outputs::life::{Maker, Nearness};

@@ -7,6 +7,7 @@
 //! one file each and one line here; which format is written is the caller's choice. Vertices are not shared between
 //! components. Absent: buds, which have no form, and bending, which is part of the pose.
 
+mod blocks;
 mod budget;
 mod chunk;
 mod collection;

@@ -11,9 +11,7 @@ use super::forms::{FormMesh, Placement};
 use super::outline::{self, OrganForm, Outlines, OwnForm};
 use super::reduced::Reduced;
 use super::stem::Stems;
-use super::{About, Mesh, colour};
-use super::{MeshOptions, Tolerance};
-use bytemuck::Zeroable;
+use super::{About, MeshOptions, Tolerance, colour};
 use phytomer_looks::Paints;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{NodeId, OrganId, Plant};
@@ -21,9 +19,6 @@ use phytomer_sim::pose::{Frame, organ_frame, stated_organ_frame};
 use std::convert::Infallible;
 use std::io;
 use std::ops::Range;
-
-/// The number of entries of a column in one block of a scene.
-const BLOCK: usize = 256;
 
 /// An organ whose insertion angle has a smaller sine stands on the tip of the stem, not on its side.
 const TERMINAL: f32 = 1e-3;
@@ -37,7 +32,7 @@ pub struct Scene<'a> {
     paints: &'a Paints,
     stems: Stems<'a>,
     /// The tubes along several internodes, where the mesh has a tolerance.
-    reduced: Option<Reduced>,
+    pub(super) reduced: Option<Reduced>,
     /// The triangles of organs that state an outline.
     outlines: Outlines,
 }
@@ -178,82 +173,18 @@ impl<'a> Scene<'a> {
         sink(chunk)
     }
 
-    /// The number of blocks of the scene, for [`Scene::block`].
-    pub fn blocks(&self) -> usize {
-        let tubes = self.reduced.as_ref().map_or(0, |reduced| reduced.blocks().len());
-        tubes + self.stem_places().div_ceil(BLOCK) + self.plant.organs.len().div_ceil(BLOCK)
-    }
-
-    /// Replaces `mesh` by one block of neighbouring components; triangles refer to the block's own vertices. All blocks
-    /// in their order are the mesh of the scene, and each can be made alone, on any thread. A block may be empty. Takes
-    /// O(1) per component of the block.
-    pub fn block(&self, block: usize, mesh: &mut Mesh) {
-        mesh.vertices.clear();
-        mesh.faces.clear();
-        let tubes = self.reduced.as_ref().map_or(&[][..], Reduced::blocks);
-        let of_stems = self.stem_places().div_ceil(BLOCK);
-        if let (Some(tubes), Some(reduced)) = (tubes.get(block), &self.reduced) {
-            return self.append_tubes(reduced, tubes.clone(), mesh);
-        }
-        let block = block - tubes.len();
-        if block < of_stems {
-            let Ok::<(), Infallible>(()) = self.each_stem(span(block, self.stem_places()), |node| {
-                let stem = self.stems.form(node);
-                self.stems.write(stem, node, appended(mesh, stem.vertices(), stem.faces()));
-                Ok(())
-            });
-        } else {
-            self.organs_of(span(block - of_stems, self.plant.organs.len())).for_each(|organ| {
-                let form = self.form(organ);
-                self.write_organ(form, organ, appended(mesh, form.vertices(), form.faces()));
-            });
-        }
-    }
-
-    fn append_tubes(&self, reduced: &Reduced, tubes: Range<usize>, mesh: &mut Mesh) {
-        let mut places = Vec::new();
-        for tube in tubes {
-            let first = mesh.vertices.len();
-            let put = reduced.each_part(&self.stems, tube, &mut places, &mut |vertices, write| {
-                write(with_room(&mut mesh.vertices, vertices));
-                Ok(())
-            });
-            let joined = reduced.each_skin(tube, first as u32, &mut |skin| {
-                skin.write(with_room(&mut mesh.faces, skin.faces()));
-                Ok(())
-            });
-            debug_assert!(put.is_ok() && joined.is_ok(), "memory does not fail");
-        }
-    }
-
-    /// Calls `take` with the vertices and the triangles of each component that is drawn by itself, in the order of the
-    /// mesh: organs, and internodes along which no tube of several runs. Triangles refer to the component's own
-    /// vertices.
-    pub fn each_alone(&self, take: &mut dyn FnMut(&[Vertex], &[[u32; 3]])) {
-        let mut vertices = Vec::new();
-        let Ok::<(), Infallible>(()) = self.each_stem(0..self.stem_places(), |node| {
-            let stem = self.stems.form(node);
-            vertices.clear();
-            self.stems.write(stem, node, with_room(&mut vertices, stem.vertices()));
-            take(&vertices, stem.faces());
-            Ok(())
-        });
-        for organ in self.organs() {
-            let form = self.form(organ);
-            vertices.clear();
-            self.write_organ(form, organ, with_room(&mut vertices, form.vertices()));
-            take(&vertices, form.faces());
-        }
-    }
-
     /// The number of places of [`Scene::each_stem`].
-    fn stem_places(&self) -> usize {
+    pub(super) fn stem_places(&self) -> usize {
         self.reduced.as_ref().map_or(self.plant.nodes.len(), |reduced| reduced.apart().len())
     }
 
     /// Calls `draw` with the internodes of some places that are drawn by themselves.
     #[inline]
-    fn each_stem<E>(&self, places: Range<usize>, draw: impl FnMut(NodeId) -> Result<(), E>) -> Result<(), E> {
+    pub(super) fn each_stem<E>(
+        &self,
+        places: Range<usize>,
+        draw: impl FnMut(NodeId) -> Result<(), E>,
+    ) -> Result<(), E> {
         match &self.reduced {
             Some(reduced) => reduced.apart()[places].iter().copied().try_for_each(draw),
             None => self.stems.drawn_of(places).try_for_each(draw),
@@ -304,7 +235,7 @@ impl<'a> Scene<'a> {
         self.organs_of(0..self.plant.organs.len())
     }
 
-    fn organs_of(&self, range: Range<usize>) -> impl Iterator<Item = OrganId> {
+    pub(super) fn organs_of(&self, range: Range<usize>) -> impl Iterator<Item = OrganId> {
         let (plant, age, kinds) = (self.plant, self.age, self.options.kinds);
         let drawn = move |&organ: &usize| {
             plant.organ_stands(OrganId(organ as u32), age) && kinds[plant.organs.kind[organ] as usize]
@@ -313,7 +244,7 @@ impl<'a> Scene<'a> {
     }
 
     #[inline]
-    fn form(&self, organ: OrganId) -> OrganForm<'_> {
+    pub(super) fn form(&self, organ: OrganId) -> OrganForm<'_> {
         if let Some((place, scale)) = self.plant.stated_organs.surface(organ)
             && let Some(surface) = self.paints.surface(place)
         {
@@ -326,7 +257,7 @@ impl<'a> Scene<'a> {
     }
 
     #[inline]
-    fn write_organ(&self, form: OrganForm<'_>, organ: OrganId, out: &mut [Vertex]) {
+    pub(super) fn write_organ(&self, form: OrganForm<'_>, organ: OrganId, out: &mut [Vertex]) {
         let tags = self.organ_tags(organ);
         match form {
             OrganForm::Shape(shape) => shape.write(&self.placement(organ, shape), &tags, out),
@@ -378,27 +309,6 @@ impl<'a> Scene<'a> {
             kind: organs.kind[place] as u8,
         })
     }
-}
-
-/// The entries of a column of `length` entries in a block.
-fn span(block: usize, length: usize) -> Range<usize> {
-    block * BLOCK..((block + 1) * BLOCK).min(length)
-}
-
-/// Adds room for `more` entries at the end of a list.
-fn with_room<T: Zeroable + Clone>(list: &mut Vec<T>, more: usize) -> &mut [T] {
-    let first = list.len();
-    list.resize(first + more, T::zeroed());
-    &mut list[first..]
-}
-
-/// Adds room for `vertices` vertices at the end of `mesh`, and adds their triangles.
-#[inline]
-fn appended<'m>(mesh: &'m mut Mesh, vertices: usize, faces: &[[u32; 3]]) -> &'m mut [Vertex] {
-    let first = mesh.vertices.len();
-    mesh.faces.extend(faces.iter().map(|face| Face::new(face.map(|corner| first as u32 + corner))));
-    mesh.vertices.resize(first + vertices, Vertex::zeroed());
-    &mut mesh.vertices[first..]
 }
 
 /// The part of an organ's heading across its stem, as a unit vector; zero for an organ on the tip.
