@@ -1,5 +1,5 @@
-//! A scene in blocks of neighbouring components, for pictures, which draw it on all threads, and for files that need each
-//! component with its own vertices.
+//! A scene in blocks of neighbouring components, for pictures, which draw it on all threads, and for files that need
+//! each component with its own vertices.
 //!
 //! Absent: files of a mesh in one piece, which take the vertices and triangles of `scene` in chunks.
 
