@@ -71,6 +71,27 @@ fn every_frame_is_the_picture_of_its_age() {
     assert!(read(&at("one.apng"))[0].0 == read(&at("p.png"))[0].0);
 }
 
+/// Between ticks too, by one camera; and at the ticks a film is what it is without a picture between them.
+#[test]
+fn frames_between_ticks_are_the_pictures_of_their_ages() {
+    let folder = tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let film = |ages: &str, frames: &str| {
+        let words = ["--ages", ages, "--fps", frames, "--seconds", "1", "--out", "a.apng"];
+        animate(folder.path(), &words).ending(0);
+        read(&at("a.apng"))
+    };
+    let (smooth, whole) = (film("8..10", "5"), film("8..10/1", "3"));
+    assert_eq!((smooth.len(), whole.len()), (5, 3));
+    for (frame, age) in ["8", "8.5", "9", "9.5", "10"].into_iter().enumerate() {
+        let words = ["picture", &data("small.toml"), "--age", age, "--size", SIZE, "--framed-for", "8..10"];
+        run(folder.path(), &[&words[..], &["--out", "p.png"]].concat()).ending(0);
+        assert!(read(&at("p.png"))[0].0 == smooth[frame].0, "age {age}");
+    }
+    assert!((0..3).all(|k| smooth[2 * k].0 == whole[k].0));
+    assert!(smooth[1].0 != smooth[0].0 && smooth[1].0 != smooth[2].0);
+}
+
 #[test]
 fn bare_ground_stands_still_while_the_plant_grows() {
     let folder = tempdir().unwrap();
@@ -78,8 +99,8 @@ fn bare_ground_stands_still_while_the_plant_grows() {
         ["animate", &data("small.toml"), "--size", "480x120", "--no-caption", "--seconds", "1", "--ages", "1..12"];
     run(folder.path(), &[&words[..], &["--out", "a.apng"]].concat()).ending(0);
     let film = read(&folder.path().join("a.apng"));
-    assert_eq!(film.len(), 12);
-    let (first, last) = (&film[0].0, &film[11].0);
+    assert_eq!(film.len(), 24, "between ticks each frame is its own");
+    let (first, last) = (&film[0].0, &film[23].0);
     assert!(first != last);
     // The bush stands in the middle, 180 pixels wide at last. Its shade falls to the right, and it takes light of the
     // sky up to 0.42 of its size away. Beyond that, and in the sky above it, no pixel changes by a single level.
@@ -169,8 +190,11 @@ fn what_cannot_be_filmed_is_refused_with_words() {
     for (words, code, meant) in [
         (vec!["--ages", "1..25", "--out", "a.gif"], 2, "--ages 25: the run has the ages 0 to 24"),
         (vec!["--ages", "9..2", "--out", "a.gif"], 2, "the first age, 9, is after the last, 2"),
-        (vec!["--ages", "1..12/0", "--out", "a.gif"], 2, "a step of at least 1"),
-        (vec!["--ages", "1.5..3", "--out", "a.gif"], 2, "ages in whole ticks are expected"),
+        (vec!["--ages", "1..12/0", "--out", "a.gif"], 2, "a step of at least 0.001"),
+        (vec!["--ages", "1.5.1..3", "--out", "a.gif"], 2, "ages in ticks are expected"),
+        (vec!["--ages", "1..24.5", "--out", "a.gif"], 2, "--ages 24.5: the run has the ages 0 to 24"),
+        (vec!["--ages", "nan..3", "--out", "a.gif"], 2, "ages in ticks are expected"),
+        (vec!["--ages", "1..3/-1", "--out", "a.gif"], 2, "ages in ticks are expected"),
         (vec!["--plant", "12", "--out", "a.gif"], 2, "--plant 12: the run has the plants 0 to 11"),
         (vec!["--plot", "12", "--out", "a.gif"], 2, "--plot 12: the run has the plots 0 to 11"),
         (vec!["--out", "a.avi"], 2, "`animate` cannot write `.avi`; the endings that it has: .webp, .gif"),

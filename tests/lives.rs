@@ -10,6 +10,7 @@ use phytomer::outputs::life::{Life, Lives, Maker, Nearness, What};
 use phytomer::outputs::meshes::{MeshOptions, Scene};
 use phytomer::run::regrowth::Regrowth;
 use phytomer::run::seed_of;
+use phytomer::sim::between::Moment;
 use phytomer::sim::plant::{NodeId, Plant};
 use phytomer::sim::{Plot, Recorder, Sowing, Tick, grow};
 use std::collections::BTreeMap;
@@ -47,7 +48,7 @@ fn internodes(plant: &Plant, age: Tick) -> BTreeMap<u32, Vec<[[f32; 4]; 2]>> {
 
 /// Compares a life with the plant as it stood at an age.
 fn compare(life: &Life, plant: &Plant, age: Tick, within: f32) {
-    let at = age as f32;
+    let at = plant.shown_age(age) as f32;
     let axes = internodes(plant, age);
     let mut lines: BTreeMap<u32, Vec<Vec<[f32; 4]>>> = BTreeMap::new();
     for line in &life.lines {
@@ -68,11 +69,11 @@ fn compare(life: &Life, plant: &Plant, age: Tick, within: f32) {
         internodes.iter().flatten().for_each(|place| near(place, &mut pieces()));
         lines.iter().flatten().for_each(|place| near(place, &mut internodes.iter().copied()));
     }
-    compare_organs(life, plant, age, within);
+    compare_organs(life, plant, (age, at), within);
 }
 
-fn compare_organs(life: &Life, plant: &Plant, age: Tick, within: f32) {
-    let standing = life.parts.iter().filter(|part| part.stands(age as f32));
+fn compare_organs(life: &Life, plant: &Plant, (age, at): (Tick, f32), within: f32) {
+    let standing = life.parts.iter().filter(|part| part.stands(at));
     let parts: BTreeMap<u32, _> = standing.map(|part| (part.component, part)).collect();
     let scene = Scene::new(plant, age, &MeshOptions::default());
     assert_eq!(scene.organs().count(), parts.len(), "the organs at {age}");
@@ -81,7 +82,7 @@ fn compare_organs(life: &Life, plant: &Plant, age: Tick, within: f32) {
         let part = parts[&plant.organs.component[organ.index()]];
         assert_eq!(part.kind, plant.organs.kind[organ.index()]);
         assert!(matches!(part.what, What::Organ(form) if form == plant.organs.form[organ.index()]));
-        let pose = life.pose_at(part, age as f32);
+        let pose = life.pose_at(part, at);
         let end = |base: Point, along: Point, size: f32| std::array::from_fn(|k| base[k] + size * along[k]);
         let pairs = [
             (drawn.base, pose.base),
@@ -153,6 +154,31 @@ fn an_axis_into_which_internodes_are_put_comes_back_at_each_age() {
     assert_eq!(life.line_at(line, 7.0).count(), 2);
     for (age, tip) in tips.iter().enumerate() {
         assert!((tip - 0.1 * f32::from(1_u8 << age)).abs() < 1e-3, "{tip} at {age}");
+    }
+}
+
+/// Between ticks a life is the plant on its way: what appears grows from next to nothing, and what falls goes at the
+/// end.
+#[test]
+fn a_life_between_ticks_grows() {
+    let ages = [0.0, 3.25, 4.5, 5.75, 6.0].map(|age| Moment::of(age).unwrap());
+    for (mut resolved, falls) in [(resolved("fir"), false), (resolved("willow"), true), (resolved("gmt1"), false)] {
+        resolved.scenario.ages.until = 6;
+        let mut plot = Plot::of_one(resolved.model.as_ref(), &seed_of(&resolved.scenario, 0));
+        let mut lives = Lives::new(Nearness::of(1e-3), Vec::new(), (0..=6).collect()).between(4, falls);
+        grow(&mut plot, resolved.scenario.ages.until, &mut lives).expect("it grows");
+        let life = lives.finish().remove(0).expect("a life");
+        assert_eq!(life.ages.len(), 7 + 6 * 4);
+        let shown = Regrowth::of(&resolved).falling(falls).show_at(0, &ages, &mut |age, plant| {
+            compare(&life, plant, age.tick(), 1e-3);
+            Ok(())
+        });
+        shown.expect("a plant");
+        for part in life.parts.iter().filter(|part| part.from > 0.0 && part.from < part.birth) {
+            let size = |age: f32| life.pose_at(part, age).size[0];
+            assert!(size(part.from) <= 0.05 * size(part.birth), "{part:?}");
+        }
+        assert!(life.parts.iter().all(|part| part.death.is_infinite() || part.death.fract() == 0.0));
     }
 }
 

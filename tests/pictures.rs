@@ -60,6 +60,11 @@ fn what_cannot_be_drawn_is_refused_with_words() {
     let folder = tempdir().unwrap();
     for (words, code, meant) in [
         (vec!["coffee", "--age", "145"], 2, "--age 145: the run has the ages 0 to 144"),
+        (vec!["coffee", "--age", "144.25"], 2, "--age 144.25: the run has the ages 0 to 144"),
+        (vec!["coffee", "--age", "3,5"], 2, "an age in ticks is expected, such as 48, or 3.5"),
+        (vec!["coffee", "--age", "nan"], 2, "an age in ticks is expected"),
+        (vec!["coffee", "--age", "1e10"], 2, "an age in ticks is expected"),
+        (vec!["coffee", "--age", "3.5", "--colour-by", "order"], 2, "--colour-by order needs an age such as 3 or 4"),
         (vec!["coffee", "--ages", "12,145"], 2, "--ages 145: the run has the ages 0 to 144"),
         (vec!["coffee", "--plants", "0,2000"], 2, "--plants 2000: the run has the plants 0 to 1999"),
         (vec!["coffee", "--size", "9x9"], 2, "1920x1080"),

@@ -53,9 +53,9 @@ pub struct Animate {
     /// All plants of a plot in their places; the plot's number, from 0.
     #[arg(long, value_name = "PLOT", num_args = 0..=1, default_missing_value = "0", conflicts_with = "plant")]
     plot: Option<u32>,
-    /// The ages, of a plot the ticks, from the first to the last; from 1 to the last of the run if not given. Where there
-    /// are more frames than ticks the plants grow on between ticks; with a step after a slash the ages are a step apart
-    /// and held. One age by itself is for films of wind and of a walk around the plant.
+    /// The ages, of a plot the ticks, from the first to the last; from 1 to the last of the run if not given. Where
+    /// there are more frames than ticks the plants grow on between ticks; with a step after a slash the ages are a step
+    /// apart and held. One age by itself is for films of wind and of a walk around the plant.
     #[arg(long, value_name = "FIRST..LAST[/STEP]", value_parser = span)]
     ages: Option<Span>,
     /// The length of the film; 12 if not given, of one age in the wind that of a gust, 8.
@@ -143,14 +143,15 @@ impl Animate {
         let air_from = self.breeze.air().map(|air| air.time);
         let usual = if air_from.is_some() && ages.first == ages.last { GUSTS_S } else { SECONDS };
         let frames = (self.seconds.unwrap_or(usual) * f64::from(self.fps)).round().max(1.0) as u32;
-        let species = regrown.species();
+        let (species, time) = (regrown.species(), ages.timeline(frames));
         let scene = Scene {
             regrowth: &regrowth,
             species: &species,
             forms: &regrown.forms,
             whose,
             style: self.style(),
-            time: ages.timeline(frames),
+            time,
+            every_tick: ages.step.is_none() && time.step < 1.0,
             fps: self.fps,
             orbit: self.orbit.to_radians() as f32,
             follow: self.follow,

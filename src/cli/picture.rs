@@ -173,6 +173,7 @@ impl Picture {
             whose,
             style: Style { view, ..self.style() },
             time: framed.timeline(((framed.last - framed.first) / framed.step.unwrap_or(1.0)).round() as u32 + 1),
+            every_tick: framed.step.is_none(),
             fps: 1,
             orbit: 0.0,
             follow: false,

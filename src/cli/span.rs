@@ -22,8 +22,8 @@ pub struct Span {
 const LEAST_STEP: f64 = 0.001;
 
 impl Span {
-    /// The ages over so many frames: those of the steps, else each frame its own where there are more frames than ticks,
-    /// else those that lie whole ticks after the first.
+    /// The ages over so many frames: those of the steps, else each frame its own where there are more frames than
+    /// ticks, else those that lie whole ticks after the first.
     pub fn timeline(&self, frames: u32) -> Timeline {
         let Self { first, last, step } = *self;
         let own = (last - first) / f64::from(frames.saturating_sub(1).max(1));

@@ -48,6 +48,9 @@ pub struct Scene<'a> {
     pub style: Picture,
     /// The ages, of a plot the ticks.
     pub time: Timeline,
+    /// Whether the camera is placed by every tick from the first age to the last, so that one camera serves any age
+    /// between; else by the ages that are shown.
+    pub every_tick: bool,
     /// Frames a second.
     pub fps: u32,
     /// How far the viewer walks around the plants over the film, counterclockwise from above, radians.
@@ -165,13 +168,25 @@ impl Scene<'_> {
         held.iter().map(times).collect()
     }
 
-    /// Shows the stand of each age that is shown, once for each of its times, with its number among them.
+    /// The ages by which the camera is placed, with their times: where it follows and in moving air always those that
+    /// are shown.
+    fn surveyed(&self, held: &[(u32, u32)]) -> Vec<(Moment, Vec<f64>)> {
+        let ends = Moment::of(self.time.first).zip(Moment::of(self.time.last));
+        let Some((first, last)) = ends.filter(|_| self.every_tick && !self.follow && self.air_from.is_none()) else {
+            return self.times(held);
+        };
+        let ticks = (first.tick()..=last.tick()).map(Moment::from).filter(|tick| first < *tick && *tick < last);
+        let mut ages: Vec<Moment> = [first].into_iter().chain(ticks).chain([last]).collect();
+        ages.dedup();
+        ages.into_iter().map(|age| (age, vec![0.0])).collect()
+    }
+
+    /// Shows the stand at each of some ages, once for each of its times, with its number among them.
     fn each_stand(
         &self,
-        held: &[(u32, u32)],
+        times: &[(Moment, Vec<f64>)],
         show: &mut dyn FnMut(usize, &PicturedStand) -> Result<(), RecordError>,
     ) -> Result<(), RunError> {
-        let times = self.times(held);
         let obstacles = match self.whose {
             Whose::Plot(plot) => obstacles_of(self.regrowth.trial(), plot),
             Whose::Plant(_) => Vec::new(),
@@ -224,16 +239,17 @@ impl Scene<'_> {
     /// Those of growing; [`RunError::Stopped`].
     pub fn survey(&self, samples: bool, filming: &Filming) -> Result<Surveyed, RunError> {
         let held = self.time.held();
-        filming.in_all.store(COSTS[0] * held.len() as u32 + COSTS[1] * self.pictures(), Relaxed);
+        let looks = self.surveyed(&held);
+        filming.in_all.store(COSTS[0] * looks.len() as u32 + COSTS[1] * self.pictures(), Relaxed);
         let mut survey = Survey::new(&self.style, self.pivot());
-        let mut found = Surveyed { framings: vec![None; held.len()], samples: Vec::new() };
-        let apart = held.len().div_ceil(LEARNT_FROM);
+        let mut found = Surveyed { framings: vec![None; looks.len()], samples: Vec::new() };
+        let apart = looks.len().div_ceil(LEARNT_FROM);
         let title = self.title();
-        self.each_stand(&held, &mut |place, stand| {
+        self.each_stand(&looks, &mut |place, stand| {
             filming.check()?;
             let stand = stand.stand(self.forms);
             survey.add(&stand);
-            let learns = samples && (held.len() - 1 - place).is_multiple_of(apart) && found.framings[place].is_none();
+            let learns = samples && (looks.len() - 1 - place).is_multiple_of(apart) && found.framings[place].is_none();
             if learns {
                 found.samples.push(draw_stands(&[stand], &title, &self.sample_style()));
             }
@@ -254,18 +270,18 @@ impl Scene<'_> {
         Picture { size: [wide as u32, small], colour_by: None, ..self.style.clone() }
     }
 
-    /// The picture of one of the ages that are shown, as the film has it.
+    /// The picture of an age by the camera of the film; of one of the ages that are shown, as the film has it.
     ///
     /// # Errors
     /// Those of growing.
     pub fn still(&self, surveyed: &Surveyed, age: Moment) -> Result<Option<Canvas>, RunError> {
         let held = self.time.held();
         let place = held.iter().position(|(number, _)| self.age(*number) == age);
+        let framing = place.map_or(surveyed.framings.last(), |place| surveyed.framings.get(place));
+        let Some(framing) = framing.copied().flatten() else { return Ok(None) };
+        let times = place.map(|place| self.times(&held).swap_remove(place));
         let mut still = None;
-        let Some((place, framing)) = place.and_then(|place| Some((place, surveyed.framings[place]?))) else {
-            return Ok(None);
-        };
-        self.each_stand(&held[place..=place], &mut |_, stand| {
+        self.each_stand(&[times.unwrap_or_else(|| (age, vec![0.0]))], &mut |_, stand| {
             if still.is_none() {
                 still = Some(draw_framed(&stand.stand(self.forms), &self.title(), &self.style, &framing));
             }
@@ -285,7 +301,7 @@ impl Scene<'_> {
         let firsts: Vec<u32> =
             held.iter().scan(0, |first, (_, frames)| Some(std::mem::replace(first, *first + frames))).collect();
         let mut shown_of = vec![0; held.len()];
-        self.each_stand(&held, &mut |place, stand| {
+        self.each_stand(&self.times(&held), &mut |place, stand| {
             let Some(framing) = surveyed.framings[place] else { return Ok(()) };
             let stand = stand.stand(self.forms);
             // In moving air an age comes once for each of its frames.

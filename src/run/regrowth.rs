@@ -3,8 +3,8 @@
 //! Draws are keyed by the run's seed and the plant, so it is the same plant, with the same component numbers, that the
 //! run has recorded. A plant is asked for by its number and its own ages, a plot by its number and its ticks. Where
 //! something in a plot feeds back, a plant is grown with its whole plot, else by itself. In a wind each age is shown as
-//! a frame that the wind has moved, for that age alone. Ages may lie between two ticks. Where no age is given, a plant is
-//! shown at that of its species or in its prime. Absent: what is made of it.
+//! a frame that the wind has moved, for that age alone. Ages may lie between two ticks. Where no age is given, a plant
+//! is shown at that of its species or in its prime. Absent: what is made of it.
 
 use super::RunError;
 use super::plots::Plots;

@@ -2,7 +2,7 @@
 //!
 //! One list takes the keys of every track while a life is made, so that a key costs its own size and no allocation.
 
-use super::track::Key;
+use super::track::{Key, Track};
 use std::ops::Range;
 
 /// Keys with the number of their track.
@@ -22,6 +22,16 @@ impl<const N: usize> Kept<N> {
         if let Some(key) = key {
             self.0.push((track, key));
         }
+    }
+
+    /// Takes the values of a track at a later age, each within its tolerance.
+    #[inline]
+    pub fn take(&mut self, number: u32, track: &mut Track<N>, (age, values): Key<N>, tolerance: &[f32; N]) {
+        if track.has(&values) {
+            return track.hold(age);
+        }
+        self.keep(number, track.catch_up(tolerance));
+        self.keep(number, track.add(age, values, tolerance));
     }
 
     /// The keys track by track, in the order of `tracks`, and the place of the keys of each. Takes O(n) for n keys.

@@ -8,20 +8,22 @@
 //! triangles and files, which are made from a life by its writers, and poses between ticks, which are
 //! [`phytomer_sim::between`]'s.
 //!
-//! **To draw a life** at an age, whole or not: for each [`Line`] a tube through the points of [`Life::line_at`], and for
-//! each [`Part`] that [`Part::stands`] its form at [`Life::pose_at`], as [`What`] says. Values between two keys are
+//! **To draw a life** at an age, whole or not: for each [`Line`] a tube through the points of [`Life::line_at`], and
+//! for each [`Part`] that [`Part::stands`] its form at [`Life::pose_at`], as [`What`] says. Values between two keys are
 //! linear ([`between`]); directions are made unit vectors again. What is born, falls or becomes a point does so at the
 //! ages that it states, so the topology is constant between two neighbours of those ages.
 //!
-//! Ages are ticks in single precision, exact up to 2²⁴, and may have a fraction: a writer should not take them for whole
-//! numbers. A plant that is shown between ticks ([`Lives::between`]) has what appears at a tick from just after the tick
-//! before on (`from`), with next to no size at first; `birth` is the tick by which it has appeared, as in the tables.
+//! Ages are ticks in single precision, exact up to 2²⁴, and may have a fraction: a writer should not take them for
+//! whole numbers. A plant that is shown between ticks ([`Lives::between`]) has what appears at a tick from just after
+//! the tick before on (`from`), with next to no size at first; `birth` is the tick by which it has appeared, as in the
+//! tables.
 
 mod kept;
 mod lines;
 mod lives;
 mod maker;
 mod parts;
+mod still;
 #[cfg(test)]
 mod tests;
 mod track;
@@ -105,8 +107,8 @@ pub struct Point {
     pub tip: bool,
     /// The age at the birth of the internode; of a tip, of the first internode of the line.
     pub birth: f32,
-    /// The first age at which the line has the point; before, it lies on the line of the other points. It may be up to a
-    /// tick before the birth, where the plant is shown between ticks.
+    /// The first age at which the line has the point; before, it lies on the line of the other points. It may be up to
+    /// a tick before the birth, where the plant is shown between ticks.
     pub from: f32,
     /// The age from which the line does not have it any more: its internode has fallen, was cut off or rewritten. +∞
     /// where it stands at the last age.
@@ -168,8 +170,8 @@ pub struct Pose {
     pub heading: [f32; 3],
     /// The unit vector of its upper side.
     pub up: [f32; 3],
-    /// Its length; its width, or of an internode its diameter at the base; and that at its tip, metres. Of an outline its
-    /// share, twice; of a surface its factors along the organ, to its left and to its upper side.
+    /// Its length; its width, or of an internode its diameter at the base; and that at its tip, metres. Of an outline
+    /// its share, twice; of a surface its factors along the organ, to its left and to its upper side.
     pub size: [f32; 3],
 }
 

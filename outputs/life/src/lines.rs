@@ -7,10 +7,11 @@
 //! age, with internodes put in between. What comes back in another order is a new point.
 
 use super::kept::Kept;
+use super::still::Still;
 use super::track::Track;
 use super::{Life, Line, Nearness, Point};
 use phytomer_meshes::{Found, Keeping, Sample, Stems, Tolerance, fits, simplify};
-use phytomer_sim::plant::NodeId;
+use phytomer_sim::plant::{NodeId, Stretch};
 use std::collections::BTreeMap;
 
 const NONE: u32 = u32::MAX;
@@ -26,6 +27,7 @@ pub struct Lines {
     of_internode: Vec<[u32; 2]>,
     places: Kept<4>,
     tints: Kept<3>,
+    still: Still,
     scratch: Scratch,
 }
 
@@ -49,6 +51,8 @@ struct State {
     /// The place among the points of the line.
     rank: u32,
     seen: f32,
+    /// Its internode, at the age at which it was last seen.
+    node: NodeId,
     place: Track<4>,
     tint: Track<3>,
 }
@@ -84,6 +88,7 @@ impl Found for Showing<'_, '_> {
         let bearer = bearer.map(|bearer| plant.axes.component[bearer.index()]).filter(|bearer| *bearer != bud);
         let line;
         (line, self.last) = self.lines.line(next, bearer, plant.axes.order[axis.index()], self.age);
+        self.lines.still.has_line(axis, line);
         self.choose(line, samples);
         self.begin_points(line, samples);
         self.put_in_order(line);
@@ -91,11 +96,36 @@ impl Found for Showing<'_, '_> {
     }
 
     fn apart(&mut self, node: NodeId) {
+        self.lines.still.is_apart(self.stems.plant().nodes.axis[node.index()]);
         self.apart.push(node);
+    }
+
+    fn is_known(&mut self, axis: &[Stretch]) -> bool {
+        let lines = self.lines.still.look(self.stems.plant(), axis, self.age);
+        let known = lines.is_some();
+        lines.into_iter().flatten().for_each(|line| self.hold(line));
+        known
     }
 }
 
 impl Showing<'_, '_> {
+    /// A line stands as it stood; its bark goes on to change its colour.
+    fn hold(&mut self, line: u32) {
+        let (age, colour) = (self.age, [self.nearness.colour; 3]);
+        let Lines { lines, points, tints, .. } = &mut *self.lines;
+        let line = &mut lines[line as usize];
+        (line.seen, line.stands) = (age, true);
+        for &number in line.points.iter().chain([&line.end]) {
+            let state = &mut points[number as usize];
+            if state.point.death.is_infinite() {
+                state.seen = age;
+                state.place.hold(age);
+                let tint = self.stems.colour(state.node).map(f32::from);
+                tints.take(number, &mut state.tint, (age, tint), &colour);
+            }
+        }
+    }
+
     fn number(&self, sample: &Sample) -> usize {
         self.stems.plant().nodes.component[sample.node.index()] as usize
     }
@@ -171,7 +201,7 @@ impl Showing<'_, '_> {
             tints: 0..0,
         };
         let (place, tint) = (Track::begin(place), Track::begin(tint));
-        self.lines.points.push(State { point, line, rank: NONE, seen: age, place, tint });
+        self.lines.points.push(State { point, line, rank: NONE, seen: age, node: sample.node, place, tint });
         number
     }
 
@@ -212,22 +242,22 @@ impl Showing<'_, '_> {
         (lines[line as usize].seen, lines[line as usize].stands) = (age, true);
         for &(place, number) in &scratch.kept {
             let (sample, state) = (&samples[place as usize], &mut points[number as usize]);
-            state.seen = age;
+            (state.seen, state.node) = (age, sample.node);
             if state.point.tip {
                 state.point.component = plant.nodes.component[sample.node.index()];
                 state.point.kind = plant.kind_of(sample.node);
             }
             if state.point.from < age {
-                places.keep(number, state.place.add(age, place_of(sample), &near));
-                tints.keep(number, state.tint.add(age, tint_of(sample), &colour));
+                places.take(number, &mut state.place, (age, place_of(sample)), &near);
+                tints.take(number, &mut state.tint, (age, tint_of(sample)), &colour);
             }
         }
     }
 }
 
 impl Lines {
-    /// The line of an axis, which is begun where it does not stand: that of the key, or the next one that was not seen at
-    /// this age, since what has gone from an axis may be shown beside what takes its place.
+    /// The line of an axis, which is begun where it does not stand: that of the key, or the next one that was not seen
+    /// at this age, since what has gone from an axis may be shown beside what takes its place.
     fn line(&mut self, mut key: (u32, u32), bearer: Option<u32>, order: u8, age: f32) -> (u32, (u32, u32)) {
         let known = loop {
             let known = self.known.get(&key).copied().filter(|line| self.lines[*line as usize].stands);
@@ -241,7 +271,15 @@ impl Lines {
         }
         let line = self.lines.len() as u32;
         self.known.insert(key, line);
-        self.lines.push(Growing { axis: key.0, bearer, order, points: Vec::new(), end: NONE, seen: f32::NAN, stands: true });
+        self.lines.push(Growing {
+            axis: key.0,
+            bearer,
+            order,
+            points: Vec::new(),
+            end: NONE,
+            seen: f32::NAN,
+            stands: true,
+        });
         (line, key)
     }
 

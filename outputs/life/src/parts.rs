@@ -10,6 +10,7 @@ use super::{Life, Nearness, Part, What};
 use phytomer_looks::{Paints, Surface};
 use phytomer_meshes::{Model, OwnForm, Scene, Stems};
 use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
+use phytomer_sim::pose::{OrganInputs, organ_follows_from};
 
 const NONE: u32 = u32::MAX;
 
@@ -36,6 +37,8 @@ struct State {
     seen: f32,
     /// The extent of its outline or surface; 1 for other parts, whose sizes are metres.
     extent: f32,
+    /// All that its pose followed from when it was last looked at.
+    from: Option<OrganInputs>,
     pose: Track<12>,
     tint: Track<3>,
 }
@@ -44,6 +47,8 @@ struct State {
 struct Shown {
     pose: [f32; 12],
     tint: [f32; 3],
+    /// All that its pose follows from, where that is known.
+    from: Option<OrganInputs>,
 }
 
 impl Parts {
@@ -51,11 +56,16 @@ impl Parts {
     pub fn show(&mut self, scene: &Scene, apart: &[NodeId], age: f32, nearness: Nearness) {
         let organs = &scene.plant().organs;
         for organ in scene.organs() {
-            let drawn = scene.organ(organ);
-            let [blade, stalk] = drawn.colours;
-            let shown = Shown { pose: pose(drawn.base, drawn.heading, drawn.up, drawn.size), tint: rgb(blade) };
             let component = organs.component[organ.index()];
             let known = self.known(component);
+            let from = organ_follows_from(scene.plant(), organ, scene.age());
+            if known != NONE && from.is_some() && self.states[known as usize].from == from {
+                self.hold(known, scene.organ_colours(organ), age, nearness);
+                continue;
+            }
+            let drawn = scene.organ(organ);
+            let [blade, stalk] = drawn.colours;
+            let shown = Shown { pose: pose(drawn.base, drawn.heading, drawn.up, drawn.size), tint: rgb(blade), from };
             if known == NONE {
                 let part = Part {
                     bearer: scene.plant().nodes.component[organs.node[organ.index()].index()],
@@ -78,7 +88,11 @@ impl Parts {
         let frustum = stems.frustum(node);
         let size = [frustum.length, 2.0 * frustum.radii[0], 2.0 * frustum.radii[1]];
         let colour = stems.colour(node);
-        let shown = Shown { pose: pose(frustum.base, frustum.heading, frustum.up, size), tint: colour.map(f32::from) };
+        let shown = Shown {
+            pose: pose(frustum.base, frustum.heading, frustum.up, size),
+            tint: colour.map(f32::from),
+            from: None,
+        };
         let plant = stems.plant();
         let component = plant.nodes.component[node.index()];
         let known = self.known(component);
@@ -150,20 +164,28 @@ impl Parts {
             What::Organ(_) | What::Internode => 1.0,
         };
         let (pose, tint) = (Track::begin(pose), Track::begin(tint));
-        self.states.push(State { seen: part.from, part, extent, pose, tint });
+        self.states.push(State { seen: part.from, part, extent, from: shown.from, pose, tint });
+    }
+
+    /// A part stands as it stood; its colour may change.
+    fn hold(&mut self, number: u32, [blade, _]: [[u8; 4]; 2], age: f32, nearness: Nearness) {
+        let state = &mut self.states[number as usize];
+        state.seen = age;
+        state.pose.hold(age);
+        self.tints.take(number, &mut state.tint, (age, rgb(blade)), &[nearness.colour; 3]);
     }
 
     fn take(&mut self, number: u32, shown: &Shown, age: f32, nearness: Nearness) {
         let state = &mut self.states[number as usize];
-        state.seen = age;
+        (state.seen, state.from) = (age, shown.from);
         // A quarter of the tolerance in three coordinates together.
         let part = 0.25 * nearness.distance / 3.0_f32.sqrt();
         let [length, width, tip] = [9, 10, 11].map(|k| shown.pose[k]);
         let reach = (length.max(width).max(tip) * state.extent).max(part);
         let (turn, size) = (part / reach, part / state.extent);
         let near = [part, part, part, turn, turn, turn, turn, turn, turn, size, size, size];
-        self.poses.keep(number, state.pose.add(age, shown.pose, &near));
-        self.tints.keep(number, state.tint.add(age, shown.tint, &[nearness.colour; 3]));
+        self.poses.take(number, &mut state.pose, (age, shown.pose), &near);
+        self.tints.take(number, &mut state.tint, (age, shown.tint), &[nearness.colour; 3]);
     }
 
     fn end_unseen(&mut self, age: f32) {

@@ -12,6 +12,8 @@ pub type Key<const N: usize> = (f32, [f32; N]);
 pub struct Track<const N: usize> {
     key: Key<N>,
     last: Key<N>,
+    /// The age until which the last values have held.
+    held: f32,
     low: [f32; N],
     high: [f32; N],
 }
@@ -19,7 +21,7 @@ pub struct Track<const N: usize> {
 impl<const N: usize> Track<N> {
     /// A track that begins with this key, which the caller keeps.
     pub fn begin(key: Key<N>) -> Self {
-        Self { key, last: key, low: [f32::NEG_INFINITY; N], high: [f32::INFINITY; N] }
+        Self { key, last: key, held: key.0, low: [f32::NEG_INFINITY; N], high: [f32::INFINITY; N] }
     }
 
     /// Takes the values of a later age; the key that is to be kept, if it makes one. Each value of the ages between two
@@ -41,8 +43,28 @@ impl<const N: usize> Track<N> {
             self.low[k] = self.low[k].max((gained - tolerance[k]) * over);
             self.high[k] = self.high[k].min((gained + tolerance[k]) * over);
         }
-        self.last = (age, values);
+        (self.last, self.held) = ((age, values), age);
         made
+    }
+
+    /// Tells whether these are the last values.
+    #[inline]
+    pub fn has(&self, values: &[f32; N]) -> bool {
+        self.last.1 == *values
+    }
+
+    /// The last values hold at a later age too. Of such ages the last alone is taken ([`Track::catch_up`]): a straight
+    /// line that passes equal values at two ages within a tolerance passes them at all ages between.
+    #[inline]
+    pub fn hold(&mut self, age: f32) {
+        self.held = age;
+    }
+
+    /// Takes the last age of those at which the last values have held, before other values are added; the key that is
+    /// to be kept, if it makes one.
+    #[inline]
+    pub fn catch_up(&mut self, tolerance: &[f32; N]) -> Option<Key<N>> {
+        if self.held > self.last.0 { self.add(self.held, self.last.1, tolerance) } else { None }
     }
 
     /// The last key; `None` where the key before, which holds from then on, is within the tolerance of all that came.
@@ -109,6 +131,29 @@ mod tests {
             before = kept.len();
         }
         assert!(before < 30);
+    }
+
+    /// Values that hold cost nothing, and come back as well as others.
+    #[test]
+    fn values_that_hold_come_back_too() {
+        let course = |age: u32| [age, 10, 10, 10 + (age - age.min(60)), 30][(age.min(99) / 25) as usize] as f32;
+        let mut track = Track::begin((0.0, [course(0)]));
+        let mut kept = vec![(0.0, [course(0)])];
+        for age in 1..125 {
+            let values = [course(age)];
+            if track.has(&values) {
+                track.hold(age as f32);
+            } else {
+                kept.extend(track.catch_up(&[0.25]));
+                kept.extend(track.add(age as f32, values, &[0.25]));
+            }
+        }
+        kept.extend(track.end());
+        for age in 0..125 {
+            let [found] = between(&kept, age as f32);
+            assert!((found - course(age)).abs() <= 0.2501, "{found} at {age}: {kept:?}");
+        }
+        assert!(kept.len() < 12, "{kept:?}");
     }
 
     #[test]

@@ -13,6 +13,17 @@ use phytomer_sim::plant::{OrganId, Plant};
 use phytomer_sim::pose::Frame;
 use std::ops::Range;
 
+/// The form that an organ states for itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OwnForm {
+    /// None: it has the form of its column.
+    None,
+    /// An outline, [`Plant::outline_of`].
+    Outline,
+    /// A curved surface, by its place among the paints of the habit.
+    Surface(usize),
+}
+
 /// The form of an organ.
 #[derive(Debug, Clone, Copy)]
 pub enum OrganForm<'s> {

@@ -2,13 +2,13 @@
 //!
 //! An internode stands from its birth until its branch falls, an organ from its birth until its death. A living
 //! component has the death age +∞, so that `birth_age <= a and a < death_age` holds without a special case and no later
-//! fate is shown; an internode that stands dead has the age of its death. Between two ticks all that stands at either is
-//! there, and what is yet to appear by the later one has the birth age of that. The base of an organ is moved from the
-//! axis line to the surface of the stem, by half the tip's diameter towards the organ.
+//! fate is shown; an internode that stands dead has the age of its death. Between two ticks all that stands at either
+//! is there, and what is yet to appear by the later one has the birth age of that. The base of an organ is moved from
+//! the axis line to the surface of the stem, by half the tip's diameter towards the organ.
 
 use super::chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 use super::forms::{FormMesh, Placement};
-use super::outline::{self, OrganForm, Outlines};
+use super::outline::{self, OrganForm, Outlines, OwnForm};
 use super::reduced::Reduced;
 use super::stem::Stems;
 use super::{About, Mesh, colour};
@@ -62,20 +62,9 @@ pub struct DrawnOrgan {
     pub own: OwnForm,
 }
 
-/// The form that an organ states for itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum OwnForm {
-    /// None: it has the form of its column.
-    None,
-    /// An outline, [`Plant::outline_of`].
-    Outline,
-    /// A curved surface, by its place among the [`Paints`] of the habit.
-    Surface(usize),
-}
-
 impl<'a> Scene<'a> {
-    /// The scene of `plant` at `age`; its frames and diameters must be those of that age. Of a plant that is shown between
-    /// two ticks `age` is the later one.
+    /// The scene of `plant` at `age`; its frames and diameters must be those of that age. Of a plant that is shown
+    /// between two ticks `age` is the later one.
     pub fn new(plant: &'a Plant, age: Tick, options: &MeshOptions) -> Self {
         let stems = Stems::of(plant, age, options);
         let reduced = options.tolerance.as_ref().map(|tolerance| Reduced::of(&stems, tolerance));
@@ -258,7 +247,7 @@ impl<'a> Scene<'a> {
 
     /// An organ as it is drawn.
     pub fn organ(&self, organ: OrganId) -> DrawnOrgan {
-        let colours = colour::organ(self.plant, self.paints, organ, self.age);
+        let colours = self.organ_colours(organ);
         match self.form(organ) {
             OrganForm::Shape(shape) => {
                 let Placement { base, heading, up, size, fullness } = self.placement(organ, shape);
@@ -278,6 +267,11 @@ impl<'a> Scene<'a> {
                 DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, own: OwnForm::Surface(place) }
             }
         }
+    }
+
+    /// The colours of an organ and of its stalk.
+    pub fn organ_colours(&self, organ: OrganId) -> [[u8; 4]; 2] {
+        colour::organ(self.plant, self.paints, organ, self.age)
     }
 
     /// The organs that are drawn.

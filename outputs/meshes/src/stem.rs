@@ -113,7 +113,8 @@ impl<'a> Stems<'a> {
         self.forms.get(place).unwrap_or_else(|| &self.sections[place - self.forms.len()])
     }
 
-    /// The place of the form of an internode in one list of forms and sections, which a plant keeps as long as it lives.
+    /// The place of the form of an internode in one list of forms and sections, which a plant keeps as long as it
+    /// lives.
     #[inline]
     pub fn place_of_form(&self, node: NodeId) -> usize {
         let Plant { axes, nodes, habit, own_looks, .. } = self.plant;

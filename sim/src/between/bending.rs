@@ -1,5 +1,5 @@
-//! The pose of a plant between two ticks by the rules of its growth: curvature and moment go linearly from tick to tick,
-//! and the axes are followed with the lengths of the moment.
+//! The pose of a plant between two ticks by the rules of its growth: curvature and moment go linearly from tick to
+//! tick, and the axes are followed with the lengths of the moment.
 
 use super::shares::Shares;
 use crate::clock::Tick;

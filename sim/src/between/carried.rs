@@ -6,8 +6,8 @@
 //! where it was. What has gone keeps its place on its bearer. The seed is the bearer of what has none.
 
 use crate::clock::Tick;
+use crate::plant::placing::Placed;
 use crate::plant::{Frame, Lasting, NodeId, OrganId, Plant};
-use crate::pose::placed::Placed;
 use crate::pose::{node_frame, organ_frame};
 
 /// The places at both ticks.

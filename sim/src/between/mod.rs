@@ -1,9 +1,9 @@
 //! A plant between two ticks: what stood at either, on its way from the one to the other.
 //!
 //! An age has a fraction f. In a plant that a model extends, node k of the n nodes by which an axis grows in a tick has
-//! the share clamp(n f − k + 1, 0, 1) of its length (`shares`); curvature goes linearly from tick to tick, and the plant
-//! is posed with it (`bending`). In a plant that is made anew or rewritten each component goes from its place on its
-//! bearer at the one tick to that at the other, by slerp, and carries along what it bears (`carried`); what appears
+//! the share clamp(n f − k + 1, 0, 1) of its length (`shares`); curvature goes linearly from tick to tick, and the
+//! plant is posed with it (`bending`). In a plant that is made anew or rewritten each component goes from its place on
+//! its bearer at the one tick to that at the other, by slerp, and carries along what it bears (`carried`); what appears
 //! grows from its base. In either, lengths of what stands at both ticks, diameters and sizes of organs go linearly, and
 //! what falls in a tick goes at its end. At f = 0 and f = 1 a plant is the plant of the tick itself, which no pose
 //! between can replace: [`Passage`] shows it. Absent: colours, which are those of drawing, and tables, which have whole

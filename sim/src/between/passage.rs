@@ -58,8 +58,8 @@ impl Passage {
         self.ways = ways.collect();
     }
 
-    /// The plants at a share of the tick, in the order of the plot, each with its age at the later tick; `None` for what
-    /// is not sown.
+    /// The plants at a share of the tick, in the order of the plot, each with its age at the later tick; `None` for
+    /// what is not sown.
     pub fn at(&mut self, share: f32) -> Vec<Option<(&Plant, Tick)>> {
         self.ways
             .par_iter_mut()

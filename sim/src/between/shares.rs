@@ -1,10 +1,10 @@
 //! How much of each length, diameter and size is there between two ticks.
 //!
-//! Of the n nodes by which an axis grows in a tick node k has the share clamp(n f − k + 1, 0, 1) of its length: one after
-//! the other elongates, at an even speed of the axis. A model makes one growth unit a tick, or several where the axis is
-//! faster than the clock, and these follow one another. In models without growth units what appears has the share f.
-//! Diameters of new nodes go from 0, but for nodes that are put between others: these have that of the later tick. An
-//! organ on a new node appears with it, another new organ with the share f of its size.
+//! Of the n nodes by which an axis grows in a tick node k has the share clamp(n f − k + 1, 0, 1) of its length: one
+//! after the other elongates, at an even speed of the axis. A model makes one growth unit a tick, or several where the
+//! axis is faster than the clock, and these follow one another. In models without growth units what appears has the
+//! share f. Diameters of new nodes go from 0, but for nodes that are put between others: these have that of the later
+//! tick. An organ on a new node appears with it, another new organ with the share f of its size.
 
 use crate::clock::Tick;
 use crate::plant::{Lasting, NodeId, OrganId, Plant};

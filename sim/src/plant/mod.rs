@@ -34,6 +34,7 @@ mod outline;
 mod own_look;
 mod partway;
 mod placed;
+pub(crate) mod placing;
 mod rare;
 pub(crate) mod standing;
 pub(crate) mod stated;

@@ -5,11 +5,10 @@
 //! diameters, curvatures and frames are those of the moment; sizes and places of organs follow from what is kept here.
 //! A plant at a tick has none of this. Absent: how the values come about.
 
-use super::handle::{NodeId, OrganId};
-use super::{Frame, Plant};
+use super::Plant;
+use super::handle::OrganId;
+use super::placing::Placed;
 use crate::clock::Tick;
-use crate::pose::node_frame;
-use crate::pose::placed::Placed;
 
 /// The state between two ticks.
 #[derive(Debug, Clone, Default)]
@@ -43,13 +42,6 @@ impl Plant {
     #[inline]
     pub fn fallen_by(&self, age: Tick) -> Tick {
         age - Tick::from(self.partway.is_some())
-    }
-
-    /// The frame of an organ between two ticks, where it is kept.
-    pub(crate) fn kept_frame(&self, organ: OrganId) -> Option<Frame> {
-        let placed = self.partway.as_ref()?.organs.get(organ.index())?;
-        let node: NodeId = self.organs.node[organ.index()];
-        Some(placed.on(&node_frame(self, node)))
     }
 
     /// How far an organ has dropped.

@@ -10,7 +10,6 @@
 pub(crate) mod bent;
 mod course;
 pub(crate) mod organs;
-pub(crate) mod placed;
 mod rest;
 mod scan;
 
@@ -21,7 +20,7 @@ use crate::plant::{AxisId, NodeId, Plant};
 use crate::vector::Vector;
 
 pub use crate::plant::frames::{Frame, Frames};
-pub use organs::{organ_frame, stated_organ_frame};
+pub use organs::{OrganInputs, organ_follows_from, organ_frame, stated_organ_frame};
 
 /// Poses every internode of `plant` that appeared by `age` and has no frame yet. Other frames stay: the pose at rest of
 /// a node depends on the nodes before it alone, and to the last bit neither on the order in which the axes grew nor on

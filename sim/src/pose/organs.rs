@@ -1,11 +1,12 @@
 //! The frames of organs, which are asked for and never stored: on the node, by insertion and trend or as stated.
 //!
 //! Between two ticks an organ is on the way from its frame at the one to that at the other, and an organ that drops on
-//! its way to the ground. The base lies on the line of the axis, at the node; a mesh moves it to the surface of the stem.
+//! its way to the ground. The base lies on the line of the axis, at the node; a mesh moves it to the surface of the
+//! stem.
 
-use super::placed::toward;
 use super::{course, node_frame, rest};
 use crate::clock::Tick;
+use crate::plant::placing::toward;
 use crate::plant::{Frame, OrganId, Plant};
 use crate::vector::Vector;
 use std::f64::consts::TAU;
@@ -30,6 +31,35 @@ pub fn organ_frame(plant: &Plant, organ: OrganId, age: Tick) -> Frame {
     if plant.habit.organ_trends.is_empty() { inserted } else { turned(plant, organ, inserted, age) }
 }
 
+/// All that the pose of an organ and its size follow from, to be compared with that of another age.
+pub type OrganInputs = [f32; 17];
+
+/// What the pose of an organ and its size follow from at an age; `None` where organs state frames or forms, and between
+/// two ticks, where more decides.
+#[inline]
+pub fn organ_follows_from(plant: &Plant, organ: OrganId, age: Tick) -> Option<OrganInputs> {
+    let stated = !plant.stated_organs.keep_insertion() || !plant.stated_organs.have_forms();
+    if stated || plant.partway().is_some() {
+        return None;
+    }
+    let Plant { organs, nodes, axes, habit, frames, .. } = plant;
+    let (share, organ) = (plant.expanded(organ, age), organ.index());
+    let node = organs.node[organ];
+    let turned = if habit.organ_trends.is_empty() {
+        0.0
+    } else {
+        let order = axes.order[nodes.axis[node.index()].index()];
+        let trend = habit.organ_trend(order, organs.kind[organ]);
+        trend.map_or(0.0, |trend| trend.at(age.saturating_sub(organs.birth[organ])).share as f32)
+    };
+    let ([x, y, z], [u, v, w]) = (frames.base[node.index()], frames.heading[node.index()]);
+    let [a, b, c] = frames.up[node.index()];
+    let (azimuth, insertion) = (organs.azimuth[organ], organs.insertion[organ]);
+    let (length, width) = (organs.length[organ], organs.width[organ]);
+    let tip = nodes.diameter_tip[node.index()];
+    Some([x, y, z, u, v, w, a, b, c, plant.posed_length(node), tip, azimuth, insertion, length, width, share, turned])
+}
+
 /// The frame of an organ by its insertion.
 #[inline]
 fn inserted(plant: &Plant, organ: OrganId) -> Frame {
@@ -50,9 +80,15 @@ fn turned(plant: &Plant, organ: OrganId, inserted: Frame, age: Tick) -> Frame {
     if habit.faces_the_sky(order, kind) { course::facing_the_sky(turned) } else { turned }
 }
 
+/// The frame of an organ between two ticks, where its place on its node is kept.
+fn kept(plant: &Plant, organ: OrganId) -> Option<Frame> {
+    let placed = plant.partway.as_ref()?.organs.get(organ.index())?;
+    Some(placed.on(&node_frame(plant, plant.organs.node[organ.index()])))
+}
+
 /// The frame of an organ a share of the tick before `age`.
 fn between(plant: &Plant, organ: OrganId, age: Tick, share: f32) -> Frame {
-    let frame = plant.kept_frame(organ).unwrap_or_else(|| {
+    let frame = kept(plant, organ).unwrap_or_else(|| {
         let inserted = inserted(plant, organ);
         if plant.habit.organ_trends.is_empty() {
             return inserted;
@@ -70,7 +106,7 @@ pub fn stated_organ_frame(plant: &Plant, organ: OrganId) -> Option<Frame> {
         return None;
     }
     let (rotation, start) = plant.stated_organs.frame(organ)?;
-    if let Some(kept) = plant.kept_frame(organ) {
+    if let Some(kept) = kept(plant, organ) {
         return Some(dropped(plant, organ, kept));
     }
     let bearing = node_frame(plant, plant.organs.node[organ.index()]);

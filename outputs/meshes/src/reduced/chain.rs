@@ -31,6 +31,11 @@ pub trait Found {
     fn chain(&mut self, samples: &[Sample], internodes: usize);
     /// An internode that is drawn by itself.
     fn apart(&mut self, node: NodeId);
+    /// Whether the chains of an axis, of which these are the stretches that stand, are known and need not be told.
+    fn is_known(&mut self, axis: &[Stretch]) -> bool {
+        let _ = axis;
+        false
+    }
 }
 
 /// Finds every chain, axis by axis in the order of the axes. An internode may begin so far from the tip before, metres.
@@ -44,17 +49,15 @@ pub fn chains(stems: &Stems, gap: f32, found: &mut dyn Found) {
         stretches.sort_unstable_by_key(place);
     }
     let mut chain = Chain::default();
-    let mut axis = None;
-    for stretch in stretches {
-        if axis != Some(stretch.axis) {
-            chain.finish(found);
+    for axis in stretches.chunk_by(|one, next| one.axis == next.axis) {
+        if found.is_known(axis) {
+            continue;
         }
-        axis = Some(stretch.axis);
-        for node in stretch.nodes().map(|node| NodeId(node as u32)) {
+        for node in axis.iter().flat_map(Stretch::nodes).map(|node| NodeId(node as u32)) {
             chain.add(node, stems, gap, found);
         }
+        chain.finish(found);
     }
-    chain.finish(found);
 }
 
 /// The chain that is being followed.

@@ -3,7 +3,7 @@
 //! Between two places the offset goes linearly and the rotation by the shortest way at an even speed (slerp, Shoemake
 //! 1985). Absent: what bears what.
 
-use crate::plant::Frame;
+use super::frames::Frame;
 use crate::rotation::Rotation;
 use crate::vector::Vector;
 
