@@ -7,7 +7,7 @@
 use super::specimen::{Branch, Growth, LAST, Specimen};
 use super::*;
 use crate::mechanics::{OrganMass, Scratch, Tissue, Uprighting, Wood, bend};
-use crate::plant::{Habit, NewOrgan, Origin, Rest, Trend};
+use crate::plant::{Habit, NewOrgan, OrganId, Origin, Rest, Trend};
 use crate::rotation::Rotation;
 use crate::site::{Site, Wind};
 use std::f64::consts::{FRAC_PI_2, PI};
