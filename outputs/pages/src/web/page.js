@@ -116,7 +116,7 @@ const Page = (() => {
         axes,
         away,
         texel: this.painter ? (2 * ball) / this.painter.shadowSize : 0,
-        casts: at('casts').checked && !this.plain,
+        casts: at('casts').checked,
         ground: at('ground').checked,
         stained: this.scene.colouring !== null,
         chosen: this.id,
