@@ -180,6 +180,12 @@ impl phytomer_films::Sink for Destination {
     }
 }
 
+impl phytomer_usd::Sink for Destination {
+    fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
+        Self::patch(self, at, bytes)
+    }
+}
+
 /// A file that is not finished is removed.
 impl Drop for Destination {
     fn drop(&mut self) {

@@ -27,6 +27,7 @@ pub use phytomer_gltf as gltf;
 pub use phytomer_life as life;
 pub use phytomer_meshes as meshes;
 pub use phytomer_pictures as pictures;
+pub use phytomer_usd as usd;
 pub use run_folder::{
     Checking, Checkup, Depth, Difference, Differences, Error, FileReport, Finding, Holder, MergeFault, MergeFaults,
     Merged, Mode, Opening, OvergrownPlot, RunFolder, RunReport, Shard, ShardReport, Share, State, Trouble, check,

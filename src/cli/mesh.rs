@@ -37,6 +37,7 @@ Examples:
   phytomer mesh coffee --age 36 --tolerance 1mm --out coffee.glb
   phytomer mesh coffee --ages 1..48 --keys 12 --seconds 8 --tolerance 2mm --out life.glb
   phytomer mesh willow --age 20 --tolerance 5mm --wind 8 --rig 60 --out sway.glb
+  phytomer mesh coffee --ages 1..48/4 --seconds 12 --out life.usdc
   phytomer mesh coffee --age 36 --tolerance 1mm --out print.stl
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
@@ -62,9 +63,9 @@ pub struct Mesh {
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(3..=64))]
     sides: u32,
     #[command(flatten)]
-    budget: Budget,
-    #[command(flatten)]
     growing: Growing,
+    #[command(flatten)]
+    budget: Budget,
     #[command(flatten)]
     rig: Rig,
     #[command(flatten)]
@@ -73,10 +74,9 @@ pub struct Mesh {
 
 impl Mesh {
     pub fn obey(self) -> Result<Verdict> {
-        let format = Format::of(&self.out)?;
-        let asked = [("ages", self.growing.is_asked()), ("rig", self.rig.asked().is_some())];
-        if let Some((option, _)) = asked.iter().find(|(option, asked)| *asked && !format.holds(option)) {
-            return Err(format.holds_no(option).into());
+        let format = self.growing.of(Format::of(&self.out)?, self.plot.is_some())?;
+        if let (Some(_), false) = (self.rig.asked(), format.holds("rig")) {
+            return Err(format.holds_no("rig").into());
         }
         let ages: Vec<Tick> = self.age.into_iter().chain(self.growing.last()).collect();
         match Regrown::find(&self.name, &ages)? {
@@ -90,7 +90,7 @@ impl Mesh {
             return rig::write(self, regrown, format, joints);
         }
         match self.plot {
-            _ if self.growing.is_asked() => keyed::write(self, regrown),
+            _ if self.growing.is_asked() => self.write_life(regrown, format),
             Some(plot) => self.write_plot(regrown, plot, format),
             None => self.write_plant(regrown, format),
         }

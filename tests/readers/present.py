@@ -7,7 +7,7 @@ from pathlib import Path
 # Packages that bring a program and no module.
 PROGRAMS = {"taplo"}
 # Packages whose module has another name.
-MODULES = {"pillow": "PIL"}
+MODULES = {"pillow": "PIL", "usd-core": "pxr"}
 
 
 def find(name):

@@ -9,7 +9,7 @@
 use super::keys::Keyed;
 use glam::Vec3;
 use phytomer_life::{Line, between};
-use phytomer_meshes::{Tag, sides};
+use phytomer_meshes::{Tag, sides_within};
 use phytomer_sim::math::{sin, sincos};
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -48,7 +48,7 @@ impl Tube {
         let last = (first..keyed.keys()).take_while(stands).last()?;
         let ages = (first..=last).filter_map(|key| keyed.age(key));
         let radii = ages.flat_map(|age| keyed.life.line_at(of, age).map(|(_, place)| place[3]));
-        let polygon = polygon(sides(radii.fold(0.0, f32::max), tolerance));
+        let polygon = polygon(sides_within(radii.fold(0.0, f32::max), tolerance));
         let base = keyed.life.points[of.points.clone()].first().map_or(u32::MAX, |point| point.component);
         let mut tube = Self { line, polygon, keys: first..last + 1, ups: Vec::new(), first: base };
         let mut rings = Vec::new();

@@ -7,8 +7,13 @@
 //! Any growth model will do: components are known again by their numbers. [`Lives`] records a whole plot. Absent:
 //! triangles and files, which are made from a life by its writers, and poses between ticks.
 //!
-//! Ages are ticks in single precision, exact up to 2²⁴. Only whole ticks are shown today; a pose at an age between two
-//! ticks would be shown by [`Maker::show`] with that age, and no keyframe need know of it.
+//! **To draw a life** at an age, whole or not: for each [`Line`] a tube through the points of [`Life::line_at`], and for
+//! each [`Part`] that [`Part::stands`] its form at [`Life::pose_at`], as [`What`] says. Values between two keys are
+//! linear ([`between`]); directions are made unit vectors again. What is born, falls or becomes a point does so at the
+//! ages that it states, so the topology is constant between two neighbours of those ages.
+//!
+//! Ages are ticks in single precision, exact up to 2²⁴, and may have a fraction: a writer should not take them for whole
+//! numbers.
 
 mod kept;
 mod lines;
@@ -21,6 +26,8 @@ mod track;
 
 pub use lives::Lives;
 pub use maker::Maker;
+pub use phytomer_looks::{Surface, SurfacePoint};
+pub use phytomer_meshes::Model;
 pub use track::{Key, between};
 
 use phytomer_sim::plant::{Form, Kind};
@@ -58,8 +65,13 @@ pub struct Life {
     pub points: Vec<Point>,
     /// Its organs, and internodes that are no tubes.
     pub parts: Vec<Part>,
-    /// The outlines that organs state, corner by corner in their own plane.
+    /// The outlines that organs state, corner by corner: x along the organ, y to its left, z to its upper side, metres.
+    /// They are drawn as the polygon that they are; they may be concave.
     pub outlines: Vec<Vec<[f32; 3]>>,
+    /// The curved surfaces that organs are: points, normals and triangles, in the same coordinates.
+    pub surfaces: Vec<Surface>,
+    /// The forms of internodes that are drawn by themselves.
+    pub stems: Vec<Model>,
     places: Vec<Key<4>>,
     poses: Vec<Key<12>>,
     tints: Vec<Key<3>>,
@@ -70,6 +82,8 @@ pub struct Life {
 pub struct Line {
     /// The component number of the apical bud of the axis.
     pub axis: u32,
+    /// The component number of the apical bud of the axis that bears it, when it was first seen; `None` for a trunk.
+    pub bearer: Option<u32>,
     /// Its order, from 1.
     pub order: u8,
     /// Its points, as places among those of the life.
@@ -105,6 +119,10 @@ pub enum What {
     Organ(Form),
     /// An organ with an outline of its own, by its place among those of the life; its sizes are shares of the outline.
     Outlined(u32),
+    /// An organ that is a curved surface, by its place among those of the life. A point (x, y, z) of the surface is at
+    /// base + x · s₀ · heading + y · s₁ · (up × heading) + z · s₂ · up with the sizes s of the pose, and its normal is
+    /// [`Surface::normal_scaled`] of them, turned alike.
+    Surface(u32),
     /// An internode that is no tube or has sides of its own: drawn as its species states, by itself.
     Internode,
 }
@@ -116,10 +134,14 @@ pub struct Part {
     pub component: u32,
     /// The component number of the internode at whose tip it stands; its own, of an internode.
     pub bearer: u32,
+    /// The component number of the apical bud of that internode's axis.
+    pub axis: u32,
     /// Its kind.
     pub kind: Kind,
     /// What it is.
     pub what: What,
+    /// Of an internode its form, by its place among those of the life.
+    pub stem: u32,
     /// How much fuller it is than its form, so that it has its area.
     pub fullness: f32,
     /// The colour of its stalk.
@@ -143,8 +165,8 @@ pub struct Pose {
     pub heading: [f32; 3],
     /// The unit vector of its upper side.
     pub up: [f32; 3],
-    /// Its length; its width, or of an internode its diameter at the base; and that at its tip. Metres, or shares of an
-    /// outline.
+    /// Its length; its width, or of an internode its diameter at the base; and that at its tip, metres. Of an outline its
+    /// share, twice; of a surface its factors along the organ, to its left and to its upper side.
     pub size: [f32; 3],
 }
 

@@ -33,6 +33,7 @@ pub struct Lines {
 #[derive(Debug, Clone)]
 struct Growing {
     axis: u32,
+    bearer: Option<u32>,
     order: u8,
     points: Vec<u32>,
     end: u32,
@@ -79,7 +80,9 @@ impl Found for Showing<'_, '_> {
         let axis = plant.nodes.axis[first.node.index()];
         let bud = plant.axes.component[axis.index()];
         self.last = (bud, if self.last.0 == bud { self.last.1 + 1 } else { 0 });
-        let line = self.lines.line(self.last, plant.axes.order[axis.index()]);
+        let bearer = plant.nodes.parent[first.node.index()].some().map(|node| plant.nodes.axis[node.index()]);
+        let bearer = bearer.map(|bearer| plant.axes.component[bearer.index()]).filter(|bearer| *bearer != bud);
+        let line = self.lines.line(self.last, bearer, plant.axes.order[axis.index()]);
         self.choose(line, samples);
         self.begin_points(line, samples);
         self.put_in_order(line);
@@ -223,14 +226,14 @@ impl Showing<'_, '_> {
 
 impl Lines {
     /// The line of an axis, which is begun where it does not stand.
-    fn line(&mut self, key: (u32, u32), order: u8) -> u32 {
+    fn line(&mut self, key: (u32, u32), bearer: Option<u32>, order: u8) -> u32 {
         let known = self.known.get(&key).copied();
         if let Some(line) = known.filter(|line| self.lines[*line as usize].stands) {
             return line;
         }
         let line = self.lines.len() as u32;
         self.known.insert(key, line);
-        self.lines.push(Growing { axis: key.0, order, points: Vec::new(), end: NONE, seen: 0.0, stands: true });
+        self.lines.push(Growing { axis: key.0, bearer, order, points: Vec::new(), end: NONE, seen: 0.0, stands: true });
         line
     }
 
@@ -257,10 +260,10 @@ impl Lines {
             self.tints.keep(number as u32, state.tint.end());
         }
         let mut tracks = Vec::with_capacity(self.points.len());
-        for Growing { axis, order, points, end, .. } in &self.lines {
+        for Growing { axis, bearer, order, points, end, .. } in &self.lines {
             let start = tracks.len();
             tracks.extend(points.iter().chain([end]).copied());
-            life.lines.push(Line { axis: *axis, order: *order, points: start..tracks.len() });
+            life.lines.push(Line { axis: *axis, bearer: *bearer, order: *order, points: start..tracks.len() });
         }
         let (places, of_places) = self.places.sorted(&tracks);
         let (tints, of_tints) = self.tints.sorted(&tracks);

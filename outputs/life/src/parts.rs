@@ -7,8 +7,9 @@
 use super::kept::Kept;
 use super::track::Track;
 use super::{Life, Nearness, Part, What};
-use phytomer_meshes::{Scene, Stems};
-use phytomer_sim::plant::{Kind, NodeId, OrganId};
+use phytomer_looks::{Paints, Surface};
+use phytomer_meshes::{Model, OwnForm, Scene, Stems};
+use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
 
 const NONE: u32 = u32::MAX;
 
@@ -21,6 +22,10 @@ pub struct Parts {
     /// The parts that stand.
     standing: Vec<u32>,
     outlines: Vec<Vec<[f32; 3]>>,
+    /// The curved surfaces that were met, with their places in the habit.
+    surfaces: Vec<(usize, Surface)>,
+    /// The forms of internodes that were met, with their places.
+    stems: Vec<(usize, Model)>,
     poses: Kept<12>,
     tints: Kept<3>,
 }
@@ -29,7 +34,7 @@ pub struct Parts {
 struct State {
     part: Part,
     seen: f32,
-    /// The extent of its outline, metres; 1 for other parts, whose sizes are metres.
+    /// The extent of its outline or surface; 1 for other parts, whose sizes are metres.
     extent: f32,
     pose: Track<12>,
     tint: Track<3>,
@@ -47,17 +52,17 @@ impl Parts {
         let organs = &scene.plant().organs;
         for organ in scene.organs() {
             let drawn = scene.organ(organ);
-            let ([length, width], [blade, stalk]) = (drawn.size, drawn.colours);
-            let shown =
-                Shown { pose: pose(drawn.base, drawn.heading, drawn.up, [length, width, 0.0]), tint: rgb(blade) };
+            let [blade, stalk] = drawn.colours;
+            let shown = Shown { pose: pose(drawn.base, drawn.heading, drawn.up, drawn.size), tint: rgb(blade) };
             let component = organs.component[organ.index()];
             let known = self.known(component);
             if known == NONE {
                 let part = Part {
                     bearer: scene.plant().nodes.component[organs.node[organ.index()].index()],
+                    axis: axis_of(scene.plant(), organs.node[organ.index()]),
                     fullness: drawn.fullness,
                     stalk: [stalk[0], stalk[1], stalk[2]],
-                    what: self.what(scene, organ, drawn.outlined),
+                    what: self.what(scene, organ, drawn.own),
                     ..begun(component, organs.kind[organ.index()], organs.birth[organ.index()] as f32, age)
                 };
                 self.begin(part, &shown);
@@ -79,10 +84,22 @@ impl Parts {
         let known = self.known(component);
         if known == NONE {
             let birth = plant.nodes.birth[node.index()] as f32;
-            self.begin(Part { stalk: colour, ..begun(component, plant.kind_of(node), birth, age) }, &shown);
+            let (axis, stem) = (axis_of(plant, node), self.stem(stems, node));
+            self.begin(Part { axis, stem, stalk: colour, ..begun(component, plant.kind_of(node), birth, age) }, &shown);
         } else {
             self.take(known, &shown, age, nearness);
         }
+    }
+
+    /// The place of the form of an internode.
+    fn stem(&mut self, stems: &Stems, node: NodeId) -> u32 {
+        let place = stems.place_of_form(node);
+        let known = self.stems.iter().position(|(known, _)| *known == place);
+        let number = known.unwrap_or_else(|| {
+            self.stems.push((place, stems.model(node)));
+            self.stems.len() - 1
+        });
+        number as u32
     }
 
     /// The part of a component that stands.
@@ -92,16 +109,28 @@ impl Parts {
         if stands { known } else { NONE }
     }
 
-    fn what(&mut self, scene: &Scene, organ: OrganId, outlined: bool) -> What {
-        if !outlined {
-            return What::Organ(scene.plant().organs.form[organ.index()]);
+    fn what(&mut self, scene: &Scene, organ: OrganId, own: OwnForm) -> What {
+        let plant = scene.plant();
+        match own {
+            OwnForm::None => What::Organ(plant.organs.form[organ.index()]),
+            OwnForm::Outline => {
+                let corners = plant.outline_of(organ);
+                // Neighbouring organs of one kind mostly have one outline.
+                if self.outlines.last().is_none_or(|last| last != corners) {
+                    self.outlines.push(corners.to_vec());
+                }
+                What::Outlined(self.outlines.len() as u32 - 1)
+            }
+            OwnForm::Surface(place) => {
+                let known = self.surfaces.iter().position(|(known, _)| *known == place);
+                let number = known.unwrap_or_else(|| {
+                    let surface = Paints::of(&plant.habit).surface(place).cloned().unwrap_or_default();
+                    self.surfaces.push((place, surface));
+                    self.surfaces.len() - 1
+                });
+                What::Surface(number as u32)
+            }
         }
-        let corners = scene.plant().outline_of(organ);
-        // Neighbouring organs of one kind mostly have one outline.
-        if self.outlines.last().is_none_or(|last| last != corners) {
-            self.outlines.push(corners.to_vec());
-        }
-        What::Outlined(self.outlines.len() as u32 - 1)
     }
 
     fn begin(&mut self, part: Part, shown: &Shown) {
@@ -114,7 +143,10 @@ impl Parts {
         self.of_component[component] = number;
         self.standing.push(number);
         let extent = match part.what {
-            What::Outlined(outline) => extent_of(&self.outlines[outline as usize]),
+            What::Outlined(outline) => extent_of(self.outlines[outline as usize].iter().copied()),
+            What::Surface(surface) => {
+                extent_of(self.surfaces[surface as usize].1.points().iter().map(|point| point.at))
+            }
             What::Organ(_) | What::Internode => 1.0,
         };
         let (pose, tint) = (Track::begin(pose), Track::begin(tint));
@@ -167,6 +199,8 @@ impl Parts {
         life.poses = poses;
         life.tints.extend(tints);
         life.outlines = self.outlines;
+        life.stems = self.stems.into_iter().map(|(_, model)| model).collect();
+        life.surfaces = self.surfaces.into_iter().map(|(_, surface)| surface).collect();
     }
 }
 
@@ -175,8 +209,10 @@ fn begun(component: u32, kind: Kind, birth: f32, from: f32) -> Part {
     Part {
         component,
         bearer: component,
+        axis: component,
         kind,
         what: What::Internode,
+        stem: 0,
         fullness: 1.0,
         stalk: [0; 3],
         birth,
@@ -187,6 +223,11 @@ fn begun(component: u32, kind: Kind, birth: f32, from: f32) -> Part {
     }
 }
 
+/// The number of the apical bud of an internode's axis.
+fn axis_of(plant: &Plant, node: NodeId) -> u32 {
+    plant.axes.component[plant.nodes.axis[node.index()].index()]
+}
+
 fn pose(base: [f32; 3], heading: [f32; 3], up: [f32; 3], size: [f32; 3]) -> [f32; 12] {
     std::array::from_fn(|k| [base, heading, up, size][k / 3][k % 3])
 }
@@ -195,7 +236,7 @@ fn rgb([red, green, blue, _]: [u8; 4]) -> [f32; 3] {
     [red, green, blue].map(f32::from)
 }
 
-/// The farthest distance of a corner of an outline from its base along an axis.
-fn extent_of(outline: &[[f32; 3]]) -> f32 {
-    outline.iter().flatten().map(|x| x.abs()).fold(f32::MIN_POSITIVE, f32::max)
+/// The farthest distance of a corner of an outline, or of a point of a surface, from its base along an axis.
+fn extent_of(points: impl Iterator<Item = [f32; 3]>) -> f32 {
+    points.flatten().map(f32::abs).fold(f32::MIN_POSITIVE, f32::max)
 }

@@ -3,10 +3,11 @@
 //! A trunk of six internodes, one a tick, bends at the third node; whole species are compared with their lives in
 //! `tests/lives.rs` of the root.
 
-use super::{Life, Maker, Nearness};
-use phytomer_meshes::MeshOptions;
+use super::{Life, Maker, Nearness, What};
+use phytomer_looks::{Paints, Surface};
+use phytomer_meshes::{MeshOptions, Scene};
 use phytomer_sim::Tick;
-use phytomer_sim::plant::{Cause, Form, Habit, Kind, NewAxis, NewNode, NewOrgan, NodeId, Plant, Seed};
+use phytomer_sim::plant::{Cause, Form, Habit, Kind, NewAxis, NewNode, NewOrgan, NodeId, OrganId, Plant, Seed};
 use phytomer_sim::pose::pose;
 use std::sync::Arc;
 
@@ -114,4 +115,35 @@ fn a_leaf_stands_from_its_birth_to_its_fall_and_a_trunk_until_it_is_shed() {
     assert_eq!([1.0, 2.0, 4.0, 5.0].map(|age| leaf.stands(age)), [false, true, true, false]);
     assert!(life.points.iter().all(|point| point.death == 6.0));
     assert_eq!(Maker::new(Nearness::of(0.0), &MeshOptions::default()).finish().keys(), 0);
+}
+
+/// A leaf that is a curved surface comes back with the surface, and its points are the vertices of the mesh.
+#[test]
+fn an_organ_that_is_a_curved_surface_can_be_drawn_from_its_life() {
+    let mut plant = plant();
+    let up = [0.0, 0.0, 1.0];
+    let points = [[0.0, 0.0, 0.0], [2.0, -0.5, 0.1], [2.0, 0.5, 0.3]].map(|at| (at, up, [0.0; 2]));
+    let surface = Surface::of(&points, &[[0, 1, 2]]);
+    let mut paints = Paints::default();
+    let place = paints.add_surface(surface.clone()) as u32;
+    let habit = Habit { for_drawing: paints.into_habit(), ..(*plant.habit).clone() };
+    plant.habit = Arc::new(habit);
+    plant.state_surface(OrganId(0), place, [0.1, 0.2, 0.4], 0.01);
+    let life = life(&plant, 3..=4);
+    assert_eq!((life.parts[0].what, &life.surfaces[..]), (What::Surface(0), &[surface][..]));
+    let pose = life.pose_at(&life.parts[0], 3.0);
+    assert_eq!(pose.size, [0.1, 0.2, 0.4]);
+    let [h, u] = [pose.heading, pose.up];
+    let left = [u[1] * h[2] - u[2] * h[1], u[2] * h[0] - u[0] * h[2], u[0] * h[1] - u[1] * h[0]];
+    let drawn = life.surfaces[0].points().iter().map(|point| {
+        let [x, y, z] = [0, 1, 2].map(|k| pose.size[k] * point.at[k]);
+        [0, 1, 2].map(|k| pose.base[k] + x * h[k] + y * left[k] + z * u[k])
+    });
+    let scene = Scene::new(&plant, 3, &MeshOptions::default());
+    let mut mesh = phytomer_meshes::Mesh::default();
+    scene.block(scene.blocks() - 1, &mut mesh);
+    assert_eq!(mesh.vertices.len(), 3);
+    for (vertex, point) in mesh.vertices.iter().zip(drawn) {
+        assert!((0..3).all(|k| (vertex.position()[k] - point[k]).abs() < 1e-6), "{point:?}");
+    }
 }

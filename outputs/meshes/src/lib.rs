@@ -16,6 +16,7 @@ mod file;
 mod forms;
 #[cfg(test)]
 mod measure;
+mod model;
 mod outline;
 mod palette;
 mod plot;
@@ -38,12 +39,13 @@ pub use collection::Collection;
 pub use drawing::{Drawing, PlantDrawing, Take};
 pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
+pub use model::Model;
 pub use plot::{PlotBody, PlotDrawing, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use reduced::chain::{Found, Sample, chains};
-pub use reduced::sides;
+pub use reduced::ring::sides as sides_within;
 pub use reduced::simplify::{fits, simplify};
-pub use scene::{DrawnOrgan, Scene};
+pub use scene::{DrawnOrgan, OwnForm, Scene};
 pub use solid::{Solid, Undrawn};
 pub use stem::Stems;
 pub use stl::write_stl;
@@ -137,7 +139,7 @@ pub struct About {
 
 impl About {
     /// The plant, its age and its run.
-    pub(crate) fn in_words(&self) -> String {
+    pub fn in_words(&self) -> String {
         format!("plant {} age {} seed {}", self.plant, self.age, self.run_seed)
     }
 }

@@ -5,6 +5,8 @@
 //! fate is shown; an internode that stands dead has the age of its death. The base of an organ is moved from the axis
 //! line to the surface of the stem, by half the tip's diameter towards the organ.
 
+mod alone;
+
 use super::chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 use super::forms::{FormMesh, Placement};
 use super::outline::{self, OrganForm, Outlines};
@@ -50,14 +52,26 @@ pub struct DrawnOrgan {
     pub heading: [f32; 3],
     /// The unit vector of its upper side.
     pub up: [f32; 3],
-    /// Its length and width at its age, metres; of an organ with an outline or a surface of its own, the share of it.
-    pub size: [f32; 2],
+    /// Its length and width at its age, metres, and 0; of an organ with an outline of its own the share of it, twice,
+    /// and 0; of a curved surface the factors along the organ, to its left and to its upper side.
+    pub size: [f32; 3],
     /// How much fuller it is than its form, so that it has its area.
     pub fullness: f32,
     /// The colours of the organ and of its stalk.
     pub colours: [[u8; 4]; 2],
-    /// Whether it has an outline, or a surface, of its own.
-    pub outlined: bool,
+    /// The form that it has instead of that of its column.
+    pub own: OwnForm,
+}
+
+/// The form that an organ states for itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OwnForm {
+    /// None: it has the form of its column.
+    None,
+    /// An outline, [`Plant::outline_of`].
+    Outline,
+    /// A curved surface, by its place among the [`Paints`] of the habit.
+    Surface(usize),
 }
 
 impl<'a> Scene<'a> {
@@ -72,6 +86,11 @@ impl<'a> Scene<'a> {
     /// The same scene with its wood drawn within a tolerance.
     pub fn within(&self, tolerance: Tolerance) -> Self {
         Self::new(self.plant, self.age, &MeshOptions { tolerance: Some(tolerance), ..self.options.clone() })
+    }
+
+    /// How it is drawn.
+    pub fn options(&self) -> &MeshOptions {
+        &self.options
     }
 
     /// The age of the plant.
@@ -213,26 +232,6 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Calls `take` with the vertices and the triangles of each component that is drawn by itself, in the order of the
-    /// mesh: organs, and internodes along which no tube of several runs. Triangles refer to the component's own
-    /// vertices.
-    pub fn each_alone(&self, take: &mut dyn FnMut(&[Vertex], &[[u32; 3]])) {
-        let mut vertices = Vec::new();
-        let Ok::<(), Infallible>(()) = self.each_stem(0..self.stem_places(), |node| {
-            let stem = self.stems.form(node);
-            vertices.clear();
-            self.stems.write(stem, node, with_room(&mut vertices, stem.vertices()));
-            take(&vertices, stem.faces());
-            Ok(())
-        });
-        for organ in self.organs() {
-            let form = self.form(organ);
-            vertices.clear();
-            self.write_organ(form, organ, with_room(&mut vertices, form.vertices()));
-            take(&vertices, form.faces());
-        }
-    }
-
     /// The number of places of [`Scene::each_stem`].
     fn stem_places(&self) -> usize {
         self.reduced.as_ref().map_or(self.plant.nodes.len(), |reduced| reduced.apart().len())
@@ -263,12 +262,20 @@ impl<'a> Scene<'a> {
         match self.form(organ) {
             OrganForm::Shape(shape) => {
                 let Placement { base, heading, up, size, fullness } = self.placement(organ, shape);
-                DrawnOrgan { base, heading, up, size, fullness, colours, outlined: false }
+                let size = [size[0], size[1], 0.0];
+                DrawnOrgan { base, heading, up, size, fullness, colours, own: OwnForm::None }
             }
-            OrganForm::Outline(..) | OrganForm::Surface(..) => {
+            OrganForm::Outline(..) => {
                 let Frame { base, heading, up } = self.organ_base(organ);
-                let size = [self.plant.expanded(organ, self.age); 2];
-                DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, outlined: true }
+                let share = self.plant.expanded(organ, self.age);
+                let size = [share, share, 0.0];
+                DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, own: OwnForm::Outline }
+            }
+            OrganForm::Surface(_, scale) => {
+                let Frame { base, heading, up } = self.organ_base(organ);
+                let size = scale.map(|x| x * self.plant.expanded(organ, self.age));
+                let place = self.plant.stated_organs.surface(organ).map_or(0, |(place, _)| place);
+                DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, own: OwnForm::Surface(place) }
             }
         }
     }

@@ -8,6 +8,7 @@ use super::MeshOptions;
 use super::chunk::{Tag, Vertex};
 use super::colour;
 use super::forms::{FormMesh, Placement};
+use super::model::Model;
 use super::section::{Prism, Ring};
 use super::tube::{Frustum, Strip, Tube};
 use phytomer_looks::Paints;
@@ -108,16 +109,28 @@ impl<'a> Stems<'a> {
     /// The form of an internode.
     #[inline]
     pub(super) fn form(&self, node: NodeId) -> &Drawn {
+        let place = self.place_of_form(node);
+        self.forms.get(place).unwrap_or_else(|| &self.sections[place - self.forms.len()])
+    }
+
+    /// The place of the form of an internode in one list of forms and sections, which a plant keeps as long as it lives.
+    #[inline]
+    pub fn place_of_form(&self, node: NodeId) -> usize {
         let Plant { axes, nodes, habit, own_looks, .. } = self.plant;
-        if let Some(section) = own_looks.section_of(node).and_then(|place| self.sections.get(place)) {
-            return section;
+        if let Some(section) = own_looks.section_of(node).filter(|place| *place < self.sections.len()) {
+            return self.forms.len() + section;
         }
         if let Some(apart) = own_looks.of_node(node).filter(|&place| place < habit.looks.apart.len()) {
-            return &self.forms[habit.looks.internodes.len() + apart];
+            return habit.looks.internodes.len() + apart;
         }
         let axis: AxisId = nodes.axis[node.index()];
         let place = habit.looks.place(axes.order[axis.index()], axes.state[axis.index()]);
-        &self.forms[place.unwrap_or(self.forms.len() - 1)]
+        place.unwrap_or(self.forms.len() - 1)
+    }
+
+    /// The form of an internode that is drawn by itself, in the colour that it has.
+    pub fn model(&self, node: NodeId) -> Model {
+        Model::of_stem(self.form(node), self.colour(node))
     }
 
     /// Writes the vertices of an internode; `out` must have as many places as its form has vertices.

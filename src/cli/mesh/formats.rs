@@ -1,13 +1,14 @@
 //! The formats of `mesh` by the endings of their names: the one list, and what writes each.
 //!
 //! A new format is a line in `FORMATS`, a variant, and its two arms. Absent: how each is written
-//! (`phytomer_outputs::meshes` and
-//! `phytomer_outputs::gltf`).
+//! (`phytomer_outputs::meshes`, `phytomer_outputs::gltf` and `phytomer_outputs::usd`).
 
 use super::super::{Misuse, out};
+use phytomer_outputs::Destination;
 use phytomer_outputs::gltf::write_still;
 use phytomer_outputs::meshes::{MeshWriter, PlantDrawing, PlotMesh, Ply, Scene, write_stl};
-use std::io::{self, Write};
+use phytomer_outputs::usd::{self, Asked, Encoding, Organs};
+use std::io;
 use std::path::Path;
 
 /// A format of meshes.
@@ -16,13 +17,17 @@ pub enum Format {
     Ply,
     Glb,
     Stl,
+    Usd(Encoding, Organs),
 }
 
 /// The formats, with their names and endings. A name without an ending, and stdout, get the first.
-const FORMATS: [(Format, out::Format); 3] = [
+const FORMATS: [(Format, out::Format); 6] = [
     (Format::Ply, out::Format { name: "PLY", extension: "ply" }),
     (Format::Glb, out::Format { name: "GLB", extension: "glb" }),
     (Format::Stl, out::Format { name: "STL", extension: "stl" }),
+    (Format::Usd(Encoding::Binary, Organs::Instances), out::Format { name: "USD", extension: "usdc" }),
+    (Format::Usd(Encoding::Text, Organs::Instances), out::Format { name: "USD", extension: "usda" }),
+    (Format::Usd(Encoding::Package, Organs::Instances), out::Format { name: "USD", extension: "usdz" }),
 ];
 
 impl Format {
@@ -42,6 +47,7 @@ impl Format {
     pub fn holds(self, option: &str) -> bool {
         match self {
             Self::Glb => ["ages", "rig"].contains(&option),
+            Self::Usd(..) => option == "ages",
             Self::Ply | Self::Stl => false,
         }
     }
@@ -49,7 +55,7 @@ impl Format {
     /// That the format cannot hold what an option asks for, with those that can.
     pub fn holds_no(self, option: &str) -> Misuse {
         let named = |(_, format): &(Self, out::Format)| format!("{} (.{})", format.name, format.extension);
-        let own = FORMATS.iter().find(|(format, _)| *format == self).map(named).unwrap_or_default();
+        let own = FORMATS.iter().find(|(format, _)| *format == self).map_or_else(|| "USD".to_owned(), named);
         let can: Vec<String> = FORMATS.iter().filter(|(format, _)| format.holds(option)).map(named).collect();
         Misuse(format!(
             "--{option}: {own} holds a plant that stands still at one age; the formats that hold more: {}",
@@ -61,12 +67,16 @@ impl Format {
     ///
     /// # Errors
     /// Those of `out`; a mesh that is larger than the format can hold.
-    pub fn write_plant(self, scene: &Scene, run_seed: u64, out: &mut (dyn Write + Send)) -> io::Result<()> {
+    pub fn write_plant(self, scene: &Scene, run_seed: u64, out: &mut Destination) -> io::Result<()> {
         let about = scene.about(run_seed);
         match self {
             Self::Ply => Ply.write(scene, &about, out),
             Self::Glb => write_still(&PlantDrawing { scene, about }, out),
             Self::Stl => write_stl(&PlantDrawing { scene, about }, out),
+            Self::Usd(encoding, organs) => {
+                let asked = Asked { encoding, organs, words: about.in_words() };
+                usd::write_plant(&asked, scene, run_seed, out)
+            }
         }
     }
 
@@ -74,11 +84,14 @@ impl Format {
     ///
     /// # Errors
     /// As [`Format::write_plant`].
-    pub fn write_plot(self, plot: &PlotMesh, out: &mut (dyn Write + Send)) -> io::Result<()> {
+    pub fn write_plot(self, plot: &PlotMesh, out: &mut Destination) -> io::Result<()> {
         match self {
             Self::Ply => plot.write(out),
             Self::Glb => write_still(&plot.drawing()?, out),
             Self::Stl => write_stl(&plot.drawing()?, out),
+            Self::Usd(encoding, organs) => {
+                usd::write_plot(&Asked { encoding, organs, words: plot.name.clone() }, plot, out)
+            }
         }
     }
 }
@@ -94,6 +107,9 @@ mod tests {
             ("A.STL", Format::Stl),
             ("a.Glb", Format::Glb),
             ("a.ply.stl", Format::Stl),
+            ("a.usdc", Format::Usd(Encoding::Binary, Organs::Instances)),
+            ("a.USDA", Format::Usd(Encoding::Text, Organs::Instances)),
+            ("a.usdz", Format::Usd(Encoding::Package, Organs::Instances)),
             ("plain", Format::Ply),
             ("-", Format::Ply),
         ] {
@@ -102,7 +118,8 @@ mod tests {
         let told = Format::of(Path::new("a.obj")).expect_err("no format").0;
         assert_eq!(
             told,
-            "--out a.obj: `mesh` cannot write `.obj`; the formats that it has: PLY (.ply), GLB (.glb), STL (.stl)"
+            "--out a.obj: `mesh` cannot write `.obj`; the formats that it has: PLY (.ply), GLB (.glb), STL (.stl), \
+             USD (.usdc), USD (.usda), USD (.usdz)"
         );
     }
 }

@@ -119,6 +119,16 @@ impl FormMesh {
         self.side.share(aspect)
     }
 
+    /// What scales its z direction.
+    pub fn depth(&self) -> Depth {
+        self.depth
+    }
+
+    /// Whether it becomes slim or full in each of its parts.
+    pub fn is_in_parts(&self) -> bool {
+        self.in_parts
+    }
+
     /// The factor by which an organ of this length and width is fuller than its form, so that one side has the area
     /// `area`.
     #[inline]

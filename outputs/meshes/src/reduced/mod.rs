@@ -8,7 +8,7 @@
 //! takes 8 bytes a ring; vertices and triangles are made of it ring by ring. Absent: joints between axes.
 
 pub mod chain;
-mod ring;
+pub mod ring;
 pub mod simplify;
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,152 @@
+//! Whole numbers by their differences, packed with LZ4 (integerCoding.cpp and fastCompression.cpp of OpenUSD).
+//!
+//! The commonest difference is written once. Each number has a code of two bits: its difference is the commonest, or it
+//! follows in one of three sizes, 1, 2 and 4 bytes, or 2, 4 and 8 of numbers of 64 bits. First come the commonest
+//! difference and all codes, four a byte from its low end, then the differences.
+
+use std::collections::BTreeMap;
+
+/// The most bytes of a block of LZ4; larger content is cut into several.
+const LARGEST_BLOCK: usize = 0x7E00_0000;
+
+/// How many differences are looked at for the commonest; any would be right, and another makes a larger file.
+const SAMPLED: usize = 4096;
+
+/// Packs numbers.
+pub fn pack(numbers: &[i32]) -> Vec<u8> {
+    let mut last = 0_i32;
+    let differences: Vec<i32> =
+        numbers.iter().map(|number| number.wrapping_sub(std::mem::replace(&mut last, *number))).collect();
+    let common = commonest(differences.iter().map(|difference| i64::from(*difference)), differences.len()) as i32;
+    let mut coded = Coded::of(&common.to_le_bytes(), differences.len());
+    for difference in differences {
+        match (difference == common, i8::try_from(difference), i16::try_from(difference)) {
+            (true, ..) => coded.put(0, &[]),
+            (_, Ok(small), _) => coded.put(1, &small.to_le_bytes()),
+            (_, _, Ok(small)) => coded.put(2, &small.to_le_bytes()),
+            _ => coded.put(3, &difference.to_le_bytes()),
+        }
+    }
+    compress(&coded.finish())
+}
+
+/// Packs numbers of 64 bits.
+pub fn pack_longs(numbers: &[i64]) -> Vec<u8> {
+    let mut last = 0_i64;
+    let differences: Vec<i64> =
+        numbers.iter().map(|number| number.wrapping_sub(std::mem::replace(&mut last, *number))).collect();
+    let common = commonest(differences.iter().copied(), differences.len());
+    let mut coded = Coded::of(&common.to_le_bytes(), differences.len());
+    for difference in differences {
+        match (difference == common, i16::try_from(difference), i32::try_from(difference)) {
+            (true, ..) => coded.put(0, &[]),
+            (_, Ok(small), _) => coded.put(1, &small.to_le_bytes()),
+            (_, _, Ok(small)) => coded.put(2, &small.to_le_bytes()),
+            _ => coded.put(3, &difference.to_le_bytes()),
+        }
+    }
+    compress(&coded.finish())
+}
+
+/// The commonest of some numbers, the largest of equals.
+fn commonest(numbers: impl Iterator<Item = i64>, count: usize) -> i64 {
+    let mut counts: BTreeMap<i64, usize> = BTreeMap::new();
+    for number in numbers.step_by(count.div_ceil(SAMPLED).max(1) | 1) {
+        *counts.entry(number).or_default() += 1;
+    }
+    counts.into_iter().max_by_key(|(number, count)| (*count, *number)).map_or(0, |(number, _)| number)
+}
+
+/// Codes and differences in the making.
+struct Coded {
+    bytes: Vec<u8>,
+    /// Where the codes begin.
+    codes: usize,
+    count: usize,
+}
+
+impl Coded {
+    fn of(common: &[u8], numbers: usize) -> Self {
+        let mut bytes = common.to_vec();
+        bytes.resize(common.len() + numbers.div_ceil(4), 0);
+        Self { bytes, codes: common.len(), count: 0 }
+    }
+
+    #[inline]
+    fn put(&mut self, code: u8, difference: &[u8]) {
+        self.bytes[self.codes + self.count / 4] |= code << (2 * (self.count % 4));
+        self.count += 1;
+        self.bytes.extend_from_slice(difference);
+    }
+
+    fn finish(self) -> Vec<u8> {
+        self.bytes
+    }
+}
+
+/// Packs bytes with LZ4: a zero and one block, or the number of blocks and each with its length.
+pub fn compress(bytes: &[u8]) -> Vec<u8> {
+    if bytes.len() <= LARGEST_BLOCK {
+        let mut packed = vec![0; 1 + lz4_flex::block::get_maximum_output_size(bytes.len())];
+        let length = lz4_flex::block::compress_into(bytes, &mut packed[1..]).unwrap_or(0);
+        packed.truncate(1 + length);
+        return packed;
+    }
+    let blocks = bytes.chunks(LARGEST_BLOCK);
+    let mut packed = vec![blocks.len() as u8];
+    for block in blocks {
+        let block = lz4_flex::block::compress(block);
+        packed.extend((block.len() as i32).to_le_bytes());
+        packed.extend(block);
+    }
+    packed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Reads numbers as integerCoding.cpp does, of `size` bytes at most.
+    fn unpack(packed: &[u8], count: usize, size: usize) -> Vec<i64> {
+        assert_eq!(packed[0], 0, "one block");
+        let bytes = lz4_flex::block::decompress(&packed[1..], (size + 1) * (count + 2)).expect("LZ4");
+        let read = |at: usize, size: usize| {
+            let bytes: Vec<u8> = bytes[at..at + size].to_vec();
+            let sign = if bytes[size - 1] & 128 == 0 { 0 } else { 255 };
+            let mut long = [sign; 8];
+            long[..size].copy_from_slice(&bytes);
+            i64::from_le_bytes(long)
+        };
+        let (common, mut at, mut last) = (read(0, size), size + count.div_ceil(4), 0_i64);
+        let numbers = (0..count).map(|number| {
+            let size = match bytes[size + number / 4] >> (2 * (number % 4)) & 3 {
+                0 => 0,
+                code => size >> (3 - code),
+            };
+            last = last.wrapping_add(if size == 0 { common } else { read(at, size) });
+            at += size;
+            last
+        });
+        numbers.collect()
+    }
+
+    #[test]
+    fn numbers_come_back() {
+        let courses: [Vec<i64>; 5] = [
+            vec![3; 100],
+            (0..1000).collect(),
+            (0..777).map(|k| (k * 7919) % 1013 - 500).collect(),
+            (0..64).map(|k| if k % 2 == 0 { i64::from(i32::MAX) } else { i64::from(i32::MIN) }).collect(),
+            (0..20_000).map(|k| k / 7 + (k % 3) * 40_000).collect(),
+        ];
+        for course in courses {
+            let short: Vec<i32> = course.iter().map(|number| *number as i32).collect();
+            let of_short: Vec<i64> =
+                unpack(&pack(&short), course.len(), 4).iter().map(|x| i64::from(*x as i32)).collect();
+            assert_eq!(of_short, course);
+            let long: Vec<i64> = course.iter().map(|number| number << 17).collect();
+            assert_eq!(unpack(&pack_longs(&long), course.len(), 8), long);
+        }
+        assert!(pack(&vec![3; 1_000_000]).len() < 2000, "what is even is small");
+    }
+}

@@ -1,0 +1,130 @@
+//! What a USD layer is made of: prims in a tree, with attributes, relationships and connections.
+//!
+//! A [`Layer`] is written from its first prim to its last, and each attribute as a whole, so that memory holds one value
+//! at a time. A value that changes is asked for by its number, once for each different value in a binary file, and once for
+//! each time in a text. Absent: what the prims mean, which is the schemas' of USD and of the writers above.
+
+use std::io::{self, Write};
+
+/// Where a layer is written to.
+pub trait Sink: Write {
+    /// Writes over bytes that were written before.
+    ///
+    /// # Errors
+    /// The system's; where there is no going back, as in a pipe.
+    fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()>;
+}
+
+/// What a layer says of itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Header {
+    /// The name of its one prim at the root.
+    pub root: String,
+    /// What it is, in words.
+    pub words: String,
+    /// The first and the last time code, and the time codes of a second; `None` for a still.
+    pub time: Option<[f64; 3]>,
+}
+
+/// A value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Data<'a> {
+    /// A word of a schema.
+    Token(&'a str),
+    /// A text.
+    Text(&'a str),
+    /// Yes or no.
+    Flag(bool),
+    /// One number.
+    Float(f32),
+    /// Three numbers.
+    Triple([f32; 3]),
+    /// Whole numbers.
+    Ints(&'a [i32]),
+    /// Whole numbers of 64 bits.
+    Longs(&'a [i64]),
+    /// Pairs.
+    Pairs(&'a [[f32; 2]]),
+    /// Triples.
+    Triples(&'a [[f32; 3]]),
+    /// Rotations as the bits of half precision: x, y, z and the real part.
+    Turns(&'a [[u16; 4]]),
+}
+
+/// An attribute without its value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Attribute<'a> {
+    /// Its name, with its namespaces.
+    pub name: &'a str,
+    /// The name of its type, such as `point3f[]`.
+    pub of: &'static str,
+    /// Whether it never changes.
+    pub uniform: bool,
+    /// How a primvar goes over its surface.
+    pub interpolation: Option<&'static str>,
+}
+
+impl<'a> Attribute<'a> {
+    /// An attribute that may change.
+    pub fn new(name: &'a str, of: &'static str) -> Self {
+        Self { name, of, uniform: false, interpolation: None }
+    }
+
+    /// An attribute that never changes.
+    pub fn uniform(name: &'a str, of: &'static str) -> Self {
+        Self { uniform: true, ..Self::new(name, of) }
+    }
+
+    /// A primvar, or normals.
+    pub fn over(name: &'a str, of: &'static str, interpolation: &'static str) -> Self {
+        Self { interpolation: Some(interpolation), ..Self::new(name, of) }
+    }
+}
+
+/// The value of an attribute.
+pub enum Value<'v, 'd> {
+    /// It has none of its own.
+    None,
+    /// The same at all times.
+    Always(Data<'d>),
+    /// At each of some times the value of a number, and a function that hands on the value of each number.
+    Timed(&'v [(f64, usize)], &'v mut Values<'v>),
+    /// That of another attribute, by its path.
+    Of(&'v str),
+}
+
+/// Hands the value of a number on.
+pub type Values<'v> = dyn FnMut(usize, &mut dyn FnMut(Data) -> io::Result<()>) -> io::Result<()> + 'v;
+
+/// A layer that is being written.
+pub trait Layer {
+    /// Begins a prim of a type within the one that is open, with API schemas.
+    ///
+    /// # Errors
+    /// Those of the file, as of all that follows.
+    fn begin(&mut self, of: &'static str, name: &str, schemas: &[&str]) -> io::Result<()>;
+
+    /// Writes an attribute of the open prim.
+    ///
+    /// # Errors
+    /// Those of the file, and of the function that makes values.
+    fn attribute(&mut self, attribute: Attribute, value: Value) -> io::Result<()>;
+
+    /// Writes a relationship of the open prim to prims, by their paths.
+    ///
+    /// # Errors
+    /// Those of the file.
+    fn relationship(&mut self, name: &str, targets: &[String]) -> io::Result<()>;
+
+    /// Ends the open prim.
+    ///
+    /// # Errors
+    /// Those of the file.
+    fn end(&mut self) -> io::Result<()>;
+
+    /// Ends the layer.
+    ///
+    /// # Errors
+    /// Those of the file.
+    fn finish(&mut self) -> io::Result<()>;
+}

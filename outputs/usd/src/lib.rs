@@ -1,0 +1,211 @@
+//! Plants, plots and whole lives as USD: `.usda` (text), `.usdc` (binary) and `.usdz` (a package with a binary layer).
+//!
+//! A file has one root with the wood as a mesh, the organs as a PointInstancer or merged into a mesh, and materials, in
+//! metres, Z up. A still is a plant at an age; a life has time samples, cut into spans of constant topology (`course`).
+//! What is written goes through a [`Layer`], of which there is one for each encoding; a new encoding is one file and one
+//! line here. Memory holds one value at a time. The same plants give the same bytes. Absent: growing, lives
+//! (`phytomer_life`), triangles of wood and forms (`phytomer_meshes`), and which file is written.
+
+mod binary;
+mod changing;
+mod course;
+mod layer;
+mod models;
+mod package;
+mod paint;
+mod parts;
+mod skeleton;
+mod still;
+#[cfg(test)]
+mod tests;
+mod text;
+mod tubes;
+
+pub use course::Pace;
+pub use layer::Sink;
+pub use still::{write_plant, write_plot};
+
+use binary::Binary;
+use course::Course;
+use layer::{Header, Layer};
+use models::Models;
+use package::Package;
+use parts::Parts;
+use phytomer_life::{Life, between};
+use phytomer_meshes::{Drawing, MeshOptions};
+use skeleton::Skeleton;
+use std::io;
+use text::Text;
+use tubes::Tubes;
+
+/// The step of a colour, in each of three bytes.
+const STEP: f32 = 12.0;
+
+/// How a layer is encoded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Encoding {
+    /// Text.
+    Text,
+    /// Binary.
+    Binary,
+    /// A package with a binary layer.
+    Package,
+}
+
+/// How organs are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Organs {
+    /// As instances of their models.
+    #[default]
+    Instances,
+    /// Merged into one mesh.
+    Merged,
+}
+
+/// What is written, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Asked {
+    /// The encoding.
+    pub encoding: Encoding,
+    /// How organs are written.
+    pub organs: Organs,
+    /// What the file says of itself, in words.
+    pub words: String,
+}
+
+/// The plants of a file.
+pub struct Plants<'a> {
+    /// Their lives, equal ones once; of a still, lives of one age.
+    pub lives: &'a [Life],
+    /// The options of each life.
+    pub options: &'a [MeshOptions],
+    /// What stands where.
+    pub members: &'a [Member],
+}
+
+/// A plant of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Member {
+    /// Its life, by its place.
+    pub life: usize,
+    /// Where it stands, metres.
+    pub offset: [f32; 3],
+    /// What is added to its component numbers, times 2³², to make them ids that no other plant of the file has.
+    pub number: u32,
+}
+
+impl Member {
+    fn id_of(&self, component: u32) -> i64 {
+        i64::from(self.number) << 32 | i64::from(component)
+    }
+}
+
+/// The name of the prim at the root.
+const ROOT: &str = "plant";
+
+/// Writes plants at an age: wood as it is drawn, and the organs of lives of that one age.
+fn write_still(asked: &Asked, wood: &dyn Drawing, plants: &Plants, out: &mut dyn Sink) -> io::Result<()> {
+    let course = Course::still();
+    in_layer(asked, None, out, &mut |layer| {
+        if wood.counts().faces > 0 {
+            still::write_wood(layer, ROOT, "wood", wood)?;
+        }
+        write_organs(layer, asked.organs, plants, &course, false)
+    })
+}
+
+/// Writes lives that were shown at the same ages; wood is round within a tolerance, metres.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_life(asked: &Asked, plants: &Plants, tolerance: f32, pace: &Pace, out: &mut dyn Sink) -> io::Result<()> {
+    let ages = plants.lives.first().map_or(&[][..], |life| &life.ages);
+    let course = Course::of(ages, plants.lives, pace);
+    let ends = [ages.first(), ages.last()].map(|age| f64::from(age.copied().unwrap_or(0.0)) * pace.a_tick);
+    in_layer(asked, Some([ends[0], ends[1], pace.a_second]), out, &mut |layer| {
+        let skeletons: Vec<Skeleton> = plants.lives.iter().map(|life| Skeleton::of(life, &course)).collect();
+        let tubes = Tubes::of(&skeletons, plants.members, tolerance);
+        if !tubes.is_empty() {
+            changing::write(layer, (ROOT, "wood", "wood"), &tubes, &course)?;
+        }
+        write_organs(layer, asked.organs, plants, &course, true)
+    })
+}
+
+fn in_layer(
+    asked: &Asked,
+    time: Option<[f64; 3]>,
+    out: &mut dyn Sink,
+    write: &mut dyn FnMut(&mut dyn Layer) -> io::Result<()>,
+) -> io::Result<()> {
+    let header = Header { root: ROOT.to_owned(), words: asked.words.clone(), time };
+    match asked.encoding {
+        Encoding::Text => in_root(&mut Text::begin(out, &header)?, write),
+        Encoding::Binary => in_root(&mut Binary::begin(out, &header)?, write),
+        Encoding::Package => {
+            let mut package = Package::begin(out, "plant.usdc")?;
+            in_root(&mut Binary::begin(&mut package, &header)?, write)?;
+            package.finish()
+        }
+    }
+}
+
+fn in_root(layer: &mut dyn Layer, write: &mut dyn FnMut(&mut dyn Layer) -> io::Result<()>) -> io::Result<()> {
+    layer.begin("Xform", ROOT, &[])?;
+    write(layer)?;
+    layer.end()?;
+    layer.finish()
+}
+
+/// Writes organs and internodes that are drawn by themselves, and the materials.
+fn write_organs(
+    layer: &mut dyn Layer,
+    organs: Organs,
+    plants: &Plants,
+    course: &Course,
+    internodes: bool,
+) -> io::Result<()> {
+    let skeletons: Vec<Skeleton> = plants.lives.iter().map(|life| Skeleton::of(life, course)).collect();
+    let models = met(plants, course);
+    let parts = |internodes| Parts { skeletons: &skeletons, members: plants.members, models: &models, internodes };
+    let stems = parts(true);
+    if internodes && !stems.is_empty() {
+        changing::write(layer, (ROOT, "stems", "wood"), &stems, course)?;
+    }
+    let parts = parts(false);
+    let mut materials = vec![("wood", 0.85)];
+    if !parts.is_empty() {
+        match organs {
+            Organs::Instances => {
+                parts.write_instances(layer, ROOT, course)?;
+                materials.extend(models.kinds().into_iter().map(|kind| (kind.tag(), 0.6)));
+            }
+            Organs::Merged => {
+                changing::write(layer, (ROOT, "organs", "organs"), &parts, course)?;
+                materials.push(("organs", 0.6));
+            }
+        }
+    }
+    paint::write_materials(layer, ROOT, &materials)
+}
+
+/// The models of all parts in all their colours.
+fn met<'a>(plants: &Plants<'a>, course: &Course) -> Models<'a> {
+    let mut models = Models::of(plants.lives, plants.options);
+    for (number, life) in plants.lives.iter().enumerate() {
+        for part in &life.parts {
+            for state in &course.states {
+                let age = life.ages[state.age];
+                if course.has(state.span, &life.ages, (part.from, part.death)) {
+                    models.meet(number, part, between(life.tints_of_part(part), age));
+                }
+            }
+        }
+    }
+    models
+}
+
+/// A colour in steps.
+fn stepped(tint: [f32; 3]) -> [u8; 3] {
+    tint.map(|part| ((part / STEP).round() * STEP).clamp(0.0, 255.0) as u8)
+}

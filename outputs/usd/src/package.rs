@@ -1,0 +1,115 @@
+//! A package (`.usdz`): a zip without compression, whose one file is a binary layer that begins at a multiple of 64 bytes.
+//!
+//! The sum and the size of the layer stand before it and are known after it, so they are put right at the end, as the
+//! layer's own bootstrap is. The time of the file is the earliest of its format, so that the same plants are the same bytes.
+
+use super::layer::Sink;
+use crc32fast::Hasher;
+use std::io::{self, Write};
+
+/// Where the layer begins.
+const ALIGNED: usize = 64;
+/// The bytes of the header of a file, without its name.
+const LOCAL: usize = 30;
+/// The name of the field that fills the header, as OpenUSD has it.
+const FILLING: u16 = 0x1986;
+/// 1980-01-01.
+const DATE: u16 = 0x21;
+/// The bytes at the beginning that are put right at the end: those of the bootstrap of a layer.
+const PATCHED: usize = 88;
+
+/// A package that is being written.
+pub struct Package<'o> {
+    out: &'o mut dyn Sink,
+    name: String,
+    /// The first bytes of the layer, as they are going to be.
+    head: Vec<u8>,
+    rest: Hasher,
+    size: u64,
+}
+
+impl<'o> Package<'o> {
+    /// Begins a package whose layer has this name, with its ending.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn begin(out: &'o mut dyn Sink, name: &str) -> io::Result<Self> {
+        let package = Self { out, name: name.to_owned(), head: Vec::new(), rest: Hasher::new(), size: 0 };
+        package.out.write_all(&package.local(0, 0))?;
+        Ok(package)
+    }
+
+    /// The header before the layer.
+    fn local(&self, sum: u32, size: u32) -> Vec<u8> {
+        let filling = ALIGNED - LOCAL - self.name.len();
+        let mut header = b"PK\x03\x04".to_vec();
+        self.describe(&mut header, sum, size);
+        header.extend((filling as u16).to_le_bytes());
+        header.extend(self.name.as_bytes());
+        header.extend([FILLING, filling as u16 - 4].into_iter().flat_map(u16::to_le_bytes));
+        header.resize(ALIGNED, 0);
+        header
+    }
+
+    /// What both headers say: version, flags, method, time and date, sum, sizes, length of the name.
+    fn describe(&self, header: &mut Vec<u8>, sum: u32, size: u32) {
+        header.extend([10, 0, 0, 0, DATE].into_iter().flat_map(u16::to_le_bytes));
+        header.extend([sum, size, size].into_iter().flat_map(u32::to_le_bytes));
+        header.extend((self.name.len() as u16).to_le_bytes());
+    }
+
+    /// Writes what stands behind the layer, and puts the header right.
+    ///
+    /// # Errors
+    /// Those of the file; a layer that is larger than a package may be.
+    pub fn finish(self) -> io::Result<()> {
+        let size = u32::try_from(self.size).ok().filter(|size| *size < u32::MAX - 1024);
+        let size = size.ok_or_else(|| {
+            io::Error::other("a .usdz file holds at most 4 GiB: write a .usdc file, or choose a larger tolerance")
+        })?;
+        let mut sum = Hasher::new();
+        sum.update(&self.head);
+        sum.combine(&self.rest);
+        let sum = sum.finalize();
+        let mut directory = b"PK\x01\x02".to_vec();
+        directory.extend(10_u16.to_le_bytes());
+        self.describe(&mut directory, sum, size);
+        // No filling, no comment, the first disk, no attributes, and the header at the beginning.
+        directory.extend([0; 16]);
+        directory.extend(self.name.as_bytes());
+        let length = directory.len() as u32;
+        let mut end = b"PK\x05\x06".to_vec();
+        end.extend([0, 0, 1, 1].into_iter().flat_map(u16::to_le_bytes));
+        end.extend([length, ALIGNED as u32 + size].into_iter().flat_map(u32::to_le_bytes));
+        end.extend([0; 2]);
+        self.out.write_all(&directory)?;
+        self.out.write_all(&end)?;
+        self.out.flush()?;
+        let header = self.local(sum, size);
+        self.out.patch(0, &header)
+    }
+}
+
+impl Write for Package<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.out.write(bytes)?;
+        let first = (PATCHED - self.head.len()).min(written);
+        self.head.extend_from_slice(&bytes[..first]);
+        self.rest.update(&bytes[first..written]);
+        self.size += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
+impl Sink for Package<'_> {
+    fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
+        let place = at as usize..at as usize + bytes.len();
+        let head = self.head.get_mut(place).ok_or_else(|| io::Error::other("only the beginning can be put right"))?;
+        head.copy_from_slice(bytes);
+        self.out.patch(at + ALIGNED as u64, bytes)
+    }
+}

@@ -1,0 +1,72 @@
+//! Colours: linear numbers for the bytes of sRGB, the list of those that a surface has, and the materials.
+//!
+//! Surfaces name their colours by their places in a list (an indexed primvar), which keeps files small. One material
+//! a kind of part reads them; it is a UsdPreviewSurface, which artists may replace by their own.
+
+use super::layer::{Attribute, Data, Layer, Value};
+use phytomer_sim::math::pow;
+use std::collections::BTreeMap;
+use std::io;
+
+/// The colours of surfaces, each once.
+#[derive(Debug, Default)]
+pub struct Palette {
+    places: BTreeMap<[u8; 3], i32>,
+    colours: Vec<[f32; 3]>,
+}
+
+impl Palette {
+    /// The place of a colour, which is added where it is new.
+    pub fn place(&mut self, colour: [u8; 3]) -> i32 {
+        let Self { places, colours } = self;
+        *places.entry(colour).or_insert_with(|| {
+            colours.push(colour.map(linear));
+            colours.len() as i32 - 1
+        })
+    }
+
+    /// The colours, as linear numbers.
+    pub fn colours(&self) -> &[[f32; 3]] {
+        &self.colours
+    }
+}
+
+/// The linear number of a byte of sRGB (IEC 61966-2-1).
+pub fn linear(byte: u8) -> f32 {
+    let share = f64::from(byte) / 255.0;
+    (if share <= 0.040_45 { share / 12.92 } else { pow((share + 0.055) / 1.055, 2.4) }) as f32
+}
+
+/// Writes the materials of these names, each with how rough it is.
+///
+/// # Errors
+/// Those of the file.
+pub fn write_materials(layer: &mut dyn Layer, root: &str, materials: &[(&str, f32)]) -> io::Result<()> {
+    layer.begin("Scope", "materials", &[])?;
+    for &(name, roughness) in materials {
+        let path = |rest: &str| format!("{}/{rest}", path_of(root, name));
+        layer.begin("Material", name, &[])?;
+        layer.attribute(Attribute::new("outputs:surface", "token"), Value::Of(&path("surface.outputs:surface")))?;
+        layer.begin("Shader", "surface", &[])?;
+        let always = |layer: &mut dyn Layer, attribute, data| layer.attribute(attribute, Value::Always(data));
+        always(layer, Attribute::uniform("info:id", "token"), Data::Token("UsdPreviewSurface"))?;
+        let colour = path("colour.outputs:result");
+        layer.attribute(Attribute::new("inputs:diffuseColor", "color3f"), Value::Of(&colour))?;
+        always(layer, Attribute::new("inputs:roughness", "float"), Data::Float(roughness))?;
+        layer.attribute(Attribute::new("outputs:surface", "token"), Value::None)?;
+        layer.end()?;
+        layer.begin("Shader", "colour", &[])?;
+        always(layer, Attribute::uniform("info:id", "token"), Data::Token("UsdPrimvarReader_float3"))?;
+        always(layer, Attribute::new("inputs:varname", "string"), Data::Text("displayColor"))?;
+        always(layer, Attribute::new("inputs:fallback", "float3"), Data::Triple([0.2, 0.3, 0.1]))?;
+        layer.attribute(Attribute::new("outputs:result", "float3"), Value::None)?;
+        layer.end()?;
+        layer.end()?;
+    }
+    layer.end()
+}
+
+/// The path of a material.
+pub fn path_of(root: &str, material: &str) -> String {
+    format!("/{root}/materials/{material}")
+}

@@ -1,0 +1,188 @@
+//! Organs, and internodes that are drawn by themselves: as instances of their models, or merged into one mesh.
+//!
+//! Instances have a place, a rotation in half precision, three factors of size, a model, and their component number as
+//! their id. What is to come has no size yet. Internodes narrow from base to tip, which no instance does, so they are
+//! always merged.
+
+use super::Member;
+use super::changing::{Changing, Faces, Tags, extent, put};
+use super::course::{Course, State};
+use super::layer::{Attribute, Data, Layer};
+use super::models::{Models, rgb};
+use super::skeleton::Skeleton;
+use glam::{Mat3, Quat, Vec3};
+use half::f16;
+use phytomer_life::{Part, Pose, What, between};
+use std::io;
+
+/// The parts of some lives.
+pub struct Parts<'a> {
+    /// The lives along their course.
+    pub skeletons: &'a [Skeleton<'a>],
+    /// What stands where.
+    pub members: &'a [Member],
+    /// The models that were met.
+    pub models: &'a Models<'a>,
+    /// Whether these are internodes; else organs.
+    pub internodes: bool,
+}
+
+/// A part at a state.
+struct Standing<'a> {
+    life: usize,
+    part: &'a Part,
+    pose: Pose,
+    tint: [f32; 3],
+    /// What is to come has no size.
+    is_there: bool,
+}
+
+impl Standing<'_> {
+    fn turn(&self) -> Mat3 {
+        let heading = Vec3::from_array(self.pose.heading);
+        let up = Vec3::from_array(self.pose.up);
+        let across = (up - heading * up.dot(heading)).try_normalize();
+        let up = across.unwrap_or_else(|| heading.any_orthonormal_vector());
+        Mat3::from_cols(heading, up.cross(heading), up)
+    }
+}
+
+impl<'a> Parts<'a> {
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        !self.skeletons.iter().any(|skeleton| skeleton.life.parts.iter().any(|part| self.has(part)))
+    }
+
+    fn has(&self, part: &Part) -> bool {
+        matches!(part.what, What::Internode) == self.internodes
+    }
+
+    /// The parts of a span, plant by plant, each with its place in the life.
+    fn of_span(&self, span: usize) -> impl Iterator<Item = (&'a Member, usize, &'a Part)> {
+        let members = self.members.iter().filter_map(|member| Some((member, self.skeletons.get(member.life)?)));
+        members.flat_map(move |(member, skeleton)| {
+            let parts = skeleton.life.parts.iter().enumerate();
+            parts
+                .filter(move |(_, part)| self.has(part) && skeleton.has_part(span, part))
+                .map(move |(place, part)| (member, place, part))
+        })
+    }
+
+    fn at_state(&self, state: State) -> impl Iterator<Item = Standing<'a>> {
+        self.of_span(state.span).map(move |(member, place, part)| {
+            let skeleton = &self.skeletons[member.life];
+            let age = skeleton.life.ages[state.age];
+            let is_there = part.from <= age;
+            let mut pose = skeleton.life.pose_at(part, age);
+            if !is_there {
+                pose.base = skeleton.waits(place);
+            }
+            pose.base = std::array::from_fn(|k| pose.base[k] + member.offset[k]);
+            let tint = between(skeleton.life.tints_of_part(part), age);
+            Standing { life: member.life, part, pose, tint, is_there }
+        })
+    }
+
+    /// Writes the parts as instances.
+    ///
+    /// # Errors
+    /// Those of the file.
+    pub fn write_instances(&self, layer: &mut dyn Layer, root: &str, course: &Course) -> io::Result<()> {
+        layer.begin("PointInstancer", "organs", &[])?;
+        let names = self.models.names();
+        let models = names.iter().map(|name| format!("/{root}/organs/models/{name}"));
+        layer.relationship("prototypes", &models.collect::<Vec<_>>())?;
+        self.write_places(layer, course)?;
+        let held = course.of_held().map(Vec::as_slice);
+        put(layer, Attribute::new("protoIndices", "int[]"), held, &mut |state, take| {
+            let of = |part: Standing| self.models.place(part.life, part.part, part.tint);
+            take(Data::Ints(&self.at_state(course.states[state]).map(of).collect::<Vec<_>>()))
+        })?;
+        let spans = course.of_spans().map(Vec::as_slice);
+        put(layer, Attribute::new("ids", "int64[]"), spans, &mut |span, take| {
+            let ids = self.of_span(span).map(|(member, _, part)| member.id_of(part.component));
+            take(Data::Longs(&ids.collect::<Vec<_>>()))
+        })?;
+        layer.begin("Scope", "models", &[])?;
+        self.models.write(layer, root)?;
+        layer.end()?;
+        layer.end()
+    }
+
+    fn write_places(&self, layer: &mut dyn Layer, course: &Course) -> io::Result<()> {
+        let times = course.of_states().map(Vec::as_slice);
+        let of = |state: usize| self.at_state(course.states[state]);
+        put(layer, Attribute::new("positions", "point3f[]"), times, &mut |state, take| {
+            take(Data::Triples(&of(state).map(|part| part.pose.base).collect::<Vec<_>>()))
+        })?;
+        put(layer, Attribute::new("orientations", "quath[]"), times, &mut |state, take| {
+            let turn = |part: Standing| {
+                Quat::from_mat3(&part.turn()).normalize().to_array().map(|part| f16::from_f32(part).to_bits())
+            };
+            take(Data::Turns(&of(state).map(turn).collect::<Vec<_>>()))
+        })?;
+        put(layer, Attribute::new("scales", "float3[]"), times, &mut |state, take| {
+            take(Data::Triples(&of(state).map(|part| self.scale(&part)).collect::<Vec<_>>()))
+        })?;
+        put(layer, Attribute::new("extent", "float3[]"), times, &mut |state, take| {
+            let reach = |part: Standing| self.box_of(&part);
+            take(Data::Triples(&extent(of(state).flat_map(reach))))
+        })
+    }
+
+    fn scale(&self, part: &Standing) -> [f32; 3] {
+        let model = self.models.form(part.life, part.part).filter(|_| part.is_there);
+        model.map_or([0.0; 3], |model| model.scale(part.pose.size, part.part.fullness))
+    }
+
+    /// The corners of the box of a part.
+    fn box_of(&self, part: &Standing) -> Vec<[f32; 3]> {
+        let mut corners = Vec::new();
+        self.each_point(part, &mut |point| corners.push(point));
+        extent(corners.into_iter()).to_vec()
+    }
+
+    /// The vertices of a part where they stand.
+    fn each_point(&self, part: &Standing, see: &mut dyn FnMut([f32; 3])) {
+        let Some(model) = self.models.form(part.life, part.part) else { return };
+        let (turn, base) = (part.turn(), Vec3::from_array(part.pose.base));
+        for vertex in &model.mesh.vertices {
+            let at = model.at(vertex.position(), part.pose.size, part.part.fullness);
+            let at = if part.is_there { base + turn * Vec3::from_array(at) } else { base };
+            see(at.to_array());
+        }
+    }
+}
+
+impl Changing for Parts<'_> {
+    fn faces(&self, span: usize, faces: &mut Faces) {
+        let mut first = 0;
+        for (member, _, part) in self.of_span(span) {
+            let Some(model) = self.models.form(member.life, part) else { continue };
+            for face in &model.mesh.faces {
+                faces.add(face.indices().map(|corner| first + corner as usize));
+            }
+            first += model.mesh.vertices.len();
+        }
+    }
+
+    fn tags(&self, span: usize, tags: &mut Tags) {
+        for (member, _, part) in self.of_span(span) {
+            let vertices = self.models.form(member.life, part).map_or(0, |model| model.mesh.vertices.len());
+            tags.add(vertices, part.component, part.birth, part.death);
+        }
+    }
+
+    fn points(&self, state: State, points: &mut Vec<[f32; 3]>) {
+        self.at_state(state).for_each(|part| self.each_point(&part, &mut |point| points.push(point)));
+    }
+
+    fn colours(&self, state: State, paint: &mut dyn FnMut(usize, [u8; 3])) {
+        for part in self.at_state(state) {
+            let place = self.models.place(part.life, part.part, part.tint);
+            for vertex in self.models.vertices(place as usize) {
+                paint(1, rgb(vertex));
+            }
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Files of USD in the hands of OpenUSD and of Blender, and what is refused.
+//!
+//! OpenUSD (the package usd-core) stands with the other independent readers in `.venv`; Blender comes as a module of
+//! Python in two environments of its own, `.venv-blender-4.2` and `.venv-blender`, which `.ci/run` fills. Where they are
+//! missing the tests skip and say so, but never in CI.
+
+#[path = "program/absent.rs"]
+mod absent;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+/// A tree with branches, leaves that fall and wood that bends.
+const SCENARIO: &str = "name = \"usd\"\nspecies = \"willow\"\nplants = 1\nseed = 5\n\
+                        ages = { until = 16, record = [2, 6, 9, 13, 16] }\n";
+
+const AGES: [&str; 5] = ["2", "6", "9", "13", "16"];
+
+/// The Python of an environment that has a module; `None`, with the reason printed, where it has not.
+fn python(environment: &str, module: &str) -> Option<PathBuf> {
+    let python = Path::new(ROOT).join(environment).join("bin/python");
+    let found = Command::new(&python).args(["-c", &format!("import {module}")]).output();
+    if found.is_ok_and(|found| found.status.success()) {
+        return Some(python);
+    }
+    assert!(!absent::in_ci(), "CI must have {module} in {environment}");
+    absent::skip(&format!("no {module} in {environment}; .ci/run installs it"));
+    None
+}
+
+fn run(words: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_phytomer")).args(words).output().expect("phytomer runs")
+}
+
+fn phytomer(words: &[&str]) {
+    let done = run(words);
+    assert!(done.status.success(), "{words:?}: {}", String::from_utf8_lossy(&done.stderr));
+}
+
+fn read(python: &Path, script: &str, arguments: &[&str]) -> String {
+    let script = Path::new(ROOT).join("tests/readers").join(script);
+    let done = Command::new(python).arg(script).args(arguments).output().expect("python runs");
+    let told = String::from_utf8_lossy(&done.stdout).into_owned();
+    assert!(done.status.success(), "{arguments:?}:\n{told}{}", String::from_utf8_lossy(&done.stderr));
+    told
+}
+
+#[test]
+fn openusd_and_blender_find_the_organs_of_the_records() {
+    let Some(openusd) = python(".venv", "pxr, plyfile, pyarrow, trimesh") else { return };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let at = |name: &str| folder.path().join(name).to_str().expect("a path in UTF-8").to_owned();
+    let (scenario, recorded) = (at("usd.toml"), at("run"));
+    std::fs::write(&scenario, SCENARIO).expect("a scenario file");
+    phytomer(&["grow", "--quiet", "--out", &recorded, &scenario]);
+    for age in AGES {
+        phytomer(&["mesh", &scenario, "--age", age, "--tolerance", "0.1mm", "--out", &at(&format!("{age}.ply"))]);
+    }
+    for ending in ["usda", "usdc", "usdz"] {
+        let out = at(&format!("still.{ending}"));
+        phytomer(&["mesh", &scenario, "--age", "16", "--tolerance", "0.1mm", "--out", &out]);
+    }
+    phytomer(&["mesh", &scenario, "--ages", "2..16", "--tolerance", "0.5mm", "--out", &at("life.usdc")]);
+    let merged = ["--tolerance", "0.5mm", "--leaves", "merged", "--out", &at("merged.usdc")];
+    phytomer(&[&["mesh", &scenario, "--ages", "2..16"][..], &merged].concat());
+    let told = read(&openusd, "usd.py", &[&[recorded.as_str(), &at("")][..], &AGES].concat());
+    let organs = at("organs.json");
+    std::fs::write(&organs, told.lines().last().unwrap_or_default()).expect("the organs");
+    // Instances play from 4.5 on.
+    for (environment, ways) in [(".venv-blender-4.2", &["merged"][..]), (".venv-blender", &["life", "merged"])] {
+        let Some(blender) = python(environment, "bpy") else { continue };
+        for way in ways {
+            read(&blender, "blender.py", &[way, &at(&format!("{way}.usdc")), &organs]);
+        }
+    }
+}
+
+/// The same plant gives the same bytes.
+#[test]
+fn files_are_the_same_at_each_writing() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = |name: &str| folder.path().join(name);
+    for ending in ["usda", "usdc", "usdz"] {
+        let [first, second] = ["a", "b"].map(|name| {
+            let path = file(&format!("{name}.{ending}"));
+            phytomer(&["mesh", "coffee", "--ages", "1..9/2", "--out", path.to_str().expect("a path in UTF-8")]);
+            std::fs::read(path).expect("a file")
+        });
+        assert!(first == second, "{ending}");
+    }
+}
+
+#[test]
+fn what_cannot_be_written_is_refused_with_a_reason() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let at = |name: &str| folder.path().join(name).to_str().expect("a path in UTF-8").to_owned();
+    let [usd, ply] = [at("a.usdc"), at("a.ply")];
+    for (words, told) in [
+        (&["--ages", "1..9", "--out", &ply][..], "--ages: this is for files"),
+        (&["--leaves", "merged", "--out", &ply], "--leaves: this is for files"),
+        (&["--age", "9", "--ages", "1..9", "--out", &usd], "cannot be used with"),
+        (&["--ages", "1..9", "--plot", "--out", &usd], "cannot be used with"),
+        (&["--ages", "1..9", "--triangles", "10k", "--out", &usd], "cannot be used with"),
+        (&["--ages", "9..1", "--out", &usd], "the first age, 9, is after the last, 1"),
+        (&["--ages", "1..999", "--out", &usd], "the run has the ages 0 to"),
+        (&["--ages", "1..9/0", "--out", &usd], "a step of at least 1 is expected"),
+        (&["--ages", "soon", "--out", &usd], "such as 1..96"),
+        (&["--seconds", "12", "--out", &usd], "--ages"),
+        (&["--ages", "1..9", "--seconds", "0", "--out", &usd], "a length above 0"),
+        (&["--ages", "1..9", "--seconds", "NaN", "--out", &usd], "a length above 0"),
+        (&["--leaves", "loose", "--out", &usd], "possible values: instances, merged"),
+        (&["--ages", "1..9", "--plant", "100000", "--out", &usd], "--plant 100000: the run has the plants"),
+        (&["--ages", "1..9", "--out", &at("a.usd")], "USD (.usdc)"),
+        (&["--age", "9", "--out", &at("no/such/folder/a.usdz")], "cannot write"),
+    ] {
+        let done = run(&[&["mesh", "coffee"][..], words].concat());
+        let error = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert!(!done.status.success() && error.contains(told), "{words:?}: {error}");
+        assert!(!Path::new(&usd).exists(), "{words:?}");
+    }
+}
+
+/// A disk that is full in the middle of a file is told.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told() {
+    for ending in ["usda", "usdc", "usdz"] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let link = folder.path().join(format!("full.{ending}"));
+        std::os::unix::fs::symlink("/dev/full", &link).expect("a link");
+        let done = run(&["mesh", "coffee", "--age", "12", "--out", link.to_str().expect("a path in UTF-8")]);
+        let error = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert!(!done.status.success() && error.contains("cannot write"), "{error}");
+    }
+}
