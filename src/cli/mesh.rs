@@ -84,10 +84,9 @@ pub struct Mesh {
 
 impl Mesh {
     pub fn obey(self) -> Result<Verdict> {
-        let format = self.growing.of(Format::of(&self.out)?)?;
-        let asked = [("ages", self.growing.is_asked()), ("rig", self.rig.asked().is_some())];
-        if let Some((option, _)) = asked.iter().find(|(option, asked)| *asked && !format.holds(option)) {
-            return Err(format.holds_no(option).into());
+        let format = self.growing.of(Format::of(&self.out)?, self.plot.is_some())?;
+        if let (Some(_), false) = (self.rig.asked(), format.holds("rig")) {
+            return Err(format.holds_no("rig").into());
         }
         let ages: Vec<Tick> = self.age.iter().map(|age| age.tick()).chain(self.growing.last()).collect();
         match Regrown::find(&self.name, &self.constants, &ages)? {

@@ -5,7 +5,9 @@
 //! that are not ours, are in `tests/glb.rs` of the root.
 
 use super::{Body, Growth, KeyMaker, Keyed, write_growth, write_still};
-use phytomer_meshes::{Mesh, MeshOptions, PlantDrawing, Scene, Tolerance, Vertex, mesh_plant};
+use phytomer_meshes::{
+    Counts, Drawing, Face, Mesh, MeshOptions, PlantDrawing, Scene, Take, Tolerance, Vertex, mesh_plant,
+};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{Cause, Form, Habit, Kind, NewAxis, NewNode, NewOrgan, NodeId, Plant, Seed, Trend};
 use phytomer_sim::pose::pose;
@@ -284,4 +286,41 @@ fn a_full_disk_is_told() {
         assert_eq!(told.kind(), std::io::ErrorKind::StorageFull, "{room}");
     }
     assert!(write_growth(&growth, &mut Full(whole.len())).is_ok());
+}
+
+/// A file of more than 4 GiB is refused by its counts, before anything is drawn or written.
+#[test]
+fn a_mesh_that_is_too_large_is_refused_at_once() {
+    struct Huge(u64);
+    impl Drawing for Huge {
+        fn counts(&self) -> Counts {
+            Counts { components: 1, vertices: self.0, faces: self.0 }
+        }
+        fn tolerance(&self) -> Option<Tolerance> {
+            None
+        }
+        fn notes(&self) -> Vec<String> {
+            Vec::new()
+        }
+        fn place(&self) -> [f64; 3] {
+            [0.0; 3]
+        }
+        fn vertices(&self, _: &mut Take<'_, Vertex>) -> std::io::Result<()> {
+            panic!("nothing is drawn")
+        }
+        fn faces(&self, _: &mut Take<'_, Face>) -> std::io::Result<()> {
+            panic!("nothing is drawn")
+        }
+    }
+    for vertices in [1 << 27, 1 << 31, 1 << 32, 1 << 40] {
+        let mut bytes = Vec::new();
+        let told = write_still(&Huge(vertices), &mut bytes).expect_err("too large").to_string();
+        assert!(told.contains(&format!("{} bytes, and its format holds at most 4294967295", vertices * 64)), "{told}");
+        assert!(bytes.is_empty());
+    }
+    for vertices in [1_u64 << 31, 1 << 32] {
+        let mut bytes = Vec::new();
+        let told = phytomer_meshes::write_stl(&Huge(vertices), &mut bytes).expect_err("too large").to_string();
+        assert!(told.contains("an STL file holds at most 4294967295 and 2147483647") && bytes.is_empty(), "{told}");
+    }
 }

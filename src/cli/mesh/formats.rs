@@ -55,7 +55,7 @@ impl Format {
     /// That the format cannot hold what an option asks for, with those that can.
     pub fn holds_no(self, option: &str) -> Misuse {
         let named = |(_, format): &(Self, out::Format)| format!("{} (.{})", format.name, format.extension);
-        let own = FORMATS.iter().find(|(format, _)| *format == self).map(named).unwrap_or_default();
+        let own = FORMATS.iter().find(|(format, _)| *format == self).map_or_else(|| "USD".to_owned(), named);
         let can: Vec<String> = FORMATS.iter().filter(|(format, _)| format.holds(option)).map(named).collect();
         Misuse(format!(
             "--{option}: {own} holds a plant that stands still at one age; the formats that hold more: {}",

@@ -16,6 +16,8 @@ use phytomer_outputs::meshes::Tolerance;
 
 /// How near the wood of a life is drawn where no tolerance is given, metres.
 const NEARNESS: f32 = 1e-3;
+/// The keys where no number is given.
+const KEYS: u32 = 16;
 /// How long the animation is where no length is given, seconds.
 const SECONDS: f64 = 12.0;
 
@@ -30,7 +32,7 @@ pub fn write(mesh: &Mesh, regrown: &Regrown) -> Result<Verdict> {
         Asked::Full | Asked::Triangles(_) => Tolerance::of(NEARNESS),
     };
     let seconds = mesh.growing.seconds.unwrap_or(SECONDS);
-    let keying = Keying { ages: ages.keys(mesh.growing.keys), tolerance, seconds };
+    let keying = Keying { ages: ages.keys(mesh.growing.keys.unwrap_or(KEYS)), tolerance, seconds };
     let mut file = Destination::create(&mesh.out)?;
     let growth = keyed(&regrown.regrowth(&Breeze::default())?.falling(mesh.fall.fall), whose, &keying, &regrown.forms)?;
     let written = write_growth(&growth, &mut file).with_context(|| mesh.failing())?;

@@ -24,9 +24,9 @@ pub struct Growing {
     #[arg(long, value_name = "SECONDS", requires = "ages", allow_negative_numbers = true, value_parser = seconds)]
     pub seconds: Option<f64>,
     /// At how many of its ages, evenly from the first to the last, a life in a GLB file stands exactly as it has grown:
-    /// its morph targets. Between two of them everything goes evenly from one to the other.
-    #[arg(long, value_name = "AGES", default_value_t = 16, requires = "ages", value_parser = clap::value_parser!(u32).range(2..=256))]
-    pub keys: u32,
+    /// its morph targets, 16 if not given. Between two of them everything goes evenly from one to the other.
+    #[arg(long, value_name = "AGES", requires = "ages", value_parser = clap::value_parser!(u32).range(2..=256))]
+    pub keys: Option<u32>,
     /// How USD has leaves, flowers and fruits. Instances are small files; Blender plays them from 4.5 on, and before
     /// shows them for ever as they are at the first age.
     #[arg(long, value_enum)]
@@ -46,15 +46,26 @@ impl Growing {
     /// The format with its organs as they are asked for.
     ///
     /// # Errors
-    /// `--leaves` for a format without instances.
-    pub fn of(&self, format: Format) -> Result<Format, Misuse> {
-        match (format, self.leaves) {
-            (Format::Usd(encoding, _), Some(Leaves::Merged)) => Ok(Format::Usd(encoding, Organs::Merged)),
-            (Format::Usd(..), _) | (_, None) => Ok(format),
-            (_, Some(_)) => {
-                Err(Misuse("--leaves: this is for files of USD, whose names end in .usdc, .usda or .usdz".to_owned()))
-            }
+    /// A format that cannot do what is asked for.
+    pub fn of(&self, format: Format, plot: bool) -> Result<Format, Misuse> {
+        if self.is_asked() && !format.holds("ages") {
+            return Err(format.holds_no("ages"));
         }
+        let Format::Usd(encoding, _) = format else {
+            return self.leaves.map_or(Ok(format), |_| {
+                Err(Misuse("--leaves: this is for files of USD, whose names end in .usdc, .usda or .usdz".to_owned()))
+            });
+        };
+        if self.keys.is_some() {
+            return Err(Misuse("--keys: this is for a life as GLB; USD has every age".to_owned()));
+        }
+        if plot && self.is_asked() {
+            return Err(Misuse(
+                "--plot: USD has the life of a single plant, by --plant; GLB that of a plot".to_owned(),
+            ));
+        }
+        let merged = self.leaves == Some(Leaves::Merged);
+        Ok(Format::Usd(encoding, if merged { Organs::Merged } else { Organs::Instances }))
     }
 
     /// Whether a life is asked for.

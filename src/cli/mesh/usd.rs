@@ -2,14 +2,14 @@
 //!
 //! Absent: what a life is (`phytomer_outputs::life`), and the file (`phytomer_outputs::usd`).
 
+use super::super::Verdict;
 use super::super::budget::{Asked as Fineness, in_words};
 use super::super::regrown::Regrown;
 use super::super::span::{Span, shown};
-use super::super::{Misuse, Verdict};
 use super::{Format, Mesh};
 use anyhow::{Context, Result};
 use phytomer::run::drawing::options_of;
-use phytomer::run::regrowth::{Regrowth, Whose};
+use phytomer::run::regrowth::Regrowth;
 use phytomer_outputs::Destination;
 use phytomer_outputs::life::{Life, Maker, Nearness};
 use phytomer_outputs::meshes::{MeshOptions, Tolerance};
@@ -23,11 +23,8 @@ const A_SECOND: f64 = 24.0;
 /// Grows the plant of a mesh and writes its life.
 pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> {
     let Format::Usd(encoding, organs) = format else { return Err(format.holds_no("ages").into()) };
-    let (whose, ages) = shown(regrown, (mesh.plant, mesh.plot), mesh.growing.ages, "--ages")?;
-    let Whose::Plant(plant) = whose else {
-        let told = "--ages: a life in USD is that of one plant; leave out --plot, or choose a name that ends in .glb";
-        return Err(Misuse(told.to_owned()).into());
-    };
+    let plant = mesh.plant;
+    let (_, ages) = shown(regrown, (plant, None), mesh.growing.ages, "--ages")?;
     let regrowth = regrown.regrowth(&mesh.breeze)?.falling(mesh.fall.fall);
     let mut file = Destination::create(&mesh.out)?;
     let own = regrown.forms.get(regrown.trial.species_of_plant(plant)).cloned().unwrap_or_default();
