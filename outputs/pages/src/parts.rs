@@ -41,7 +41,7 @@ pub fn write(
     let of_form: Vec<u32> = life.parts.iter().map(|part| forms.of(part, life)).collect();
     let mut order: Vec<usize> = (0..life.parts.len()).collect();
     order.sort_by_key(|place| of_form[*place]);
-    let [mut components, mut of, mut fullness] = [const { Vec::new() }; 3].map(|_: Vec<u8>| Stream::default());
+    let [mut components, mut of, mut fullness]: [Stream; 3] = Default::default();
     let [mut from, mut lasts] = [Stream::default(), Stream::default()];
     let [mut component, mut form, mut full, mut first] = [Last::default(); 4];
     let (mut hosted, mut keys, mut tints) = (HostStreams::default(), Keys::default(), Tints::default());
@@ -126,10 +126,7 @@ impl Keys {
         for (names, values) in
             [(["x", "y", "z"], self.places), (["a", "b", "c"], self.turns), (["length", "width", "tip"], self.sizes)]
         {
-            let mut values = names.into_iter().zip(values);
-            while let Some(stream) = values.next() {
-                streams.add(name, [stream]);
-            }
+            names.into_iter().zip(values).for_each(|stream| streams.add(name, [stream]));
         }
     }
 }
@@ -161,7 +158,7 @@ fn quaternion(heading: [f32; 3], up: [f32; 3]) -> [f32; 4] {
         [1.0 + x[0] - y[1] - z[2], 1.0 - x[0] + y[1] - z[2], 1.0 - x[0] - y[1] + z[2], 1.0 + x[0] + y[1] + z[2]];
     let largest = (0..4).fold(0, |most, k| if squares[k] > squares[most] { k } else { most });
     let root = squares[largest].max(0.0).sqrt();
-    if !(root > 0.0) {
+    if root <= 0.0 || root.is_nan() {
         return [0.0, 0.0, 0.0, 1.0];
     }
     let half = 0.5 / root;

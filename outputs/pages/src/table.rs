@@ -203,7 +203,7 @@ impl Values {
     fn write(self, name: &str, kinds: &[i32], place: &dyn Fn(u32) -> u32, streams: &mut Streams) {
         let by_kind = matches!(self, Self::Tracked(..));
         let kept = self.into_keys();
-        let [mut counts, mut at, mut values] = [const { Vec::new() }; 3].map(|_: Vec<u8>| Stream::default());
+        let [mut counts, mut at, mut values]: [Stream; 3] = Default::default();
         let mut firsts: BTreeMap<i32, Last> = BTreeMap::new();
         let mut rest = kept.as_slice();
         for (component, kind) in (0..).zip(kinds) {

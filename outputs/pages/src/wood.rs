@@ -59,7 +59,7 @@ struct Points {
 
 /// Writes the streams of all lines of a life.
 pub fn write(life: &Life, scale: &Scale, numbering: &Numbering, hosts: &mut Hosts, streams: &mut Streams, name: &str) {
-    let [mut axes, mut orders, mut counts] = [const { Vec::new() }; 3].map(|_: Vec<u8>| Stream::default());
+    let [mut axes, mut orders, mut counts]: [Stream; 3] = Default::default();
     let (mut hosted, mut points, mut tints) = (HostStreams::default(), Points::default(), Tints::default());
     let mut axis = Last::default();
     for (number, line) in (0..).zip(&life.lines) {
