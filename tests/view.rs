@@ -8,7 +8,6 @@
 #[path = "program/absent.rs"]
 mod absent;
 mod program;
-#[allow(dead_code)]
 mod read;
 
 use program::{data, program as phytomer, run, said, write};

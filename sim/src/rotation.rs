@@ -259,7 +259,7 @@ mod tests {
                 near(from.toward(to, 0.0).turned(seen), from.turned(seen));
                 let (one, two) = (from.inverse().then(half), half.inverse().then(to));
                 near(one.turned(seen), two.turned(seen));
-                assert!(one.scalar >= (0.25 * PI).cos() - 1e-9, "more than half of half a turn: {one:?}");
+                assert!(one.scalar >= crate::math::cos(0.25 * PI) - 1e-9, "more than half of half a turn: {one:?}");
             }
         }
     }

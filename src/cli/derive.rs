@@ -125,9 +125,9 @@ impl Derive {
 /// What derives the strings of a species.
 enum Strings {
     /// An L-system, of which queries are answered by its turtle.
-    Drawn(TextModel),
+    Drawn(Box<TextModel>),
     /// A D0L-system of cells, which has no queries.
-    Cells(Program),
+    Cells(Box<Program>),
 }
 
 impl Strings {
@@ -135,9 +135,9 @@ impl Strings {
     fn of(species: &ResolvedSpecies, constants: &[(String, f64)]) -> Option<Result<Self, Vec<Fault>>> {
         let Model::Lsystem(stated) = &species.species.model else { return None };
         if let Some(program) = stated.cell_program(&Path::root(), constants) {
-            return Some(program.map(Self::Cells));
+            return Some(program.map(|program| Self::Cells(Box::new(program))));
         }
-        Some(stated.text_model(&Path::root())?.map(Self::Drawn))
+        Some(stated.text_model(&Path::root())?.map(|model| Self::Drawn(Box::new(model))))
     }
 
     fn program(&self) -> &Program {

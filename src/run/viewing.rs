@@ -53,6 +53,9 @@ pub struct View<'a> {
     pub mechanics: bool,
 }
 
+/// What is done with what stands at a tick.
+type ShowTick<'a> = dyn FnMut(Tick, &[Standing]) -> Result<(), RecordError> + 'a;
+
 /// A plant while its life is shown.
 struct Growing {
     maker: Maker,
@@ -99,13 +102,7 @@ impl View<'_> {
     }
 
     /// Shows what stands at some ages, until it is told to stop.
-    fn show(
-        &self,
-        whose: Whose,
-        ages: &[Tick],
-        filming: &Filming,
-        show: &mut dyn FnMut(Tick, &[Standing]) -> Result<(), RecordError>,
-    ) -> Result<(), RunError> {
+    fn show(&self, whose: Whose, ages: &[Tick], filming: &Filming, show: &mut ShowTick<'_>) -> Result<(), RunError> {
         let moments: Vec<Moment> = ages.iter().copied().map(Moment::from).collect();
         self.regrowth.show_timed(whose, &moments, &|_| vec![0.0], &mut |at, standing| {
             filming.check()?;

@@ -255,7 +255,7 @@ impl Keyed {
             let bearer = nodes.component[organs.node[organ.index()].index()];
             self.bear(organs.component[organ.index()], Some(bearer));
         }
-        Shown { age: age as f32, tips }
+        Shown { age: plant.shown_age(age) as f32, tips }
     }
 
     fn bear(&mut self, component: u32, bearer: Option<u32>) {

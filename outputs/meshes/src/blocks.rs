@@ -14,6 +14,9 @@ use std::ops::Range;
 /// The number of entries of a column in one block of a scene.
 const BLOCK: usize = 256;
 
+/// What is done with the vertices and the triangles of a component.
+pub type TakeAlone<'a> = dyn FnMut(&[Vertex], &[[u32; 3]]) + 'a;
+
 impl Scene<'_> {
     /// The number of blocks of the scene, for [`Scene::block`].
     pub fn blocks(&self) -> usize {
@@ -66,7 +69,7 @@ impl Scene<'_> {
     /// Calls `take` with the vertices and the triangles of each component that is drawn by itself, in the order of the
     /// mesh: organs, and internodes along which no tube of several runs. Triangles refer to the component's own
     /// vertices.
-    pub fn each_alone(&self, take: &mut dyn FnMut(&[Vertex], &[[u32; 3]])) {
+    pub fn each_alone(&self, take: &mut TakeAlone<'_>) {
         let mut vertices = Vec::new();
         let Ok::<(), Infallible>(()) = self.each_stem(0..self.stem_places(), |node| {
             let stem = self.stems().form(node);

@@ -34,6 +34,7 @@ mod tests;
 mod tests_stated;
 mod tube;
 
+pub use blocks::TakeAlone;
 pub use budget::{TooFew, fitting};
 pub use chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 pub use collection::Collection;

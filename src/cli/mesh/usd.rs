@@ -17,6 +17,8 @@ use phytomer_outputs::usd::{self, Asked, Member, Pace, Plants};
 
 /// How near a life is to the plant where nothing is said, metres.
 const NEAR: f32 = 1e-3;
+/// The most ages of a tick that are shown where no step is stated.
+const FINEST: f64 = 4.0;
 /// The time codes of a second.
 const A_SECOND: f64 = 24.0;
 
@@ -33,7 +35,8 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> 
         Fineness::Full | Fineness::Triangles(_) => Tolerance::of(NEAR),
     };
     let options = options_of(mesh.sides, &own);
-    let life = life_of(&regrowth, plant, ages, (within.distance, &options))?;
+    let finer = Span { step: ages.step.or_else(|| step_of(ages, mesh.growing.seconds)), ..ages };
+    let life = life_of(&regrowth, plant, finer, (within.distance, &options))?;
     let what = format!("plant {plant} from age {} to age {}", ages.first, ages.last);
     let words = format!("{what}, seed {}", regrown.scenario.seed);
     let (lives, options) = ([life], [options]);
@@ -42,6 +45,13 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> 
     let pace = pace(ages, mesh.growing.seconds);
     usd::write_life(&asked, &plants, within.distance, &pace, &mut file).with_context(|| mesh.failing())?;
     mesh.tell(file, &format!("{what}{}", in_words(Some(&within))))
+}
+
+/// The step of a life that has several frames a tick, in ticks: a quarter at most, since between the ages that are
+/// shown all goes linearly, and nodes of a growth unit lengthen one after another.
+fn step_of(ages: Span, seconds: Option<f64>) -> Option<f64> {
+    let frames = (seconds? * A_SECOND / (ages.last - ages.first).max(1.0)).floor();
+    (frames >= 2.0).then(|| 1.0 / frames.min(FINEST))
 }
 
 fn pace(ages: Span, seconds: Option<f64>) -> Pace {
