@@ -98,14 +98,15 @@ fn what_cannot_be_written_is_refused_with_a_reason() {
     let at = |name: &str| folder.path().join(name).to_str().expect("a path in UTF-8").to_owned();
     let [usd, ply] = [at("a.usdc"), at("a.ply")];
     for (words, told) in [
-        (&["--ages", "1..9", "--out", &ply][..], "--ages: this is for files"),
+        (&["--ages", "1..9", "--out", &ply][..], "--ages: PLY (.ply) holds a plant that stands still"),
         (&["--leaves", "merged", "--out", &ply], "--leaves: this is for files"),
         (&["--age", "9", "--ages", "1..9", "--out", &usd], "cannot be used with"),
-        (&["--ages", "1..9", "--plot", "--out", &usd], "cannot be used with"),
+        (&["--ages", "1..9", "--plot", "--out", &usd], "--plot: USD has the life of a single plant"),
+        (&["--ages", "1..9", "--keys", "4", "--out", &usd], "--keys: this is for a life as GLB"),
         (&["--ages", "1..9", "--triangles", "10k", "--out", &usd], "cannot be used with"),
         (&["--ages", "9..1", "--out", &usd], "the first age, 9, is after the last, 1"),
         (&["--ages", "1..999", "--out", &usd], "the run has the ages 0 to"),
-        (&["--ages", "1..9/0", "--out", &usd], "a step of at least 1 is expected"),
+        (&["--ages", "1..9/0", "--out", &usd], "a step of at least 0.001 is expected"),
         (&["--ages", "soon", "--out", &usd], "such as 1..96"),
         (&["--seconds", "12", "--out", &usd], "--ages"),
         (&["--ages", "1..9", "--seconds", "0", "--out", &usd], "a length above 0"),

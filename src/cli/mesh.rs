@@ -40,7 +40,7 @@ Examples:
   phytomer mesh under_a_roof --plot --age 12 --out plot.ply
   phytomer mesh coffee --age 36 --tolerance 1mm --out coffee.glb
   phytomer mesh coffee --ages 1..48 --keys 12 --seconds 8 --tolerance 2mm --out life.glb
-  phytomer mesh willow --age 12 --tolerance 5mm --wind 8 --rig 60 --out sway.glb
+  phytomer mesh my_plant/scenario.toml --age 24 --wind 8 --rig 60 --out sway.glb
   phytomer mesh coffee --ages 1..48/4 --seconds 12 --out life.usdc
   phytomer mesh coffee --age 36 --tolerance 1mm --out print.stl
   phytomer mesh abop/2.8a --age 4 -D lr=1.2 --out tall.ply
