@@ -130,7 +130,7 @@ fn a_page_is_as_near_as_it_says() {
 fn what_cannot_be_shown_is_refused() {
     let folder = tempdir().unwrap();
     bush(folder.path());
-    let cases: [(&[&str], i32, &str); 14] = [
+    let cases: [(&[&str], i32, &str); 15] = [
         (&["viewed.toml"], 2, "--out"),
         (&["viewed.toml", "--out", "a.pdf"], 2, "cannot write `.pdf`; the formats that it has: HTML (.html)"),
         (&["viewed.toml", "--out", "."], 2, "this is a folder"),
