@@ -40,7 +40,7 @@ fn mean(points: &[[f64; 3]]) -> [f64; 3] {
 fn every_shipped_l_system_can_be_read() {
     let names = phytomer_config::presets(phytomer_config::Kind::Species).iter().map(|(name, _)| *name);
     let own: Vec<&str> = names.filter(|name| name.starts_with("topiary/") || name.starts_with("abop/")).collect();
-    assert_eq!(own.len(), 26);
+    assert_eq!(own.len(), 28);
     own.iter().for_each(|name| _ = species(name));
 }
 

@@ -126,7 +126,7 @@ pub enum What {
     Outlined(u32),
     /// An organ that is a curved surface, by its place among those of the life. A point (x, y, z) of the surface is at
     /// base + x · s₀ · heading + y · s₁ · (up × heading) + z · s₂ · up with the sizes s of the pose, and its normal is
-    /// [`Surface::normal_scaled`] of them, turned alike.
+    /// [`SurfacePoint::normal_scaled`] of them, turned alike.
     Surface(u32),
     /// An internode that is no tube or has sides of its own: drawn as its species states, by itself.
     Internode,
