@@ -4,7 +4,7 @@
 //! itself, organs and internodes that are no plain tubes, is kept with its corners at each key at which it stands. What
 //! does not stand at a key is a point there: the tip of the internode that bears it, or of the nearest one below it
 //! that stands. So a part grows out of its bearer, and goes into it again. Memory grows with the number of keys, not
-//! with the number of ages that lie between them. Absent: tubes (`wood`), and the file (`life`).
+//! with the number of ages that lie between them. Absent: tubes (`wood`), and the file (`growth`).
 
 use super::paint::class_of;
 use phytomer_life::{Life, Maker, Nearness};

@@ -5,7 +5,6 @@
 //! face are seen, since leaves are single faces. Absent: textures.
 
 use phytomer_meshes::Tag;
-use phytomer_sim::math::pow;
 use phytomer_sim::plant::{Class, Kind};
 use serde_json::{Value, json};
 use std::sync::LazyLock;
@@ -46,11 +45,7 @@ pub fn linear([red, green, blue, _]: [u8; 4]) -> [u16; 4] {
 }
 
 static LINEAR: LazyLock<[u16; 256]> = LazyLock::new(|| {
-    std::array::from_fn(|channel| {
-        let shown = channel as f64 / 255.0;
-        let light = if shown <= 0.04045 { shown / 12.92 } else { pow((shown + 0.055) / 1.055, 2.4) };
-        (light * f64::from(u16::MAX)).round() as u16
-    })
+    std::array::from_fn(|channel| (phytomer_meshes::linear(channel as u8) * f64::from(u16::MAX)).round() as u16)
 });
 
 #[cfg(test)]

@@ -4,46 +4,20 @@
 //! A trunk of six internodes, one a tick, has a leaf from tick 2 to 5 and bends at tick 5. Whole species, and readers
 //! that are not ours, are in `tests/glb.rs` of the root.
 
+#[path = "../../life/src/specimen.rs"]
+mod specimen;
+
 use super::{Body, Growth, KeyMaker, Keyed, write_growth, write_still};
 use phytomer_meshes::{
     Counts, Drawing, Face, Mesh, MeshOptions, PlantDrawing, Scene, Take, Tolerance, Vertex, mesh_plant,
 };
 use phytomer_sim::Tick;
-use phytomer_sim::plant::{Cause, Form, Habit, Kind, NewAxis, NewNode, NewOrgan, NodeId, Plant, Seed, Trend};
-use phytomer_sim::pose::pose;
+use phytomer_sim::plant::Plant;
 use serde_json::Value;
+use specimen::plant;
 use std::sync::Arc;
 
-const TALL: Tick = 6;
 const KEYS: [Tick; 5] = [0, 1, 3, 4, 6];
-
-fn plant() -> Plant {
-    let seed = Seed { plant: 3, draws: 3, run_seed: 1, component_limit: 100, keep_events: false };
-    let habit = Habit { trends: vec![Trend::STRAIGHT], ..Habit::default() };
-    let mut plant = Plant::new(&seed, Arc::new(habit));
-    let axis = plant.add_axis(NewAxis::OF_THE_SEED);
-    let mut parent = NodeId::NONE;
-    for rank in 1..=TALL {
-        let node = NewNode { parent, axis, birth: rank, rank, length: 0.1, diameter: 0.01, ..NewNode::OF_THE_TRUNK };
-        parent = plant.add_node(node);
-    }
-    plant.add_organ(NewOrgan {
-        node: NodeId(0),
-        kind: Kind::Leaf,
-        position: 0,
-        birth: 2,
-        death: 5,
-        cause: Cause::LifeLength,
-        form: Form::default(),
-        length: 0.1,
-        width: 0.04,
-        area: 0.002,
-        azimuth: 0.0,
-        insertion: 1.0,
-    });
-    pose(&mut plant, TALL);
-    plant
-}
 
 /// A file in its parts.
 struct File {

@@ -9,9 +9,7 @@
 use super::keys::Keyed;
 use glam::Vec3;
 use phytomer_life::{Line, between};
-use phytomer_meshes::{Tag, sides_within};
-use phytomer_sim::math::{sin, sincos};
-use std::f64::consts::TAU;
+use phytomer_meshes::{Tag, corners_of_area, sides_within};
 use std::ops::Range;
 
 /// A ring: x, y, z of its middle and its radius, metres.
@@ -48,7 +46,7 @@ impl Tube {
         let last = (first..keyed.keys()).take_while(stands).last()?;
         let ages = (first..=last).filter_map(|key| keyed.age(key));
         let radii = ages.flat_map(|age| keyed.life.line_at(of, age).map(|(_, place)| place[3]));
-        let polygon = polygon(sides_within(radii.fold(0.0, f32::max), tolerance));
+        let polygon = corners_of_area(sides_within(radii.fold(0.0, f32::max), tolerance));
         let base = keyed.life.points[of.points.clone()].first().map_or(u32::MAX, |point| point.component);
         let mut tube = Self { line, polygon, keys: first..last + 1, ups: Vec::new(), first: base };
         let mut rings = Vec::new();
@@ -191,14 +189,4 @@ fn directions(rings: &[Ring]) -> Vec<Vec3> {
 /// The unit vector across a direction that is nearest to `up`.
 fn across(up: Vec3, along: Vec3) -> Vec3 {
     (up - up.dot(along) * along).try_normalize().unwrap_or_else(|| along.any_orthonormal_vector())
-}
-
-fn polygon(sides: u16) -> Vec<[f32; 2]> {
-    let count = f64::from(sides);
-    let reach = (TAU / count / sin(TAU / count)).sqrt();
-    let corner = |k: u16| {
-        let (sin, cos) = sincos(TAU * f64::from(k) / count);
-        [(reach * cos) as f32, (reach * sin) as f32]
-    };
-    (0..sides).map(corner).collect()
 }

@@ -3,43 +3,16 @@
 //! A trunk of six internodes, one a tick, bends at the third node; whole species are compared with their lives in
 //! `tests/lives.rs` of the root.
 
+#[path = "specimen.rs"]
+mod specimen;
+
 use super::{Life, Maker, Nearness, What};
 use phytomer_looks::{Paints, Surface};
 use phytomer_meshes::{MeshOptions, Scene};
 use phytomer_sim::Tick;
-use phytomer_sim::plant::{Cause, Form, Habit, Kind, NewAxis, NewNode, NewOrgan, NodeId, OrganId, Plant, Seed};
-use phytomer_sim::pose::pose;
+use phytomer_sim::plant::{Habit, OrganId, Plant};
+use specimen::{TALL, plant};
 use std::sync::Arc;
-
-const TALL: Tick = 6;
-
-fn plant() -> Plant {
-    let seed = Seed { plant: 3, draws: 3, run_seed: 1, component_limit: 100, keep_events: false };
-    let mut plant = Plant::new(&seed, Arc::new(Habit::default()));
-    plant.habit = Arc::new(Habit { trends: vec![phytomer_sim::plant::Trend::STRAIGHT], ..Habit::default() });
-    let axis = plant.add_axis(NewAxis::OF_THE_SEED);
-    let mut parent = NodeId::NONE;
-    for rank in 1..=TALL {
-        let node = NewNode { parent, axis, birth: rank, rank, length: 0.1, diameter: 0.01, ..NewNode::OF_THE_TRUNK };
-        parent = plant.add_node(node);
-    }
-    plant.add_organ(NewOrgan {
-        node: NodeId(0),
-        kind: Kind::Leaf,
-        position: 0,
-        birth: 2,
-        death: 5,
-        cause: Cause::LifeLength,
-        form: Form::default(),
-        length: 0.1,
-        width: 0.04,
-        area: 0.002,
-        azimuth: 0.0,
-        insertion: 1.0,
-    });
-    pose(&mut plant, TALL);
-    plant
-}
 
 fn life(plant: &Plant, ages: impl IntoIterator<Item = Tick>) -> Life {
     let mut maker = Maker::new(Nearness::of(1e-3), &MeshOptions::default());

@@ -7,6 +7,7 @@
 use super::palette::{self, Rgb};
 use phytomer_looks::{Bark, Colour, Paints};
 use phytomer_sim::clock::{NEVER, Tick};
+use phytomer_sim::math::pow;
 use phytomer_sim::plant::{Cause, Class, Kind, OrganId, PaintNumber, Plant};
 
 const DEAD_WOOD: Rgb = [150.0, 145.0, 138.0];
@@ -19,6 +20,12 @@ const BARK_DARKENS: Tick = 20;
 
 /// The ticks after which an organ without a stated life length is half old.
 const AGES: Tick = 4;
+
+/// The part of full light, in linear light, of a byte of a colour as screens take it (sRGB, IEC 61966-2-1).
+pub fn linear(byte: u8) -> f64 {
+    let shown = f64::from(byte) / 255.0;
+    if shown <= 0.040_45 { shown / 12.92 } else { pow((shown + 0.055) / 1.055, 2.4) }
+}
 
 /// The colour of an internode of a kind, `old` ticks after its birth.
 #[inline]

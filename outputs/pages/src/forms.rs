@@ -6,8 +6,6 @@
 
 use super::streams::linear;
 use phytomer_life::{Life, Model, Part, What};
-use phytomer_looks::Surface;
-use phytomer_looks::polygon::triangles;
 use phytomer_meshes::{Depth, Face, FormMesh, Mesh, MeshOptions};
 use phytomer_sim::plant::Class;
 use serde_json::{Value, json};
@@ -70,8 +68,14 @@ impl Forms {
     fn described(&self, part: &Part, life: &Life, stalk: [u8; 3]) -> Value {
         let mut form = match part.what {
             What::Organ(form) => of_mesh(self.options.shape(form)),
-            What::Outlined(place) => of_outline(life.outlines.get(place as usize).map_or(&[], Vec::as_slice)),
-            What::Surface(place) => of_surface(life.surfaces.get(place as usize)),
+            What::Outlined(place) => {
+                let corners = life.outlines.get(place as usize).map_or(&[][..], Vec::as_slice);
+                of_model(&Model::of_outline(corners, NO_COLOUR).mesh, "share")
+            }
+            What::Surface(place) => {
+                let model = life.surfaces.get(place as usize).map(|surface| Model::of_surface(surface, NO_COLOUR));
+                of_model(&model.unwrap_or_default().mesh, "each")
+            }
             What::Internode => of_stem(life.stems.get(part.stem as usize)),
         };
         let leafy = matches!(part.kind.class(), Class::Leaf | Class::Flower);
@@ -82,6 +86,9 @@ impl Forms {
         form
     }
 }
+
+/// The colour of a form, which the page takes from each part.
+const NO_COLOUR: [u8; 3] = [0; 3];
 
 /// The step of the numbers of a corner.
 const UNIT: f64 = 1e-4;
@@ -110,43 +117,26 @@ fn of_stem(model: Option<&Model>) -> Value {
         (false, true) => "width",
         (false, false) => "length",
     };
-    let vertices = model.mesh.vertices.iter();
+    let mut form = of_model(&model.mesh, scale);
+    form["of_internode"] = json!(true);
+    form
+}
+
+/// A mesh that stands as it is, with what scales it.
+fn of_model(mesh: &Mesh, scale: &str) -> Value {
+    let vertices = mesh.vertices.iter();
     let corners = vertices.flat_map(|vertex| corner(vertex.position(), [0.0; 3], vertex.normal(), false));
     let corners: Vec<i64> = corners.collect();
-    let faces: Vec<[u32; 3]> = model.mesh.faces.iter().map(Face::indices).collect();
-    json!({"scale": scale, "of_internode": true, "corners": corners, "faces": faces})
+    let faces: Vec<[u32; 3]> = mesh.faces.iter().map(Face::indices).collect();
+    json!({"scale": scale, "corners": corners, "faces": faces})
 }
 
 /// An obstacle, as a form that stands once, and its colour.
 pub fn of_solid(mesh: &Mesh) -> Value {
-    let vertices = mesh.vertices.iter();
-    let corners = vertices.flat_map(|vertex| corner(vertex.position(), [0.0; 3], vertex.normal(), false));
     let [red, green, blue, _] = mesh.vertices.first().map_or([128; 4], |vertex| vertex.tag().colour);
-    let corners: Vec<i64> = corners.collect();
-    let faces: Vec<[u32; 3]> = mesh.faces.iter().map(Face::indices).collect();
-    json!({"scale": "share", "of_internode": true, "thin": false, "colour": [red, green, blue], "corners": corners,
-        "faces": faces})
-}
-
-fn of_outline(corners: &[[f32; 3]]) -> Value {
-    let faces = triangles(corners);
-    let mut normals = vec![[0.0_f32; 3]; corners.len()];
-    for face in &faces {
-        let [a, b, c] = face.map(|place| corners[place]);
-        let [p, q] = [b, c].map(|to| [0, 1, 2].map(|k| to[k] - a[k]));
-        let across = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
-        face.iter().for_each(|place| (0..3).for_each(|k| normals[*place][k] += across[k]));
-    }
-    let corners = corners.iter().zip(normals).flat_map(|(at, normal)| {
-        let length = normal.iter().map(|x| x * x).sum::<f32>().sqrt();
-        let normal = if length > 0.0 { normal.map(|x| x / length) } else { [0.0, 0.0, 1.0] };
-        corner(*at, [0.0; 3], normal, false)
-    });
-    json!({"scale": "share", "corners": corners.collect::<Vec<i64>>(), "faces": faces})
-}
-
-fn of_surface(surface: Option<&Surface>) -> Value {
-    let points = surface.into_iter().flat_map(Surface::points);
-    let corners: Vec<i64> = points.flat_map(|point| corner(point.at, [0.0; 3], point.normal, false)).collect();
-    json!({"scale": "each", "corners": corners, "faces": surface.map(Surface::faces).unwrap_or_default()})
+    let mut form = of_model(mesh, "share");
+    form["of_internode"] = json!(true);
+    form["thin"] = json!(false);
+    form["colour"] = json!([red, green, blue]);
+    form
 }

@@ -3,43 +3,14 @@
 //! Whole species are held against `records` by an independent reader (`tests/readers/pages.py`), and seen by a browser
 //! (`tests/readers/view.mjs`).
 
+#[path = "../../life/src/specimen.rs"]
+mod specimen;
+
 use super::*;
 use miniz_oxide::inflate::decompress_to_vec;
 use phytomer_life::{Maker, Nearness};
-use phytomer_sim::plant::{Cause, Form, Habit, NewAxis, NewNode, NewOrgan, NodeId, Plant, Seed, Trend};
-use phytomer_sim::pose::pose;
+use specimen::{TALL, plant};
 use std::collections::BTreeMap;
-use std::sync::Arc;
-
-const TALL: u32 = 6;
-
-/// A trunk of an internode a tick, with a leaf from the age 2 to the age 5 at its first node.
-fn plant() -> Plant {
-    let seed = Seed { plant: 3, draws: 3, run_seed: 1, component_limit: 100, keep_events: false };
-    let habit = Habit { trends: vec![Trend::STRAIGHT], ..Habit::default() };
-    let mut plant = Plant::new(&seed, Arc::new(habit));
-    let axis = plant.add_axis(NewAxis::OF_THE_SEED);
-    let mut parent = NodeId::NONE;
-    for rank in 1..=TALL {
-        let node = NewNode { parent, axis, birth: rank, rank, length: 0.1, diameter: 0.01, ..NewNode::OF_THE_TRUNK };
-        parent = plant.add_node(node);
-    }
-    plant.add_organ(NewOrgan {
-        node: NodeId(0),
-        kind: Kind::Leaf,
-        birth: 2,
-        death: 5,
-        cause: Cause::LifeLength,
-        form: Form::default(),
-        length: 0.1,
-        width: 0.04,
-        area: 0.002,
-        insertion: 1.0,
-        ..NewOrgan::LEAF
-    });
-    pose(&mut plant, TALL);
-    plant
-}
 
 fn columns() -> Vec<Column> {
     let column = |name, holds, kept| Column { name, unit: "", description: "", holds, kept };

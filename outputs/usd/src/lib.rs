@@ -106,11 +106,12 @@ const ROOT: &str = "plant";
 /// Writes plants at an age: wood as it is drawn, and the organs of lives of that one age.
 fn write_still(asked: &Asked, wood: &dyn Drawing, plants: &Plants, out: &mut dyn Sink) -> io::Result<()> {
     let course = Course::still();
+    let skeletons = skeletons(plants, &course);
     in_layer(asked, None, out, &mut |layer| {
         if wood.counts().faces > 0 {
             still::write_wood(layer, ROOT, "wood", wood)?;
         }
-        write_organs(layer, asked.organs, plants, &course, false)
+        write_organs(layer, asked.organs, (plants, &skeletons), &course, false)
     })
 }
 
@@ -122,13 +123,26 @@ pub fn write_life(asked: &Asked, plants: &Plants, tolerance: f32, pace: &Pace, o
     let ages = plants.lives.first().map_or(&[][..], |life| &life.ages);
     let course = Course::of(ages, plants.lives, pace);
     let ends = [ages.first(), ages.last()].map(|age| f64::from(age.copied().unwrap_or(0.0)) * pace.a_tick);
+    let skeletons = skeletons(plants, &course);
     in_layer(asked, Some([ends[0], ends[1], pace.a_second]), out, &mut |layer| {
-        let skeletons: Vec<Skeleton> = plants.lives.iter().map(|life| Skeleton::of(life, &course)).collect();
         let tubes = Tubes::of(&skeletons, plants.members, tolerance);
         if !tubes.is_empty() {
             changing::write(layer, (ROOT, "wood", "wood"), &tubes, &course)?;
         }
-        write_organs(layer, asked.organs, plants, &course, true)
+        write_organs(layer, asked.organs, (plants, &skeletons), &course, true)
+    })
+}
+
+fn skeletons<'a>(plants: &Plants<'a>, course: &'a Course) -> Vec<Skeleton<'a>> {
+    plants.lives.iter().map(|life| Skeleton::of(life, course)).collect()
+}
+
+/// Told at once, and not when a whole plant has been written.
+fn check_goes_back(out: &mut dyn Sink) -> io::Result<()> {
+    out.patch(0, &[]).map_err(|error| {
+        let told = "binary USD is put right at its beginning when it is whole, which a pipe or a device does not allow: \
+                    name a file, or one that ends in .usda";
+        io::Error::new(error.kind(), format!("{told} ({error})"))
     })
 }
 
@@ -139,6 +153,9 @@ fn in_layer(
     write: &mut dyn FnMut(&mut dyn Layer) -> io::Result<()>,
 ) -> io::Result<()> {
     let header = Header { root: ROOT.to_owned(), words: asked.words.clone(), time };
+    if asked.encoding != Encoding::Text {
+        check_goes_back(out)?;
+    }
     match asked.encoding {
         Encoding::Text => in_root(&mut Text::begin(out, &header)?, write),
         Encoding::Binary => in_root(&mut Binary::begin(out, &header)?, write),
@@ -161,13 +178,12 @@ fn in_root(layer: &mut dyn Layer, write: &mut dyn FnMut(&mut dyn Layer) -> io::R
 fn write_organs(
     layer: &mut dyn Layer,
     organs: Organs,
-    plants: &Plants,
+    (plants, skeletons): (&Plants, &[Skeleton]),
     course: &Course,
     internodes: bool,
 ) -> io::Result<()> {
-    let skeletons: Vec<Skeleton> = plants.lives.iter().map(|life| Skeleton::of(life, course)).collect();
     let models = met(plants, course);
-    let parts = |internodes| Parts { skeletons: &skeletons, members: plants.members, models: &models, internodes };
+    let parts = |internodes| Parts { skeletons, members: plants.members, models: &models, internodes };
     let stems = parts(true);
     if internodes && !stems.is_empty() {
         changing::write(layer, (ROOT, "stems", "wood"), &stems, course)?;

@@ -4,7 +4,7 @@
 //! a kind of part reads them; it is a UsdPreviewSurface, which artists may replace by their own.
 
 use super::layer::{Attribute, Data, Layer, Value};
-use phytomer_sim::math::pow;
+use phytomer_meshes::linear;
 use std::collections::BTreeMap;
 use std::io;
 
@@ -20,7 +20,7 @@ impl Palette {
     pub fn place(&mut self, colour: [u8; 3]) -> i32 {
         let Self { places, colours } = self;
         *places.entry(colour).or_insert_with(|| {
-            colours.push(colour.map(linear));
+            colours.push(colour.map(|byte| linear(byte) as f32));
             colours.len() as i32 - 1
         })
     }
@@ -29,12 +29,6 @@ impl Palette {
     pub fn colours(&self) -> &[[f32; 3]] {
         &self.colours
     }
-}
-
-/// The linear number of a byte of sRGB (IEC 61966-2-1).
-pub fn linear(byte: u8) -> f32 {
-    let share = f64::from(byte) / 255.0;
-    (if share <= 0.040_45 { share / 12.92 } else { pow((share + 0.055) / 1.055, 2.4) }) as f32
 }
 
 /// Writes the materials of these names, each with how rough it is.

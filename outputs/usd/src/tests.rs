@@ -1,47 +1,18 @@
 //! A small plant that is written by hand: what its files say.
 
+#[path = "../../life/src/specimen.rs"]
+mod specimen;
+
 use super::*;
 use crate::course::State;
 use glam::Vec3;
 use phytomer_life::{Life, Maker, Model, Nearness, What};
 use phytomer_meshes::{MeshOptions, Scene};
 use phytomer_sim::Tick;
-use phytomer_sim::plant::{Cause, Form, Habit, Kind, NewAxis, NewNode, NewOrgan, NodeId, Plant, Seed, Trend};
+use phytomer_sim::plant::{NewAxis, NewNode, NodeId, Plant};
 use phytomer_sim::pose::pose;
-use std::sync::Arc;
-
-/// A trunk of six internodes, one a tick, with a leaf that stands from 2 to 5.
-pub fn plant() -> Plant {
-    let mut plant = unposed();
-    pose(&mut plant, 6);
-    plant
-}
-
-fn unposed() -> Plant {
-    let seed = Seed { plant: 3, draws: 3, run_seed: 1, component_limit: 100, keep_events: false };
-    let mut plant = Plant::new(&seed, Arc::new(Habit { trends: vec![Trend::STRAIGHT; 2], ..Habit::default() }));
-    let axis = plant.add_axis(NewAxis::OF_THE_SEED);
-    let mut parent = NodeId::NONE;
-    for rank in 1..=6 {
-        let node = NewNode { parent, axis, birth: rank, rank, length: 0.1, diameter: 0.01, ..NewNode::OF_THE_TRUNK };
-        parent = plant.add_node(node);
-    }
-    plant.add_organ(NewOrgan {
-        node: NodeId(0),
-        kind: Kind::Leaf,
-        position: 0,
-        birth: 2,
-        death: 5,
-        cause: Cause::LifeLength,
-        form: Form::default(),
-        length: 0.1,
-        width: 0.04,
-        area: 0.002,
-        azimuth: 0.0,
-        insertion: 1.0,
-    });
-    plant
-}
+pub use specimen::plant;
+use specimen::unposed;
 
 /// Its life.
 pub fn life(plant: &Plant, ages: impl IntoIterator<Item = Tick>) -> Life {

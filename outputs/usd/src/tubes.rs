@@ -12,9 +12,7 @@ use super::skeleton::Skeleton;
 use super::stepped;
 use glam::{Quat, Vec3, Vec4Swizzles};
 use phytomer_life::{Life, Line, between};
-use phytomer_meshes::sides_within;
-use phytomer_sim::math::{sin, sincos};
-use std::f64::consts::TAU;
+use phytomer_meshes::{corners_of_area, meeting, sides_within};
 
 /// The most by which a ring is widened in the plane of a bend.
 const WIDEST: f32 = 1.5;
@@ -40,7 +38,7 @@ impl<'a> Tubes<'a> {
             let place = usize::from(*sides);
             polygons.resize(polygons.len().max(place + 1), Vec::new());
             if polygons[place].is_empty() {
-                polygons[place] = polygon(*sides);
+                polygons[place] = corners_of_area(*sides);
             }
         }
         Self { skeletons, sides, polygons, members }
@@ -71,17 +69,6 @@ impl<'a> Tubes<'a> {
 fn sides(life: &Life, tolerance: f32) -> Vec<u16> {
     let largest = |point| life.places(point).iter().map(|(_, place)| place[3]).fold(0.0, f32::max);
     life.points.iter().map(|point| sides_within(largest(point), tolerance)).collect()
-}
-
-/// The corners of the regular polygon that has the area of the unit circle.
-fn polygon(sides: u16) -> Vec<Corner> {
-    let part = TAU / f64::from(sides);
-    let reach = (part / sin(part)).sqrt();
-    let corner = |k: u16| {
-        let (sin, cos) = sincos(part * f64::from(k));
-        [(reach * cos) as f32, (reach * sin) as f32]
-    };
-    (0..sides).map(corner).collect()
 }
 
 impl Changing for Tubes<'_> {
@@ -183,17 +170,9 @@ fn join([a, n]: [usize; 2], [b, m]: [usize; 2], faces: &mut Faces) {
         (0..n).for_each(|k| faces.add([a + k, a + (k + 1) % n, b + (k + 1) % n, b + k]));
         return;
     }
-    let (mut i, mut j) = (0, 0);
-    while i < n || j < m {
-        // The ring whose next side has its middle earlier on the way around goes on.
-        let lower = i < n && (j == m || (2 * i + 1) * m <= (2 * j + 1) * n);
+    for (lower, [i, j]) in meeting([n as u32, m as u32]) {
+        let [i, j] = [i, j].map(|corner| corner as usize);
         let [low, high] = [a + i % n, b + j % m];
-        if lower {
-            faces.add([low, a + (i + 1) % n, high]);
-            i += 1;
-        } else {
-            faces.add([low, b + (j + 1) % m, high]);
-            j += 1;
-        }
+        faces.add([low, if lower { a + (i + 1) % n } else { b + (j + 1) % m }, high]);
     }
 }

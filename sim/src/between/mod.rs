@@ -83,7 +83,7 @@ fn drops(plant: &Plant, age: Tick, share: f32) -> Vec<f32> {
         if organs.death[place] != age || !natural || !plant.organ_stands(OrganId(organ), age) {
             return 0.0;
         }
-        // Two bytes of a multiplicative hash (Knuth), as organs are scattered elsewhere.
+        // Two bytes of a multiplicative hash (Knuth), of another factor than the one that scatters organs (`pose`).
         let hash = (organs.component[place].wrapping_mul(2_246_822_519) >> 16) as f32 / 65_536.0;
         let time = ((share - LOOSE * hash) / (1.0 - LOOSE)).clamp(0.0, 1.0);
         time * time

@@ -26,6 +26,29 @@ pub fn sides(radius: f32, tolerance: f32) -> u16 {
     }
 }
 
+/// Around the unit circle the corners of the polygon of so many sides that has its area.
+pub fn corners_of_area(sides: u16) -> Vec<[f32; 2]> {
+    let Polygon { corners, reach } = Polygon::of(sides, Keeping::Section);
+    corners[..usize::from(sides)].iter().map(|[cos, sin, _]| [cos * reach, sin * reach]).collect()
+}
+
+/// How the triangles between two rings of n and m sides go around, n + m of them: for each whether its side is one of
+/// the first ring, and the corners of both rings that it begins at.
+pub fn meeting([n, m]: [u32; 2]) -> impl Iterator<Item = (bool, [u32; 2])> {
+    let (mut i, mut j) = (0, 0);
+    (0..n + m).map(move |_| {
+        let at = [i, j];
+        // The ring whose next side has its middle earlier on the way around goes on.
+        let lower = i < n && (j == m || (2 * i + 1) * m <= (2 * j + 1) * n);
+        if lower {
+            i += 1
+        } else {
+            j += 1
+        }
+        (lower, at)
+    })
+}
+
 /// The corners of the polygon of a number of sides.
 #[derive(Debug, Clone, Default)]
 pub struct Polygon {
@@ -103,12 +126,8 @@ impl Place {
 
 /// Writes the n + m triangles between two rings, by the indices of their first vertices and their numbers of sides.
 pub fn join([a, n]: [u32; 2], [b, m]: [u32; 2], out: &mut [Face]) {
-    let (mut i, mut j) = (0, 0);
-    for out in out {
-        // The ring whose next side has its middle earlier on the way around goes on.
-        let lower = i < n && (j == m || (2 * i + 1) * m <= (2 * j + 1) * n);
+    for ((lower, [i, j]), out) in meeting([n, m]).zip(out) {
         *out = Face::new(if lower { [a + i, a + i + 1, b + j] } else { [a + i, b + j + 1, b + j] });
-        if lower { i += 1 } else { j += 1 }
     }
 }
 
