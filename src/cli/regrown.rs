@@ -105,7 +105,8 @@ impl Regrown {
         scenario.plants = PLANTS_ALONE;
         scenario.limits.max_components = MOST_COMPONENTS_ALONE;
         let model = species.model.compile(until).map_err(|faults| match faults.into_iter().next() {
-            Some(fault) => Misuse(format!("{name} to the age {until}: {fault}")),
+            // A fault of the age itself has no path before its words.
+            Some(fault) => Misuse(format!("{name} to the age {until}: {}", fault.to_string().trim_start_matches(": "))),
             None => Misuse(format!("{name} cannot be grown to the age {until}")),
         })?;
         let forms = vec![forms::of(&species)?];

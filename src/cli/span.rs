@@ -93,7 +93,7 @@ pub fn span(text: &str) -> std::result::Result<Span, String> {
     let expected = || "ages in ticks are expected, such as 1..96, 1..96/4 for every fourth, or 60".to_owned();
     let number = |text: &str| age(text).map(Moment::age).map_err(|_| expected());
     let (ages, step) = match text.split_once('/') {
-        Some((ages, step)) => (ages, Some(number(step)?)),
+        Some((ages, step)) => (ages, Some(step.trim().parse::<f64>().map_err(|_| expected())?)),
         None => (text, None),
     };
     let (first, last) = match ages.split_once("..") {
@@ -104,7 +104,9 @@ pub fn span(text: &str) -> std::result::Result<Span, String> {
         return Err(format!("the first age, {first}, is after the last, {last}"));
     }
     match step {
-        Some(step) if step < LEAST_STEP => Err(format!("a step of at least {LEAST_STEP} is expected after the slash")),
+        Some(step) if !step.is_finite() || step < LEAST_STEP => {
+            Err(format!("a step of at least {LEAST_STEP} is expected after the slash"))
+        }
         Some(step) => Ok(Span { first, last: first + ((last - first) / step + 1e-6).floor() * step, step: Some(step) }),
         None => Ok(Span { first, last, step: None }),
     }
@@ -168,6 +170,7 @@ mod tests {
             (" 1 .. 96 / 5 ", of(1.0, 96.0, Some(5.0))),
             ("1..95/5", of(1.0, 91.0, Some(5.0))),
             ("60", of(60.0, 60.0, None)),
+            ("1..2/0.001", of(1.0, 2.0, Some(0.001))),
             ("0..0", of(0.0, 0.0, None)),
             ("3..4/9", of(3.0, 3.0, Some(9.0))),
             ("1.5..3", of(1.5, 3.0, None)),
