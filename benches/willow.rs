@@ -14,6 +14,7 @@ fn willow(criterion: &mut Criterion) {
     specimen.life(criterion, 69);
     specimen.within_a_millimetre(criterion, 92);
     specimen.keyframes(criterion);
+    specimen.usd(criterion, &(1..=96).collect::<Vec<_>>());
 }
 
 criterion_group!(benches, willow);

@@ -7,7 +7,7 @@ mod near;
 
 use near::Triangles;
 use phytomer::config::validate;
-use phytomer::outputs::meshes::{MeshOptions, Scene, Tolerance, fitting, mesh_plant};
+use phytomer::outputs::meshes::{Boxing, Mesh, MeshOptions, Scene, Tolerance, Vertex, fitting, mesh_plant};
 use phytomer::run::regrowth::Regrowth;
 use phytomer::sim::Tick;
 use phytomer::sim::plant::{Class, Kind, Plant};
@@ -79,4 +79,28 @@ fn the_willow_of_eleven_years_has_at_most_the_triangles_of_a_plain_trial() {
         let found = found.expect("it fits").distance;
         assert!((1e-3..3e-3).contains(&found), "100 000 triangles: within {found} m");
     });
+}
+
+/// The box of a block is told from few of its vertices, and holds all of them to the bit.
+#[test]
+fn boxes_of_blocks_are_those_of_their_vertices() {
+    for (name, age) in [("willow", 36), ("coffee", 30), ("fir", 6), ("cotton", 40), ("meadow_grass", 9)] {
+        show(name, age, &mut |plant| {
+            for tolerance in [None, Some(2e-3)] {
+                let options = MeshOptions { tolerance: tolerance.map(Tolerance::of), ..MeshOptions::default() };
+                let scene = Scene::new(plant, age, &options);
+                let (mut boxing, mut mesh) = (Boxing::default(), Mesh::default());
+                for block in 0..scene.blocks() {
+                    scene.block(block, &mut mesh);
+                    let mut all = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+                    for position in mesh.vertices.iter().map(Vertex::position) {
+                        all[0] = [0, 1, 2].map(|k| all[0][k].min(position[k]));
+                        all[1] = [0, 1, 2].map(|k| all[1][k].max(position[k]));
+                    }
+                    let told = scene.block_box(block, &mut boxing).map(|corner| corner.to_array());
+                    assert_eq!(told, all, "{name} at {age}, block {block}");
+                }
+            }
+        });
+    }
 }

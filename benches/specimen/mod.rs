@@ -10,6 +10,7 @@ pub mod baseline;
 pub mod bending;
 pub mod budget;
 pub mod columns;
+pub mod files;
 pub mod picture;
 
 use criterion::measurement::WallTime;

@@ -39,7 +39,21 @@ pub enum Ending {
 /// # Errors
 /// The recorder's.
 pub fn grow(plot: &mut Plot<'_>, until: Tick, recorder: &mut dyn Recorder) -> Result<Ending, RecordError> {
-    let ending = follow_ticks(plot, until, recorder)?;
+    grow_and_look(plot, [until; 2], recorder)
+}
+
+/// As [`grow`] to the tick `until`, for a recorder that wants no tick after `last`: the loop ends there. Growth that
+/// runs ahead still goes to `until`, since that is what numbers the components; only the plants' standing at the ticks
+/// between is left out. So the recorder sees the plants that [`grow`] shows it, number for number.
+///
+/// # Errors
+/// The recorder's.
+pub fn grow_and_look(
+    plot: &mut Plot<'_>,
+    [last, until]: [Tick; 2],
+    recorder: &mut dyn Recorder,
+) -> Result<Ending, RecordError> {
+    let ending = follow_ticks(plot, [last.min(until), until], recorder)?;
     let last = plot.site.tick;
     for (plant, member) in plot.plants.iter_mut().zip(&plot.members) {
         if let Some(age) = member.age_at(last) {
@@ -49,13 +63,17 @@ pub fn grow(plot: &mut Plot<'_>, until: Tick, recorder: &mut dyn Recorder) -> Re
     Ok(ending)
 }
 
-fn follow_ticks(plot: &mut Plot<'_>, until: Tick, recorder: &mut dyn Recorder) -> Result<Ending, RecordError> {
+fn follow_ticks(
+    plot: &mut Plot<'_>,
+    [last, until]: [Tick; 2],
+    recorder: &mut dyn Recorder,
+) -> Result<Ending, RecordError> {
     let ahead = plot.ahead(until);
     if ahead {
         recorder.grown(until, plot)?;
     }
     // Tick 0 shows what is sown: seeds, or the axiom of an L-system.
-    for tick in 0..=until {
+    for tick in 0..=last {
         plot.site.begin(tick);
         if tick > 0
             && !ahead

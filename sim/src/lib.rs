@@ -25,7 +25,7 @@ pub mod site;
 mod vector;
 
 pub use clock::{NEVER, Tick};
-pub use grow::{Ending, grow};
+pub use grow::{Ending, grow, grow_and_look};
 pub use model::{Grow, Growth, GrowthModel, Life, Overgrown};
 pub use plant::Plant;
 pub use plot::{Member, Plot, Sowing};

@@ -14,7 +14,7 @@ use phytomer_sim::mechanics::Scratch;
 use phytomer_sim::mechanics::sway::sway;
 use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant, ThreadBudget};
 use phytomer_sim::site::Wind;
-use phytomer_sim::{Ending, GrowthModel, Plot, RecordError, Recorder, Tick, grow};
+use phytomer_sim::{Ending, GrowthModel, Plot, RecordError, Recorder, Tick, grow, grow_and_look};
 use std::borrow::Cow;
 
 /// Air that moves a plant for one frame.
@@ -185,8 +185,9 @@ impl<'a> Regrowth<'a> {
         let last = ticks.last().map(|last| last.tick());
         let passage = Passage::new(self.falls);
         let mut shown = ShownTicks { ticks, passage, airs, trial: self.trial(), show };
-        // To the last tick of the run, not to the last that is shown: that is what numbers the components.
-        let ending = grow(&mut plot, until, &mut shown).map_err(RunError::of_recorder)?;
+        // Growth ahead goes to the last tick of the run, not to the last that is shown: that numbers the components.
+        let looked = [last.unwrap_or(0), until];
+        let ending = grow_and_look(&mut plot, looked, &mut shown).map_err(RunError::of_recorder)?;
         match (ending, last) {
             (Ending::Overgrown { age, limit }, Some(last)) if age <= last => {
                 Err(RunError::Overgrown { limit, age, last })

@@ -27,6 +27,8 @@ use std::sync::Arc;
 const PIXELS: f32 = 2000.0;
 /// The ages that are looked at for that extent.
 const LOOKS: usize = 4;
+/// The share of its radius by which the radius of wood may be off.
+const OF_A_RADIUS: f32 = 0.25;
 /// The tolerance of plants of which nothing is seen, metres.
 const OF_NOTHING: f32 = 1e-3;
 /// The sides of tubes in a form of the page; the page chooses those of its wood itself.
@@ -134,7 +136,10 @@ impl View<'_> {
 
     fn sow(&self, tick: Tick, one: &Standing, tolerance: f32, rows: &Rows) -> Growing {
         Growing {
-            maker: Maker::new(Nearness::of(tolerance * OF_A_LIFE), &self.options(one.species)),
+            maker: Maker::new(
+                Nearness { share: OF_A_RADIUS, ..Nearness::of(tolerance * OF_A_LIFE) },
+                &self.options(one.species),
+            ),
             table: Table::new(rows.columns()),
             species: one.species,
             sown: tick.saturating_sub(one.age),

@@ -43,6 +43,9 @@ pub struct Nearness {
     /// The distance, metres, from a place of an axis or of an organ to the place that the life gives back, and between
     /// their radii and sizes.
     pub distance: f32,
+    /// The share of its radius by which a radius may be off, where that is less than the distance, so that twigs that
+    /// are thinner than the distance keep their thickness; infinite where the distance alone counts.
+    pub share: f32,
     /// The most by which a colour is off, in each of three bytes.
     pub colour: f32,
 }
@@ -50,7 +53,7 @@ pub struct Nearness {
 impl Nearness {
     /// Within a distance, metres, and four parts of 255 of a colour.
     pub fn of(distance: f32) -> Self {
-        Self { distance, colour: 4.0 }
+        Self { distance, share: f32::INFINITY, colour: 4.0 }
     }
 }
 

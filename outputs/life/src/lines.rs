@@ -126,6 +126,12 @@ impl Showing<'_, '_> {
         }
     }
 
+    /// Half of the tolerance.
+    fn half(&self) -> Tolerance {
+        let Nearness { distance, share, .. } = self.nearness;
+        Tolerance { distance: 0.5 * distance, share: 0.5 * share, colour: u8::MAX, keeps: Keeping::Section }
+    }
+
     fn number(&self, sample: &Sample) -> usize {
         self.stems.plant().nodes.component[sample.node.index()] as usize
     }
@@ -149,7 +155,7 @@ impl Showing<'_, '_> {
             }
         }
         scratch.kept.push((last as u32, NONE));
-        let tolerance = Tolerance { distance: 0.5 * self.nearness.distance, colour: u8::MAX, keeps: Keeping::Section };
+        let tolerance = self.half();
         for gap in 1..scratch.kept.len() {
             let [from, to] = [gap - 1, gap].map(|k| scratch.kept[k].0 as usize);
             let samples = &samples[from..=to];
@@ -232,10 +238,9 @@ impl Showing<'_, '_> {
 
     /// Takes the places of the points at this age.
     fn take(&mut self, line: u32, samples: &[Sample]) {
-        let half = 0.5 * self.nearness.distance;
+        let half = self.half();
         // Within half of the tolerance in three coordinates together.
-        let part = half / 3.0_f32.sqrt();
-        let near = [part, part, part, half];
+        let part = half.distance / 3.0_f32.sqrt();
         let colour = [self.nearness.colour; 3];
         let (plant, age) = (self.stems.plant(), self.age);
         let Lines { lines, points, places, tints, scratch, .. } = &mut *self.lines;
@@ -248,6 +253,7 @@ impl Showing<'_, '_> {
                 state.point.kind = plant.kind_of(sample.node);
             }
             if state.point.from < age {
+                let near = [part, part, part, half.of_radius(sample.radius)];
                 places.take(number, &mut state.place, (age, place_of(sample)), &near);
                 tints.take(number, &mut state.tint, (age, tint_of(sample)), &colour);
             }

@@ -50,6 +50,12 @@ impl Scene<'_> {
         }
     }
 
+    /// The place of a block among those of internodes that are drawn by themselves; `None` for another block.
+    pub(super) fn stem_block(&self, block: usize) -> Option<usize> {
+        let tubes = self.reduced.as_ref().map_or(0, |reduced| reduced.blocks().len());
+        block.checked_sub(tubes).filter(|block| *block < self.stem_places().div_ceil(BLOCK))
+    }
+
     fn append_tubes(&self, reduced: &Reduced, tubes: Range<usize>, mesh: &mut Mesh) {
         let mut places = Vec::new();
         for tube in tubes {
@@ -88,7 +94,7 @@ impl Scene<'_> {
 }
 
 /// The entries of a column of `length` entries in a block.
-fn span(block: usize, length: usize) -> Range<usize> {
+pub(super) fn span(block: usize, length: usize) -> Range<usize> {
     block * BLOCK..((block + 1) * BLOCK).min(length)
 }
 

@@ -8,6 +8,7 @@
 //! components. Absent: buds, which have no form, and bending, which is part of the pose.
 
 mod blocks;
+mod boxes;
 mod budget;
 mod chunk;
 mod collection;
@@ -35,6 +36,7 @@ mod tests_stated;
 mod tube;
 
 pub use blocks::TakeAlone;
+pub use boxes::Boxing;
 pub use budget::{TooFew, fitting};
 pub use chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
@@ -69,6 +71,9 @@ pub struct Tolerance {
     /// within it, and a tube is as round as it asks. No point of the round tubes of the internodes is farther than
     /// twice this distance from the mesh.
     pub distance: f32,
+    /// The share of its radius by which the radius of wood may be off, where that is less than the distance; infinite
+    /// where the distance alone counts.
+    pub share: f32,
     /// The most that colours differ, in each of three bytes, between internodes that are drawn as one.
     pub colour: u8,
     /// What the polygons around the wood keep of its circles.
@@ -89,9 +94,17 @@ impl Tolerance {
     /// hundred metres no better.
     pub const LEAST: f32 = 1e-5;
 
+    /// The most by which a radius may be off, metres.
+    #[inline]
+    pub fn of_radius(&self, radius: f32) -> f32 {
+        // Of no radius an infinite share is no number, and the distance counts.
+        self.distance.min(self.share * radius)
+    }
+
     /// Within a distance, metres, whatever the colours.
     pub fn of(distance: f32) -> Self {
-        Self { distance: distance.max(Self::LEAST), colour: u8::MAX, keeps: Keeping::Section }
+        let distance = distance.max(Self::LEAST);
+        Self { distance, share: f32::INFINITY, colour: u8::MAX, keeps: Keeping::Section }
     }
 
     /// Within a distance, metres, for a picture: wood keeps its width, and a face has one colour, which is nearly that

@@ -54,6 +54,12 @@ impl Tube {
         4 * self.corners.len() - 2
     }
 
+    /// The distance of a corner from the axis line, in radii.
+    #[inline]
+    pub fn reach(&self) -> f32 {
+        self.reach
+    }
+
     /// The triangles of a tube, by the indices of its own vertices, counterclockwise from outside.
     pub fn faces(&self) -> &[[u32; 3]] {
         &self.faces

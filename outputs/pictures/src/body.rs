@@ -10,7 +10,7 @@ use super::film::{Film, Paint};
 use super::raster::{Window, turn};
 use glam::Vec3;
 use phytomer_looks::{Paints, Section};
-use phytomer_meshes::{Mesh, MeshOptions, Scene, Tag, Tolerance, Vertex};
+use phytomer_meshes::{Boxing, Mesh, MeshOptions, Scene, Tag, Tolerance, Vertex};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
 use rayon::prelude::*;
@@ -63,9 +63,9 @@ impl<'a> Body<'a> {
     /// With the bounding boxes of its blocks.
     fn boxed(mut self, blocks: usize) -> Self {
         let body = &self;
-        let boxes = (0..blocks).into_par_iter().map_init(Mesh::default, |mesh, block| {
-            let vertices = body.block(block, mesh).vertices.iter().map(at);
-            vertices.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)])
+        let boxes = (0..blocks).into_par_iter().map_init(Boxing::default, |working, block| match &body.scene {
+            Some(scene) if body.kept.is_empty() => scene.block_box(block, working),
+            _ => around(body.kept.get(block).into_iter().flat_map(|mesh| &mesh.vertices).map(at)),
         });
         self.boxes = boxes.collect();
         self
@@ -150,6 +150,11 @@ impl<'a> Body<'a> {
         };
         Paint { colour, thin, stained: self.colours.is_some(), subject }
     }
+}
+
+/// The box around some points.
+fn around(points: impl Iterator<Item = Vec3>) -> [Vec3; 2] {
+    points.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)])
 }
 
 /// The place of a vertex.

@@ -84,6 +84,21 @@ impl Extent {
         self
     }
 
+    /// The number of its measures.
+    pub const MEASURES: usize = 14;
+
+    /// How far it reaches in each direction that it knows.
+    pub fn measures(&self) -> [f32; Self::MEASURES] {
+        let ([a, b, c, d], [near, far], [left, right]) = (self.most, self.depths, self.across);
+        let ([u, v, w], [x, y, z]) = ((-self.low).to_array(), self.high.to_array());
+        [a, b, c, d, -near, far, -left, right, u, v, w, x, y, z]
+    }
+
+    /// Whether it reaches as far as another in each direction.
+    pub fn holds(&self, other: &Self) -> bool {
+        self.measures().iter().zip(other.measures()).all(|(own, other)| *own >= other)
+    }
+
     /// The extent of the points moved by `offset`.
     pub fn moved(mut self, offset: Vec3) -> Self {
         let mut origin = Self::new(self.gaze, self.tangents);

@@ -24,6 +24,9 @@ use std::sync::Arc;
 /// The visible place of a plant of which nothing is left: one metre up from its seed.
 const EMPTY: Vec3 = Vec3::Z;
 
+/// Rounding of places, as a share of their distance from the origin: far more than single precision makes.
+const ROUNDING: f32 = 1e-6;
+
 /// The number of places of one plant that a thread handles with one block.
 const PLACES_AT_ONCE: usize = 16;
 
@@ -53,6 +56,26 @@ struct Look {
 struct Scratch {
     mesh: Mesh,
     corners: Vec<Vec3>,
+}
+
+/// How points are added to an extent.
+struct Measured {
+    /// What is held already.
+    known: Extent,
+    /// The point around which the viewer walks, if so.
+    pivot: Option<Vec3>,
+    /// The height below which points are not seen.
+    lowest: f32,
+}
+
+impl Measured {
+    #[inline]
+    fn add(&self, extent: &mut Extent, point: Vec3) {
+        match self.pivot {
+            Some(pivot) => extent.sweep(point - pivot),
+            None => extent.add(point),
+        }
+    }
 }
 
 impl<'a> PlacedStand<'a> {
@@ -123,41 +146,50 @@ impl<'a> PlacedStand<'a> {
     }
 
     /// The extent of the points of `known` and its own. With a pivot its points count, relative to the pivot, at every
-    /// place to which a turn around the vertical axis there brings them.
+    /// place to which a turn around the vertical axis there brings them. The boxes of blocks tell which may count: first
+    /// those that reach farthest are made, and then those that reach beyond what was found.
     pub fn extent_beyond(&self, known: &Extent, pivot: Option<Vec3>, buried: bool) -> Extent {
-        let lowest = if buried { f32::NEG_INFINITY } else { 0.0 };
-        let add = |extent: &mut Extent, point: Vec3| match pivot {
-            Some(pivot) => extent.sweep(point - pivot),
-            None => extent.add(point),
-        };
-        let is_beyond = |look: &Look| {
-            let body = &self.bodies[look.body];
-            let mut with = *known;
-            for place in &body.places[look.places.clone()] {
-                corners(body.boxes[look.block]).for_each(|corner| add(&mut with, corner + *place));
-            }
-            with != *known
-        };
-        let mut extent = self.each_look(
-            is_beyond,
-            |look, scratch| {
-                let mut extent = *known;
-                let body = &self.bodies[look.body];
-                let mesh = body.block(look.block, &mut scratch.mesh);
-                for place in &body.places[look.places.clone()] {
-                    let points = mesh.vertices.iter().map(|vertex| at(vertex) + *place);
-                    points.filter(|point| point.z >= lowest).for_each(|point| add(&mut extent, point));
-                }
-                extent
-            },
-            || *known,
-            |a, b| a.join(&b),
-        );
-        self.places().for_each(|place| add(&mut extent, place));
+        let measured = Measured { known: *known, pivot, lowest: if buried { f32::NEG_INFINITY } else { 0.0 } };
+        let outer = |look| self.outer(look, &measured).filter(|outer| !known.holds(outer)).map(|outer| (look, outer));
+        let beyond: Vec<(&Look, Extent)> = self.looks.par_iter().filter_map(outer).collect();
+        let mut extent = self.inner(&farthest(&beyond), &measured);
+        let rest = beyond.iter().filter(|(_, outer)| !extent.holds(outer));
+        let rest: Vec<&Look> = rest.map(|(look, _)| *look).collect();
+        extent = extent.join(&self.inner(&rest, &measured));
+        self.places().for_each(|place| measured.add(&mut extent, place));
         if self.bodies.iter().all(Body::is_empty) {
-            add(&mut extent, self.middle() + EMPTY);
+            measured.add(&mut extent, self.middle() + EMPTY);
         }
         extent
+    }
+
+    /// An extent that holds a block at its places, from its box; `None` for an empty one.
+    fn outer(&self, look: &Look, measured: &Measured) -> Option<Extent> {
+        let body = &self.bodies[look.body];
+        let [low, high] = body.boxes[look.block];
+        let slack = ROUNDING * low.abs().max(high.abs()).max_element();
+        let mut outer = measured.known;
+        for place in &body.places[look.places.clone()] {
+            let slack = slack + ROUNDING * place.abs().max_element();
+            corners([low - slack, high + slack]).for_each(|corner| measured.add(&mut outer, corner + *place));
+        }
+        (low.x <= high.x).then_some(outer)
+    }
+
+    /// The extent of some blocks at their places, from their vertices.
+    fn inner(&self, looks: &[&Look], measured: &Measured) -> Extent {
+        let one = |scratch: &mut Scratch, look: &&Look| {
+            let mut extent = measured.known;
+            let body = &self.bodies[look.body];
+            let mesh = body.block(look.block, &mut scratch.mesh);
+            for place in &body.places[look.places.clone()] {
+                let points = mesh.vertices.iter().map(|vertex| at(vertex) + *place);
+                let seen = points.filter(|point| point.z >= measured.lowest);
+                seen.for_each(|point| measured.add(&mut extent, point));
+            }
+            extent
+        };
+        looks.par_iter().map_init(Scratch::default, one).reduce(|| measured.known, |a, b| a.join(&b))
     }
 
     /// The light over it, for a sun at an azimuth and an elevation, radians.
@@ -237,6 +269,16 @@ impl<'a> PlacedStand<'a> {
         let looks = self.looks.par_iter().filter(|look| wanted(look));
         looks.map_init(Scratch::default, |scratch, found| look(found, scratch)).reduce(none, join)
     }
+}
+
+/// The blocks that may reach farthest, each measure of an extent by itself.
+fn farthest<'l>(beyond: &[(&'l Look, Extent)]) -> Vec<&'l Look> {
+    let measures: Vec<_> = beyond.iter().map(|(_, outer)| outer.measures()).collect();
+    let most = |k: usize| (0..beyond.len()).max_by(|a, b| measures[*a][k].total_cmp(&measures[*b][k]));
+    let mut found: Vec<usize> = (0..Extent::MEASURES).filter_map(most).collect();
+    found.sort_unstable();
+    found.dedup();
+    found.into_iter().map(|place| beyond[place].0).collect()
 }
 
 /// The places in the picture, in samples, of the vertices of a block that is moved by `offset`.

@@ -1,12 +1,16 @@
-//! Framings compared with closed forms: cameras that hold several pictures, points that are swept around an axis, and a
-//! ground that stands still.
+//! Framings compared with closed forms: cameras that hold several pictures, points that are swept around an axis,
+//! extents of all vertices, and a ground that stands still.
 
 use super::camera::{Camera, Frame, tangents};
+use super::cast::placed;
 use super::extent::Extent;
 use super::gaze::Gaze;
 use super::tests::pole;
 use super::*;
+use phytomer_meshes::{MeshOptions, mesh_plant};
 use phytomer_sim::math::sincosf;
+use phytomer_sim::plant::{Habit, NewAxis, NewNode, Seed, Trend};
+use std::f32::consts::TAU;
 
 fn stand(plant: &Plant) -> Stand<'_> {
     let placed = Placed { plant, age: 1, place: [0.0; 3], own: Arc::default() };
@@ -94,4 +98,52 @@ fn bare_ground_is_the_same_whatever_stands_on_it() {
     let (a, b) = (draw_stands(&[stand(&poles[0])], "", &style), &large);
     let corner = |canvas: &Canvas| canvas.at(2, 117);
     assert!(corner(&a) != corner(b), "each by its own camera has a ground of its own");
+}
+
+/// A hank of a thousand internodes that lie anyhow, some of them below the ground.
+fn hank() -> Plant {
+    let habit = Habit { trends: vec![Trend::STRAIGHT], ..Habit::default() };
+    let seed = Seed { plant: 0, draws: 0, run_seed: 1, component_limit: 9999, keep_events: false };
+    let mut plant = Plant::new(&seed, Arc::new(habit));
+    plant.add_axis(NewAxis::OF_THE_SEED);
+    // Two bytes of a multiplicative hash (Knuth), in [0, 1).
+    let part = |k: u32| (k.wrapping_mul(2_654_435_761) >> 16) as f32 / 65_536.0;
+    for k in 0..1000_u32 {
+        let node = NewNode { length: 0.3 * part(7 * k), diameter: 0.1 * part(7 * k + 1), ..NewNode::OF_THE_TRUNK };
+        plant.add_node(node);
+        let (sin, cos) = sincosf(TAU * part(7 * k + 2));
+        let (high, low) = sincosf(PI * (part(7 * k + 3) - 0.5));
+        plant.frames.base.push([3, 4, 5].map(|of| 4.0 * part(7 * k + of) - if of == 5 { 0.5 } else { 2.0 }));
+        plant.frames.heading.push([low * cos, low * sin, high]);
+        plant.frames.up.push([-high * cos, -high * sin, low]);
+    }
+    plant
+}
+
+/// Few vertices are made for the extent of a plant, and none is missed: to the bit it is that of all vertices.
+#[test]
+fn the_extent_of_a_plant_is_that_of_all_its_vertices() {
+    let plant = hank();
+    let stand = Stand { plants: vec![Placed { age: 1, ..stand(&plant).plants.remove(0) }], ..stand(&plant) };
+    let vertices = mesh_plant(&plant, 1, &MeshOptions::default()).vertices;
+    let points: Vec<Vec3> = vertices.iter().map(|vertex| Vec3::from_array(vertex.position())).collect();
+    let frame = Frame { left: 20.0, top: 10.0, right: 380.0, bottom: 260.0 };
+    for (view, turn) in [(View::Perspective, 0.0), (View::Perspective, 2.1), (View::Top, 0.3), (View::Oblique, 4.0)] {
+        let placed = placed(&stand, &style(view));
+        let (gaze, tangents) = (view.gaze(turn), tangents(&frame, 300.0, view == View::Perspective));
+        for (buried, pivot) in [(false, None), (true, None), (true, Some(Vec3::new(0.2, -0.1, 0.0)))] {
+            let known = Extent::new(gaze, tangents);
+            let mut all = known;
+            let mut add = |point: &Vec3| match pivot {
+                Some(pivot) => all.sweep(*point - pivot),
+                None => all.add(*point),
+            };
+            points.iter().filter(|point| buried || point.z >= 0.0).for_each(&mut add);
+            add(&Vec3::ZERO);
+            assert_eq!(placed.extent_beyond(&known, pivot, buried), all, "{view:?} {turn} {buried} {pivot:?}");
+            assert_eq!(placed.extent_beyond(&all, pivot, buried), all, "what is held already adds nothing");
+        }
+        let (low, high) = points.iter().fold((Vec3::ZERO, Vec3::ZERO), |(a, b), point| (a.min(*point), b.max(*point)));
+        assert_eq!(placed.bounds(), [low, high]);
+    }
 }

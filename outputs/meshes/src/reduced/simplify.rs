@@ -1,7 +1,7 @@
 //! Which samples of a chain are kept, so that the tube along them is as near as its tolerance says.
 //!
 //! Of the samples between two that are kept, with the tolerance e: the distance of each to the line, and of its radius
-//! to the radius there, is at most e, and their sum with the radius that is lost where the internode leans against the
+//! to the radius there, is at most e (or a share of the radius, where that is asked for), and their sum with the radius that is lost where the internode leans against the
 //! line, r (1 − cos θ), at most 4e/3. The polygon around takes at most 2e/3 more (`ring`), so that no corner of a round
 //! tube of the full mesh is farther than 2e from the reduced one. From each kept sample the farthest next one is sought
 //! by doubling steps and then by halving them: O(n log n) for n samples. (Imai & Iri 1988 find the least number of
@@ -65,7 +65,7 @@ pub fn fits(samples: &[Sample], tolerance: &Tolerance) -> bool {
         let next = line.lean(sample, between.get(place + 1).unwrap_or(to));
         let (share, aside) = line.beside(sample.at);
         let thinner = (sample.radius - (from.radius + share * (to.radius - from.radius))).abs();
-        let near = aside <= tolerance.distance && thinner <= tolerance.distance;
+        let near = aside <= tolerance.distance && thinner <= tolerance.of_radius(sample.radius);
         if !near || aside + thinner + lean.max(next) > limit || differ(sample, from) > tolerance.colour {
             return false;
         }
@@ -111,7 +111,8 @@ mod tests {
     use phytomer_sim::math::sincosf;
     use phytomer_sim::plant::NodeId;
 
-    const FINE: Tolerance = Tolerance { distance: 0.001, colour: u8::MAX, keeps: Keeping::Section };
+    const FINE: Tolerance =
+        Tolerance { distance: 0.001, share: f32::INFINITY, colour: u8::MAX, keeps: Keeping::Section };
 
     fn chain(count: usize, at: impl Fn(f32) -> (Vec3, f32)) -> Vec<Sample> {
         let place = |k: usize| at(k as f32 / count as f32);
