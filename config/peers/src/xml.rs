@@ -6,7 +6,7 @@
 use crate::fault::{Wrong, said};
 use crate::format::Format;
 use crate::value::{Entry, Node, Value};
-use roxmltree::{Document, ParsingOptions, TextPos};
+use roxmltree::{Document, Error as Early, ParsingOptions, TextPos};
 use std::ops::Range;
 
 /// So many nodes may a document have.
@@ -61,7 +61,7 @@ fn wrong(text: &str, error: &roxmltree::Error) -> Wrong {
         return Wrong::new(at..(at + 9).min(text.len()), "the file declares a document type", expected);
     }
     // An end that comes too soon has the place of the beginning.
-    let ends = matches!(error, roxmltree::Error::UnclosedRootNode | roxmltree::Error::NoRootNode);
+    let ends = matches!(error, Early::UnclosedRootNode | Early::NoRootNode | Early::UnexpectedEndOfStream);
     let TextPos { row, col } = if ends { TextPos::new(u32::MAX, 1) } else { error.pos() };
     let line = text.split_inclusive('\n').take((row as usize).saturating_sub(1)).map(str::len).sum::<usize>();
     let within = text.get(line..).unwrap_or("").chars().take((col as usize).saturating_sub(1)).map(char::len_utf8);
