@@ -1,4 +1,4 @@
-//! `convert`: a tree of another program as a species of the parametric model.
+//! `convert`: a tree of another program as a species.
 //!
 //! What becomes of each key is told on stdout, or on stderr where stdout carries the species. Nothing is written where
 //! the model does not take the numbers. Absent: reading and mapping (`phytomer_peers`).
@@ -15,14 +15,14 @@ use std::fs::File;
 use std::io::{Read, Write as _};
 use std::path::{Path, PathBuf};
 
-/// Convert a parametric tree of another program into a species file.
+/// Convert a tree of another program into a species file.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   phytomer convert my_tree.xml my_tree.toml                      Arbaro
   phytomer convert my_tree.py my_tree.toml                       tree-gen or Sapling, told apart by their keys
   phytomer convert preset.txt my_tree.toml --from sapling        a file whose ending tells nothing
-  phytomer convert WeberPennTreeLibrary.xml almond.toml --tree Almond
+  phytomer convert library.xml almond.toml --tree Almond         Helios: one of the trees of a library
   phytomer convert my_tree.json my_tree.toml --json              the paper's names, or keys of tree-gen or Sapling
 
 Python files are read as data, and nothing of them is run. Each key of the file is listed as taken, mapped or without
@@ -143,7 +143,7 @@ impl Convert {
             let FaultRecord { path, problem, expected, .. } = fault;
             terminal::say(&format!("{name}:{place}`{path}`: {problem}; expected {expected}"));
         }
-        terminal::say("the parametric model does not take these numbers; nothing is written");
+        terminal::say("the model does not take these numbers; nothing is written");
         Ok(Verdict::Invalid)
     }
 }
@@ -178,7 +178,7 @@ fn listed(name: &str, out: &str, converted: &Converted) -> String {
     }
     let program = converted.format.program();
     let label = converted.label.as_ref().map_or_else(String::new, |label| format!("{label}, "));
-    let _ = write!(text, "{out}: {label}a species of the parametric model from a file of {program}");
+    let _ = write!(text, "{out}: {label}a species from a file of {program}");
     text
 }
 
