@@ -35,6 +35,8 @@ pub enum Purpose {
     Germination = 8,
     /// What the productions of an L-system decide, in a stream of the module and the step.
     Rewriting = 9,
+    /// The plants of a cell of a forest, in a stream of the cell.
+    Forest = 10,
 }
 
 /// The number in (0, 1) that a uniform word stands for: the middle of its interval.

@@ -9,6 +9,7 @@ mod bar;
 mod budget;
 pub mod causes;
 mod constants;
+mod convert;
 mod derive;
 mod describe;
 mod events;
@@ -44,6 +45,7 @@ Examples:
   phytomer merge whole runs/coffee-shard-1-of-2 runs/coffee-shard-2-of-2
   phytomer validate my_plant/scenario.toml      every fault at once
   phytomer derive topiary/4 --step 94           the string of an L-system
+  phytomer convert my_tree.xml my_tree.toml     a tree of Arbaro, tree-gen, Sapling or Helios as a species
   phytomer verify runs/coffee                   whether every file of a run is as it was written
   phytomer describe coffee                      what a run, a scenario or a species holds
   phytomer list                                 everything that ships
@@ -70,6 +72,7 @@ enum Verb {
     Merge(merge::Merge),
     Validate(validate::Validate),
     Derive(derive::Derive),
+    Convert(convert::Convert),
     Verify(verify::Verify),
     Describe(describe::Describe),
     List(list::List),
@@ -118,6 +121,7 @@ impl Cli {
             Verb::Merge(verb) => verb.obey(),
             Verb::Validate(verb) => verb.obey(),
             Verb::Derive(verb) => verb.obey(),
+            Verb::Convert(verb) => verb.obey(),
             Verb::Verify(verb) => verb.obey(),
             Verb::Describe(verb) => verb.obey(),
             Verb::List(verb) => verb.obey(),

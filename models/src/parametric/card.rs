@@ -1,9 +1,9 @@
 //! The card of the parametric trees: their name, their source and the age at which they are full-grown.
 //!
-//! Absent: their parameters (`tree`).
+//! Absent: their parameters (`params`).
 
 use super::Tree;
-use super::model::BIRTH;
+use super::checks::BIRTH;
 use crate::fault::{Fault, Path};
 use crate::parameters::{Card, Keys, Parameters};
 use phytomer_sim::Tick;
@@ -15,7 +15,7 @@ impl Tree {
     /// The card of this model.
     pub const CARD: Card = Card {
         word: "parametric",
-        about: "curved stems that split and bear branches, by lengths and angles a level (Weber & Penn 1995)",
+        about: "curved stems that split and bear branches and leaves, by lengths and angles a level (Weber & Penn 1995)",
         keys: Keys::PLAIN,
     };
 }
@@ -29,8 +29,13 @@ impl Parameters for Tree {
         Ok(Arc::new(self.compile(until, top)?))
     }
 
-    /// The whole tree stands from its first age on.
+    fn year(&self) -> Option<(Path, u32)> {
+        let path = Path::root().key("season").key("ticks_per_year");
+        self.whole.season.as_ref().map(|season| (path, season.ticks_per_year.value()))
+    }
+
+    /// A tree without growth stands whole from its first age on.
     fn full_grown_at(&self) -> Option<Tick> {
-        Some(BIRTH)
+        (self.whole.growth.is_none() && self.whole.season.is_none()).then_some(BIRTH)
     }
 }
