@@ -22,6 +22,7 @@ mod outline;
 mod palette;
 mod plot;
 mod ply;
+pub mod range;
 mod reduced;
 mod scene;
 mod section;
