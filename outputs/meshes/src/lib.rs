@@ -12,7 +12,10 @@ mod budget;
 mod chunk;
 mod collection;
 mod colour;
+mod columns;
+mod detail;
 mod drawing;
+mod dress;
 mod file;
 mod forms;
 #[cfg(test)]
@@ -32,6 +35,8 @@ mod stl;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_range;
+#[cfg(test)]
 mod tests_stated;
 mod tube;
 
@@ -40,6 +45,8 @@ pub use budget::{TooFew, fitting};
 pub use chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
 pub use colour::linear;
+pub use columns::{Columns, UNTIL};
+pub use detail::{Afar, Primitive};
 pub use drawing::{Drawing, PlantDrawing, Take};
 pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
@@ -59,6 +66,7 @@ pub use tube::Frustum;
 
 use phytomer_looks::place_of_own;
 use phytomer_sim::clock::Tick;
+use phytomer_sim::gusts::Swing;
 use phytomer_sim::plant::{Form, Kind, Plant};
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -113,6 +121,17 @@ pub struct MeshOptions {
     pub kinds: [bool; Kind::ALL.len()],
     /// The mesh files that the species names as forms; empty where it names none.
     pub own: Arc<OwnForms>,
+    /// The first and the last of the levels that are drawn, 0 for the trunk; leaves have the level after that of their
+    /// stem. `None`: all.
+    pub levels: Option<[u8; 2]>,
+    /// A tree of stems as it is seen from afar; `None`: all of it, whatever its range.
+    pub afar: Option<Afar>,
+    /// How long a bark texture is on every stem, metres; `None`: as long as an internode, once around it.
+    pub bark_m: Option<f32>,
+    /// Whether leaf normals point out of the crown.
+    pub crown_normals: bool,
+    /// How each axis sways, for vertices that tell it; `None`: they do not.
+    pub swings: Option<Arc<Vec<Swing>>>,
 }
 
 impl MeshOptions {
@@ -126,7 +145,18 @@ impl MeshOptions {
 impl Default for MeshOptions {
     /// Eight sides, every kind.
     fn default() -> Self {
-        Self { sides: 8, tolerance: None, kinds: [true; Kind::ALL.len()], own: Arc::default() }
+        let kinds = [true; Kind::ALL.len()];
+        Self {
+            sides: 8,
+            tolerance: None,
+            kinds,
+            own: Arc::default(),
+            levels: None,
+            afar: None,
+            bark_m: None,
+            crown_normals: false,
+            swings: None,
+        }
     }
 }
 

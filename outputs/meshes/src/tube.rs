@@ -54,6 +54,11 @@ impl Tube {
         4 * self.corners.len() - 2
     }
 
+    /// How many of them, the first, stand around it; the others are its ends.
+    pub fn around(&self) -> usize {
+        2 * self.corners.len()
+    }
+
     /// The triangles of a tube, by the indices of its own vertices, counterclockwise from outside.
     pub fn faces(&self) -> &[[u32; 3]] {
         &self.faces
