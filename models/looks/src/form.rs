@@ -87,6 +87,18 @@ macro_rules! forms {
             Panicle, "panicle", 1.2938, cluster::panicle;
             /// Some five-petalled flowers on a dome of stalks, as a frangipani's.
             Cyme, "cyme", 0.8898, cluster::cyme;
+            /// A plane hexagon of four triangles, as the leaves of parametric trees.
+            Oval, "oval", 0.7500, flat::oval;
+            /// A plane triangle, widest at its base.
+            Triangle, "triangle", 0.5000, flat::triangle;
+            /// A plane leaf of three blunt lobes, as some oaks'.
+            ThreeLobeOak, "three_lobe_oak", 0.5364, flat::three_lobe_oak;
+            /// A plane leaf of three pointed lobes, as some maples'.
+            ThreeLobeMaple, "three_lobe_maple", 0.4452, flat::three_lobe_maple;
+            /// A plane leaf of five pointed lobes, as most maples'.
+            FiveLobeMaple, "five_lobe_maple", 0.4120, flat::five_lobe_maple;
+            /// A plane leaf of three leaflets.
+            ThreeLeaflets, "three_leaflets", 0.3200, flat::three_leaflets;
         }
     };
 }

@@ -9,9 +9,14 @@
 //! attraction and degradation.
 
 mod card;
+mod checks;
 mod compile;
 mod equations;
+mod keys;
+mod looks;
 mod model;
+pub mod numbers;
+pub mod params;
 mod stems;
 #[cfg(test)]
 mod tests;

@@ -11,6 +11,7 @@
 mod arch;
 mod blade;
 mod cluster;
+mod flat;
 mod flower;
 mod fruit;
 pub mod own;

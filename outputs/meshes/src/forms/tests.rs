@@ -28,6 +28,7 @@ fn build(form: FormName) -> Build {
     match form {
         Elliptic | Lanceolate | Deltoid | Needle | Obovate | Cordate | Palmate | Linear => Build::Blade,
         Arching | Paddle | Fan | Leaflet | Fascicle | Scale | Petal | Sepal => Build::Blade,
+        Oval | Triangle | ThreeLobeOak | ThreeLobeMaple | FiveLobeMaple | ThreeLeaflets => Build::Blade,
         Berry | Cone | Catkin | Spikelet | Cherry | Apple | Capsule | Nut => Build::Solid,
         Drupe | Finger | Pod | Stamen | Pistil => Build::Solid,
         Palm | Corolla | Pinnate | Rosette | Tuft | Spray | Panicle | Cyme => Build::Compound,
