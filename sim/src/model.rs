@@ -126,15 +126,19 @@ pub trait Grow: Send + Sync {
         Ok(())
     }
 
-    /// How each axis of a grown plant sways by a law of the model's own, one entry an axis; `None` where it has no such
-    /// law, and mechanics move its plants.
-    fn swings(&self, plant: &Plant) -> Option<Vec<Swing>> {
-        let _ = plant;
-        None
+    /// Whether its plants sway by a law of the model's own; else mechanics move them.
+    fn sways(&self) -> bool {
+        false
     }
 
-    /// Turns the rest frames of a grown plant to those in these gusts, by the law of [`Grow::swings`]; the plant is then
-    /// to be posed. Air at rest changes nothing.
+    /// How each axis of a grown plant sways by the law of the model, one entry an axis; empty where it has none.
+    fn swings(&self, plant: &Plant) -> Vec<Swing> {
+        let _ = plant;
+        Vec::new()
+    }
+
+    /// Turns the rest frames of a grown plant to those in these gusts, by the law of the model; the plant is then to be
+    /// posed. Air at rest changes nothing.
     fn sway(&self, plant: &mut Plant, gusts: &Gusts) {
         let _ = (plant, gusts);
     }
@@ -184,7 +188,9 @@ pub trait GrowthModel: Send + Sync {
     /// Where `life` is that of another model's plant.
     fn answer_cuts(&self, age: Tick, plant: &mut Plant, life: &mut Life) -> Result<(), Overgrown>;
 
-    fn swings(&self, plant: &Plant) -> Option<Vec<Swing>>;
+    fn sways(&self) -> bool;
+
+    fn swings(&self, plant: &Plant) -> Vec<Swing>;
 
     fn sway(&self, plant: &mut Plant, gusts: &Gusts);
 
@@ -228,7 +234,11 @@ impl<M: Grow> GrowthModel for M {
         Grow::answer_cuts(self, age, plant, life.get_mut())
     }
 
-    fn swings(&self, plant: &Plant) -> Option<Vec<Swing>> {
+    fn sways(&self) -> bool {
+        Grow::sways(self)
+    }
+
+    fn swings(&self, plant: &Plant) -> Vec<Swing> {
         Grow::swings(self, plant)
     }
 

@@ -5,7 +5,7 @@
 use super::Tree;
 use super::model::BIRTH;
 use crate::fault::{Fault, Path};
-use crate::parameters::{Card, Keys, Parameters};
+use crate::parameters::{Card, Keys, Levelled, Parameters};
 use phytomer_sim::Tick;
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::site::calendar::Dates;
@@ -27,6 +27,10 @@ impl Parameters for Tree {
 
     fn model(&self, until: Tick, _: Option<&Dates>, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
         Ok(Arc::new(self.compile(until, top)?))
+    }
+
+    fn levelled(&self, _: Tick) -> Option<Levelled> {
+        Some(Levelled { quality: 1.0, in_leaf: true, spring: false })
     }
 
     /// The whole tree stands from its first age on.

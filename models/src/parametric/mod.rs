@@ -18,6 +18,7 @@ mod model;
 pub mod numbers;
 pub mod params;
 mod stems;
+mod sway;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

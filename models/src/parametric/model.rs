@@ -6,9 +6,11 @@
 
 use super::equations::tapered;
 use super::stems::{Drawn, Stem, clones, counts};
+use super::sway::{self, Rate};
 use super::tree::Tree;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::expectation::{Certainty, Expectation, OrderExpectation};
+use phytomer_sim::gusts::{Gusts, Swing};
 use phytomer_sim::model::{Grow, Growth, Overgrown};
 use phytomer_sim::plant::{
     AxisId, EventKind, Habit, Looks, NewAxis, NewNode, NodeId, Origin, Plant, Rest, Shape, Trend,
@@ -158,6 +160,18 @@ impl Grow for TreeModel {
                 nodes.diameter[node + 1]
             };
         }
+    }
+
+    fn sways(&self) -> bool {
+        true
+    }
+
+    fn swings(&self, plant: &Plant) -> Vec<Swing> {
+        sway::swings(plant, Rate::default())
+    }
+
+    fn sway(&self, plant: &mut Plant, gusts: &Gusts) {
+        sway::sway(plant, Rate::default(), gusts);
     }
 
     /// The numbers themselves, where the length of the trunk is not drawn. Where it is drawn, so is the number of

@@ -120,3 +120,79 @@ fn moving(rate: f64, gusts: &Gusts) -> ([f64; 2], f64) {
     let rounded = rates.map(|rate| TAU * (rate * length / TAU).round().max(1.0) / length);
     (rounded, if since < 0.0 { since + length } else { since })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SWING: Swing = Swing { rate: 4.4, phases: [1.0, 2.5], length: 13.0, radius: 0.195, segments: 5, before: 0 };
+
+    fn gusts(speed: f64, gust: f64, time: f64) -> Gusts {
+        Gusts { speed, gust, time, closes: None }
+    }
+
+    /// a₀ = 4 · 13 · 0.8 / 0.1 = 416 degrees at the second of five segments of a radius of 0.1 m there; in a wind of 5
+    /// m/s with gusts of 3 m/s more a₁ = 41.6 and a₂ = 24.96 + 20.8.
+    #[test]
+    fn the_angles_are_those_of_the_paper() {
+        let found = angles_deg(&SWING, 2, 0.1, &gusts(5.0, 3.0, 0.25));
+        for (angle, phase) in found.into_iter().zip(SWING.phases) {
+            let b = phase + 4.4 * 0.25;
+            // The second frequency moves the phase too: 0.7 b is of the whole angle.
+            let expected = (41.6 * sin(b) + 45.76 * sin(0.7 * b)) / 5.0;
+            assert!((angle - expected).abs() < 1e-9, "{angle} {expected}");
+        }
+    }
+
+    /// The trunk of the aspen, 13 m with a radius of 0.195 m: once in 1.4 s, or once in 1 h 45 min.
+    #[test]
+    fn the_rates_are_those_that_the_names_say() {
+        let slender = TAU / Rate::Slender.of(13.0, 0.195);
+        let printed = TAU / Rate::Printed.of(13.0, 0.195);
+        assert!((slender - 1.414).abs() < 1e-3, "{slender}");
+        assert!((printed / 60.0 - 104.72).abs() < 0.01, "{printed}");
+        assert_eq!(Rate::Slender.of(1.0, 0.0), 0.0, "a stem without a radius stands still");
+    }
+
+    /// b goes 20 π: sin b by 10 turns and sin 0.7 b by 7.
+    #[test]
+    fn a_stem_repeats_after_20_pi_and_not_before() {
+        let at = |time: f64| angles_deg(&SWING, 3, 0.1, &gusts(8.0, 4.0, time));
+        let period = 20.0 * PI / SWING.rate;
+        for time in [0.0, 0.3, 2.0, 7.7] {
+            let [now, then] = [at(time), at(time + period)];
+            assert!((0..2).all(|k| (now[k] - then[k]).abs() < 1e-9), "{now:?} {then:?}");
+        }
+        let apart = |share: u32| {
+            let [now, then] = [at(0.0), at(period * f64::from(share) / 10.0)];
+            (0..2).any(|k| (now[k] - then[k]).abs() > 1e-3)
+        };
+        assert!((1..10).all(apart));
+    }
+
+    /// The change in a hundredth of a second is at most that of the greatest speed, (a₁ + 0.7 a₂) rate.
+    #[test]
+    fn sway_is_continuous_in_time() {
+        let at = |time: f64| angles_deg(&SWING, 2, 0.1, &gusts(5.0, 3.0, time))[0];
+        let fastest = (41.6 + 0.7 * 45.76) / 5.0 * SWING.rate;
+        for step in 0..4000 {
+            let time = f64::from(step) * 0.01;
+            assert!((at(time + 0.01) - at(time)).abs() <= 0.01 * fastest * (1.0 + 1e-9), "{time}");
+        }
+    }
+
+    /// A film of 8 s: the angles are the same to the bit at its two ends, and each swing has the rate that is nearest.
+    #[test]
+    fn a_film_that_closes_ends_as_it_begins() {
+        let closing = |time| Gusts { closes: Some(8.0), ..gusts(5.0, 3.0, time) };
+        for time in [0.0, 0.5, 3.875] {
+            let at = |time| angles_deg(&SWING, 2, 0.1, &closing(time)).map(f64::to_bits);
+            assert_eq!(at(time), at(time + 8.0));
+            assert_eq!(at(time), at(time - 8.0));
+        }
+        let (rates, _) = moving(SWING.rate, &closing(0.0));
+        // 4.4 · 8 / 2π = 5.60 and 3.92 swings.
+        assert!((rates[0] - TAU * 6.0 / 8.0).abs() < 1e-12 && (rates[1] - TAU * 4.0 / 8.0).abs() < 1e-12);
+        assert!((moving(1e-3, &closing(0.0)).0[0] - TAU / 8.0).abs() < 1e-12, "each swings once at least");
+    }
+}

@@ -53,6 +53,11 @@ impl<'a> Columns<'a> {
         Some(Self { plant, names: names.collect(), nodes, until, swings: swings.cloned() })
     }
 
+    /// The range until which a component is drawn, metres; +∞ where no range is asked for.
+    pub fn until_of(&self, component: u32) -> f32 {
+        self.until.as_ref().and_then(|until| until.get(component as usize)).copied().unwrap_or(f32::INFINITY)
+    }
+
     /// Their names, in their order.
     pub fn names(&self) -> &[&'static str] {
         &self.names

@@ -22,6 +22,16 @@ pub struct Afar {
     pub metres: Option<f64>,
 }
 
+/// What of a tree of stems is drawn; by default all of it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Seen {
+    /// The first and the last of the levels that are drawn, 0 for the trunk; leaves have the level after that of their
+    /// stem. `None`: all.
+    pub levels: Option<[u8; 2]>,
+    /// The tree as it is seen from afar; `None`: whatever its range.
+    pub afar: Option<Afar>,
+}
+
 /// How an element is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Primitive {
@@ -65,8 +75,9 @@ pub fn level(plant: &Plant, node: NodeId) -> u8 {
 impl Detail {
     /// What of `plant` at `age` these options draw; `None` where they draw all of it.
     pub fn of(plant: &Plant, age: Tick, options: &MeshOptions) -> Option<Self> {
-        let afar = options.afar.map(|afar| Spans::of(plant, age, afar));
-        (afar.is_some() || options.levels.is_some()).then_some(Self { levels: options.levels, afar })
+        let Seen { levels, afar } = options.seen;
+        let afar = afar.map(|afar| Spans::of(plant, age, afar));
+        (afar.is_some() || levels.is_some()).then_some(Self { levels, afar })
     }
 
     /// How an internode is drawn; `None` where it is not.
@@ -88,6 +99,17 @@ impl Detail {
 
     fn has(&self, level: u8) -> bool {
         self.levels.is_none_or(|[first, last]| (first..=last).contains(&level))
+    }
+
+    /// The ranges at which something ends to be drawn, metres, each once, in their order.
+    pub fn ends(&self) -> Vec<f32> {
+        let Some(afar) = &self.afar else { return Vec::new() };
+        let all = afar.stems.iter().chain(&afar.leaves).flatten().copied();
+        let mut ends: Vec<f32> = all.filter(|until| until.is_finite()).collect();
+        ends.sort_unstable_by(f32::total_cmp);
+        ends.dedup();
+        ends.iter_mut().for_each(|r| *r = afar.afar.zoom.metres(f64::from(*r)) as f32);
+        ends
     }
 
     /// The range until which an internode is drawn in some way, metres; +∞ where no range is asked for.

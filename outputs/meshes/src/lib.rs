@@ -41,12 +41,12 @@ mod tests_stated;
 mod tube;
 
 pub use blocks::TakeAlone;
-pub use budget::{TooFew, fitting};
+pub use budget::{TooFew, fitting, nearest};
 pub use chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
 pub use colour::linear;
 pub use columns::{Columns, UNTIL};
-pub use detail::{Afar, Primitive};
+pub use detail::{Afar, Primitive, Seen};
 pub use drawing::{Drawing, PlantDrawing, Take};
 pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
@@ -121,11 +121,8 @@ pub struct MeshOptions {
     pub kinds: [bool; Kind::ALL.len()],
     /// The mesh files that the species names as forms; empty where it names none.
     pub own: Arc<OwnForms>,
-    /// The first and the last of the levels that are drawn, 0 for the trunk; leaves have the level after that of their
-    /// stem. `None`: all.
-    pub levels: Option<[u8; 2]>,
-    /// A tree of stems as it is seen from afar; `None`: all of it, whatever its range.
-    pub afar: Option<Afar>,
+    /// What of a tree of stems is drawn.
+    pub seen: Seen,
     /// How long a bark texture is on every stem, metres; `None`: as long as an internode, once around it.
     pub bark_m: Option<f32>,
     /// Whether leaf normals point out of the crown.
@@ -151,8 +148,7 @@ impl Default for MeshOptions {
             tolerance: None,
             kinds,
             own: Arc::default(),
-            levels: None,
-            afar: None,
+            seen: Seen::default(),
             bark_m: None,
             crown_normals: false,
             swings: None,

@@ -78,6 +78,11 @@ impl<'a> Scene<'a> {
         scene
     }
 
+    /// The ranges at which something ends to be drawn, metres, in their order; none where no range is asked for.
+    pub fn ends(&self) -> Vec<f32> {
+        self.stems.detail.as_ref().map(Detail::ends).unwrap_or_default()
+    }
+
     /// What vertices tell beside the properties of every mesh.
     pub fn columns(&self) -> Option<&Columns<'a>> {
         self.columns.as_ref()

@@ -79,7 +79,11 @@ fn leaf(plant: &mut Plant, node: NodeId) {
 
 fn at(metres: Option<f64>) -> MeshOptions {
     let afar = Afar { scales: Scales::SUMMER, zoom: Zoom::default(), metres };
-    MeshOptions { afar: Some(afar), ..MeshOptions::default() }
+    MeshOptions { seen: Seen { levels: None, afar: Some(afar) }, ..MeshOptions::default() }
+}
+
+fn of_levels(levels: [u8; 2]) -> Seen {
+    Seen { levels: Some(levels), afar: None }
 }
 
 /// For each component that is drawn its number of vertices.
@@ -127,7 +131,7 @@ fn until_tells_what_a_range_draws() {
     for zoom in [Zoom::default(), zoom] {
         let seen = |metres| {
             let afar = Afar { scales: Scales::SUMMER, zoom, metres };
-            MeshOptions { afar: Some(afar), ..MeshOptions::default() }
+            MeshOptions { seen: Seen { levels: None, afar: Some(afar) }, ..MeshOptions::default() }
         };
         let whole = seen(None);
         let scene = Scene::new(&plant, AGE, &whole);
@@ -148,13 +152,13 @@ fn until_tells_what_a_range_draws() {
 #[test]
 fn levels_are_drawn_alone() {
     let plant = tree();
-    let count = |levels| numbers(&plant, &MeshOptions { levels: Some(levels), ..MeshOptions::default() }).len();
+    let count = |levels| numbers(&plant, &MeshOptions { seen: of_levels(levels), ..MeshOptions::default() }).len();
     assert_eq!(
         [[0, 0], [0, 1], [1, 1], [2, 2], [0, 2], [3, 3], [0, 9], [4, 9]].map(count),
         [36, 276, 240, 180, 456, 180, 636, 0]
     );
     let tolerance = Some(Tolerance::of(1e-3));
-    let options = MeshOptions { levels: Some([0, 1]), tolerance, ..MeshOptions::default() };
+    let options = MeshOptions { seen: of_levels([0, 1]), tolerance, ..MeshOptions::default() };
     assert_eq!(Scene::new(&plant, AGE, &options).counts().components, 276, "within a tolerance too");
 }
 
@@ -162,7 +166,10 @@ fn levels_are_drawn_alone() {
 #[test]
 fn lines_keep_the_volume_and_points_the_area() {
     let plant = tree();
-    let alone = |levels: [u8; 2], metres| MeshOptions { levels: Some(levels), ..at(metres) };
+    let alone = |levels: [u8; 2], metres| {
+        let all = at(metres);
+        MeshOptions { seen: Seen { levels: Some(levels), ..all.seen }, ..all }
+    };
     let of = |options: &MeshOptions| mesh_plant(&plant, AGE, options);
     let (near, far) = (of(&alone([0, 0], None)), of(&alone([0, 0], Some(1200.0))));
     let (near, far) = (volume(&near.vertices, &near.faces), volume(&far.vertices, &far.faces));
@@ -178,7 +185,7 @@ fn lines_keep_the_volume_and_points_the_area() {
 #[test]
 fn bark_is_as_dense_on_twigs_as_on_the_trunk() {
     let plant = tree();
-    let options = MeshOptions { bark_m: Some(0.2), levels: Some([0, 2]), ..MeshOptions::default() };
+    let options = MeshOptions { bark_m: Some(0.2), seen: of_levels([0, 2]), ..MeshOptions::default() };
     let mesh = mesh_plant(&plant, AGE, &options);
     for (node, vertices) in mesh.vertices.chunks(34).enumerate() {
         let node = NodeId(node as u32);

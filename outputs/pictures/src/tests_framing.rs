@@ -9,7 +9,7 @@ use super::*;
 use phytomer_sim::math::sincosf;
 
 fn stand(plant: &Plant) -> Stand<'_> {
-    let placed = Placed { plant, age: 1, place: [0.0; 3], own: Arc::default() };
+    let placed = Placed { plant, age: 1, place: [0.0; 3], own: Arc::default(), seen: Seen::default() };
     Stand { plants: vec![placed], obstacles: Vec::new(), label: "age 1".to_owned() }
 }
 
