@@ -100,7 +100,7 @@ impl Rotation {
     }
 
     /// The rotation that takes this one back.
-    pub(crate) fn inverse(self) -> Self {
+    pub fn inverse(self) -> Self {
         Self { scalar: self.scalar, vector: self.vector * -1.0 }
     }
 
@@ -176,7 +176,7 @@ impl Rotation {
 
     /// The same rotation, its quaternion of length 1 again after rounding.
     #[inline]
-    pub(crate) fn normalized(self) -> Self {
+    pub fn normalized(self) -> Self {
         let scale = 1.0 / (self.scalar * self.scalar + self.vector.dot(self.vector)).sqrt();
         Self { scalar: self.scalar * scale, vector: self.vector * scale }
     }

@@ -125,8 +125,8 @@ pub fn in_words(afar: Option<Afar>) -> String {
 pub fn no_levels(option: &str, species: &Species) -> Misuse {
     let (name, model) = (&species.about.name, species.model.name().word());
     Misuse(format!(
-        "{option}: the species `{name}` is of the model `{model}`, whose plants have no levels of stems; this is for trees \
-         of Weber & Penn 1995"
+        "{option}: the species `{name}` is of the model `{model}`, whose plants have no levels of stems, as those \
+         of `wp/quaking_aspen` have"
     ))
 }
 

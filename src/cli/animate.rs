@@ -37,7 +37,7 @@ Examples:
   phytomer animate coffee --ages 4..48/4 --orbit 90 --follow --out around.apng
   phytomer animate under_a_roof --plot --out plot.mp4
   phytomer animate willow --ages 60 --wind 8 --fps 12 --out wind.webp
-  phytomer animate weber_penn --ages 1 --wind 5 --gust 3 --loop 6 --out sway.webp
+  phytomer animate wp/quaking_aspen --ages 1 --wind 5 --gust 3 --loop 6 --out sway.webp
   phytomer animate coffee --ages 12..48 --out frames/
   phytomer animate coffee --size 960x720 --out - | mpv -
 

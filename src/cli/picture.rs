@@ -43,8 +43,8 @@ Examples:
   phytomer picture coffee --age 24 --transparent --no-caption --sun 200,30 --out cut-out.png
   phytomer picture under_a_roof --plot --ages 3,6,12 --out plot.png
   phytomer picture abop/2.8a --age 5 -D lr=1.2 --out tall.png
-  phytomer picture weber_penn --range 30,120,600 --out ranges.png
-  phytomer picture weber_penn --levels 0 --wind 5 --gust 3 --time 0.4 --out trunk.png
+  phytomer picture wp/quaking_aspen --range 30,120,600 --out ranges.png
+  phytomer picture wp/quaking_aspen --levels 0 --wind 5 --gust 3 --time 0.4 --out trunk.png
 
 A plant whose age is not given is drawn at the age that its species states (shown_at), else in its prime: in its
 last year with nine tenths of the largest leaf area that it ever bears, as soon as it bears it.")]

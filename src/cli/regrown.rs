@@ -270,11 +270,11 @@ impl Breeze {
         match own.into_iter().find(|(_, used)| *used && !sways) {
             Some((option, _)) => Err(Misuse(format!(
                 "{option}: the species `{name}` sways by its wood, in gusts every {GUSTS_S} seconds that always close; this \
-                 is for trees of Weber & Penn 1995"
+                 is for trees that sway by a law of their model, such as `wp/quaking_aspen`"
             ))),
             None if sways && self.wind_towards != 0.0 => Err(Misuse(format!(
-                "--wind-towards {}: the species `{name}` sways by the law of Weber & Penn 1995, which moves its stems to all \
-                 sides and knows no direction",
+                "--wind-towards {}: the species `{name}` sways by a law of its model, which moves stems to all sides and knows \
+                 no direction",
                 self.wind_towards
             ))),
             None => Ok(()),

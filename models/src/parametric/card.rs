@@ -1,9 +1,10 @@
 //! The card of the parametric trees: their name, their source and the age at which they are full-grown.
 //!
-//! Absent: their parameters (`tree`).
+//! Absent: their parameters (`params`).
 
 use super::Tree;
-use super::model::BIRTH;
+use super::checks::BIRTH;
+use super::seen;
 use crate::fault::{Fault, Path};
 use crate::parameters::{Card, Keys, Levelled, Parameters};
 use phytomer_sim::Tick;
@@ -15,7 +16,7 @@ impl Tree {
     /// The card of this model.
     pub const CARD: Card = Card {
         word: "parametric",
-        about: "curved stems that split and bear branches, by lengths and angles a level (Weber & Penn 1995)",
+        about: "curved stems that split and bear branches and leaves, by lengths and angles a level (Weber & Penn 1995)",
         keys: Keys::PLAIN,
     };
 }
@@ -29,12 +30,22 @@ impl Parameters for Tree {
         Ok(Arc::new(self.compile(until, top)?))
     }
 
-    fn levelled(&self, _: Tick) -> Option<Levelled> {
-        Some(Levelled { quality: 1.0, in_leaf: true, spring: false })
+    fn levelled(&self, age: Tick) -> Option<Levelled> {
+        Some(seen::levelled(&self.whole, age))
     }
 
-    /// The whole tree stands from its first age on.
+    fn set_quality(&mut self, quality: f64) -> bool {
+        self.whole.quality = quality.into();
+        true
+    }
+
+    fn year(&self) -> Option<(Path, u32)> {
+        let path = Path::root().key("season").key("ticks_per_year");
+        self.whole.season.as_ref().map(|season| (path, season.ticks_per_year.value()))
+    }
+
+    /// A tree without growth stands whole from its first age on.
     fn full_grown_at(&self) -> Option<Tick> {
-        Some(BIRTH)
+        (self.whole.growth.is_none() && self.whole.season.is_none()).then_some(BIRTH)
     }
 }

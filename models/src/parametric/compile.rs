@@ -1,35 +1,18 @@
-//! The checks of the parameters of a parametric tree: each number in its range, variations that leave a length above 0,
-//! a trunk that is longer than its bare part.
+//! A parametric tree compiled: its numbers, and how its stems and leaves are drawn.
 //!
-//! Absent: the meaning of the parameters (`equations`).
+//! Absent: the checks of the numbers (`checks`).
 
 use super::model::TreeModel;
-use super::tree::{Branches, Tree, Trunk};
+use super::params::Tree;
+use crate::buds::params::LeafChoice;
+use crate::buds::params::colour::turning_of;
 use crate::fault::{Fault, Path};
-use crate::law::{Constant, Quantity, ValueRange};
-use phytomer_sim::clock::{LAST_TICK, Tick};
+use phytomer_looks::{InternodePaint, Paints};
+use phytomer_sim::clock::Tick;
+use phytomer_sim::plant::{Habit, InternodeLook, Looks, OrganLook, OrganLooks, Shape, Trend};
 
-const SHARE: ValueRange = ValueRange { min: 0.0, max: 1.0, what: "a share" };
-const SIZE: ValueRange = ValueRange { min: f64::MIN_POSITIVE, max: 1000.0, what: "a size in m" };
-const RATIO: ValueRange = ValueRange { min: f64::MIN_POSITIVE, max: 1.0, what: "a radius over a length" };
-const POWER: ValueRange = ValueRange { min: 0.0, max: 10.0, what: "a power" };
-const LENGTH: ValueRange = ValueRange { min: f64::MIN_POSITIVE, max: 10.0, what: "a length over another" };
-const TAPER: ValueRange = ValueRange { min: 0.0, max: 1.0, what: "a taper" };
-const ANGLE: ValueRange = ValueRange { min: 0.0, max: 180.0, what: "an angle in degrees" };
-const SIGNED_ANGLE: ValueRange = ValueRange { min: -180.0, ..ANGLE };
-const TURN: ValueRange = ValueRange { min: -360.0, max: 360.0, what: "an angle in degrees" };
-const TURN_V: ValueRange = ValueRange { min: 0.0, ..TURN };
-const CURVE: ValueRange = ValueRange { min: -3600.0, max: 3600.0, what: "an angle in degrees" };
-const CURVE_V: ValueRange = ValueRange { min: 0.0, ..CURVE };
-
-/// The largest numbers of levels, of segments, of splits and of branches.
-const MOST_LEVELS: usize = 1;
-const MOST_SEGMENTS: u32 = 100;
-const MOST_SPLITS: u32 = 20;
-const MOST_BRANCHES: u32 = 10_000;
-
-/// Numbers of one table with their keys and ranges.
-type Numbers<'a> = &'a [(&'static str, &'a Constant, ValueRange)];
+/// The most leaves that an internode may bear in all years together.
+const MOST_LEAVES: f64 = 65_535.0;
 
 impl Tree {
     /// The model, grown at most to the age `until`; the parameters stand at `path` in their file.
@@ -37,102 +20,42 @@ impl Tree {
     /// # Errors
     /// Every fault found, each with its path below `path`.
     pub fn compile(&self, until: Tick, path: &Path) -> Result<TreeModel, Vec<Fault>> {
+        let numbers = self.numbers(until, path);
         let mut faults = Vec::new();
-        if until > LAST_TICK {
-            faults.push(Fault::new(path, format!("the last age is {until}"), format!("at most {LAST_TICK}")));
-        }
-        let numbers: Numbers<'_> = &[
-            ("base_size", &self.base_size, SHARE),
-            ("scale_m", &self.scale_m, SIZE),
-            ("scale_v_m", &self.scale_v_m, variation_of("scale_m", &self.scale_m)),
-            ("ratio", &self.ratio, RATIO),
-            ("ratio_power", &self.ratio_power, POWER),
-        ];
-        check(numbers, path, &mut faults);
-        self.trunk.check(&path.key("trunk"), &mut faults);
-        let branches = path.key("branches");
-        if self.branches.len() > MOST_LEVELS {
-            let problem = format!("there are {} levels of branches", self.branches.len());
-            faults.push(Fault::new(&branches, problem, format!("at most {MOST_LEVELS}")));
-        }
-        (0..).zip(&self.branches).for_each(|(level, table)| table.check(&branches.index(level), &mut faults));
-        if faults.is_empty() {
-            self.check_room(path, &mut faults);
-        }
-        if faults.is_empty() { Ok(TreeModel::new(self)) } else { Err(faults) }
-    }
-
-    /// Adds a fault unless the shortest trunk reaches above the bare part.
-    fn check_room(&self, path: &Path, faults: &mut Vec<Fault>) {
-        let (base, shortest) = (self.base_size.value(), self.trunk.length.value() - self.trunk.length_v.value());
-        if !self.branches.is_empty() && base >= shortest {
-            let problem = format!("base_size is {base}, and the shortest trunk has {shortest} of the tree's size");
-            let expected = "a bare part that is shorter than `length` less `length_v` of the trunk".to_owned();
-            faults.push(Fault::new(&path.key("base_size"), problem, expected));
+        let habit = self.habit(path, &mut faults);
+        match numbers {
+            Err(found) => Err([found, faults].concat()),
+            Ok(_) if !faults.is_empty() => Err(faults),
+            Ok(numbers) => {
+                let years = numbers.ages.generations(until).len() as f64;
+                if (numbers.leaves.abs() * numbers.quality).ceil() * years > MOST_LEAVES {
+                    let problem =
+                        format!("a stem bears up to {} leaves in each of {years} years", numbers.leaves.abs());
+                    let expected = format!("at most {MOST_LEAVES} leaves of a stem in all years of the run");
+                    return Err(vec![Fault::new(&path.key("Leaves"), problem, expected)]);
+                }
+                Ok(TreeModel::new(numbers, habit))
+            }
         }
     }
-}
 
-impl Trunk {
-    fn check(&self, path: &Path, faults: &mut Vec<Fault>) {
-        let numbers: Numbers<'_> = &[
-            ("length", &self.length, LENGTH),
-            ("length_v", &self.length_v, variation_of("length", &self.length)),
-            ("taper", &self.taper, TAPER),
-            ("split_angle_deg", &self.split_angle_deg, ANGLE),
-            ("split_angle_v_deg", &self.split_angle_v_deg, ANGLE),
-            ("curve_deg", &self.curve_deg, CURVE),
-            ("curve_back_deg", &self.curve_back_deg, CURVE),
-            ("curve_v_deg", &self.curve_v_deg, CURVE_V),
-        ];
-        check(numbers, path, faults);
-        count("base_splits", &self.base_splits, 0, MOST_SPLITS, path, faults);
-        count("curve_res", &self.curve_res, 1, MOST_SEGMENTS, path, faults);
-    }
-}
-
-impl Branches {
-    fn check(&self, path: &Path, faults: &mut Vec<Fault>) {
-        let numbers: Numbers<'_> = &[
-            ("down_angle_deg", &self.down_angle_deg, ANGLE),
-            ("down_angle_v_deg", &self.down_angle_v_deg, SIGNED_ANGLE),
-            ("rotate_deg", &self.rotate_deg, TURN),
-            ("rotate_v_deg", &self.rotate_v_deg, TURN_V),
-            ("length", &self.length, LENGTH),
-            ("length_v", &self.length_v, variation_of("length", &self.length)),
-            ("taper", &self.taper, TAPER),
-            ("curve_deg", &self.curve_deg, CURVE),
-            ("curve_back_deg", &self.curve_back_deg, CURVE),
-            ("curve_v_deg", &self.curve_v_deg, CURVE_V),
-        ];
-        check(numbers, path, faults);
-        count("number", &self.number, 0, MOST_BRANCHES, path, faults);
-        count("curve_res", &self.curve_res, 1, MOST_SEGMENTS, path, faults);
-    }
-}
-
-/// The range of the variation of a length: at most the length.
-fn variation_of(key: &'static str, length: &Constant) -> ValueRange {
-    let what = match key {
-        "scale_m" => "a variation not above `scale_m`,",
-        _ => "a variation not above `length`,",
-    };
-    ValueRange { min: 0.0, max: length.value().max(0.0), what }
-}
-
-fn check(numbers: Numbers<'_>, path: &Path, faults: &mut Vec<Fault>) {
-    for (key, number, range) in numbers {
-        faults.extend(number.within(&path.key(key), *range).err());
-    }
-}
-
-fn count(key: &str, number: &Quantity, least: u32, most: u32, path: &Path, faults: &mut Vec<Fault>) {
-    let value = number.value();
-    if !(least..=most).contains(&value) {
-        let path = match number {
-            Quantity::Number(_) => path.key(key),
-            Quantity::Form(_) => path.key(key).key("value"),
+    /// The looks of stems and leaves.
+    fn habit(&self, path: &Path, faults: &mut Vec<Fault>) -> Habit {
+        let mut paints = Paints::default();
+        let bark = self.whole.bark.as_ref().map(|bark| bark.bark(&path.key("bark"), faults)).unwrap_or_default();
+        let stem = paints.add_internode(InternodePaint { bark, ..InternodePaint::default() });
+        let year = self.whole.season.as_ref().map_or(0, |season| season.ticks_per_year.value());
+        let colour = self.whole.leaf_colour.as_ref();
+        let leaf = paints.add_organ(LeafChoice::paint(colour, turning_of(year), &path.key("leaf_colour"), faults));
+        let looks = Looks {
+            states: 1,
+            internodes: vec![InternodeLook { paint: stem, ..InternodeLook::of_shape(Shape::Cone) }],
+            organs: vec![OrganLooks {
+                leaf: OrganLook { paint: leaf, ..OrganLook::default() },
+                ..OrganLooks::default()
+            }],
+            ..Looks::default()
         };
-        faults.push(Fault::new(&path, format!("{key} is {value}"), format!("a whole number in [{least}, {most}]")));
+        Habit { trends: vec![Trend::STRAIGHT], looks, for_drawing: paints.into_habit(), ..Habit::default() }
     }
 }

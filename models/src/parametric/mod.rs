@@ -1,29 +1,41 @@
-//! Parametric trees: stems described by few numbers, level by level (Weber & Penn, *Creation and Rendering of Realistic
-//! Trees*, 1995).
+//! Parametric trees: stems and leaves described by few numbers, level by level (Weber & Penn, *Creation and Rendering of
+//! Realistic Trees*, 1995).
 //!
-//! Implemented are the first two levels of stems: the trunk with the splits at its base, and the branches on them.
-//! [`Tree`] is the parameter struct with the paper's parameters, `compile` checks it, `equations` has the formulas of
-//! §4.1 to §4.4, `stems` the draws and the stems of a plant, `model` writes the plant. The plant is rebuilt at any age.
-//! The paper's trees have no age: a plant is a seed at age 0, and the whole tree from age 1 on. Absent on purpose:
-//! splits along a stem, levels above 1, helices, spherical ends, flare, lobes, leaves, pruning, sway, vertical
-//! attraction and degradation.
+//! [`Tree`] has the parameters by the paper's names (`params`, in one table by `keys`), `checks` makes them plain
+//! [`numbers`]. `equations`, `radius` and `envelope` have the formulas of §4; `path` follows a stem with its clones,
+//! `dealt` gives their children places, `prune` shortens them, `grow` goes from level to level, `leaves` adds leaves, and
+//! `write` fills the columns of the plant, which `model` rebuilds at any age. `expectation` has the numbers of stems and
+//! leaves in closed form; `sway` moves a tree in the wind (§4.7). The paper's trees have no age; the laws `growth` and `season` are of
+//! this program. Decisions where the paper is silent or contradicts itself stand at the formulas, and together in
+//! `docs/parametric.md`. Absent: degradation at range (§5), which meshes do; `seen` tells them what it depends on.
 
 mod card;
 mod checks;
 mod compile;
+mod dealt;
+mod draws;
+mod envelope;
 mod equations;
+mod expectation;
+mod generation;
+mod grow;
 mod keys;
+mod leaves;
 mod looks;
 mod model;
 pub mod numbers;
 pub mod params;
-mod stems;
+mod path;
+mod prune;
+mod radius;
+mod seen;
+#[cfg(test)]
+mod specimens;
 mod sway;
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod tests_plant;
-mod tree;
+mod write;
 
+pub use looks::LeafShape;
 pub use model::TreeModel;
-pub use tree::{Branches, Crown, Tree, Trunk};
+pub use params::Tree;

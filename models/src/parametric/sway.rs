@@ -5,8 +5,12 @@
 //! a₀, a₂ = gust/50 a₀ + a₁/2, in degrees; b = offset + rate · time, in radians; sway = (a₁ sin b + a₂ sin 0.7 b) /
 //! nCurveRes, in degrees, between two segments about x and about y, each with an offset of its own a stem. As in the
 //! rest of the model the first segment of a stem is not turned against its parent. A segment is at the place of its
-//! base. Absent: gusts that come and go, and leaves that flutter.
+//! base. By default the rate is length/radius over 15 a second, and not radius/length as printed, by which a trunk would
+//! need hours. Absent: gusts that come and go, and leaves that flutter.
 
+use super::numbers::Numbers;
+use super::params::Sway;
+use super::radius::flare;
 use phytomer_sim::gusts::{Gusts, Swing};
 use phytomer_sim::math::{fmod, sin};
 use phytomer_sim::plant::{AxisId, NodeId, Origin, Plant};
@@ -21,31 +25,22 @@ const UP: [f64; 3] = [0.0, 0.0, 1.0];
 /// The ratio of the second frequency to the first.
 const SECOND: f64 = 0.7;
 
-/// How fast a stem swings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Rate {
-    /// b grows by length/radius a fifteenth of a second: slender stems swing fast, and the trunk of an aspen once in 1.4
-    /// s.
-    #[default]
-    Slender,
-    /// As it is printed, by radius/length: that trunk swings once in an hour and three quarters.
-    Printed,
-}
-
-impl Rate {
-    /// Radians a second.
-    fn of(self, length: f64, radius: f64) -> f64 {
+impl Sway {
+    /// By how much b grows, radians a second, of a stem of a length and a radius.
+    fn rate(self, length: f64, radius: f64) -> f64 {
         let rate = match self {
-            Self::Slender => length / radius / 15.0,
+            Self::LengthOverRadius => length / radius / 15.0,
             Self::Printed => radius / length / 15.0,
         };
         if rate.is_finite() { rate } else { 0.0 }
     }
 }
 
-/// How each axis of a plant sways. A clone is a part of the stem from which it parts, with phases of its own.
-pub(super) fn swings(plant: &Plant, law: Rate) -> Vec<Swing> {
+/// How each axis of a plant sways. A clone is a part of the stem from which it parts, with phases of its own. The radius
+/// of the trunk is that without its flare.
+pub(super) fn swings(plant: &Plant, tree: &Numbers) -> Vec<Swing> {
     let mut swings = own_stems(plant);
+    swings.iter_mut().take(1).for_each(|trunk| trunk.radius /= flare(tree.flare, 0.0));
     for axis in 0..swings.len() {
         let clone_of = plant.axes.bearer[axis].some().filter(|_| plant.axes.origin[axis] == Origin::Fork);
         if let Some(bearer) = clone_of {
@@ -56,7 +51,7 @@ pub(super) fn swings(plant: &Plant, law: Rate) -> Vec<Swing> {
         let Swing { length, radius, .. } = swings[axis];
         let mut words = plant.random.stream(plant.axes.key[axis], Purpose::Sway);
         swings[axis].phases = [TAU * words.share(), TAU * words.share()];
-        swings[axis].rate = law.of(length, radius);
+        swings[axis].rate = tree.sway.rate(length, radius);
     }
     swings
 }
@@ -77,11 +72,11 @@ fn own_stems(plant: &Plant) -> Vec<Swing> {
 }
 
 /// Turns the segments of a plant to where they are in the gusts.
-pub(super) fn sway(plant: &mut Plant, law: Rate, gusts: &Gusts) {
+pub(super) fn sway(plant: &mut Plant, tree: &Numbers, gusts: &Gusts) {
     if !(gusts.speed > 0.0 || gusts.gust > 0.0) {
         return;
     }
-    let swings = swings(plant, law);
+    let swings = swings(plant, tree);
     for node in 0..plant.nodes.len() {
         let (axis, rank) = (plant.nodes.axis[node], plant.nodes.rank[node]);
         let swing = &swings[axis.index()];
@@ -147,11 +142,11 @@ mod tests {
     /// The trunk of the aspen, 13 m with a radius of 0.195 m: once in 1.4 s, or once in 1 h 45 min.
     #[test]
     fn the_rates_are_those_that_the_names_say() {
-        let slender = TAU / Rate::Slender.of(13.0, 0.195);
-        let printed = TAU / Rate::Printed.of(13.0, 0.195);
+        let slender = TAU / Sway::LengthOverRadius.rate(13.0, 0.195);
+        let printed = TAU / Sway::Printed.rate(13.0, 0.195);
         assert!((slender - 1.414).abs() < 1e-3, "{slender}");
         assert!((printed / 60.0 - 104.72).abs() < 0.01, "{printed}");
-        assert_eq!(Rate::Slender.of(1.0, 0.0), 0.0, "a stem without a radius stands still");
+        assert_eq!(Sway::LengthOverRadius.rate(1.0, 0.0), 0.0, "a stem without a radius stands still");
     }
 
     /// b goes 20 π: sin b by 10 turns and sin 0.7 b by 7.

@@ -1,125 +1,216 @@
-//! The equations against the numbers that Weber & Penn 1995 print: the ends of their ranges, the values of their four
-//! trees, and the results of our decisions where the paper is silent.
+//! The numbers and lengths of the stems of the paper's trees against what follows from its equations; splits and their
+//! error diffusion; radii.
 //!
-//! Absent: whole plants (`tests_plant`).
+//! Absent: places and turns (`tests_plant`), and parameters that are refused (`tests_faults`).
 
-use super::equations::*;
-use super::tree::Crown;
-use phytomer_sim::math::{exp, log};
+use super::equations::diffused;
+use super::params::Tree;
+use super::radius::{flare, radius_at};
+use super::specimens::{aspen, bare, clump, level, oak, tupelo, unvaried, willow, with};
+use super::{TreeModel, radius};
+use crate::contract;
+use crate::fault::Path;
+use phytomer_sim::model::Grow as _;
+use phytomer_sim::plant::{Origin, Plant};
 
-fn near(found: f64, expected: f64) {
-    assert!((found - expected).abs() < 1e-12, "{found} is not {expected}");
+pub(super) fn compiled(tree: &Tree) -> TreeModel {
+    tree.compile(30, &Path::root()).unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 
-/// The sum of the turns of a stem without variation: nCurve of each segment but the first, which has none before it.
-#[test]
-fn the_segments_of_a_curved_stem_add_up() {
-    let curve = |segments, deg, back_deg| Curve { segments, deg, back_deg, v_deg: 0.0 };
-    let sum = |curve: Curve| (1..=curve.segments).map(|nth| curve.turn_deg(nth, 0.7)).sum::<f64>();
-    near(sum(curve(5, -40.0, 0.0)), -40.0 * 4.0 / 5.0);
-    near(sum(curve(1, 90.0, 0.0)), 0.0);
-    // The black oak's branches curve up by 40 degrees and back by 70: ten segments, five a half.
-    near(sum(curve(10, 40.0, -70.0)), 40.0 * 4.0 / 5.0 - 70.0);
-    // Of five segments the third begins in the first half.
-    let turns: Vec<f64> = (1..=5).map(|nth| curve(5, 10.0, 20.0).turn_deg(nth, 0.0)).collect();
-    assert_eq!(turns, [0.0, 4.0, 4.0, 8.0, 8.0]);
+/// Plant `number`, whole.
+pub(super) fn grown(tree: &Tree, number: u32) -> Plant {
+    let model = compiled(tree);
+    let mut plant = contract::grown(&model, 1, &contract::seed_of(7, number));
+    model.thicken(1, &mut plant);
+    plant
 }
 
-#[test]
-fn a_segment_varies_by_its_share_of_the_variation() {
-    let curve = Curve { segments: 8, deg: 16.0, back_deg: 0.0, v_deg: 120.0 };
-    near(curve.turn_deg(2, 1.0), 2.0 + 15.0);
-    near(curve.turn_deg(8, -1.0), 2.0 - 15.0);
-}
-
-#[test]
-fn a_split_is_limited_by_the_declination_and_given_back() {
-    near(split_deg(30.0, 0.0), 30.0);
-    near(split_deg(30.0, 20.0), 10.0);
-    near(split_deg(30.0, 80.0), 0.0);
-    // Behind the second of eight segments six remain.
-    near(give_back_deg(30.0, 2, 8), 5.0);
-    near(give_back_deg(30.0, 2, 2), 0.0);
-}
-
-/// The formula of §4.2 at its ends, which its own words give as 20, 50 and 140 degrees; and equal angles for several.
-#[test]
-fn a_stem_and_its_clones_are_spread() {
-    near(spread_deg(0, 1, 90.0, 0.0, 1.0), 20.0);
-    near(spread_deg(0, 1, 90.0, 1.0, 1.0), 42.5);
-    near(spread_deg(0, 1, 0.0, 1.0, 1.0), 110.0);
-    near(spread_deg(0, 1, 0.0, 0.5, -1.0), -(20.0 + 0.75 * 120.0 * 0.25));
-    near(spread_deg(1, 1, 0.0, 0.5, -1.0), 0.0);
-    near(spread_deg(0, 0, 0.0, 0.5, -1.0), 0.0);
-    let three: Vec<f64> = (0..=2).map(|stem| spread_deg(stem, 2, 0.0, 0.9, -1.0)).collect();
-    assert_eq!(three, [0.0, 120.0, 240.0]);
-}
-
-/// The table of §4.3 at its ends and between them.
-#[test]
-fn the_forms_of_crowns_are_those_of_the_table() {
-    let table = [
-        (Crown::Conical, [0.2, 0.6, 1.0]),
-        (Crown::Spherical, [0.2, 1.0, 0.2]),
-        (Crown::Hemispherical, [0.2, 0.2 + 0.8 * 0.5_f64.sqrt(), 1.0]),
-        (Crown::Cylindrical, [1.0, 1.0, 1.0]),
-        (Crown::TaperedCylindrical, [0.5, 0.75, 1.0]),
-        (Crown::Flame, [0.0, 0.5 / 0.7, 0.0]),
-        (Crown::InverseConical, [1.0, 0.6, 0.2]),
-        (Crown::TendFlame, [0.5, 0.5 + 0.25 / 0.7, 0.5]),
-    ];
-    for (shape, values) in table {
-        for (ratio, value) in [0.0, 0.5, 1.0].into_iter().zip(values) {
-            near(shape_ratio(shape, ratio), value);
+/// The stems of each level without clones, and the sum of their lengths, metres; then the clones and the leaves.
+fn counts(plant: &Plant) -> (Vec<usize>, Vec<f64>, usize, usize) {
+    let axes = &plant.axes;
+    let levels = axes.order.iter().copied().max().map_or(0, usize::from);
+    let (mut stems, mut lengths, mut clones) = (vec![0; levels], vec![0.0; levels], 0);
+    for axis in 0..axes.len() {
+        let is_clone = axes.origin[axis] == Origin::Fork;
+        stems[usize::from(axes.order[axis]) - 1] += usize::from(!is_clone);
+        clones += usize::from(is_clone);
+    }
+    for node in 0..plant.nodes.len() {
+        let axis = plant.nodes.axis[node].index();
+        if axes.origin[axis] != Origin::Fork {
+            lengths[usize::from(axes.order[axis]) - 1] += f64::from(plant.nodes.length[node]);
         }
     }
-    // At 0.7 the two lines of shapes 5 and 7 meet.
-    for shape in [Crown::Flame, Crown::TendFlame] {
-        near(shape_ratio(shape, 0.7), 1.0);
-        near(shape_ratio(shape, 0.85), if shape == Crown::Flame { 0.5 } else { 0.75 });
+    (stems, lengths, clones, plant.organs.len())
+}
+
+fn near(found: f64, expected: f64, by: f64) {
+    assert!((found - expected).abs() < by, "{found} is not {expected}");
+}
+
+/// Table 2 has 240 lines of 30 stems, 5,912 of 739, and 13,312 leaves, which are 13,498 by the equation.
+#[test]
+fn the_aspen_has_the_stems_and_leaves_of_the_equations() {
+    let (stems, lengths, clones, leaves) = counts(&grown(&unvaried(aspen()), 0));
+    assert_eq!((stems, clones, leaves), (vec![1, 30, 739], 0, 13_498));
+    for (found, expected) in lengths.iter().zip([13.0, 88.324, 937.164]) {
+        near(*found, expected, 6e-4);
     }
 }
 
-/// Each in the middle of its part of the stem above the bare base.
 #[test]
-fn branches_are_spaced_evenly_above_the_base() {
-    let found: Vec<Place> = places(4, 0.2, 5).collect();
-    for (place, (share, segment)) in found.iter().zip([(0.3, 1), (0.5, 2), (0.7, 3), (0.9, 4)]) {
-        near(place.share, share);
-        assert_eq!(place.segment, segment);
-        near(place.ratio, (1.0 - share) / 0.8);
+fn the_tupelo_has_the_stems_and_leaves_of_the_equations() {
+    let (stems, lengths, _, leaves) = counts(&grown(&unvaried(tupelo()), 0));
+    assert_eq!((stems, leaves), (vec![1, 40, 820, 7_760], 31_324));
+    for (found, expected) in lengths.iter().zip([23.0, 207.338, 1832.062, 5053.611]) {
+        near(*found, expected, 2e-3);
     }
-    let positions: Vec<u16> = places(7, 0.0, 3).map(|place| place.position).collect();
-    assert_eq!(positions, [0, 1, 0, 1, 2, 0, 1], "two, three and two on three segments");
-    assert_eq!(places(0, 0.2, 5).count(), 0);
-    assert!(places(10_000, 0.0, 1).all(|place| place.segment == 0 && place.share < 1.0));
 }
 
-/// The Black Tupelo of Plate 2b has 60 and −40: its branches point downwards at the base of the crown, by 10 degrees,
-/// and upwards at its top, 36 degrees from the vertical.
+/// Nothing of what the aspen draws changes a number of stems or leaves.
 #[test]
-fn a_down_angle_falls_along_the_crown_where_its_variation_is_below_0() {
-    near(down_angle_deg(60.0, -40.0, 1.0, 0.9), 100.0);
-    near(down_angle_deg(60.0, -40.0, 0.0, 0.9), 36.0);
-    near(down_angle_deg(60.0, -40.0, 0.375, 0.9), 60.0);
-    near(down_angle_deg(30.0, 10.0, 0.375, 0.5), 35.0);
+fn the_aspen_has_the_same_numbers_for_every_seed() {
+    for number in 0..5 {
+        let (stems, _, _, leaves) = counts(&grown(&aspen(), number));
+        assert_eq!((stems, leaves), (vec![1, 30, 739], 13_498));
+    }
 }
 
-/// In a helix of 140 degrees; and by turns 60 degrees from the y-axis of the parent with the willow's −120.
+/// Splits deal the children to more stems, and change neither their number nor that of leaves.
 #[test]
-fn branches_stand_in_a_helix_or_on_two_sides() {
-    let helix = |nth| (0..=nth).fold(0.0, |last, nth| rotate_deg(140.0, 140.0, nth, last));
-    assert_eq!([0, 1, 2, 3].map(helix), [140.0, 280.0, 60.0, 200.0]);
-    assert_eq!([0, 1, 2].map(|nth| rotate_deg(-120.0, -120.0, nth, 33.0)), [60.0, -60.0, 60.0]);
-    near(rotate_deg(-120.0, -110.0, 1, 33.0), -70.0);
+fn splits_change_no_number_of_children() {
+    let mut split = unvaried(aspen());
+    (split.trunk.seg_splits, split.branches[0].seg_splits) = (1.0.into(), 0.5.into());
+    split.branches[1].seg_splits = 0.4.into();
+    let (stems, lengths, clones, leaves) = counts(&grown(&split, 0));
+    assert_eq!((stems, leaves), (vec![1, 30, 739], 13_498));
+    assert!(clones > 600, "{clones}");
+    for (found, expected) in lengths.iter().zip([13.0, 88.324, 937.164]) {
+        near(*found, expected, 6e-4);
+    }
 }
 
-/// The aspen's branch of 0.3 of the trunk with RatioPower 1.2; and no branch thicker than its parent where it leaves.
+/// (nSegSplits + 1) to the power nCurveRes − 1 (§4.2 and Figure 1).
 #[test]
-fn a_branch_is_thinner_than_its_parent() {
-    near(branch_radius(0.195, 0.3, 1.2, 1.0), 0.195 * exp(1.2 * log(0.3)));
-    near(branch_radius(0.195, 0.9, 1.2, 0.05), 0.05);
-    near(tapered(0.2, 1.0, 0.75), 0.05);
-    near(tapered(0.2, 0.0, 0.75), 0.2);
-    near(tapered(0.2, 0.5, 1.0), 0.1);
+fn a_trunk_splits_into_the_stems_that_the_paper_counts() {
+    for (splits, segments, stems) in [(1.0, 3, 4), (2.0, 5, 81), (0.0, 9, 1), (3.0, 2, 4)] {
+        let mut tree = bare();
+        (tree.trunk.seg_splits, tree.trunk.curve_res) = (splits.into(), segments.into());
+        let plant = grown(&tree, 0);
+        assert_eq!(plant.axes.len(), stems, "{splits} splits, {segments} segments");
+    }
+}
+
+/// The number at the base is that of the base, and the others go on by their own.
+#[test]
+fn the_base_of_a_trunk_splits_by_its_own_number() {
+    let mut tree = clump(2);
+    (tree.trunk.seg_splits, tree.trunk.curve_res) = (1.0.into(), 3.into());
+    assert_eq!(grown(&tree, 0).axes.len(), 6, "three stems, each of which splits once");
+}
+
+/// At 1.2 four of five segments have one clone and the fifth two, and no two that follow one another have two.
+#[test]
+fn splits_are_diffused() {
+    for splits in [1.2, 0.1, 0.2, 0.4, 0.5, 1.0, 2.7, 1.0 / 3.0] {
+        let mut sum = 0;
+        for nth in 1..=5000 {
+            let now = diffused(splits, nth);
+            sum += now;
+            let off = f64::from(sum) - splits * nth as f64;
+            assert!(off.abs() <= 0.5 + 1e-6, "{splits}: {off} after {nth} segments");
+            assert!((f64::from(now) - splits).abs() < 1.0 + 1e-6, "{splits}: {now} at {nth}");
+        }
+    }
+    let ten: Vec<u32> = (1..=10).map(|nth| diffused(1.2, nth)).collect();
+    assert_eq!(ten.iter().sum::<u32>(), 12);
+    assert!(!ten.windows(2).any(|pair| pair == [2, 2]), "{ten:?}");
+}
+
+/// On grown plants, over the stems of the level in the order of creation.
+#[test]
+fn the_splits_of_a_grown_level_are_diffused() {
+    let mut tree = with(level(40.0), bare());
+    tree.branches[0].seg_splits = 1.2.into();
+    tree.branches[0].curve_res = 3.into();
+    let plant = grown(&tree, 0);
+    let (mut sum, mut uses) = (0, 0);
+    for node in 0..plant.nodes.len() {
+        let axis = plant.nodes.axis[node].index();
+        if plant.axes.order[axis] != 2 || plant.axes.last_node[axis].index() == node {
+            continue;
+        }
+        let clones = (0..plant.axes.len())
+            .filter(|&axis| plant.axes.origin[axis] == Origin::Fork && plant.axes.bearer[axis].index() == node);
+        (sum, uses) = (sum + clones.count(), uses + 1);
+        assert!((sum as f64 - 1.2 * f64::from(uses)).abs() <= 0.5 + 1e-6, "{sum} of {uses}");
+    }
+    assert!(uses > 100, "{uses}");
+}
+
+#[test]
+fn the_aspen_is_as_thick_as_the_equations_say() {
+    near(flare(0.6, 0.0), 1.594, 1e-12);
+    let plant = grown(&unvaried(aspen()), 0);
+    near(f64::from(plant.nodes.diameter[0]), 2.0 * 0.195 * 1.594, 1e-6);
+    near(radius::branch_radius(0.195, 3.9 / 13.0, 1.2, 1.0), 0.04598, 5e-6);
+    near(flare(0.6, 0.125), 1.0, 1e-12);
+    // At a sixteenth of the length y is 1/2.
+    near(flare(2.0, 0.0625), 1.0 + 2.0 * 9.0 / 100.0, 1e-12);
+}
+
+/// The chart of §4.4: 0 a cylinder, 1 a cone, 2 ends in half a sphere, 3 is a chain of spheres.
+#[test]
+fn stems_taper_from_a_cylinder_to_a_chain_of_spheres() {
+    let (radius, long) = (0.5, 10.0);
+    let at = |z, taper| radius_at(z, taper, radius, long);
+    for z in [0.0, 0.3, 0.77, 1.0] {
+        near(at(z, 0.0), radius, 1e-12);
+        near(at(z, 0.4), radius * (1.0 - 0.4 * z), 1e-12);
+        near(at(z, 1.0), radius * (1.0 - z), 1e-12);
+    }
+    // Half a sphere of 0.5 m about a point 9.5 m up.
+    for (height, expected) in [(4.0, 0.5), (9.5, 0.5), (9.8, 0.4), (10.0, 0.0)] {
+        near(at(height / long, 2.0 - 1e-12), expected, 1e-6);
+        near(at(height / long, 2.0), expected, 1e-6);
+    }
+    // Spheres of 0.5 m, ten of them; at 2.2 they are a fifth as deep, but for the last half.
+    for (from_end, full) in [(0.0, 0.0), (0.5, 0.5), (1.0, 0.0), (0.2, 0.4), (2.8, 0.4), (3.5, 0.5), (4.0, 0.0)] {
+        let z = 1.0 - from_end / long;
+        near(at(z, 3.0), full, 1e-6);
+        let shallow = if from_end < 0.5 { full } else { 0.8 * 0.5 + 0.2 * full };
+        near(at(z, 2.2), shallow, 1e-6);
+    }
+    for taper in [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0] {
+        assert_eq!(radius_at(0.5, taper, 0.0, 1.0), 0.0);
+    }
+}
+
+/// The forecast numbers are the numbers made, or bounds or estimates as they are told.
+#[test]
+fn the_forecast_counts_stems_segments_and_leaves() {
+    use phytomer_sim::expectation::Certainty;
+    let mut whole = with(level(31.0), clump(2));
+    whole.trunk.seg_splits = 1.0.into();
+    whole.trunk.curve_res = 4.into();
+    let palm: Tree = {
+        let mut tree = bare();
+        (tree.whole.leaves, tree.whole.quality) = ((-17.0).into(), 2.0.into());
+        tree
+    };
+    for tree in [whole, bare(), aspen(), tupelo(), palm] {
+        let foretold = compiled(&tree).expectation(3).expect("a forecast");
+        assert_eq!(foretold.certainty(), Certainty::Exact);
+        for (number, age) in [(0, 1), (1, 3)] {
+            let plant = contract::grown(&compiled(&tree), age, &contract::seed_of(1, number));
+            assert_eq!(f64::from(plant.components()), foretold.components(age));
+        }
+        assert_eq!(foretold.components(0), 1.0);
+    }
+    let oak = unvaried(oak());
+    let foretold = compiled(&oak).expectation(1).expect("a forecast");
+    assert_eq!(foretold.certainty(), Certainty::About);
+    let made = f64::from(contract::grown(&compiled(&oak), 1, &contract::seed_of(1, 0)).components());
+    assert!((made / foretold.components(1) - 1.0).abs() < 0.1, "{made} of {}", foretold.components(1));
+    assert!(compiled(&willow()).expectation(1).expect("a forecast").components(1) > 400_000.0);
 }

@@ -65,11 +65,12 @@ impl<'a> Columns<'a> {
 
     /// What they mean, a line each.
     pub fn in_words(&self) -> Vec<String> {
-        let until = self.until.as_ref().map(|_| {
-            "until_m: the range beyond which the component is no longer drawn (Weber & Penn 1995, section 5), inf for ever"
-        });
+        let until = self
+            .until
+            .as_ref()
+            .map(|_| "until_m: the range beyond which the component is no longer drawn (docs/range.md), inf for ever");
         let wind = self.swings.as_ref().map(|_| {
-            "sway: b = sway_phase + sway_rate t in radians, at stem_place from 0 to 1 along a stem of the level (section 4.7)"
+            "sway: b = sway_phase + sway_rate t in radians, at stem_place from 0 to 1 along a stem of the level (docs/range.md)"
         });
         until.into_iter().chain(wind).map(str::to_owned).collect()
     }

@@ -5,12 +5,13 @@
 //! organ's expansion a table by its own age. Absent: the defaults where nothing is stated for drawing.
 
 use super::order_of;
+use crate::buds::params::colour::{self, turning_of};
 use crate::buds::params::{
-    BarkChoice, Buds, ByState, ColourText, FlowerChoice, FormChoice, FruitChoice, KindName, LeafChoice, OwnForm,
+    Buds, ByState, ColourText, FlowerChoice, FormChoice, FruitChoice, KindName, LeafChoice, OwnForm,
 };
 use crate::fault::{Fault, Path};
 use crate::law::{Law, Quantity, ValueRange, Variate};
-use phytomer_looks::{Bark, Colour, InternodePaint, OrganPaint, Paints, own_form};
+use phytomer_looks::{Colour, InternodePaint, OrganPaint, Paints, own_form};
 use phytomer_sim::plant::{Class, Form, InternodeLook, Kind, Looks, OrganLook, OrganLooks, PaintNumber, Shape};
 
 const SIDES: std::ops::RangeInclusive<u32> = 3..=64;
@@ -140,7 +141,7 @@ impl Place<'_> {
         }
         if let Some(stated) = &internode.colour {
             for (paint, (bark, path)) in paints.iter_mut().zip(self.spread(stated, &path.key("colour"))) {
-                paint.bark = self.bark(bark, &path);
+                paint.bark = bark.bark(&path, self.faults);
             }
         }
         paints
@@ -228,21 +229,7 @@ impl Place<'_> {
     fn leaf(&mut self, stated: &Option<LeafChoice>) -> PaintNumber {
         let turns_in = self.buds.season.as_ref().map_or(0, |season| turning_of(season.ticks_per_year.value()));
         let path = self.path.key("leaf").key("colour");
-        let paint = match stated {
-            None => OrganPaint { turns_in, ..OrganPaint::default() },
-            Some(LeafChoice::One(colour)) => {
-                let colour = self.colour(colour, &path);
-                OrganPaint { young: colour, old: colour, turns_in, ..OrganPaint::default() }
-            }
-            Some(LeafChoice::Stages(stages)) => OrganPaint {
-                young: self.stage(&stages.young, &path, "young"),
-                old: self.stage(&stages.old, &path, "old"),
-                autumn: self.stage(&stages.autumn, &path, "autumn"),
-                stalk: self.stage(&stages.stalk, &path, "stalk"),
-                turns_in: stages.turns_in.as_ref().map_or(turns_in, Quantity::value),
-                ..OrganPaint::default()
-            },
-        };
+        let paint = LeafChoice::paint(stated.as_ref(), turns_in, &path, self.faults);
         self.paints.add_organ(paint)
     }
 
@@ -283,39 +270,11 @@ impl Place<'_> {
         self.paints.add_organ(paint)
     }
 
-    fn bark(&mut self, stated: &BarkChoice, path: &Path) -> Bark {
-        match stated {
-            BarkChoice::One(colour) => {
-                let colour = self.colour(colour, path);
-                Bark { shoot: colour, young: colour, old: colour, ..Bark::default() }
-            }
-            BarkChoice::Stages(stages) => Bark {
-                shoot: self.stage(&stages.shoot, path, "shoot"),
-                young: self.stage(&stages.young, path, "young"),
-                old: self.stage(&stages.old, path, "old"),
-                dead: self.stage(&stages.dead, path, "dead"),
-                forms_in: stages.forms_in.as_ref().map(Quantity::value),
-                darkens_in: stages.darkens_in.as_ref().map(Quantity::value),
-            },
-        }
-    }
-
     fn stage(&mut self, stated: &Option<ColourText>, path: &Path, key: &str) -> Option<Colour> {
-        stated.as_ref().and_then(|colour| self.colour(colour, &path.key(key)))
+        colour::stage(stated, path, key, self.faults)
     }
 
     fn colour(&mut self, text: &ColourText, path: &Path) -> Option<Colour> {
-        let colour = text.rgb();
-        if colour.is_none() {
-            let found = format!("`{}` is no colour", text.0);
-            self.faults.push(Fault::new(path, found, "`#` and six hexadecimal digits, such as \"#7a8646\""));
-        }
-        colour
+        text.checked(path, self.faults)
     }
-}
-
-/// The ticks over which leaves turn before they fall together, in a year of `year` ticks: a sixth of the year, rounded.
-/// 0 where a tick is half a year or more: then the last tick of a leaf is its summer.
-fn turning_of(year: u32) -> u32 {
-    if year > 2 { (year + 3) / 6 } else { 0 }
 }

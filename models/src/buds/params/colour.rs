@@ -3,8 +3,9 @@
 //!
 //! Absent: the colours of components without a stated colour, which `phytomer_meshes::palette` has by kind and form.
 
+use crate::fault::{Fault, Path};
 use crate::law::Quantity;
-use phytomer_looks::Colour;
+use phytomer_looks::{Bark, Colour, OrganPaint};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -141,6 +142,70 @@ pub struct FruitColours {
     /// Of its stalk or its cup.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stalk: Option<ColourText>,
+}
+
+impl ColourText {
+    /// Red, green and blue, with a fault where the text is no colour.
+    pub(crate) fn checked(&self, path: &Path, faults: &mut Vec<Fault>) -> Option<Colour> {
+        let colour = self.rgb();
+        if colour.is_none() {
+            let found = format!("`{}` is no colour", self.0);
+            faults.push(Fault::new(path, found, "`#` and six hexadecimal digits, such as \"#7a8646\""));
+        }
+        colour
+    }
+}
+
+/// The colour under `key`, where it is stated.
+pub(crate) fn stage(of: &Option<ColourText>, path: &Path, key: &str, faults: &mut Vec<Fault>) -> Option<Colour> {
+    of.as_ref().and_then(|colour| colour.checked(&path.key(key), faults))
+}
+
+impl BarkChoice {
+    /// The colours for drawing.
+    pub(crate) fn bark(&self, path: &Path, faults: &mut Vec<Fault>) -> Bark {
+        match self {
+            Self::One(colour) => {
+                let colour = colour.checked(path, faults);
+                Bark { shoot: colour, young: colour, old: colour, ..Bark::default() }
+            }
+            Self::Stages(stages) => Bark {
+                shoot: stage(&stages.shoot, path, "shoot", faults),
+                young: stage(&stages.young, path, "young", faults),
+                old: stage(&stages.old, path, "old", faults),
+                dead: stage(&stages.dead, path, "dead", faults),
+                forms_in: stages.forms_in.as_ref().map(Quantity::value),
+                darkens_in: stages.darkens_in.as_ref().map(Quantity::value),
+            },
+        }
+    }
+}
+
+impl LeafChoice {
+    /// The paint of leaves; `turns_in` are the ticks over which they turn before their fall where none are stated.
+    pub(crate) fn paint(stated: Option<&Self>, turns_in: u32, path: &Path, faults: &mut Vec<Fault>) -> OrganPaint {
+        match stated {
+            None => OrganPaint { turns_in, ..OrganPaint::default() },
+            Some(Self::One(colour)) => {
+                let colour = colour.checked(path, faults);
+                OrganPaint { young: colour, old: colour, turns_in, ..OrganPaint::default() }
+            }
+            Some(Self::Stages(stages)) => OrganPaint {
+                young: stage(&stages.young, path, "young", faults),
+                old: stage(&stages.old, path, "old", faults),
+                autumn: stage(&stages.autumn, path, "autumn", faults),
+                stalk: stage(&stages.stalk, path, "stalk", faults),
+                turns_in: stages.turns_in.as_ref().map_or(turns_in, Quantity::value),
+                ..OrganPaint::default()
+            },
+        }
+    }
+}
+
+/// The ticks over which leaves turn before they fall together, in a year of `year` ticks: a sixth of the year, rounded.
+/// 0 where a tick is half a year or more: then the last tick of a leaf is its summer.
+pub(crate) fn turning_of(year: u32) -> u32 {
+    if year > 2 { (year + 3) / 6 } else { 0 }
 }
 
 #[cfg(test)]

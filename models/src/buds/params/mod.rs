@@ -8,7 +8,7 @@
 //!
 //! Absent on purpose: the effects of the parameters, which are in `compile` and `grow`.
 
-mod colour;
+pub(crate) mod colour;
 mod geometry;
 mod looks;
 mod organs;
