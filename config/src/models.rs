@@ -7,7 +7,7 @@ use std::sync::{Arc, OnceLock};
 
 use phytomer_law::Variable;
 use phytomer_law::fault::{Fault, Path};
-use phytomer_models::parameters::{Card, Parameters, Surroundings};
+use phytomer_models::parameters::{Card, Levelled, Parameters, Surroundings};
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::site::calendar::Dates;
 use serde_json::{Value as Json, json};
@@ -192,6 +192,16 @@ impl Model {
     /// As [`Parameters::state_area_shares`].
     pub fn state_area_shares(&mut self, share: impl Fn(usize) -> Option<f64>) -> bool {
         self.parameters_mut().state_area_shares(&share)
+    }
+
+    /// As [`Parameters::levelled`].
+    pub fn levelled(&self, age: u32) -> Option<Levelled> {
+        self.parameters().levelled(age)
+    }
+
+    /// As [`Parameters::set_quality`].
+    pub fn set_quality(&mut self, quality: f64) -> bool {
+        self.parameters_mut().set_quality(quality)
     }
 
     /// As [`Parameters::full_grown_at`].

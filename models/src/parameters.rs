@@ -75,6 +75,18 @@ pub struct Surroundings {
     pub constants: BTreeMap<String, Variate>,
 }
 
+/// A tree whose stems have levels, as it is at an age: what scales the ranges at which its elements are drawn
+/// (Weber & Penn 1995 §5).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Levelled {
+    /// Its quality, above 0.
+    pub quality: f64,
+    /// Whether it is in leaf and not in spring, or evergreen: leaves then hide its stems.
+    pub in_leaf: bool,
+    /// Whether it is in spring, and its leaves are small.
+    pub spring: bool,
+}
+
 /// The parameters of a growth model, as people state them.
 pub trait Parameters {
     /// The name of the model, and the roles of its keys.
@@ -114,6 +126,18 @@ pub trait Parameters {
     /// The ticks of a year that the parameters state, with the path; `None` where they state no year.
     fn year(&self) -> Option<(Path, u32)> {
         None
+    }
+
+    /// A tree of stems by levels as it is at `age`; `None` where the plants of the model have no levels.
+    fn levelled(&self, age: Tick) -> Option<Levelled> {
+        let _ = age;
+        None
+    }
+
+    /// States the quality of the tree. Returns whether the model has one; it is then to be compiled again.
+    fn set_quality(&mut self, quality: f64) -> bool {
+        let _ = quality;
+        false
     }
 
     /// The age from which nothing more grows, or at which it is meant to be looked at, where the parameters determine

@@ -7,6 +7,7 @@ pub mod cells;
 pub mod clock;
 pub mod expectation;
 pub mod grow;
+pub mod gusts;
 pub mod key;
 mod managed;
 pub mod management;

@@ -8,6 +8,7 @@
 use crate::cells::Claims;
 use crate::clock::Tick;
 use crate::expectation::Expectation;
+use crate::gusts::{Gusts, Swing};
 use crate::plant::{Habit, Plant};
 use crate::site::{Site, View};
 use std::any::Any;
@@ -125,6 +126,23 @@ pub trait Grow: Send + Sync {
         Ok(())
     }
 
+    /// Whether its plants sway by a law of the model's own; else mechanics move them.
+    fn sways(&self) -> bool {
+        false
+    }
+
+    /// How each axis of a grown plant sways by the law of the model, one entry an axis; empty where it has none.
+    fn swings(&self, plant: &Plant) -> Vec<Swing> {
+        let _ = plant;
+        Vec::new()
+    }
+
+    /// Turns the rest frames of a grown plant to those in these gusts, by the law of the model; the plant is then to be
+    /// posed. Air at rest changes nothing.
+    fn sway(&self, plant: &mut Plant, gusts: &Gusts) {
+        let _ = (plant, gusts);
+    }
+
     /// The means of what a plant makes up to `until`, or bounds or estimates of them, as it says; `None` where the
     /// model has none.
     fn expectation(&self, until: Tick) -> Option<Expectation> {
@@ -170,6 +188,12 @@ pub trait GrowthModel: Send + Sync {
     /// Where `life` is that of another model's plant.
     fn answer_cuts(&self, age: Tick, plant: &mut Plant, life: &mut Life) -> Result<(), Overgrown>;
 
+    fn sways(&self) -> bool;
+
+    fn swings(&self, plant: &Plant) -> Vec<Swing>;
+
+    fn sway(&self, plant: &mut Plant, gusts: &Gusts);
+
     fn expectation(&self, until: Tick) -> Option<Expectation>;
 }
 
@@ -208,6 +232,18 @@ impl<M: Grow> GrowthModel for M {
 
     fn answer_cuts(&self, age: Tick, plant: &mut Plant, life: &mut Life) -> Result<(), Overgrown> {
         Grow::answer_cuts(self, age, plant, life.get_mut())
+    }
+
+    fn sways(&self) -> bool {
+        Grow::sways(self)
+    }
+
+    fn swings(&self, plant: &Plant) -> Vec<Swing> {
+        Grow::swings(self, plant)
+    }
+
+    fn sway(&self, plant: &mut Plant, gusts: &Gusts) {
+        Grow::sway(self, plant, gusts);
     }
 
     fn expectation(&self, until: Tick) -> Option<Expectation> {

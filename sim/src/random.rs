@@ -35,8 +35,10 @@ pub enum Purpose {
     Germination = 8,
     /// What the productions of an L-system decide, in a stream of the module and the step.
     Rewriting = 9,
+    /// The phases of an axis in the wind, by a growth model's own law of sway.
+    Sway = 10,
     /// The plants of a cell of a forest, in a stream of the cell.
-    Forest = 10,
+    Forest = 11,
 }
 
 /// The number in (0, 1) that a uniform word stands for: the middle of its interval.

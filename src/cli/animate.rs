@@ -37,6 +37,7 @@ Examples:
   phytomer animate coffee --ages 4..48/4 --orbit 90 --follow --out around.apng
   phytomer animate under_a_roof --plot --out plot.mp4
   phytomer animate willow --ages 60 --wind 8 --fps 12 --out wind.webp
+  phytomer animate wp/quaking_aspen --ages 1 --wind 5 --gust 3 --loop 6 --out sway.webp
   phytomer animate coffee --ages 12..48 --out frames/
   phytomer animate coffee --size 960x720 --out - | mpv -
 
@@ -59,7 +60,8 @@ pub struct Animate {
     /// apart and held. One age by itself is for films of wind and of a walk around the plant.
     #[arg(long, value_name = "FIRST..LAST[/STEP]", value_parser = span)]
     ages: Option<Span>,
-    /// The length of the film; 12 if not given, of one age in the wind that of a gust, 8.
+    /// The length of the film; 12 if not given, of one age in the wind that of --loop, or of
+    /// a gust, 8.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = seconds)]
     seconds: Option<f64>,
     /// Frames a second.
@@ -144,7 +146,8 @@ impl Animate {
         let (whose, ages) = shown(regrown, (self.plant, self.plot), self.ages, "--ages")?;
         let regrowth = regrown.regrowth(&self.breeze)?.falling(self.fall.fall);
         let air_from = self.breeze.air().map(|air| air.time);
-        let usual = if air_from.is_some() && ages.first == ages.last { GUSTS_S } else { SECONDS };
+        let of_wind = self.breeze.closes().unwrap_or(GUSTS_S);
+        let usual = if air_from.is_some() && ages.first == ages.last { of_wind } else { SECONDS };
         let frames = (self.seconds.unwrap_or(usual) * f64::from(self.fps)).round().max(1.0) as u32;
         let (species, time) = (regrown.species(), ages.timeline(frames));
         let scene = Scene {

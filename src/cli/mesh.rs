@@ -3,12 +3,14 @@
 //! It is the same plant, with the same component numbers, that the run has recorded. In a wind it is a frame of that
 //! plant, which the wind moves for the mesh alone.
 
+mod dressing;
 mod formats;
 mod keyed;
 mod life;
 mod rig;
 mod usd;
 
+use super::afar::{self, Part};
 use super::budget::{Asked, Budget, in_words, too_few};
 use super::constants::Constants;
 use super::out;
@@ -17,14 +19,16 @@ use super::span::age;
 use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::Args;
+use dressing::Dressing;
 use formats::Format;
 use life::Growing;
 use phytomer::run::drawing::{check_size, options_of};
-use phytomer::run::picturing::{pictured_plot_at, plot_mesh};
+use phytomer::run::picturing::{PicturedStand, pictured_plot_at, plot_mesh};
 use phytomer_outputs::Destination;
-use phytomer_outputs::meshes::{MeshOptions, Scene, Tolerance, fitting};
+use phytomer_outputs::meshes::{Afar, MeshOptions, PlotMesh, Scene, Seen, Tolerance, fitting, nearest};
 use phytomer_sim::Tick;
 use phytomer_sim::between::Moment;
+use phytomer_sim::plant::Plant;
 use rig::Rig;
 use std::path::PathBuf;
 
@@ -44,6 +48,9 @@ Examples:
   phytomer mesh coffee --ages 1..48/4 --seconds 12 --out life.usdc
   phytomer mesh coffee --age 36 --tolerance 1mm --out print.stl
   phytomer mesh abop/2.8a --age 4 -D lr=1.2 --out tall.ply
+  phytomer mesh wp/quaking_aspen --levels 0-1 --out collision.ply
+  phytomer mesh wp/quaking_aspen --range 120 --fov 30 --bark 0.5 --out far.glb
+  phytomer mesh wp/quaking_aspen --wind 5 --gust 3 --time 0.4 --out swaying.ply
 
 A gusty wind repeats every 8 seconds, so frames of --time 0 to 8 make a film that loops.")]
 pub struct Mesh {
@@ -73,6 +80,15 @@ pub struct Mesh {
     #[command(flatten)]
     budget: Budget,
     #[command(flatten)]
+    part: Part,
+    /// Draw a tree of stems as it is seen from so many metres away: stems become lines, tubes of three sides, leaves
+    /// points, one triangle each, and both become fewer (Weber & Penn 1995 §5). Without it each vertex of such a tree
+    /// tells the range until which it is drawn, as `until_m`.
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true, value_parser = afar::metres, conflicts_with_all = ["triangles", "ages"])]
+    range: Option<f64>,
+    #[command(flatten)]
+    dressing: Dressing,
+    #[command(flatten)]
     fall: Fall,
     #[command(flatten)]
     growing: Growing,
@@ -90,7 +106,15 @@ impl Mesh {
         }
         let ages: Vec<Tick> = self.age.iter().map(|age| age.tick()).chain(self.growing.last()).collect();
         match Regrown::find(&self.name, &self.constants, &ages)? {
-            Ok(regrown) => self.write(&regrown, format),
+            Ok(regrown) => {
+                let range: &[&'static str] = if self.range.is_some() { &["--range"] } else { &[] };
+                let regrown = self.part.of(regrown, range)?;
+                if self.growing.is_asked() {
+                    self.part.needs_age()?;
+                }
+                self.dressing.check(format, self.plot.is_some(), self.growing.is_asked(), &regrown)?;
+                self.write(&regrown, format)
+            }
             Err(verdict) => Ok(verdict),
         }
     }
@@ -118,16 +142,11 @@ impl Mesh {
         let mut refused = None;
         regrowth.show_at(self.plant, &[age], &mut |age, plant| {
             let age = age.tick();
-            let faces = |tolerance: &Tolerance| {
-                let options = MeshOptions { tolerance: Some(*tolerance), ..options.clone() };
-                Scene::new(plant, age, &options).counts().faces
-            };
-            match self.tolerance(&what, faces) {
-                Ok(tolerance) => options.tolerance = tolerance,
-                Err(misuse) => {
-                    refused = Some(misuse);
-                    return Ok(());
-                }
+            options.seen = self.part.seen(regrown.species_of(self.plant), age, self.range, true);
+            self.dressing.dress(&mut options, regrown, plant);
+            if let Err(misuse) = self.settle(&what, (plant, age), &mut options) {
+                refused = Some(misuse);
+                return Ok(());
             }
             let scene = Scene::new(plant, age, &options);
             let written = check_size(&scene).and_then(|()| format.write_plant(&scene, seed, &mut file));
@@ -135,8 +154,31 @@ impl Mesh {
         })?;
         match refused {
             Some(misuse) => Err(misuse.into()),
-            None => self.tell(file, &format!("{what}{}", in_words(options.tolerance.as_ref()))),
+            None => {
+                let seen = self.part.in_words() + &afar::in_words(options.seen.afar);
+                self.tell(file, &format!("{what}{seen}{}", in_words(options.tolerance.as_ref())))
+            }
         }
+    }
+
+    /// Makes the mesh of a plant as fine as it is asked for: of a tree of stems that may have so many triangles, by the
+    /// nearest range that fits, else by a tolerance of its wood.
+    fn settle(&self, what: &str, (plant, age): (&Plant, Tick), options: &mut MeshOptions) -> Result<(), Misuse> {
+        let faces = |options: &MeshOptions| Scene::new(plant, age, options).counts().faces;
+        let plain = options.clone();
+        match (self.budget.asked(), options.seen.afar) {
+            (Asked::Triangles(most), Some(afar)) => {
+                let at = |metres| Seen { afar: Some(Afar { metres: Some(metres), ..afar }), ..plain.seen };
+                let ends = Scene::new(plant, age, &plain).ends();
+                let found = nearest(most, &ends, |metres| faces(&MeshOptions { seen: at(metres), ..plain.clone() }));
+                options.seen = found.map(at).map_err(|few| too_few(most, what, few))?;
+            }
+            _ => {
+                let within = |tolerance: &Tolerance| MeshOptions { tolerance: Some(*tolerance), ..plain.clone() };
+                options.tolerance = self.tolerance(what, |tolerance| faces(&within(tolerance)))?;
+            }
+        }
+        Ok(())
     }
 
     fn write_plot(&self, regrown: &Regrown, plot: u32, format: Format) -> Result<Verdict> {
@@ -149,6 +191,7 @@ impl Mesh {
         let pictured = pictured_plot_at(&regrowth, &species, (plot, &[at]), false)?;
         for stand in &pictured.stands {
             let mut mesh = plot_mesh(stand, &regrowth, (plot, tick), (&species, &regrown.forms), self.sides);
+            self.dress_plot(&mut mesh, stand, regrown);
             let what = format!("plot {plot} at tick {tick}");
             within = self.tolerance(&what, |tolerance| mesh.faces_within(tolerance))?;
             within.iter().for_each(|tolerance| mesh.within(*tolerance));
@@ -156,6 +199,17 @@ impl Mesh {
         }
         let plants = amounts::of(pictured.stands.iter().map(|stand| stand.members.len() as u64).sum(), "plant");
         self.tell(file, &format!("plot {plot} at tick {tick}, {plants}{}", in_words(within.as_ref())))
+    }
+
+    /// States for each plant of a plot what of it is drawn.
+    fn dress_plot(&self, mesh: &mut PlotMesh, stand: &PicturedStand, regrown: &Regrown) {
+        for (place, body) in mesh.bodies.iter_mut().enumerate() {
+            let of = stand.members.iter().find(|member| member.plant == place);
+            if let Some(species) = of.and_then(|of| regrown.species().get(of.species).copied()) {
+                body.options.seen = self.part.seen(species, body.age, self.range, false);
+            }
+            self.dressing.dress_all(&mut body.options);
+        }
     }
 
     /// The tolerance that is asked for, or that gives at most the triangles that are asked for.

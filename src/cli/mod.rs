@@ -3,6 +3,7 @@
 //! A verb reads its arguments, asks the library and tells what came of it. Absent: any work that a program without a
 //! terminal could want; that is the library's.
 
+mod afar;
 mod amounts;
 mod animate;
 mod bar;

@@ -4,6 +4,7 @@
 //! With `--plot` all plants of a plot stand in their places, at each tick.
 //! Absent: drawing, which is `phytomer_outputs::pictures`'.
 
+use super::afar::{self, Part};
 use super::constants::Constants;
 use super::out::{self, Format};
 use super::regrown::{Breeze, Fall, Regrown, finite};
@@ -13,7 +14,7 @@ use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use phytomer::run::filming::{Filming, Scene};
-use phytomer::run::picturing::{Pictured, pictured_plants_at, pictured_plot_at};
+use phytomer::run::picturing::{Pictured, PicturedStand, pictured_plants_at, pictured_plot_at};
 use phytomer_outputs::Destination;
 use phytomer_outputs::colouring::{Belonging, ColouringError, colour_columns, colouring};
 use phytomer_outputs::pictures::{
@@ -42,6 +43,8 @@ Examples:
   phytomer picture coffee --age 24 --transparent --no-caption --sun 200,30 --out cut-out.png
   phytomer picture under_a_roof --plot --ages 3,6,12 --out plot.png
   phytomer picture abop/2.8a --age 5 -D lr=1.2 --out tall.png
+  phytomer picture wp/quaking_aspen --range 30,120,600 --out ranges.png
+  phytomer picture wp/quaking_aspen --levels 0 --wind 5 --gust 3 --time 0.4 --out trunk.png
 
 A plant whose age is not given is drawn at the age that its species states (shown_at), else in its prime: in its
 last year with nine tenths of the largest leaf area that it ever bears, as soon as it bears it.")]
@@ -106,6 +109,12 @@ pub struct Picture {
     #[arg(long, value_name = "COLUMN", value_parser = PossibleValuesParser::new(colour_columns()), hide_possible_values = true)]
     colour_by: Option<String>,
     #[command(flatten)]
+    part: Part,
+    /// Draw a tree of stems with what is left of it from so many metres away, as large as it is seen nearby (Weber & Penn
+    /// 1995 §5); several ranges stand side by side.
+    #[arg(long, value_delimiter = ',', value_name = "METRES,…", allow_negative_numbers = true, value_parser = afar::metres, conflicts_with = "framed_for")]
+    range: Vec<f64>,
+    #[command(flatten)]
     fall: Fall,
     #[command(flatten)]
     constants: Constants,
@@ -137,10 +146,16 @@ impl Picture {
         self.whole_where_coloured(&ages)?;
         let framed = self.framed_for.map(|framed| framed.until());
         let needed: Vec<Tick> = ages.iter().map(|age| age.tick()).chain(framed).collect();
-        match (Regrown::find(&self.name, &self.constants, &needed)?, self.framed_for) {
-            (Ok(regrown), None) => self.write(&regrown, ages),
-            (Ok(regrown), Some(framed)) => self.write_framed(&regrown, framed),
-            (Err(verdict), _) => Ok(verdict),
+        let regrown = match Regrown::find(&self.name, &self.constants, &needed)? {
+            Ok(regrown) => self.part.of(regrown, if self.range.is_empty() { &[] } else { &["--range"] })?,
+            Err(verdict) => return Ok(verdict),
+        };
+        if self.range.is_empty() {
+            self.part.needs_range()?;
+        }
+        match self.framed_for {
+            None => self.write(&regrown, ages),
+            Some(framed) => self.write_framed(&regrown, framed),
         }
     }
 
@@ -193,10 +208,11 @@ impl Picture {
     }
 
     fn write(&self, regrown: &Regrown, ages: Vec<Moment>) -> Result<Verdict> {
-        let (file, pictured, what) = match self.plot {
+        let (file, mut pictured, what) = match self.plot {
             Some(plot) => self.plot(regrown, plot, ages)?,
             None => self.plants(regrown, ages)?,
         };
+        self.see(&mut pictured, regrown)?;
         let canvas = self.draw(&pictured, regrown)?;
         let bytes = amounts::bytes(self.save(&canvas, &pictured.note, file)? as f64);
         out::tell(&self.out, &format!("{what}{}, {bytes}", self.breeze.in_words()))?;
@@ -236,6 +252,24 @@ impl Picture {
         let most = pictured.stands.iter().map(|stand| stand.members.len() as u64).max().unwrap_or_default();
         let when = if ticks.len() == 1 { format!(" at tick {}", ticks[0].age()) } else { String::new() };
         Ok((file, pictured, format!("plot {plot}{when}, {}", amounts::of(most, "plant"))))
+    }
+
+    /// Leaves of trees of stems what is asked for, once for each range.
+    fn see(&self, pictured: &mut Pictured, regrown: &Regrown) -> Result<()> {
+        self.few(pictured.stands.len() * self.range.len().max(1), "plants, counted at each range")?;
+        let species = regrown.species();
+        let seen = |stand: &PicturedStand, metres: Option<f64>| {
+            let mut stand = stand.clone();
+            for member in &mut stand.members {
+                member.seen = self.part.seen(species[member.species], member.age, metres, false);
+            }
+            metres.iter().for_each(|metres| stand.label = format!("{}, {metres} m", stand.label));
+            stand
+        };
+        let ranges: Vec<Option<f64>> = self.range.iter().copied().map(Some).collect();
+        let ranges = if ranges.is_empty() { vec![None] } else { ranges };
+        pictured.stands = pictured.stands.iter().flat_map(|stand| ranges.iter().map(|r| seen(stand, *r))).collect();
+        Ok(())
     }
 
     fn age_option(&self) -> &'static str {

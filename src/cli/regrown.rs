@@ -8,13 +8,13 @@
 use super::constants::Constants;
 use super::named::{self, Named, Recorded};
 use super::{Misuse, Verdict, refuse};
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use clap::Args;
 use phytomer::run::forms;
 use phytomer::run::regrowth::{Air, Regrowth};
-use phytomer_config::{MODELS, Resolved, ResolvedSpecies, Scenario, Species, Treatment, Trial};
+use phytomer_config::{MODELS, Resolved, ResolvedSpecies, Scenario, Species, Treatment, Trial, compiled};
 use phytomer_outputs::meshes::OwnForms;
-use phytomer_sim::mechanics::sway::{Unmoved, yielding};
+use phytomer_sim::mechanics::sway::{GUSTS_S, Unmoved, yielding};
 use phytomer_sim::site::Wind;
 use phytomer_sim::{GrowthModel, Tick};
 use std::sync::Arc;
@@ -53,12 +53,20 @@ pub struct Fall {
 /// The wind of one frame; by default none.
 #[derive(Debug, Clone, Default, Args)]
 pub struct Breeze {
-    /// A gusty wind of so many metres a second, for this frame alone; the species needs wood that bends. 0 is calm.
+    /// A gusty wind of so many metres a second, for this frame alone; the species needs wood that bends, or is a tree of
+    /// stems with a law of sway of its own. 0 is calm.
     #[arg(long, value_name = "M/S", allow_negative_numbers = true, value_parser = wind_speed)]
     wind: Option<f64>,
     /// The direction towards which the wind blows, degrees from the X axis (east) to the Y axis (north).
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, requires = "wind", allow_negative_numbers = true, value_parser = finite)]
     wind_towards: f64,
+    /// By how much gusts are faster, m/s: of a tree of stems, which sways by a law of its own (Weber & Penn 1995 §4.7).
+    #[arg(long, value_name = "M/S", requires = "wind", allow_negative_numbers = true, value_parser = wind_speed)]
+    gust: Option<f64>,
+    /// Let a tree of stems be, after so many seconds of wind, as it was: the rates at which its stems swing are rounded,
+    /// so that a film of this length closes.
+    #[arg(long = "loop", value_name = "SECONDS", requires = "wind", allow_negative_numbers = true, value_parser = closing)]
+    closes: Option<f64>,
     /// The moment of the frame, seconds.
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0, requires = "wind", allow_negative_numbers = true, value_parser = finite)]
     time: f64,
@@ -114,6 +122,22 @@ impl Regrown {
         Ok(Self { scenario, trial, species: vec![species], models: vec![model], forms })
     }
 
+    /// The same, with trees of stems of another quality.
+    ///
+    /// # Errors
+    /// A species that does not hold at this quality.
+    pub fn with_quality(mut self, quality: f64) -> Result<Self> {
+        self.species.iter_mut().for_each(|species| {
+            species.model.set_quality(quality);
+        });
+        let species: Vec<&Species> = self.species.iter().collect();
+        self.models = compiled(&self.trial, &species).map_err(|(_, faults)| match faults.into_iter().next() {
+            Some(fault) => anyhow!(Misuse(format!("--quality {quality}: {fault}"))),
+            None => anyhow!(Misuse(format!("--quality {quality}: the species cannot be grown"))),
+        })?;
+        Ok(self)
+    }
+
     /// The species in the order of the run.
     pub fn species(&self) -> Vec<&Species> {
         self.species.iter().collect()
@@ -135,8 +159,12 @@ impl Regrown {
     /// Where wind cannot move a species.
     pub fn regrowth(&self, breeze: &Breeze) -> Result<Regrowth<'_>> {
         let air = breeze.air();
-        for (cohort, model) in self.trial.cohorts().iter().zip(&self.models).filter(|_| air.is_some()) {
+        for (cohort, model) in self.trial.cohorts().iter().zip(&self.models) {
             let species = &self.species[cohort.species];
+            breeze.check(model.sways(), species)?;
+            if model.sways() || air.is_none() {
+                continue;
+            }
             yielding(&model.habit()).map_err(|unmoved| self.unmoved(species, unmoved, breeze))?;
         }
         Ok(Regrowth::new(self.trial.clone(), self.models(), air))
@@ -220,13 +248,45 @@ impl Regrown {
 impl Breeze {
     /// The moving air that is asked for; a calm is none.
     pub fn air(&self) -> Option<Air> {
-        let speed = self.wind.filter(|speed| *speed > 0.0)?;
-        Some(Air { wind: Wind { speed, towards: self.wind_towards.to_radians() }, time: self.time })
+        let (speed, gust) = (self.wind?, self.gust.unwrap_or(0.0));
+        let wind = Wind { speed, towards: self.wind_towards.to_radians() };
+        (speed > 0.0 || gust > 0.0).then_some(Air { wind, gust, closes: self.closes, time: self.time })
+    }
+
+    /// The length after which the motion closes, seconds.
+    pub fn closes(&self) -> Option<f64> {
+        self.closes
+    }
+
+    /// The same wind, in which trees of stems close after so many seconds, if nothing else is asked for.
+    pub fn closing(&self, seconds: f64) -> Self {
+        Self { closes: self.closes.or(Some(seconds)), ..self.clone() }
+    }
+
+    /// Refuses what the law of sway of a species does not know: gusts and closing films are for models with a law of
+    /// their own, directions for mechanics.
+    fn check(&self, sways: bool, species: &Species) -> Result<(), Misuse> {
+        let name = &species.about.name;
+        let own = [("--gust", self.gust.is_some()), ("--loop", self.closes.is_some())];
+        match own.into_iter().find(|(_, used)| *used && !sways) {
+            Some((option, _)) => Err(Misuse(format!(
+                "{option}: the species `{name}` sways by its wood, in gusts every {GUSTS_S} seconds that always close; this \
+                 is for trees that sway by a law of their model, such as `wp/quaking_aspen`"
+            ))),
+            None if sways && self.wind_towards != 0.0 => Err(Misuse(format!(
+                "--wind-towards {}: the species `{name}` sways by a law of its model, which moves stems to all sides and knows \
+                 no direction",
+                self.wind_towards
+            ))),
+            None => Ok(()),
+        }
     }
 
     /// The same, to be told.
     pub fn in_words(&self) -> String {
-        self.air().map(|air| format!(" in a wind of {} m/s at {} s", air.wind.speed, air.time)).unwrap_or_default()
+        let gusts = |gust: f64| if gust > 0.0 { format!(" with gusts of {gust} m/s more") } else { String::new() };
+        let told = |air: Air| format!(" in a wind of {} m/s{} at {} s", air.wind.speed, gusts(air.gust), air.time);
+        self.air().map(told).unwrap_or_default()
     }
 }
 
@@ -234,6 +294,14 @@ fn wind_speed(text: &str) -> std::result::Result<f64, String> {
     match text.parse::<f64>() {
         Ok(speed) if (0.0..=MOST_WIND).contains(&speed) => Ok(speed),
         _ => Err(format!("a speed from 0 to {MOST_WIND} m/s is expected")),
+    }
+}
+
+/// A length of a film that closes.
+fn closing(text: &str) -> std::result::Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if (1e-3..=3600.0).contains(&seconds) => Ok(seconds),
+        _ => Err("a length from 0.001 to 3600 seconds is expected".to_owned()),
     }
 }
 

@@ -10,7 +10,9 @@ use super::drawing::options_of;
 use super::regrowth::{Regrowth, Standing};
 use phytomer_config::scenario::{DrawnObstacle, Site};
 use phytomer_config::{Species, Trial};
-use phytomer_outputs::meshes::{Chunk, Mesh, MeshOptions, OwnForms, PlotBody, PlotMember, PlotMesh, Scene, Solid};
+use phytomer_outputs::meshes::{
+    Chunk, Mesh, MeshOptions, OwnForms, PlotBody, PlotMember, PlotMesh, Scene, Seen, Solid,
+};
 use phytomer_outputs::pictures::{Placed, Stand, Subject};
 use phytomer_outputs::tables::Membership;
 use phytomer_sim::Tick;
@@ -32,7 +34,7 @@ pub struct Pictured {
 }
 
 /// A plant at an age, or a plot at a tick.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct PicturedStand {
     /// The plants, equal ones once.
     pub plants: Vec<Plant>,
@@ -45,7 +47,7 @@ pub struct PicturedStand {
 }
 
 /// A plant of a stand.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct PicturedMember {
     /// The plant's number in the run.
     pub number: u32,
@@ -63,6 +65,8 @@ pub struct PicturedMember {
     pub age: Tick,
     /// Its place, metres from that of the plot.
     pub place: [f64; 3],
+    /// What of it is drawn, where it is a tree of stems.
+    pub seen: Seen,
 }
 
 impl Pictured {
@@ -104,6 +108,7 @@ impl PicturedStand {
             age: member.age,
             place: member.place.map(|x| x as f32),
             own: forms.get(member.species).cloned().unwrap_or_default(),
+            seen: member.seen,
         };
         Stand {
             plants: self.members.iter().map(placed).collect(),
@@ -220,9 +225,9 @@ pub(super) fn stand_of_plant(
     let (number, place) = (plant.id, trial.species_of_plant(plant.id));
     let (of, sown) = (trial.plant(number), trial.sown_at(number));
     let (plot, treatment, age) = (of.plot, of.treatment as u32, at.tick());
-    let member = PicturedMember { number, plot, treatment, sown, plant: 0, species: place, age, place: [0.0; 3] };
+    let here = PicturedMember { number, plot, treatment, sown, age, species: place, ..PicturedMember::default() };
     let label = label_of_plant(trial, species, number, told_age);
-    PicturedStand { plants: vec![plant], members: vec![member], obstacles: Vec::new(), label }
+    PicturedStand { plants: vec![plant], members: vec![here], obstacles: Vec::new(), label }
 }
 
 /// A plot at a tick, with the tick that is told of it; it is still to be filled in where its plants belong.
@@ -306,8 +311,8 @@ pub(super) fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
             stand.plants.push(plant.clone().into_owned());
         }
         let (number, species, age) = (plant.id, *species, *age);
-        let place = [0.0; 3];
-        stand.members.push(PicturedMember { number, plot: 0, treatment: 0, sown: 0, plant: body, species, age, place });
+        let member = PicturedMember { number, plant: body, species, age, ..PicturedMember::default() };
+        stand.members.push(member);
     }
     stand
 }

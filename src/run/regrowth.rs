@@ -7,24 +7,14 @@
 //! is shown at that of its species or in its prime. Absent: what is made of it.
 
 use super::RunError;
+pub use super::moving::Air;
+use super::moving::moved;
 use super::plots::Plots;
 use phytomer_config::{Resolved, Species, Trial};
 use phytomer_sim::between::{Moment, Passage};
-use phytomer_sim::mechanics::Scratch;
-use phytomer_sim::mechanics::sway::sway;
 use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant, ThreadBudget};
-use phytomer_sim::site::Wind;
 use phytomer_sim::{Ending, GrowthModel, Plot, RecordError, Recorder, Tick, grow, grow_and_look};
 use std::borrow::Cow;
-
-/// Air that moves a plant for one frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Air {
-    /// Its gusty wind.
-    pub wind: Wind,
-    /// The moment, seconds.
-    pub time: f64,
-}
 
 /// The plants of a scenario, to be grown again.
 #[derive(Clone)]
@@ -368,8 +358,8 @@ impl ShownTicks<'_, '_> {
         for (shown, member) in shown.iter().zip(&plot.members) {
             let Some((plant, age)) = *shown else { continue };
             let mut plant = Cow::Borrowed(plant);
-            if let Some(Air { wind, time }) = air {
-                sway(plant.to_mut(), age, &plot.site, wind, time, &mut Scratch::default())?;
+            if let Some(air) = air {
+                moved(plant.to_mut(), age, plot, member.species, air)?;
             }
             standing.push(Standing { plant, age, species: self.trial.cohorts()[member.species].species });
         }

@@ -4,8 +4,9 @@
 
 use super::Tree;
 use super::checks::BIRTH;
+use super::seen;
 use crate::fault::{Fault, Path};
-use crate::parameters::{Card, Keys, Parameters};
+use crate::parameters::{Card, Keys, Levelled, Parameters};
 use phytomer_sim::Tick;
 use phytomer_sim::model::GrowthModel;
 use phytomer_sim::site::calendar::Dates;
@@ -27,6 +28,15 @@ impl Parameters for Tree {
 
     fn model(&self, until: Tick, _: Option<&Dates>, top: &Path) -> Result<Arc<dyn GrowthModel>, Vec<Fault>> {
         Ok(Arc::new(self.compile(until, top)?))
+    }
+
+    fn levelled(&self, age: Tick) -> Option<Levelled> {
+        Some(seen::levelled(&self.whole, age))
+    }
+
+    fn set_quality(&mut self, quality: f64) -> bool {
+        self.whole.quality = quality.into();
+        true
     }
 
     fn year(&self) -> Option<(Path, u32)> {

@@ -165,6 +165,7 @@ impl Whole {
             leaf_bend: checks.number("LeafBend", &self.leaf_bend, SHARE),
             attraction_up: checks.number("AttractionUp", &self.attraction_up, ATTRACTION),
             quality: checks.number("quality", &self.quality, FACTOR),
+            sway: self.sway,
             prune_ratio: checks.number("PruneRatio", &self.prune_ratio, SHARE),
             envelope: self.envelope(checks),
             above_base: self.children == Children::AboveBase,

@@ -6,8 +6,10 @@ use super::expectation;
 use super::grow::grow;
 use super::numbers::Numbers;
 use super::radius::{flare, radius_at};
+use super::sway;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::expectation::Expectation;
+use phytomer_sim::gusts::{Gusts, Swing};
 use phytomer_sim::model::{Grow, Growth, Overgrown};
 use phytomer_sim::plant::{Habit, NewAxis, Plant};
 use phytomer_sim::site::View;
@@ -68,6 +70,18 @@ impl Grow for TreeModel {
                 nodes.diameter[node + 1]
             };
         }
+    }
+
+    fn sways(&self) -> bool {
+        true
+    }
+
+    fn swings(&self, plant: &Plant) -> Vec<Swing> {
+        sway::swings(plant, &self.tree)
+    }
+
+    fn sway(&self, plant: &mut Plant, gusts: &Gusts) {
+        sway::sway(plant, &self.tree, gusts);
     }
 
     fn expectation(&self, until: Tick) -> Option<Expectation> {

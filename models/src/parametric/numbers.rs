@@ -3,6 +3,7 @@
 //!
 //! Absent: sources and defaults (`params`), and the checks (`checks`).
 
+use super::params::Sway;
 use phytomer_looks::FormName;
 use phytomer_sim::clock::{NEVER, Tick};
 
@@ -49,6 +50,8 @@ pub struct Numbers {
     pub attraction_up: f64,
     /// The quality of §4.5.
     pub quality: f64,
+    /// The rate of sway (§4.7).
+    pub sway: Sway,
     /// PruneRatio.
     pub prune_ratio: f64,
     /// The envelope of pruning, and of Shape 8.

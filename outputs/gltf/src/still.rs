@@ -3,19 +3,25 @@
 //! Metres, Y up: our (x, y, z) is (x, z, −y) there. Each class of components (wood, leaves, flowers, fruits, obstacles)
 //! is a primitive with its own material. A vertex has position, normal, texture coordinates, colour in linear light,
 //! `_BIRTH_AGE`, `_DEATH_AGE` and `_COMPONENT_ID`, as floats, which hold whole numbers below 2²⁴; what lives has the
-//! largest float as `_DEATH_AGE`, because glTF knows no infinity. Texture coordinates run from the top, as glTF counts
+//! largest float as `_DEATH_AGE`, because glTF knows no infinity. Columns of a mesh follow, as `_UNTIL_M`. Texture coordinates run from the top, as glTF counts
 //! them. The mesh is drawn once to be counted and once more a class to be written, so that none of it is kept but a few
 //! bytes for each run of vertices of one class. Positions of a skinned mesh stand as they do in calm air.
 
 use super::document::{Accessor, Document, INDICES, MOST_BYTES, Number, VERTICES, pad, too_large};
 use super::paint::{CLASSES, class_of, linear, material};
-use phytomer_meshes::{Drawing, Vertex};
+use phytomer_meshes::{Columns, Drawing, Vertex};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 
 /// The bytes of a vertex, and what a skin adds.
 const STRIDE: u64 = 52;
 const OF_SKIN: u64 = 8;
+
+/// The bytes of a vertex of a mesh, with its columns.
+fn stride(mesh: &dyn Drawing, skinned: bool) -> u64 {
+    let columns = mesh.columns().map_or(0, |columns| columns.names().len() as u64);
+    STRIDE + if skinned { OF_SKIN } else { 0 } + 4 * columns
+}
 
 /// The joints that move a vertex, and their shares of 255, which are the whole together.
 pub type Bound = ([u8; 4], [u8; 4]);
@@ -68,7 +74,7 @@ impl<'a> Still<'a> {
     /// # Errors
     /// Where the file would be larger than its format allows: told before anything is drawn.
     pub fn of(mesh: &'a dyn Drawing, skin: Option<&'a Binding<'a>>) -> io::Result<Self> {
-        let (counts, stride) = (mesh.counts(), STRIDE + skin.map_or(0, |_| OF_SKIN));
+        let (counts, stride) = (mesh.counts(), stride(mesh, skin.is_some()));
         let bytes = counts.vertices * stride + counts.faces * 12;
         if bytes > MOST_BYTES {
             return Err(too_large(bytes));
@@ -88,7 +94,13 @@ impl<'a> Still<'a> {
     }
 
     fn stride(&self) -> u64 {
-        STRIDE + self.skin.map_or(0, |_| OF_SKIN)
+        stride(self.mesh, self.skin.is_some())
+    }
+
+    /// The names of the columns of the mesh, as glTF has names of its users.
+    fn columns(&self) -> Vec<String> {
+        let names = self.mesh.columns().map(Columns::names).unwrap_or_default();
+        names.iter().map(|name| format!("_{}", name.to_uppercase())).collect()
     }
 
     /// Writes the file; `file` has what else is in it, and `bytes` are those of its views. A mesh that is bound to
@@ -136,7 +148,7 @@ impl<'a> Still<'a> {
         let view = file.view(vertices * stride, Some(stride), Some(VERTICES));
         let of = |number, shape, offset| Accessor::of(view, number, shape, vertices).at(offset);
         let bounds = self.plan.bounds[class].unwrap_or_default();
-        let mut attributes = vec![
+        let mut attributes: Vec<(&str, Accessor)> = vec![
             ("POSITION", of(Number::F32, "VEC3", 0).within(bounds)),
             ("NORMAL", of(Number::F32, "VEC3", 12)),
             ("TEXCOORD_0", of(Number::F32, "VEC2", 24)),
@@ -149,6 +161,10 @@ impl<'a> Still<'a> {
             attributes.push(("JOINTS_0", of(Number::U8, "VEC4", 52)));
             attributes.push(("WEIGHTS_0", of(Number::U8, "VEC4", 56).normalized()));
         }
+        let columns = self.columns();
+        let first = stride - 4 * columns.len() as u64;
+        let more = (0..).zip(&columns).map(|(k, name)| (name.as_str(), of(Number::F32, "SCALAR", first + 4 * k)));
+        attributes.extend(more);
         let entered = attributes.into_iter().map(|(name, accessor)| (name.to_owned(), file.accessor(accessor).into()));
         let attributes: Map<String, Value> = entered.collect();
         let of_faces = file.view(faces * 12, None, Some(INDICES));
@@ -157,7 +173,7 @@ impl<'a> Still<'a> {
     }
 
     fn write_vertices(&self, class: usize, out: &mut (dyn Write + Send)) -> io::Result<()> {
-        let mut bytes = Vec::new();
+        let (mut bytes, mut row, columns) = (Vec::new(), Vec::new(), self.mesh.columns());
         self.mesh.vertices(&mut |vertices| {
             bytes.clear();
             for vertex in vertices.iter().filter(|vertex| class_of(&vertex.tag()) == class) {
@@ -166,6 +182,9 @@ impl<'a> Still<'a> {
                     bytes.extend_from_slice(&joints);
                     bytes.extend_from_slice(&shares);
                 }
+                row.clear();
+                columns.iter().for_each(|columns| columns.put(vertex, &mut row));
+                row.iter().for_each(|number| bytes.extend_from_slice(&number.min(f32::MAX).to_le_bytes()));
             }
             out.write_all(&bytes)
         })?;

@@ -42,9 +42,40 @@ pub fn fitting(most: u64, mut count: impl FnMut(&Tolerance) -> u64) -> Result<To
     Ok(tolerance(high))
 }
 
+/// The nearest range, metres, at which `count` tells at most `most` triangles: 0, or just beyond one of the `ends` at
+/// which something ends to be drawn, of which there are few enough to be searched by halving.
+///
+/// # Errors
+/// Where there is none, with the least number of triangles.
+pub fn nearest(most: u64, ends: &[f32], mut count: impl FnMut(f64) -> u64) -> Result<f64, TooFew> {
+    let beyond = |place: usize| place.checked_sub(1).map_or(0.0, |place| f64::from(ends[place].next_up()));
+    let least = count(beyond(ends.len()));
+    if least > most {
+        return Err(TooFew { least });
+    }
+    let (mut low, mut high) = (0, ends.len());
+    while low < high {
+        let place = low.midpoint(high);
+        if count(beyond(place)) <= most { high = place } else { low = place + 1 }
+    }
+    Ok(beyond(high))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A mesh of ten triangles of which one goes at each metre from 1 to 8.
+    #[test]
+    fn the_nearest_range_that_fits_is_found() {
+        let ends: Vec<f32> = (1..=8).map(|metre| metre as f32).collect();
+        let count = |metres: f64| 10 - ends.iter().filter(|end| f64::from(**end) < metres).count() as u64;
+        assert_eq!(nearest(10, &ends, count), Ok(0.0));
+        assert_eq!(nearest(7, &ends, count), Ok(f64::from(3.0_f32.next_up())));
+        assert_eq!(nearest(2, &ends, count), Ok(f64::from(8.0_f32.next_up())));
+        assert_eq!(nearest(1, &ends, count), Err(TooFew { least: 2 }));
+        assert_eq!(nearest(1, &[], |_| 5), Err(TooFew { least: 5 }));
+    }
 
     /// The least number of triangles of an imagined mesh that has 1/e of them and ten more.
     fn imagined(tolerance: &Tolerance) -> u64 {

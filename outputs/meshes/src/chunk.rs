@@ -106,6 +106,16 @@ impl Vertex {
         self.texture_and_tag.texture.map(f32::from_le_bytes)
     }
 
+    /// Gives it another unit normal.
+    pub fn set_normal(&mut self, normal: [f32; 3]) {
+        self.normal = normal.map(f32::to_le_bytes);
+    }
+
+    /// Gives it other texture coordinates.
+    pub fn set_texture(&mut self, texture: [f32; 2]) {
+        self.texture_and_tag.texture = texture.map(f32::to_le_bytes);
+    }
+
     /// The properties that the vertex shares with its component.
     pub fn tag(&self) -> Tag {
         let Tagged { colour, ages, component, kind, .. } = self.texture_and_tag;

@@ -5,7 +5,7 @@
 //! the chunks of a scene on to the disk without a copy.
 
 use super::chunk::{Chunk, Face, Vertex};
-use super::{About, Counts, Scene, Tolerance};
+use super::{About, Columns, Counts, Scene, Tolerance};
 use std::io;
 
 /// A function that takes some entries of a mesh, in their order.
@@ -24,6 +24,11 @@ pub trait Drawing {
 
     /// The place of its origin, metres. Added to the vertices, it gives their places in the run.
     fn place(&self) -> [f64; 3];
+
+    /// What its vertices tell beside the properties of every mesh.
+    fn columns(&self) -> Option<&Columns<'_>> {
+        None
+    }
 
     /// Draws all vertices.
     ///
@@ -62,6 +67,10 @@ impl Drawing for PlantDrawing<'_> {
 
     fn place(&self) -> [f64; 3] {
         self.about.place
+    }
+
+    fn columns(&self) -> Option<&Columns<'_>> {
+        self.scene.columns()
     }
 
     fn vertices(&self, take: &mut Take<'_, Vertex>) -> io::Result<()> {

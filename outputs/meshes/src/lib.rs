@@ -13,7 +13,10 @@ mod budget;
 mod chunk;
 mod collection;
 mod colour;
+mod columns;
+mod detail;
 mod drawing;
+mod dress;
 mod file;
 mod forms;
 #[cfg(test)]
@@ -23,6 +26,7 @@ mod outline;
 mod palette;
 mod plot;
 mod ply;
+pub mod range;
 mod reduced;
 mod scene;
 mod section;
@@ -32,15 +36,19 @@ mod stl;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_range;
+#[cfg(test)]
 mod tests_stated;
 mod tube;
 
 pub use blocks::TakeAlone;
 pub use boxes::Boxing;
-pub use budget::{TooFew, fitting};
+pub use budget::{TooFew, fitting, nearest};
 pub use chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
 pub use colour::linear;
+pub use columns::{Columns, UNTIL};
+pub use detail::{Afar, Primitive, Seen};
 pub use drawing::{Drawing, PlantDrawing, Take};
 pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
@@ -60,6 +68,7 @@ pub use tube::Frustum;
 
 use phytomer_looks::place_of_own;
 use phytomer_sim::clock::Tick;
+use phytomer_sim::gusts::Swing;
 use phytomer_sim::plant::{Form, Kind, Plant};
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -125,6 +134,14 @@ pub struct MeshOptions {
     pub kinds: [bool; Kind::ALL.len()],
     /// The mesh files that the species names as forms; empty where it names none.
     pub own: Arc<OwnForms>,
+    /// What of a tree of stems is drawn.
+    pub seen: Seen,
+    /// How long a bark texture is on every stem, metres; `None`: as long as an internode, once around it.
+    pub bark_m: Option<f32>,
+    /// Whether leaf normals point out of the crown.
+    pub crown_normals: bool,
+    /// How each axis sways, for vertices that tell it; `None`: they do not.
+    pub swings: Option<Arc<Vec<Swing>>>,
 }
 
 impl MeshOptions {
@@ -138,7 +155,17 @@ impl MeshOptions {
 impl Default for MeshOptions {
     /// Eight sides, every kind.
     fn default() -> Self {
-        Self { sides: 8, tolerance: None, kinds: [true; Kind::ALL.len()], own: Arc::default() }
+        let kinds = [true; Kind::ALL.len()];
+        Self {
+            sides: 8,
+            tolerance: None,
+            kinds,
+            own: Arc::default(),
+            seen: Seen::default(),
+            bark_m: None,
+            crown_normals: false,
+            swings: None,
+        }
     }
 }
 

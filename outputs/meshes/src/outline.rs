@@ -57,6 +57,38 @@ impl<'s> OrganForm<'s> {
     }
 }
 
+/// An organ as it is drawn at a range.
+#[derive(Debug, Clone, Copy)]
+pub enum Shown<'s> {
+    /// In its form.
+    Whole(OrganForm<'s>),
+    /// As a point: one triangle.
+    Point,
+}
+
+/// The triangle of a point.
+const POINT: [[u32; 3]; 1] = [[0, 1, 2]];
+
+impl<'s> Shown<'s> {
+    /// The number of its vertices.
+    #[inline]
+    pub fn vertices(self) -> usize {
+        match self {
+            Self::Whole(form) => form.vertices(),
+            Self::Point => POINT[0].len(),
+        }
+    }
+
+    /// Its triangles.
+    #[inline]
+    pub fn faces(self) -> &'s [[u32; 3]] {
+        match self {
+            Self::Whole(form) => form.faces(),
+            Self::Point => &POINT,
+        }
+    }
+}
+
 /// The triangles of every outline of a plant.
 #[derive(Debug, Default)]
 pub struct Outlines {
@@ -121,6 +153,18 @@ pub fn write_surface(surface: &Surface, scale: [f32; 3], frame: &Frame, tag: &Ta
         let offset = turned(&axes, [0, 1, 2].map(|k| scale[k] * at[k]));
         let normal = turned(&axes, point.normal_scaled(scale));
         *vertex = Vertex::new([0, 1, 2].map(|k| frame.base[k] + offset[k]), normal, texture, tag);
+    }
+}
+
+/// Writes the triangle that stands for an organ as a point: of its area and its length, with its base to the stem; `out`
+/// has three places.
+pub fn write_point([length, area]: [f32; 2], frame: &Frame, tag: &Tag, out: &mut [Vertex]) {
+    let axes = axes(frame);
+    let half = if length > 0.0 { area / length } else { 0.0 };
+    let corners = [([0.0, -half, 0.0], [0.0, 0.0]), ([length, 0.0, 0.0], [0.5, 1.0]), ([0.0, half, 0.0], [1.0, 0.0])];
+    for ((corner, texture), vertex) in corners.into_iter().zip(out) {
+        let offset = turned(&axes, corner);
+        *vertex = Vertex::new([0, 1, 2].map(|k| frame.base[k] + offset[k]), frame.up, texture, tag);
     }
 }
 

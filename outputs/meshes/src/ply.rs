@@ -6,7 +6,7 @@
 //! file has no face properties and no edges.
 
 use super::chunk::{Chunk, Face, Vertex};
-use super::{About, Counts, MeshWriter, Scene, Tolerance};
+use super::{About, Columns, Counts, MeshWriter, Scene, Tolerance};
 use ply_rs_bw::ply::{Addable, DefaultElement, ElementDef, Encoding, Header, PropertyDef, PropertyType, ScalarType};
 use ply_rs_bw::writer::Writer;
 use std::io::{self, Write};
@@ -30,13 +30,55 @@ impl MeshWriter for Ply {
 
     fn write(&self, scene: &Scene, about: &About, out: &mut (dyn Write + Send)) -> io::Result<()> {
         let counts = scene.counts();
-        out.write_all(&header_of(scene.tolerance(), vec![about.in_words(), place_comment(about.place)], counts)?)?;
+        let comments = vec![about.in_words(), place_comment(about.place)];
+        if let Some(columns) = scene.columns() {
+            return write_with(columns, scene, comments, out);
+        }
+        out.write_all(&header_of(scene.tolerance(), comments, counts)?)?;
         if counts.vertices * Vertex::BYTES as u64 + counts.faces * Face::BYTES as u64 > OVERLAP_FROM {
             write_overlapped(scene, out)
         } else {
             write_in_turn(scene, out)
         }
     }
+}
+
+/// Writes a file whose vertices have columns of their own, after the properties of every mesh.
+fn write_with(
+    columns: &Columns,
+    scene: &Scene,
+    mut comments: Vec<String>,
+    out: &mut (dyn Write + Send),
+) -> io::Result<()> {
+    comments.extend(columns.in_words());
+    let mut header = header(scene.tolerance(), comments, scene.counts());
+    if let Some(element) = header.elements.get_mut("vertex") {
+        let float = PropertyType::Scalar(ScalarType::Float);
+        columns.names().iter().for_each(|name| {
+            element.properties.add(PropertyDef::new((*name).into(), float.clone()));
+        });
+    }
+    let mut bytes = Vec::new();
+    Writer::<DefaultElement>::new().write_header(&mut bytes, &header)?;
+    out.write_all(&bytes)?;
+    let mut row = Vec::new();
+    let mut chunk = Chunk::new();
+    scene.vertices(&mut chunk, &mut |chunk| {
+        bytes.clear();
+        for vertex in bytemuck::cast_slice::<u8, Vertex>(chunk.filled()) {
+            row.clear();
+            columns.put(vertex, &mut row);
+            bytes.extend_from_slice(bytemuck::bytes_of(vertex));
+            row.iter().for_each(|number| bytes.extend_from_slice(&number.to_le_bytes()));
+        }
+        chunk.clear();
+        out.write_all(&bytes)
+    })?;
+    scene.faces(&mut chunk, &mut |chunk| {
+        out.write_all(chunk.filled())?;
+        chunk.clear();
+        Ok(())
+    })
 }
 
 fn write_in_turn(scene: &Scene, out: &mut (dyn Write + Send)) -> io::Result<()> {

@@ -7,8 +7,11 @@
 //! the axis line to the surface of the stem, by half the tip's diameter towards the organ.
 
 use super::chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
+use super::columns::Columns;
+use super::detail::{Detail, Primitive};
+use super::dress::{Crown, is_leaf};
 use super::forms::{FormMesh, Placement};
-use super::outline::{self, OrganForm, Outlines, OwnForm};
+use super::outline::{self, OrganForm, Outlines, OwnForm, Shown};
 use super::reduced::Reduced;
 use super::stem::Stems;
 use super::{About, MeshOptions, Tolerance, colour};
@@ -35,6 +38,10 @@ pub struct Scene<'a> {
     pub(super) reduced: Option<Reduced>,
     /// The triangles of organs that state an outline.
     outlines: Outlines,
+    /// The crown out of which leaf normals point, where that is asked for.
+    crown: Option<Crown>,
+    /// What vertices tell beside the properties of every mesh.
+    columns: Option<Columns<'a>>,
 }
 
 /// An organ as it is drawn: where, how large and in what colours.
@@ -64,7 +71,21 @@ impl<'a> Scene<'a> {
         let stems = Stems::of(plant, age, options);
         let reduced = options.tolerance.as_ref().map(|tolerance| Reduced::of(&stems, tolerance));
         let paints = Paints::of(&plant.habit);
-        Self { plant, age, options: options.clone(), paints, stems, reduced, outlines: Outlines::of(plant) }
+        let columns = Columns::of(plant, stems.detail.as_ref(), options.swings.as_ref());
+        let (options, outlines) = (options.clone(), Outlines::of(plant));
+        let mut scene = Self { plant, age, options, paints, stems, reduced, outlines, crown: None, columns };
+        scene.crown = scene.options.crown_normals.then(|| Crown::of(&scene)).flatten();
+        scene
+    }
+
+    /// The ranges at which something ends to be drawn, metres, in their order; none where no range is asked for.
+    pub fn ends(&self) -> Vec<f32> {
+        self.stems.detail.as_ref().map(Detail::ends).unwrap_or_default()
+    }
+
+    /// What vertices tell beside the properties of every mesh.
+    pub fn columns(&self) -> Option<&Columns<'a>> {
+        self.columns.as_ref()
     }
 
     /// The same scene with its wood drawn within a tolerance.
@@ -204,7 +225,7 @@ impl<'a> Scene<'a> {
     /// An organ as it is drawn.
     pub fn organ(&self, organ: OrganId) -> DrawnOrgan {
         let colours = self.organ_colours(organ);
-        match self.form(organ) {
+        match self.own_form(organ) {
             OrganForm::Shape(shape) => {
                 let Placement { base, heading, up, size, fullness } = self.placement(organ, shape);
                 let size = [size[0], size[1], 0.0];
@@ -236,15 +257,25 @@ impl<'a> Scene<'a> {
     }
 
     pub(super) fn organs_of(&self, range: Range<usize>) -> impl Iterator<Item = OrganId> {
-        let (plant, age, kinds) = (self.plant, self.age, self.options.kinds);
-        let drawn = move |&organ: &usize| {
-            plant.organ_stands(OrganId(organ as u32), age) && kinds[plant.organs.kind[organ] as usize]
+        let (plant, age, kinds, detail) = (self.plant, self.age, self.options.kinds, self.stems.detail.as_ref());
+        let drawn = move |&organ: &OrganId| {
+            plant.organ_stands(organ, age)
+                && kinds[plant.organs.kind[organ.index()] as usize]
+                && detail.is_none_or(|detail| detail.leaf(plant, organ).is_some())
         };
-        range.filter(drawn).map(|organ| OrganId(organ as u32))
+        range.map(|organ| OrganId(organ as u32)).filter(drawn)
     }
 
+    /// The form of an organ as it is drawn.
     #[inline]
-    pub(super) fn form(&self, organ: OrganId) -> OrganForm<'_> {
+    pub(super) fn form(&self, organ: OrganId) -> Shown<'_> {
+        let is_point = |detail: &Detail| detail.leaf(self.plant, organ) == Some(Primitive::Simple);
+        if self.stems.detail.as_ref().is_some_and(is_point) { Shown::Point } else { Shown::Whole(self.own_form(organ)) }
+    }
+
+    /// The form of an organ, whatever its range.
+    #[inline]
+    fn own_form(&self, organ: OrganId) -> OrganForm<'_> {
         if let Some((place, scale)) = self.plant.stated_organs.surface(organ)
             && let Some(surface) = self.paints.surface(place)
         {
@@ -257,18 +288,22 @@ impl<'a> Scene<'a> {
     }
 
     #[inline]
-    pub(super) fn write_organ(&self, form: OrganForm<'_>, organ: OrganId, out: &mut [Vertex]) {
+    pub(super) fn write_organ(&self, form: Shown<'_>, organ: OrganId, out: &mut [Vertex]) {
         let tags = self.organ_tags(organ);
         match form {
-            OrganForm::Shape(shape) => shape.write(&self.placement(organ, shape), &tags, out),
-            OrganForm::Outline(corners, faces) => {
+            Shown::Whole(OrganForm::Shape(shape)) => shape.write(&self.placement(organ, shape), &tags, out),
+            Shown::Whole(OrganForm::Outline(corners, faces)) => {
                 let (frame, share) = (self.organ_base(organ), self.plant.expanded(organ, self.age));
                 outline::write((corners, faces), &frame, share, &tags[0], out);
             }
-            OrganForm::Surface(surface, scale) => {
+            Shown::Whole(OrganForm::Surface(surface, scale)) => {
                 let (frame, share) = (self.organ_base(organ), self.plant.expanded(organ, self.age));
                 outline::write_surface(surface, scale.map(|x| share * x), &frame, &tags[0], out);
             }
+            Shown::Point => outline::write_point(self.size_of_point(organ), &self.organ_base(organ), &tags[0], out),
+        }
+        if let Some(crown) = self.crown.as_ref().filter(|_| is_leaf(self.plant, organ)) {
+            crown.dress(out);
         }
     }
 
@@ -282,6 +317,15 @@ impl<'a> Scene<'a> {
         let fullness = shape.fullness(full, organs.area[organ.index()]);
         let size = full.map(|size| size * share);
         Placement { base: frame.base, heading: frame.heading, up: frame.up, size, fullness }
+    }
+
+    /// The length and the area of the triangle that stands for an organ; one without an area fills half of its box.
+    fn size_of_point(&self, organ: OrganId) -> [f32; 2] {
+        let (organs, place) = (&self.plant.organs, organ.index());
+        let share = self.plant.expanded(organ, self.age);
+        let [length, width] = [organs.length[place], organs.width[place]].map(|size| size * share);
+        let area: f32 = self.plant.organ_area(organ, self.age);
+        [length, if area > 0.0 { area } else { 0.5 * length * width }]
     }
 
     /// The frame of an organ at its drawn base: where the organ states it, else on the surface of its stem.

@@ -92,6 +92,11 @@ impl Prism {
         2 * ring + if self.caps { 2 * (ring - 1) } else { 0 }
     }
 
+    /// How many of them, the first, stand around it; the others are its ends.
+    pub fn around(&self) -> usize {
+        2 * self.corners.len()
+    }
+
     /// The triangles of an internode, by the indices of its own vertices.
     pub fn faces(&self) -> &[[u32; 3]] {
         &self.faces

@@ -7,6 +7,8 @@
 use super::MeshOptions;
 use super::chunk::{Tag, Vertex};
 use super::colour;
+use super::detail::{Detail, Primitive};
+use super::dress::Bark;
 use super::forms::{FormMesh, Placement};
 use super::section::{Prism, Ring};
 use super::tube::{Frustum, Strip, Tube};
@@ -26,7 +28,16 @@ pub struct Stems<'a> {
     forms: Vec<Drawn>,
     /// The forms of internodes with a cross section of their own, in the places of the sections.
     sections: Vec<Drawn>,
+    /// What of the plant is drawn; `None`: all.
+    pub(super) detail: Option<Detail>,
+    /// The form of a segment that is drawn as a line.
+    line: Drawn,
+    /// Bark of the same density on all stems, where it is asked for.
+    pub(super) bark: Option<Bark>,
 }
+
+/// The sides of the tube that stands for a line.
+const OF_A_LINE: u8 = 3;
 
 /// The form of an internode.
 #[derive(Debug)]
@@ -64,6 +75,15 @@ impl Drawn {
         }
     }
 
+    /// How many of its vertices, from the first on, stand around a stem.
+    fn around(&self) -> usize {
+        match self {
+            Self::Tube(tube, _) => tube.around(),
+            Self::Prism(prism) => prism.around(),
+            Self::Strip | Self::Form(_) => 0,
+        }
+    }
+
     /// Its triangles, by the indices of its own vertices.
     #[inline]
     pub fn faces(&self) -> &[[u32; 3]] {
@@ -84,14 +104,14 @@ impl<'a> Stems<'a> {
         let mut forms: Vec<Drawn> = looks.map(|look| Drawn::of(look, paints, options)).collect();
         forms.push(Drawn::Tube(Tube::new(options.sides), false));
         let sections = paints.sections().iter().map(|section| Drawn::Prism(Prism::new(section))).collect();
-        Self { plant, age, kinds: options.kinds, paints, forms, sections }
+        let (detail, line) = (Detail::of(plant, age, options), Drawn::Tube(Tube::new(OF_A_LINE), true));
+        let bark = Self::bark_of(plant, age, options.bark_m);
+        Self { plant, age, kinds: options.kinds, paints, forms, sections, detail, line, bark }
     }
 
     /// The internodes of a range of nodes that are drawn.
     pub fn drawn_of(&self, range: Range<usize>) -> impl Iterator<Item = NodeId> {
-        let (plant, age, kinds) = (self.plant, self.age, self.kinds);
-        let drawn = move |&node: &NodeId| plant.stands(node, age) && kinds[plant.kind_of(node) as usize];
-        range.map(|node| NodeId(node as u32)).filter(drawn)
+        range.map(|node| NodeId(node as u32)).filter(|node| self.plant.stands(*node, self.age) && self.shows(*node))
     }
 
     /// The plant.
@@ -99,15 +119,19 @@ impl<'a> Stems<'a> {
         self.plant
     }
 
-    /// Whether the kind of an internode is drawn.
+    /// Whether an internode is drawn where it stands.
     #[inline]
     pub fn shows(&self, node: NodeId) -> bool {
-        self.kinds[self.plant.kind_of(node) as usize]
+        let detailed = |detail: &Detail| detail.stem(self.plant, node).is_some();
+        self.kinds[self.plant.kind_of(node) as usize] && self.detail.as_ref().is_none_or(detailed)
     }
 
     /// The form of an internode.
     #[inline]
     pub(super) fn form(&self, node: NodeId) -> &Drawn {
+        if self.detail.as_ref().is_some_and(|detail| detail.stem(self.plant, node) == Some(Primitive::Simple)) {
+            return &self.line;
+        }
         let place = self.place_of_form(node);
         self.forms.get(place).unwrap_or_else(|| &self.sections[place - self.forms.len()])
     }
@@ -136,6 +160,9 @@ impl<'a> Stems<'a> {
             Drawn::Strip => Strip::write(&self.frustum(node), &self.tag(node), out),
             Drawn::Prism(prism) => prism.write(self.rings(node), &self.tag(node), out),
             Drawn::Form(shape) => shape.write(&self.stands(node), &[self.tag(node); 2], out),
+        }
+        if let Some(bark) = &self.bark {
+            bark.dress(self.plant, node, &mut out[..stem.around()]);
         }
     }
 

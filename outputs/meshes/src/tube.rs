@@ -60,6 +60,11 @@ impl Tube {
         self.reach
     }
 
+    /// How many of them, the first, stand around it; the others are its ends.
+    pub fn around(&self) -> usize {
+        2 * self.corners.len()
+    }
+
     /// The triangles of a tube, by the indices of its own vertices, counterclockwise from outside.
     pub fn faces(&self) -> &[[u32; 3]] {
         &self.faces

@@ -168,7 +168,7 @@ fn bodies<'a>(stand: &'a Stand, sides: Option<u8>, colours: Vec<Option<Vec<[u8; 
     let mut bodies = Vec::new();
     for (placed, colours) in stand.plants.iter().zip(colours) {
         let Some(places) = places.remove(&key(placed)) else { continue };
-        let mut options = MeshOptions { own: Arc::clone(&placed.own), ..MeshOptions::default() };
+        let mut options = MeshOptions { own: Arc::clone(&placed.own), seen: placed.seen, ..MeshOptions::default() };
         options.sides = sides.unwrap_or(options.sides);
         bodies.push(Body::new((placed.plant, placed.age), &options, colours, places));
     }

@@ -44,7 +44,7 @@ pub use survey::Survey;
 use cast::Cast;
 use gaze::Gaze;
 use glam::Vec3;
-use phytomer_meshes::{Mesh, OwnForms};
+use phytomer_meshes::{Mesh, OwnForms, Seen};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::f32::consts::{FRAC_PI_2, PI};
@@ -174,6 +174,8 @@ pub struct Placed<'a> {
     pub place: [f32; 3],
     /// The mesh files that its species names as forms.
     pub own: Arc<OwnForms>,
+    /// What of it is drawn, where it is a tree of stems.
+    pub seen: Seen,
 }
 
 /// Draws plants side by side, in one scale on one ground, with `title` in the corner. All plants are in memory, but
@@ -203,7 +205,7 @@ pub fn draw_framed(stand: &Stand, title: &str, picture: &Picture, framing: &Fram
 fn alone<'a>(subjects: &[Subject<'a>], picture: &Picture) -> Vec<Stand<'a>> {
     let placed = |subject: &Subject<'a>| {
         let own = Arc::clone(&picture.own);
-        Placed { plant: subject.plant, age: subject.age, place: [0.0; 3], own }
+        Placed { plant: subject.plant, age: subject.age, place: [0.0; 3], own, seen: Seen::default() }
     };
     let alone = |subject: &Subject<'a>| Stand {
         plants: vec![placed(subject)],

@@ -11,7 +11,7 @@ use super::raster::{UPRIGHT, Window, cover};
 use super::shadow::Shadow;
 use super::sky::{Crown, falling_on};
 use super::*;
-use phytomer_meshes::Solid;
+use phytomer_meshes::{Seen, Solid};
 use phytomer_sim::math::{sincosf, tan};
 use phytomer_sim::plant::{Habit, NewAxis, NewNode, Seed, Trend};
 use phytomer_sim::pose::pose;
@@ -293,7 +293,7 @@ fn an_obstacle_is_drawn_with_its_stand() {
     let wall = Shape::Cuboid(Cuboid::on([0.0, -1.0, 0.0], [2.0, 0.2, 1.0]));
     let mesh = Arc::new(Solid::of(&wall).expect("it has an end").obstacle(Some([200, 30, 30])));
     let drawn = |obstacles: Vec<Arc<Mesh>>, view: View| {
-        let placed = Placed { plant: &plant, age: 1, place: [0.0; 3], own: Arc::default() };
+        let placed = Placed { plant: &plant, age: 1, place: [0.0; 3], own: Arc::default(), seen: Seen::default() };
         let stand = Stand { plants: vec![placed], obstacles, label: String::new() };
         draw_stands(&[stand], "", &picture([200, 160], view))
     };

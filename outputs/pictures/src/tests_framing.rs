@@ -13,7 +13,7 @@ use phytomer_sim::plant::{Habit, NewAxis, NewNode, Seed, Trend};
 use std::f32::consts::TAU;
 
 fn stand(plant: &Plant) -> Stand<'_> {
-    let placed = Placed { plant, age: 1, place: [0.0; 3], own: Arc::default() };
+    let placed = Placed { plant, age: 1, place: [0.0; 3], own: Arc::default(), seen: Seen::default() };
     Stand { plants: vec![placed], obstacles: Vec::new(), label: "age 1".to_owned() }
 }
 

@@ -44,6 +44,8 @@ pub enum Data<'a> {
     Ints(&'a [i32]),
     /// Whole numbers of 64 bits.
     Longs(&'a [i64]),
+    /// Numbers.
+    Floats(&'a [f32]),
     /// Pairs.
     Pairs(&'a [[f32; 2]]),
     /// Triples.

@@ -32,7 +32,7 @@ use models::Models;
 use package::Package;
 use parts::Parts;
 use phytomer_life::{Life, between};
-use phytomer_meshes::{Drawing, MeshOptions};
+use phytomer_meshes::{Columns, Drawing, MeshOptions};
 use skeleton::Skeleton;
 use std::io;
 use text::Text;
@@ -81,6 +81,15 @@ pub struct Plants<'a> {
     pub options: &'a [MeshOptions],
     /// What stands where.
     pub members: &'a [Member],
+    /// What is told of each component of a single plant beside the properties of every file.
+    pub columns: Option<&'a Columns<'a>>,
+}
+
+impl<'a> Plants<'a> {
+    /// Plants of which nothing more is told.
+    pub fn of(lives: &'a [Life], options: &'a [MeshOptions], members: &'a [Member]) -> Self {
+        Self { lives, options, members, columns: None }
+    }
 }
 
 /// A plant of a file.
@@ -109,7 +118,7 @@ fn write_still(asked: &Asked, wood: &dyn Drawing, plants: &Plants, out: &mut dyn
     let skeletons = skeletons(plants, &course);
     in_layer(asked, None, out, &mut |layer| {
         if wood.counts().faces > 0 {
-            still::write_wood(layer, ROOT, "wood", wood)?;
+            still::write_mesh(layer, (ROOT, "wood", "wood"), wood)?;
         }
         write_organs(layer, asked.organs, (plants, &skeletons), &course, false)
     })
@@ -183,7 +192,8 @@ fn write_organs(
     internodes: bool,
 ) -> io::Result<()> {
     let models = met(plants, course);
-    let parts = |internodes| Parts { skeletons, members: plants.members, models: &models, internodes };
+    let (members, columns) = (plants.members, plants.columns);
+    let parts = |internodes| Parts { skeletons, members, models: &models, internodes, columns };
     let stems = parts(true);
     if internodes && !stems.is_empty() {
         changing::write(layer, (ROOT, "stems", "wood"), &stems, course)?;

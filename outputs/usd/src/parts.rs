@@ -13,6 +13,7 @@ use super::skeleton::Skeleton;
 use glam::{Mat3, Quat, Vec3};
 use half::f16;
 use phytomer_life::{Part, Pose, What, between};
+use phytomer_meshes::{Columns, UNTIL};
 use std::io;
 
 /// The parts of some lives.
@@ -25,6 +26,8 @@ pub struct Parts<'a> {
     pub models: &'a Models<'a>,
     /// Whether these are internodes; else organs.
     pub internodes: bool,
+    /// What is told of each component of a single plant beside the properties of every file.
+    pub columns: Option<&'a Columns<'a>>,
 }
 
 /// A part at a state.
@@ -103,6 +106,17 @@ impl<'a> Parts<'a> {
             let ids = self.of_span(span).map(|(member, _, part)| member.id_of(part.component));
             take(Data::Longs(&ids.collect::<Vec<_>>()))
         })?;
+        if let Some(columns) = self.columns.filter(|columns| columns.names().contains(&UNTIL)) {
+            put(
+                layer,
+                Attribute::over(&format!("primvars:{UNTIL}"), "float[]", "vertex"),
+                spans,
+                &mut |span, take| {
+                    let until = self.of_span(span).map(|(_, _, part)| columns.until_of(part.component));
+                    take(Data::Floats(&until.collect::<Vec<_>>()))
+                },
+            )?;
+        }
         layer.begin("Scope", "models", &[])?;
         self.models.write(layer, root)?;
         layer.end()?;

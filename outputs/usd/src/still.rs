@@ -4,9 +4,9 @@ use super::changing::{LIVES, begin_mesh, extent};
 use super::layer::{Attribute, Data, Layer, Value};
 use super::models::rgb;
 use super::paint::{self, Palette};
-use super::{Asked, Member, Plants, Sink, write_still};
+use super::{Asked, Member, Organs, Plants, ROOT, Sink, in_layer, write_still};
 use phytomer_life::{Life, Maker, Nearness};
-use phytomer_meshes::{Drawing, MeshOptions, PlantDrawing, PlotBody, PlotMesh, Scene, Vertex};
+use phytomer_meshes::{About, Drawing, MeshOptions, PlantDrawing, PlotBody, PlotMesh, Scene, Vertex};
 use phytomer_sim::plant::{Class, Kind};
 use std::io;
 use std::sync::Arc;
@@ -17,8 +17,13 @@ use std::sync::Arc;
 /// Those of `out`.
 pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Sink) -> io::Result<()> {
     let wood = Scene::new(scene.plant(), scene.age(), &wood_of(scene.options()));
+    if is_apart(scene.options()) || scene.columns().is_some() && asked.organs == Organs::Merged {
+        let organs = Scene::new(scene.plant(), scene.age(), &organs_alone(scene.options()));
+        return write_drawn(asked, (&wood, &organs), scene.about(run_seed), out);
+    }
     let (lives, options) = ([organs_of(scene)], [scene.options().clone()]);
-    let plants = Plants { lives: &lives, options: &options, members: &[Member::default()] };
+    let member = [Member::default()];
+    let plants = Plants { columns: scene.columns(), ..Plants::of(&lives, &options, &member) };
     let about = scene.about(run_seed);
     write_still(asked, &PlantDrawing { scene: &wood, about }, &plants, out)
 }
@@ -45,7 +50,25 @@ pub fn write_plot<'p>(asked: &Asked, plot: &PlotMesh<'p>, out: &mut dyn Sink) ->
         number: number as u32,
     };
     let members: Vec<Member> = plot.members.iter().enumerate().map(member).collect();
-    write_still(asked, &wood.drawing()?, &Plants { lives: &lives, options: &options, members: &members }, out)
+    write_still(asked, &wood.drawing()?, &Plants::of(&lives, &options, &members), out)
+}
+
+/// Whether organs are drawn as no instance shows them: a part of them, as points, with normals or columns of their own.
+fn is_apart(options: &MeshOptions) -> bool {
+    let far = options.seen.afar.is_some_and(|afar| afar.metres.is_some());
+    options.seen.levels.is_some() || far || options.crown_normals || options.swings.is_some()
+}
+
+/// Writes the wood and the organs of a plant as two meshes, with all that their vertices tell.
+fn write_drawn(asked: &Asked, (wood, organs): (&Scene, &Scene), about: About, out: &mut dyn Sink) -> io::Result<()> {
+    in_layer(asked, None, out, &mut |layer| {
+        for (name, scene) in [("wood", wood), ("organs", organs)] {
+            if scene.counts().faces > 0 {
+                write_mesh(layer, (ROOT, name, name), &PlantDrawing { scene, about })?;
+            }
+        }
+        paint::write_materials(layer, ROOT, &[("wood", 0.85), ("organs", 0.6)])
+    })
 }
 
 fn is_wood(kind: Kind) -> bool {
@@ -58,11 +81,15 @@ fn wood_of(options: &MeshOptions) -> MeshOptions {
     MeshOptions { kinds, ..options.clone() }
 }
 
+/// The options of the organs alone.
+fn organs_alone(options: &MeshOptions) -> MeshOptions {
+    let kinds = Kind::ALL.map(|kind| options.kinds[kind as usize] && !is_wood(kind));
+    MeshOptions { kinds, ..options.clone() }
+}
+
 /// The organs of a plant at its age.
 fn organs_of(scene: &Scene) -> Life {
-    let options = scene.options();
-    let kinds = Kind::ALL.map(|kind| options.kinds[kind as usize] && !is_wood(kind));
-    let mut maker = Maker::new(Nearness::of(1e-3), &MeshOptions { kinds, ..options.clone() });
+    let mut maker = Maker::new(Nearness::of(1e-3), &organs_alone(scene.options()));
     maker.show(scene.plant(), scene.age());
     maker.finish()
 }
@@ -71,7 +98,11 @@ fn organs_of(scene: &Scene) -> Life {
 ///
 /// # Errors
 /// Those of the file.
-pub fn write_wood(layer: &mut dyn Layer, root: &str, name: &str, wood: &dyn Drawing) -> io::Result<()> {
+pub fn write_mesh(
+    layer: &mut dyn Layer,
+    (root, name, material): (&str, &str, &str),
+    wood: &dyn Drawing,
+) -> io::Result<()> {
     begin_mesh(layer, name)?;
     let counts = wood.counts();
     let mut corners: Vec<i32> = Vec::with_capacity(3 * counts.faces as usize);
@@ -93,8 +124,28 @@ pub fn write_wood(layer: &mut dyn Layer, root: &str, name: &str, wood: &dyn Draw
     let st = Attribute::over("primvars:st", "texCoord2f[]", "vertex");
     always(layer, st, Data::Pairs(&each(wood, Vertex::texture)?))?;
     write_tags(layer, wood)?;
-    layer.relationship("material:binding", &[paint::path_of(root, "wood")])?;
+    write_columns(layer, wood)?;
+    layer.relationship("material:binding", &[paint::path_of(root, material)])?;
     layer.end()
+}
+
+/// Writes the columns of a mesh, one at a time.
+fn write_columns(layer: &mut dyn Layer, mesh: &dyn Drawing) -> io::Result<()> {
+    let Some(columns) = mesh.columns() else { return Ok(()) };
+    for (place, name) in columns.names().iter().enumerate() {
+        let (mut all, mut row) = (Vec::with_capacity(mesh.counts().vertices as usize), Vec::new());
+        mesh.vertices(&mut |vertices| {
+            for vertex in vertices {
+                row.clear();
+                columns.put(vertex, &mut row);
+                all.push(row[place]);
+            }
+            Ok(())
+        })?;
+        let name = format!("primvars:{name}");
+        always(layer, Attribute::over(&name, "float[]", "vertex"), Data::Floats(&all))?;
+    }
+    Ok(())
 }
 
 fn always(layer: &mut dyn Layer, attribute: Attribute, data: Data) -> io::Result<()> {

@@ -33,7 +33,8 @@ fn written(encoding: Encoding, organs: Organs) -> Vec<u8> {
     let asked = Asked { encoding, organs, words: "a \"plant\"".to_owned() };
     let mut out = Vec::new();
     let lives = [life(&plant, 0..=6)];
-    let plants = Plants { lives: &lives, options: &[MeshOptions::default()], members: &[Member::default()] };
+    let (options, member) = ([MeshOptions::default()], [Member::default()]);
+    let plants = Plants::of(&lives, &options, &member);
     write_life(&asked, &plants, 1e-3, &Pace { a_tick: 1.0, a_second: 24.0 }, &mut out).expect("memory");
     out
 }

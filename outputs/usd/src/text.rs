@@ -162,6 +162,7 @@ fn put(out: &mut impl Write, data: Data) -> io::Result<()> {
         Data::Triple(numbers) => write!(out, "{}", Tuple(&numbers)),
         Data::Ints(numbers) => list(out, numbers.iter()),
         Data::Longs(numbers) => list(out, numbers.iter()),
+        Data::Floats(numbers) => list(out, numbers.iter()),
         Data::Pairs(pairs) => list(out, pairs.iter().map(Tuple)),
         Data::Triples(triples) => list(out, triples.iter().map(Tuple)),
         // The real part comes first in a text and last in memory.

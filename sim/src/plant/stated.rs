@@ -215,6 +215,20 @@ impl Plant {
         self.pose_again(part);
     }
 
+    /// Turns a node, or an axis with its first node, further within the frame that it states, for all ages; a part that
+    /// states no turn stays as it is.
+    pub fn turn_further(&mut self, part: impl Into<Part>, by: Rotation) {
+        let part = one_entry(&self.nodes, part.into());
+        let (column, place) = match part {
+            Part::Axis(axis) => (&mut self.stated.axes, axis.index()),
+            Part::Node(node) => (&mut self.stated.nodes, node.index()),
+        };
+        if let Rest::Turned(turn) = column.rest(place) {
+            column.state(place, Rest::Turned(turn.then(by)));
+            self.pose_again(part);
+        }
+    }
+
     /// States both how a node or an axis is turned in the frame of its bearer and where it begins, as
     /// [`Plant::state_rest`] and [`Plant::state_start`] do.
     #[inline]

@@ -13,14 +13,15 @@ use phytomer::run::drawing::{check_size, options_of};
 use phytomer::run::regrowth::Whose;
 use phytomer_outputs::Destination;
 use phytomer_outputs::gltf::{MOST_JOINTS, Sway};
-use phytomer_outputs::meshes::{MeshOptions, PlantDrawing, Scene, Tolerance};
+use phytomer_outputs::meshes::{PlantDrawing, Scene};
+use phytomer_sim::mechanics::sway::GUSTS_S;
 
 /// What belongs to a skeleton.
 #[derive(Debug, Clone, Args)]
 pub struct Rig {
     /// Hang the plant on a skeleton of at most so many joints along its thick axes, which sways in the wind: an
     /// animation of 8 seconds that loops. How far it is from the full solution is told.
-    #[arg(long, value_name = "JOINTS", requires = "wind", conflicts_with_all = ["plot", "ages", "time"],
+    #[arg(long, value_name = "JOINTS", requires = "wind", conflicts_with_all = ["plot", "ages", "time", "closes"],
         value_parser = clap::value_parser!(u32).range(2..=i64::from(MOST_JOINTS)))]
     rig: Option<u32>,
 }
@@ -47,7 +48,9 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format, joints: u32) -> Res
     let Some(air) = mesh.breeze.air() else {
         return Err(Misuse(format!("--rig {joints}: a calm moves nothing; --wind must be above 0")).into());
     };
-    let windy = regrown.regrowth(&mesh.breeze)?;
+    let sways = regrown.models()[regrown.trial.cohort_of_plant(mesh.plant)].sways();
+    let breeze = if sways { mesh.breeze.closing(GUSTS_S) } else { mesh.breeze.clone() };
+    let windy = regrown.regrowth(&breeze)?;
     let what = format!("plant {} at age {age}", mesh.plant);
     let mut stood = None;
     regrown.regrowth(&Breeze::default())?.show(mesh.plant, &[age], &mut |_, plant| {
@@ -64,9 +67,9 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format, joints: u32) -> Res
     })?;
     let own = regrown.forms.get(regrown.trial.species_of_plant(mesh.plant)).cloned().unwrap_or_default();
     let mut options = options_of(mesh.sides, &own);
-    options.tolerance = mesh.tolerance(&what, |tolerance: &Tolerance| {
-        Scene::new(&plant, age, &MeshOptions { tolerance: Some(*tolerance), ..options.clone() }).counts().faces
-    })?;
+    options.seen = mesh.part.seen(regrown.species_of(mesh.plant), age, mesh.range, true);
+    mesh.dressing.dress(&mut options, regrown, &plant);
+    mesh.settle(&what, (&plant, age), &mut options)?;
     let scene = Scene::new(&plant, age, &options);
     let mut file = Destination::create(&mesh.out)?;
     let wind = format!("{} m/s towards {} degrees", air.wind.speed, air.wind.towards.to_degrees());

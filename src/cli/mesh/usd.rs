@@ -40,7 +40,8 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> 
     let what = format!("plant {plant} from age {} to age {}", ages.first, ages.last);
     let words = format!("{what}, seed {}", regrown.scenario.seed);
     let (lives, options) = ([life], [options]);
-    let plants = Plants { lives: &lives, options: &options, members: &[Member::default()] };
+    let member = [Member::default()];
+    let plants = Plants::of(&lives, &options, &member);
     let asked = Asked { encoding, organs, words };
     let pace = pace(ages, mesh.growing.seconds);
     usd::write_life(&asked, &plants, within.distance, &pace, &mut file).with_context(|| mesh.failing())?;

@@ -156,7 +156,12 @@ impl Reduced {
         let polygon = |ring: &Ring| &self.polygons[usize::from(ring.sides)];
         for (ring, place) in rings.iter().zip(&*places) {
             let tag = stems.tag(ring.node);
-            put(usize::from(ring.sides) + 1, &|out| place.write_side(polygon(ring), &tag, out))?;
+            put(usize::from(ring.sides) + 1, &|out| {
+                place.write_side(polygon(ring), &tag, out);
+                if let Some(bark) = &stems.bark {
+                    bark.dress_ring(stems.plant, ring.node, ring.end, out);
+                }
+            })?;
         }
         let both = ends(rings).into_iter().zip([places.first(), places.last()]).zip([-1.0, 1.0]);
         for ((ring, place), outward) in both {

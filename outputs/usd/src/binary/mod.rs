@@ -96,6 +96,7 @@ impl<'o> Binary<'o> {
             Data::Triple(numbers) => self.values.write(Type::Vec3f, bytemuck::bytes_of(&numbers))?,
             Data::Ints(numbers) => self.values.write_ints(numbers)?,
             Data::Longs(numbers) => self.values.write_longs(numbers)?,
+            Data::Floats(numbers) => self.values.write_list(Type::Float, numbers)?,
             Data::Pairs(pairs) => self.values.write_list(Type::Vec2f, pairs)?,
             Data::Triples(triples) => self.values.write_list(Type::Vec3f, triples)?,
             Data::Turns(turns) => self.values.write_list(Type::Quath, turns)?,

@@ -1,0 +1,83 @@
+//! What a mesh has for those who light and move it: bark in metres, normals of leaves, and columns for the wind.
+//!
+//! Absent: how they are made (`phytomer_outputs::meshes`).
+
+use super::super::Misuse;
+use super::super::afar::{no_levels, within};
+use super::super::regrown::Regrown;
+use super::formats::Format;
+use clap::{Args, ValueEnum};
+use phytomer_outputs::meshes::MeshOptions;
+use phytomer_sim::plant::Plant;
+use std::sync::Arc;
+
+/// Textures, normals and columns of a mesh.
+#[derive(Debug, Clone, Default, Args)]
+pub struct Dressing {
+    /// Let a bark texture cover so many metres on every stem, from the trunk to the twigs. Without it the texture goes
+    /// once along each internode and once around it.
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true, value_parser = bark)]
+    bark: Option<f64>,
+    /// Where the normals of leaves point: across the leaf, or out of the crown, which is then shaded as one round body.
+    #[arg(long, value_name = "NORMALS", value_enum, default_value_t = LeafNormals::Leaf)]
+    leaf_normals: LeafNormals,
+    /// Tell for each vertex of a tree of stems how it sways: its level, its place along the stem, and the rate and the
+    /// phases of the stem, for a shader that moves it.
+    #[arg(long)]
+    wind_data: bool,
+}
+
+/// Where the normals of leaves point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum LeafNormals {
+    /// Across the leaf.
+    #[default]
+    Leaf,
+    /// Out of the crown.
+    Crown,
+}
+
+impl Dressing {
+    /// Refuses what a format, a plot or a species cannot have.
+    ///
+    /// # Errors
+    /// The option.
+    pub fn check(&self, format: Format, plot: bool, life: bool, regrown: &Regrown) -> Result<(), Misuse> {
+        let crown = self.leaf_normals == LeafNormals::Crown;
+        let used = [("--bark", self.bark.is_some()), ("--leaf-normals crown", crown), ("--wind-data", self.wind_data)];
+        let Some((option, _)) = used.into_iter().find(|(_, used)| *used) else { return Ok(()) };
+        if format == Format::Stl {
+            return Err(Misuse(format!("{option}: STL holds triangles alone; PLY, GLB and USD hold it")));
+        }
+        if life {
+            return Err(Misuse(format!("{option}: this is for a plant at one age; leave out --ages")));
+        }
+        if self.wind_data && plot {
+            return Err(Misuse("--wind-data: this is for a single plant, by --plant".to_owned()));
+        }
+        let still = regrown.models().into_iter().zip(regrown.trial.cohorts()).find(|(model, _)| !model.sways());
+        match still.filter(|_| self.wind_data) {
+            Some((_, cohort)) => Err(no_levels("--wind-data", regrown.species()[cohort.species])),
+            None => Ok(()),
+        }
+    }
+
+    /// States them for a plant of a model.
+    pub fn dress(&self, options: &mut MeshOptions, regrown: &Regrown, plant: &Plant) {
+        self.dress_all(options);
+        if self.wind_data {
+            let model = regrown.models()[regrown.trial.cohort_of_plant(plant.id)];
+            options.swings = Some(Arc::new(model.swings(plant)));
+        }
+    }
+
+    /// States what plants of any model have.
+    pub fn dress_all(&self, options: &mut MeshOptions) {
+        options.bark_m = self.bark.map(|metres| metres as f32);
+        options.crown_normals = self.leaf_normals == LeafNormals::Crown;
+    }
+}
+
+fn bark(text: &str) -> Result<f64, String> {
+    within(text, 1e-3, 1e3, "a length from 0.001 to 1000 m is expected, such as 0.5")
+}
