@@ -34,6 +34,8 @@ mod specimens;
 mod sway;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_sway;
 mod write;
 
 pub use looks::LeafShape;
