@@ -29,7 +29,8 @@ fn vertices(path: &Path) -> Vec<(i32, f32)> {
     assert!(header.contains("property float until_m\n"), "{header}");
     let number = |at: usize, bytes: &[u8]| [0, 1, 2, 3].map(|k| bytes[at + k]);
     let all = bytes.chunks_exact(VERTEX + 4).take(count(&header, "vertex"));
-    all.map(|vertex| (i32::from_le_bytes(number(COMPONENT, vertex)), f32::from_le_bytes(number(VERTEX, vertex)))).collect()
+    all.map(|vertex| (i32::from_le_bytes(number(COMPONENT, vertex)), f32::from_le_bytes(number(VERTEX, vertex))))
+        .collect()
 }
 
 /// The aspen of Table 2 has lines of 30 branches and 739 twigs; the whole mesh, clipped at a range, is the mesh of that
@@ -137,7 +138,10 @@ fn vertices_tell_how_they_sway() {
 fn what_is_for_trees_of_stems_is_refused_for_others() {
     let folder = tempdir().expect("a temporary folder");
     for (words, told) in [
-        (&["mesh", "coffee", "--range", "100", "--out", "a.ply"][..], "--range: the species `coffee` is of the model `buds`"),
+        (
+            &["mesh", "coffee", "--range", "100", "--out", "a.ply"][..],
+            "--range: the species `coffee` is of the model `buds`",
+        ),
         (&["mesh", "coffee", "--levels", "0-1", "--out", "a.ply"], "--levels: the species `coffee`"),
         (&["mesh", "coffee", "--quality", "0.5", "--out", "a.ply"], "--quality: the species `coffee`"),
         (&["picture", "willow", "--range", "100", "--out", "a.png"], "--range: the species"),
@@ -158,7 +162,10 @@ fn what_is_for_trees_of_stems_is_refused_for_others() {
         (&["mesh", ASPEN, "--bark", "1", "--out", "a.stl"], "--bark: STL holds triangles alone"),
         (&["mesh", ASPEN, "--wind-data", "--plot", "--out", "a.ply"], "--wind-data: this is for a single plant"),
         (&["mesh", ASPEN, "--wind", "5", "--loop", "0", "--out", "a.ply"], "a length from 0.001 to 3600 seconds"),
-        (&["mesh", ASPEN, "--ages", "1..2", "--levels", "0", "--out", "a.glb"], "--levels: this is for a plant at one age"),
+        (
+            &["mesh", ASPEN, "--ages", "1..2", "--levels", "0", "--out", "a.glb"],
+            "--levels: this is for a plant at one age",
+        ),
     ] {
         let said = run(folder.path(), words);
         assert!(said.code == Some(2) && said.stderr.contains(told), "{words:?}: {}", said.stderr);

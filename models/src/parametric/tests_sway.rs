@@ -43,8 +43,7 @@ fn air_at_rest_leaves_the_tree_as_it_is_to_the_bit() {
     assert_eq!(plant.stated, before.stated);
     let mut posed = before;
     pose(&mut posed, AGE);
-    let rest: Vec<[f32; 3]> =
-        (0..posed.nodes.len()).map(|node| node_frame(&posed, NodeId(node as u32)).base).collect();
+    let rest: Vec<[f32; 3]> = (0..posed.nodes.len()).map(|node| node_frame(&posed, NodeId(node as u32)).base).collect();
     let calm = tips(&model, &plant, &gusts(0.0, 0.0, 1.7));
     assert!(rest.iter().zip(&calm).all(|(one, other)| one.map(f32::to_bits) == other.map(f32::to_bits)));
     assert!(farthest(&rest, &tips(&model, &plant, &gusts(5.0, 0.0, 1.7))) > 0.05, "a wind moves it");
