@@ -69,6 +69,8 @@ fn every_glb_is_valid() {
         ("surfaces that grow", vec!["borchert_slade", "--ages", "1..5", "--keys", "3"], 1),
         ("life", vec!["gmt1", "--ages", "0..8", "--keys", "4"], 1),
         ("plots", vec!["under_a_roof", "--plot", "--ages", "1..5", "--keys", "3", "--tolerance", "5mm"], 1),
+        ("ranges", vec!["wp/quaking_aspen", "--range", "200", "--wind-data", "--bark", "0.5"], 0),
+        ("sway of stems", vec!["wp/quaking_aspen", "--levels", "0-1", "--wind", "5", "--rig", "20"], 1),
         ("sway", vec![&bending, "--age", "12", "--wind", "8", "--rig", "20", "--tolerance", "2mm"], 1),
     ] {
         let file = format!("{name}.glb");

@@ -77,6 +77,22 @@ fn openusd_and_blender_find_the_organs_of_the_records() {
     }
 }
 
+/// A tree of stems tells the range of each segment and each leaf, in the words of each reader.
+#[test]
+fn openusd_and_blender_read_the_ranges_of_a_tree_of_stems() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let at = |name: &str| folder.path().join(name).to_str().expect("a path in UTF-8").to_owned();
+    let whole = ["whole.ply", "whole.usda", "whole.usdc"].map(|name| (name, &[][..]));
+    for (name, more) in whole.into_iter().chain([("merged.usdc", &["--leaves", "merged"][..])]) {
+        phytomer(&[&["mesh", "wp/quaking_aspen", "--quality", "0.2", "--out", &at(name)], more].concat());
+    }
+    for (environment, module) in [(".venv", "pxr"), (".venv-blender-4.2", "bpy"), (".venv-blender", "bpy")] {
+        if let Some(python) = python(environment, module) {
+            read(&python, "ranges.py", &[&at("")]);
+        }
+    }
+}
+
 /// The same plant gives the same bytes.
 #[test]
 fn files_are_the_same_at_each_writing() {

@@ -1,4 +1,5 @@
-//! Cross sections of internodes that are no circles: corners around the axis line, in halves of the width.
+//! Cross sections of internodes that are no circles: corners around the axis line, in halves of the width; and rings
+//! between base and tip, where the width does not change evenly from one to the other.
 //!
 //! A closed section is the border of a solid, an open one a thin strip that is bent across. Corners run
 //! counterclockwise as seen against the heading. Absent: triangles (`phytomer_meshes`), and where sections come from.
@@ -9,6 +10,8 @@ pub struct Section {
     /// Up and to the side of the internode, its heading coming towards the viewer: the side is heading × up.
     corners: Vec<[f32; 2]>,
     closed: bool,
+    /// From base to tip, each the share of the length and the bulge.
+    rings: Vec<[f32; 2]>,
 }
 
 impl Section {
@@ -17,7 +20,19 @@ impl Section {
         if closed && area(&corners) < 0.0 {
             corners.reverse();
         }
-        Self { corners, closed }
+        Self { corners, closed, rings: Vec::new() }
+    }
+
+    /// The section with rings between base and tip: of each the share of the length at which it stands, between 0 and 1
+    /// and rising, and its bulge: by how much half its width is above that of the even change from base to tip, in
+    /// lengths of the internode.
+    pub fn with_rings(self, rings: Vec<[f32; 2]>) -> Self {
+        Self { rings, ..self }
+    }
+
+    /// The rings between base and tip: of each the share of the length, and the bulge in lengths of the internode.
+    pub fn rings(&self) -> &[[f32; 2]] {
+        &self.rings
     }
 
     /// Its corners, each once.

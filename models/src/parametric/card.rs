@@ -16,7 +16,7 @@ impl Tree {
     /// The card of this model.
     pub const CARD: Card = Card {
         word: "parametric",
-        about: "curved stems that split and bear branches and leaves, by lengths and angles a level (Weber & Penn 1995)",
+        about: "stems that split and bear branches and leaves, by lengths and angles a level (Weber & Penn 1995)",
         keys: Keys::PLAIN,
     };
 }

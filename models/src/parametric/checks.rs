@@ -1,8 +1,8 @@
 //! The checks of the parameters of a parametric tree: each number in its range, variations that leave a length above 0,
 //! a trunk that is longer than its bare part, levels that never fall with age.
 //!
-//! All faults are told at once, each at its key. Absent: the meaning of the parameters (`equations` and its neighbours),
-//! and whether the tree has room (`expectation`).
+//! All faults are told at once, each at its key. Absent: the meaning of the parameters (`equations` and its
+//! neighbours), and whether the tree has room (`expectation`).
 
 use super::numbers::{Ages, Envelope, Level, Numbers, Season};
 use super::params::{Branches, Children, Growing, LeafSeason, Tree, Trunk, Whole};
@@ -26,7 +26,8 @@ const LENGTH: ValueRange = ValueRange { min: 0.0, max: 10.0, what: "a length ove
 const SOME_LENGTH: ValueRange = ValueRange { min: f64::MIN_POSITIVE, ..LENGTH };
 const TAPER: ValueRange = ValueRange { min: 0.0, max: 3.0, what: "a taper" };
 const SPLITS: ValueRange = ValueRange { min: 0.0, max: 20.0, what: "a number of clones a segment" };
-const NUMBER: ValueRange = ValueRange { min: -10_000.0, max: 10_000.0, what: "a number of stems or leaves" };
+const STEMS: ValueRange = ValueRange { min: -2000.0, max: 2000.0, what: "a number of stems" };
+const LEAVES: ValueRange = ValueRange { min: -10_000.0, max: 10_000.0, what: "a number of leaves" };
 const ANGLE: ValueRange = ValueRange { min: -180.0, max: 180.0, what: "an angle in degrees" };
 const TURN: ValueRange = ValueRange { min: -360.0, max: 360.0, what: "an angle in degrees" };
 const CURVE: ValueRange = ValueRange { min: -3600.0, max: 3600.0, what: "an angle in degrees" };
@@ -158,7 +159,7 @@ impl Whole {
             radius_scale: 1.0,
             radius_scale_v: 0.0,
             base_splits: 0,
-            leaves: checks.number("Leaves", &self.leaves, NUMBER),
+            leaves: checks.number("Leaves", &self.leaves, LEAVES),
             leaf_form: self.leaf_form(checks),
             leaf_scale: checks.number("LeafScale", &self.leaf_scale, LEAF),
             leaf_scale_x: checks.number("LeafScaleX", &self.leaf_scale_x, LEAF_WIDTH),
@@ -287,7 +288,7 @@ impl Branches {
     fn numbers(&self, is_used: bool, checks: &mut Checks<'_>) -> Level {
         let length = checks.number("Length", &self.length, LENGTH);
         let most = ValueRange { min: 0.0, max: length.max(0.0), what: "a variation not above the length," };
-        let branches = checks.number("Branches", &self.branches, NUMBER);
+        let branches = checks.number("Branches", &self.branches, STEMS);
         if is_used && branches != 0.0 && length == 0.0 {
             checks.fault("Length", "the stems of this level have no length".to_owned(), "a length above 0");
         }

@@ -4,6 +4,7 @@
 
 use super::model::TreeModel;
 use super::params::Tree;
+use super::sections;
 use crate::buds::params::LeafChoice;
 use crate::buds::params::colour::turning_of;
 use crate::fault::{Fault, Path};
@@ -21,8 +22,8 @@ impl Tree {
     /// Every fault found, each with its path below `path`.
     pub fn compile(&self, until: Tick, path: &Path) -> Result<TreeModel, Vec<Fault>> {
         let numbers = self.numbers(until, path);
-        let mut faults = Vec::new();
-        let habit = self.habit(path, &mut faults);
+        let (mut faults, mut paints) = (Vec::new(), Paints::default());
+        let looks = self.looks(path, &mut paints, &mut faults);
         match numbers {
             Err(found) => Err([found, faults].concat()),
             Ok(_) if !faults.is_empty() => Err(faults),
@@ -34,28 +35,27 @@ impl Tree {
                     let expected = format!("at most {MOST_LEAVES} leaves of a stem in all years of the run");
                     return Err(vec![Fault::new(&path.key("Leaves"), problem, expected)]);
                 }
-                Ok(TreeModel::new(numbers, habit))
+                let sections = sections::of_trunk(&numbers, &mut paints);
+                let trends = vec![Trend::STRAIGHT];
+                let habit = Habit { trends, looks, for_drawing: paints.into_habit(), ..Habit::default() };
+                Ok(TreeModel::new(numbers, sections, habit))
             }
         }
     }
 
     /// The looks of stems and leaves.
-    fn habit(&self, path: &Path, faults: &mut Vec<Fault>) -> Habit {
-        let mut paints = Paints::default();
+    fn looks(&self, path: &Path, paints: &mut Paints, faults: &mut Vec<Fault>) -> Looks {
         let bark = self.whole.bark.as_ref().map(|bark| bark.bark(&path.key("bark"), faults)).unwrap_or_default();
         let stem = paints.add_internode(InternodePaint { bark, ..InternodePaint::default() });
         let year = self.whole.season.as_ref().map_or(0, |season| season.ticks_per_year.value());
         let colour = self.whole.leaf_colour.as_ref();
         let leaf = paints.add_organ(LeafChoice::paint(colour, turning_of(year), &path.key("leaf_colour"), faults));
-        let looks = Looks {
+        let leaf = OrganLook { paint: leaf, ..OrganLook::default() };
+        Looks {
             states: 1,
             internodes: vec![InternodeLook { paint: stem, ..InternodeLook::of_shape(Shape::Cone) }],
-            organs: vec![OrganLooks {
-                leaf: OrganLook { paint: leaf, ..OrganLook::default() },
-                ..OrganLooks::default()
-            }],
+            organs: vec![OrganLooks { leaf, ..OrganLooks::default() }],
             ..Looks::default()
-        };
-        Habit { trends: vec![Trend::STRAIGHT], looks, for_drawing: paints.into_habit(), ..Habit::default() }
+        }
     }
 }

@@ -5,8 +5,8 @@
 
 use phytomer_sim::random::Stream;
 
-/// In the stream of the plant: its size, the length of its trunk, the factor of the trunk's radius; further draws of the
-/// size follow from `AGAIN` on.
+/// In the stream of the plant: its size, the length of its trunk, the factor of the trunk's radius; further draws of
+/// the size follow from `AGAIN` on.
 pub(super) const TRUNK_LENGTH: u64 = 1;
 pub(super) const RADIUS: u64 = 2;
 pub(super) const AGAIN: u64 = 16;

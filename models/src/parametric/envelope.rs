@@ -1,10 +1,10 @@
 //! The envelope to which a tree is pruned (Weber & Penn 1995 §4.6), also the curve of Shape 8.
 //!
 //! Two slips of the paper are mended. Its r has z² in it, with which no point above the middle of the tree could be
-//! inside; the text calls the envelope a figure about the trunk, and r is √(x² + y²) here. Its second case divides by
-//! 1 − PruneWidthPeak, with which the curve jumps at the peak unless the peak is 0.5; here it divides by PruneWidthPeak.
-//! PruneWidth is a radius, as the formula has it, and not the width that Figure 2 marks. Absent: the shortening of stems
-//! (`prune`).
+//! inside; the text calls the envelope a figure about the trunk, and r is √(x² + y²) here. Its second case divides by 1
+//! − PruneWidthPeak, with which the curve jumps at the peak unless the peak is 0.5; here it divides by PruneWidthPeak.
+//! PruneWidth is a radius, as the formula has it, and not the width that Figure 2 marks. Absent: the shortening of
+//! stems (`prune`).
 
 use super::numbers::Envelope;
 use phytomer_sim::math;

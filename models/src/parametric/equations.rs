@@ -152,8 +152,8 @@ pub(super) fn children(level: u8, most: f64, length: f64, greatest: f64, offset:
     }
 }
 
-/// The real number of leaves on a stem (§4.5): more on stems nearer to the tip of their parent; `offset` is the place of
-/// the stem over the length of its parent. On the trunk, which has no parent, it is `most`.
+/// The real number of leaves on a stem (§4.5): more on stems nearer to the tip of their parent; `offset` is the place
+/// of the stem over the length of its parent. On the trunk, which has no parent, it is `most`.
 pub(super) fn leaves_on(level: u8, most: f64, offset: f64, quality: f64) -> f64 {
     if level == 0 { most * quality } else { most * tapered_ratio(offset) * quality }
 }

@@ -1,8 +1,8 @@
-//! The stems of one level of a tree, with their clones, in the order of creation (Weber & Penn 1995 §4.3): lengths, radii,
-//! and where each segment is.
+//! The stems of one level of a tree, with their clones, in the order of creation (Weber & Penn 1995 §4.3): lengths,
+//! radii, and where each segment is.
 //!
-//! A family is a stem with its clones, which share its length, its radius and its children. Absent: the path of a family
-//! (`path`), the places of children on it (`dealt`), and the plant's columns (`write`).
+//! A family is a stem with its clones, which share its length, its radius and its children. Absent: the path of a
+//! family (`path`), the places of children on it (`dealt`), and the plant's columns (`write`).
 
 use super::path::{ALONG, Path, Segment};
 use phytomer_sim::plant::{AxisId, LineageKey, NodeId};
@@ -53,8 +53,8 @@ impl Generation {
         (self.families.clear(), self.stems.clear(), self.segments.clear());
     }
 
-    /// Adds a family whose path is known and which has been written into the plant: `written` has the axis and the first
-    /// internode of each stem.
+    /// Adds a family whose path is known and which has been written into the plant: `written` has the axis and the
+    /// first internode of each stem.
     pub fn add(&mut self, family: Family, path: &Path, curve_res: u32, written: &[(AxisId, NodeId)]) {
         let first = self.stems.len();
         for ((place, member), (_, node)) in path.members.iter().enumerate().zip(written) {

@@ -1,5 +1,5 @@
-//! One tree, level by level (Weber & Penn 1995 §4): the trunk with its clones, then the children of each level, then the
-//! leaves.
+//! One tree, level by level (Weber & Penn 1995 §4): the trunk with its clones, then the children of each level, then
+//! the leaves.
 //!
 //! The tree is made in its full size; `Writer` scales it to its age. Each family of stems is followed, pruned, written
 //! into the plant and kept until its children have been made. Absent: equations (`equations`), leaves (`leaves`) and
@@ -73,11 +73,12 @@ pub(super) struct Growth<'a> {
     written: Vec<(AxisId, NodeId)>,
 }
 
-/// Writes the tree at an age into a plant that has nothing but the axis of its seed.
-pub(super) fn grow(tree: &Numbers, plant: &mut Plant, age: Tick) -> Result<(), Overgrown> {
+/// Writes the tree at an age into a plant that has nothing but the axis of its seed. `sections` has the place of the
+/// cross section of each segment of the trunk.
+pub(super) fn grow(tree: &Numbers, sections: &[Option<u16>], plant: &mut Plant, age: Tick) -> Result<(), Overgrown> {
     let random = plant.random.clone();
     let drawn = Drawn::of(tree, &random);
-    let writer = Writer::new(tree, plant, age);
+    let writer = Writer::new(tree, sections, plant, age);
     let (path, dealt) = Default::default();
     let mut growth =
         Growth { tree, drawn, writer, random, path, dealt, splits: Splits::default(), written: Vec::new() };
@@ -138,8 +139,8 @@ impl Growth<'_> {
         Ok(())
     }
 
-    /// The children of a family, stem by stem, each from the base to the tip. A clone goes on turning its children where
-    /// its twin stood when they parted.
+    /// The children of a family, stem by stem, each from the base to the tip. A clone goes on turning its children
+    /// where its twin stood when they parted.
     fn children(
         &mut self,
         parents: &Generation,
@@ -214,6 +215,7 @@ impl Growth<'_> {
         let behind = (1.0 - within) * parent.length / f64::from(curve_res);
         let (rank, on) = (segment - on.before, on.first);
         let position = child.place.number as u16;
+        let turn = bearing.frame.inverse().then(self.path.segments[0].frame).normalized();
         let leaving = Leaving { bearer: NodeId(on.0 + rank), behind, turn, rotate: child.rotate, down, position };
         self.add(family, Some(leaving), born)
     }
@@ -236,8 +238,8 @@ impl Growth<'_> {
     }
 }
 
-/// length_base over length_trunk on the trunk, with length_base = BaseSize·scale_tree as the text has it; 0 on branches.
-/// A trunk that pruning has made shorter than its base bears next to nothing.
+/// length_base over length_trunk on the trunk, with length_base = BaseSize·scale_tree as the text has it; 0 on
+/// branches. A trunk that pruning has made shorter than its base bears next to nothing.
 pub(super) fn bare(tree: &Numbers, drawn: Drawn, of: &Family) -> f64 {
     if of.level == 0 { (tree.base_size * drawn.scale / of.length).min(1.0 - 1e-6) } else { 0.0 }
 }

@@ -1,5 +1,5 @@
-//! The keys of a parametric tree in one table: those of the whole tree, and those of each level behind its number, as in
-//! the paper's parameter files (`0SegSplits`, `1DownAngleV`).
+//! The keys of a parametric tree in one table: those of the whole tree, and those of each level behind its number, as
+//! in the paper's parameter files (`0SegSplits`, `1DownAngleV`).
 //!
 //! A file is read key by key: a key that begins with the number of a level belongs to the table of that level. Absent:
 //! the parameters (`params`).

@@ -136,9 +136,9 @@ struct Stand<'a> {
 /// A leaf turned by the share `bend` towards the light (§4.9): first about the vertical, its normal outwards from the
 /// trunk, then its normal upwards, about the horizontal across it.
 ///
-/// The paper prints the last of its three turns as rotate_x; turned back by rotate_z, as the first of them asks for, they
-/// are one turn about the horizontal across the normal. `leaf` and `at` are told in the frame of the ground. A leaf
-/// whose normal is vertical has no direction to turn outwards.
+/// The paper prints the last of its three turns as rotate_x; turned back by rotate_z, as the first of them asks for,
+/// they are one turn about the horizontal across the normal. `leaf` and `at` are told in the frame of the ground. A
+/// leaf whose normal is vertical has no direction to turn outwards.
 pub(super) fn bent(leaf: Rotation, at: [f64; 3], bend: f64) -> Rotation {
     let [_, y, z] = leaf.turned(UP);
     let is_level = |y: f64, z: f64| y * y + z * z < 1e-18;

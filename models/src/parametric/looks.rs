@@ -1,5 +1,5 @@
-//! How the leaves and the bark of a parametric tree look: the paper's leaf shapes by their numbers (§4.5), and every form
-//! of the library.
+//! How the leaves and the bark of a parametric tree look: the paper's leaf shapes by their numbers (§4.5), and every
+//! form of the library.
 //!
 //! The paper names its shapes and prints none but the oval of Figure 1. Absent: their triangles (`phytomer_meshes`).
 

@@ -19,12 +19,14 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct TreeModel {
     tree: Arc<Numbers>,
+    /// The place of the cross section of each segment of the trunk.
+    sections: Arc<[Option<u16>]>,
     habit: Arc<Habit>,
 }
 
 impl TreeModel {
-    pub(super) fn new(tree: Numbers, habit: Habit) -> Self {
-        Self { tree: Arc::new(tree), habit: Arc::new(habit) }
+    pub(super) fn new(tree: Numbers, sections: Vec<Option<u16>>, habit: Habit) -> Self {
+        Self { tree: Arc::new(tree), sections: sections.into(), habit: Arc::new(habit) }
     }
 
     /// The parameters as plain numbers.
@@ -51,7 +53,7 @@ impl Grow for TreeModel {
     fn grow_to(&self, age: Tick, plant: &mut Plant, (): &mut (), _view: &View<'_>) -> Result<(), Overgrown> {
         plant.clear();
         self.sow(plant);
-        grow(&self.tree, plant, age)?;
+        grow(&self.tree, &self.sections, plant, age)?;
         plant.age = age;
         Ok(())
     }

@@ -1,5 +1,5 @@
-//! The parameters of a parametric tree as plain numbers, checked, for its formulas. Names are those of the paper (Weber &
-//! Penn 1995, appendix); lengths are in metres, angles in degrees.
+//! The parameters of a parametric tree as plain numbers, checked, for its formulas. Names are those of the paper (Weber
+//! & Penn 1995, appendix); lengths are in metres, angles in degrees.
 //!
 //! Absent: sources and defaults (`params`), and the checks (`checks`).
 

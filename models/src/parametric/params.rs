@@ -1,10 +1,10 @@
 //! The parameters of a parametric tree, by the names of Weber & Penn 1995 (appendix).
 //!
 //! Keys that begin with a capital or with the number of a level are the paper's own: `Shape`, `0SegSplits`,
-//! `1DownAngleV`. Small keys (`children`, `growth`, `season`, `leaf_colour`, `bark`, `quality`, `sway`) are additions of
-//! this program. Lengths are in metres and angles in degrees, as in the paper. NAME ± NAMEV is drawn uniformly between
-//! NAME − NAMEV and NAME + NAMEV; the paper does not say by which distribution. Absent: how the keys of all levels stand
-//! in one table (`keys`), and what the parameters do (`equations` and its neighbours).
+//! `1DownAngleV`. Small keys (`children`, `growth`, `season`, `leaf_colour`, `bark`, `quality`, `sway`) are additions
+//! of this program. Lengths are in metres and angles in degrees, as in the paper. NAME ± NAMEV is drawn uniformly
+//! between NAME − NAMEV and NAME + NAMEV; the paper does not say by which distribution. Absent: how the keys of all
+//! levels stand in one table (`keys`), and what the parameters do (`equations` and its neighbours).
 
 use super::looks::LeafShape;
 use crate::buds::params::{BarkChoice, LeafChoice};
@@ -120,7 +120,8 @@ pub struct Whole {
     /// its bare part; `above_base` places them all above it. Not of the paper.
     #[serde(default, rename = "children", skip_serializing_if = "Children::is_whole")]
     pub children: Children,
-    /// More or fewer leaves, each as much smaller or larger (§4.5, where the program that draws states it): 1 as stated.
+    /// More or fewer leaves, each as much smaller or larger (§4.5, where the program that draws states it): 1 as
+    /// stated.
     #[serde(default = "one", rename = "quality", skip_serializing_if = "is_one")]
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 100))]
     pub quality: Constant,
@@ -284,7 +285,7 @@ pub struct Branches {
     #[schemars(extend("minimum" = -360, "maximum" = 360))]
     pub rotate_v: Constant,
     /// How many stems a parent bears, at most; below 0 they stand in a fan at its end.
-    #[schemars(extend("minimum" = -10_000, "maximum" = 10_000))]
+    #[schemars(extend("minimum" = -2000, "maximum" = 2000))]
     pub branches: Constant,
     /// The greatest length over that of the parent.
     #[schemars(extend("minimum" = 0, "maximum" = 10))]

@@ -1,5 +1,5 @@
-//! The path of a stem and of its clones (Weber & Penn 1995 §4.1, §4.2, §4.8): how each segment is turned, and where it is,
-//! in lengths of a segment.
+//! The path of a stem and of its clones (Weber & Penn 1995 §4.1, §4.2, §4.8): how each segment is turned, and where it
+//! is, in lengths of a segment.
 //!
 //! Turns do not depend on lengths, so that a stem can be shortened after its path is known. A stem's frame in the paper
 //! has z along it, y on its upper side and x = y × z; here these are heading, upper side and left, so that a turn by a
@@ -87,8 +87,8 @@ pub(super) struct Path {
 }
 
 impl Path {
-    /// Follows a stem with all its clones. Stops where it has more than `room` segments or clones, which the caller finds by
-    /// their number.
+    /// Follows a stem with all its clones. Stops where it has more than `room` segments or clones, which the caller
+    /// finds by their number.
     pub fn follow(&mut self, tree: &Numbers, base: &Base, random: &PlantRandom, splits: &mut Splits, room: u64) {
         (self.members.clear(), self.segments.clear(), self.waiting.clear());
         let mut stream = random.stream(base.key, Purpose::Node);

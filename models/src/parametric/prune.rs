@@ -14,8 +14,8 @@ const STEPS: u32 = 32;
 /// By how much an end may be outside, over the size of the tree: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The length of a stem of `length` after pruning, metres. `scale` is the size of the tree, `base` where the stem begins;
-/// `bare` exempts what is in the bare part of the tree, as the base of the trunk.
+/// The length of a stem of `length` after pruning, metres. `scale` is the size of the tree, `base` where the stem
+/// begins; `bare` exempts what is in the bare part of the tree, as the base of the trunk.
 pub(super) fn pruned(
     tree: &Numbers,
     path: &Path,

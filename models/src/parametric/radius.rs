@@ -1,5 +1,5 @@
-//! The radii of stems (Weber & Penn 1995 §4.4): that of a branch by its parent's, tapers from 0 to 3, and the flare and the
-//! lobes of the trunk.
+//! The radii of stems (Weber & Penn 1995 §4.4): that of a branch by its parent's, tapers from 0 to 3, and the flare and
+//! the lobes of the trunk.
 //!
 //! Absent: which rings of a stem are drawn (`rings`).
 

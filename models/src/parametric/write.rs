@@ -1,5 +1,5 @@
-//! A parametric tree in the columns of a plant: a stem is an axis, a segment an internode that states how it is turned in
-//! the frame of the one before, a clone a fork of its twin's order, a leaf an organ that states its frame.
+//! A parametric tree in the columns of a plant: a stem is an axis, a segment an internode that states how it is turned
+//! in the frame of the one before, a clone a fork of its twin's order, a leaf an organ that states its frame.
 //!
 //! A child states how far behind the tip of its bearing internode it begins. Lengths and radii are scaled to the age of
 //! the tree; leaves keep their size. Absent: where all of this comes from (`grow`, `leaves`).
@@ -22,6 +22,7 @@ pub(super) struct Leaving {
     pub bearer: NodeId,
     /// How far behind the tip of the bearing segment, metres.
     pub behind: f64,
+    /// How the first segment is turned in the frame of the bearing segment.
     pub turn: Rotation,
     /// Around the parent, and away from it, degrees.
     pub rotate: f64,
@@ -33,14 +34,15 @@ pub(super) struct Leaving {
 /// Writes the tree of one age into a plant.
 pub(super) struct Writer<'a> {
     tree: &'a Numbers,
+    sections: &'a [Option<u16>],
     plant: &'a mut Plant,
     /// The size of stems over their full size.
     scale: f64,
 }
 
 impl<'a> Writer<'a> {
-    pub fn new(tree: &'a Numbers, plant: &'a mut Plant, age: Tick) -> Self {
-        Self { tree, plant, scale: tree.ages.scale_at(age) }
+    pub fn new(tree: &'a Numbers, sections: &'a [Option<u16>], plant: &'a mut Plant, age: Tick) -> Self {
+        Self { tree, sections, plant, scale: tree.ages.scale_at(age) }
     }
 
     /// How many components the plant may still have.
@@ -74,10 +76,10 @@ impl<'a> Writer<'a> {
                 0 => None,
                 _ => path.segments_of(member.twin as usize, res).get((member.before - twin - 1) as usize),
             };
-            let first = leaving.map_or(Rotation::NONE, |leaving| leaving.turn);
             let segments = path.segments_of(place, res);
             let turns = segments.iter().scan(before.map(|segment| segment.frame), |last, segment| {
-                let turn = last.map_or(first, |last: Rotation| last.inverse().then(segment.frame));
+                let first = || leaving.map_or(segment.frame, |leaving| leaving.turn);
+                let turn = last.map_or_else(first, |last: Rotation| last.inverse().then(segment.frame));
                 *last = Some(segment.frame);
                 Some(turn)
             });
@@ -145,6 +147,8 @@ impl<'a> Writer<'a> {
                 azimuth: 0.0,
             });
             self.plant.state_rest(below, Rest::Turned(turn));
+            let section = if family.level == 0 { self.sections[(before + rank - 1) as usize] } else { None };
+            section.into_iter().for_each(|section| self.plant.give_section(below, section));
         }
         self.plant.note(birth, axis, EventKind::Grew, rank);
         first

@@ -2,8 +2,8 @@
 //!
 //! An internode that goes on where an internode with a section ends begins with the last ring of that one, so that a
 //! generalised cylinder has no gap where it bends. The ends of a closed section are closed by caps, which lie within
-//! the cylinder but at its ends. Normals stand across the section and do not lean with a change of width. Absent:
-//! circles, which are tubes.
+//! the cylinder but at its ends. Normals stand across the section; they lean with a change of width where a section has
+//! rings between base and tip, and else do not. Absent: circles, which are tubes.
 
 use super::chunk::{Tag, Vertex};
 use super::tube::{Frustum, cross};
@@ -14,6 +14,8 @@ use phytomer_looks::{Section, polygon};
 pub struct Prism {
     /// Each corner with its normal and its share of the way around; the first is repeated at the end of a closed one.
     corners: Vec<Corner>,
+    /// Between base and tip, each the share of the length and the bulge.
+    rings: Vec<[f32; 2]>,
     caps: bool,
     faces: Vec<[u32; 3]>,
 }
@@ -72,29 +74,31 @@ impl Prism {
     /// Internodes with a section.
     pub fn new(section: &Section) -> Self {
         let (corners, caps) = (around(section), section.is_closed());
-        let ring = corners.len() as u32;
+        let rings = section.rings().to_vec();
+        let (ring, steps) = (corners.len() as u32, rings.len() as u32 + 1);
         let sides = ring.saturating_sub(1);
+        let quads = (0..steps).flat_map(|step| (0..sides).map(move |k| step * ring + k));
         let mut faces: Vec<[u32; 3]> =
-            (0..sides).flat_map(|k| [[k, k + 1, ring + k + 1], [k, ring + k + 1, ring + k]]).collect();
+            quads.flat_map(|k| [[k, k + 1, ring + k + 1], [k, ring + k + 1, ring + k]]).collect();
         if caps {
             let flat: Vec<[f32; 3]> = section.corners().iter().map(|[x, y]| [*x, *y, 0.0]).collect();
             for face in polygon::triangles(&flat) {
-                let [a, b, c] = face.map(|corner| 2 * ring + corner as u32);
+                let [a, b, c] = face.map(|corner| (steps + 1) * ring + corner as u32);
                 faces.extend([[a, c, b], [sides + a, sides + b, sides + c]]);
             }
         }
-        Self { corners, caps, faces }
+        Self { corners, rings, caps, faces }
     }
 
     /// The number of vertices of an internode.
     pub fn vertices(&self) -> usize {
         let ring = self.corners.len();
-        2 * ring + if self.caps { 2 * (ring - 1) } else { 0 }
+        (2 + self.rings.len()) * ring + if self.caps { 2 * (ring - 1) } else { 0 }
     }
 
     /// How many of them, the first, stand around it; the others are its ends.
     pub fn around(&self) -> usize {
-        2 * self.corners.len()
+        (2 + self.rings.len()) * self.corners.len()
     }
 
     /// The triangles of an internode, by the indices of its own vertices.
@@ -104,10 +108,15 @@ impl Prism {
 
     /// Writes the vertices of an internode between two rings; `out` has exactly [`Prism::vertices`] places.
     pub fn write(&self, rings: [Ring; 2], tag: &Tag, out: &mut [Vertex]) {
-        let (sides, ends) = out.split_at_mut(2 * self.corners.len());
-        for ((ring, out), along) in rings.iter().zip(sides.chunks_mut(self.corners.len())).zip([0.0, 1.0]) {
+        let count = self.corners.len();
+        let (sides, ends) = out.split_at_mut((2 + self.rings.len()) * count);
+        for (nth, out) in sides.chunks_mut(count.max(1)).enumerate() {
+            let (ring, along) = self.ring(rings, nth);
+            let [across, back] = self.lean(rings, nth);
             for (corner, vertex) in self.corners.iter().zip(out) {
-                *vertex = Vertex::new(ring.at(corner.at), ring.turned(corner.normal), [corner.share, along], tag);
+                let flat = ring.turned(corner.normal);
+                let normal = [0, 1, 2].map(|k| across * flat[k] - back * ring.heading[k]);
+                *vertex = Vertex::new(ring.at(corner.at), normal, [corner.share, along], tag);
             }
         }
         if !self.caps {
@@ -121,6 +130,40 @@ impl Prism {
             }
         }
     }
+}
+
+impl Prism {
+    /// Ring `nth` from the base, of all between the two outer ones, and its share of the length.
+    fn ring(&self, [base, tip]: [Ring; 2], nth: usize) -> (Ring, f32) {
+        match nth.checked_sub(1) {
+            None => (base, 0.0),
+            Some(inner) => self.rings.get(inner).map_or((tip, 1.0), |&[share, bulge]| {
+                let middle = [0, 1, 2].map(|k| base.middle[k] + share * (tip.middle[k] - base.middle[k]));
+                let even = base.radius + share * (tip.radius - base.radius);
+                (Ring { middle, radius: (even + bulge * length(&[base, tip])).max(0.0), ..tip }, share)
+            }),
+        }
+    }
+
+    /// How a normal leans at ring `nth`: its part across the internode and its part against the heading. Upright where
+    /// there is no ring between base and tip.
+    fn lean(&self, rings: [Ring; 2], nth: usize) -> [f32; 2] {
+        let length = length(&rings);
+        if self.rings.is_empty() || !(length > 0.0) {
+            return [1.0, 0.0];
+        }
+        let (before, from) = self.ring(rings, nth.saturating_sub(1));
+        let (after, to) = self.ring(rings, (nth + 1).min(self.rings.len() + 1));
+        let (wider, further) = (after.radius - before.radius, (to - from) * length);
+        let scale = (wider * wider + further * further).sqrt();
+        if scale > 0.0 { [further / scale, wider / scale] } else { [1.0, 0.0] }
+    }
+}
+
+/// The distance between two rings.
+fn length([base, tip]: &[Ring; 2]) -> f32 {
+    let apart = [0, 1, 2].map(|k| tip.middle[k] - base.middle[k]);
+    (apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2]).sqrt()
 }
 
 /// The corners of a section with their normals, which stand across the line between their neighbours.
@@ -195,6 +238,31 @@ mod tests {
         let (vertices, faces) =
             drawn(&Section::of((0..24).map(corner).collect(), true), [Ring::base(&of), Ring::tip(&of)]);
         assert_eq!(outward_share(&vertices, &faces), 1.0);
+    }
+
+    /// With rings a square prism is a pile of frusta, each of a b of the widths at its ends: closed, its volume theirs,
+    /// its normals out. A ring that would have no width has none.
+    #[test]
+    fn rings_between_base_and_tip_make_a_pile_of_frusta() {
+        let corners = vec![[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+        let rings = vec![[0.2, 0.1], [0.5, -0.05], [0.9, 0.2]];
+        let section = Section::of(corners, true).with_rings(rings.clone());
+        for radii in [[0.4, 0.2], [0.3, 0.0], [0.05, 0.01]] {
+            let of = frustum(radii);
+            let (vertices, faces) = drawn(&section, [Ring::base(&of), Ring::tip(&of)]);
+            assert_closed(&vertices, &faces);
+            assert_unit_normals(&vertices);
+            let even = |share: f32| radii[0] + share * (radii[1] - radii[0]);
+            let inner = rings.iter().map(|[share, bulge]| [*share, (even(*share) + bulge * of.length).max(0.0)]);
+            let all: Vec<[f32; 2]> = [[0.0, radii[0]]].into_iter().chain(inner).chain([[1.0, radii[1]]]).collect();
+            let frustum = |pair: &[[f32; 2]]| {
+                let [[from, a], [to, b]] = [pair[0], pair[1]].map(|ring| ring.map(f64::from));
+                (to - from) * f64::from(of.length) * (a * a + b * b + a * b) * 2.0 / 3.0
+            };
+            let expected: f64 = all.windows(2).map(frustum).sum();
+            let measured = volume(&vertices, &faces);
+            assert!((measured / expected - 1.0).abs() < 1e-4, "{radii:?}: {measured} {expected}");
+        }
     }
 
     /// An open section of two sides, each half the width long, is a strip of twice half the width times the length.

@@ -1,8 +1,8 @@
-//! The flat leaves of parametric trees (Weber & Penn 1995 §4.5): plane shapes of few triangles, of unit length and width,
-//! on no stalk.
+//! The flat leaves of parametric trees (Weber & Penn 1995 §4.5): plane shapes of few triangles, of unit length and
+//! width, on no stalk.
 //!
-//! The oval is the hexagon of Figure 1, of four triangles. The paper names the other shapes and prints none; here a lobe
-//! is a convex polygon. Absent: folded blades with stalks (`blade`).
+//! The oval is the hexagon of Figure 1, of four triangles. The paper names the other shapes and prints none; here a
+//! lobe is a convex polygon. Absent: folded blades with stalks (`blade`).
 
 use super::{Depth, FormMesh, along};
 
