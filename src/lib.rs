@@ -1,7 +1,7 @@
 //! Grow any plant from seed to death, a million at a time, and query the result like a database.
 //!
 //! This is the facade: the crates of the house under short names, and [`run`], which makes a run folder out of a
-//! scenario; [`sample`] grows a few plants of a species to hold them against what was published. The command line is
+//! scenario; [`forest`] plants a landscape from a raster; [`sample`] grows a few plants of a species to hold them against what was published. The command line is
 //! the binary's own (`cli/`).
 //!
 //! ```no_run
@@ -20,5 +20,6 @@ pub use phytomer_sim as sim;
 pub use phytomer_weather as weather;
 
 pub mod architecture;
+pub mod forest;
 pub mod run;
 pub mod sample;

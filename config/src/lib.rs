@@ -15,6 +15,7 @@ mod dates;
 mod document;
 mod expansion;
 mod explosion;
+pub mod forest;
 mod forms;
 mod inherit;
 mod library;

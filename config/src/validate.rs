@@ -137,12 +137,7 @@ fn species_in(library: Library, species: &str, until: u32, around: &Surroundings
     let until =
         |about: Option<&About>| about.and_then(|about| about.shown_at).unwrap_or(1).max(until).clamp(1, LAST_TICK);
     let found = check_species(&mut loader, &mention, until, around);
-    conclude(loader, found, |Compiled { species, model, tree }, sources| ResolvedSpecies {
-        species,
-        model,
-        sources,
-        tree,
-    })
+    conclude(loader, found, |found, sources| ResolvedSpecies::of(found, &sources))
 }
 
 /// Whether a name is that of a species or of a scenario. A file is recognised by its keys. A bare name is a shipped
@@ -279,6 +274,12 @@ impl fmt::Debug for ResolvedSpecies {
 }
 
 impl ResolvedSpecies {
+    /// A checked species with the texts that it was read from.
+    pub(crate) fn of(found: Compiled, sources: &Sources) -> Self {
+        let Compiled { species, model, tree } = found;
+        Self { species, model, sources: sources.clone(), tree }
+    }
+
     /// A report of faults that were found in the species after reading, such as by growing it. The path of each fault
     /// starts at the top of the species file.
     pub fn report(&self, faults: Vec<fault::Fault>) -> Report {

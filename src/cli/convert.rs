@@ -159,7 +159,8 @@ fn read(path: &Path) -> Result<Vec<u8>> {
 
 /// The place of the key that gave a key of the species its value.
 fn origin(converted: &Converted, path: &str) -> Option<(usize, usize)> {
-    let gives = |written: &str| written.split(", ").any(|one| one.split(" = ").next() == Some(path));
+    let gives =
+        |written: &str| !path.is_empty() && written.split(", ").any(|one| one.split(" = ").next() == Some(path));
     converted.told.iter().find(|told| gives(&told.written)).map(|told| (told.line, told.column))
 }
 

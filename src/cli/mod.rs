@@ -15,6 +15,7 @@ mod derive;
 mod describe;
 mod events;
 mod findings;
+mod forest;
 mod grow;
 mod init;
 mod list;
@@ -55,6 +56,7 @@ Examples:
   phytomer picture coffee --age 48 --out coffee.png
   phytomer animate coffee --out life.webp       a film of its life
   phytomer view coffee --out life.html          its life as a page that opens in a browser
+  phytomer forest my_site/site.toml             a landscape from a raster, as a table, meshes and a scene
 
 `phytomer help <verb>` has more of each.";
 
@@ -82,6 +84,7 @@ enum Verb {
     Picture(picture::Picture),
     Animate(animate::Animate),
     View(view::View),
+    Forest(forest::ForestVerb),
 }
 
 /// How the program ends, other than by an error.
@@ -131,6 +134,7 @@ impl Cli {
             Verb::Picture(verb) => verb.obey(),
             Verb::Animate(verb) => verb.obey(),
             Verb::View(verb) => verb.obey(),
+            Verb::Forest(verb) => verb.obey(),
         }
     }
 }

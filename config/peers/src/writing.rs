@@ -7,6 +7,9 @@ use crate::format::Format;
 use crate::mapping::Mapping;
 use std::fmt::Write as _;
 
+/// Trees of this model have no age.
+const TICK: &str = "one year, by which its bark ages; its form has no age";
+
 /// The text of the species.
 pub(crate) fn species(mapping: &Mapping<'_>, label: Option<&str>, file: &str, format: Format) -> String {
     let base = file.rsplit(['/', '\\']).next().unwrap_or(file);
@@ -16,7 +19,7 @@ pub(crate) fn species(mapping: &Mapping<'_>, label: Option<&str>, file: &str, fo
     let levels = mapping.levels;
     let plural = if levels == 1 { "" } else { "s" };
     let mut text = format!(
-        "name = {}\ndescription = {}\nsource = {}\nmodel = \"parametric\"\n",
+        "name = {}\ndescription = {}\nsource = {}\nmodel = \"parametric\"\ntick = \"{TICK}\"\n",
         quoted(&label),
         quoted(&format!(
             "{label}: a parametric tree of {levels} level{plural} of stems, converted from a file of {}.",

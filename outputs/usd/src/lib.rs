@@ -14,6 +14,7 @@ mod models;
 mod package;
 mod paint;
 mod parts;
+mod scene;
 mod skeleton;
 mod still;
 #[cfg(test)]
@@ -23,6 +24,7 @@ mod tubes;
 
 pub use course::Pace;
 pub use layer::Sink;
+pub use scene::{Each, Planted, Stand, Take, write_scene};
 pub use still::{write_plant, write_plot};
 
 use binary::Binary;

@@ -27,6 +27,41 @@ impl<W: Write> Text<W> {
         Ok(Self { out, depth: 0 })
     }
 
+    /// Writes an attribute with a list of values, each as it is handed on.
+    ///
+    /// # Errors
+    /// Those of `out` and of `each`.
+    pub fn listed(
+        &mut self,
+        attribute: &Attribute,
+        each: impl FnOnce(&mut dyn FnMut(&dyn Display) -> io::Result<()>) -> io::Result<()>,
+    ) -> io::Result<()> {
+        self.declare(attribute, " = [")?;
+        let mut first = true;
+        let out = &mut self.out;
+        each(&mut |value| {
+            let between = if std::mem::take(&mut first) { "" } else { ", " };
+            write!(out, "{between}{value}")
+        })?;
+        writeln!(self.out, "]")
+    }
+
+    /// Writes a prim that is what another file has at its root.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn refer(&mut self, name: &str, file: &str) -> io::Result<()> {
+        self.indent()?;
+        writeln!(self.out, "def Xform {} (", quoted(name))?;
+        self.indent()?;
+        writeln!(self.out, "    prepend references = @{file}@")?;
+        for line in [")", "{", "}"] {
+            self.indent()?;
+            writeln!(self.out, "{line}")?;
+        }
+        Ok(())
+    }
+
     fn indent(&mut self) -> io::Result<()> {
         (0..self.depth).try_for_each(|_| self.out.write_all(b"    "))
     }
@@ -159,28 +194,30 @@ fn put(out: &mut impl Write, data: Data) -> io::Result<()> {
         Data::Token(text) | Data::Text(text) => out.write_all(quoted(text).as_bytes()),
         Data::Flag(yes) => out.write_all(if yes { b"1" } else { b"0" }),
         Data::Float(number) => write!(out, "{number}"),
-        Data::Triple(numbers) => write!(out, "{}", Tuple(&numbers)),
+        Data::Triple(numbers) => write!(out, "{}", Tuple(numbers)),
         Data::Ints(numbers) => list(out, numbers.iter()),
         Data::Longs(numbers) => list(out, numbers.iter()),
         Data::Floats(numbers) => list(out, numbers.iter()),
-        Data::Pairs(pairs) => list(out, pairs.iter().map(Tuple)),
-        Data::Triples(triples) => list(out, triples.iter().map(Tuple)),
+        Data::Pairs(pairs) => list(out, pairs.iter().map(|pair| Tuple(*pair))),
+        Data::Triples(triples) => list(out, triples.iter().map(|triple| Tuple(*triple))),
         // The real part comes first in a text and last in memory.
         Data::Turns(turns) => list(out, turns.iter().map(|[x, y, z, real]| Turn([*real, *x, *y, *z]))),
     }
 }
 
-struct Tuple<'a, T, const N: usize>(&'a [T; N]);
+/// Numbers in parentheses.
+pub struct Tuple<T, const N: usize>(pub [T; N]);
 
-struct Turn([u16; 4]);
+/// A rotation by the bits of half precision, the real part first.
+pub struct Turn(pub [u16; 4]);
 
 impl Display for Turn {
     fn fmt(&self, out: &mut std::fmt::Formatter) -> std::fmt::Result {
-        write!(out, "{}", Tuple(&self.0.map(|bits| f16::from_bits(bits).to_f32())))
+        write!(out, "{}", Tuple(self.0.map(|bits| f16::from_bits(bits).to_f32())))
     }
 }
 
-impl<T: Display, const N: usize> Display for Tuple<'_, T, N> {
+impl<T: Display, const N: usize> Display for Tuple<T, N> {
     fn fmt(&self, out: &mut std::fmt::Formatter) -> std::fmt::Result {
         for (place, number) in self.0.iter().enumerate() {
             write!(out, "{}{number}", if place == 0 { "(" } else { ", " })?;
