@@ -15,6 +15,7 @@ mod events;
 mod findings;
 mod grow;
 mod init;
+mod interrupt;
 mod list;
 mod merge;
 mod mesh;

@@ -4,67 +4,27 @@ use super::changing::{LIVES, begin_mesh, extent};
 use super::layer::{Attribute, Data, Layer, Value};
 use super::models::rgb;
 use super::paint::{self, Palette};
-use super::{Asked, Member, Plants, Sink, write_still};
-use phytomer_life::{Life, Maker, Nearness};
-use phytomer_meshes::{Drawing, MeshOptions, PlantDrawing, PlotBody, PlotMesh, Scene, Vertex};
-use phytomer_sim::plant::{Class, Kind};
+use super::{Asked, Patched, write_still};
+use phytomer_life::{Stand, wood_of, wood_of_plot};
+use phytomer_meshes::{Drawing, PlantDrawing, PlotMesh, Scene, Vertex};
 use std::io;
-use std::sync::Arc;
 
 /// Writes a plant at an age.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Sink) -> io::Result<()> {
+pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Patched) -> io::Result<()> {
     let wood = Scene::new(scene.plant(), scene.age(), &wood_of(scene.options()));
-    let (lives, options) = ([organs_of(scene)], [scene.options().clone()]);
-    let plants = Plants { lives: &lives, options: &options, members: &[Member::default()] };
     let about = scene.about(run_seed);
-    write_still(asked, &PlantDrawing { scene: &wood, about }, &plants, out)
+    write_still(asked, &PlantDrawing { scene: &wood, about }, &Stand::of_plant(scene), out)
 }
 
 /// Writes the plants of a plot, each in its place, with its obstacles.
 ///
 /// # Errors
 /// Those of `out`; more vertices than a mesh can have.
-pub fn write_plot<'p>(asked: &Asked, plot: &PlotMesh<'p>, out: &mut dyn Sink) -> io::Result<()> {
-    let wood = |of: &PlotBody<'p>| PlotBody { plant: of.plant, age: of.age, options: wood_of(&of.options) };
-    let wood = PlotMesh {
-        bodies: plot.bodies.iter().map(wood).collect(),
-        members: plot.members.clone(),
-        obstacles: plot.obstacles.iter().map(Arc::clone).collect(),
-        name: plot.name.clone(),
-        place: plot.place,
-    };
-    let scenes = plot.bodies.iter().map(|body| Scene::new(body.plant, body.age, &body.options));
-    let lives: Vec<Life> = scenes.map(|scene| organs_of(&scene)).collect();
-    let options: Vec<MeshOptions> = plot.bodies.iter().map(|body| body.options.clone()).collect();
-    let member = |(number, member): (usize, &phytomer_meshes::PlotMember)| Member {
-        life: member.body,
-        offset: member.place.map(|x| x as f32),
-        number: number as u32,
-    };
-    let members: Vec<Member> = plot.members.iter().enumerate().map(member).collect();
-    write_still(asked, &wood.drawing()?, &Plants { lives: &lives, options: &options, members: &members }, out)
-}
-
-fn is_wood(kind: Kind) -> bool {
-    kind.class() == Class::Internode
-}
-
-/// The options of the wood alone.
-fn wood_of(options: &MeshOptions) -> MeshOptions {
-    let kinds = Kind::ALL.map(|kind| options.kinds[kind as usize] && is_wood(kind));
-    MeshOptions { kinds, ..options.clone() }
-}
-
-/// The organs of a plant at its age.
-fn organs_of(scene: &Scene) -> Life {
-    let options = scene.options();
-    let kinds = Kind::ALL.map(|kind| options.kinds[kind as usize] && !is_wood(kind));
-    let mut maker = Maker::new(Nearness::of(1e-3), &MeshOptions { kinds, ..options.clone() });
-    maker.show(scene.plant(), scene.age());
-    maker.finish()
+pub fn write_plot(asked: &Asked, plot: &PlotMesh, out: &mut dyn Patched) -> io::Result<()> {
+    write_still(asked, &wood_of_plot(plot).drawing()?, &Stand::of_plot(plot), out)
 }
 
 /// Writes the mesh of a drawing. Each property is drawn anew, so that memory holds one of them at a time.
