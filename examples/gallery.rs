@@ -32,8 +32,8 @@ const PLOT_SIZE: [u32; 2] = [960, 640];
 const LIFE_OF: &str = "coffee";
 const LIFE: [Tick; 9] = [4, 9, 16, 26, 40, 56, 76, 96, 106];
 
-/// The species whose pages ship: one of each kind of model, and none with a page of more than half a megabyte.
-const PAGES: [&str; 6] = ["coffee", "dog_rose", "fir", "frangipani", "gmt1/1", "topiary/4"];
+/// The species whose pages ship: of several models, and none with a page of more than half a megabyte.
+const PAGES: [&str; 7] = ["borchert_slade", "coffee", "cotton", "dog_rose", "frangipani", "gmt1/5a", "topiary/4"];
 
 struct Sitter {
     scenario: Scenario,

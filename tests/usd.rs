@@ -131,7 +131,7 @@ fn what_cannot_be_written_is_refused_with_a_reason() {
         (&["--leaves", "merged", "--out", &ply], "--leaves: this is for USD and GLB"),
         (&["--age", "9", "--ages", "1..9", "--out", &usd], "cannot be used with"),
         (&["--ages", "1..9", "--plot", "99999", "--out", &usd], "--plot 99999: the run has the plots"),
-        (&["--ages", "1..999", "--plot", "--out", &usd], "the run has the ages 0 to"),
+        (&["--ages", "1..999", "--plot", "--out", &usd], "--ages 999: the plot has the ticks 0 to"),
         (&["--ages", "1..9", "--plot", "--keys", "4", "--out", &usd], "--keys: this is for a life as GLB"),
         (&["--ages", "1..9", "--rig", "9", "--wind", "8", "--out", &usd], "cannot be used with"),
         (&["--age", "-1", "--out", &usd], "an age in ticks is expected"),
