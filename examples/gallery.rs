@@ -1,7 +1,8 @@
 //! The gallery: every species that ships, drawn in its prime, every plot that ships, and the life of a tree as a strip.
 //!
-//! `cargo run --release --example gallery [FOLDER]` writes `gallery.md`, its pictures below `gallery/` and `life.png`
-//! into a folder, `docs` if none is given. A species is grown by the shipped scenario of its name if there is one, else
+//! `cargo run --release --example gallery [FOLDER]` writes `gallery.md`, its pictures below `gallery/`, the pages of some
+//! species below `pages/` and `life.png` into a folder, `docs` if none is given. `cargo run --release --example gallery
+//! pages FOLDER` writes the page of every species, as `phytomer view` does, and an index of them. A species is grown by the shipped scenario of its name if there is one, else
 //! by itself, and drawn at the age that `phytomer picture` chooses; a scenario with members is drawn as
 //! `phytomer picture --plot` draws it. This file lists no names: every shipped species and plot is drawn.
 
@@ -10,8 +11,11 @@ use phytomer::config::{
     Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, Trial, presets, validate, validate_species,
 };
 use phytomer::outputs::pictures::{Canvas, Compression, Picture, draw_stands, write_png};
+use phytomer::run::filming::Filming;
 use phytomer::run::picturing::{Pictured, pictured_plants, pictured_plot};
-use phytomer::run::regrowth::Regrowth;
+use phytomer::run::regrowth::{Regrowth, Whose};
+use phytomer::run::viewing::View;
+use phytomer::sim::between::Moment;
 use phytomer::sim::{GrowthModel, Tick};
 use std::fmt::Write as _;
 use std::fs::{self, File};
@@ -28,6 +32,9 @@ const PLOT_SIZE: [u32; 2] = [960, 640];
 const LIFE_OF: &str = "coffee";
 const LIFE: [Tick; 9] = [4, 9, 16, 26, 40, 56, 76, 96, 106];
 
+/// The species whose pages ship: of several models, and none with a page of more than half a megabyte.
+const PAGES: [&str; 7] = ["borchert_slade", "coffee", "cotton", "dog_rose", "frangipani", "gmt1/5a", "topiary/4"];
+
 struct Sitter {
     scenario: Scenario,
     species: Species,
@@ -35,16 +42,24 @@ struct Sitter {
 }
 
 fn main() -> Result<()> {
-    let folder = std::env::args().nth(1).unwrap_or_else(|| "docs".to_owned());
+    let mut words = std::env::args().skip(1);
+    let folder = words.next().unwrap_or_else(|| "docs".to_owned());
+    if folder == "pages" {
+        return all_pages(Path::new(&words.next().unwrap_or(folder)));
+    }
     let folder = Path::new(&folder);
     let mut page = String::from(
         "# Gallery\n\nEvery species that ships but `topiary/1`, which draws no line, drawn by `phytomer picture` at the age that it states, or else in its prime:\nthe last \
-         year with nine tenths of the largest leaf area that it ever bears, as soon as it bears it. `cargo run --release --example gallery` makes this page. Each can be seen to grow: `phytomer animate NAME --out film.webp` makes a film ([films.md](films.md)).\n",
+         year with nine tenths of the largest leaf area that it ever bears, as soon as it bears it. `cargo run --release --example gallery` makes this page. Each can be seen to grow: `phytomer animate NAME --out film.webp` makes a film ([films.md](films.md)), and `phytomer view NAME --out life.html` a page of its whole life to turn and to ask ([view.md](view.md)); NAME is the first word of a picture's title. ",
     );
+    let linked: Vec<String> = PAGES.iter().map(|name| format!("[{name}]({})", page_of(name))).collect();
+    write!(
+        page,
+        "Pages are here of {}. `cargo run --release --example gallery pages FOLDER` makes those of all species, with an index.\n",
+        linked.join(", ")
+    )?;
     let of = |name: &'static str| name.rsplit_once('/').map_or("", |(group, _)| group);
-    // Of the first L-system of Synthetic Topiary there are buds alone.
-    let mut names: Vec<&str> =
-        presets(Kind::Species).iter().map(|(name, _)| *name).filter(|name| *name != "topiary/1").collect();
+    let mut names = names();
     names.sort_by_key(|name| of(name));
     let mut group = None;
     for name in names {
@@ -60,7 +75,51 @@ fn main() -> Result<()> {
         page += &plot(name, folder).with_context(|| format!("the scenario {name}"))?;
     }
     fs::write(folder.join("gallery.md"), page)?;
+    PAGES.iter().try_for_each(|name| write_page(name, &folder.join(page_of(name))).map(|_| ()))?;
     strip(&folder.join("life.png"))
+}
+
+/// The species that are drawn: of the first L-system of Synthetic Topiary there are buds alone.
+fn names() -> Vec<&'static str> {
+    presets(Kind::Species).iter().map(|(name, _)| *name).filter(|name| *name != "topiary/1").collect()
+}
+
+/// The place of the page of a species that ships.
+fn page_of(name: &str) -> String {
+    format!("pages/{}.html", name.replace('/', "-"))
+}
+
+/// Writes the pages of all species into a folder, with an index.
+fn all_pages(folder: &Path) -> Result<()> {
+    let mut index = String::from("<!DOCTYPE html><meta charset=\"utf-8\"><title>phytomer: pages</title><ul>\n");
+    for name in names() {
+        let file = format!("{}.html", name.replace('/', "-"));
+        let bytes = write_page(name, &folder.join(&file)).with_context(|| format!("the species {name}"))?;
+        writeln!(index, "<li><a href=\"{file}\">{name}</a>, {:.1} MB", bytes as f64 / 1e6)?;
+    }
+    Ok(fs::write(folder.join("index.html"), index + "</ul>\n")?)
+}
+
+/// Writes the page of a species, as `phytomer view NAME` does; its bytes.
+fn write_page(name: &str, path: &Path) -> Result<u64> {
+    let sitter = Sitter::of(name)?;
+    let regrowth = sitter.regrowth();
+    let view = View {
+        regrowth: &regrowth,
+        species: &[&sitter.species],
+        forms: &[],
+        whose: vec![if sitter.scenario.site.drawn().is_empty() { Whose::Plant(0) } else { Whose::Plot(0) }],
+        ages: (0..=regrowth.trial().last_age_of(0)).map(Moment::from).collect(),
+        tolerance: None,
+        mechanics: sitter.scenario.output.mechanics,
+    };
+    let doing = || format!("cannot write {}", path.display());
+    fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).with_context(doing)?;
+    let page = view.page(&Filming::default())?;
+    page.write(&mut BufWriter::new(File::create(path).with_context(doing)?)).with_context(doing)?;
+    let bytes = fs::metadata(path)?.len();
+    println!("{}: {bytes} bytes", path.display());
+    Ok(bytes)
 }
 
 /// Draws one species and returns its caption.
@@ -82,7 +141,8 @@ fn sit(name: &str, folder: &Path) -> Result<String> {
     let called = about.common_name.as_deref().unwrap_or(&about.name);
     let latin = about.scientific_name.as_ref().map(|latin| format!(", *{latin}*")).unwrap_or_default();
     let model = about.architectural_model.map(|model| format!(", {model:?}'s model")).unwrap_or_default();
-    Ok(format!("![{called}]({file} \"{name}: {called}{latin}{model}, age {age}\")\n"))
+    let picture = format!("![{called}]({file} \"{name}: {called}{latin}{model}, age {age}\")");
+    Ok(if PAGES.contains(&name) { format!("[{picture}]({})\n", page_of(name)) } else { format!("{picture}\n") })
 }
 
 /// Draws the first plot of a scenario, if it has several members, and returns its caption.

@@ -18,6 +18,7 @@ pub mod forms;
 mod in_memory;
 mod in_turn;
 pub mod keying;
+pub mod living;
 mod moving;
 pub mod picturing;
 mod plan;

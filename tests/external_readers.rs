@@ -194,8 +194,10 @@ fn an_independent_reader_reads_pages() {
         std::fs::write(&file, scenario).expect("a scenario file");
         let run = grow(folder.path(), file.to_str().expect("a path in UTF-8"));
         let page = folder.path().join("page.html").to_str().expect("a path in UTF-8").to_owned();
-        phytomer(&["view", &run, "--plants", plants, "--quiet", "--out", &page]);
-        read(&python, "pages.py", &[&page, &run]);
+        for ages in [format!("0..{until}"), format!("0..{until}/0.25")] {
+            phytomer(&["view", &run, "--plants", plants, "--ages", &ages, "--quiet", "--out", &page]);
+            read(&python, "pages.py", &[&page, &run]);
+        }
     }
 }
 

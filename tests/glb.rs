@@ -80,6 +80,36 @@ fn every_glb_is_valid() {
     }
 }
 
+/// Organs as instances stand where the PLY mesh of the same age has them, each once with its number.
+#[test]
+fn instances_are_the_organs_of_the_mesh() {
+    let Some(modules) = modules() else { return };
+    let folder = tempdir().expect("a temporary folder");
+    for (name, words) in [
+        ("coffee", &["coffee", "--age", "18", "--tolerance", "2mm"][..]),
+        ("surfaces", &["borchert_slade", "--age", "5"]),
+        ("between", &["coffee", "--age", "12.5"]),
+        ("seed", &["coffee", "--age", "0"]),
+        ("petals", &["dog_rose", "--tolerance", "2mm"]),
+    ] {
+        let [glb, ply] = ["glb", "ply"].map(|ending| format!("{name}.{ending}"));
+        run(folder.path(), &[&["mesh"], words, &["--leaves", "instances", "--out", &glb]].concat()).ending(0);
+        run(folder.path(), &[&["mesh"], words, &["--out", &ply]].concat()).ending(0);
+        let still = format!("still={}", folder.path().join(&ply).display());
+        let read = read(&modules, &folder.path().join(&glb), &[still]);
+        // The petals of the rose are blades, which are wood.
+        assert_eq!(read["instances"] == 0, ["seed", "petals"].contains(&name), "{name}: {read}");
+    }
+    let plot = ["mesh", "under_a_roof", "--plot", "--age", "4", "--tolerance", "5mm", "--leaves"];
+    let count = |leaves: &str, name: &str| {
+        run(folder.path(), &[&plot[..], &[leaves, "--out", name]].concat()).ending(0);
+        fs::metadata(folder.path().join(name)).expect("a file").len()
+    };
+    let [merged, instances] = [count("merged", "merged.glb"), count("instances", "instances.glb")];
+    assert!(instances < merged, "{instances} {merged}");
+    assert!(read(&modules, &folder.path().join("instances.glb"), &[])["instances"].as_u64() > Some(50));
+}
+
 /// At five ages a life has the organs of the records and of the PLY meshes, each where it is there.
 #[test]
 fn a_life_has_the_organs_of_the_records() {
@@ -138,7 +168,15 @@ fn what_cannot_be_written_is_told_and_leaves_nothing() {
         (&small, &["--ages", "1..12"], "m.ply", "--ages: PLY (.ply) holds a plant that stands still at one age"),
         (&small, &["--ages", "1..12"], "m.stl", "the formats that hold more: GLB (.glb), USD (.usdc)"),
         (&small, &["--ages", "1..12", "--keys", "5"], "m.usdc", "--keys: this is for a life as GLB"),
-        (&small, &["--ages", "1..12", "--leaves", "merged"], "m.glb", "--leaves: this is for files of USD"),
+        (&small, &["--ages", "1..12", "--leaves", "instances"], "m.glb", "whose vertices move has its organs merged"),
+        (&blown, &["--rig", "9", "--leaves", "instances"], "m.glb", "whose vertices move has its organs merged"),
+        (&small, &["--leaves", "instances"], "m.ply", "--leaves: this is for USD and GLB"),
+        (&small, &["--leaves", "merged"], "m.stl", "--leaves: this is for USD and GLB"),
+        (&small, &["--leaves", "single"], "m.glb", "possible values: instances, merged"),
+        (&small, &["--plot", "9"], "m.glb", "cannot be used with"),
+        (&blown, &["--rig", "9", "--age", "3.5"], "m.glb", "a skeleton is that of a plant at a whole age"),
+        (&blown[..2], &["--plot", "99999"], "m.glb", "--plot 99999: the run has the plots 0 to"),
+        (&blown[..2], &["--plot", "0", "--triangles", "5"], "m.glb", "--triangles 5: plot 0 at tick"),
         (&blown, &["--rig", "9"], "m.usdc", "--rig: USD (.usdc) holds a plant that stands still at one age"),
         (&small, &["--ages", "1..99"], "m.glb", "99"),
         (&small, &["--ages", "9..9"], "m.glb", "--ages 9: a life has two ages at least"),

@@ -93,6 +93,35 @@ fn openusd_and_blender_read_the_ranges_of_a_tree_of_stems() {
     }
 }
 
+/// Two species in a plot, one sown later, beside a stone.
+const PLOT: &str = r#"
+name = "plot"
+species = "coffee"
+plants = 3
+spacing_m = 4
+seed = 5
+ages = { until = 24, record = [4, 10, 16, 20, 24] }
+member = [{ at_m = [-1, 0] }, { at_m = [1, 0.5] }, { species = "frangipani", at_m = [0, -1], sown = 14 }]
+
+[[site.obstacle]]
+shape = { form = "box", at_m = [0, 1.5, 0], size_m = [0.5, 0.5, 0.4] }
+"#;
+
+/// At five ticks a plot has the organs of the records, plant by plant.
+#[test]
+fn openusd_finds_the_organs_of_a_whole_plot() {
+    let Some(openusd) = python(".venv", "pxr, plyfile, pyarrow, trimesh") else { return };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let at = |name: &str| folder.path().join(name).to_str().expect("a path in UTF-8").to_owned();
+    let (scenario, recorded) = (at("plot.toml"), at("run"));
+    std::fs::write(&scenario, PLOT).expect("a scenario file");
+    phytomer(&["grow", "--quiet", "--out", &recorded, &scenario]);
+    let words = ["mesh", &scenario, "--plot", "--ages", "1..24", "--tolerance", "2mm"];
+    phytomer(&[&words[..], &["--out", &at("life.usdc")]].concat());
+    phytomer(&[&words[..], &["--leaves", "merged", "--out", &at("merged.usda")]].concat());
+    read(&openusd, "usd_plot.py", &[&recorded, &at("life.usdc"), &at("merged.usda"), "4", "10", "16", "20", "24"]);
+}
+
 /// The same plant gives the same bytes.
 #[test]
 fn files_are_the_same_at_each_writing() {
@@ -115,9 +144,13 @@ fn what_cannot_be_written_is_refused_with_a_reason() {
     let [usd, ply] = [at("a.usdc"), at("a.ply")];
     for (words, told) in [
         (&["--ages", "1..9", "--out", &ply][..], "--ages: PLY (.ply) holds a plant that stands still"),
-        (&["--leaves", "merged", "--out", &ply], "--leaves: this is for files"),
+        (&["--leaves", "merged", "--out", &ply], "--leaves: this is for USD and GLB"),
         (&["--age", "9", "--ages", "1..9", "--out", &usd], "cannot be used with"),
-        (&["--ages", "1..9", "--plot", "--out", &usd], "--plot: USD has the life of a single plant"),
+        (&["--ages", "1..9", "--plot", "99999", "--out", &usd], "--plot 99999: the run has the plots"),
+        (&["--ages", "1..999", "--plot", "--out", &usd], "--ages 999: the plot has the ticks 0 to"),
+        (&["--ages", "1..9", "--plot", "--keys", "4", "--out", &usd], "--keys: this is for a life as GLB"),
+        (&["--ages", "1..9", "--rig", "9", "--wind", "8", "--out", &usd], "cannot be used with"),
+        (&["--age", "-1", "--out", &usd], "an age in ticks is expected"),
         (&["--ages", "1..9", "--keys", "4", "--out", &usd], "--keys: this is for a life as GLB"),
         (&["--ages", "1..9", "--triangles", "10k", "--out", &usd], "cannot be used with"),
         (&["--ages", "9..1", "--out", &usd], "the first age, 9, is after the last, 1"),

@@ -174,13 +174,7 @@ impl Write for Destination {
     }
 }
 
-impl phytomer_films::Sink for Destination {
-    fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
-        Self::patch(self, at, bytes)
-    }
-}
-
-impl phytomer_usd::Sink for Destination {
+impl phytomer_meshes::Patched for Destination {
     fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
         Self::patch(self, at, bytes)
     }

@@ -8,8 +8,8 @@ mod formats;
 use super::constants::Constants;
 use super::regrown::{Breeze, Fall, Regrown, finite};
 use super::span::{Span, shown, span};
-use super::{Verdict, amounts, bar, out, picture, terminal};
-use anyhow::{Context, Result};
+use super::{Verdict, amounts, bar, interrupt, out, picture, terminal};
+use anyhow::Result;
 use clap::{Args, ValueEnum};
 use formats::{Format, Output};
 use phytomer::run::RunError;
@@ -167,7 +167,9 @@ impl Animate {
         let film = Film { size: self.size, fps: self.fps, frames, pictures: scene.pictures(), note };
         let mut output = Output::create(&self.out, format, &film)?;
         let filming = Arc::new(Filming::default());
-        listen(&filming)?;
+        let (asked, told) = (Arc::clone(&filming), Arc::clone(&filming));
+        let words = "stopping; the film ends with the frames that are drawn";
+        interrupt::listen(move || asked.is_stopped(), move || told.stop(), words)?;
         let made = bar::filming(&filming, frames, self.quiet, || self.make(&scene, &film, &mut output, &filming));
         let shot = match made {
             Ok(shot) => shot,
@@ -237,18 +239,6 @@ fn what(whose: Whose, Span { first, last, .. }: Span) -> String {
         Whose::Plot(plot) => (format!("plot {plot}"), "tick"),
     };
     if first == last { format!("{whose} at {unit} {first}") } else { format!("{whose} from {unit} {first} to {last}") }
-}
-
-fn listen(filming: &Arc<Filming>) -> Result<()> {
-    let filming = Arc::clone(filming);
-    let obey = move || {
-        if filming.is_stopped() {
-            std::process::exit(Verdict::Interrupted as i32);
-        }
-        filming.stop();
-        terminal::say("\nstopping; the film ends with the frames that are drawn (once more to end at once)");
-    };
-    ctrlc::set_handler(obey).context("cannot listen for Ctrl-C")
 }
 
 fn seconds(text: &str) -> std::result::Result<f64, String> {

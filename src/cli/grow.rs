@@ -9,8 +9,8 @@ pub use telling::{clock, species_in_words};
 
 use super::constants::{Constants, OF_A_SCENARIO};
 use super::named::RUNS;
-use super::{Misuse, Verdict, bar, causes, events, findings, refuse, terminal};
-use anyhow::{Context, Result};
+use super::{Misuse, Verdict, bar, causes, events, findings, interrupt, refuse, terminal};
+use anyhow::Result;
 use clap::{Args, ValueEnum};
 use phytomer::outputs::{Error, Mode, Share};
 use phytomer::run::forecast::Forecast;
@@ -126,7 +126,7 @@ impl Grow {
             return Ok(Verdict::Done);
         }
         let progress = Arc::new(Progress::default());
-        self.listen(&progress)?;
+        Self::listen(&progress)?;
         match self.grow(&resolved, &settings, &progress) {
             Err(error) if matches!(error.downcast_ref(), Some(RunError::Outputs(Error::Stopped))) => {
                 terminal::say(&format!("stopped before anything was grown; go on with\n  {}", self.again()));
@@ -192,16 +192,10 @@ impl Grow {
         Ok(Settings { mode, threads, ignore_disk, share, ..Settings::in_folder(folder) })
     }
 
-    fn listen(&self, progress: &Arc<Progress>) -> Result<()> {
-        let progress = Arc::clone(progress);
-        let obey = move || {
-            if progress.is_stopped() {
-                std::process::exit(Verdict::Interrupted as i32);
-            }
-            progress.stop();
-            terminal::say("\nstopping; complete parts are kept (once more to end at once)");
-        };
-        ctrlc::set_handler(obey).context("cannot listen for Ctrl-C")
+    fn listen(progress: &Arc<Progress>) -> Result<()> {
+        let (asked, told) = (Arc::clone(progress), Arc::clone(progress));
+        let words = "stopping; complete parts are kept";
+        interrupt::listen(move || asked.is_stopped(), move || told.stop(), words)
     }
 
     fn tell(&self, told: &telling::Told) -> Result<Verdict> {

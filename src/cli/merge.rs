@@ -3,8 +3,8 @@
 //! Every file is read and compared before anything is written, and again while it is copied; the folders themselves
 //! stay as they are. What is wrong with them is told all at once. Absent: the merging (`phytomer_outputs::merge`).
 
-use super::{Misuse, Verdict, amounts, bar, terminal};
-use anyhow::{Context, Result};
+use super::{Misuse, Verdict, amounts, bar, interrupt, terminal};
+use anyhow::Result;
 use clap::Args;
 use phytomer_outputs::{Checking, Error, Merged, Mode, Opening, SystemSpace, merge};
 use serde_json::json;
@@ -50,8 +50,8 @@ impl Merge {
             );
         }
         let checking = Arc::new(Checking::default());
-        let stopping = Arc::clone(&checking);
-        ctrlc::set_handler(move || stopping.stop()).context("cannot listen for Ctrl-C")?;
+        let (asked, told) = (Arc::clone(&checking), Arc::clone(&checking));
+        interrupt::listen(move || asked.is_stopped(), move || told.stop(), "stopping; what is merged is kept")?;
         let hidden = self.quiet || self.json;
         match bar::checking(&checking, hidden, || self.merge(&checking)) {
             Err(Error::Stopped) => {

@@ -100,7 +100,7 @@ pub struct Mesh {
 
 impl Mesh {
     pub fn obey(self) -> Result<Verdict> {
-        let format = self.growing.of(Format::of(&self.out)?, self.plot.is_some())?;
+        let format = self.growing.of(Format::of(&self.out)?, self.rig.asked().is_some())?;
         if let (Some(_), false) = (self.rig.asked(), format.holds("rig")) {
             return Err(format.holds_no("rig").into());
         }

@@ -18,6 +18,7 @@ mod findings;
 mod forest;
 mod grow;
 mod init;
+mod interrupt;
 mod list;
 mod merge;
 mod mesh;

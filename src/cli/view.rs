@@ -8,7 +8,7 @@ use super::constants::Constants;
 use super::out::{self, Format};
 use super::regrown::Regrown;
 use super::span::{Span, shown, span};
-use super::{Misuse, Verdict, amounts, bar, terminal};
+use super::{Misuse, Verdict, amounts, bar, interrupt, terminal};
 use anyhow::{Context, Result};
 use clap::Args;
 use phytomer::run::RunError;
@@ -50,7 +50,8 @@ pub struct View {
     #[arg(long, value_name = "PLOT", num_args = 0..=1, default_missing_value = "0", conflicts_with_all = ["plant", "plants"])]
     plot: Option<u32>,
     /// The ages, of a plot the ticks: from the first to the last, after a slash the step between them; from 0 to the
-    /// last of the run if not given. The page goes smoothly from one to the next.
+    /// last of the run if not given. The page goes evenly from one to the next; with 0..48/0.25 it shows how a tick
+    /// passes, so that the nodes of a growth unit lengthen one after another. Rows are those of whole ticks.
     #[arg(long, value_name = "FIRST..LAST[/STEP]", value_parser = span)]
     ages: Option<Span>,
     /// How near the page is to the plants, such as 1mm: axes and their motion are simplified within this distance. If
@@ -83,7 +84,7 @@ impl View {
 
     fn write(&self, regrown: &Regrown) -> Result<Verdict> {
         let (whose, ages) = self.shown(regrown)?;
-        let ages = whole(ages)?;
+        let ages = with_whole(ages);
         let regrowth = Regrowth::new(regrown.trial.clone(), regrown.models(), None);
         let species = regrown.species();
         let view = Shown {
@@ -97,7 +98,8 @@ impl View {
         };
         let mut file = Destination::create(&self.out)?;
         let filming = Arc::new(Filming::default());
-        listen(&filming)?;
+        let (asked, told) = (Arc::clone(&filming), Arc::clone(&filming));
+        interrupt::listen(move || asked.is_stopped(), move || told.stop(), "stopping; nothing is written")?;
         let page = match bar::viewing(&filming, self.quiet, || view.page(&filming)) {
             Err(RunError::Stopped) => {
                 terminal::say("stopped; nothing was written");
@@ -136,19 +138,13 @@ impl View {
     }
 }
 
-/// The ages of a span, which are whole: rows are recorded at ticks, and the page goes smoothly between them.
-fn whole(ages: Span) -> Result<Vec<Tick>, Misuse> {
-    let moments = ages.moments();
-    match moments.iter().find(|moment| moment.share().is_some()) {
-        Some(moment) => Err(Misuse(format!(
-            "--ages: {} lies between two ticks; a page has the rows of whole ticks, and goes smoothly from one to the next",
-            moment.age()
-        ))),
-        None => Ok(moments.into_iter().map(Moment::tick).collect()),
+/// The ages of a span, and where some lie between two ticks all whole ones too, which have the rows.
+fn with_whole(ages: Span) -> Vec<Moment> {
+    let mut all = ages.moments();
+    if all.iter().any(|moment| moment.share().is_some()) {
+        all.extend((ages.first.ceil() as Tick..=ages.last.floor() as Tick).map(Moment::from));
+        all.sort_unstable();
+        all.dedup();
     }
-}
-
-fn listen(filming: &Arc<Filming>) -> Result<()> {
-    let filming = Arc::clone(filming);
-    ctrlc::set_handler(move || filming.stop()).context("cannot listen for Ctrl-C")
+    all
 }

@@ -47,16 +47,16 @@ pub struct View<'a> {
     pub forms: &'a [Arc<OwnForms>],
     /// What is shown: some plants side by side, or a plot.
     pub whose: Vec<Whose>,
-    /// The ages, of a plot the ticks, in their order.
-    pub ages: Vec<Tick>,
+    /// The ages, of a plot the ticks, in their order. Rows are those of whole ticks.
+    pub ages: Vec<Moment>,
     /// How near the page is to the plants, metres; half a pixel of a screen if not given.
     pub tolerance: Option<f32>,
     /// Whether the columns of mechanics are kept.
     pub mechanics: bool,
 }
 
-/// What is done with what stands at a tick.
-type ShowTick<'a> = dyn FnMut(Tick, &[Standing]) -> Result<(), RecordError> + 'a;
+/// What is done with what stands at an age.
+type ShowAge<'a> = dyn FnMut(Moment, &[Standing]) -> Result<(), RecordError> + 'a;
 
 /// A plant while its life is shown.
 struct Growing {
@@ -80,20 +80,22 @@ impl View<'_> {
             None => self.usual_tolerance(filming)?,
         };
         let mut rows = Rows::new(self.mechanics);
-        let mut events: BTreeMap<(Tick, &'static str), u64> = BTreeMap::new();
+        let mut events: BTreeMap<(Moment, &'static str), u64> = BTreeMap::new();
         let mut subjects: Vec<Subject> = Vec::new();
         for whose in &self.whose {
             let mut growing: BTreeMap<u32, Growing> = BTreeMap::new();
-            self.show(*whose, &self.ages, filming, &mut |tick, standing| {
+            self.show(*whose, &self.ages, filming, &mut |at, standing| {
+                let tick = at.tick();
                 for one in standing {
                     let grown = growing.entry(one.plant.id).or_insert_with(|| self.sow(tick, one, tolerance, &rows));
                     grown.maker.show(&one.plant, one.age);
-                    let of = self.membership(&one.plant, grown);
-                    let at = one.age as f32;
-                    rows.show(&mut grown.table, (of, &one.plant, one.age), at)?;
+                    if at.share().is_none() {
+                        let of = self.membership(&one.plant, grown);
+                        rows.show(&mut grown.table, (of, &one.plant, one.age), one.age as f32)?;
+                    }
                     grown.reach = grown.reach.max(reach_of(&one.plant, one.age));
                 }
-                if self.ages.last() == Some(&tick) {
+                if self.ages.last() == Some(&at) {
                     standing.iter().for_each(|one| self.happened(one, tick - one.age.min(tick), &mut events));
                 }
                 Ok(())
@@ -104,12 +106,9 @@ impl View<'_> {
     }
 
     /// Shows what stands at some ages, until it is told to stop.
-    fn show(&self, whose: Whose, ages: &[Tick], filming: &Filming, show: &mut ShowTick<'_>) -> Result<(), RunError> {
-        let moments: Vec<Moment> = ages.iter().copied().map(Moment::from).collect();
-        self.regrowth.show_timed(whose, &moments, &|_| vec![0.0], &mut |at, standing| {
+    fn show(&self, whose: Whose, ages: &[Moment], filming: &Filming, show: &mut ShowAge<'_>) -> Result<(), RunError> {
+        self.regrowth.show_timed(whose, ages, &|_| vec![0.0], &mut |at, standing| {
             filming.check()?;
-            let tick = at.tick();
-            let at = if let (Whose::Plant(_), [alone, ..]) = (whose, standing) { alone.age } else { tick };
             show(at, standing)?;
             filming.step();
             Ok(())
@@ -119,8 +118,8 @@ impl View<'_> {
     /// Half a pixel of a screen that shows the largest extent of the plants.
     fn usual_tolerance(&self, filming: &Filming) -> Result<f32, RunError> {
         let looks = (1..=LOOKS).filter_map(|look| self.ages.get((self.ages.len() * look / LOOKS).saturating_sub(1)));
-        let looks: BTreeSet<Tick> = looks.copied().collect();
-        let looks: Vec<Tick> = looks.into_iter().collect();
+        let looks: BTreeSet<Moment> = looks.copied().collect();
+        let looks: Vec<Moment> = looks.into_iter().collect();
         let mut most = 0.0_f32;
         for whose in &self.whose {
             self.show(*whose, &looks, filming, &mut |_, standing| {
@@ -157,9 +156,9 @@ impl View<'_> {
     }
 
     /// Counts the events of a plant up to the last age, at the first age that is shown after each.
-    fn happened(&self, one: &Standing, sown: Tick, events: &mut BTreeMap<(Tick, &'static str), u64>) {
+    fn happened(&self, one: &Standing, sown: Tick, events: &mut BTreeMap<(Moment, &'static str), u64>) {
         for event in one.plant.events.iter().flatten() {
-            let tick = event.tick.saturating_add(sown);
+            let tick = Moment::from(event.tick.saturating_add(sown));
             let at = self.ages.partition_point(|age| *age < tick);
             if let Some(age) = self.ages.get(at) {
                 *events.entry((*age, event.kind.tag())).or_insert(0) += 1;
@@ -206,13 +205,13 @@ impl View<'_> {
         subjects: Vec<Subject>,
         columns: Vec<Column>,
         tolerance: f32,
-        events: &BTreeMap<(Tick, &'static str), u64>,
+        events: &BTreeMap<(Moment, &'static str), u64>,
     ) -> Page {
         let trial = self.regrowth.trial();
         let scenario = trial.scenario();
-        let caption = |age: &Tick| match self.whose[0] {
-            Whose::Plant(plant) => caption_of_plant(trial, self.species, plant, Moment::from(*age)),
-            Whose::Plot(plot) => caption_of_plot(trial, self.species, plot, Moment::from(*age)),
+        let caption = |age: Moment| match self.whose[0] {
+            Whose::Plant(plant) => caption_of_plant(trial, self.species, plant, age),
+            Whose::Plot(plot) => caption_of_plot(trial, self.species, plot, age),
         };
         let shown: BTreeSet<usize> = subjects.iter().map(|subject| subject.species).collect();
         let what: Vec<String> = self
@@ -230,8 +229,8 @@ impl View<'_> {
             seed: scenario.seed,
             tolerance,
             of_plot: matches!(self.whose[0], Whose::Plot(_)),
-            ages: self.ages.iter().map(|age| (*age as f32, caption(age))).collect(),
-            events: events.iter().map(|((age, what), count)| (*age as f32, *what, *count)).collect(),
+            ages: self.ages.iter().map(|age| (age.age() as f32, caption(*age))).collect(),
+            events: events.iter().map(|((age, what), count)| (age.age() as f32, *what, *count)).collect(),
             columns,
             subjects,
             obstacles: match self.whose[0] {

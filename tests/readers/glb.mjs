@@ -3,6 +3,8 @@
 // The Khronos validator has neither an error nor a warning, and three.js loads the file. Of a life, three.js plays the
 // animation to the moment of each age that is named: each leaf, flower and fruit that stands in the PLY mesh of that age
 // is there, its vertices within half a step of the grid, and all others are points. The counts of each age are printed.
+// Of a still with instances, still=PLY names the PLY mesh of the same age: each organ of it is an instance, whose vertices
+// are where it has them.
 import { createRequire } from "node:module";
 import { readFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
@@ -60,9 +62,47 @@ const readPly = (name) => {
   return found;
 };
 
+// The instances of all meshes, component by component: the class, and the vertices, Z up.
+const readInstances = () => {
+  const found = new Map();
+  const [at, matrix] = [new THREE.Vector3(), new THREE.Matrix4()];
+  gltf.scene.updateMatrixWorld(true);
+  for (const mesh of meshes.filter((mesh) => mesh.isInstancedMesh)) {
+    const [components, corners] = ["_COMPONENT_ID", "position"].map((name) => mesh.geometry.getAttribute(name));
+    const [births, deaths] = ["_BIRTH_AGE", "_DEATH_AGE"].map((name) => mesh.geometry.getAttribute(name));
+    must(components.count === mesh.count && births.count === mesh.count, `${mesh.name} has a number for each instance`);
+    for (let k = 0; k < mesh.count; k++) {
+      must(deaths.getX(k) > 3e38, `instance ${k} of ${mesh.name} lives`);
+      mesh.getMatrixAt(k, matrix);
+      const places = Array.from({ length: corners.count }, (_, corner) => {
+        at.fromBufferAttribute(corners, corner).applyMatrix4(matrix).applyMatrix4(mesh.matrixWorld);
+        return [at.x, -at.z, at.y];
+      });
+      const component = components.getX(k);
+      must(!found.has(component), `component ${component} is once`);
+      found.set(component, { of: mesh.material.name, places });
+    }
+  }
+  return found;
+};
+
 const apart = (a, b) => Math.max(...a.map((x, k) => Math.abs(x - b[k])));
 const counts = {};
 for (const [age, name] of ages.map((named) => named.split("="))) {
+  if (age === "still") {
+    counts.still = {};
+    const [ply, instances] = [readPly(name), readInstances()];
+    const wood = new Set(meshes.filter((mesh) => !mesh.isInstancedMesh).flatMap((mesh) => [...placesOf(mesh).keys()]));
+    must([...ply.keys()].every((component) => wood.has(component) !== instances.has(component)), "a part is missing or twice");
+    for (const [component, { of, places }] of instances) {
+      const truth = ply.get(component) ?? [];
+      must(truth.length === places.length, `${component} has ${places.length} vertices and not ${truth.length}`);
+      const off = Math.max(...places.map((place, k) => apart(place, truth[k])));
+      must(off < 1e-5, `${component} is ${off} m off`);
+      counts.still[of] = (counts.still[of] ?? 0) + 1;
+    }
+    continue;
+  }
   const mixer = new THREE.AnimationMixer(gltf.scene);
   const clip = gltf.animations.find((clip) => clip.name === "life");
   const [first, last] = [extras.ages[0], extras.ages.at(-1)];
@@ -89,4 +129,4 @@ for (const [age, name] of ages.map((named) => named.split("="))) {
     counts[age][mesh.material.name] = standing;
   }
 }
-console.log(JSON.stringify({ counts, meshes: meshes.length, animations: gltf.animations.map((clip) => clip.duration) }));
+console.log(JSON.stringify({ counts, meshes: meshes.length, animations: gltf.animations.map((clip) => clip.duration), instances: meshes.reduce((sum, mesh) => sum + (mesh.isInstancedMesh ? mesh.count : 0), 0) }));

@@ -5,7 +5,7 @@
 //! number of pictures stands near the beginning and is put right where a film ends early.
 
 use crate::changed::Area;
-use crate::{Encoder, Film, Sink};
+use crate::{Encoder, Film, Patched};
 use phytomer_pictures::{Canvas, Compression, write_png};
 use std::io;
 
@@ -26,7 +26,7 @@ pub struct Apng<S> {
     number: u32,
 }
 
-impl<S: Sink> Apng<S> {
+impl<S: Patched> Apng<S> {
     /// Begins a film.
     pub fn new(film: &Film, out: S) -> Self {
         Self { out, film: film.clone(), before: None, written: 0, number: 0 }
@@ -97,7 +97,7 @@ impl<S: Sink> Apng<S> {
     }
 }
 
-impl<S: Sink> Encoder for Apng<S> {
+impl<S: Patched> Encoder for Apng<S> {
     fn picture(&mut self, canvas: &Canvas, frames: u32) -> io::Result<()> {
         let area = match &self.before {
             None => Area::whole(self.film.size),

@@ -7,7 +7,7 @@
 use crate::changed::Area;
 use crate::palette::{MOST, Palette};
 use crate::time::Units;
-use crate::{Encoder, Film, Sink};
+use crate::{Encoder, Film, Patched};
 use gif::{DisposalMethod, Frame, Repeat};
 use phytomer_pictures::Canvas;
 use rayon::prelude::*;
@@ -33,7 +33,7 @@ const BAYER: [[i32; 8]; 8] = [
 ];
 
 /// A GIF that is being written.
-pub struct Gif<S: Sink> {
+pub struct Gif<S: Patched> {
     /// `None` once it is complete.
     out: Option<gif::Encoder<S>>,
     palette: Palette,
@@ -42,7 +42,7 @@ pub struct Gif<S: Sink> {
     before: Option<Vec<u8>>,
 }
 
-impl<S: Sink> Gif<S> {
+impl<S: Patched> Gif<S> {
     /// Begins a film in the colours of a palette.
     ///
     /// # Errors
@@ -80,7 +80,7 @@ impl<S: Sink> Gif<S> {
     }
 }
 
-impl<S: Sink> Encoder for Gif<S> {
+impl<S: Patched> Encoder for Gif<S> {
     fn picture(&mut self, canvas: &Canvas, frames: u32) -> io::Result<()> {
         let places = self.indexed(canvas);
         let (area, pixels) = match &self.before {

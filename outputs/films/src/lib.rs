@@ -2,7 +2,7 @@
 //!
 //! Each format is a file with an [`Encoder`]: it takes a picture, and for how many frames it is held, and writes it at
 //! once, so that memory does not grow with the length of a film. A film that ends early is a whole film of what was
-//! drawn until then: what a format says of the whole at its beginning is put right at the end ([`Sink::patch`]). The
+//! drawn until then: what a format says of the whole at its beginning is put right at the end ([`Patched::patch`]). The
 //! same pictures give the same bytes. Absent: drawing, which is `phytomer_pictures`'; formats that are written by a
 //! program of their own but for the way to it (`ffmpeg`); sound.
 
@@ -20,12 +20,13 @@ mod y4m;
 pub use apng::Apng;
 pub use gif::{Gif, MOST_FPS as MOST_FPS_OF_GIF};
 pub use palette::Palette;
+pub use phytomer_meshes::Patched;
 pub use time::Timeline;
 pub use webp::{MOST_SIDE as MOST_SIDE_OF_WEBP, WebP};
 pub use y4m::Y4m;
 
 use phytomer_pictures::Canvas;
-use std::io::{self, Write};
+use std::io;
 
 /// What is known of a film before its first frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,15 +58,6 @@ pub trait Encoder: Send {
     fn finish(&mut self) -> io::Result<()>;
 }
 
-/// Where a film is written to.
-pub trait Sink: Write + Send {
-    /// Writes over bytes that were written before.
-    ///
-    /// # Errors
-    /// Those of the file; where the bytes have gone out for good, as in a pipe.
-    fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()>;
-}
-
 impl<E: Encoder + ?Sized> Encoder for &mut E {
     fn picture(&mut self, canvas: &Canvas, frames: u32) -> io::Result<()> {
         (**self).picture(canvas, frames)
@@ -73,19 +65,5 @@ impl<E: Encoder + ?Sized> Encoder for &mut E {
 
     fn finish(&mut self) -> io::Result<()> {
         (**self).finish()
-    }
-}
-
-impl<S: Sink + ?Sized> Sink for &mut S {
-    fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
-        (**self).patch(at, bytes)
-    }
-}
-
-impl Sink for Vec<u8> {
-    fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
-        let place = usize::try_from(at).ok().and_then(|at| self.get_mut(at..at.checked_add(bytes.len())?));
-        place.ok_or(io::ErrorKind::InvalidInput)?.copy_from_slice(bytes);
-        Ok(())
     }
 }

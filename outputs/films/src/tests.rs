@@ -3,7 +3,7 @@
 
 use crate::changed::Area;
 use crate::time::Units;
-use crate::{Apng, Encoder, Film, Gif, Palette, Sink, Timeline, WebP, Y4m};
+use crate::{Apng, Encoder, Film, Gif, Palette, Patched, Timeline, WebP, Y4m};
 use phytomer_pictures::Canvas;
 use std::io::{self, Cursor, Write};
 
@@ -289,7 +289,7 @@ impl Write for Full {
     }
 }
 
-impl Sink for Full {
+impl Patched for Full {
     fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
         self.0.patch(at, bytes)
     }

@@ -8,7 +8,7 @@
 
 use crate::changed::Area;
 use crate::time::Units;
-use crate::{Encoder, Film, Sink};
+use crate::{Encoder, Film, Patched};
 use phytomer_pictures::Canvas;
 use std::io;
 use webp::{PixelLayout, WebPConfig};
@@ -34,7 +34,7 @@ pub struct WebP<S> {
     bytes: u64,
 }
 
-impl<S: Sink> WebP<S> {
+impl<S: Patched> WebP<S> {
     /// Begins a film of a quality, from 1 to 100.
     ///
     /// # Errors
@@ -72,7 +72,7 @@ impl<S: Sink> WebP<S> {
     }
 }
 
-impl<S: Sink> Encoder for WebP<S> {
+impl<S: Patched> Encoder for WebP<S> {
     fn picture(&mut self, canvas: &Canvas, frames: u32) -> io::Result<()> {
         let first = self.before.is_none();
         let (area, pixels) = match &self.before {

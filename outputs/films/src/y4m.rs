@@ -4,7 +4,7 @@
 //! each rounded once: Y = 16 + 65.481 R + 128.553 G + 24.966 B for R, G, B in [0, 1], and so on (BT.601-7 §3).
 //! A picture that is held is written as often as it is shown.
 
-use crate::{Encoder, Film, Sink};
+use crate::{Encoder, Film, Patched};
 use phytomer_pictures::Canvas;
 use std::io;
 
@@ -20,7 +20,7 @@ pub struct Y4m<S> {
     frame: Vec<u8>,
 }
 
-impl<S: Sink> Y4m<S> {
+impl<S: Patched> Y4m<S> {
     /// Begins a film.
     ///
     /// # Errors
@@ -32,7 +32,7 @@ impl<S: Sink> Y4m<S> {
     }
 }
 
-impl<S: Sink> Encoder for Y4m<S> {
+impl<S: Patched> Encoder for Y4m<S> {
     fn picture(&mut self, canvas: &Canvas, frames: u32) -> io::Result<()> {
         self.frame.clear();
         self.frame.extend(b"FRAME\n");

@@ -19,10 +19,16 @@ pub fn class_of(tag: &Tag) -> usize {
     if tag.component < 0 {
         return 4;
     }
-    match Kind::ALL.get(usize::from(tag.kind)).map(|kind| kind.class()) {
-        Some(Class::Leaf) => 1,
-        Some(Class::Flower) => 2,
-        Some(Class::Fruit) => 3,
+    Kind::ALL.get(usize::from(tag.kind)).map_or(0, |kind| class_of_kind(*kind))
+}
+
+/// The class of a kind of components, as a place among [`CLASSES`].
+#[inline]
+pub fn class_of_kind(kind: Kind) -> usize {
+    match kind.class() {
+        Class::Leaf => 1,
+        Class::Flower => 2,
+        Class::Fruit => 3,
         _ => 0,
     }
 }

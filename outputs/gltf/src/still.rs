@@ -13,8 +13,10 @@ use phytomer_meshes::{Columns, Drawing, Vertex};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 
+/// The bytes of a vertex without what it belongs to.
+pub const SHAPE: u64 = 40;
 /// The bytes of a vertex, and what a skin adds.
-const STRIDE: u64 = 52;
+const STRIDE: u64 = SHAPE + 12;
 const OF_SKIN: u64 = 8;
 
 /// The bytes of a vertex of a mesh, with its columns.
@@ -246,13 +248,21 @@ impl Plan {
 /// Appends a vertex in the order of the attributes.
 fn put(vertex: &Vertex, bytes: &mut Vec<u8>) {
     let tag = vertex.tag();
+    put_shape(vertex, bytes);
+    floats(bytes, &[tag.birth, tag.death.min(f32::MAX), tag.component as f32]);
+}
+
+/// Appends place, normal, texture coordinates and colour of a vertex.
+pub fn put_shape(vertex: &Vertex, bytes: &mut Vec<u8>) {
     let [s, t] = vertex.texture();
-    let floats = |bytes: &mut Vec<u8>, of: &[f32]| of.iter().for_each(|x| bytes.extend_from_slice(&x.to_le_bytes()));
     floats(bytes, &y_up(vertex.position()));
     floats(bytes, &y_up(unit(vertex.normal())));
     floats(bytes, &[s, 1.0 - t]);
-    linear(tag.colour).iter().for_each(|channel| bytes.extend_from_slice(&channel.to_le_bytes()));
-    floats(bytes, &[tag.birth, tag.death.min(f32::MAX), tag.component as f32]);
+    linear(vertex.tag().colour).iter().for_each(|channel| bytes.extend_from_slice(&channel.to_le_bytes()));
+}
+
+fn floats(bytes: &mut Vec<u8>, of: &[f32]) {
+    of.iter().for_each(|x| bytes.extend_from_slice(&x.to_le_bytes()));
 }
 
 /// A vector of length 1 of the same direction; straight up where it has none.

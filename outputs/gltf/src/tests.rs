@@ -7,7 +7,8 @@
 #[path = "../../life/src/specimen.rs"]
 mod specimen;
 
-use super::{Body, Growth, KeyMaker, Keyed, write_growth, write_still};
+use super::{Body, Growth, KeyMaker, Keyed, write_growth, write_plant_instanced, write_still};
+use glam::{Quat, Vec3};
 use phytomer_meshes::{
     Counts, Drawing, Face, Mesh, MeshOptions, PlantDrawing, Scene, Take, Tolerance, Vertex, mesh_plant,
 };
@@ -142,6 +143,38 @@ fn a_still_has_the_mesh() {
             .map(|[x, y, z]| [x, z, -y])
     };
     assert_eq!(faces, mesh.faces.iter().map(of).collect::<Vec<_>>(), "wood comes before leaves in the mesh too");
+}
+
+/// The leaf is one instance, whose vertices are where the mesh has them; its wood is a mesh as ever.
+#[test]
+fn a_leaf_is_an_instance_with_its_number_and_its_ages() {
+    let plant = plant();
+    let scene = Scene::new(&plant, 4, &MeshOptions::default());
+    let mut bytes = Vec::new();
+    write_plant_instanced(&scene, 1, &mut bytes).expect("memory");
+    let file = File::read(&bytes);
+    let name = "EXT_mesh_gpu_instancing";
+    assert_eq!((&file.json["extensionsUsed"][0], &file.json["extensionsRequired"][0]), (&name.into(), &name.into()));
+    let nodes = file.json["nodes"].as_array().expect("nodes");
+    let instanced: Vec<&Value> = nodes.iter().filter(|node| node.get("extensions").is_some()).collect();
+    assert_eq!((instanced.len(), nodes.len()), (1, 3), "a model, the plant, and the wood");
+    let of = |attribute: &str| file.numbers(&instanced[0]["extensions"][name]["attributes"][attribute]);
+    let component = plant.organs.component[0];
+    assert_eq!((of("_COMPONENT_ID"), of("_BIRTH_AGE")), (vec![vec![f64::from(component)]], vec![vec![2.0]]));
+    assert_eq!(of("_DEATH_AGE"), [[f64::from(f32::MAX)]]);
+    let vec3 = |of: &[f64]| Vec3::new(of[0] as f32, of[1] as f32, of[2] as f32);
+    let (place, turn, scale) = (of("TRANSLATION"), of("ROTATION"), of("SCALE"));
+    let turn = Quat::from_xyzw(turn[0][0] as f32, turn[0][1] as f32, turn[0][2] as f32, turn[0][3] as f32);
+    let mesh = instanced[0]["mesh"].as_u64().expect("a mesh") as usize;
+    let model = file.numbers(&file.json["meshes"][mesh]["primitives"][0]["attributes"]["POSITION"]);
+    let whole = mesh_plant(&plant, 4, &MeshOptions::default());
+    let leaf: Vec<&Vertex> = whole.vertices.iter().filter(|at| at.tag().component == component as i32).collect();
+    assert_eq!(model.len(), leaf.len());
+    for (at, vertex) in model.iter().zip(leaf) {
+        let there = turn * (vec3(at) * vec3(&scale[0])) + vec3(&place[0]);
+        let [x, y, z] = vertex.position();
+        assert!((there - Vec3::new(x, z, -y)).length() < 1e-6, "{there} {vertex:?}");
+    }
 }
 
 #[test]

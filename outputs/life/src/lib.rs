@@ -22,7 +22,9 @@ mod kept;
 mod lines;
 mod lives;
 mod maker;
+mod models;
 mod parts;
+mod stand;
 mod still;
 #[cfg(test)]
 mod tests;
@@ -30,10 +32,13 @@ mod track;
 
 pub use lives::Lives;
 pub use maker::Maker;
+pub use models::{Models, stepped};
 pub use phytomer_looks::{Surface, SurfacePoint};
 pub use phytomer_meshes::Model;
+pub use stand::{Member, Organs, Stand, organs_alone, wood_of, wood_of_plot};
 pub use track::{Key, Track, between};
 
+use glam::{Mat3, Vec3};
 use phytomer_sim::plant::{Form, Kind};
 use std::ops::Range;
 
@@ -64,8 +69,11 @@ pub struct Life {
     pub plant: u32,
     /// The place of its seed, metres; all other places are relative to it.
     pub place: [f64; 3],
-    /// The ages at which it was shown.
+    /// The ages at which it was shown; of a life in a plot the ticks.
     pub ages: Vec<f32>,
+    /// Of a life in a plot the tick at which the plant is sown, else 0: what is to be taken from `from` and `death`, and
+    /// not from `birth`, for ages of the plant.
+    pub sown: f32,
     /// The lines of its axes.
     pub lines: Vec<Line>,
     /// The points of all lines, line by line in their order along it.
@@ -178,6 +186,17 @@ pub struct Pose {
     pub size: [f32; 3],
 }
 
+impl Pose {
+    /// The rotation that brings x, y and z to its heading, its left and its upper side.
+    pub fn turn(&self) -> Mat3 {
+        let heading = Vec3::from_array(self.heading);
+        let up = Vec3::from_array(self.up);
+        let across = (up - heading * up.dot(heading)).try_normalize();
+        let up = across.unwrap_or_else(|| heading.any_orthonormal_vector());
+        Mat3::from_cols(heading, up.cross(heading), up)
+    }
+}
+
 impl Point {
     /// Whether the line has the point at an age.
     pub fn stands(&self, age: f32) -> bool {
@@ -193,6 +212,26 @@ impl Part {
 }
 
 impl Life {
+    /// The same life by the ticks of its plot, in which the plant is sown at a tick. `ticks` are those at which the plot
+    /// was shown; the last of them are the ages of the life. Births stay the plant's own ages, as tables have them.
+    #[must_use]
+    pub fn in_plot(mut self, sown: f32, ticks: &[f32]) -> Self {
+        let own = std::mem::replace(&mut self.ages, ticks.to_vec());
+        let before = ticks.len().saturating_sub(own.len());
+        let tick = |age: &mut f32| {
+            let place = own.partition_point(|at| at < age);
+            let is_shown = own.get(place) == Some(age);
+            *age = ticks.get(before + place).copied().filter(|_| is_shown).unwrap_or(*age + sown);
+        };
+        self.sown = sown;
+        self.points.iter_mut().flat_map(|point| [&mut point.from, &mut point.death]).for_each(tick);
+        self.parts.iter_mut().flat_map(|part| [&mut part.from, &mut part.death]).for_each(tick);
+        self.places.iter_mut().map(|(age, _)| age).for_each(tick);
+        self.poses.iter_mut().map(|(age, _)| age).for_each(tick);
+        self.tints.iter_mut().map(|(age, _)| age).for_each(tick);
+        self
+    }
+
     /// The keyframes of a point: x, y, z and the radius, metres.
     pub fn places(&self, point: &Point) -> &[Key<4>] {
         &self.places[point.places.start as usize..point.places.end as usize]

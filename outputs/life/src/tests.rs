@@ -120,3 +120,20 @@ fn an_organ_that_is_a_curved_surface_can_be_drawn_from_its_life() {
         assert!((0..3).all(|k| (vertex.position()[k] - point[k]).abs() < 1e-6), "{point:?}");
     }
 }
+
+/// In a plot that is shown at ticks of its own a life has these ticks; births and sizes are the plant's.
+#[test]
+fn a_life_in_a_plot_has_its_ticks() {
+    let own = life(&plant(), 0..=8);
+    let ticks: Vec<f32> = (1..=12).map(|tick| tick as f32).collect();
+    let in_plot = own.clone().in_plot(4.0, &ticks);
+    assert_eq!((in_plot.ages.as_slice(), in_plot.sown), (ticks.as_slice(), 4.0));
+    let [leaf] = &in_plot.parts[..] else { panic!("one leaf") };
+    assert_eq!((leaf.birth, leaf.from, leaf.death), (2.0, 6.0, 9.0));
+    assert!(in_plot.points.iter().all(|point| (point.birth, point.from, point.death) == (1.0, 5.0, f32::INFINITY)));
+    for age in 1..=8 {
+        let at =
+            |life: &Life, age: f32| -> Vec<[f32; 4]> { life.line_at(&life.lines[0], age).map(|at| at.1).collect() };
+        assert_eq!(at(&own, age as f32), at(&in_plot, age as f32 + 4.0), "{age}");
+    }
+}

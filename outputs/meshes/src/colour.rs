@@ -8,7 +8,7 @@ use super::palette::{self, Rgb};
 use phytomer_looks::{Bark, Colour, Paints};
 use phytomer_sim::clock::{NEVER, Tick};
 use phytomer_sim::math::pow;
-use phytomer_sim::plant::{Cause, Class, Kind, OrganId, PaintNumber, Plant};
+use phytomer_sim::plant::{Cause, Class, Kind, OrganId, OrganLook, PaintNumber, Plant};
 
 const DEAD_WOOD: Rgb = [150.0, 145.0, 138.0];
 /// The share of the grey colour in dead wood.
@@ -46,12 +46,13 @@ pub fn wood(kind: Kind, bark: &Bark, old: Tick, dead: bool) -> [u8; 4] {
 /// those at the other. What appears in the tick has its first colours, and what falls its last.
 #[inline]
 pub fn organ(plant: &Plant, paints: &Paints, organ: OrganId, age: Tick) -> [[u8; 4]; 2] {
-    let at = |age: Tick| organ_at(plant, paints, organ, age);
+    let at = |age: Tick| organ_at(plant, paints, organ, (plant.look_of_organ(organ), age));
+    let was = || organ_at(plant, paints, organ, (plant.former_look_of_organ(organ), age - 1));
     let (birth, death) = (plant.organs.birth[organ.index()], plant.organs.death[organ.index()]);
     match plant.partway() {
-        Some(_) if death <= age => at(age - 1),
+        Some(_) if death <= age => was(),
         Some(share) if birth < age => {
-            let (from, to) = (at(age - 1), at(age));
+            let (from, to) = (was(), at(age));
             [0, 1].map(|k| between(from[k], to[k], share))
         }
         _ => at(age),
@@ -64,12 +65,12 @@ pub fn between(from: [u8; 4], to: [u8; 4], share: f32) -> [u8; 4] {
     [0, 1, 2, 3].map(mid)
 }
 
-fn organ_at(plant: &Plant, paints: &Paints, organ: OrganId, age: Tick) -> [[u8; 4]; 2] {
+fn organ_at(plant: &Plant, paints: &Paints, organ: OrganId, (look, age): (Option<&OrganLook>, Tick)) -> [[u8; 4]; 2] {
     let organs = &plant.organs;
     let place = organ.index();
     let (kind, form) = (organs.kind[place], organs.form[place]);
     let tints = palette::organ(kind, form);
-    let look = paints.organ(plant.look_of_organ(organ).map_or(PaintNumber::NONE, |look| look.paint));
+    let look = paints.organ(look.map_or(PaintNumber::NONE, |look| look.paint));
     let [young, old] = [stated(look.young, tints.young), stated(look.old, tints.old)];
     // Between two stated colours the palette's third colour is not used.
     let turning = look.turning.map(rgb).or(tints.turning.filter(|_| look.young.is_none() || look.old.is_none()));
@@ -124,7 +125,7 @@ fn opaque(colour: Rgb) -> [u8; 4] {
 mod tests {
     use super::*;
     use phytomer_looks::{FormName, OrganPaint, own_form};
-    use phytomer_sim::plant::{Habit, Looks, NewAxis, NewNode, NewOrgan, OrganLook, OrganLooks, Seed, Shape, Trend};
+    use phytomer_sim::plant::{Habit, Looks, NewAxis, NewNode, NewOrgan, OrganLooks, Seed, Shape, Trend};
     use std::sync::Arc;
 
     const A: Colour = [200, 100, 0];

@@ -298,6 +298,25 @@ mod tests {
         assert_eq!(ends, [plants, plants + 23]);
     }
 
+    /// A plot of more than 2³¹ − 1 vertices is refused before anything is drawn.
+    #[test]
+    fn more_vertices_than_a_file_can_count_are_told() {
+        let plant = specimen();
+        let options = MeshOptions { sides: 255, ..MeshOptions::default() };
+        let each = Scene::new(&plant, 6, &options).counts().vertices;
+        let count = (1_u64 << 31) / each + 1;
+        let member = PlotMember { body: 0, place: [0.0; 3], name: String::new() };
+        let bodies = vec![PlotBody { plant: &plant, age: 6, options }];
+        let members = vec![member; count as usize];
+        let mesh = PlotMesh { bodies, members, obstacles: Vec::new(), name: "plot 7".to_owned(), place: [0.0; 3] };
+        let told = mesh.drawing().err().expect("too many").to_string();
+        let expected = format!(
+            "the mesh of plot 7 would have {} vertices, and a mesh file holds at most 2147483647",
+            each * count
+        );
+        assert!(told.starts_with(&expected) && told.ends_with("choose fewer sides or a larger tolerance"), "{told}");
+    }
+
     /// Packed entries of a file, wherever they lie in memory.
     fn read<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
         bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()

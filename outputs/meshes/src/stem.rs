@@ -221,12 +221,16 @@ impl<'a> Stems<'a> {
     /// The bark of an internode; between two ticks it goes from the colour at the one to that at the other.
     #[inline]
     fn bark(&self, look: &InternodeLook, node: NodeId, death: Tick) -> [u8; 4] {
-        let bark = &self.paints.internode(look.paint).bark;
         let birth = self.plant.nodes.birth[node.index()];
-        let at = |age: Tick| colour::wood(look.kind, bark, age - birth, death <= age);
+        let at = |look: &InternodeLook, age: Tick| {
+            colour::wood(look.kind, &self.paints.internode(look.paint).bark, age - birth, death <= age)
+        };
         match self.plant.partway() {
-            Some(share) if birth < self.age => colour::between(at(self.age - 1), at(self.age), share),
-            _ => at(self.age),
+            Some(share) if birth < self.age => {
+                let was = at(self.plant.former_look_of_node(node), self.age - 1);
+                colour::between(was, at(look, self.age), share)
+            }
+            _ => at(look, self.age),
         }
     }
 }

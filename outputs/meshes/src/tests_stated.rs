@@ -6,6 +6,9 @@
 use super::measure::{assert_unit_normals, surface};
 use super::tests::specimen;
 use super::*;
+use phytomer_looks::{Bark, InternodePaint, OrganPaint, Paints};
+use phytomer_sim::between::Between;
+use phytomer_sim::model::Growth;
 use phytomer_sim::plant::*;
 use phytomer_sim::pose::{node_frame, pose};
 use phytomer_sim::rotation::Rotation;
@@ -125,4 +128,41 @@ fn internodes_are_drawn_as_long_as_they_are_at_the_age_and_what_is_cut_is_not() 
     let on_trunk = [0, 1, 2, 3, 4].map(drawn);
     assert_eq!(on_trunk, [true, true, true, false, false]);
     assert_eq!(topped.vertices.len(), 6 * 34, "the trunk's three, the branch's three, and no organ");
+}
+
+/// What a model gives another look at the next tick goes from the one colour to the other.
+#[test]
+fn colours_that_are_written_anew_go_linearly_from_tick_to_tick() {
+    let mut paints = Paints::default();
+    let colours = [[200, 0, 0], [0, 0, 100]];
+    let apart = colours.map(|colour| {
+        let bark = Bark { shoot: Some(colour), young: Some(colour), old: Some(colour), ..Bark::default() };
+        let paint = paints.add_internode(InternodePaint { bark, ..InternodePaint::default() });
+        InternodeLook { paint, ..InternodeLook::default() }
+    });
+    let organs_apart = colours.map(|colour| {
+        let paint = OrganPaint { young: Some(colour), old: Some(colour), ..OrganPaint::default() };
+        OrganLook { paint: paints.add_organ(paint), ..OrganLook::default() }
+    });
+    let mut before = standing();
+    let looks = Looks { apart: apart.to_vec(), organs_apart: organs_apart.to_vec(), ..before.habit.looks.clone() };
+    before.habit = Arc::new(Habit { looks, for_drawing: paints.into_habit(), ..(*before.habit).clone() });
+    let mut after = before.clone();
+    for (place, plant) in (0..).zip([&mut before, &mut after]) {
+        plant.give_look(NodeId(1), place);
+        plant.give_organ_look(OrganId(2), place);
+    }
+    let mut between = Between::new(&before, &after, LAST, Growth::Rewrites, false);
+    for (share, expected) in [(0.25, [150, 0, 25]), (0.5, [100, 0, 50]), (0.75, [50, 0, 75])] {
+        let plant = between.at(share);
+        let mesh = mesh_plant(plant, LAST, &MeshOptions::default());
+        let of = |component: u32| {
+            let own = mesh.vertices.iter().map(Vertex::tag).filter(|tag| tag.component == component as i32);
+            own.map(|tag| [tag.colour[0], tag.colour[1], tag.colour[2]]).collect::<Vec<_>>()
+        };
+        let organ = of(plant.organs.component[2]);
+        assert!(organ.contains(&expected), "{organ:?} at {share}");
+        let wood = of(plant.nodes.component[1]);
+        assert!(!wood.is_empty() && wood.iter().all(|colour| *colour == expected), "{wood:?} at {share}");
+    }
 }

@@ -29,6 +29,8 @@ use streams::{LEAST, Last, OCTAVE, Streams, linear, logarithmic};
 
 /// The part of the tolerance that the keyframes of a life may take: the rest is for places that become whole numbers.
 pub const OF_A_LIFE: f32 = 0.75;
+/// How near to an age of the page a number is that age, ticks.
+const NEAR: f32 = 2e-4;
 /// The step of places, in tolerances.
 const STEP: f64 = 0.25;
 
@@ -102,7 +104,8 @@ struct Scale {
 impl Numbering<'_> {
     /// The number of an age of the plant.
     fn place(&self, age: f32) -> i64 {
-        let age = age + self.shift;
+        // A sum with the age of sowing may be off in its last digits, and ages are a thousandth apart at least.
+        let age = age + self.shift - NEAR;
         self.ages.partition_point(|(known, _)| *known < age) as i64
     }
 

@@ -50,7 +50,7 @@ impl Checking {
     }
 
     /// Whether the check is to stop.
-    pub(super) fn is_stopped(&self) -> bool {
+    pub fn is_stopped(&self) -> bool {
         self.stop.load(Relaxed)
     }
 

@@ -5,16 +5,7 @@
 //! and once for each time in a text. Absent: what the prims mean, which is the schemas' of USD and of the writers
 //! above.
 
-use std::io::{self, Write};
-
-/// Where a layer is written to.
-pub trait Sink: Write {
-    /// Writes over bytes that were written before.
-    ///
-    /// # Errors
-    /// The system's; where there is no going back, as in a pipe.
-    fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()>;
-}
+use std::io;
 
 /// What a layer says of itself.
 #[derive(Debug, Clone, PartialEq)]

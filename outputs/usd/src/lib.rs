@@ -23,25 +23,22 @@ mod text;
 mod tubes;
 
 pub use course::Pace;
-pub use layer::Sink;
+pub use phytomer_life::{Member, Organs};
+pub use phytomer_meshes::Patched;
 pub use scene::{Each, Planted, Stand, Take, write_scene};
 pub use still::{write_plant, write_plot};
 
 use binary::Binary;
 use course::Course;
 use layer::{Header, Layer};
-use models::Models;
 use package::Package;
 use parts::Parts;
-use phytomer_life::{Life, between};
+use phytomer_life::{Life, Models, between};
 use phytomer_meshes::{Columns, Drawing, MeshOptions};
 use skeleton::Skeleton;
 use std::io;
 use text::Text;
 use tubes::Tubes;
-
-/// The step of a colour, in each of three bytes.
-const STEP: f32 = 12.0;
 
 /// How a layer is encoded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,16 +49,6 @@ pub enum Encoding {
     Binary,
     /// A package with a binary layer.
     Package,
-}
-
-/// How organs are written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Organs {
-    /// As instances of their models.
-    #[default]
-    Instances,
-    /// Merged into one mesh.
-    Merged,
 }
 
 /// What is written, and how.
@@ -83,31 +70,16 @@ pub struct Plants<'a> {
     pub options: &'a [MeshOptions],
     /// What stands where.
     pub members: &'a [Member],
+    /// What stands among them and never changes, if anything does.
+    pub obstacles: Option<&'a dyn Drawing>,
     /// What is told of each component of a single plant beside the properties of every file.
     pub columns: Option<&'a Columns<'a>>,
 }
 
 impl<'a> Plants<'a> {
-    /// Plants of which nothing more is told.
+    /// Plants of which nothing more is told, among nothing.
     pub fn of(lives: &'a [Life], options: &'a [MeshOptions], members: &'a [Member]) -> Self {
-        Self { lives, options, members, columns: None }
-    }
-}
-
-/// A plant of a file.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Member {
-    /// Its life, by its place.
-    pub life: usize,
-    /// Where it stands, metres.
-    pub offset: [f32; 3],
-    /// What is added to its component numbers, times 2³², to make them ids that no other plant of the file has.
-    pub number: u32,
-}
-
-impl Member {
-    fn id_of(&self, component: u32) -> i64 {
-        i64::from(self.number) << 32 | i64::from(component)
+        Self { lives, options, members, obstacles: None, columns: None }
     }
 }
 
@@ -115,7 +87,13 @@ impl Member {
 const ROOT: &str = "plant";
 
 /// Writes plants at an age: wood as it is drawn, and the organs of lives of that one age.
-fn write_still(asked: &Asked, wood: &dyn Drawing, plants: &Plants, out: &mut dyn Sink) -> io::Result<()> {
+fn write_still(
+    asked: &Asked,
+    wood: &dyn Drawing,
+    (organs, columns): (&phytomer_life::Stand, Option<&Columns>),
+    out: &mut dyn Patched,
+) -> io::Result<()> {
+    let plants = &Plants { columns, ..Plants::of(&organs.lives, &organs.options, &organs.members) };
     let course = Course::still();
     let skeletons = skeletons(plants, &course);
     in_layer(asked, None, out, &mut |layer| {
@@ -130,7 +108,13 @@ fn write_still(asked: &Asked, wood: &dyn Drawing, plants: &Plants, out: &mut dyn
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_life(asked: &Asked, plants: &Plants, tolerance: f32, pace: &Pace, out: &mut dyn Sink) -> io::Result<()> {
+pub fn write_life(
+    asked: &Asked,
+    plants: &Plants,
+    tolerance: f32,
+    pace: &Pace,
+    out: &mut dyn Patched,
+) -> io::Result<()> {
     let ages = plants.lives.first().map_or(&[][..], |life| &life.ages);
     let course = Course::of(ages, plants.lives, pace);
     let ends = [ages.first(), ages.last()].map(|age| f64::from(age.copied().unwrap_or(0.0)) * pace.a_tick);
@@ -139,6 +123,9 @@ pub fn write_life(asked: &Asked, plants: &Plants, tolerance: f32, pace: &Pace, o
         let tubes = Tubes::of(&skeletons, plants.members, tolerance);
         if !tubes.is_empty() {
             changing::write(layer, (ROOT, "wood", "wood"), &tubes, &course)?;
+        }
+        if let Some(obstacles) = plants.obstacles {
+            still::write_mesh(layer, (ROOT, "obstacles", "wood"), obstacles)?;
         }
         write_organs(layer, asked.organs, (plants, &skeletons), &course, true)
     })
@@ -149,7 +136,7 @@ fn skeletons<'a>(plants: &Plants<'a>, course: &'a Course) -> Vec<Skeleton<'a>> {
 }
 
 /// Told at once, and not when a whole plant has been written.
-fn check_goes_back(out: &mut dyn Sink) -> io::Result<()> {
+fn check_goes_back(out: &mut dyn Patched) -> io::Result<()> {
     out.patch(0, &[]).map_err(|error| {
         let told = "binary USD is put right at its beginning when it is whole, which a pipe or a device does not allow: \
                     name a file, or one that ends in .usda";
@@ -160,7 +147,7 @@ fn check_goes_back(out: &mut dyn Sink) -> io::Result<()> {
 fn in_layer(
     asked: &Asked,
     time: Option<[f64; 3]>,
-    out: &mut dyn Sink,
+    out: &mut dyn Patched,
     write: &mut dyn FnMut(&mut dyn Layer) -> io::Result<()>,
 ) -> io::Result<()> {
     let header = Header { root: ROOT.to_owned(), words: asked.words.clone(), time };
@@ -206,7 +193,7 @@ fn write_organs(
         match organs {
             Organs::Instances => {
                 parts.write_instances(layer, ROOT, course)?;
-                materials.extend(models.kinds().into_iter().map(|kind| (kind.tag(), 0.6)));
+                materials.extend(models::kinds(&models).into_iter().map(|kind| (kind.tag(), 0.6)));
             }
             Organs::Merged => {
                 changing::write(layer, (ROOT, "organs", "organs"), &parts, course)?;
@@ -231,9 +218,4 @@ fn met<'a>(plants: &Plants<'a>, course: &Course) -> Models<'a> {
         }
     }
     models
-}
-
-/// A colour in steps.
-fn stepped(tint: [f32; 3]) -> [u8; 3] {
-    tint.map(|part| ((part / STEP).round() * STEP).clamp(0.0, 255.0) as u8)
 }

@@ -5,8 +5,8 @@
 //! layer's own bootstrap is. The time of the file is the earliest of its format, so that the same plants are the same
 //! bytes.
 
-use super::layer::Sink;
 use crc32fast::Hasher;
+use phytomer_meshes::Patched;
 use std::io::{self, Write};
 
 /// Where the layer begins.
@@ -22,7 +22,7 @@ const PATCHED: usize = 88;
 
 /// A package that is being written.
 pub struct Package<'o> {
-    out: &'o mut dyn Sink,
+    out: &'o mut dyn Patched,
     name: String,
     /// The first bytes of the layer, as they are going to be.
     head: Vec<u8>,
@@ -35,7 +35,7 @@ impl<'o> Package<'o> {
     ///
     /// # Errors
     /// Those of `out`.
-    pub fn begin(out: &'o mut dyn Sink, name: &str) -> io::Result<Self> {
+    pub fn begin(out: &'o mut dyn Patched, name: &str) -> io::Result<Self> {
         let package = Self { out, name: name.to_owned(), head: Vec::new(), rest: Hasher::new(), size: 0 };
         package.out.write_all(&package.local(0, 0))?;
         Ok(package)
@@ -107,7 +107,7 @@ impl Write for Package<'_> {
     }
 }
 
-impl Sink for Package<'_> {
+impl Patched for Package<'_> {
     fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
         let place = at as usize..at as usize + bytes.len();
         let head = self.head.get_mut(place).ok_or_else(|| io::Error::other("only the beginning can be put right"))?;

@@ -4,15 +4,14 @@
 //! their id. What is to come has no size yet. Internodes narrow from base to tip, which no instance does, so they are
 //! always merged.
 
-use super::Member;
 use super::changing::{Changing, Faces, Tags, extent, put};
 use super::course::{Course, State};
 use super::layer::{Attribute, Data, Layer};
-use super::models::{Models, rgb};
+use super::models::{self, rgb};
 use super::skeleton::Skeleton;
-use glam::{Mat3, Quat, Vec3};
+use glam::{Quat, Vec3};
 use half::f16;
-use phytomer_life::{Part, Pose, What, between};
+use phytomer_life::{Member, Models, Part, Pose, What, between};
 use phytomer_meshes::{Columns, UNTIL};
 use std::io;
 
@@ -38,16 +37,6 @@ struct Standing<'a> {
     tint: [f32; 3],
     /// What is to come has no size.
     is_there: bool,
-}
-
-impl Standing<'_> {
-    fn turn(&self) -> Mat3 {
-        let heading = Vec3::from_array(self.pose.heading);
-        let up = Vec3::from_array(self.pose.up);
-        let across = (up - heading * up.dot(heading)).try_normalize();
-        let up = across.unwrap_or_else(|| heading.any_orthonormal_vector());
-        Mat3::from_cols(heading, up.cross(heading), up)
-    }
 }
 
 impl<'a> Parts<'a> {
@@ -98,7 +87,7 @@ impl<'a> Parts<'a> {
         self.write_places(layer, course)?;
         let held = course.of_held().map(Vec::as_slice);
         put(layer, Attribute::new("protoIndices", "int[]"), held, &mut |state, take| {
-            let of = |part: Standing| self.models.place(part.life, part.part, part.tint);
+            let of = |part: Standing| self.models.place(part.life, part.part, part.tint) as i32;
             take(Data::Ints(&self.at_state(course.states[state]).map(of).collect::<Vec<_>>()))
         })?;
         let spans = course.of_spans().map(Vec::as_slice);
@@ -118,7 +107,7 @@ impl<'a> Parts<'a> {
             )?;
         }
         layer.begin("Scope", "models", &[])?;
-        self.models.write(layer, root)?;
+        models::write(self.models, layer, root)?;
         layer.end()?;
         layer.end()
     }
@@ -131,7 +120,7 @@ impl<'a> Parts<'a> {
         })?;
         put(layer, Attribute::new("orientations", "quath[]"), times, &mut |state, take| {
             let turn = |part: Standing| {
-                Quat::from_mat3(&part.turn()).normalize().to_array().map(|part| f16::from_f32(part).to_bits())
+                Quat::from_mat3(&part.pose.turn()).normalize().to_array().map(|part| f16::from_f32(part).to_bits())
             };
             take(Data::Turns(&of(state).map(turn).collect::<Vec<_>>()))
         })?;
@@ -159,7 +148,7 @@ impl<'a> Parts<'a> {
     /// The vertices of a part where they stand.
     fn each_point(&self, part: &Standing, see: &mut dyn FnMut([f32; 3])) {
         let Some(model) = self.models.form(part.life, part.part) else { return };
-        let (turn, base) = (part.turn(), Vec3::from_array(part.pose.base));
+        let (turn, base) = (part.pose.turn(), Vec3::from_array(part.pose.base));
         for vertex in &model.mesh.vertices {
             let at = model.at(vertex.position(), part.pose.size, part.part.fullness);
             let at = if part.is_there { base + turn * Vec3::from_array(at) } else { base };
@@ -183,7 +172,8 @@ impl Changing for Parts<'_> {
     fn tags(&self, span: usize, tags: &mut Tags) {
         for (member, _, part) in self.of_span(span) {
             let vertices = self.models.form(member.life, part).map_or(0, |model| model.mesh.vertices.len());
-            tags.add(vertices, part.component, part.birth, part.death);
+            let death = part.death - self.skeletons[member.life].life.sown;
+            tags.add(vertices, part.component, part.birth, death);
         }
     }
 
@@ -194,7 +184,8 @@ impl Changing for Parts<'_> {
     fn colours(&self, state: State, paint: &mut dyn FnMut(usize, [u8; 3])) {
         for part in self.at_state(state) {
             let place = self.models.place(part.life, part.part, part.tint);
-            for vertex in self.models.vertices(place as usize) {
+            let model = self.models.made().get(place).map_or(&[][..], |(_, model)| &model.mesh.vertices);
+            for vertex in model {
                 paint(1, rgb(vertex));
             }
         }

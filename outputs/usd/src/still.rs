@@ -4,53 +4,31 @@ use super::changing::{LIVES, begin_mesh, extent};
 use super::layer::{Attribute, Data, Layer, Value};
 use super::models::rgb;
 use super::paint::{self, Palette};
-use super::{Asked, Member, Organs, Plants, ROOT, Sink, in_layer, write_still};
-use phytomer_life::{Life, Maker, Nearness};
-use phytomer_meshes::{About, Drawing, MeshOptions, PlantDrawing, PlotBody, PlotMesh, Scene, Vertex};
-use phytomer_sim::plant::{Class, Kind};
+use super::{Asked, Organs, Patched, ROOT, in_layer, write_still};
+use phytomer_life::{Stand, organs_alone, wood_of, wood_of_plot};
+use phytomer_meshes::{About, Drawing, MeshOptions, PlantDrawing, PlotMesh, Scene, Vertex};
 use std::io;
-use std::sync::Arc;
 
 /// Writes a plant at an age.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Sink) -> io::Result<()> {
+pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Patched) -> io::Result<()> {
     let wood = Scene::new(scene.plant(), scene.age(), &wood_of(scene.options()));
     if is_apart(scene.options()) || scene.columns().is_some() && asked.organs == Organs::Merged {
         let organs = Scene::new(scene.plant(), scene.age(), &organs_alone(scene.options()));
         return write_drawn(asked, (&wood, &organs), scene.about(run_seed), out);
     }
-    let (lives, options) = ([organs_of(scene)], [scene.options().clone()]);
-    let member = [Member::default()];
-    let plants = Plants { columns: scene.columns(), ..Plants::of(&lives, &options, &member) };
     let about = scene.about(run_seed);
-    write_still(asked, &PlantDrawing { scene: &wood, about }, &plants, out)
+    write_still(asked, &PlantDrawing { scene: &wood, about }, (&Stand::of_plant(scene), scene.columns()), out)
 }
 
 /// Writes the plants of a plot, each in its place, with its obstacles.
 ///
 /// # Errors
 /// Those of `out`; more vertices than a mesh can have.
-pub fn write_plot<'p>(asked: &Asked, plot: &PlotMesh<'p>, out: &mut dyn Sink) -> io::Result<()> {
-    let wood = |of: &PlotBody<'p>| PlotBody { plant: of.plant, age: of.age, options: wood_of(&of.options) };
-    let wood = PlotMesh {
-        bodies: plot.bodies.iter().map(wood).collect(),
-        members: plot.members.clone(),
-        obstacles: plot.obstacles.iter().map(Arc::clone).collect(),
-        name: plot.name.clone(),
-        place: plot.place,
-    };
-    let scenes = plot.bodies.iter().map(|body| Scene::new(body.plant, body.age, &body.options));
-    let lives: Vec<Life> = scenes.map(|scene| organs_of(&scene)).collect();
-    let options: Vec<MeshOptions> = plot.bodies.iter().map(|body| body.options.clone()).collect();
-    let member = |(number, member): (usize, &phytomer_meshes::PlotMember)| Member {
-        life: member.body,
-        offset: member.place.map(|x| x as f32),
-        number: number as u32,
-    };
-    let members: Vec<Member> = plot.members.iter().enumerate().map(member).collect();
-    write_still(asked, &wood.drawing()?, &Plants::of(&lives, &options, &members), out)
+pub fn write_plot(asked: &Asked, plot: &PlotMesh, out: &mut dyn Patched) -> io::Result<()> {
+    write_still(asked, &wood_of_plot(plot).drawing()?, (&Stand::of_plot(plot), None), out)
 }
 
 /// Whether organs are drawn as no instance shows them: a part of them, as points, with normals or columns of their own.
@@ -60,7 +38,7 @@ fn is_apart(options: &MeshOptions) -> bool {
 }
 
 /// Writes the wood and the organs of a plant as two meshes, with all that their vertices tell.
-fn write_drawn(asked: &Asked, (wood, organs): (&Scene, &Scene), about: About, out: &mut dyn Sink) -> io::Result<()> {
+fn write_drawn(asked: &Asked, (wood, organs): (&Scene, &Scene), about: About, out: &mut dyn Patched) -> io::Result<()> {
     in_layer(asked, None, out, &mut |layer| {
         for (name, scene) in [("wood", wood), ("organs", organs)] {
             if scene.counts().faces > 0 {
@@ -69,29 +47,6 @@ fn write_drawn(asked: &Asked, (wood, organs): (&Scene, &Scene), about: About, ou
         }
         paint::write_materials(layer, ROOT, &[("wood", 0.85), ("organs", 0.6)])
     })
-}
-
-fn is_wood(kind: Kind) -> bool {
-    kind.class() == Class::Internode
-}
-
-/// The options of the wood alone.
-fn wood_of(options: &MeshOptions) -> MeshOptions {
-    let kinds = Kind::ALL.map(|kind| options.kinds[kind as usize] && is_wood(kind));
-    MeshOptions { kinds, ..options.clone() }
-}
-
-/// The options of the organs alone.
-fn organs_alone(options: &MeshOptions) -> MeshOptions {
-    let kinds = Kind::ALL.map(|kind| options.kinds[kind as usize] && !is_wood(kind));
-    MeshOptions { kinds, ..options.clone() }
-}
-
-/// The organs of a plant at its age.
-fn organs_of(scene: &Scene) -> Life {
-    let mut maker = Maker::new(Nearness::of(1e-3), &organs_alone(scene.options()));
-    maker.show(scene.plant(), scene.age());
-    maker.finish()
 }
 
 /// Writes the mesh of a drawing. Each property is drawn anew, so that memory holds one of them at a time.

@@ -21,20 +21,13 @@ pub fn life(plant: &Plant, ages: impl IntoIterator<Item = Tick>) -> Life {
     maker.finish()
 }
 
-impl Sink for Vec<u8> {
-    fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
-        self[at as usize..at as usize + bytes.len()].copy_from_slice(bytes);
-        Ok(())
-    }
-}
-
 fn written(encoding: Encoding, organs: Organs) -> Vec<u8> {
     let plant = plant();
     let asked = Asked { encoding, organs, words: "a \"plant\"".to_owned() };
     let mut out = Vec::new();
     let lives = [life(&plant, 0..=6)];
-    let (options, member) = ([MeshOptions::default()], [Member::default()]);
-    let plants = Plants::of(&lives, &options, &member);
+    let (options, members) = ([MeshOptions::default()], [Member::default()]);
+    let plants = Plants::of(&lives, &options, &members);
     write_life(&asked, &plants, 1e-3, &Pace { a_tick: 1.0, a_second: 24.0 }, &mut out).expect("memory");
     out
 }

@@ -5,13 +5,11 @@
 //! is wider in the plane of the bend, so that a tube keeps its section where it turns. Quads join rings of equal sides,
 //! triangles others; the two ends are closed by a polygon each, on the vertices of their rings.
 
-use super::Member;
 use super::changing::{Changing, Faces, Tags};
 use super::course::State;
 use super::skeleton::Skeleton;
-use super::stepped;
 use glam::{Quat, Vec3, Vec4Swizzles};
-use phytomer_life::{Life, Line, between};
+use phytomer_life::{Life, Line, Member, between, stepped};
 use phytomer_meshes::{corners_of_area, meeting, sides_within};
 
 /// The most by which a ring is widened in the plane of a bend.
@@ -89,9 +87,10 @@ impl Changing for Tubes<'_> {
 
     fn tags(&self, span: usize, tags: &mut Tags) {
         self.each_line(span, &mut |member, _, points| {
+            let life = self.skeletons[member.life].life;
             for place in points {
-                let point = &self.skeletons[member.life].life.points[*place];
-                tags.add(usize::from(self.sides[member.life][*place]), point.component, point.birth, point.death);
+                let (point, sides) = (&life.points[*place], usize::from(self.sides[member.life][*place]));
+                tags.add(sides, point.component, point.birth, point.death - life.sown);
             }
         });
     }

@@ -21,9 +21,10 @@ pub use passage::Passage;
 use crate::clock::Tick;
 use crate::mechanics::Scratch;
 use crate::model::Growth;
-use crate::plant::{Cause, OrganId, Partway, Plant};
+use crate::plant::{Cause, Former, OrganId, Partway, Plant};
 use carried::Carried;
 use shares::Shares;
+use std::sync::Arc;
 
 /// The part of a tick by the end of which the last organ comes loose, where organs drop; the rest is its way down.
 const LOOSE: f32 = 0.5;
@@ -37,6 +38,7 @@ pub struct Between {
     shares: Shares,
     /// The places on bearers, where the plant is not posed by its model's rules.
     carried: Option<Carried>,
+    former: Arc<Former>,
     falls: bool,
     scratch: Scratch,
 }
@@ -52,18 +54,19 @@ impl Between {
         plant.partway = Some(Box::default());
         let mut shares = Shares::of(&plant, &lasting, age, extended);
         shares.remember(&plant, &lasting, (before, after), age);
+        let former = Arc::new(lasting.former_looks(&plant, before));
         let carried = (!rules).then(|| Carried::of(&plant, &lasting, (before, after), age));
-        Self { plant, age, shares, carried, falls, scratch: Scratch::default() }
+        Self { plant, age, shares, carried, former, falls, scratch: Scratch::default() }
     }
 
     /// The plant when the share `share` of the tick has passed, between 0 and 1. Passes that ask for an age are to be
     /// given that of the later tick. Linear in the components.
     pub fn at(&mut self, share: f32) -> &Plant {
-        let Self { plant, age, shares, carried, falls, scratch, .. } = self;
+        let Self { plant, age, shares, carried, former, falls, scratch } = self;
         let sizes = shares.sizes(share);
         let drops = if *falls { drops(plant, *age, share) } else { Vec::new() };
         let organs = carried.as_ref().map(|carried| carried.organs(share)).unwrap_or_default();
-        plant.partway = Some(Box::new(Partway { share, sizes, drops, organs }));
+        plant.partway = Some(Box::new(Partway { share, sizes, drops, organs, former: Arc::clone(former) }));
         shares.lengthen(plant, share);
         shares.thicken(plant, share);
         match carried {

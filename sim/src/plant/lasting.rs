@@ -4,6 +4,7 @@
 //! What has left the columns within the tick is put back into a copy of the later plant, at the end of each column and
 //! on axes of their own, so that all that stood at either tick can be shown between them. Absent: where it is shown.
 
+use super::partway::Former;
 use super::{AxisId, NewAxis, NewNode, NewOrgan, NodeId, OrganId, Plant};
 use crate::clock::Tick;
 
@@ -66,6 +67,28 @@ impl Plant {
         lasting.organs = vec![None; self.organs.len()];
         places.into_iter().for_each(|(place, organ)| lasting.organs[place.index()] = Some(organ));
         lasting
+    }
+}
+
+impl Lasting {
+    /// The own looks that nodes and organs had on `before`, where they have others on `plant`.
+    pub(crate) fn former_looks(&self, plant: &Plant, before: &Plant) -> Former {
+        let (now, was) = (&plant.own_looks, &before.own_looks);
+        if now.is_empty() && was.is_empty() {
+            return Former::default();
+        }
+        let node = |(place, old): (u32, &NodeId)| {
+            let (node, was) = (NodeId(place), was.of_node(old.some()?));
+            (now.of_node(node) != was).then_some((node, was))
+        };
+        let organ = |(place, old): (u32, &Option<OrganId>)| {
+            let (organ, was) = (OrganId(place), was.of_organ((*old)?));
+            (now.of_organ(organ) != was).then_some((organ, was))
+        };
+        Former {
+            nodes: (0..).zip(&self.nodes).filter_map(node).collect(),
+            organs: (0..).zip(&self.organs).filter_map(organ).collect(),
+        }
     }
 }
 

@@ -63,6 +63,7 @@ pub use node::{NewNode, Nodes};
 pub use organ::{NewOrgan, Organs};
 pub use outline::StatedOrgans;
 pub use own_look::OwnLooks;
+pub(crate) use partway::Former;
 pub use partway::Partway;
 pub use stated::{Part, Rest, StatedFrames};
 pub use strain::{Hold, Strain};
@@ -334,28 +335,10 @@ impl Plant {
         self.habit.looks.internode(self.axes.order[axis.index()], self.axes.state[axis.index()])
     }
 
-    /// The look of one internode: its own look, or that of its axis.
-    #[inline]
-    pub fn look_of_node(&self, node: NodeId) -> &InternodeLook {
-        let own = self.own_looks.of_node(node).and_then(|place| self.habit.looks.apart.get(place));
-        own.unwrap_or_else(|| self.look_of(self.nodes.axis[node.index()]))
-    }
-
     /// The kind of an internode.
     #[inline]
     pub fn kind_of(&self, node: NodeId) -> Kind {
         self.look_of_node(node).kind(self.nodes.formation[node.index()].is_short())
-    }
-
-    /// The look of an organ: its own look, or that of its class and order; `None` where none is stated.
-    #[inline]
-    pub fn look_of_organ(&self, organ: OrganId) -> Option<&OrganLook> {
-        let own = self.own_looks.of_organ(organ).and_then(|place| self.habit.looks.organs_apart.get(place));
-        if own.is_some() {
-            return own;
-        }
-        let axis = self.nodes.axis[self.organs.node[organ.index()].index()];
-        self.habit.looks.organ(self.axes.order[axis.index()], self.organs.kind[organ.index()].class())
     }
 
     /// The share of its full length and width that an organ has at `age`; its area is [`Plant::organ_area`].

@@ -5,9 +5,9 @@
 //! names no look. Beside its look a node may have a cross section of its own. A plant without own looks has empty
 //! columns.
 
-use super::Plant;
 use super::handle::{NodeId, OrganId};
 use super::rare::Rare;
+use super::{InternodeLook, OrganLook, Plant};
 
 /// The own looks of nodes and organs.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -74,5 +74,33 @@ impl Plant {
     /// Gives an organ the look at a place of [`super::Looks::organs_apart`], below 65,535.
     pub fn give_organ_look(&mut self, organ: OrganId, place: u16) {
         self.own_looks.organs.set(organ.index(), place.saturating_add(1));
+    }
+
+    /// The look of one internode: its own look, or that of its axis.
+    #[inline]
+    pub fn look_of_node(&self, node: NodeId) -> &InternodeLook {
+        self.look_of_node_as(node, self.own_looks.of_node(node))
+    }
+
+    #[inline]
+    pub(crate) fn look_of_node_as(&self, node: NodeId, own: Option<usize>) -> &InternodeLook {
+        let own = own.and_then(|place| self.habit.looks.apart.get(place));
+        own.unwrap_or_else(|| self.look_of(self.nodes.axis[node.index()]))
+    }
+
+    /// The look of an organ: its own look, or that of its class and order; `None` where none is stated.
+    #[inline]
+    pub fn look_of_organ(&self, organ: OrganId) -> Option<&OrganLook> {
+        self.look_of_organ_as(organ, self.own_looks.of_organ(organ))
+    }
+
+    #[inline]
+    pub(crate) fn look_of_organ_as(&self, organ: OrganId, own: Option<usize>) -> Option<&OrganLook> {
+        let own = own.and_then(|place| self.habit.looks.organs_apart.get(place));
+        if own.is_some() {
+            return own;
+        }
+        let axis = self.nodes.axis[self.organs.node[organ.index()].index()];
+        self.habit.looks.organ(self.axes.order[axis.index()], self.organs.kind[organ.index()].class())
     }
 }

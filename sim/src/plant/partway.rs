@@ -2,13 +2,15 @@
 //!
 //! Such a plant is made by [`crate::between`] and never grown on. It stands at the age of the later tick, at which all
 //! that stood at the earlier one still stands, and each pass that asks for an age is given the later tick. Lengths,
-//! diameters, curvatures and frames are those of the moment; sizes and places of organs follow from what is kept here.
+//! diameters, curvatures and frames are those of the moment; sizes and places of organs, and what looked otherwise at the
+//! earlier tick, follow from what is kept here.
 //! A plant at a tick has none of this. Absent: how the values come about.
 
-use super::Plant;
-use super::handle::OrganId;
+use super::handle::{NodeId, OrganId};
 use super::placing::Placed;
+use super::{InternodeLook, OrganLook, Plant};
 use crate::clock::Tick;
+use std::sync::Arc;
 
 /// The state between two ticks.
 #[derive(Debug, Clone, Default)]
@@ -21,6 +23,17 @@ pub struct Partway {
     pub(crate) drops: Vec<f32>,
     /// How each organ stands in the frame of its node; empty where insertion and trend tell it.
     pub(crate) organs: Vec<Placed>,
+    /// The looks at the earlier tick of what had others.
+    pub(crate) former: Arc<Former>,
+}
+
+/// The places of own looks at the earlier tick, of what stood there with another look; `None`: it had none of its own.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Former {
+    /// Those of nodes, in their order.
+    pub(crate) nodes: Vec<(NodeId, Option<usize>)>,
+    /// Those of organs, in their order.
+    pub(crate) organs: Vec<(OrganId, Option<usize>)>,
 }
 
 impl Plant {
@@ -48,5 +61,25 @@ impl Plant {
     #[inline]
     pub(crate) fn dropped(&self, organ: OrganId) -> f32 {
         self.partway.as_ref().and_then(|partway| partway.drops.get(organ.index())).copied().unwrap_or(0.0)
+    }
+
+    /// The look that an internode had at the earlier tick; of a plant at a tick the look that it has.
+    #[inline]
+    pub fn former_look_of_node(&self, node: NodeId) -> &InternodeLook {
+        let former = self.partway.as_ref().map(|partway| &partway.former.nodes);
+        match former.and_then(|former| Some(former[former.binary_search_by_key(&node, |of| of.0).ok()?].1)) {
+            Some(own) => self.look_of_node_as(node, own),
+            None => self.look_of_node(node),
+        }
+    }
+
+    /// The look that an organ had at the earlier tick; of a plant at a tick the look that it has.
+    #[inline]
+    pub fn former_look_of_organ(&self, organ: OrganId) -> Option<&OrganLook> {
+        let former = self.partway.as_ref().map(|partway| &partway.former.organs);
+        match former.and_then(|former| Some(former[former.binary_search_by_key(&organ, |of| of.0).ok()?].1)) {
+            Some(own) => self.look_of_organ_as(organ, own),
+            None => self.look_of_organ(organ),
+        }
     }
 }

@@ -5,7 +5,7 @@
 
 use super::super::{Misuse, out};
 use phytomer_outputs::Destination;
-use phytomer_outputs::gltf::write_still;
+use phytomer_outputs::gltf::{write_plant_instanced, write_plot_instanced, write_still};
 use phytomer_outputs::meshes::{MeshWriter, PlantDrawing, PlotMesh, Ply, Scene, write_stl};
 use phytomer_outputs::usd::{self, Asked, Encoding, Organs};
 use std::io;
@@ -15,7 +15,7 @@ use std::path::Path;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     Ply,
-    Glb,
+    Glb(Organs),
     Stl,
     Usd(Encoding, Organs),
 }
@@ -23,7 +23,7 @@ pub enum Format {
 /// The formats, with their names and endings. A name without an ending, and stdout, get the first.
 const FORMATS: [(Format, out::Format); 6] = [
     (Format::Ply, out::Format { name: "PLY", extension: "ply" }),
-    (Format::Glb, out::Format { name: "GLB", extension: "glb" }),
+    (Format::Glb(Organs::Merged), out::Format { name: "GLB", extension: "glb" }),
     (Format::Stl, out::Format { name: "STL", extension: "stl" }),
     (Format::Usd(Encoding::Binary, Organs::Instances), out::Format { name: "USD", extension: "usdc" }),
     (Format::Usd(Encoding::Text, Organs::Instances), out::Format { name: "USD", extension: "usda" }),
@@ -46,7 +46,7 @@ impl Format {
     /// Whether a file of it holds what an option asks for: a whole life, or a skeleton.
     pub fn holds(self, option: &str) -> bool {
         match self {
-            Self::Glb => ["ages", "rig"].contains(&option),
+            Self::Glb(_) => ["ages", "rig"].contains(&option),
             Self::Usd(..) => option == "ages",
             Self::Ply | Self::Stl => false,
         }
@@ -71,7 +71,8 @@ impl Format {
         let about = scene.about(run_seed);
         match self {
             Self::Ply => Ply.write(scene, &about, out),
-            Self::Glb => write_still(&PlantDrawing { scene, about }, out),
+            Self::Glb(Organs::Merged) => write_still(&PlantDrawing { scene, about }, out),
+            Self::Glb(Organs::Instances) => write_plant_instanced(scene, run_seed, out),
             Self::Stl => write_stl(&PlantDrawing { scene, about }, out),
             Self::Usd(encoding, organs) => {
                 let asked = Asked { encoding, organs, words: about.in_words() };
@@ -87,7 +88,8 @@ impl Format {
     pub fn write_plot(self, plot: &PlotMesh, out: &mut Destination) -> io::Result<()> {
         match self {
             Self::Ply => plot.write(out),
-            Self::Glb => write_still(&plot.drawing()?, out),
+            Self::Glb(Organs::Merged) => write_still(&plot.drawing()?, out),
+            Self::Glb(Organs::Instances) => write_plot_instanced(plot, out),
             Self::Stl => write_stl(&plot.drawing()?, out),
             Self::Usd(encoding, organs) => {
                 usd::write_plot(&Asked { encoding, organs, words: plot.name.clone() }, plot, out)
@@ -105,7 +107,7 @@ mod tests {
         for (name, format) in [
             ("a.ply", Format::Ply),
             ("A.STL", Format::Stl),
-            ("a.Glb", Format::Glb),
+            ("a.Glb", Format::Glb(Organs::Merged)),
             ("a.ply.stl", Format::Stl),
             ("a.usdc", Format::Usd(Encoding::Binary, Organs::Instances)),
             ("a.USDA", Format::Usd(Encoding::Text, Organs::Instances)),

@@ -27,13 +27,14 @@ pub struct Growing {
     /// its morph targets, 16 if not given. Between two of them everything goes evenly from one to the other.
     #[arg(long, value_name = "AGES", requires = "ages", value_parser = clap::value_parser!(u32).range(2..=256))]
     pub keys: Option<u32>,
-    /// How USD has leaves, flowers and fruits. Instances are small files; Blender plays them from 4.5 on, and before
-    /// shows them for ever as they are at the first age.
+    /// How USD and GLB have leaves, flowers and fruits. USD has instances if nothing is asked for: small files, which
+    /// Blender plays from 4.5 on, and before shows for ever as they are at the first age. GLB has one mesh if nothing is
+    /// asked for, and instances of one age alone: Blender makes an object of each, which takes it seconds.
     #[arg(long, value_enum)]
     leaves: Option<Leaves>,
 }
 
-/// How USD has organs.
+/// How a file has organs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Leaves {
     /// As instances of a few models.
@@ -42,30 +43,41 @@ enum Leaves {
     Merged,
 }
 
+impl Leaves {
+    fn organs(self) -> Organs {
+        match self {
+            Self::Instances => Organs::Instances,
+            Self::Merged => Organs::Merged,
+        }
+    }
+}
+
 impl Growing {
-    /// The format with its organs as they are asked for.
+    /// The format with its organs as they are asked for; `rig` is whether a skeleton is.
     ///
     /// # Errors
     /// A format that cannot do what is asked for.
-    pub fn of(&self, format: Format, plot: bool) -> Result<Format, Misuse> {
+    pub fn of(&self, format: Format, rig: bool) -> Result<Format, Misuse> {
         if self.is_asked() && !format.holds("ages") {
             return Err(format.holds_no("ages"));
         }
-        let Format::Usd(encoding, _) = format else {
-            return self.leaves.map_or(Ok(format), |_| {
-                Err(Misuse("--leaves: this is for files of USD, whose names end in .usdc, .usda or .usdz".to_owned()))
-            });
-        };
-        if self.keys.is_some() {
-            return Err(Misuse("--keys: this is for a life as GLB; USD has every age".to_owned()));
+        match (format, self.leaves) {
+            (Format::Usd(encoding, organs), leaves) => {
+                if self.keys.is_some() {
+                    return Err(Misuse("--keys: this is for a life as GLB; USD has every age".to_owned()));
+                }
+                Ok(Format::Usd(encoding, leaves.map_or(organs, Leaves::organs)))
+            }
+            (_, None) => Ok(format),
+            (Format::Glb(_), Some(Leaves::Instances)) if self.is_asked() || rig => Err(Misuse(
+                "--leaves instances: a GLB file whose vertices move has its organs merged; USD has instances at every age"
+                    .to_owned(),
+            )),
+            (Format::Glb(_), Some(leaves)) => Ok(Format::Glb(leaves.organs())),
+            (Format::Ply | Format::Stl, Some(_)) => Err(Misuse(
+                "--leaves: this is for USD and GLB, whose names end in .usdc, .usda, .usdz or .glb".to_owned(),
+            )),
         }
-        if plot && self.is_asked() {
-            return Err(Misuse(
-                "--plot: USD has the life of a single plant, by --plant; GLB that of a plot".to_owned(),
-            ));
-        }
-        let merged = self.leaves == Some(Leaves::Merged);
-        Ok(Format::Usd(encoding, if merged { Organs::Merged } else { Organs::Instances }))
     }
 
     /// Whether a life is asked for.

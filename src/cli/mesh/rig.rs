@@ -75,7 +75,7 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format, joints: u32) -> Res
     let wind = format!("{} m/s towards {} degrees", air.wind.speed, air.wind.towards.to_degrees());
     let drawing = PlantDrawing { scene: &scene, about: scene.about(regrown.scenario.seed) };
     let written = match format {
-        Format::Glb => check_size(&scene).and_then(|()| sway.write(&drawing, &wind, &mut file)),
+        Format::Glb(_) => check_size(&scene).and_then(|()| sway.write(&drawing, &wind, &mut file)),
         Format::Ply | Format::Stl | Format::Usd(..) => return Err(format.holds_no("rig").into()),
     };
     written.with_context(|| mesh.failing())?;

@@ -1,19 +1,19 @@
-//! A life as a USD file: the plant at each of some ages, as time samples.
+//! A life as a USD file: a plant or a plot at each of some ages, as time samples.
 //!
-//! Absent: what a life is (`phytomer_outputs::life`), and the file (`phytomer_outputs::usd`).
+//! Absent: growing (`run::living`), what a life is (`phytomer_outputs::life`), and the file (`phytomer_outputs::usd`).
 
-use super::super::Verdict;
 use super::super::budget::{Asked as Fineness, in_words};
 use super::super::regrown::Regrown;
 use super::super::span::{Span, shown};
+use super::super::{Verdict, amounts};
 use super::{Format, Mesh};
 use anyhow::{Context, Result};
 use phytomer::run::drawing::options_of;
-use phytomer::run::regrowth::Regrowth;
+use phytomer::run::living::{Living, lives};
+use phytomer::run::regrowth::Whose;
 use phytomer_outputs::Destination;
-use phytomer_outputs::life::{Life, Maker, Nearness};
-use phytomer_outputs::meshes::{MeshOptions, Tolerance};
-use phytomer_outputs::usd::{self, Asked, Member, Pace, Plants};
+use phytomer_outputs::meshes::{Drawing, PlotMesh, Tolerance};
+use phytomer_outputs::usd::{self, Asked, Pace, Plants};
 
 /// How near a life is to the plant where nothing is said, metres.
 const NEAR: f32 = 1e-3;
@@ -22,30 +22,33 @@ const FINEST: f64 = 4.0;
 /// The time codes of a second.
 const A_SECOND: f64 = 24.0;
 
-/// Grows the plant of a mesh and writes its life.
+/// Grows the plant or the plot of a mesh and writes its life.
 pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> {
     let Format::Usd(encoding, organs) = format else { return Err(format.holds_no("ages").into()) };
-    let plant = mesh.plant;
-    let (_, ages) = shown(regrown, (plant, None), mesh.growing.ages, "--ages")?;
+    let (whose, ages) = shown(regrown, (mesh.plant, mesh.plot), mesh.growing.ages, "--ages")?;
     let regrowth = regrown.regrowth(&mesh.breeze)?.falling(mesh.fall.fall);
     let mut file = Destination::create(&mesh.out)?;
-    let own = regrown.forms.get(regrown.trial.species_of_plant(plant)).cloned().unwrap_or_default();
     let within = match mesh.budget.asked() {
         Fineness::Within(tolerance) => tolerance,
         Fineness::Full | Fineness::Triangles(_) => Tolerance::of(NEAR),
     };
-    let options = options_of(mesh.sides, &own);
+    let options = |species: usize| options_of(mesh.sides, &regrown.forms.get(species).cloned().unwrap_or_default());
     let finer = Span { step: ages.step.or_else(|| step_of(ages, mesh.growing.seconds)), ..ages };
-    let life = life_of(&regrowth, plant, finer, (within.distance, &options))?;
-    let what = format!("plant {plant} from age {} to age {}", ages.first, ages.last);
+    let living = lives(&regrowth, whose, &finer.moments(), (within.distance, &options))?;
+    let what = match whose {
+        Whose::Plant(plant) => format!("plant {plant} from age {} to age {}", ages.first, ages.last),
+        Whose::Plot(plot) => format!("plot {plot} from tick {} to tick {}", ages.first, ages.last),
+    };
     let words = format!("{what}, seed {}", regrown.scenario.seed);
-    let (lives, options) = ([life], [options]);
-    let member = [Member::default()];
-    let plants = Plants::of(&lives, &options, &member);
+    let Living { lives, options, members, obstacles } = &living;
+    let obstacles = obstacles.as_ref().map(PlotMesh::drawing).transpose()?;
+    let obstacles = obstacles.as_ref().map(|obstacles| obstacles as &dyn Drawing);
+    let plants = Plants { obstacles, ..Plants::of(lives, options, members) };
     let asked = Asked { encoding, organs, words };
     let pace = pace(ages, mesh.growing.seconds);
     usd::write_life(&asked, &plants, within.distance, &pace, &mut file).with_context(|| mesh.failing())?;
-    mesh.tell(file, &format!("{what}{}", in_words(Some(&within))))
+    let plants = mesh.plot.map(|_| format!(", {}", amounts::of(members.len() as u64, "plant"))).unwrap_or_default();
+    mesh.tell(file, &format!("{what}{plants}{}", in_words(Some(&within))))
 }
 
 /// The step of a life that has several frames a tick, in ticks: a quarter at most, since between the ages that are
@@ -59,14 +62,4 @@ fn pace(ages: Span, seconds: Option<f64>) -> Pace {
     let ticks = ages.last - ages.first;
     let a_tick = seconds.filter(|_| ticks > 0.0).map_or(1.0, |seconds| seconds * A_SECOND / ticks);
     Pace { a_tick, a_second: A_SECOND }
-}
-
-/// The life of a plant at the ages of a span.
-fn life_of(regrowth: &Regrowth, plant: u32, ages: Span, (distance, options): (f32, &MeshOptions)) -> Result<Life> {
-    let mut maker = Maker::new(Nearness::of(distance), options);
-    regrowth.show_at(plant, &ages.moments(), &mut |moment, plant| {
-        maker.show(plant, moment.tick());
-        Ok(())
-    })?;
-    Ok(maker.finish())
 }

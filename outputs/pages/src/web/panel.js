@@ -279,8 +279,8 @@ const Panel = (() => {
       this.share = share;
       const { ages, captions, kinds } = this.header;
       const age = ages[number] + share * ((ages[number + 1] ?? ages[number]) - ages[number]);
-      const told = Number(age.toFixed(1));
-      at('caption').textContent = share > 0 ? captions[number].replace(/\d+/, told) : captions[number];
+      const told = Number(age.toFixed(Number.isInteger(ages[number]) ? 1 : 2));
+      at('caption').textContent = share > 0 ? captions[number].replace(/\d+(\.\d+)?/, told) : captions[number];
       this.now.setAttribute('d', `M${this.x(age).toFixed(1)},0V40`);
       const standing = [];
       for (const [kind, cell] of this.cells) {

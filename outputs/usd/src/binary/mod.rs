@@ -13,7 +13,8 @@ mod ints;
 mod tables;
 mod values;
 
-use super::layer::{Attribute, Data, Header, Layer, Sink, Value};
+use super::layer::{Attribute, Data, Header, Layer, Value};
+use phytomer_meshes::Patched;
 use std::io;
 use tables::{ROOT, Spec, Tables};
 use values::{Rep, Type, Values};
@@ -47,7 +48,7 @@ impl<'o> Binary<'o> {
     ///
     /// # Errors
     /// Those of `out`.
-    pub fn begin(out: &'o mut dyn Sink, header: &Header) -> io::Result<Self> {
+    pub fn begin(out: &'o mut dyn Patched, header: &Header) -> io::Result<Self> {
         let mut values = Values::of(out);
         let mut bootstrap = [0; BOOTSTRAP];
         bootstrap[..8].copy_from_slice(b"PXR-USDC");

@@ -1,8 +1,8 @@
 //! Values of a binary layer: their types, their representations, and how they lie in the file.
 
-use super::super::layer::Sink;
 use super::ints;
 use bytemuck::{NoUninit, cast_slice};
+use phytomer_meshes::Patched;
 use std::io;
 
 /// The types of values that we write, by their numbers (crateDataTypes.h).
@@ -55,13 +55,13 @@ impl Rep {
 
 /// The values of a layer, one after another.
 pub struct Values<'o> {
-    out: &'o mut dyn Sink,
+    out: &'o mut dyn Patched,
     place: u64,
 }
 
 impl<'o> Values<'o> {
     /// Nothing yet.
-    pub fn of(out: &'o mut dyn Sink) -> Self {
+    pub fn of(out: &'o mut dyn Patched) -> Self {
         Self { out, place: 0 }
     }
 

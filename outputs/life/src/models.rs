@@ -1,0 +1,122 @@
+//! The models that parts of lives are instances of: one for each kind, form and step of colour.
+//!
+//! Readers keep little of an instance but its place and its model, so the colour goes by the model, in steps of 12 of
+//! 255 in each of three bytes. A form that becomes fuller in its parts has a model for each step of a sixty-fourth.
+//! Lives that are drawn with the same forms share models. Absent: instances and files, which are the writers'.
+
+use super::{Life, Model, Part, What};
+use phytomer_meshes::MeshOptions;
+use phytomer_sim::plant::Kind;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The step of a colour, in each of three bytes.
+const STEP: f32 = 12.0;
+/// The steps of fullness from 0 to 1.
+const FULLNESS: f32 = 64.0;
+
+/// What tells one model from another: the life, the kind, the form, its place, its fullness, and two colours.
+type Key = (usize, u8, [u32; 3], [[u8; 3]; 2]);
+
+/// All models of some lives.
+pub struct Models<'a> {
+    lives: &'a [Life],
+    options: &'a [MeshOptions],
+    /// Of each life the first that is drawn with the same forms.
+    alike: Vec<usize>,
+    places: BTreeMap<Key, usize>,
+    made: Vec<(Kind, Model)>,
+    /// Models for the scale of a part alone, whatever its colour.
+    plain: BTreeMap<(usize, [u32; 3]), Model>,
+}
+
+impl<'a> Models<'a> {
+    /// No model yet, of lives that are drawn with these options.
+    pub fn of(lives: &'a [Life], options: &'a [MeshOptions]) -> Self {
+        let same = |a: &MeshOptions, b: &MeshOptions| Arc::ptr_eq(&a.own, &b.own);
+        let alike = |own: &MeshOptions| options.iter().position(|other| same(own, other)).unwrap_or_default();
+        let alike = options.iter().map(alike).collect();
+        Self { lives, options, alike, places: BTreeMap::new(), made: Vec::new(), plain: BTreeMap::new() }
+    }
+
+    /// Makes the model of a part in a colour, where there is none yet; its place.
+    pub fn meet(&mut self, life: usize, part: &Part, tint: [f32; 3]) -> usize {
+        let key = self.key(life, part, tint);
+        if let Some(known) = self.places.get(&key) {
+            return *known;
+        }
+        let model = self.make(life, part, key.3);
+        self.plain.entry((key.0, key.2)).or_insert_with(|| model.clone());
+        self.places.insert(key, self.made.len());
+        self.made.push((part.kind, model));
+        self.made.len() - 1
+    }
+
+    /// The place of the model of a part that was met.
+    pub fn place(&self, life: usize, part: &Part, tint: [f32; 3]) -> usize {
+        self.places.get(&self.key(life, part, tint)).copied().unwrap_or_default()
+    }
+
+    /// The form of a part that was met, in any colour.
+    pub fn form(&self, life: usize, part: &Part) -> Option<&Model> {
+        self.plain.get(&(self.whose(life, part), form_of(part)))
+    }
+
+    /// The life whose forms a part has: what is a polygon, a surface or an internode has its own life's.
+    fn whose(&self, life: usize, part: &Part) -> usize {
+        if matches!(part.what, What::Organ(_)) { self.alike[life] } else { life }
+    }
+
+    fn key(&self, life: usize, part: &Part, tint: [f32; 3]) -> Key {
+        (self.whose(life, part), part.kind as u8, form_of(part), [stepped(tint), part.stalk])
+    }
+
+    fn make(&self, life: usize, part: &Part, colours: [[u8; 3]; 2]) -> Model {
+        let of = &self.lives[life];
+        let found = match part.what {
+            What::Organ(form) => {
+                let fullness = (part.fullness * FULLNESS).round() / FULLNESS;
+                Some(Model::of_form(&self.options[life], form, fullness, colours))
+            }
+            What::Outlined(place) => {
+                of.outlines.get(place as usize).map(|corners| Model::of_outline(corners, colours[0]))
+            }
+            What::Surface(place) => {
+                of.surfaces.get(place as usize).map(|surface| Model::of_surface(surface, colours[0]))
+            }
+            What::Internode => of.stems.get(part.stem as usize).cloned(),
+        };
+        found.unwrap_or_default()
+    }
+
+    /// The models in their order, each with the kind of its parts.
+    pub fn made(&self) -> &[(Kind, Model)] {
+        &self.made
+    }
+
+    /// The names of the models, in their order: the kind and a number.
+    pub fn names(&self) -> Vec<String> {
+        let mut counts = [0; Kind::ALL.len()];
+        let name = |(kind, _): &(Kind, Model)| {
+            let count = &mut counts[*kind as usize];
+            *count += 1;
+            format!("{}_{}", kind.tag(), *count - 1)
+        };
+        self.made.iter().map(name).collect()
+    }
+}
+
+/// A colour in the steps that models have.
+pub fn stepped(tint: [f32; 3]) -> [u8; 3] {
+    tint.map(|part| ((part / STEP).round() * STEP).clamp(0.0, 255.0) as u8)
+}
+
+/// The form of a part, its place among its like, and the step of its fullness where the form is full in its parts.
+fn form_of(part: &Part) -> [u32; 3] {
+    match part.what {
+        What::Organ(form) => [0, u32::from(form.0), (part.fullness * FULLNESS).round().max(0.0) as u32],
+        What::Outlined(place) => [1, place, 0],
+        What::Surface(place) => [2, place, 0],
+        What::Internode => [3, part.stem, 0],
+    }
+}
