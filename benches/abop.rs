@@ -28,6 +28,14 @@ fn string() -> (Program, Derived) {
     (program, derived)
 }
 
+/// So many plants, of which every step is recorded.
+fn specimen_of(plants: u32) -> Specimen {
+    let scenario = format!(
+        "name = \"abop\"\nspecies = \"abop/2.8a\"\nplants = {plants}\nages = {{ until = {STEPS}, record = \"all\" }}\n"
+    );
+    Specimen::of_text("abop", &scenario)
+}
+
 /// Lets a turtle read the string; how many lines it has drawn.
 fn interpreted(program: &Program, derived: &Derived, commands: &[Command], turtle: &mut Turtle) -> usize {
     let mut lines = 0;
@@ -41,10 +49,7 @@ fn interpreted(program: &Program, derived: &Derived, commands: &[Command], turtl
 }
 
 fn abop(criterion: &mut Criterion) {
-    let scenario = format!(
-        "name = \"abop\"\nspecies = \"abop/2.8a\"\nplants = 8\nages = {{ until = {STEPS}, record = \"all\" }}\n"
-    );
-    let specimen = Specimen::of_text("abop", &scenario);
+    let specimen = specimen_of(8);
     let (program, derived) = string();
     let symbols = program.symbols();
     let commands: Vec<Command> = (0..symbols.len()).map(|n| Command::of(symbols.name(Symbol(n as u16)))).collect();
@@ -60,5 +65,12 @@ fn abop(criterion: &mut Criterion) {
     specimen.records(criterion);
 }
 
-criterion_group!(benches, abop);
+/// The ratios of the records by turns, for `PHYTOMER_PAIRS=20 cargo bench --bench abop -- turns`: of eight plants, and
+/// of sixty-four.
+fn turns(_: &mut Criterion) {
+    let Some(pairs) = std::env::var("PHYTOMER_PAIRS").ok().and_then(|pairs| pairs.parse().ok()) else { return };
+    [8, 64].into_iter().for_each(|plants| specimen_of(plants).records_by_turns(pairs));
+}
+
+criterion_group!(benches, abop, turns);
 criterion_main!(benches);

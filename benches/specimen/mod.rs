@@ -12,6 +12,7 @@ pub mod budget;
 pub mod columns;
 pub mod files;
 pub mod picture;
+pub mod turns;
 
 use criterion::measurement::WallTime;
 use criterion::{BatchSize, BenchmarkGroup, Criterion, SamplingMode, Throughput};
@@ -183,13 +184,7 @@ impl Specimen {
         let grow = || run::run(&self.resolved, &settings, &Progress::default()).expect("a run");
         let outcome = grow();
         let rows = outcome.report.rows.values().sum();
-        let plan = plan_of(&self.resolved, &Program::default()).expect("a plan");
-        let ready = baseline::ready_batches(&ours, &plan);
-        let empty = |folder: &Path| {
-            let _ = std::fs::remove_dir_all(folder);
-            std::fs::create_dir(folder).expect("a folder");
-            File::open(folder).and_then(|folder| folder.sync_all()).expect("a folder on the disk");
-        };
+        let ready = self.ready(&ours);
         let mut group = self.group(criterion, "records (rows)", Throughput::Elements(rows));
         group.bench_function("whole grow", |bencher| {
             bencher.iter_batched(|| empty(&ours), |()| grow(), BatchSize::PerIteration);
@@ -200,6 +195,30 @@ impl Specimen {
         group.bench_function("plain memory write of the same columns", |bencher| bencher.iter(|| ready.copy()));
         group.finish();
     }
+
+    /// The same two sides by turns, so many pairs of them: their ratio also where the machine does other work.
+    pub fn records_by_turns(&self, pairs: usize) {
+        let home = tempfile::tempdir().expect("a folder");
+        let (ours, theirs) = (home.path().join("run"), home.path().join("alone"));
+        let settings = Settings::in_folder(&ours);
+        let grow = || drop(run::run(&self.resolved, &settings, &Progress::default()).expect("a run"));
+        grow();
+        let ready = self.ready(&ours);
+        let before = || [&ours, &theirs].into_iter().for_each(|folder| empty(folder));
+        let name = format!("{}: whole grow beside the parquet crate alone", self.name);
+        turns::by_turns(&name, pairs, before, grow, || ready.write(&theirs));
+    }
+
+    fn ready(&self, run: &Path) -> baseline::Ready {
+        baseline::ready_batches(run, &plan_of(&self.resolved, &Program::default()).expect("a plan"))
+    }
+}
+
+/// Makes a folder empty, on the disk too.
+fn empty(folder: &Path) {
+    let _ = std::fs::remove_dir_all(folder);
+    std::fs::create_dir(folder).expect("a folder");
+    File::open(folder).and_then(|folder| folder.sync_all()).expect("a folder on the disk");
 }
 
 /// Grows the one plant of a plot to an age; dead parts are not shed.

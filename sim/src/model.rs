@@ -86,6 +86,12 @@ pub trait Grow: Send + Sync {
     /// Puts the first axis into an empty plant, at its age 0; the plant's life.
     fn sow(&self, plant: &mut Plant) -> Self::Life;
 
+    /// Puts the first axis into a plant that is empty again, with the same result as [`Grow::sow`]; a model may use the
+    /// memory of the life before again.
+    fn sow_again(&self, plant: &mut Plant, life: &mut Self::Life) {
+        *life = self.sow(plant);
+    }
+
     /// Grows a plant from its age to `age`: topology, rest geometry, fates of buds and organs.
     ///
     /// # Errors
@@ -158,6 +164,12 @@ pub trait GrowthModel: Send + Sync {
     fn habit(&self) -> Arc<Habit>;
     fn sow(&self, plant: &mut Plant) -> Life;
 
+    /// As [`Grow::sow_again`].
+    ///
+    /// # Panics
+    /// Where `life` is that of another model's plant.
+    fn sow_again(&self, plant: &mut Plant, life: &mut Life);
+
     /// As [`Grow::grow_to`].
     ///
     /// # Errors
@@ -208,6 +220,10 @@ impl<M: Grow> GrowthModel for M {
 
     fn sow(&self, plant: &mut Plant) -> Life {
         Life::of(Grow::sow(self, plant))
+    }
+
+    fn sow_again(&self, plant: &mut Plant, life: &mut Life) {
+        Grow::sow_again(self, plant, life.get_mut());
     }
 
     fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Life, view: &View<'_>) -> Result<(), Overgrown> {

@@ -137,7 +137,7 @@ impl<'m> Plot<'m> {
             }
         }
         for ((plant, life), member) in plants.iter_mut().zip(lives).zip(members) {
-            *life = species[member.species].sow(plant);
+            species[member.species].sow_again(plant, life);
         }
     }
 

@@ -52,15 +52,21 @@ impl Rotation {
     fn of_basis(x: Vector, y: Vector, z: Vector) -> Self {
         let squares = [1.0 + x.x + y.y + z.z, 1.0 + x.x - y.y - z.z, 1.0 - x.x + y.y - z.z, 1.0 - x.x - y.y + z.z];
         let [w, a, b, c] = squares;
-        let (scalar, vector) = if w >= a && w >= b && w >= c {
-            (w, Vector::new(y.z - z.y, z.x - x.z, x.y - y.x))
-        } else if a >= b && a >= c {
-            (y.z - z.y, Vector::new(a, x.y + y.x, z.x + x.z))
-        } else if b >= c {
-            (z.x - x.z, Vector::new(x.y + y.x, b, y.z + z.y))
-        } else {
-            (x.y - y.x, Vector::new(z.x + x.z, y.z + z.y, c))
-        };
+        let (out, back) = (
+            [y.z - z.y, z.x - x.z, x.y - y.x],
+            [y.z + z.y, z.x + x.z, x.y + y.x],
+        );
+        let parts = [
+            (w, Vector::new(out[0], out[1], out[2])),
+            (out[0], Vector::new(a, back[2], back[1])),
+            (out[1], Vector::new(back[2], b, back[0])),
+            (out[2], Vector::new(back[1], back[0], c)),
+        ];
+        // Chosen by its place, without a branch: which is the largest changes from node to node.
+        let of_last = if b >= c { 2 } else { 3 };
+        let of_vector = if (a >= b) & (a >= c) { 1 } else { of_last };
+        let place: usize = if (w >= a) & (w >= b) & (w >= c) { 0 } else { of_vector };
+        let (scalar, vector) = parts[place];
         Self { scalar, vector }.normalized()
     }
 

@@ -140,6 +140,31 @@ pub(crate) struct Rule {
     pub locals: u16,
     /// What it costs to try it and to apply it, of the rounds that a step may have.
     pub cost: u64,
+    /// Its successor as columns, where it rewrites a single module into some; told once all sections are there.
+    pub row: Option<Row>,
+}
+
+/// What of a successor is the same whenever its production is applied, column by column.
+#[derive(Debug, Clone)]
+pub(crate) struct Row {
+    pub kinds: Box<[Kind]>,
+    /// The parameters of all modules; those that are computed are 0 here.
+    pub values: Box<[f64]>,
+    /// How many of them are those of the first module.
+    pub of_first: usize,
+    /// Where the parameters of each begin among those of all modules.
+    pub first: Box<[u32]>,
+    /// The parameters that are computed: their places, and by which argument of which module.
+    pub computed: Box<[(u32, u32, u32)]>,
+    /// The brackets behind the first module, in pairs.
+    pub pairs: Box<[(u32, u32)]>,
+    /// The modules behind the first that a step visits in their order, those of which it changes the parameters, and
+    /// the cuts.
+    pub active: Box<[u32]>,
+    pub updated: Box<[u32]>,
+    pub cuts: Box<[u32]>,
+    /// The module as which the predecessor goes on.
+    pub kept: Option<u32>,
 }
 
 impl Rule {

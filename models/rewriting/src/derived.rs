@@ -14,6 +14,8 @@ pub struct Derived {
     pub(crate) active: Vec<Slot>,
     /// The modules of which each step changes the parameters and nothing else, by their slots as they came.
     pub(crate) updated: Vec<Slot>,
+    /// Room for the active modules of the next step.
+    pub(crate) spare: Vec<Slot>,
     pub(crate) variables: Variables,
     /// The modules that the last step has cut off, by their keys.
     pub(crate) cut: Vec<LineageKey>,

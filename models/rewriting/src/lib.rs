@@ -33,4 +33,6 @@ pub use string::{Identity, Module, ModuleString, Modules, Slot};
 pub use symbol::{MOST_SYMBOLS, Symbol, SymbolTable};
 
 #[cfg(test)]
+mod tests_rows;
+#[cfg(test)]
 mod tests_string;

@@ -24,6 +24,15 @@ impl Links {
         Self { next: Vec::new(), previous: both_ways.then(Vec::new), head: NONE, tail: NONE }
     }
 
+    /// Forgets all modules and keeps the memory.
+    pub fn clear(&mut self, both_ways: bool) {
+        self.next.clear();
+        let mut previous = self.previous.take().unwrap_or_default();
+        previous.clear();
+        self.previous = both_ways.then_some(previous);
+        (self.head, self.tail) = (NONE, NONE);
+    }
+
     /// How many bytes the links of one module take.
     pub fn bytes_each(&self) -> usize {
         size_of::<u32>() * (1 + usize::from(self.previous.is_some()))

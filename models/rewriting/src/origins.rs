@@ -16,6 +16,15 @@ pub(crate) struct Origins {
 }
 
 impl Origins {
+    /// Forgets all and keeps the memory.
+    pub fn clear(&mut self) {
+        self.predecessor.clear();
+        self.birth.clear();
+        self.uses.clear();
+        self.free.clear();
+        self.last = 0;
+    }
+
     /// The number of an origin, which one more module has.
     #[inline]
     pub fn claim(&mut self, predecessor: LineageKey, birth: u32) -> u32 {
@@ -25,6 +34,14 @@ impl Origins {
             return last as u32;
         }
         self.add(predecessor, birth)
+    }
+
+    /// The number of an origin, which so many more modules have, at least one.
+    #[inline]
+    pub fn claim_for(&mut self, predecessor: LineageKey, birth: u32, modules: u32) -> u32 {
+        let number = self.claim(predecessor, birth);
+        self.uses[number as usize] += modules - 1;
+        number
     }
 
     fn add(&mut self, predecessor: LineageKey, birth: u32) -> u32 {

@@ -21,6 +21,14 @@ impl Parameters {
         Self { values: Vec::new(), free: vec![Vec::new(); most + 1], free_count: 0 }
     }
 
+    /// Forgets all and keeps the memory, for modules of at most so many parameters.
+    pub fn clear(&mut self, most: usize) {
+        self.values.clear();
+        self.free.iter_mut().for_each(Vec::clear);
+        self.free.resize(most + 1, Vec::new());
+        self.free_count = 0;
+    }
+
     /// An empty column for the same modules, with room for what this one holds.
     pub fn anew(&self) -> Self {
         Self { values: Vec::with_capacity(self.count()), ..Self::new(self.free.len().saturating_sub(1)) }

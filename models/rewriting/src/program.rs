@@ -142,12 +142,35 @@ impl Program {
     /// # Errors
     /// Why it cannot be made.
     pub fn sow(&self, random: PlantRandom, interpreter: &mut dyn Interpreter) -> Result<Derived, Stopped> {
+        self.sow_again(None, random, interpreter)
+    }
+
+    /// The same in the memory of a plant that is needed no more, of this program or of another.
+    ///
+    /// # Errors
+    /// Why it cannot be made.
+    pub fn sow_again(
+        &self,
+        memory: Option<Derived>,
+        random: PlantRandom,
+        interpreter: &mut dyn Interpreter,
+    ) -> Result<Derived, Stopped> {
         let arrays = self.script.arrays.iter().map(|array| array.values.clone()).collect();
         let seed = self.settings.seed.unwrap_or(0);
         let variables = Variables { values: vec![0.0; self.script.globals], arrays, seed };
-        let string = ModuleString::new(self.symbols.kinds(), self.script.looks_left());
-        let mut derived =
-            Derived { string, active: Vec::new(), updated: Vec::new(), variables, cut: Vec::new(), step: 0, random };
+        let (kinds, both_ways) = (self.symbols.kinds(), self.script.looks_left());
+        let mut derived = match memory {
+            Some(Derived { mut string, active, updated, spare, mut cut, .. }) => {
+                string.clear(kinds, both_ways);
+                cut.clear();
+                Derived { string, active, updated, spare, variables, cut, step: 0, random }
+            }
+            None => {
+                let (active, updated, spare, cut) = Default::default();
+                let string = ModuleString::new(kinds, both_ways);
+                Derived { string, active, updated, spare, variables, cut, step: 0, random }
+            }
+        };
         let result = engine::sow(&self.script, &mut derived, self.outside.as_ref(), self.bounds());
         result.map_err(|halt| self.stopped(0, *halt))?;
         self.answer(&mut derived, interpreter)?;
@@ -190,6 +213,11 @@ impl Program {
         Ok(())
     }
 
+    /// Whether every module is drawn as it is: no homomorphism replaces any.
+    pub fn draws_its_modules(&self) -> bool {
+        self.script.homomorphism.rules.is_empty()
+    }
+
     /// Shows `visit` every module as it is drawn, in the order of the string. What the homomorphism assigns is
     /// forgotten afterwards: drawing changes no plant. Its draws depend on module and path and not on the step, so that
     /// what stays is drawn as it was.
@@ -215,8 +243,8 @@ impl Program {
         for slot in string.slots_in_order() {
             let kind = string.kind(slot);
             if rules.of(kind).is_empty() {
-                let symbol = self.symbols.kinds().get(usize::from(kind.0)).map_or(Symbol(0), |kind| kind.0);
-                visit(Drawn { symbol, parameters: string.parameters(slot), key: string.key(slot), of: slot, depth: 0 });
+                let (symbol, parameters, key) = string.shown(slot);
+                visit(Drawn { symbol, parameters, key, of: slot, depth: 0 });
                 continue;
             }
             let module = string.module(slot);
@@ -239,6 +267,12 @@ impl Program {
             shown.map_err(|halt| self.stopped(derived.step, *halt))?;
         }
         Ok(())
+    }
+
+    /// Forgets the rows, so that every successor is made piece by piece.
+    #[cfg(test)]
+    pub(crate) fn forget_rows(&mut self) {
+        self.script.rewriting.rules.iter_mut().for_each(|rule| rule.row = None);
     }
 
     fn bounds(&self) -> Bounds {

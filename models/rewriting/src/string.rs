@@ -18,9 +18,7 @@ impl Slot {
     pub fn index(self) -> usize {
         self.0 as usize
     }
-}
 
-impl Slot {
     /// The slot so many places later in the columns.
     pub(crate) fn later(self, places: u32) -> Self {
         Self(self.0 + places)
@@ -101,7 +99,6 @@ pub struct ModuleString {
 impl ModuleString {
     /// A string of no module. Where it is not linked `both_ways`, [`ModuleString::before`] tells nothing.
     pub(crate) fn new(kinds: &[(Symbol, u16)], both_ways: bool) -> Self {
-        let most = kinds.iter().map(|&(_, arity)| usize::from(arity)).max().unwrap_or(0);
         Self {
             kinds: kinds.into(),
             kind: Vec::new(),
@@ -110,10 +107,24 @@ impl ModuleString {
             key: Vec::new(),
             origin: Vec::new(),
             origins: Origins::default(),
-            parameters: Parameters::new(most),
+            parameters: Parameters::new(most_of(kinds)),
             free: Vec::new(),
             length: 0,
         }
+    }
+
+    /// Becomes a string of no module, of these kinds, and keeps the memory.
+    pub(crate) fn clear(&mut self, kinds: &[(Symbol, u16)], both_ways: bool) {
+        self.kinds = kinds.into();
+        self.kind.clear();
+        self.links.clear(both_ways);
+        self.first.clear();
+        self.key.clear();
+        self.origin.clear();
+        self.origins.clear();
+        self.parameters.clear(most_of(kinds));
+        self.free.clear();
+        self.length = 0;
     }
 
     /// How many modules there are.
@@ -173,6 +184,15 @@ impl ModuleString {
     #[inline]
     pub(crate) fn parameters(&self, slot: Slot) -> &[f64] {
         &self.parameters.values[self.parameter_range(slot)]
+    }
+
+    /// The symbol, the parameters and the key of the module in a slot.
+    #[inline(always)]
+    pub(crate) fn shown(&self, slot: Slot) -> (Symbol, &[f64], LineageKey) {
+        let index = slot.index();
+        let (symbol, arity) = self.kinds[usize::from(self.kind[index].0)];
+        let first = if arity == 0 { 0 } else { self.first[index] as usize };
+        (symbol, &self.parameters.values[first..first + usize::from(arity)], self.key[index])
     }
 
     #[inline]
@@ -321,6 +341,32 @@ impl ModuleString {
         Slot(self.links.insert_row(after.0, count))
     }
 
+    /// As [`ModuleString::insert_row`], by columns: kinds, where the parameters of each begin, and keys of at least one
+    /// module. All come of one predecessor in one step, but for the one as which it goes on.
+    pub(crate) fn insert_successor(
+        &mut self,
+        after: Slot,
+        (kinds, first, keys): (&[Kind], impl Iterator<Item = u32>, impl Iterator<Item = LineageKey>),
+        parameters: &[f64],
+        (predecessor, birth): (LineageKey, u32),
+        kept: Option<(u32, Identity)>,
+    ) -> Slot {
+        let (count, base) = (kinds.len() as u32, self.parameters.values.len() as u32);
+        self.parameters.values.extend_from_slice(parameters);
+        self.kind.extend_from_slice(kinds);
+        self.first.extend(first.map(|first| base + first));
+        self.key.extend(keys);
+        let origin = self.origins.claim_for(predecessor, birth, count);
+        self.origin.resize(self.kind.len(), origin);
+        self.length += count as usize;
+        let start = Slot(self.links.insert_row(after.0, count));
+        if let Some((place, identity)) = kept {
+            self.origins.release(origin);
+            self.origin[start.later(place).index()] = self.origins.claim(identity.predecessor, identity.birth);
+        }
+        start
+    }
+
     /// Takes a module out; returns the slot before it.
     pub(crate) fn remove(&mut self, slot: Slot) -> Option<Slot> {
         let index = slot.index();
@@ -352,4 +398,9 @@ impl ModuleString {
         }
         self.parameters = closed;
     }
+}
+
+/// The most parameters of a kind.
+fn most_of(kinds: &[(Symbol, u16)]) -> usize {
+    kinds.iter().map(|&(_, arity)| usize::from(arity)).max().unwrap_or(0)
 }

@@ -8,6 +8,7 @@ mod productions;
 mod weights;
 
 use crate::code::Script;
+use crate::engine::lay_rows;
 use crate::fault::{Fault, Place};
 use crate::outside::Outside;
 use crate::symbol::SymbolTable;
@@ -54,7 +55,7 @@ pub(crate) fn compile(file: &File, outside: &dyn Outside, last: &[String], fault
     // The seed of the file is where a derivation begins; `srand` may change it.
     rewriting.seed = 0;
     let scope = &mut Scope::of_blocks();
-    let script = Script {
+    let mut script = Script {
         axiom,
         rewriting,
         decomposition,
@@ -69,6 +70,7 @@ pub(crate) fn compile(file: &File, outside: &dyn Outside, last: &[String], fault
         ring: file.ring,
     };
     productions::check_kinds(&script, &symbols, &mut warnings);
+    lay_rows(&mut script);
     Compiled { script, symbols, steps, seed, angle_deg, warnings }
 }
 

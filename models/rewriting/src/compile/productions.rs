@@ -87,7 +87,8 @@ fn rule(production: &Production, context: &mut Context<'_, '_>, faults: &mut Vec
     let (left, strict, right) = (left.into(), strict.into(), right.into());
     let locals = scope.locals.len() as u16;
     let cost = Rule::cost_of(condition.as_ref(), weight.as_ref(), &successor);
-    Rule { place: production.place, left, strict, right, before, condition, after, successor, weight, locals, cost }
+    let (place, row) = (production.place, None);
+    Rule { place, left, strict, right, before, condition, after, successor, weight, locals, cost, row }
 }
 
 /// The patterns of modules; their parameters become variables.

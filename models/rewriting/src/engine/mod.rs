@@ -12,6 +12,7 @@ mod pieces;
 mod placing;
 mod predecessor;
 mod rewriting;
+mod rows;
 mod step;
 mod visits;
 
@@ -19,4 +20,5 @@ pub(crate) use bounds::Bounds;
 pub(crate) use context::Anchor;
 pub(crate) use expand::{Expansion, Root};
 pub(crate) use pieces::Pieces;
+pub(crate) use rows::lay_rows;
 pub(crate) use step::{sow, step};

@@ -13,6 +13,7 @@ use super::expand::{Expansion, Root};
 use super::pieces::{Moment, Pieces};
 use super::placing::{Change, Places, also_rewritten};
 use super::predecessor::{fits, predecessors};
+use super::rows;
 use super::visits::{certain, update, updates, visits};
 use crate::code::{Rule, Script};
 use crate::derived::Derived;
@@ -35,6 +36,8 @@ struct Rewriting<'r> {
     script: &'r Script,
     /// For each kind the production that only changes its parameters, whatever stands around it.
     updates: Vec<Option<&'r Rule>>,
+    /// For each kind whether all its productions make rows.
+    rows: Vec<bool>,
     values: Vec<f64>,
     /// Whether productions rewrite, or the axiom is decomposed alone.
     rewrites: bool,
@@ -62,10 +65,13 @@ pub(super) fn rewrite(
     };
     let random = derived.random.clone();
     let (before, updated) = (std::mem::take(&mut derived.active), std::mem::take(&mut derived.updated));
+    let mut active = std::mem::take(&mut derived.spare);
+    active.clear();
     let looks = script.rewriting.looks || script.decomposition.looks;
     let mut rewriting = Rewriting {
         script,
         updates: updates(script, rewrites),
+        rows: rows::of_kinds(script),
         values: Vec::new(),
         rewrites,
         expansion: Expansion::default(),
@@ -74,7 +80,7 @@ pub(super) fn rewrite(
         made: Pieces::default(),
         places: Places {
             visits: visits(script),
-            active: Vec::with_capacity(before.len()),
+            active,
             updated,
             cuts,
             ..Places::default()
@@ -101,7 +107,7 @@ pub(super) fn rewrite(
         updated.retain(|&slot| !string.is_free(slot));
     }
     string.close_up();
-    (derived.string, derived.active, derived.updated) = (string, active, updated);
+    (derived.string, derived.active, derived.updated, derived.spare) = (string, active, updated, before);
     result
 }
 
@@ -156,6 +162,9 @@ impl Rewriting<'_> {
                 self.places.active.push(slot);
                 continue;
             }
+            if self.rewrites && self.put_row(slot, string, machine)? {
+                continue;
+            }
             self.made.clear();
             let change = self.change(slot, string, machine)?;
             skipped = also_rewritten(&change, &before[number + 1..], string);
@@ -182,6 +191,43 @@ impl Rewriting<'_> {
         Ok(())
     }
 
+    /// Puts what becomes of a module in its place, where all its productions make rows; tells whether they do.
+    #[inline]
+    fn put_row(&mut self, slot: Slot, string: &mut ModuleString, machine: &mut Machine<'_>) -> Result<bool> {
+        let (script, kind) = (self.script, usize::from(string.kind(slot).0));
+        if !self.rows.get(kind).copied().unwrap_or(false) {
+            return Ok(false);
+        }
+        let (rules, identity) = (&script.rewriting, string.identity(slot));
+        machine.draws.turn_to(identity.key, machine.step, For::Rewriting);
+        let of_kind = rules.of(string.kind(slot));
+        let seen = &*string;
+        let fits =
+            |rule: &Rule, machine: &mut Machine<'_>, frame: &mut [f64]| fits(rule, script, seen, slot, machine, frame);
+        let chosen = choose(rules, of_kind, machine, &mut self.frames, fits)?;
+        let Some((rule, row)) = chosen.and_then(|rule| Some((rule, rule.row.as_ref()?))) else {
+            self.places.active.push(slot);
+            return Ok(true);
+        };
+        self.lengthen(rule, row.values.len())?;
+        machine.run(&rule.after, &mut self.frames.frame)?;
+        self.parameters = self.parameters.saturating_sub(string.parameters(slot).len());
+        rows::compute(rule, row, machine, &self.frames.frame, &mut self.values)?;
+        rows::put(row, &self.values, (slot, identity), machine.step, string, &mut self.places);
+        Ok(true)
+    }
+
+    /// Counts what a production makes, with so many parameters, in place of its predecessor.
+    #[inline]
+    fn lengthen(&mut self, rule: &Rule, parameters: usize) -> Result<()> {
+        self.length = (self.length + rule.successor.len()).saturating_sub(rule.strict.len());
+        self.parameters += parameters;
+        if self.length > self.most || self.parameters > 8 * self.most {
+            return self.too_long(rule);
+        }
+        Ok(())
+    }
+
     /// Finds what becomes of a module: a production first, and then the decomposition of what that makes.
     #[inline]
     fn change(&mut self, slot: Slot, string: &ModuleString, machine: &mut Machine<'_>) -> Result<Change> {
@@ -200,11 +246,7 @@ impl Rewriting<'_> {
                 fits(rule, script, string, slot, machine, frame)
             };
             if let Some(rule) = choose(rules, rules.of(string.kind(slot)), machine, &mut self.frames, fits)? {
-                self.length = (self.length + rule.successor.len()).saturating_sub(rule.strict.len());
-                self.parameters += rule.successor.iter().map(|made| made.arguments.len()).sum::<usize>();
-                if self.length > self.most || self.parameters > 8 * self.most {
-                    return self.too_long(rule);
-                }
+                self.lengthen(rule, rule.successor.iter().map(|made| made.arguments.len()).sum::<usize>())?;
                 machine.run(&rule.after, &mut self.frames.frame)?;
                 (rewritten, place) = (rule.strict.len() as u32, rule.place);
                 let into = if decomposes { &mut self.own } else { &mut self.made };

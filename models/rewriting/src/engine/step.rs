@@ -30,7 +30,11 @@ pub(crate) fn sow(script: &Script, derived: &mut Derived, outside: &dyn Outside,
         return halt(script.place(), format!("the axiom has more than {} modules", bounds.modules), "a shorter axiom");
     }
     let Derived { string, active, updated, .. } = derived;
-    let mut places = Places { visits: visits(script), ..Places::default() };
+    let [noted, changed] = [&mut *active, &mut *updated].map(|list| {
+        list.clear();
+        std::mem::take(list)
+    });
+    let mut places = Places { visits: visits(script), active: noted, updated: changed, ..Places::default() };
     let mut last = None;
     for piece in &pieces.pieces {
         let slot = string.insert(last, piece.kind, pieces.of(piece), piece.identity);
@@ -77,5 +81,6 @@ fn axiom_rule(script: &Script) -> Rule {
         weight: None,
         locals: 0,
         cost: 1,
+        row: None,
     }
 }

@@ -7,6 +7,7 @@
 
 use super::form::{Form, ViewForms};
 use super::role::{Role, Roles};
+use super::script::Script;
 use crate::lsystem::turtle::{Command, Drawing, Frame, Turtle, Vector};
 use phytomer_rewriting::{Derived, Drawn, Identity, ModuleString, Modules, Slot};
 use phytomer_sim::key::LineageKey;
@@ -127,8 +128,8 @@ pub(super) struct Walk<'w> {
     string: &'w ModuleString,
     /// The step that made the string.
     step: u32,
-    /// The modules that come next in the string itself.
-    following: Modules<'w>,
+    /// The modules that come next in the string itself; `None` where each is drawn as it is, so that none is passed.
+    following: Option<Modules<'w>>,
     /// The module that is passed or whose drawing is walked along, and whether the species names its kind, with its
     /// organ if it is one.
     of: Option<Slot>,
@@ -138,7 +139,7 @@ pub(super) struct Walk<'w> {
 impl<'w> Walk<'w> {
     /// A walk from the beginning of the string, for a draft that forgets what it held.
     pub fn begin(
-        roles: &'w Roles,
+        Script { program, roles }: &'w Script,
         view: &'w ViewForms,
         turtle: &'w mut Turtle,
         draft: &'w mut Draft,
@@ -148,13 +149,15 @@ impl<'w> Walk<'w> {
         draft.clear();
         let at = Bracket { key: LineageKey::SEED, module: None, axis: Some(0), last: BASE };
         let (string, step) = (derived.string(), derived.step());
-        let following = string.modules();
+        let following = (!program.draws_its_modules()).then(|| string.modules());
         Self { roles, view, turtle, draft, open: Vec::new(), at, string, step, following, of: None, named: None }
     }
 
     /// Goes on by a module as it is drawn; what a query that stands there asks for.
     pub fn go_on(&mut self, drawn: &Drawn<'_>) -> Option<crate::lsystem::turtle::Query> {
-        if self.of != Some(drawn.of) {
+        if self.following.is_none() {
+            self.of = Some(drawn.of);
+        } else if self.of != Some(drawn.of) {
             self.come_to(drawn);
         }
         let (command, role) = self.roles.get(drawn.symbol);
@@ -252,7 +255,7 @@ impl<'w> Walk<'w> {
     /// Passes modules of the string up to one, or to the end: those of a stated kind stand where nothing is drawn too.
     #[inline]
     fn pass_to(&mut self, slot: Option<Slot>) {
-        while let Some(passed) = self.following.pass() {
+        while let Some(passed) = self.following.as_mut().and_then(Modules::pass) {
             self.of = Some(passed);
             if self.of == slot {
                 return;

@@ -52,6 +52,7 @@ pub struct Life {
 struct Scratch {
     draft: Draft,
     numbered: Numbered,
+    noted: Noted,
 }
 
 thread_local! {
@@ -85,9 +86,9 @@ struct Drawing<'d> {
 }
 
 impl Drawing<'_> {
-    /// Makes the axiom of a plant, and draws it.
-    fn sow(&mut self, plant: &Plant) -> Result<Derived, Stopped> {
-        let derived = self.script.program.sow(plant.random.clone(), self)?;
+    /// Makes the axiom of a plant, perhaps in the memory of another, and draws it.
+    fn sow(&mut self, plant: &Plant, memory: Option<Derived>) -> Result<Derived, Stopped> {
+        let derived = self.script.program.sow_again(memory, plant.random.clone(), self)?;
         if !self.drawn {
             self.draw(&self.script.program, &derived, |_, _, _| ())?;
         }
@@ -109,7 +110,7 @@ impl Drawing<'_> {
         derived: &Derived,
         mut answer: impl FnMut(&Drawn<'_>, Query, &Walk<'_>),
     ) -> Result<(), Stopped> {
-        let mut walk = Walk::begin(&self.script.roles, &self.model.view, self.turtle, self.draft, derived);
+        let mut walk = Walk::begin(self.script, &self.model.view, self.turtle, self.draft, derived);
         program.draw(derived, |drawn| {
             if let Some(query) = walk.go_on(&drawn) {
                 answer(&drawn, query, &walk);
@@ -182,18 +183,18 @@ impl TextModel {
     /// Draws a plant's string and writes its columns, at `age`; what stood before and stands no more departs.
     fn stand(&self, age: Tick, plant: &mut Plant, life: &mut Life, scratch: &mut Scratch) -> Result<(), Overgrown> {
         let Life { derived: Ok(derived), script, numbers, .. } = life else { return Ok(()) };
-        let Scratch { draft, numbered } = scratch;
+        let Scratch { draft, numbered, noted } = scratch;
         numbers.number(draft, age, plant, numbered);
         if plant.is_overgrown() {
             return Err(Overgrown::of(plant));
         }
         let lost = Lost::of(draft, derived);
-        let mut noted = Noted::before(plant);
+        noted.begin(plant);
         // Without stated apices every bud lives on.
         if script.roles.states_apices {
-            end_buds(draft, numbered, numbers, &lost, age, &mut noted);
+            end_buds(draft, numbered, numbers, &lost, age, noted);
         }
-        depart(plant, numbered, numbers, &lost, age, &mut noted);
+        depart(plant, numbered, numbers, &lost, age, noted);
         plant.begin_rewriting();
         let bud = |number| if script.roles.states_apices { *numbers.bud(number) } else { Bud::ALIVE };
         write(draft, numbered, &self.measures, plant, bud);
@@ -213,6 +214,32 @@ impl TextModel {
             return Err(Overgrown::stopped(plant, &why));
         }
         self.stand(plant.age + 1, plant, life, scratch)
+    }
+
+    /// Sows a plant; its string and its numbers stand in the memory of others that are needed no more.
+    fn sown(&self, plant: &mut Plant, memory: Option<Derived>, mut numbers: Numbers) -> Life {
+        plant.name_by_number();
+        numbers.clear();
+        let (mut turtle, mut scratch) = (self.turtle.clone(), SCRATCH.take());
+        let own = self.script_of(plant);
+        let script = own.as_ref().unwrap_or(&self.script);
+        let draft = &mut scratch.draft;
+        let mut drawing = Drawing { model: self, script, turtle: &mut turtle, draft, drawn: false };
+        let sown = drawing.sow(plant, memory).map_err(|stopped| stopped.to_string().into());
+        let derived = own.clone().and(sown);
+        let script = Arc::clone(script);
+        let mut life = Life { derived, script, numbers, turtle };
+        if life.derived.is_ok()
+            && let Err(overgrown) = self.stand(0, plant, &mut life, &mut scratch)
+        {
+            life.derived = Err(overgrown.to_string().into());
+        }
+        SCRATCH.set(scratch);
+        if life.derived.is_err() {
+            plant.begin_rewriting();
+            events::sow_alone(plant);
+        }
+        life
     }
 
     /// The script of a plant: its own where plants draw constants.
@@ -322,27 +349,13 @@ impl Grow for TextModel {
     }
 
     fn sow(&self, plant: &mut Plant) -> Life {
-        plant.name_by_number();
-        let (mut turtle, mut scratch) = (self.turtle.clone(), SCRATCH.take());
-        let own = self.script_of(plant);
-        let script = own.as_ref().unwrap_or(&self.script);
-        let draft = &mut scratch.draft;
-        let mut drawing = Drawing { model: self, script, turtle: &mut turtle, draft, drawn: false };
-        let sown = drawing.sow(plant).map_err(|stopped| stopped.to_string().into());
-        let derived = own.clone().and(sown);
-        let script = Arc::clone(script);
-        let mut life = Life { derived, script, numbers: Numbers::default(), turtle };
-        if life.derived.is_ok()
-            && let Err(overgrown) = self.stand(0, plant, &mut life, &mut scratch)
-        {
-            life.derived = Err(overgrown.to_string().into());
-        }
-        SCRATCH.set(scratch);
-        if life.derived.is_err() {
-            plant.begin_rewriting();
-            events::sow_alone(plant);
-        }
-        life
+        self.sown(plant, None, Numbers::default())
+    }
+
+    fn sow_again(&self, plant: &mut Plant, life: &mut Life) {
+        let numbers = std::mem::take(&mut life.numbers);
+        let memory = std::mem::replace(&mut life.derived, Err(Arc::default())).ok();
+        *life = self.sown(plant, memory, numbers);
     }
 
     fn grow_to(&self, age: Tick, plant: &mut Plant, life: &mut Life, _: &View<'_>) -> Result<(), Overgrown> {

@@ -106,6 +106,14 @@ impl Before {
 }
 
 impl Numbers {
+    /// Forgets all and keeps the memory.
+    pub fn clear(&mut self) {
+        self.standing.clear();
+        self.buds.clear();
+        self.modules.clear();
+        self.places.clear();
+    }
+
     /// Gives each component of a draft its number; those that are new appear at `age` in `plant`.
     pub fn number(&mut self, draft: &Draft, age: Tick, plant: &mut Plant, numbered: &mut Numbered) {
         let none = Born { number: u32::MAX, at: age };
