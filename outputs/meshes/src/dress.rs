@@ -6,7 +6,6 @@
 
 use super::chunk::Vertex;
 use super::scene::Scene;
-use super::stem::Stems;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{Class, NodeId, OrganId, Plant};
 
@@ -104,13 +103,6 @@ impl Crown {
 /// Whether an organ is a leaf or a part of one.
 pub fn is_leaf(plant: &Plant, organ: OrganId) -> bool {
     plant.organs.kind[organ.index()].class() == Class::Leaf
-}
-
-impl Stems<'_> {
-    /// The bark of the plant, where a mesh has one of the same density everywhere.
-    pub(super) fn bark_of(plant: &Plant, age: Tick, metres: Option<f32>) -> Option<Bark> {
-        metres.map(|metres| Bark::of(plant, age, metres))
-    }
 }
 
 #[cfg(test)]
