@@ -290,7 +290,8 @@ impl Branches {
         let most = ValueRange { min: 0.0, max: length.max(0.0), what: "a variation not above the length," };
         let branches = checks.number("Branches", &self.branches, STEMS);
         if is_used && branches != 0.0 && length == 0.0 {
-            checks.fault("Length", "the stems of this level have no length".to_owned(), "a length above 0");
+            let problem = format!("{}Length is 0, so that the stems of this level have no length", checks.digit);
+            checks.fault("Length", problem, "a length above 0");
         }
         Level {
             down_angle: checks.number("DownAngle", &self.down_angle, ANGLE),

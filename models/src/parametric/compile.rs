@@ -4,7 +4,7 @@
 
 use super::model::TreeModel;
 use super::params::Tree;
-use super::sections;
+use super::sections::Sections;
 use crate::buds::params::LeafChoice;
 use crate::buds::params::colour::turning_of;
 use crate::fault::{Fault, Path};
@@ -35,7 +35,7 @@ impl Tree {
                     let expected = format!("at most {MOST_LEAVES} leaves of a stem in all years of the run");
                     return Err(vec![Fault::new(&path.key("Leaves"), problem, expected)]);
                 }
-                let sections = sections::of_trunk(&numbers, &mut paints);
+                let sections = Sections::of(&numbers, &mut paints);
                 let trends = vec![Trend::STRAIGHT];
                 let habit = Habit { trends, looks, for_drawing: paints.into_habit(), ..Habit::default() };
                 Ok(TreeModel::new(numbers, sections, habit))

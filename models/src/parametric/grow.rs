@@ -6,14 +6,16 @@
 //! columns (`write`).
 
 use super::dealt::{Dealt, Place, Plan};
+use super::drawn::{Drawn, bare};
 use super::draws::{self, signed};
 use super::equations::{children, down_angle_deg, fan_deg, rotate_deg, shape_ratio, stems};
 use super::generation::{Family, Generation};
 use super::leaves::Foliage;
 use super::numbers::{Level, Numbers};
-use super::path::{ALONG, Base, LEFT, Path, Splits, UP, radians};
+use super::path::{Base, Path, Splits, leaving};
 use super::prune::pruned;
 use super::radius::{branch_radius, flare, radius_at};
+use super::sections::Sections;
 use super::write::{Leaving, Writer};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::model::Overgrown;
@@ -23,31 +25,6 @@ use phytomer_sim::rotation::Rotation;
 
 /// The length below which a stem is left out, metres: shapes 5 and 8 reach 0.
 const LEAST_LENGTH: f64 = 1e-3;
-
-/// What is drawn once for a tree.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Drawn {
-    /// scale_tree, metres.
-    pub scale: f64,
-    /// 0Length ± 0LengthV.
-    pub length: f64,
-    /// 0Scale ± 0ScaleV.
-    pub radius: f64,
-}
-
-impl Drawn {
-    /// A size under a tenth of Scale is drawn again, as of the black oak, whose ScaleV equals its Scale.
-    pub fn of(tree: &Numbers, random: &PlantRandom) -> Self {
-        let mut words = random.stream(LineageKey::SEED, Purpose::Plant);
-        let sizes =
-            std::iter::once(0).chain(draws::AGAIN..).map(|place| tree.scale + tree.scale_v * signed(&mut words, place));
-        let scale = sizes.take(1000).find(|scale| *scale >= 0.1 * tree.scale).unwrap_or(tree.scale);
-        let trunk = tree.of(0);
-        let length = trunk.length + trunk.length_v * signed(&mut words, draws::TRUNK_LENGTH);
-        let radius = tree.radius_scale + tree.radius_scale_v * signed(&mut words, draws::RADIUS);
-        Self { scale, length, radius }
-    }
-}
 
 /// A child at its place.
 struct Child {
@@ -73,9 +50,8 @@ pub(super) struct Growth<'a> {
     written: Vec<(AxisId, NodeId)>,
 }
 
-/// Writes the tree at an age into a plant that has nothing but the axis of its seed. `sections` has the place of the
-/// cross section of each segment of the trunk.
-pub(super) fn grow(tree: &Numbers, sections: &[Option<u16>], plant: &mut Plant, age: Tick) -> Result<(), Overgrown> {
+/// Writes the tree at an age into a plant that has nothing but the axis of its seed.
+pub(super) fn grow(tree: &Numbers, sections: &Sections, plant: &mut Plant, age: Tick) -> Result<(), Overgrown> {
     let random = plant.random.clone();
     let drawn = Drawn::of(tree, &random);
     let writer = Writer::new(tree, sections, plant, age);
@@ -238,12 +214,6 @@ impl Growth<'_> {
     }
 }
 
-/// length_base over length_trunk on the trunk, with length_base = BaseSize·scale_tree as the text has it; 0 on
-/// branches. A trunk that pruning has made shorter than its base bears next to nothing.
-pub(super) fn bare(tree: &Numbers, drawn: Drawn, of: &Family) -> f64 {
-    if of.level == 0 { (tree.base_size * drawn.scale / of.length).min(1.0 - 1e-6) } else { 0.0 }
-}
-
 /// How many children a stem has borne before its own first child, and how far the last of them was turned: of a clone
 /// those of its twin below the split.
 fn started(dealt: &Dealt, turned: &[Vec<(u32, f64)>], twin: usize, before: u32, place: usize) -> (u32, f64) {
@@ -251,13 +221,4 @@ fn started(dealt: &Dealt, turned: &[Vec<(u32, f64)>], twin: usize, before: u32, 
         return (0, 0.0);
     }
     turned[twin][dealt.on(twin).partition_point(|place| place.segment < before)]
-}
-
-/// How a child is turned in the frame of its parent.
-pub(super) fn leaving(rotate: f64, fan: Option<f64>, down: f64) -> Rotation {
-    let around = match fan {
-        Some(fan) => Rotation::about(UP, radians(fan)),
-        None => Rotation::about(ALONG, radians(rotate)),
-    };
-    around.then(Rotation::about(LEFT, radians(down)))
 }

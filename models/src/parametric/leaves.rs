@@ -4,13 +4,13 @@
 //! Draws of leaves are in streams of their own, so that leaves move no stem. Absent: the forms of leaves (`looks`).
 
 use super::dealt::{Dealt, Place, Plan};
+use super::drawn::{Drawn, bare};
 use super::draws::{A_LEAF, signed};
 use super::equations::{down_angle_deg, fan_deg, leaves, leaves_on, rotate_deg};
 use super::generation::{Family, Generation, Stem};
-use super::grow::{Drawn, bare, leaving};
 use super::numbers::Numbers;
-use super::path::{ALONG, UP};
-use super::write::Writer;
+use super::path::{ALONG, UP, leaving};
+use super::write::{LeafInPlace, Writer};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::math::{atan2, pow};
 use phytomer_sim::model::Overgrown;
@@ -18,21 +18,6 @@ use phytomer_sim::plant::{Kind, NodeId, key};
 use phytomer_sim::random::{PlantRandom, Purpose, Stream};
 use phytomer_sim::rotation::Rotation;
 use std::f64::consts::PI;
-
-/// A leaf at its place.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct LeafInPlace {
-    pub node: NodeId,
-    /// Its number among the leaves of its internode.
-    pub position: u16,
-    /// How far behind the tip of the internode it begins, metres.
-    pub behind: f64,
-    /// How it is turned in the frame of the internode.
-    pub turn: Rotation,
-    /// The azimuth around the stem from its upper side, and the angle away from it, radians.
-    pub around: f64,
-    pub insertion: f64,
-}
 
 /// The leaves of a tree.
 pub(super) struct Foliage<'a> {

@@ -14,6 +14,7 @@ mod card;
 mod checks;
 mod compile;
 mod dealt;
+mod drawn;
 mod draws;
 mod envelope;
 mod equations;

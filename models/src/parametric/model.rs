@@ -6,6 +6,7 @@ use super::expectation;
 use super::grow::grow;
 use super::numbers::Numbers;
 use super::radius::{flare, radius_at};
+use super::sections::Sections;
 use super::sway;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::expectation::Expectation;
@@ -19,14 +20,13 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct TreeModel {
     tree: Arc<Numbers>,
-    /// The place of the cross section of each segment of the trunk.
-    sections: Arc<[Option<u16>]>,
+    sections: Arc<Sections>,
     habit: Arc<Habit>,
 }
 
 impl TreeModel {
-    pub(super) fn new(tree: Numbers, sections: Vec<Option<u16>>, habit: Habit) -> Self {
-        Self { tree: Arc::new(tree), sections: sections.into(), habit: Arc::new(habit) }
+    pub(super) fn new(tree: Numbers, sections: Sections, habit: Habit) -> Self {
+        Self { tree: Arc::new(tree), sections: Arc::new(sections), habit: Arc::new(habit) }
     }
 
     /// The parameters as plain numbers.

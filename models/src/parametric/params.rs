@@ -65,7 +65,7 @@ pub struct Whole {
     pub lobes: Quantity,
     /// The height of the ridges, as a share of the radius.
     #[serde(default)]
-    #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub lobe_depth: Constant,
     /// By how much the trunk is wider at its base, as a share of the radius.
     #[serde(default)]
@@ -104,9 +104,10 @@ pub struct Whole {
     #[serde(default = "half")]
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 10))]
     pub prune_width: Constant,
-    /// The height of the greatest radius above the bottom of the envelope, as a share of the envelope's height.
+    /// The height of the greatest radius above the bottom of the envelope, as a share of the envelope's height; above 0
+    /// and below 1.
     #[serde(default = "half")]
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub prune_width_peak: Constant,
     /// The curvature of the envelope below its greatest radius: 1 a cone, 0.5 rounded, 2 hollow.
     #[serde(default = "half")]

@@ -228,3 +228,12 @@ fn vertical_in(frame: Rotation) -> [f64; 3] {
 pub(super) fn radians(deg: f64) -> f64 {
     deg * (PI / 180.0)
 }
+
+/// How a child is turned in the frame of its parent.
+pub(super) fn leaving(rotate: f64, fan: Option<f64>, down: f64) -> Rotation {
+    let around = match fan {
+        Some(fan) => Rotation::about(UP, radians(fan)),
+        None => Rotation::about(ALONG, radians(rotate)),
+    };
+    around.then(Rotation::about(LEFT, radians(down)))
+}

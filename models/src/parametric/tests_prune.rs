@@ -2,8 +2,8 @@
 //!
 //! Absent: the envelope by itself (`tests_equations`).
 
+use super::drawn::Drawn;
 use super::envelope::beyond;
-use super::grow::Drawn;
 use super::numbers::Numbers;
 use super::params::Tree;
 use super::specimens::{aspen, bare, level, oak, willow, with};

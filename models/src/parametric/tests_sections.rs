@@ -2,9 +2,9 @@
 //!
 //! Absent: their triangles (`phytomer_meshes`).
 
-use super::params::Tree;
+use super::params::{Branches, Tree};
 use super::radius::{flare, lobe, radius_at};
-use super::specimens::{aspen, bare, unvaried};
+use super::specimens::{aspen, bare, level, unvaried, with};
 use super::tests::{compiled, grown};
 use phytomer_looks::Paints;
 use phytomer_sim::math::atan2;
@@ -46,7 +46,36 @@ fn the_trunk_is_drawn_as_its_equations_say() {
     }
 }
 
-/// A trunk that is a plain cone has no section, and a branch never has one.
+/// Arms of a cactus: each has the rings of the nearest ratio of radius to length, within an eighth of an octave.
+#[test]
+fn branches_with_spheres_have_sections_by_their_proportions() {
+    let mut tree = with(Branches { taper: 2.0.into(), ..level(12.0) }, bare());
+    (tree.whole.ratio, tree.whole.ratio_power, tree.whole.shape) = (0.08.into(), 0.4.into(), 0.into());
+    tree.trunk.taper = 0.0.into();
+    let (plant, model) = (grown(&tree, 0), compiled(&tree));
+    let (of, paints) = (model.numbers(), Paints::of(&plant.habit));
+    assert!(plant.axes.len() > 9);
+    for axis in 1..plant.axes.len() {
+        let nodes: Vec<usize> = (0..plant.nodes.len()).filter(|&node| plant.nodes.axis[node].index() == axis).collect();
+        let (thick, long) =
+            (0.5 * f64::from(plant.nodes.diameter[nodes[0]]), 5.0 * f64::from(plant.nodes.length[nodes[0]]));
+        let mut rings = 0;
+        for (nth, &node) in nodes.iter().enumerate() {
+            let section =
+                plant.own_looks.section_of(NodeId(node as u32)).expect("a section, so that segments are joined");
+            let [base, tip] = [plant.nodes.diameter[node], plant.nodes.diameter_tip[node]].map(|d| 0.5 * f64::from(d));
+            for [share, bulge] in paints.sections()[section].rings().iter().map(|ring| ring.map(f64::from)) {
+                let drawn = base + share * (tip - base) + bulge * long / 5.0;
+                let expected = radius_at((nth as f64 + share) / 5.0, of.level[1].taper, thick, long);
+                assert!((drawn - expected).abs() < 0.25 * thick, "{drawn} {expected} of {thick}");
+                rings += 1;
+            }
+        }
+        assert!(rings >= 5, "{rings}");
+    }
+}
+
+/// A trunk that is a plain cone has no section, nor has a branch of the aspen.
 #[test]
 fn plain_stems_have_no_section() {
     let with_section = |tree: &Tree| {

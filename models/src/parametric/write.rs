@@ -5,10 +5,10 @@
 //! the tree; leaves keep their size. Absent: where all of this comes from (`grow`, `leaves`).
 
 use super::generation::Family;
-use super::leaves::LeafInPlace;
 use super::numbers::Numbers;
 use super::path::Path;
 use super::radius::{flare, radius_at};
+use super::sections::Sections;
 use phytomer_sim::clock::{NEVER, Tick};
 use phytomer_sim::math;
 use phytomer_sim::model::Overgrown;
@@ -31,17 +31,32 @@ pub(super) struct Leaving {
     pub position: u16,
 }
 
+/// A leaf at its place.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LeafInPlace {
+    pub node: NodeId,
+    /// Its number among the leaves of its internode.
+    pub position: u16,
+    /// How far behind the tip of the internode it begins, metres.
+    pub behind: f64,
+    /// How it is turned in the frame of the internode.
+    pub turn: Rotation,
+    /// The azimuth around the stem from its upper side, and the angle away from it, radians.
+    pub around: f64,
+    pub insertion: f64,
+}
+
 /// Writes the tree of one age into a plant.
 pub(super) struct Writer<'a> {
     tree: &'a Numbers,
-    sections: &'a [Option<u16>],
+    sections: &'a Sections,
     plant: &'a mut Plant,
     /// The size of stems over their full size.
     scale: f64,
 }
 
 impl<'a> Writer<'a> {
-    pub fn new(tree: &'a Numbers, sections: &'a [Option<u16>], plant: &'a mut Plant, age: Tick) -> Self {
+    pub fn new(tree: &'a Numbers, sections: &'a Sections, plant: &'a mut Plant, age: Tick) -> Self {
         Self { tree, sections, plant, scale: tree.ages.scale_at(age) }
     }
 
@@ -147,7 +162,7 @@ impl<'a> Writer<'a> {
                 azimuth: 0.0,
             });
             self.plant.state_rest(below, Rest::Turned(turn));
-            let section = if family.level == 0 { self.sections[(before + rank - 1) as usize] } else { None };
+            let section = self.sections.at(family.level, family.radius / family.length, before + rank - 1);
             section.into_iter().for_each(|section| self.plant.give_section(below, section));
         }
         self.plant.note(birth, axis, EventKind::Grew, rank);

@@ -5,8 +5,6 @@
 //! crown shade it as one round body, without the noise of single leaves. Absent: textures themselves.
 
 use super::chunk::Vertex;
-use super::scene::Scene;
-use super::stem::Stems;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{Class, NodeId, OrganId, Plant};
 
@@ -75,9 +73,8 @@ pub struct Crown {
 }
 
 impl Crown {
-    /// The crown of a scene: the box around the bases of its leaves; `None` where it has no leaf.
-    pub fn of(scene: &Scene) -> Option<Self> {
-        let bases = scene.organs().filter(|organ| is_leaf(scene.plant(), *organ)).map(|organ| scene.organ(organ).base);
+    /// The crown in the box around the bases of its leaves; `None` where there are none.
+    pub fn around(bases: impl Iterator<Item = [f32; 3]>) -> Option<Self> {
         let boxed = bases.fold(None, |found: Option<[[f32; 3]; 2]>, at| {
             let [low, high] = found.unwrap_or([at, at]);
             Some([std::array::from_fn(|k| low[k].min(at[k])), std::array::from_fn(|k| high[k].max(at[k]))])
@@ -104,13 +101,6 @@ impl Crown {
 /// Whether an organ is a leaf or a part of one.
 pub fn is_leaf(plant: &Plant, organ: OrganId) -> bool {
     plant.organs.kind[organ.index()].class() == Class::Leaf
-}
-
-impl Stems<'_> {
-    /// The bark of the plant, where a mesh has one of the same density everywhere.
-    pub(super) fn bark_of(plant: &Plant, age: Tick, metres: Option<f32>) -> Option<Bark> {
-        metres.map(|metres| Bark::of(plant, age, metres))
-    }
 }
 
 #[cfg(test)]

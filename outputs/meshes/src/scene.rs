@@ -74,8 +74,13 @@ impl<'a> Scene<'a> {
         let columns = Columns::of(plant, stems.detail.as_ref(), options.swings.as_ref());
         let (options, outlines) = (options.clone(), Outlines::of(plant));
         let mut scene = Self { plant, age, options, paints, stems, reduced, outlines, crown: None, columns };
-        scene.crown = scene.options.crown_normals.then(|| Crown::of(&scene)).flatten();
+        scene.crown = scene.options.crown_normals.then(|| scene.crown()).flatten();
         scene
+    }
+
+    /// The crown of the leaves that are drawn.
+    fn crown(&self) -> Option<Crown> {
+        Crown::around(self.organs().filter(|organ| is_leaf(self.plant, *organ)).map(|organ| self.organ(organ).base))
     }
 
     /// The ranges at which something ends to be drawn, metres, in their order; none where no range is asked for.

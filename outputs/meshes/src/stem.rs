@@ -105,7 +105,7 @@ impl<'a> Stems<'a> {
         forms.push(Drawn::Tube(Tube::new(options.sides), false));
         let sections = paints.sections().iter().map(|section| Drawn::Prism(Prism::new(section))).collect();
         let (detail, line) = (Detail::of(plant, age, options), Drawn::Tube(Tube::new(OF_A_LINE), true));
-        let bark = Self::bark_of(plant, age, options.bark_m);
+        let bark = options.bark_m.map(|metres| Bark::of(plant, age, metres));
         Self { plant, age, kinds: options.kinds, paints, forms, sections, detail, line, bark }
     }
 
