@@ -9,12 +9,13 @@ mod side_by_side;
 
 use program::{program as phytomer, run, small_film};
 use side_by_side::each;
+use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 13] = [
-    "init", "grow", "merge", "validate", "derive", "verify", "describe", "list", "schema", "mesh", "picture",
-    "animate", "view",
+const VERBS: [&str; 15] = [
+    "init", "grow", "merge", "validate", "derive", "convert", "verify", "describe", "list", "schema", "mesh",
+    "picture", "animate", "view", "forest",
 ];
 
 /// The examples of a verb's help: the lines that begin with the program's name.
@@ -32,6 +33,8 @@ fn every_example_of_help_runs() {
     assert_eq!(shown.iter().map(|words| words[0]).collect::<Vec<_>>(), VERBS, "an example for each verb");
     run(folder.path(), &["init", "my_plant"]).ending(0);
     run(folder.path(), &["init", "my_herb", "--model", "lsystem"]).ending(0);
+    lay_trees_of_others(folder.path());
+    lay_site(folder.path());
     run(folder.path(), &["grow", "coffee", "--plants", "4", "--quiet"]).ending(0);
     for share in ["1/2", "2/2"] {
         run(folder.path(), &["grow", "coffee", "--plants", DEALT, "--quiet", "--shard", share]).ending(0);
@@ -52,6 +55,32 @@ fn every_example_of_help_runs() {
 /// So many plants of coffee that there are several parts to be dealt into shards.
 const DEALT: &str = "24";
 
+/// The files of other programs that the examples name.
+fn lay_trees_of_others(folder: &Path) {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("config/peers/tests/data");
+    let files = [
+        ("hill_larch.xml", "my_tree.xml"),
+        ("pond_alder.py", "my_tree.py"),
+        ("field_maple.py", "preset.txt"),
+        ("thorn.json", "my_tree.json"),
+    ];
+    for (from, to) in files {
+        fs::copy(data.join(from), folder.join(to)).unwrap();
+    }
+    let library = fs::read_to_string(data.join("orchard.xml")).unwrap().replace("\"Quince\"", "\"Almond\"");
+    fs::write(folder.join("library.xml"), library).unwrap();
+}
+
+/// A site of four cells.
+fn lay_site(folder: &Path) {
+    let site = folder.join("my_site");
+    fs::create_dir(&site).unwrap();
+    let text = "name = \"wood\"\ncover = { file = \"cover.asc\" }\n[[tree]]\nbit = 0\nspecies = \"coffee\"\nage = 6\n";
+    fs::write(site.join("site.toml"), text).unwrap();
+    let cells = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 2\n1 0\n1 1\n";
+    fs::write(site.join("cover.asc"), cells).unwrap();
+}
+
 fn obey_example(folder: &Path, number: usize, words: &[&str]) {
     let mut words = words.to_vec();
     let name = format!("example-{}-{number}", words.len());
@@ -65,6 +94,7 @@ fn obey_example(folder: &Path, number: usize, words: &[&str]) {
             words.extend((!words.contains(&"--resume")).then_some("--overwrite"));
         }
         "animate" => words = small_film(&words),
+        "forest" => words.extend((!words.contains(&"--overwrite")).then_some("--overwrite")),
         _ => {}
     }
     // A film that goes into a pipe is no text.
