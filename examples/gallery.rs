@@ -1,10 +1,11 @@
 //! The gallery: every species that ships, drawn in its prime, every plot that ships, and the life of a tree as a strip.
 //!
-//! `cargo run --release --example gallery [FOLDER]` writes `gallery.md`, its pictures below `gallery/`, the pages of some
-//! species below `pages/` and `life.png` into a folder, `docs` if none is given. `cargo run --release --example gallery
-//! pages FOLDER` writes the page of every species, as `phytomer view` does, and an index of them. A species is grown by the shipped scenario of its name if there is one, else
-//! by itself, and drawn at the age that `phytomer picture` chooses; a scenario with members is drawn as
-//! `phytomer picture --plot` draws it. This file lists no names: every shipped species and plot is drawn.
+//! `cargo run --release --example gallery [FOLDER]` writes `gallery.md`, its pictures below `gallery/`, the pages of
+//! some species below `pages/` and `life.png` into a folder, `docs` if none is given. `cargo run --release --example
+//! gallery pages FOLDER` writes the page of every species, as `phytomer view` does, and an index of them. A species is
+//! grown by the shipped scenario of its name if there is one, else by itself, and drawn at the age that `phytomer
+//! picture` chooses; a scenario with members is drawn as `phytomer picture --plot` draws it. Every shipped species and
+//! plot is drawn; names stand here of the pages alone that ship.
 
 use anyhow::{Context, Result, anyhow};
 use phytomer::config::{
@@ -35,6 +36,15 @@ const LIFE: [Tick; 9] = [4, 9, 16, 26, 40, 56, 76, 96, 106];
 /// The species whose pages ship: of several models, and none with a page of more than half a megabyte.
 const PAGES: [&str; 7] = ["borchert_slade", "coffee", "cotton", "dog_rose", "frangipani", "gmt1/5a", "topiary/4"];
 
+const INTRODUCTION: &str = "# Gallery\n\n\
+    Every species that ships but `topiary/1`, which draws no line, drawn by `phytomer picture` at the age that it \
+    states, or else in its prime:\nthe last year with nine tenths of the largest leaf area that it ever bears, as soon \
+    as it bears it. `cargo run --release --example gallery` makes this page. Each can be seen to grow: `phytomer \
+    animate NAME --out film.webp` makes a film ([films.md](films.md)), and `phytomer view NAME --out life.html` a page \
+    of its whole life to turn and to ask ([view.md](view.md)); NAME is the first word of a picture's title. ";
+const MORE_PAGES: &str =
+    "`cargo run --release --example gallery pages FOLDER` makes those of all species, with an index.";
+
 struct Sitter {
     scenario: Scenario,
     species: Species,
@@ -48,16 +58,9 @@ fn main() -> Result<()> {
         return all_pages(Path::new(&words.next().unwrap_or(folder)));
     }
     let folder = Path::new(&folder);
-    let mut page = String::from(
-        "# Gallery\n\nEvery species that ships but `topiary/1`, which draws no line, drawn by `phytomer picture` at the age that it states, or else in its prime:\nthe last \
-         year with nine tenths of the largest leaf area that it ever bears, as soon as it bears it. `cargo run --release --example gallery` makes this page. Each can be seen to grow: `phytomer animate NAME --out film.webp` makes a film ([films.md](films.md)), and `phytomer view NAME --out life.html` a page of its whole life to turn and to ask ([view.md](view.md)); NAME is the first word of a picture's title. ",
-    );
+    let mut page = String::from(INTRODUCTION);
     let linked: Vec<String> = PAGES.iter().map(|name| format!("[{name}]({})", page_of(name))).collect();
-    write!(
-        page,
-        "Pages are here of {}. `cargo run --release --example gallery pages FOLDER` makes those of all species, with an index.\n",
-        linked.join(", ")
-    )?;
+    writeln!(page, "Pages are here of {}. {MORE_PAGES}", linked.join(", "))?;
     let of = |name: &'static str| name.rsplit_once('/').map_or("", |(group, _)| group);
     let mut names = names();
     names.sort_by_key(|name| of(name));
@@ -70,7 +73,8 @@ fn main() -> Result<()> {
         }
         page += &sit(name, folder).with_context(|| format!("the species {name}"))?;
     }
-    page += "\n## Plots\n\nEvery scenario that ships with several members, drawn by `phytomer picture --plot` at its last tick.\n\n";
+    page += "\n## Plots\n\nEvery scenario that ships with several members, drawn by `phytomer picture --plot` at its last \
+             tick.\n\n";
     for (name, _) in presets(Kind::Scenario) {
         page += &plot(name, folder).with_context(|| format!("the scenario {name}"))?;
     }

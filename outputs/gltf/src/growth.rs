@@ -61,7 +61,8 @@ pub fn write_growth(growth: &Growth, out: &mut (dyn Write + Send)) -> io::Result
         animated.extend((!plans.is_empty() && drawn.moves).then_some(node));
         written.vertices += plans.iter().map(|plan| plan.vertices).sum::<u64>();
         written.faces += plans.iter().map(|plan| plan.faces).sum::<u64>();
-        written.step = written.step.max(drawn.grid.step);
+        // What has no extent has no grid.
+        written.step = if plans.is_empty() { written.step } else { written.step.max(drawn.grid.step) };
     }
     if !plans.iter().all(Vec::is_empty) {
         file.uses.push("KHR_mesh_quantization");

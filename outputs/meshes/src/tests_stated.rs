@@ -138,7 +138,7 @@ fn colours_that_are_written_anew_go_linearly_from_tick_to_tick() {
     let apart = colours.map(|colour| {
         let bark = Bark { shoot: Some(colour), young: Some(colour), old: Some(colour), ..Bark::default() };
         let paint = paints.add_internode(InternodePaint { bark, ..InternodePaint::default() });
-        InternodeLook { paint, ..InternodeLook::default() }
+        InternodeLook { paint, ..InternodeLook::of_shape(Shape::Cone) }
     });
     let organs_apart = colours.map(|colour| {
         let paint = OrganPaint { young: Some(colour), old: Some(colour), ..OrganPaint::default() };
