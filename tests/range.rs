@@ -7,7 +7,7 @@
 mod ply;
 mod program;
 
-use ply::{count, mesh};
+use ply::{count, mesh, place_in};
 use program::{Said, run};
 use std::collections::BTreeSet;
 use std::fs;
@@ -27,6 +27,7 @@ fn drawn(folder: &Path, more: &[&str], out: &str) -> Said {
 fn vertices(path: &Path) -> Vec<(i32, f32)> {
     let (header, bytes) = mesh(path);
     assert!(header.contains("property float until_m\n"), "{header}");
+    assert_eq!(place_in(&header), [0.0; 3], "a plant alone stands at the origin");
     let number = |at: usize, bytes: &[u8]| [0, 1, 2, 3].map(|k| bytes[at + k]);
     let all = bytes.chunks_exact(VERTEX + 4).take(count(&header, "vertex"));
     all.map(|vertex| (i32::from_le_bytes(number(COMPONENT, vertex)), f32::from_le_bytes(number(VERTEX, vertex))))

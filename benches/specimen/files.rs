@@ -7,7 +7,7 @@ use super::{Specimen, baseline, memory_backed};
 use criterion::{Criterion, Throughput};
 use phytomer::outputs::life::{Life, Maker, Nearness};
 use phytomer::outputs::meshes::{MeshOptions, Scene, Tolerance};
-use phytomer::outputs::usd::{self, Asked, Encoding, Member, Organs, Pace, Plants, Sink};
+use phytomer::outputs::usd::{self, Asked, Encoding, Member, Organs, Pace, Patched, Plants};
 use phytomer::run::regrowth::Regrowth;
 use phytomer::sim::Tick;
 use std::fs::File;
@@ -36,7 +36,7 @@ impl Write for Bulk {
     }
 }
 
-impl Sink for Bulk {
+impl Patched for Bulk {
     fn patch(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
         self.0.seek(SeekFrom::Start(at))?;
         self.0.write_all(bytes)?;
@@ -62,7 +62,8 @@ impl Specimen {
         let asked = Asked { encoding: Encoding::Binary, organs: Organs::Instances, words: String::new() };
         self.against_a_plain_write(criterion, "USD of an age (bytes)", &|out| usd::write_plant(&asked, &scene, 0, out));
         let (lives, options): ([Life; 1], _) = ([maker.finish()], [MeshOptions::default()]);
-        let plants = Plants { lives: &lives, options: &options, members: &[Member::default()] };
+        let members = [Member::default()];
+        let plants = Plants::of(&lives, &options, &members);
         let pace = Pace { a_tick: 1.0, a_second: 24.0 };
         self.against_a_plain_write(criterion, &format!("USD of {} ages (bytes)", ages.len()), &|out| {
             usd::write_life(&asked, &plants, NEAR, &pace, out)
@@ -73,7 +74,7 @@ impl Specimen {
         &self,
         criterion: &mut Criterion,
         what: &str,
-        write: &dyn Fn(&mut dyn Sink) -> io::Result<()>,
+        write: &dyn Fn(&mut dyn Patched) -> io::Result<()>,
     ) {
         let path = memory_backed(self.name);
         let written = || {
