@@ -31,7 +31,7 @@ use course::Course;
 use layer::{Header, Layer};
 use package::Package;
 use parts::Parts;
-use phytomer_life::{Life, Models, Stand, between};
+use phytomer_life::{Life, Models, StillOrgans, between};
 use phytomer_meshes::{Drawing, MeshOptions};
 use skeleton::Skeleton;
 use std::io;
@@ -76,7 +76,7 @@ pub struct Plants<'a> {
 const ROOT: &str = "plant";
 
 /// Writes plants at an age: wood as it is drawn, and the organs of lives of that one age.
-fn write_still(asked: &Asked, wood: &dyn Drawing, organs: &Stand, out: &mut dyn Patched) -> io::Result<()> {
+fn write_still(asked: &Asked, wood: &dyn Drawing, organs: &StillOrgans, out: &mut dyn Patched) -> io::Result<()> {
     let plants = &Plants { lives: &organs.lives, options: &organs.options, members: &organs.members, obstacles: None };
     let course = Course::still();
     let skeletons = skeletons(plants, &course);

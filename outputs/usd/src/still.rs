@@ -5,7 +5,7 @@ use super::layer::{Attribute, Data, Layer, Value};
 use super::models::rgb;
 use super::paint::{self, Palette};
 use super::{Asked, Patched, write_still};
-use phytomer_life::{Stand, wood_of, wood_of_plot};
+use phytomer_life::{StillOrgans, wood_of, wood_of_plot};
 use phytomer_meshes::{Drawing, PlantDrawing, PlotMesh, Scene, Vertex};
 use std::io;
 
@@ -16,7 +16,7 @@ use std::io;
 pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Patched) -> io::Result<()> {
     let wood = Scene::new(scene.plant(), scene.age(), &wood_of(scene.options()));
     let about = scene.about(run_seed);
-    write_still(asked, &PlantDrawing { scene: &wood, about }, &Stand::of_plant(scene), out)
+    write_still(asked, &PlantDrawing { scene: &wood, about }, &StillOrgans::of_plant(scene), out)
 }
 
 /// Writes the plants of a plot, each in its place, with its obstacles.
@@ -24,7 +24,7 @@ pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Pa
 /// # Errors
 /// Those of `out`; more vertices than a mesh can have.
 pub fn write_plot(asked: &Asked, plot: &PlotMesh, out: &mut dyn Patched) -> io::Result<()> {
-    write_still(asked, &wood_of_plot(plot).drawing()?, &Stand::of_plot(plot), out)
+    write_still(asked, &wood_of_plot(plot).drawing()?, &StillOrgans::of_plot(plot), out)
 }
 
 /// Writes the mesh of a drawing. Each property is drawn anew, so that memory holds one of them at a time.
