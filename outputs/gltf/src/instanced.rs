@@ -11,7 +11,7 @@ use super::document::{Accessor, Document, INDICES, MOST_BYTES, Number, VERTICES,
 use super::paint::{class_of_kind, material};
 use super::still::{SHAPE, Still, put_shape, y_up};
 use glam::Quat;
-use phytomer_life::{Life, Member, Model, Models, Part, Stand, between, wood_of, wood_of_plot};
+use phytomer_life::{Life, Member, Model, Models, Part, StillOrgans, between, wood_of, wood_of_plot};
 use phytomer_meshes::{Drawing, PlantDrawing, PlotMesh, Scene, Vertex};
 use phytomer_sim::plant::Kind;
 use serde_json::{Value, json};
@@ -29,7 +29,7 @@ const ORGAN: u64 = 52;
 pub fn write_plant_instanced(scene: &Scene, run_seed: u64, out: &mut (dyn Write + Send)) -> io::Result<()> {
     let wood = Scene::new(scene.plant(), scene.age(), &wood_of(scene.options()));
     let about = scene.about(run_seed);
-    write(&PlantDrawing { scene: &wood, about }, &Stand::of_plant(scene), out)
+    write(&PlantDrawing { scene: &wood, about }, &StillOrgans::of_plant(scene), out)
 }
 
 /// Writes the plants of a plot, each in its place, with its obstacles.
@@ -37,10 +37,10 @@ pub fn write_plant_instanced(scene: &Scene, run_seed: u64, out: &mut (dyn Write 
 /// # Errors
 /// As [`write_plant_instanced`].
 pub fn write_plot_instanced(plot: &PlotMesh, out: &mut (dyn Write + Send)) -> io::Result<()> {
-    write(&wood_of_plot(plot).drawing()?, &Stand::of_plot(plot), out)
+    write(&wood_of_plot(plot).drawing()?, &StillOrgans::of_plot(plot), out)
 }
 
-fn write(wood: &dyn Drawing, organs: &Stand, out: &mut (dyn Write + Send)) -> io::Result<()> {
+fn write(wood: &dyn Drawing, organs: &StillOrgans, out: &mut (dyn Write + Send)) -> io::Result<()> {
     let still = Still::of(wood, None)?;
     let count: usize = organs.lives.iter().map(|life| life.parts.len()).sum();
     let bytes = count as u64 * ORGAN;

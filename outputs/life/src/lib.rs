@@ -35,7 +35,7 @@ pub use maker::Maker;
 pub use models::{Models, stepped};
 pub use phytomer_looks::{Surface, SurfacePoint};
 pub use phytomer_meshes::Model;
-pub use stand::{Member, Organs, Stand, organs_alone, wood_of, wood_of_plot};
+pub use stand::{Member, Organs, StillOrgans, organs_alone, wood_of, wood_of_plot};
 pub use track::{Key, Track, between};
 
 use glam::{Mat3, Vec3};

@@ -57,7 +57,7 @@ impl Parts {
         let organs = &scene.plant().organs;
         for organ in scene.organs() {
             let component = organs.component[organ.index()];
-            let known = self.known(component);
+            let known = self.known_organ(scene, organ);
             let from = organ_follows_from(scene.plant(), organ, scene.age());
             if known != NONE && from.is_some() && self.states[known as usize].from == from {
                 self.hold(known, scene.organ_colours(organ), age, nearness);
@@ -121,6 +121,22 @@ impl Parts {
         let known = self.of_component.get(component as usize).copied().unwrap_or(NONE);
         let stands = self.states.get(known as usize).is_some_and(|state| state.part.death.is_infinite());
         if stands { known } else { NONE }
+    }
+
+    /// The part of an organ that stands, while it has the form that it had: a model that writes its plant anew may give
+    /// it another, which is another part.
+    fn known_organ(&self, scene: &Scene, organ: OrganId) -> u32 {
+        let plant = scene.plant();
+        let known = self.known(plant.organs.component[organ.index()]);
+        let Some(state) = self.states.get(known as usize) else { return NONE };
+        let surface = || plant.stated_organs.surface(organ).map(|(place, _)| place);
+        let same = match state.part.what {
+            What::Organ(form) => form == plant.organs.form[organ.index()] && plant.outline_of(organ).is_empty(),
+            What::Outlined(outline) => plant.outline_of(organ) == self.outlines[outline as usize],
+            What::Surface(number) => surface() == Some(self.surfaces[number as usize].0),
+            What::Internode => false,
+        };
+        if same { known } else { NONE }
     }
 
     fn what(&mut self, scene: &Scene, organ: OrganId, own: OwnForm) -> What {

@@ -40,7 +40,7 @@ impl Member {
 }
 
 /// The organs of plants that stand at one age.
-pub struct Stand {
+pub struct StillOrgans {
     /// The lives of that age, equal ones once.
     pub lives: Vec<Life>,
     /// The options of each life.
@@ -51,7 +51,7 @@ pub struct Stand {
     pub names: Vec<String>,
 }
 
-impl Stand {
+impl StillOrgans {
     /// The organs of a plant.
     pub fn of_plant(scene: &Scene) -> Self {
         Self {

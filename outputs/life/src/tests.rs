@@ -137,3 +137,23 @@ fn a_life_in_a_plot_has_its_ticks() {
         assert_eq!(at(&own, age as f32), at(&in_plot, age as f32 + 4.0), "{age}");
     }
 }
+
+/// A polygon that is written anew with other corners is another part from then on; one that stays is the same.
+#[test]
+fn an_organ_whose_outline_changes_is_drawn_as_it_is_at_each_age() {
+    let outlined = |side: f32| {
+        let mut plant = plant();
+        plant.state_outline(OrganId(0), &[[0.0; 3], [side, 0.0, 0.0], [side, side, 0.0]]);
+        plant
+    };
+    let mut maker = Maker::new(Nearness::of(1e-3), &MeshOptions::default());
+    for (age, side) in [(2, 0.1), (3, 0.1), (4, 0.2)] {
+        maker.show(&outlined(side), age);
+    }
+    let life = maker.finish();
+    let told: Vec<_> = life.parts.iter().map(|part| (part.component, part.from, part.death, part.what)).collect();
+    let component = plant().organs.component[0];
+    let expected = [(component, 2.0, 4.0, What::Outlined(0)), (component, 4.0, f32::INFINITY, What::Outlined(1))];
+    assert_eq!(told, expected);
+    assert_eq!(life.outlines.iter().map(|corners| corners[1][0]).collect::<Vec<_>>(), [0.1, 0.2]);
+}
