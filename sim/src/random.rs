@@ -31,12 +31,12 @@ pub enum Purpose {
     NodeResponse = 6,
     /// The places of field plots, which a run draws once; the axis is the number of the block.
     Field = 7,
+    /// The plants of a cell of a forest, in a stream of the cell.
+    Forest = 11,
     /// Whether the seed of a plant germinates, in the stream of the seed's axis.
     Germination = 8,
     /// What the productions of an L-system decide, in a stream of the module and the step.
     Rewriting = 9,
-    /// The plants of a cell of a forest, in a stream of the cell.
-    Forest = 10,
 }
 
 /// The number in (0, 1) that a uniform word stands for: the middle of its interval.
