@@ -16,11 +16,13 @@ use phytomer_outputs::meshes::{MeshOptions, Scene, Tolerance};
 use phytomer_outputs::{Destination, FileError};
 use phytomer_usd::{Asked, Encoding, Organs, Planted, Stand, write_plant, write_scene};
 use std::fs;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::Path as FilePath;
 
 /// The greatest number of plants of one species: what USD can number.
 const MOST_PLANTS: f64 = 2_147_483_647.0;
+/// The most bytes of a raster's file.
+const MOST_BYTES: u64 = 4 << 30;
 /// The most components of a variant.
 const MOST_COMPONENTS: u32 = 4_000_000;
 /// The sides of the tubes of a variant's mesh.
@@ -92,7 +94,17 @@ impl Landscape {
 }
 
 fn bytes_of(resolved: &ResolvedForest, file: &str, path: &Path) -> Result<Vec<u8>, Fault> {
-    fs::read(resolved.path_of(file)).map_err(|error| {
+    let read = || {
+        let opened = fs::File::open(resolved.path_of(file))?;
+        let about = opened.metadata()?;
+        if !about.is_file() || about.len() > MOST_BYTES {
+            return Err(io::Error::other(format!("it is no file of at most {MOST_BYTES} bytes")));
+        }
+        let mut bytes = Vec::new();
+        opened.take(MOST_BYTES).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    };
+    read().map_err(|error| {
         Fault::new(path, format!("the raster `{file}` cannot be read: {error}"), "a file, by its path from this one")
     })
 }

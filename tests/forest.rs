@@ -5,7 +5,6 @@
 
 mod program;
 
-use arrow_array::Array;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int32Type};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
@@ -162,7 +161,7 @@ fn what_is_wrong_is_told_at_its_place_and_writes_nothing() {
         (SITE.to_owned(), bare, "cover.asc, byte 0: the raster has no scale"),
         (SITE.to_owned(), "ncols 3", "the header has no `nrows`"),
         (SITE.replace("cover.asc", "none.asc"), &good, "the raster `none.asc` cannot be read"),
-        (SITE.replace("bit = 13", "bit = 14"), &good, "site.toml:21:7"),
+        (SITE.replace("bit = 13", "bit = 14"), &good, "site.toml:19:7"),
         (SITE.replace("bit = 13", "bit = 0"), &good, "a second tree has the bit 0"),
         (SITE.replace("\"coffee\"", "\"cofee\""), &good, "coffee"),
         (SITE.replace("scale = [0.8, 1.2]", "scale = [2, 1]"), &good, "the least size is above the greatest"),

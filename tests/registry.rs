@@ -3,8 +3,8 @@
 //! The rule is tested for `models/src/parametric`. Of every Rust file of the project outside that folder, except tests
 //! (folders and files that are called `tests`, or begin with `tests_`) and this file, each line is read up to its
 //! comment; only two lines may contain the name of the model, in small letters or capitals, or the name of the paper's
-//! authors by which its presets are called. What reads the files that other programs have of this model, and writes them
-//! as its species (`config/peers`), names it too. Absent: documentation and presets, which may name models.
+//! authors by which its presets are called. What reads the files that other programs have of this model, and writes
+//! them as its species (`config/peers`), names it too. Absent: documentation and presets, which may name models.
 
 use std::fs;
 use std::path::{Path, PathBuf};

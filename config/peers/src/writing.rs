@@ -19,7 +19,7 @@ pub(crate) fn species(mapping: &Mapping<'_>, label: Option<&str>, file: &str, fo
     let levels = mapping.levels;
     let plural = if levels == 1 { "" } else { "s" };
     let mut text = format!(
-        "name = {}\ndescription = {}\nsource = {}\nmodel = \"parametric\"\ntick = \"{TICK}\"\n",
+        "name = {}\ndescription = {}\nsource = {}\nmodel = \"parametric\"\ntick = \"{TICK}\"\nshown_at = 30\n",
         quoted(&label),
         quoted(&format!(
             "{label}: a parametric tree of {levels} level{plural} of stems, converted from a file of {}.",

@@ -5,7 +5,8 @@
 
 use crate::fault::{RasterFault, Where};
 use crate::place::Georeference;
-use crate::raster::{Cell, Raster, read};
+use crate::raster::{Cell, Raster};
+use crate::reading::read;
 
 /// So many trees have a bit.
 pub const TREES: u8 = 14;

@@ -4,7 +4,8 @@
 
 use crate::fault::{RasterFault, Where};
 use crate::place::Georeference;
-use crate::raster::{Cell, Raster, read};
+use crate::raster::{Cell, Raster};
+use crate::reading::read;
 
 /// The heights of a landscape.
 #[derive(Debug, Clone, PartialEq)]

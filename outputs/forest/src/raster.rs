@@ -4,34 +4,9 @@
 
 use crate::fault::{RasterFault, Where};
 use crate::place::Georeference;
-use crate::{ascii, pgm, png_raster};
 
 /// So many cells may a raster have, of 2 bytes each; heights have 4.
-pub const MOST_CELLS: u64 = 1 << 30;
-
-/// The formats of rasters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// PNG, grey, 16 bits.
-    Png,
-    /// Portable grey map, with a maximum above 255.
-    Pgm,
-    /// ESRI ASCII grid.
-    Ascii,
-}
-
-impl Format {
-    /// That of a file, by how it begins.
-    pub fn of(bytes: &[u8]) -> Self {
-        if bytes.starts_with(b"\x89PNG") {
-            Self::Png
-        } else if bytes.starts_with(b"P5") || bytes.starts_with(b"P2") {
-            Self::Pgm
-        } else {
-            Self::Ascii
-        }
-    }
-}
+pub const MOST_CELLS: u64 = 1 << 28;
 
 /// A raster.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,15 +25,6 @@ pub(crate) trait Cell: Copy + Default {
     fn of_number(number: f64) -> Result<Self, &'static str>;
     /// The value of a cell of which the file knows nothing; what is expected where there must be one.
     fn unknown() -> Result<Self, &'static str>;
-}
-
-/// Reads a raster of any format.
-pub(crate) fn read<T: Cell>(bytes: &[u8]) -> Result<Raster<T>, RasterFault> {
-    match Format::of(bytes) {
-        Format::Png => png_raster::read(bytes),
-        Format::Pgm => pgm::read(bytes),
-        Format::Ascii => ascii::read(bytes),
-    }
 }
 
 /// The number of cells, where a raster may have so many.

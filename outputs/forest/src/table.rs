@@ -1,7 +1,7 @@
 //! `instances.parquet`: a row for each plant of a forest.
 //!
-//! The rows of a species stand together, in the order in which the species are stated; within it row by row of the raster
-//! from the north. Row groups have the size of those of runs. Absent: what a variant looks like.
+//! The rows of a species stand together, in the order in which the species are stated; within it row by row of the
+//! raster from the north. Row groups have the size of those of runs. Absent: what a variant looks like.
 
 use crate::cover::Cover;
 use crate::height::Heights;

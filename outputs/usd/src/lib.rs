@@ -33,13 +33,8 @@ use course::Course;
 use layer::{Header, Layer};
 use package::Package;
 use parts::Parts;
-<<<<<<< HEAD
-use phytomer_life::{Life, Models, between};
-use phytomer_meshes::{Columns, Drawing, MeshOptions};
-=======
 use phytomer_life::{Life, Models, StillOrgans, between};
-use phytomer_meshes::{Drawing, MeshOptions};
->>>>>>> s16-L
+use phytomer_meshes::{Columns, Drawing, MeshOptions};
 use skeleton::Skeleton;
 use std::io;
 use text::Text;
@@ -92,18 +87,13 @@ impl<'a> Plants<'a> {
 const ROOT: &str = "plant";
 
 /// Writes plants at an age: wood as it is drawn, and the organs of lives of that one age.
-<<<<<<< HEAD
 fn write_still(
     asked: &Asked,
     wood: &dyn Drawing,
-    (organs, columns): (&phytomer_life::Stand, Option<&Columns>),
+    (organs, columns): (&StillOrgans, Option<&Columns>),
     out: &mut dyn Patched,
 ) -> io::Result<()> {
     let plants = &Plants { columns, ..Plants::of(&organs.lives, &organs.options, &organs.members) };
-=======
-fn write_still(asked: &Asked, wood: &dyn Drawing, organs: &StillOrgans, out: &mut dyn Patched) -> io::Result<()> {
-    let plants = &Plants { lives: &organs.lives, options: &organs.options, members: &organs.members, obstacles: None };
->>>>>>> s16-L
     let course = Course::still();
     let skeletons = skeletons(plants, &course);
     in_layer(asked, None, out, &mut |layer| {

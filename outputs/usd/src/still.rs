@@ -4,15 +4,9 @@ use super::changing::{LIVES, begin_mesh, extent};
 use super::layer::{Attribute, Data, Layer, Value};
 use super::models::rgb;
 use super::paint::{self, Palette};
-<<<<<<< HEAD
 use super::{Asked, Organs, Patched, ROOT, in_layer, write_still};
-use phytomer_life::{Stand, organs_alone, wood_of, wood_of_plot};
+use phytomer_life::{StillOrgans, organs_alone, wood_of, wood_of_plot};
 use phytomer_meshes::{About, Drawing, MeshOptions, PlantDrawing, PlotMesh, Scene, Vertex};
-=======
-use super::{Asked, Patched, write_still};
-use phytomer_life::{StillOrgans, wood_of, wood_of_plot};
-use phytomer_meshes::{Drawing, PlantDrawing, PlotMesh, Scene, Vertex};
->>>>>>> s16-L
 use std::io;
 
 /// Writes a plant at an age.
@@ -26,11 +20,7 @@ pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Pa
         return write_drawn(asked, (&wood, &organs), scene.about(run_seed), out);
     }
     let about = scene.about(run_seed);
-<<<<<<< HEAD
-    write_still(asked, &PlantDrawing { scene: &wood, about }, (&Stand::of_plant(scene), scene.columns()), out)
-=======
-    write_still(asked, &PlantDrawing { scene: &wood, about }, &StillOrgans::of_plant(scene), out)
->>>>>>> s16-L
+    write_still(asked, &PlantDrawing { scene: &wood, about }, (&StillOrgans::of_plant(scene), scene.columns()), out)
 }
 
 /// Writes the plants of a plot, each in its place, with its obstacles.
@@ -38,8 +28,7 @@ pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Pa
 /// # Errors
 /// Those of `out`; more vertices than a mesh can have.
 pub fn write_plot(asked: &Asked, plot: &PlotMesh, out: &mut dyn Patched) -> io::Result<()> {
-<<<<<<< HEAD
-    write_still(asked, &wood_of_plot(plot).drawing()?, (&Stand::of_plot(plot), None), out)
+    write_still(asked, &wood_of_plot(plot).drawing()?, (&StillOrgans::of_plot(plot), None), out)
 }
 
 /// Whether organs are drawn as no instance shows them: a part of them, as points, with normals or columns of their own.
@@ -58,9 +47,6 @@ fn write_drawn(asked: &Asked, (wood, organs): (&Scene, &Scene), about: About, ou
         }
         paint::write_materials(layer, ROOT, &[("wood", 0.85), ("organs", 0.6)])
     })
-=======
-    write_still(asked, &wood_of_plot(plot).drawing()?, &StillOrgans::of_plot(plot), out)
->>>>>>> s16-L
 }
 
 /// Writes the mesh of a drawing. Each property is drawn anew, so that memory holds one of them at a time.
