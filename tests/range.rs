@@ -1,9 +1,10 @@
-//! Trees of stems on the command line: by levels, at ranges, within a number of triangles, in the wind; what their vertices
-//! tell; and what is told of plants without levels.
+//! Trees of stems on the command line: by levels, at ranges, within a number of triangles, in the wind; what their
+//! vertices tell; and what is told of plants without levels.
 //!
 //! The tree is the quaking aspen of Weber & Penn 1995. Absent: the curves and the elements of a tree, and the law of
 //! sway, which are tested beside them.
 
+#[allow(dead_code, reason = "the place is told elsewhere")]
 mod ply;
 mod program;
 

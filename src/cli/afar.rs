@@ -50,8 +50,8 @@ impl Part {
         used.into_iter().filter(|(_, used)| *used).map(|(option, _)| option)
     }
 
-    /// What they make of the plants of a run: those of the quality that is asked for. `more` are other options for trees
-    /// of stems that are used.
+    /// What they make of the plants of a run: those of the quality that is asked for. `more` are other options for
+    /// trees of stems that are used.
     ///
     /// # Errors
     /// Where one of the species has no levels.

@@ -110,8 +110,8 @@ pub struct Picture {
     colour_by: Option<String>,
     #[command(flatten)]
     part: Part,
-    /// Draw a tree of stems with what is left of it from so many metres away, as large as it is seen nearby (Weber & Penn
-    /// 1995 §5); several ranges stand side by side.
+    /// Draw a tree of stems with what is left of it from so many metres away, as large as it is seen nearby (Weber &
+    /// Penn 1995 §5); several ranges stand side by side.
     #[arg(long, value_delimiter = ',', value_name = "METRES,…", allow_negative_numbers = true, value_parser = afar::metres, conflicts_with = "framed_for")]
     range: Vec<f64>,
     #[command(flatten)]

@@ -53,8 +53,8 @@ pub struct Fall {
 /// The wind of one frame; by default none.
 #[derive(Debug, Clone, Default, Args)]
 pub struct Breeze {
-    /// A gusty wind of so many metres a second, for this frame alone; the species needs wood that bends, or is a tree of
-    /// stems with a law of sway of its own. 0 is calm.
+    /// A gusty wind of so many metres a second, for this frame alone; the species needs wood that bends, or is a tree
+    /// of stems with a law of sway of its own. 0 is calm.
     #[arg(long, value_name = "M/S", allow_negative_numbers = true, value_parser = wind_speed)]
     wind: Option<f64>,
     /// The direction towards which the wind blows, degrees from the X axis (east) to the Y axis (north).
@@ -63,8 +63,8 @@ pub struct Breeze {
     /// By how much gusts are faster, m/s: of a tree of stems, which sways by a law of its own (Weber & Penn 1995 §4.7).
     #[arg(long, value_name = "M/S", requires = "wind", allow_negative_numbers = true, value_parser = wind_speed)]
     gust: Option<f64>,
-    /// Let a tree of stems be, after so many seconds of wind, as it was: the rates at which its stems swing are rounded,
-    /// so that a film of this length closes.
+    /// Let a tree of stems be, after so many seconds of wind, as it was: the rates at which its stems swing are
+    /// rounded, so that a film of this length closes.
     #[arg(long = "loop", value_name = "SECONDS", requires = "wind", allow_negative_numbers = true, value_parser = closing)]
     closes: Option<f64>,
     /// The moment of the frame, seconds.

@@ -5,10 +5,10 @@
 //! [`numbers`]. `equations`, `radius` and `envelope` have the formulas of §4; `path` follows a stem with its clones,
 //! `dealt` gives their children places, `prune` shortens them, `grow` goes from level to level, `leaves` adds leaves,
 //! and `write` fills the columns of the plant, which `model` rebuilds at any age. `sections` has the lobes and the
-//! flare of the trunk. `expectation` has the numbers of stems and leaves in closed form; `sway` moves a tree in the wind
-//! (§4.7). The paper's trees have no age; the laws `growth` and `season` are of this program. Decisions where the paper
-//! is silent or contradicts itself stand at the formulas, and together in `docs/parametric.md`. Absent: degradation at
-//! range (§5), which meshes do; `seen` tells them what it depends on.
+//! flare of the trunk. `expectation` has the numbers of stems and leaves in closed form; `sway` moves a tree in the
+//! wind (§4.7). The paper's trees have no age; the laws `growth` and `season` are of this program. Decisions where the
+//! paper is silent or contradicts itself stand at the formulas, and together in `docs/parametric.md`. Absent:
+//! degradation at range (§5), which meshes do; `seen` tells them what it depends on.
 
 mod card;
 mod checks;

@@ -1,8 +1,8 @@
 //! What degradation at range asks of a tree (Weber & Penn 1995 §5): its quality, and whether its leaves hide its stems.
 //!
 //! The paper tells evergreens, and trees in summer and fall, from others, and spring from the rest of the year. Here a
-//! tree without a season is an evergreen, or stands in summer, if it bears leaves; the first quarter of the time in leaf
-//! is spring. Absent: the curves, which meshes have.
+//! tree without a season is an evergreen, or stands in summer, if it bears leaves; the first quarter of the time in
+//! leaf is spring. Absent: the curves, which meshes have.
 
 use super::params::Whole;
 use crate::parameters::Levelled;

@@ -5,8 +5,8 @@
 //! a₀, a₂ = gust/50 a₀ + a₁/2, in degrees; b = offset + rate · time, in radians; sway = (a₁ sin b + a₂ sin 0.7 b) /
 //! nCurveRes, in degrees, between two segments about x and about y, each with an offset of its own a stem. As in the
 //! rest of the model the first segment of a stem is not turned against its parent. A segment is at the place of its
-//! base. By default the rate is length/radius over 15 a second, and not radius/length as printed, by which a trunk would
-//! need hours. Absent: gusts that come and go, and leaves that flutter.
+//! base. By default the rate is length/radius over 15 a second, and not radius/length as printed, by which a trunk
+//! would need hours. Absent: gusts that come and go, and leaves that flutter.
 
 use super::numbers::Numbers;
 use super::params::Sway;
@@ -36,8 +36,8 @@ impl Sway {
     }
 }
 
-/// How each axis of a plant sways. A clone is a part of the stem from which it parts, with phases of its own. The radius
-/// of the trunk is that without its flare.
+/// How each axis of a plant sways. A clone is a part of the stem from which it parts, with phases of its own. The
+/// radius of the trunk is that without its flare.
 pub(super) fn swings(plant: &Plant, tree: &Numbers) -> Vec<Swing> {
     let mut swings = own_stems(plant);
     swings.iter_mut().take(1).for_each(|trunk| trunk.radius /= flare(tree.flare, 0.0));

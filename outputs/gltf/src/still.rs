@@ -3,9 +3,10 @@
 //! Metres, Y up: our (x, y, z) is (x, z, −y) there. Each class of components (wood, leaves, flowers, fruits, obstacles)
 //! is a primitive with its own material. A vertex has position, normal, texture coordinates, colour in linear light,
 //! `_BIRTH_AGE`, `_DEATH_AGE` and `_COMPONENT_ID`, as floats, which hold whole numbers below 2²⁴; what lives has the
-//! largest float as `_DEATH_AGE`, because glTF knows no infinity. Columns of a mesh follow, as `_UNTIL_M`. Texture coordinates run from the top, as glTF counts
-//! them. The mesh is drawn once to be counted and once more a class to be written, so that none of it is kept but a few
-//! bytes for each run of vertices of one class. Positions of a skinned mesh stand as they do in calm air.
+//! largest float as `_DEATH_AGE`, because glTF knows no infinity. Columns of a mesh follow, as `_UNTIL_M`. Texture
+//! coordinates run from the top, as glTF counts them. The mesh is drawn once to be counted and once more a class to be
+//! written, so that none of it is kept but a few bytes for each run of vertices of one class. Positions of a skinned
+//! mesh stand as they do in calm air.
 
 use super::document::{Accessor, Document, INDICES, MOST_BYTES, Number, VERTICES, pad, too_large};
 use super::paint::{CLASSES, class_of, linear, material};

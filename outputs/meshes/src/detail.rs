@@ -1,10 +1,10 @@
 //! What of a tree of stems is drawn: some of its levels alone, and what Weber & Penn 1995 §5 leaves of it at a range.
 //!
-//! A segment is an internode, a leaf any organ; the trunk and its clones are level 0, and what a stem bears has the level
-//! after it, its leaves too. The elements of a list stand in the order of the plant's columns, which is that of their
-//! creation, as §5 asks. A segment is drawn as a polygon where that is in its range, else as a line where that is: the
-//! paper's lines lie inside of its polygons and are not seen there. Leaves likewise, as polygons or as points. Absent:
-//! the curves (`range`), and the forms of lines and points, which are the scene's.
+//! A segment is an internode, a leaf any organ; the trunk and its clones are level 0, and what a stem bears has the
+//! level after it, its leaves too. The elements of a list stand in the order of the plant's columns, which is that of
+//! their creation, as §5 asks. A segment is drawn as a polygon where that is in its range, else as a line where that
+//! is: the paper's lines lie inside of its polygons and are not seen there. Leaves likewise, as polygons or as points.
+//! Absent: the curves (`range`), and the forms of lines and points, which are the scene's.
 
 use super::MeshOptions;
 use super::range::{Elements, Scales, Span, Zoom};

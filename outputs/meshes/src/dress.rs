@@ -1,8 +1,8 @@
 //! Texture coordinates of bark in metres, and leaf normals that point out of the crown.
 //!
 //! A mesh has texture coordinates from 0 to 1 around and along each internode, so that a bark texture would be as fine
-//! on a twig as it is coarse on the trunk. Here it covers the same length everywhere. Leaf normals that point out of the
-//! crown shade it as one round body, without the noise of single leaves. Absent: textures themselves.
+//! on a twig as it is coarse on the trunk. Here it covers the same length everywhere. Leaf normals that point out of
+//! the crown shade it as one round body, without the noise of single leaves. Absent: textures themselves.
 
 use super::chunk::Vertex;
 use phytomer_sim::clock::Tick;

@@ -156,8 +156,8 @@ pub fn write_surface(surface: &Surface, scale: [f32; 3], frame: &Frame, tag: &Ta
     }
 }
 
-/// Writes the triangle that stands for an organ as a point: of its area and its length, with its base to the stem; `out`
-/// has three places.
+/// Writes the triangle that stands for an organ as a point: of its area and its length, with its base to the stem;
+/// `out` has three places.
 pub fn write_point([length, area]: [f32; 2], frame: &Frame, tag: &Tag, out: &mut [Vertex]) {
     let axes = axes(frame);
     let half = if length > 0.0 { area / length } else { 0.0 };

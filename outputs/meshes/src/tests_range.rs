@@ -1,5 +1,5 @@
-//! A tree of stems by levels and at ranges: what is drawn of it, as what, and the ranges that its vertices tell; bark in
-//! metres, and the columns of a PLY file.
+//! A tree of stems by levels and at ranges: what is drawn of it, as what, and the ranges that its vertices tell; bark
+//! in metres, and the columns of a PLY file.
 
 use super::detail::level;
 use super::measure::{assert_unit_normals, surface, volume};

@@ -1,9 +1,9 @@
 //! The curves of degradation (Weber & Penn 1995 §5): which share of the elements of each kind is drawn at a range, and
 //! the last range at which a share is drawn.
 //!
-//! The scan of the paper has lost most of these formulas; they are those of the printed one. A range here is the paper's
-//! r₂, which holds for a picture of 1,000 lines over 60 degrees ([`super::Zoom`]). Shares are clamped to [0, 1], and the
-//! limits of a formula belong to it. Absent: which elements make up a share (`masses`).
+//! The scan of the paper has lost most of these formulas; they are those of the printed one. A range here is the
+//! paper's r₂, which holds for a picture of 1,000 lines over 60 degrees ([`super::Zoom`]). Shares are clamped to [0,
+//! 1], and the limits of a formula belong to it. Absent: which elements make up a share (`masses`).
 
 use phytomer_sim::math::pow;
 

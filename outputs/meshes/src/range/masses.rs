@@ -10,7 +10,8 @@ use super::laws::Elements;
 impl Elements {
     /// The number of neighbours in a mass: 16 for stems, 4 for polygons of leaves and 8 for their points.
     ///
-    /// The text has 4 for all leaves; the 1,664 points of Table 2, one for each mass of 13,312, are those of masses of 8.
+    /// The text has 4 for all leaves; the 1,664 points of Table 2, one for each mass of 13,312, are those of masses of
+    /// 8.
     pub fn mass(self) -> u32 {
         match self {
             Self::LeafPolygons => 4,
@@ -23,8 +24,8 @@ impl Elements {
     /// is drawn at any range.
     ///
     /// The number of masses is total/mass, not rounded, and `change`, the number of masses times the fraction of
-    /// `number`, is truncated: the mass k has one more element than `int(number)` from the fraction (k + 1)/masses on. A
-    /// part of a mass at the end would need a fraction above 1 and takes its element with the next whole number. Of
+    /// `number`, is truncated: the mass k has one more element than `int(number)` from the fraction (k + 1)/masses on.
+    /// A part of a mass at the end would need a fraction above 1 and takes its element with the next whole number. Of
     /// points at least one a mass is drawn.
     pub fn least_share(self, place: u32, total: u32) -> f64 {
         let mass = self.mass();

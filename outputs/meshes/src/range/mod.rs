@@ -3,8 +3,8 @@
 //! Far away stems are lines instead of polygons, leaves points, and both become fewer, one at a time. Every element has
 //! the range from which and the range until which it is drawn, so that what is drawn at a range is what these two
 //! include ([`Span`]), and what is drawn farther away is part of what is drawn nearer, but for the lines of the trunk,
-//! which begin at 100 m. Levels are those of the paper: 0 is the trunk; beyond 2 all are as 2. Absent: the elements of a
-//! plant (`detail`), and how lines and points are drawn, which are the scene's.
+//! which begin at 100 m. Levels are those of the paper: 0 is the trunk; beyond 2 all are as 2. Absent: the elements of
+//! a plant (`detail`), and how lines and points are drawn, which are the scene's.
 
 mod laws;
 mod masses;
