@@ -47,6 +47,27 @@ fn leaves_stand_at_their_places_along_a_stem() {
     }
 }
 
+/// The azimuth and the insertion that tables have are those of the frame that is stated, bent or not.
+#[test]
+fn leaves_have_the_angles_of_their_frames() {
+    for (bend, down, number) in [(0.0, 50.0, 9.0), (0.0, -30.0, 9.0), (0.6, 50.0, 9.0), (0.0, 20.0, -5.0)] {
+        let mut tree = leafy(number);
+        (tree.whole.leaf_bend, tree.trunk.curve) = (bend.into(), 40.0.into());
+        (tree.branches[0].down_angle, tree.branches[0].rotate) = (down.into(), 100.0.into());
+        let plant = posed(&tree, 0);
+        for organ in 0..plant.organs.len() {
+            let (frame, node) = (organ_frame(&plant, OrganId(organ as u32), 1), plant.organs.node[organ].index());
+            let along = |of: [f32; 3]| (0..3).map(|k| f64::from(of[k] * frame.heading[k])).sum::<f64>();
+            let (heading, up) = (plant.frames.heading[node], plant.frames.up[node]);
+            let left = [1, 2, 0].map(|k| up[k] * heading[(k + 1) % 3] - up[(k + 1) % 3] * heading[k]);
+            let [a, b] = [plant.organs.azimuth[organ], plant.organs.insertion[organ]].map(f64::from);
+            near(along(heading), b.cos());
+            near(along(up), b.sin() * a.cos());
+            near(along(left), -b.sin() * a.sin());
+        }
+    }
+}
+
 /// Five leaves at the end of the trunk, over half a turn, in one plane.
 #[test]
 fn leaves_stand_in_a_fan_at_the_end_of_a_stem() {
