@@ -172,6 +172,7 @@ fn what_cannot_be_written_is_told_and_leaves_nothing() {
         (&blown, &["--rig", "9", "--leaves", "instances"], "m.glb", "whose vertices move has its organs merged"),
         (&small, &["--leaves", "instances"], "m.ply", "--leaves: this is for USD and GLB"),
         (&small, &["--leaves", "merged"], "m.stl", "--leaves: this is for USD and GLB"),
+        (&small, &["--leaf-normals", "crown", "--leaves", "instances"], "m.glb", "crown: instances show every leaf"),
         (&small, &["--leaves", "single"], "m.glb", "possible values: instances, merged"),
         (&small, &["--plot", "9"], "m.glb", "cannot be used with"),
         (&blown, &["--rig", "9", "--age", "3.5"], "m.glb", "a skeleton is that of a plant at a whole age"),

@@ -255,7 +255,8 @@ fn usd_of(resolved: &Resolved) -> usize {
         });
         shown.expect("a plant");
         let (lives, options) = ([maker.finish()], [MeshOptions::default()]);
-        let plants = Plants { lives: &lives, options: &options, members: &[Member::default()] };
+        let members = [Member::default()];
+        let plants = Plants::of(&lives, &options, &members);
         let asked = Asked { encoding: Encoding::Binary, organs: Organs::Instances, words: String::new() };
         let mut file = Destination::create(&home.path().join("life.usdc")).expect("a file");
         write_life(&asked, &plants, 1e-3, &Pace { a_tick: 1.0, a_second: 24.0 }, &mut file).expect("room on the disk");

@@ -99,10 +99,15 @@ impl Part {
     /// # Errors
     /// The option that is used.
     pub fn needs_age(&self) -> Result<(), Misuse> {
-        match self.used().find(|option| *option != "--quality") {
+        match self.of_a_part() {
             Some(option) => Err(Misuse(format!("{option}: this is for a plant at one age; leave out --ages"))),
             None => Ok(()),
         }
+    }
+
+    /// The option that shows a part of a plant, which instances of its leaves do not.
+    pub fn of_a_part(&self) -> Option<&'static str> {
+        self.used().find(|option| *option != "--quality")
     }
 
     /// The levels, to be told.

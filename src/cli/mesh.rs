@@ -26,6 +26,7 @@ use phytomer::run::drawing::{check_size, options_of};
 use phytomer::run::picturing::{PicturedStand, pictured_plot_at, plot_mesh};
 use phytomer_outputs::Destination;
 use phytomer_outputs::meshes::{Afar, MeshOptions, PlotMesh, Scene, Seen, Tolerance, fitting, nearest};
+use phytomer_outputs::usd::Organs;
 use phytomer_sim::Tick;
 use phytomer_sim::between::Moment;
 use phytomer_sim::plant::Plant;
@@ -112,10 +113,24 @@ impl Mesh {
                 if self.growing.is_asked() {
                     self.part.needs_age()?;
                 }
+                self.shows_whole_leaves(format, &regrown)?;
                 self.dressing.check(format, self.plot.is_some(), self.growing.is_asked(), &regrown)?;
                 self.write(&regrown, format)
             }
             Err(verdict) => Ok(verdict),
+        }
+    }
+
+    /// Refuses what gives leaves vertices of their own, or leaves some out, where a GLB file has instances of them.
+    fn shows_whole_leaves(&self, format: Format, regrown: &Regrown) -> Result<(), Misuse> {
+        let stems = || regrown.species().iter().any(|species| species.model.levelled(1).is_some());
+        let fewer = || matches!(self.budget.asked(), Asked::Triangles(_)) && stems();
+        let range = self.range.map(|_| "--range").or_else(|| fewer().then_some("--triangles"));
+        match range.or(self.part.of_a_part()).or(self.dressing.of_each_leaf()) {
+            Some(option) if format == Format::Glb(Organs::Instances) => Err(Misuse(format!(
+                "{option}: instances show every leaf, and all alike; leave out --leaves instances, or write USD"
+            ))),
+            _ => Ok(()),
         }
     }
 

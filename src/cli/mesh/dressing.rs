@@ -62,6 +62,12 @@ impl Dressing {
         }
     }
 
+    /// The option that gives each leaf vertices of its own, which instances of one leaf have not.
+    pub fn of_each_leaf(&self) -> Option<&'static str> {
+        let crown = self.leaf_normals == LeafNormals::Crown;
+        crown.then_some("--leaf-normals crown").or(self.wind_data.then_some("--wind-data"))
+    }
+
     /// States them for a plant of a model.
     pub fn dress(&self, options: &mut MeshOptions, regrown: &Regrown, plant: &Plant) {
         self.dress_all(options);
