@@ -19,8 +19,11 @@ const TEXTS: [&str; 4] = [
      C(x,y) --> D[C(y,x)]\nD --> DA(1)\nendlsystem\n",
 ];
 
-/// Every module: where it is kept, what it is, and whence it comes.
-fn modules(derived: &Derived) -> Vec<(Slot, Symbol, Vec<u64>, crate::Identity, Option<Slot>)> {
+/// A module: where it is kept, its symbol, the bits of its parameters, whence it comes, and its bracket's other half.
+type Kept = (Slot, Symbol, Vec<u64>, crate::Identity, Option<Slot>);
+
+/// Every module of a string.
+fn modules(derived: &Derived) -> Vec<Kept> {
     let string = derived.string();
     let of = |module: crate::Module<'_>| {
         let parameters = module.parameters.iter().map(|value| value.to_bits()).collect();

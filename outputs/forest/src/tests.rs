@@ -39,7 +39,11 @@ const CELLS: [u16; 6] = [1, 0x8001, 2, 0, 0x4002, 0xffff];
 
 fn all(planting: &Planting, cover: &Cover, heights: Option<&Heights>) -> Vec<Instance> {
     let mut found = Vec::new();
-    planting.each(cover, heights, |instance| Ok::<(), ()>(found.push(instance))).unwrap();
+    let put = |instance| {
+        found.push(instance);
+        Ok::<(), ()>(())
+    };
+    planting.each(cover, heights, put).unwrap();
     found
 }
 
@@ -99,7 +103,7 @@ fn densities_are_met_in_the_mean() {
     near(&|plant| f64::from(plant.variant), 1.0, 2.0 / 3.0);
     near(&|plant| plant.place_m[0], 200.0, 200.0 * 200.0 / 12.0);
     near(&|plant| plant.place_m[1], 150.0, 200.0 * 200.0 / 12.0);
-    near(&|plant| plant.turn_rad, std::f64::consts::PI, std::f64::consts::TAU.powi(2) / 12.0);
+    near(&|plant| plant.turn_rad, std::f64::consts::PI, std::f64::consts::TAU * std::f64::consts::TAU / 12.0);
     near(&|plant| plant.scale, 1.0, 0.16 / 12.0);
     // Whole numbers of plants a cell are met exactly.
     assert_eq!(all(&planting(What::Tree(2), Count::PerSquareMetre(0.5)), &cover, None).len(), 20_000);
