@@ -179,7 +179,7 @@ mod tests {
 
     #[test]
     fn levels_are_one_or_two_in_their_order() {
-        assert_eq!(["0-1", "2", "0 - 3"].map(|text| levels(text)), [Ok([0, 1]), Ok([2, 2]), Ok([0, 3])]);
+        assert_eq!(["0-1", "2", "0 - 3"].map(levels), [Ok([0, 1]), Ok([2, 2]), Ok([0, 3])]);
         for text in ["1-0", "-1", "", "a", "0-", "0-256", "0..1", "0-1-2"] {
             assert!(levels(text).is_err(), "{text}");
         }

@@ -29,7 +29,7 @@ impl Serialize for Tree {
             Err(error) => Err(S::Error::custom(error)),
         };
         let mut levels = vec![table(serde_json::to_value(&self.trunk))?];
-        for level in &self.branches {
+        for level in self.branches.iter() {
             levels.push(table(serde_json::to_value(level))?);
         }
         let mut map = serializer.serialize_map(None)?;
@@ -75,7 +75,7 @@ impl<'de> Visitor<'de> for Keys {
         Ok(Tree {
             whole: read(whole, "")?,
             trunk: read(trunk, LEVELS[0])?,
-            branches: [read(first, LEVELS[1])?, read(second, LEVELS[2])?, read(third, LEVELS[3])?],
+            branches: Box::new([read(first, LEVELS[1])?, read(second, LEVELS[2])?, read(third, LEVELS[3])?]),
         })
     }
 }

@@ -15,12 +15,13 @@ use serde::{Deserialize, Serialize};
 /// A tree of stems and leaves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
-    /// What holds for the whole tree.
-    pub whole: Whole,
+    /// What holds for the whole tree. In a box, as the levels are, so that the parameters of other models, which share an
+    /// enum with these, do not take their room.
+    pub whole: Box<Whole>,
     /// Level 0: the trunk and its clones; keys that begin with 0.
-    pub trunk: Trunk,
+    pub trunk: Box<Trunk>,
     /// Levels 1 to 3; keys that begin with 1, 2 and 3. Stems of later levels have the parameters of level 3.
-    pub branches: [Branches; 3],
+    pub branches: Box<[Branches; 3]>,
 }
 
 /// The parameters of the whole tree.

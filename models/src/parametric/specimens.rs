@@ -129,7 +129,7 @@ pub(super) fn unvaried(mut tree: Tree) -> Tree {
     for v in [&mut trunk.scale_v, &mut trunk.length_v, &mut trunk.split_angle_v, &mut trunk.curve_v] {
         *v = 0.0.into();
     }
-    for level in &mut tree.branches {
+    for level in tree.branches.iter_mut() {
         for v in [&mut level.rotate_v, &mut level.length_v, &mut level.split_angle_v, &mut level.curve_v] {
             *v = 0.0.into();
         }
