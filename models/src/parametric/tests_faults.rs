@@ -118,7 +118,7 @@ fn an_explosion_of_clones_is_foretold() {
     assert!(foretold.least_components(1) > 5e11);
     (tree.trunk.seg_splits, tree.trunk.curve_res) = (20.0.into(), 100.into());
     tree.whole.levels = 8.into();
-    tree.branches = Box::new([(); 3].map(|()| level(2000.0)));
+    *tree.branches = [(); 3].map(|()| level(2000.0));
     let most = compiled(&tree).expectation(1).expect("a forecast").components(1);
     assert!(most.is_finite() && most >= 1e30, "{most}");
 }
