@@ -13,7 +13,7 @@ use specimen::Specimen;
 
 /// A scenario of one plant of a species that inherits from a shipped one.
 fn inheriting(name: &'static str, from: &str, keys: &str) -> Specimen {
-    let scenario = format!("name = \"{name}\"\nspecies = \"{name}_species\"\nseed = 1995\n\n[ages]\nuntil = 1\n");
+    let scenario = format!("name = \"{name}\"\nspecies = \"{name}_species\"\nplants = 1\nseed = 1995\n\n[ages]\nuntil = 1\n");
     let species = format!("name = \"{name}_species\"\ninherits = \"{from}\"\n{keys}\n");
     let texts = [(name, scenario.as_str()), (&*format!("{name}_species"), species.as_str())];
     let resolved = validate_texts(name, &texts).unwrap_or_else(|report| panic!("{}", report.render(false)));

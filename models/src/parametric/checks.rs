@@ -126,7 +126,7 @@ impl Checks<'_> {
     /// nCurveV: a variation, or below 0 the angle of a helix.
     fn curve_v(&mut self, number: &Constant) -> f64 {
         let value = number.value();
-        if value < 0.0 && value <= -90.0 {
+        if value <= -90.0 {
             let problem =
                 format!("{}CurveV is {value}: the segments of a helix would not rise along its axis", self.digit);
             self.fault("CurveV", problem, "an angle above -90 degrees");

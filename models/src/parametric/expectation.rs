@@ -22,6 +22,8 @@ struct Level {
 
 /// More than any plant has: numbers above this are told as this.
 const MOST: f64 = 1e30;
+/// Where a level has more families than this, no plant has room for them, and later levels are not counted.
+const MOST_FAMILIES: f64 = 1e12;
 
 /// The expected numbers by order and age.
 pub(super) fn of(tree: &Numbers, until: Tick) -> Expectation {
@@ -78,6 +80,9 @@ fn levels(tree: &Numbers) -> Vec<Level> {
     let mut levels = vec![trunk(tree)];
     for level in 1..tree.levels {
         let before = &levels[usize::from(level) - 1];
+        if before.families > MOST_FAMILIES {
+            break;
+        }
         let mut next = Level { families: 0.0, by_children: BTreeMap::new(), leaves: 0.0 };
         for (number, parents) in &before.by_children {
             let plan = plan_of(tree, level - 1, *number);

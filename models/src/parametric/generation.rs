@@ -50,7 +50,9 @@ pub(super) struct Generation {
 
 impl Generation {
     pub fn clear(&mut self) {
-        (self.families.clear(), self.stems.clear(), self.segments.clear());
+        self.families.clear();
+        self.stems.clear();
+        self.segments.clear();
     }
 
     /// Adds a family whose path is known and which has been written into the plant: `written` has the axis and the

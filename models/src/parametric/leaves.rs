@@ -9,7 +9,7 @@ use super::draws::{A_LEAF, signed};
 use super::equations::{down_angle_deg, fan_deg, leaves, leaves_on, rotate_deg};
 use super::generation::{Family, Generation, Stem};
 use super::numbers::Numbers;
-use super::path::{ALONG, UP, leaving};
+use super::path::{ALONG, UP, leaving, radians};
 use super::write::{LeafInPlace, Writer};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::math::{atan2, pow};
@@ -96,16 +96,26 @@ impl<'a> Foliage<'a> {
             let bent = bent(segment.frame.then(turn), point, tree.leaf_bend);
             turn = segment.frame.inverse().then(bent).normalized();
         }
-        let [along, left, up] = turn.turned(ALONG);
+        // As it stands without a bend: known from its angles, without a search for them.
+        let (around, insertion) = match fan.is_none() && down >= 0.0 && tree.leaf_bend == 0.0 {
+            true => (radians(*last + 180.0), radians(down)),
+            false => standing(turn),
+        };
         LeafInPlace {
             node: NodeId(stem.first.0 + at.segment - stem.before),
             position: 0,
             behind: (1.0 - at.within) * family.length / f64::from(plan.curve_res),
             turn,
-            around: atan2(-left, up),
-            insertion: atan2((left * left + up * up).sqrt(), along),
+            around,
+            insertion,
         }
     }
+}
+
+/// The azimuth of a turned leaf around its stem from the upper side, and its angle to the stem, radians.
+fn standing(turn: Rotation) -> (f64, f64) {
+    let [along, left, up] = turn.turned(ALONG);
+    (atan2(-left, up), atan2((left * left + up * up).sqrt(), along))
 }
 
 /// Where a leaf stands.

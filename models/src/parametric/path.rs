@@ -90,7 +90,9 @@ impl Path {
     /// Follows a stem with all its clones. Stops where it has more than `room` segments or clones, which the caller
     /// finds by their number.
     pub fn follow(&mut self, tree: &Numbers, base: &Base, random: &PlantRandom, splits: &mut Splits, room: u64) {
-        (self.members.clear(), self.segments.clear(), self.waiting.clear());
+        self.members.clear();
+        self.segments.clear();
+        self.waiting.clear();
         let mut stream = random.stream(base.key, Purpose::Node);
         let helix = if tree.of(base.level).curve_v < 0.0 { 360.0 * unit(&mut stream, draws::HELIX) } else { 0.0 };
         let first =

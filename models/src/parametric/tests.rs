@@ -214,3 +214,46 @@ fn the_forecast_counts_stems_segments_and_leaves() {
     assert!((made / foretold.components(1) - 1.0).abs() < 0.1, "{made} of {}", foretold.components(1));
     assert!(compiled(&willow()).expectation(1).expect("a forecast").components(1) > 400_000.0);
 }
+
+/// Shape 5 comes down to 0 at the base of the crown and at its top: stems under a millimetre are left out, and no
+/// other.
+#[test]
+fn no_stem_is_shorter_than_a_millimetre() {
+    let mut tree = with(level(1000.0), bare());
+    (tree.whole.shape, tree.whole.base_size) = (5.into(), 0.0.into());
+    tree.branches[0].length = 0.002.into();
+    let plant = grown(&tree, 0);
+    let ratio = |k: u32| 1.0 - f64::from(k) / 1001.0;
+    let length = |r: f64| 0.02 * if r <= 0.7 { r / 0.7 } else { (1.0 - r) / 0.3 };
+    let expected = (1..=1000).filter(|&k| length(ratio(k)) >= 1e-3).count();
+    assert_eq!(plant.axes.len() - 1, expected);
+    assert!(expected < 960, "{expected}");
+}
+
+/// 0Scale doubles the radius of the trunk once, and that of its branches with it.
+#[test]
+fn the_factor_of_the_trunk_acts_once() {
+    let mut tree = with(level(5.0), bare());
+    let one = grown(&tree, 0);
+    tree.trunk.scale = 2.0.into();
+    let two = grown(&tree, 0);
+    for (one, two) in one.nodes.diameter.iter().zip(&two.nodes.diameter) {
+        near(f64::from(*two), 2.0 * f64::from(*one), 1e-6);
+    }
+}
+
+/// Stems of level 4 have the lengths and numbers of level 3, and leaves on the trunk the angles of level 1.
+#[test]
+fn levels_beyond_the_third_are_like_it() {
+    let mut tree = with(level(3.0), bare());
+    (tree.whole.levels, tree.whole.base_size) = (6.into(), 0.0.into());
+    tree.branches[1] = level(2.0);
+    tree.branches[2] = level(2.0);
+    let (stems, lengths, _, _) = counts(&grown(&tree, 0));
+    // ⌈2 (1 − ½ k/(n + 1))⌉ is 2 for every k.
+    assert_eq!(stems, [1, 3, 6, 12, 24, 48]);
+    for deep in 3..5 {
+        // Of n children at k/(n + 1) each is 0.3 (1 − 0.6 k/(n + 1)) of its parent: of two, 0.42 together.
+        near(lengths[deep + 1] / lengths[deep], 0.3 * (2.0 - 0.6), 1e-5);
+    }
+}

@@ -7,7 +7,7 @@ use super::envelope::{beyond, shape_8};
 use super::equations::*;
 use super::numbers::{Envelope, Level};
 use super::radius::{branch_radius, lobe};
-use phytomer_sim::math::{exp, log};
+use phytomer_sim::math::{exp, log, pow};
 
 const ROUND: Envelope = Envelope { width: 0.5, peak: 0.5, low: 0.5, high: 0.5 };
 
@@ -170,7 +170,7 @@ fn attraction_takes_a_share_of_the_declination() {
         for _ in 1..segments {
             left -= curve_up(1.0, left, 1.0, segments);
         }
-        near(left / 1.2, (1.0 - 1.0 / f64::from(segments)).powi(segments as i32 - 1));
+        near(left / 1.2, pow(1.0 - 1.0 / f64::from(segments), f64::from(segments) - 1.0));
     }
     assert!(curve_up(-3.0, 0.5, 1.0, 12) < 0.0, "below 0 stems droop");
     near(curve_up(1.0, 0.5, 0.0, 12), 0.0);

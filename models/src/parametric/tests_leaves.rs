@@ -6,9 +6,11 @@ use super::leaves::bent;
 use super::params::Tree;
 use super::specimens::{aspen, bare, level, unvaried, with};
 use super::tests::grown;
+use phytomer_sim::math::{acos, cos, sin};
 use phytomer_sim::plant::{OrganId, Plant};
 use phytomer_sim::pose::{organ_frame, pose};
 use phytomer_sim::rotation::Rotation;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 fn near(found: f64, expected: f64) {
     assert!((found - expected).abs() < 1e-5, "{found} is not {expected}");
@@ -39,11 +41,32 @@ fn leaves_stand_at_their_places_along_a_stem() {
         near(x, 0.0);
         near(y, 0.0);
         near(z, f64::from(k) + 1.0);
-        near(f64::from(frame.heading[2]), 50_f64.to_radians().cos());
+        near(f64::from(frame.heading[2]), cos(50_f64.to_radians()));
         // The first is turned by 90° about the upright, from the direction away from +X, which is the upper side.
-        let (sin, cos) = (f64::from(k + 1) * 90.0 + 180.0).to_radians().sin_cos();
-        near(f64::from(frame.heading[0]), 50_f64.to_radians().sin() * cos);
-        near(f64::from(frame.heading[1]), 50_f64.to_radians().sin() * sin);
+        let around = (f64::from(k + 1) * 90.0 + 180.0).to_radians();
+        near(f64::from(frame.heading[0]), sin(50_f64.to_radians()) * cos(around));
+        near(f64::from(frame.heading[1]), sin(50_f64.to_radians()) * sin(around));
+    }
+}
+
+/// The azimuth and the insertion that tables have are those of the frame that is stated, bent or not.
+#[test]
+fn leaves_have_the_angles_of_their_frames() {
+    for (bend, down, number) in [(0.0, 50.0, 9.0), (0.0, -30.0, 9.0), (0.6, 50.0, 9.0), (0.0, 20.0, -5.0)] {
+        let mut tree = leafy(number);
+        (tree.whole.leaf_bend, tree.trunk.curve) = (bend.into(), 40.0.into());
+        (tree.branches[0].down_angle, tree.branches[0].rotate) = (down.into(), 100.0.into());
+        let plant = posed(&tree, 0);
+        for organ in 0..plant.organs.len() {
+            let (frame, node) = (organ_frame(&plant, OrganId(organ as u32), 1), plant.organs.node[organ].index());
+            let along = |of: [f32; 3]| (0..3).map(|k| f64::from(of[k] * frame.heading[k])).sum::<f64>();
+            let (heading, up) = (plant.frames.heading[node], plant.frames.up[node]);
+            let left = [1, 2, 0].map(|k| up[k] * heading[(k + 1) % 3] - up[(k + 1) % 3] * heading[k]);
+            let [a, b] = [plant.organs.azimuth[organ], plant.organs.insertion[organ]].map(f64::from);
+            near(along(heading), cos(b));
+            near(along(up), sin(b) * cos(a));
+            near(along(left), -sin(b) * sin(a));
+        }
     }
 }
 
@@ -57,8 +80,8 @@ fn leaves_stand_in_a_fan_at_the_end_of_a_stem() {
     for (k, turn) in [-90.0, -45.0, 0.0, 45.0, 90.0_f64].into_iter().enumerate() {
         let frame = organ_frame(&plant, OrganId(k as u32), 1);
         near(f64::from(frame.base[2]), 10.0);
-        near(f64::from(frame.heading[2]), turn.to_radians().cos());
-        near(f64::from(frame.heading[1]).abs(), turn.to_radians().sin().abs());
+        near(f64::from(frame.heading[2]), cos(turn.to_radians()));
+        near(f64::from(frame.heading[1]).abs(), sin(turn.to_radians()).abs());
         near(f64::from(frame.up[0]), 1.0);
     }
 }
@@ -75,7 +98,7 @@ fn branches_stand_in_a_fan_at_the_end_of_a_stem() {
     for (k, axis) in (1..8).enumerate() {
         let first = (0..plant.nodes.len()).find(|&node| plant.nodes.axis[node].index() == axis).expect("a node");
         near(f64::from(plant.frames.base[first][2]), 10.0);
-        near(f64::from(plant.frames.heading[first][2]), (-60.0 + 20.0 * k as f64).to_radians().cos());
+        near(f64::from(plant.frames.heading[first][2]), cos((-60.0 + 20.0 * k as f64).to_radians()));
     }
 }
 
@@ -110,7 +133,7 @@ fn bend_turns_leaves_to_the_light() {
         let plant = posed(tree, 4);
         (0..plant.organs.len()).map(|organ| organ_frame(&plant, OrganId(organ as u32), 1).up).collect()
     };
-    let lean = |up: f32| f64::from(up.clamp(-1.0, 1.0)).acos();
+    let lean = |up: f32| acos(f64::from(up.clamp(-1.0, 1.0)));
     let unbent = normals(&tree);
     tree.whole.leaf_bend = 1.0.into();
     assert!(normals(&tree).iter().all(|up| up[2] > 1.0 - 1e-6));
@@ -124,8 +147,7 @@ fn bend_turns_leaves_to_the_light() {
 #[test]
 fn a_leaf_is_bent_from_any_position() {
     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.3, -0.5, 0.2], [-1.0, 1.0, 1.0]];
-    let turned =
-        axes.iter().flat_map(|axis| [0.0, 0.5, 1.5707963267948966, 3.141592653589793, -2.0].map(|a| (*axis, a)));
+    let turned = axes.iter().flat_map(|axis| [0.0, 0.5, FRAC_PI_2, PI, -2.0].map(|a| (*axis, a)));
     for (axis, angle) in turned {
         for at in [[3.0, 0.0, 0.0], [1.0, 2.0, -1.0], [0.0, -1.0, 0.0]] {
             let leaf = Rotation::about(axis, angle);
