@@ -149,7 +149,7 @@ impl Prism {
     /// there is no ring between base and tip.
     fn lean(&self, rings: [Ring; 2], nth: usize) -> [f32; 2] {
         let length = length(&rings);
-        if self.rings.is_empty() || length.is_nan() || length <= 0.0 {
+        if self.rings.is_empty() || length <= 0.0 {
             return [1.0, 0.0];
         }
         let (before, from) = self.ring(rings, nth.saturating_sub(1));
