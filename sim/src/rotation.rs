@@ -52,10 +52,7 @@ impl Rotation {
     fn of_basis(x: Vector, y: Vector, z: Vector) -> Self {
         let squares = [1.0 + x.x + y.y + z.z, 1.0 + x.x - y.y - z.z, 1.0 - x.x + y.y - z.z, 1.0 - x.x - y.y + z.z];
         let [w, a, b, c] = squares;
-        let (out, back) = (
-            [y.z - z.y, z.x - x.z, x.y - y.x],
-            [y.z + z.y, z.x + x.z, x.y + y.x],
-        );
+        let (out, back) = ([y.z - z.y, z.x - x.z, x.y - y.x], [y.z + z.y, z.x + x.z, x.y + y.x]);
         let parts = [
             (w, Vector::new(out[0], out[1], out[2])),
             (out[0], Vector::new(a, back[2], back[1])),

@@ -78,13 +78,7 @@ pub(super) fn rewrite(
         frames: Frames::default(),
         own: Pieces::default(),
         made: Pieces::default(),
-        places: Places {
-            visits: visits(script),
-            active,
-            updated,
-            cuts,
-            ..Places::default()
-        },
+        places: Places { visits: visits(script), active, updated, cuts, ..Places::default() },
         length: derived.string.len(),
         parameters: derived.string.parameter_count(),
         most: bounds.modules,
