@@ -9,9 +9,11 @@ mod specimen;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use phytomer::models::lsystem::turtle::{Command, Drawing, Turtle};
 use phytomer::models::lsystem::view::View;
+use phytomer::sim::pose::pose;
 use phytomer::sim::random::PlantRandom;
 use phytomer_rewriting::{Derived, Program, Reading, Symbol, Unanswered};
 use specimen::Specimen;
+use specimen::turns::by_turns;
 use std::hint::black_box;
 
 /// The steps of the plant, which then has 13,121 segments.
@@ -36,39 +38,67 @@ fn specimen_of(plants: u32) -> Specimen {
     Specimen::of_text("abop", &scenario)
 }
 
-/// Lets a turtle read the string; how many lines it has drawn.
-fn interpreted(program: &Program, derived: &Derived, commands: &[Command], turtle: &mut Turtle) -> usize {
-    let mut lines = 0;
-    turtle.restart();
-    let drawn = program.draw(derived, |module| {
-        let command = commands[usize::from(module.symbol.0)];
-        lines += usize::from(matches!(turtle.follow(command, module.parameters), Some(Drawing::Line { .. })));
-    });
-    drawn.expect("a drawing");
-    lines
+/// A turtle, and the string that it reads.
+struct Reader {
+    program: Program,
+    derived: Derived,
+    commands: Vec<Command>,
+    turtle: Turtle,
+}
+
+impl Reader {
+    fn new() -> Self {
+        let (program, derived) = string();
+        let symbols = program.symbols();
+        let commands = (0..symbols.len()).map(|n| Command::of(symbols.name(Symbol(n as u16)))).collect();
+        Self { program, derived, commands, turtle: Turtle::new(&View::read(VIEW).expect("a view")) }
+    }
+
+    /// Lets the turtle read the string; how many lines it has drawn.
+    fn read(&mut self) -> usize {
+        let Self { program, derived, commands, turtle } = self;
+        let mut lines = 0;
+        turtle.restart();
+        let drawn = program.draw(derived, |module| {
+            let command = commands[usize::from(module.symbol.0)];
+            lines += usize::from(matches!(turtle.follow(command, module.parameters), Some(Drawing::Line { .. })));
+        });
+        drawn.expect("a drawing");
+        lines
+    }
 }
 
 fn abop(criterion: &mut Criterion) {
     let specimen = specimen_of(8);
-    let (program, derived) = string();
-    let symbols = program.symbols();
-    let commands: Vec<Command> = (0..symbols.len()).map(|n| Command::of(symbols.name(Symbol(n as u16)))).collect();
-    let mut turtle = Turtle::new(&View::read(VIEW).expect("a view"));
-    let segments = interpreted(&program, &derived, &commands, &mut turtle);
+    let mut reader = Reader::new();
+    let segments = reader.read();
     assert_eq!(segments, specimen.grown().plants[0].nodes.len());
     let mut group = specimen.group(criterion, "interpretation (internodes)", Throughput::Elements(segments as u64));
-    group.bench_function("turtle", |bencher| {
-        bencher.iter(|| black_box(interpreted(&program, &derived, &commands, &mut turtle)));
-    });
+    group.bench_function("turtle", |bencher| bencher.iter(|| black_box(reader.read())));
     group.finish();
     specimen.frames(criterion);
     specimen.records(criterion);
 }
 
-/// The ratios of the records by turns, for `PHYTOMER_PAIRS=20 cargo bench --bench abop -- turns`: of eight plants, and
-/// of sixty-four.
+/// The ratios by turns, for `PHYTOMER_PAIRS=20 cargo bench --bench abop -- turns`: the turtle beside the pose, and the
+/// records of eight plants and of sixty-four.
 fn turns(_: &mut Criterion) {
+    const TIMES: usize = 50;
     let Some(pairs) = std::env::var("PHYTOMER_PAIRS").ok().and_then(|pairs| pairs.parse().ok()) else { return };
+    let (specimen, mut reader) = (specimen_of(8), Reader::new());
+    let mut plot = specimen.grown();
+    let read = || {
+        for _ in 0..TIMES {
+            black_box(reader.read());
+        }
+    };
+    let posed = || {
+        for _ in 0..TIMES {
+            plot.plants[0].frames.clear();
+            pose(&mut plot.plants[0], STEPS);
+        }
+    };
+    by_turns("abop: turtle beside the pose", pairs, || (), read, posed);
     [8, 64].into_iter().for_each(|plants| specimen_of(plants).records_by_turns(pairs));
 }
 
