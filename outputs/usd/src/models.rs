@@ -27,12 +27,21 @@ pub struct Models<'a> {
     made: Vec<(Kind, Model)>,
     /// Models for the scale of a part alone, whatever its colour.
     plain: BTreeMap<(usize, [u32; 3]), Model>,
+    /// How far each of these reaches from its base, in the largest of the sizes of a part.
+    reaches: BTreeMap<(usize, [u32; 3]), f32>,
 }
 
 impl<'a> Models<'a> {
     /// No model yet, of lives that are drawn with these options.
     pub fn of(lives: &'a [Life], options: &'a [MeshOptions]) -> Self {
-        Self { lives, options, places: BTreeMap::new(), made: Vec::new(), plain: BTreeMap::new() }
+        Self {
+            lives,
+            options,
+            places: BTreeMap::new(),
+            made: Vec::new(),
+            plain: BTreeMap::new(),
+            reaches: BTreeMap::new(),
+        }
     }
 
     /// Makes the model of a part in a colour, where there is none yet.
@@ -43,6 +52,9 @@ impl<'a> Models<'a> {
         }
         let [blade, stalk] = key.3;
         let model = self.make(life, part, [blade, stalk]);
+        let farthest = |vertex: &Vertex| vertex.position().map(|x| x * x).iter().sum::<f32>().sqrt();
+        let reach = model.mesh.vertices.iter().map(farthest).fold(0.0, f32::max);
+        self.reaches.insert((life, key.2), reach);
         self.plain.entry((life, key.2)).or_insert_with(|| model.clone());
         self.places.insert(key, self.made.len());
         self.made.push((part.kind, model));
@@ -56,6 +68,11 @@ impl<'a> Models<'a> {
     /// The form of a part that was met, in any colour.
     pub fn form(&self, life: usize, part: &Part) -> Option<&Model> {
         self.plain.get(&(life, form_of(part)))
+    }
+
+    /// How far a part that was met reaches from its base, in the largest of its sizes.
+    pub fn reach(&self, life: usize, part: &Part) -> f32 {
+        self.reaches.get(&(life, form_of(part))).copied().unwrap_or(f32::INFINITY)
     }
 
     fn key(&self, life: usize, part: &Part, tint: [f32; 3]) -> Key {
