@@ -1,5 +1,5 @@
 //! A weeping willow that bends at every tick of its life, until it has some twenty thousand internodes; its mesh within
-//! a millimetre at 92, and the description of its life.
+//! a millimetre at 92, the description of its life, and files of binary USD.
 //!
 //! Growth with bending is compared with growth alone, the mesh with the full one, the life with growing and standing.
 //! `docs/performance.md` has the table.

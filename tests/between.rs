@@ -5,12 +5,13 @@
 //! one that is made anew, one that stands there at once, and L-systems whose rules put internodes between others and
 //! take some away are shown. Absent: pictures and films of them (`tests/films.rs`), and their lives (`tests/lives.rs`).
 
-use phytomer::config::{Resolved, validate_texts};
-use phytomer::outputs::meshes::{Chunk, MeshOptions, Scene};
+use phytomer::config::{Resolved, validate, validate_texts};
+use phytomer::outputs::meshes::{Chunk, MeshOptions, Scene, Vertex, mesh_plant};
 use phytomer::run::regrowth::Regrowth;
+use phytomer::run::seed_of;
 use phytomer::sim::between::Moment;
 use phytomer::sim::plant::{Cause, NodeId, OrganId, Plant};
-use phytomer::sim::{Growth, Tick};
+use phytomer::sim::{Growth, Plot, Tick, grow_and_look};
 use std::collections::BTreeMap;
 
 type Point = [f32; 3];
@@ -280,4 +281,39 @@ fn models_say_how_they_grow() {
         assert_eq!(resolved(name, 2).model.growth(), growth, "{name}");
     }
     assert_eq!(doubling().model.growth(), Growth::Rewrites);
+}
+
+/// The mesh of the first plant of a scenario at the first of some ages, at which it is shown.
+fn shown_first(resolved: &Resolved, ages: &[Tick]) -> Vec<Vertex> {
+    let mut first = Vec::new();
+    let shown = Regrowth::of(resolved).show(0, ages, &mut |age, plant| {
+        if age == ages[0] {
+            first = mesh_plant(plant, age, &MeshOptions::default()).vertices;
+        }
+        Ok(())
+    });
+    shown.expect("a plant");
+    first
+}
+
+/// A plant that is shown at an early age stands at no later one, and is still that of the whole run to the byte, with
+/// the numbers of its components: plants that are grown ahead, by the clock and with what people do to them, and one
+/// that is made anew.
+#[test]
+fn a_plant_that_is_shown_early_is_that_of_the_whole_run() {
+    for (name, age) in [("willow", 12), ("coffee", 30), ("under_a_roof", 6), ("apple_pruning", 5), ("gmt1", 4)] {
+        let resolved = validate(name).unwrap_or_else(|report| panic!("{}", report.render(false)));
+        let until = resolved.scenario.ages.until;
+        let [early, whole] = [vec![age], vec![age, until]].map(|ages| shown_first(&resolved, &ages));
+        assert!(!whole.is_empty() && early == whole, "{name} at {age}");
+    }
+    let resolved = validate("willow").unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let looked = |last: Tick| {
+        let mut plot = Plot::of_one(resolved.model.as_ref(), &seed_of(&resolved.scenario, 0));
+        grow_and_look(&mut plot, [last, 40], &mut ()).expect("nothing is recorded");
+        (plot.site.tick, plot.plants[0].components())
+    };
+    let (early, whole) = (looked(12), looked(40));
+    assert_eq!((early.0, whole.0), (12, 40));
+    assert_eq!(early.1, whole.1, "growth runs ahead");
 }

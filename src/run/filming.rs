@@ -18,6 +18,7 @@ use phytomer_outputs::pictures::{Canvas, Framing, Picture, Survey, draw_framed, 
 use phytomer_sim::between::Moment;
 use phytomer_sim::mechanics::sway::GUSTS_S;
 use phytomer_sim::{RecordError, Tick};
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::f32::consts::TAU;
 use std::io;
@@ -196,7 +197,7 @@ impl Scene<'_> {
     fn each_stand(
         &self,
         times: &[(Moment, Vec<f64>)],
-        show: &mut dyn FnMut(usize, &PicturedStand) -> Result<(), RecordError>,
+        show: &mut dyn FnMut(usize, &PicturedStand<'_>) -> Result<(), RecordError>,
     ) -> Result<(), RunError> {
         let obstacles = match self.whose {
             Whose::Plot(plot) => obstacles_of(self.regrowth.trial(), plot),
@@ -212,13 +213,14 @@ impl Scene<'_> {
 
     /// What stands at an age, with its caption, among the obstacles of a plot. Between two ticks the caption has the
     /// earlier one: a fraction would flicker.
-    fn stand(&self, at: Moment, standing: &[Standing], obstacles: &[Arc<Mesh>]) -> PicturedStand {
+    fn stand<'p>(&self, at: Moment, standing: &'p [Standing<'_>], obstacles: &[Arc<Mesh>]) -> PicturedStand<'p> {
         let trial = self.regrowth.trial();
         let tick = at.age() as Tick;
         let told = Moment::from(tick);
         match (self.whose, standing) {
             (Whose::Plant(plant), [alone, ..]) => {
-                let mut stand = stand_of_plant(trial, self.species, alone.plant.clone().into_owned(), (at, told));
+                let lent = Cow::Borrowed(alone.plant.as_ref());
+                let mut stand = stand_of_plant(trial, self.species, lent, (at, told));
                 stand.label = caption_of_plant(trial, self.species, plant, told);
                 stand
             }

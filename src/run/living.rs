@@ -1,7 +1,7 @@
 //! A plant, or a plot, grown once and described as lives: what a file is made of that plays a whole life.
 //!
-//! The lives of a plot have its ticks for their ages, so that all of them are shown at the same. Absent: the file, which
-//! is a writer's (`phytomer_outputs::usd`).
+//! The lives of a plot have its ticks for their ages, so that all of them are shown at the same. Absent: the file,
+//! which is a writer's (`phytomer_outputs::usd`).
 
 use super::RunError;
 use super::picturing::obstacles_of;

@@ -19,6 +19,7 @@ use phytomer_sim::Tick;
 use phytomer_sim::between::Moment;
 use phytomer_sim::plant::Plant;
 use sha2::{Digest, Sha256};
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -26,7 +27,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Pictured {
     /// What stands side by side: plants at ages, or a plot at ticks.
-    pub stands: Vec<PicturedStand>,
+    pub stands: Vec<PicturedStand<'static>>,
     /// The names of the species.
     pub title: String,
     /// What the file says of itself.
@@ -34,10 +35,10 @@ pub struct Pictured {
 }
 
 /// A plant at an age, or a plot at a tick.
-#[derive(Debug, Clone)]
-pub struct PicturedStand {
-    /// The plants, equal ones once.
-    pub plants: Vec<Plant>,
+#[derive(Debug)]
+pub struct PicturedStand<'p> {
+    /// The plants, equal ones once: their own, or lent by what has grown them.
+    pub plants: Vec<Cow<'p, Plant>>,
     /// Where they stand.
     pub members: Vec<PicturedMember>,
     /// The obstacles of a plot that are drawn.
@@ -100,7 +101,13 @@ impl Pictured {
     }
 }
 
-impl PicturedStand {
+impl PicturedStand<'_> {
+    /// The same with plants of its own.
+    fn owned(self) -> PicturedStand<'static> {
+        let plants = self.plants.into_iter().map(|plant| Cow::Owned(plant.into_owned())).collect();
+        PicturedStand { plants, members: self.members, obstacles: self.obstacles, label: self.label }
+    }
+
     /// The same as a picture takes it; `forms` are those of each species.
     pub fn stand(&self, forms: &[Arc<OwnForms>]) -> Stand<'_> {
         let placed = |member: &PicturedMember| Placed {
@@ -156,7 +163,7 @@ pub fn pictured_plants_at(
         for &age in ages {
             let whose = if plants.len() > 1 { format!("plant {number}, ") } else { String::new() };
             let Some(plant) = seen.get(&age).cloned() else { continue };
-            let mut stand = stand_of_plant(trial, species, plant, (age, age));
+            let mut stand = stand_of_plant(trial, species, Cow::Owned(plant), (age, age));
             stand.label.insert_str(0, &whose);
             stands.push(stand);
         }
@@ -195,16 +202,16 @@ pub fn pictured_plot_at(
     let scenario = trial.scenario();
     let mut seen = BTreeMap::new();
     regrowth.show_plot(plot, ticks, &mut |tick, standing| {
-        seen.entry(tick).or_insert_with(|| kept(standing, apart));
+        seen.entry(tick).or_insert_with(|| kept(standing, apart).owned());
         Ok(())
     })?;
     let obstacles = obstacles_of(trial, plot);
-    let of_members = |mut stand: PicturedStand, tick: Moment| {
+    let of_members = |mut stand: PicturedStand<'static>, tick: Moment| {
         stand.obstacles.clone_from(&obstacles);
         stand_of_plot(trial, species, stand, (plot, tick, tick))
     };
     let stands = ticks.iter().filter_map(|tick| seen.remove(tick).map(|stand| of_members(stand, *tick)));
-    let stands: Vec<PicturedStand> = stands.collect();
+    let stands: Vec<PicturedStand<'static>> = stands.collect();
     let shown = stands.iter().flat_map(|stand| stand.members.iter().map(|member| member.species)).collect();
     let note = format!("{}: plot {plot} at the ticks {} of seed {}", scenario.name, list(ticks), scenario.seed);
     Ok(Pictured { stands, title: titles_of(species, &shown), note })
@@ -216,12 +223,12 @@ fn moments(ages: &[Tick]) -> Vec<Moment> {
 }
 
 /// A plant at an age, by itself, with the age that is told of it.
-pub(super) fn stand_of_plant(
+pub(super) fn stand_of_plant<'p>(
     trial: &Trial,
     species: &[&Species],
-    plant: Plant,
+    plant: Cow<'p, Plant>,
     (at, told_age): (Moment, Moment),
-) -> PicturedStand {
+) -> PicturedStand<'p> {
     let (number, place) = (plant.id, trial.species_of_plant(plant.id));
     let (of, sown) = (trial.plant(number), trial.sown_at(number));
     let (plot, treatment, age) = (of.plot, of.treatment as u32, at.tick());
@@ -231,12 +238,12 @@ pub(super) fn stand_of_plant(
 }
 
 /// A plot at a tick, with the tick that is told of it; it is still to be filled in where its plants belong.
-pub(super) fn stand_of_plot(
+pub(super) fn stand_of_plot<'p>(
     trial: &Trial,
     species: &[&Species],
-    mut stand: PicturedStand,
+    mut stand: PicturedStand<'p>,
     (plot, at, told_tick): (u32, Moment, Moment),
-) -> PicturedStand {
+) -> PicturedStand<'p> {
     let of_plot = trial.plot(plot);
     for member in &mut stand.members {
         let place = trial.member_of(member.number).place();
@@ -260,7 +267,7 @@ fn drawn(site: &Site) -> Vec<Arc<Mesh>> {
 
 /// The mesh of a stand of a plot.
 pub fn plot_mesh<'a>(
-    stand: &'a PicturedStand,
+    stand: &'a PicturedStand<'_>,
     regrowth: &Regrowth,
     (plot, tick): (u32, f64),
     (species, forms): (&[&Species], &[Arc<OwnForms>]),
@@ -272,10 +279,10 @@ pub fn plot_mesh<'a>(
         place: member.place,
         name: format!("plant {} species {}", member.number, species[member.species].about.name),
     };
-    let body = |(place, plant): (usize, &'a Plant)| {
+    let body = |(place, plant): (usize, &'a Cow<'_, Plant>)| {
         let of = stand.members.iter().find(|member| member.plant == place);
         let own = of.and_then(|of| forms.get(of.species)).cloned().unwrap_or_default();
-        PlotBody { plant, age: of.map_or(0, |of| of.age), options: options_of(sides, &own) }
+        PlotBody { plant: plant.as_ref(), age: of.map_or(0, |of| of.age), options: options_of(sides, &own) }
     };
     PlotMesh {
         bodies: stand.plants.iter().enumerate().map(body).collect(),
@@ -293,7 +300,7 @@ type Glance = (usize, Tick, usize, usize);
 type Kept = (usize, Option<[u8; 32]>);
 
 /// The plants of a plot, equal ones once unless they are to be kept apart; where they belong is still to be filled in.
-pub(super) fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
+pub(super) fn kept<'p>(standing: &'p [Standing<'_>], apart: bool) -> PicturedStand<'p> {
     let mut stand =
         PicturedStand { plants: Vec::new(), members: Vec::new(), obstacles: Vec::new(), label: String::new() };
     let mut alike: BTreeMap<Glance, Vec<Kept>> = BTreeMap::new();
@@ -308,7 +315,7 @@ pub(super) fn kept(standing: &[Standing], apart: bool) -> PicturedStand {
         let body = equal.unwrap_or(stand.plants.len());
         if body == stand.plants.len() {
             known.push((body, own));
-            stand.plants.push(plant.clone().into_owned());
+            stand.plants.push(Cow::Borrowed(plant.as_ref()));
         }
         let (number, species, age) = (plant.id, *species, *age);
         let member = PicturedMember { number, plant: body, species, age, ..PicturedMember::default() };

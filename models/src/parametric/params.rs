@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 /// A tree of stems and leaves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
-    /// What holds for the whole tree. In a box, as the levels are, so that the parameters of other models, which share an
-    /// enum with these, do not take their room.
+    /// What holds for the whole tree. In a box, as the levels are, so that the parameters of other models, which share
+    /// an enum with these, do not take their room.
     pub whole: Box<Whole>,
     /// Level 0: the trunk and its clones; keys that begin with 0.
     pub trunk: Box<Trunk>,

@@ -3,7 +3,8 @@
 //! A [`Cover`] is a raster of 16 bits: bits 0 to 13 say which of 14 trees stand in a cell, bits 14 and 15 which of
 //! three grasses. [`Planting`] gives each cell its plants, with draws that are keyed by the cell, so that a cell that
 //! changes changes its own plants alone and nothing has to be kept: every pass makes the same plants again. Rasters are
-//! PNG, PGM and ESRI ASCII. Absent: what the plants look like, scenes (`phytomer_usd`), and files, which the caller has.
+//! PNG, PGM and ESRI ASCII. Absent: what the plants look like, scenes (`phytomer_usd`), and files, which the caller
+//! has.
 
 mod ascii;
 mod cover;

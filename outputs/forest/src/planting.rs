@@ -1,8 +1,8 @@
 //! The plants of each cell, of one tree or one grass.
 //!
 //! A cell of area A with the density d has ⌊d A + u⌋ plants, u uniform, so that the mean is d A; or one, where one a
-//! cell is asked for. Each stands at a uniform place in its cell, is a variant by chance, turned and scaled by chance. The
-//! draws are keyed by seed, tree or grass, row and column: what stands in other cells, or of other trees, changes
+//! cell is asked for. Each stands at a uniform place in its cell, is a variant by chance, turned and scaled by chance.
+//! The draws are keyed by seed, tree or grass, row and column: what stands in other cells, or of other trees, changes
 //! nothing. Nothing is kept, and every pass makes the same plants again. Absent: distances between neighbours.
 
 use crate::cover::Cover;

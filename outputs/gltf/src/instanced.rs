@@ -1,5 +1,5 @@
-//! Plants at one age whose organs are instances (EXT_mesh_gpu_instancing): a mesh for each kind, form and step of colour,
-//! and of each organ its place, its turn and its factors of size.
+//! Plants at one age whose organs are instances (EXT_mesh_gpu_instancing): a mesh for each kind, form and step of
+//! colour, and of each organ its place, its turn and its factors of size.
 //!
 //! Wood and obstacles are written as in any still. A plant is a node, and under it stands a node for each mesh that it
 //! has instances of, with the attributes `TRANSLATION`, `ROTATION`, `SCALE`, `_BIRTH_AGE`, `_DEATH_AGE` and

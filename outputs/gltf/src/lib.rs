@@ -1,9 +1,9 @@
 //! glTF 2.0 in one binary file (GLB): what viewers, engines and Blender open without an importer of ours.
 //!
 //! [`write_still`] writes a mesh at one age, [`write_plant_instanced`] the same with its organs as instances,
-//! [`write_growth`] a whole life as morph targets, and [`Sway`] a plant on a skeleton that the wind moves. Metres, Y up, colours of vertices in linear light. JSON by serde_json; the
-//! bytes are ours, since no crate writes accessors as a stream. Absent: meshopt and Draco, which few programs read, and
-//! textures.
+//! [`write_growth`] a whole life as morph targets, and [`Sway`] a plant on a skeleton that the wind moves. Metres, Y
+//! up, colours of vertices in linear light. JSON by serde_json; the bytes are ours, since no crate writes accessors as
+//! a stream. Absent: meshopt and Draco, which few programs read, and textures.
 
 mod body;
 mod document;

@@ -71,8 +71,8 @@ pub struct Life {
     pub place: [f64; 3],
     /// The ages at which it was shown; of a life in a plot the ticks.
     pub ages: Vec<f32>,
-    /// Of a life in a plot the tick at which the plant is sown, else 0: what is to be taken from `from` and `death`, and
-    /// not from `birth`, for ages of the plant.
+    /// Of a life in a plot the tick at which the plant is sown, else 0: what is to be taken from `from` and `death`,
+    /// and not from `birth`, for ages of the plant.
     pub sown: f32,
     /// The lines of its axes.
     pub lines: Vec<Line>,
@@ -212,8 +212,9 @@ impl Part {
 }
 
 impl Life {
-    /// The same life by the ticks of its plot, in which the plant is sown at a tick. `ticks` are those at which the plot
-    /// was shown; the last of them are the ages of the life. Births stay the plant's own ages, as tables have them.
+    /// The same life by the ticks of its plot, in which the plant is sown at a tick. `ticks` are those at which the
+    /// plot was shown; the last of them are the ages of the life. Births stay the plant's own ages, as tables have
+    /// them.
     #[must_use]
     pub fn in_plot(mut self, sown: f32, ticks: &[f32]) -> Self {
         let own = std::mem::replace(&mut self.ages, ticks.to_vec());

@@ -5,7 +5,7 @@
 //! Lives that are drawn with the same forms share models. Absent: instances and files, which are the writers'.
 
 use super::{Life, Model, Part, What};
-use phytomer_meshes::MeshOptions;
+use phytomer_meshes::{MeshOptions, Vertex};
 use phytomer_sim::plant::Kind;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -28,6 +28,8 @@ pub struct Models<'a> {
     made: Vec<(Kind, Model)>,
     /// Models for the scale of a part alone, whatever its colour.
     plain: BTreeMap<(usize, [u32; 3]), Model>,
+    /// How far each of these reaches from its base, in the largest of the sizes of a part.
+    reaches: BTreeMap<(usize, [u32; 3]), f32>,
 }
 
 impl<'a> Models<'a> {
@@ -36,7 +38,8 @@ impl<'a> Models<'a> {
         let same = |a: &MeshOptions, b: &MeshOptions| Arc::ptr_eq(&a.own, &b.own);
         let alike = |own: &MeshOptions| options.iter().position(|other| same(own, other)).unwrap_or_default();
         let alike = options.iter().map(alike).collect();
-        Self { lives, options, alike, places: BTreeMap::new(), made: Vec::new(), plain: BTreeMap::new() }
+        let (places, plain, reaches) = Default::default();
+        Self { lives, options, alike, places, made: Vec::new(), plain, reaches }
     }
 
     /// Makes the model of a part in a colour, where there is none yet; its place.
@@ -46,6 +49,9 @@ impl<'a> Models<'a> {
             return *known;
         }
         let model = self.make(life, part, key.3);
+        let farthest = |vertex: &Vertex| vertex.position().map(|x| x * x).iter().sum::<f32>().sqrt();
+        let reach = model.mesh.vertices.iter().map(farthest).fold(0.0, f32::max);
+        self.reaches.insert((key.0, key.2), reach);
         self.plain.entry((key.0, key.2)).or_insert_with(|| model.clone());
         self.places.insert(key, self.made.len());
         self.made.push((part.kind, model));
@@ -60,6 +66,11 @@ impl<'a> Models<'a> {
     /// The form of a part that was met, in any colour.
     pub fn form(&self, life: usize, part: &Part) -> Option<&Model> {
         self.plain.get(&(self.whose(life, part), form_of(part)))
+    }
+
+    /// How far a part that was met reaches from its base, in the largest of its sizes.
+    pub fn reach(&self, life: usize, part: &Part) -> f32 {
+        self.reaches.get(&(self.whose(life, part), form_of(part))).copied().unwrap_or(f32::INFINITY)
     }
 
     /// The life whose forms a part has: what is a polygon, a surface or an internode has its own life's.

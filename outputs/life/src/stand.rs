@@ -1,5 +1,5 @@
-//! Plants at one age, each in its place, of which wood and organs are drawn apart: wood as triangles, organs as lives of
-//! that one age, whose parts are instances of models.
+//! Plants at one age, each in its place, of which wood and organs are drawn apart: wood as triangles, organs as lives
+//! of that one age, whose parts are instances of models.
 //!
 //! Absent: models (`models`) and files, which are the writers'.
 

@@ -21,7 +21,12 @@ impl Scene<'_> {
     /// The number of blocks of the scene, for [`Scene::block`].
     pub fn blocks(&self) -> usize {
         let tubes = self.reduced.as_ref().map_or(0, |reduced| reduced.blocks().len());
-        tubes + self.stem_places().div_ceil(BLOCK) + self.plant().organs.len().div_ceil(BLOCK)
+        tubes + self.stem_places().div_ceil(BLOCK) + self.organ_blocks()
+    }
+
+    /// How many of its blocks are those of organs, which are the last and do not depend on how wood is drawn.
+    pub fn organ_blocks(&self) -> usize {
+        self.plant().organs.len().div_ceil(BLOCK)
     }
 
     /// Replaces `mesh` by one block of neighbouring components; triangles refer to the block's own vertices. All blocks

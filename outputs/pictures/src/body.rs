@@ -39,10 +39,11 @@ impl<'a> Body<'a> {
         colours: Option<Vec<[u8; 3]>>,
         places: Vec<Vec3>,
     ) -> Self {
-        Self::of(Scene::new(plant, age, options), colours, places)
+        Self::of(Scene::new(plant, age, options), colours, places, &[])
     }
 
-    fn of(scene: Scene<'a>, colours: Option<Vec<[u8; 3]>>, places: Vec<Vec3>) -> Self {
+    /// A scene at its places, of which the boxes of the last blocks are known.
+    fn of(scene: Scene<'a>, colours: Option<Vec<[u8; 3]>>, places: Vec<Vec3>, known: &[[Vec3; 2]]) -> Self {
         let blocks = 0..if places.len() > 1 { scene.blocks() } else { 0 };
         let kept = blocks.into_par_iter().map(|block| {
             let mut mesh = Mesh::default();
@@ -51,23 +52,25 @@ impl<'a> Body<'a> {
         });
         let (kept, blocks) = (kept.collect(), scene.blocks());
         let stuff = stuff(scene.plant());
-        Self { scene: Some(scene), colours, boxes: Vec::new(), stuff, places, kept }.boxed(blocks)
+        Self { scene: Some(scene), colours, boxes: Vec::new(), stuff, places, kept }.boxed(blocks, known)
     }
 
     /// An obstacle: a closed mesh in the coordinates of its stand.
     pub fn obstacle(mesh: &Arc<Mesh>) -> Self {
         let (kept, stuff) = (vec![Arc::clone(mesh)], [Stuff { thin: false, closed: true }; Kind::ALL.len()]);
-        Self { scene: None, colours: None, boxes: Vec::new(), stuff, places: vec![Vec3::ZERO], kept }.boxed(1)
+        Self { scene: None, colours: None, boxes: Vec::new(), stuff, places: vec![Vec3::ZERO], kept }.boxed(1, &[])
     }
 
-    /// With the bounding boxes of its blocks.
-    fn boxed(mut self, blocks: usize) -> Self {
+    /// With the bounding boxes of its blocks, of which the last are known.
+    fn boxed(mut self, blocks: usize, known: &[[Vec3; 2]]) -> Self {
         let body = &self;
-        let boxes = (0..blocks).into_par_iter().map_init(Boxing::default, |working, block| match &body.scene {
-            Some(scene) if body.kept.is_empty() => scene.block_box(block, working),
-            _ => around(body.kept.get(block).into_iter().flat_map(|mesh| &mesh.vertices).map(at)),
-        });
+        let boxes =
+            (0..blocks - known.len()).into_par_iter().map_init(Boxing::default, |working, block| match &body.scene {
+                Some(scene) if body.kept.is_empty() => scene.block_box(block, working),
+                _ => around(body.kept.get(block).into_iter().flat_map(|mesh| &mesh.vertices).map(at)),
+            });
         self.boxes = boxes.collect();
+        self.boxes.extend_from_slice(known);
         self
     }
 
@@ -87,7 +90,8 @@ impl<'a> Body<'a> {
         let scene = self.scene.as_ref()?;
         let seen = self.placed_boxes().flat_map(corners).map(|corner| camera.scale_at(corner + offset));
         let most = seen.fold(f32::MIN_POSITIVE, f32::max);
-        Some(Self::of(scene.within(Tolerance::of_a_picture(0.5 / most)), None, self.places.clone()))
+        let organs = &self.boxes[self.boxes.len() - scene.organ_blocks()..];
+        Some(Self::of(scene.within(Tolerance::of_a_picture(0.5 / most)), None, self.places.clone(), organs))
     }
 
     /// A block of it, made in `mesh` where it is not kept.
@@ -132,8 +136,10 @@ impl<'a> Body<'a> {
                 continue;
             }
             if painting {
-                let normals = vertices.map(|vertex| Vec3::from_array(vertex.normal()));
-                film.paint(&corners, &normals, &self.paint(&tag, thin, subject), window);
+                film.paint(&corners, window, || {
+                    let normals = vertices.map(|vertex| Vec3::from_array(vertex.normal()));
+                    (normals, self.paint(&tag, thin, subject))
+                });
             } else {
                 film.deepen(&corners, window);
             }

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 /// The number of samples of a pixel along each side.
 pub const FINE: u32 = 4;
 /// The number of samples of a page, at 12 bytes each.
-const PAGE: u32 = 8 << 20;
+const PAGE: u32 = 4 << 20;
 /// The rows of samples of one pixel stand apart by a quarter of a sample.
 const SHIFTS: &[f32] = &[-0.375, 0.125, -0.125, 0.375];
 
@@ -112,8 +112,7 @@ impl Developer<'_> {
 
     /// The roots of the light of a sample, and its opacity.
     fn sample(&self, column: u32, row: u32, part: usize, behind: &Behind) -> (Vec3, f32) {
-        let index = (row - self.window.rows.start) as usize * self.window.width as usize + column as usize;
-        let seen = self.film.seen(index).filter(|seen| seen.depth >= behind.depth);
+        let seen = self.film.seen(self.window.index(column, row)).filter(|seen| seen.depth >= behind.depth);
         let Some(seen) = seen else { return (behind.roots, behind.opacity) };
         let camera = &self.set.camera;
         let subject = usize::from(seen.paint.subject);

@@ -60,16 +60,19 @@ impl Film {
         cover(corners, window, |sample| keep_nearest(&self.depths[sample.index], sample.depth));
     }
 
-    /// The second pass: stores the paint where the triangle is the nearest; `normals` are those of its corners.
+    /// The second pass: stores the paint where the triangle is the nearest; `of` tells the normals of its corners and
+    /// its paint, and is asked if any of it is seen.
     #[inline]
-    pub fn paint(&self, corners: &[Vec3; 3], normals: &[Vec3; 3], paint: &Paint, window: &Window) {
-        let mut planes = None;
+    pub fn paint(&self, corners: &[Vec3; 3], window: &Window, of: impl Fn() -> ([Vec3; 3], Paint)) {
+        let mut found = None;
         cover(corners, window, |Sample { index, x, y, depth }| {
             if self.depths[index].load(Relaxed) != depth.to_bits() {
                 return;
             }
-            let planes = planes
-                .get_or_insert_with(|| [0, 1, 2].map(|k| Plane::through(corners, normals.map(|normal| normal[k]))));
+            let (planes, paint) = found.get_or_insert_with(|| {
+                let (normals, paint) = of();
+                ([0, 1, 2].map(|k| Plane::through(corners, normals.map(|normal| normal[k]))), paint)
+            });
             let normal = Vec3::from_array([0, 1, 2].map(|k| planes[k].at(x, y)));
             self.paints[index].fetch_max(packed(paint, normal), Relaxed);
         });

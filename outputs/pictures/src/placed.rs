@@ -146,8 +146,8 @@ impl<'a> PlacedStand<'a> {
     }
 
     /// The extent of the points of `known` and its own. With a pivot its points count, relative to the pivot, at every
-    /// place to which a turn around the vertical axis there brings them. The boxes of blocks tell which may count: first
-    /// those that reach farthest are made, and then those that reach beyond what was found.
+    /// place to which a turn around the vertical axis there brings them. The boxes of blocks tell which may count:
+    /// first those that reach farthest are made, and then those that reach beyond what was found.
     pub fn extent_beyond(&self, known: &Extent, pivot: Option<Vec3>, buried: bool) -> Extent {
         let measured = Measured { known: *known, pivot, lowest: if buried { f32::NEG_INFINITY } else { 0.0 } };
         let outer = |look| self.outer(look, &measured).filter(|outer| !known.holds(outer)).map(|outer| (look, outer));

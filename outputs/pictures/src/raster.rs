@@ -18,13 +18,25 @@ pub struct Window {
     pub shifts: &'static [f32],
 }
 
+/// The rows whose samples lie together in memory, column by column: four by four samples, such as those of a pixel, are
+/// neighbours, and a triangle meets few lines of the cache.
+const TOGETHER: u32 = 4;
+
 /// Shifts for rows that stand straight below one another.
 pub const UPRIGHT: &[f32] = &[0.0];
 
 impl Window {
-    /// The number of its samples.
+    /// The places of its samples in memory, of which a few at the end may have no sample.
     pub fn len(&self) -> usize {
-        self.width as usize * self.rows.len()
+        self.width as usize * self.rows.len().next_multiple_of(TOGETHER as usize)
+    }
+
+    /// The place of the sample of a column on a row, which is one of its rows.
+    #[inline]
+    pub fn index(&self, column: u32, row: u32) -> usize {
+        let row = row - self.rows.start;
+        ((row / TOGETHER) as usize * self.width as usize + column as usize) * TOGETHER as usize
+            + (row % TOGETHER) as usize
     }
 
     /// The position of the sample of a column on a row, in columns.
@@ -65,7 +77,7 @@ impl Plane {
 /// A sample that a triangle covers.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample {
-    /// The index of the sample in the window.
+    /// The place of the sample in the window's memory.
     pub index: usize,
     /// Its place to the right, in columns.
     pub x: f32,
@@ -110,12 +122,12 @@ pub fn cover(corners: &[Vec3; 3], window: &Window, mut put: impl FnMut(Sample)) 
         else {
             continue;
         };
-        let first = (row - window.rows.start) as usize * window.width as usize;
+        let first = window.index(0, row);
         for column in columns {
             let x = column as f32 + shift;
             // Rounding may lead slightly beyond the depths of the corners.
             let depth = depth.at(x, y).max(deepest).min(nearest);
-            put(Sample { index: first + column as usize, x, y, depth });
+            put(Sample { index: first + (column * TOGETHER) as usize, x, y, depth });
         }
     }
 }
@@ -144,8 +156,9 @@ impl Side {
 /// The whole numbers of `within` from `low` to `high`, both included; `None` where there are none.
 #[inline]
 fn between(low: f32, high: f32, within: &Range<u32>) -> Option<Range<u32>> {
-    let start = low.ceil().max(within.start as f32);
-    let last = high.floor().min(within.end as f32 - 1.0);
+    let [first, last] = [low as i32, high as i32];
+    let first = (first.saturating_add(i32::from(low > first as f32))).max(within.start as i32);
+    let last = (last.saturating_sub(i32::from(high < last as f32))).min(within.end as i32 - 1);
     // A comparison with NaN is false.
-    (start <= last).then(|| start as u32..last as u32 + 1)
+    (low <= high && first <= last).then(|| first as u32..last as u32 + 1)
 }

@@ -91,7 +91,7 @@ impl Shadow {
         if !inside {
             return None;
         }
-        let depth = f32::from_bits(self.depths[y as usize * self.window.width as usize + x as usize].load(Relaxed));
+        let depth = f32::from_bits(self.depths[self.window.index(x as u32, y as u32)].load(Relaxed));
         let above = (depth - seen.z) * self.reach;
         // The depth is 0 where no triangle was added; the ground may lie beyond the reach of the map.
         (depth > 0.0 && above > 0.0).then_some(above)

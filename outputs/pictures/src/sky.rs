@@ -151,9 +151,10 @@ fn directions() -> Vec<(Vec3, f32)> {
 /// A value interpolated between four cells of a layer; 1 outside.
 #[inline]
 fn between(layer: &[f32], [width, rows]: [usize; 2], x: f32, y: f32) -> f32 {
-    let (left, top) = (x.floor(), y.floor());
-    let (fx, fy) = (x - left, y - top);
-    let (left, top) = (left as i32, top as i32);
+    // The whole number below, without a call of the library.
+    let below = |x: f32| x as i32 - i32::from(x < (x as i32) as f32);
+    let (left, top) = (below(x), below(y));
+    let (fx, fy) = (x - left as f32, y - top as f32);
     let at = |x: i32, y: i32| {
         let inside = x >= 0 && y >= 0 && (x as usize) < width && (y as usize) < rows;
         if inside { layer[y as usize * width + x as usize] } else { 1.0 }

@@ -119,11 +119,11 @@ fn the_nearer_of_two_triangles_is_seen_in_either_order() {
         let mut film = Film::default();
         film.clear(&window);
         order.iter().for_each(|&k| film.deepen(&flat([0.25, 0.5][k]), &window));
-        order.iter().for_each(|&k| film.paint(&flat([0.25, 0.5][k]), &[Vec3::Z; 3], &paints[k], &window));
-        let seen = film.seen(5 * 20 + 5).unwrap();
+        order.iter().for_each(|&k| film.paint(&flat([0.25, 0.5][k]), &window, || ([Vec3::Z; 3], paints[k])));
+        let seen = film.seen(window.index(5, 5)).unwrap();
         assert_eq!((seen.paint, seen.depth), (paints[1], 0.5));
         assert!((seen.normal - Vec3::Z).length() < 2e-3);
-        assert!(film.seen(19 * 20 + 19).is_some() && film.seen(0).is_some());
+        assert!(film.seen(window.index(19, 19)).is_some() && film.seen(window.index(0, 0)).is_some());
     }
 }
 

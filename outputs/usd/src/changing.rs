@@ -130,18 +130,14 @@ fn write_faces(layer: &mut dyn Layer, mesh: &dyn Changing, course: &Course) -> i
 
 fn write_points(layer: &mut dyn Layer, mesh: &dyn Changing, course: &Course) -> io::Result<()> {
     let times = course.of_states().map(Vec::as_slice);
-    let mut points = Vec::new();
-    let mut of = |state: usize, take: &mut dyn FnMut(&[[f32; 3]]) -> io::Result<()>| {
+    let (mut points, mut extents) = (Vec::new(), vec![[[0.0; 3]; 2]; course.states.len()]);
+    put(layer, Attribute::new("points", "point3f[]"), times, &mut |state, take| {
         points.clear();
         mesh.points(course.states[state], &mut points);
-        take(&points)
-    };
-    put(layer, Attribute::new("points", "point3f[]"), times, &mut |state, take| {
-        of(state, &mut |points| take(Data::Triples(points)))
+        extents[state] = extent(points.iter().copied());
+        take(Data::Triples(&points))
     })?;
-    put(layer, Attribute::new("extent", "float3[]"), times, &mut |state, take| {
-        of(state, &mut |points| take(Data::Triples(&extent(points.iter().copied()))))
-    })
+    put(layer, Attribute::new("extent", "float3[]"), times, &mut |state, take| take(Data::Triples(&extents[state])))
 }
 
 /// The least and the largest coordinates of some points.

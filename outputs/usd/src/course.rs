@@ -144,6 +144,13 @@ impl Course {
         self.times.as_ref().map(|[.., held]| held)
     }
 
+    /// The states of the spans in whose topology something is.
+    pub fn states_of(&self, ages: &[f32], (from, death): (f32, f32)) -> &[State] {
+        let begin = self.states.partition_point(|state| ages[self.spans[state.span].last] < from);
+        let end = self.states.partition_point(|state| ages[self.spans[state.span].first] < death);
+        &self.states[begin..end.max(begin)]
+    }
+
     /// Whether something is in the topology of a span.
     pub fn has(&self, span: usize, ages: &[f32], (from, death): (f32, f32)) -> bool {
         let Span { first, last } = self.spans[span];

@@ -209,11 +209,8 @@ fn met<'a>(plants: &Plants<'a>, course: &Course) -> Models<'a> {
     let mut models = Models::of(plants.lives, plants.options);
     for (number, life) in plants.lives.iter().enumerate() {
         for part in &life.parts {
-            for state in &course.states {
-                let age = life.ages[state.age];
-                if course.has(state.span, &life.ages, (part.from, part.death)) {
-                    models.meet(number, part, between(life.tints_of_part(part), age));
-                }
+            for state in course.states_of(&life.ages, (part.from, part.death)) {
+                models.meet(number, part, between(life.tints_of_part(part), life.ages[state.age]));
             }
         }
     }

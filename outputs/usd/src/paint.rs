@@ -13,16 +13,23 @@ use std::io;
 pub struct Palette {
     places: BTreeMap<[u8; 3], i32>,
     colours: Vec<[f32; 3]>,
+    /// The last colour that was asked for, and its place: neighbours mostly have one colour.
+    last: Option<([u8; 3], i32)>,
 }
 
 impl Palette {
     /// The place of a colour, which is added where it is new.
     pub fn place(&mut self, colour: [u8; 3]) -> i32 {
-        let Self { places, colours } = self;
-        *places.entry(colour).or_insert_with(|| {
+        let Self { places, colours, last } = self;
+        if let Some((_, place)) = last.filter(|(known, _)| *known == colour) {
+            return place;
+        }
+        let place = *places.entry(colour).or_insert_with(|| {
             colours.push(colour.map(|byte| linear(byte) as f32));
             colours.len() as i32 - 1
-        })
+        });
+        *last = Some((colour, place));
+        place
     }
 
     /// The colours, as linear numbers.

@@ -15,6 +15,9 @@ use phytomer_life::{Member, Models, Part, Pose, What, between};
 use phytomer_meshes::{Columns, UNTIL};
 use std::io;
 
+/// Rounding of places, as a share of their distance from the origin: far more than single precision makes.
+const ROUNDING: f32 = 1e-5;
+
 /// The parts of some lives.
 pub struct Parts<'a> {
     /// The lives along their course.
@@ -53,10 +56,8 @@ impl<'a> Parts<'a> {
     fn of_span(&self, span: usize) -> impl Iterator<Item = (&'a Member, usize, &'a Part)> {
         let members = self.members.iter().filter_map(|member| Some((member, self.skeletons.get(member.life)?)));
         members.flat_map(move |(member, skeleton)| {
-            let parts = skeleton.life.parts.iter().enumerate();
-            parts
-                .filter(move |(_, part)| self.has(part) && skeleton.has_part(span, part))
-                .map(move |(place, part)| (member, place, part))
+            let parts = skeleton.parts_of(span).filter(move |(_, part)| self.has(part));
+            parts.map(move |(place, part)| (member, place, part))
         })
     }
 
@@ -128,8 +129,7 @@ impl<'a> Parts<'a> {
             take(Data::Triples(&of(state).map(|part| self.scale(&part)).collect::<Vec<_>>()))
         })?;
         put(layer, Attribute::new("extent", "float3[]"), times, &mut |state, take| {
-            let reach = |part: Standing| self.box_of(&part);
-            take(Data::Triples(&extent(of(state).flat_map(reach))))
+            take(Data::Triples(&self.extent_of(of(state))))
         })
     }
 
@@ -138,11 +138,22 @@ impl<'a> Parts<'a> {
         model.map_or([0.0; 3], |model| model.scale(part.pose.size, part.part.fullness))
     }
 
-    /// The corners of the box of a part.
-    fn box_of(&self, part: &Standing) -> Vec<[f32; 3]> {
-        let mut corners = Vec::new();
-        self.each_point(part, &mut |point| corners.push(point));
-        extent(corners.into_iter()).to_vec()
+    /// The least and the largest coordinates of some parts. The vertices of a part are made only where the ball that
+    /// holds it reaches beyond what was found.
+    fn extent_of(&self, parts: impl Iterator<Item = Standing<'a>>) -> [[f32; 3]; 2] {
+        let [mut low, mut high] = [Vec3::INFINITY, Vec3::NEG_INFINITY];
+        for part in parts {
+            let base = Vec3::from_array(part.pose.base);
+            let reach = self.models.reach(part.life, part.part) * Vec3::from_array(part.pose.size).abs().max_element();
+            let reach = reach * part.part.fullness.max(1.0) + ROUNDING * (base.abs().max_element() + reach);
+            if (base - reach).cmplt(low).any() || (base + reach).cmpgt(high).any() {
+                self.each_point(&part, &mut |point| {
+                    let point = Vec3::from_array(point);
+                    (low, high) = (low.min(point), high.max(point));
+                });
+            }
+        }
+        extent([low, high].map(|corner| corner.to_array()).into_iter().filter(|_| low.x <= high.x))
     }
 
     /// The vertices of a part where they stand.

@@ -9,6 +9,7 @@ use super::course::{Course, Span, State};
 use glam::{Vec3, Vec4, Vec4Swizzles};
 use phytomer_life::{Life, Line, Part, Point, between};
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// The lines of a life along its course.
 #[derive(Debug)]
@@ -21,6 +22,8 @@ pub struct Skeleton<'a> {
     /// Where each part waits before it is there.
     parts: Vec<Vec3>,
     lines_of_axis: BTreeMap<u32, Vec<usize>>,
+    /// The parts among which those of each span are.
+    windows: Vec<Range<usize>>,
 }
 
 impl<'a> Skeleton<'a> {
@@ -31,7 +34,8 @@ impl<'a> Skeleton<'a> {
             lines_of_axis.entry(line.axis).or_default().push(place);
         }
         let (waiting, parts) = (vec![Vec4::ZERO; life.points.len()], vec![Vec3::ZERO; life.parts.len()]);
-        let mut skeleton = Self { life, course, waiting, parts, lines_of_axis };
+        let windows = (0..course.spans.len()).map(|span| window(life, course, span)).collect();
+        let mut skeleton = Self { life, course, waiting, parts, lines_of_axis, windows };
         for span in 0..course.spans.len() {
             skeleton.let_wait(span);
         }
@@ -50,6 +54,12 @@ impl<'a> Skeleton<'a> {
     /// Whether a part is in the topology of a span.
     pub fn has_part(&self, span: usize, part: &Part) -> bool {
         self.course.has(span, self.ages(), (part.from, part.death))
+    }
+
+    /// The parts of a span, with their places in the life.
+    pub fn parts_of(&self, span: usize) -> impl Iterator<Item = (usize, &'a Part)> {
+        let window = self.windows.get(span).cloned().unwrap_or_default();
+        window.map(|place| (place, &self.life.parts[place])).filter(move |(_, part)| self.has_part(span, part))
     }
 
     /// The points of a line in a span, by their places in the life.
@@ -102,11 +112,10 @@ impl<'a> Skeleton<'a> {
                 self.wait_along(&members, (age, next));
             }
         }
-        for (place, part) in life.parts.iter().enumerate() {
-            if part.from > age && self.has_part(span, part) {
-                let base = Vec3::from_array(life.pose_at(part, next).base);
-                self.parts[place] = self.carried(part.axis, base, State { span, age: first });
-            }
+        let coming: Vec<(usize, &Part)> = self.parts_of(span).filter(|(_, part)| part.from > age).collect();
+        for (place, part) in coming {
+            let base = Vec3::from_array(life.pose_at(part, next).base);
+            self.parts[place] = self.carried(part.axis, base, State { span, age: first });
         }
     }
 
@@ -170,6 +179,16 @@ impl<'a> Skeleton<'a> {
         }
         last.unwrap_or(Vec3::ZERO)
     }
+}
+
+/// The parts of a life among which those of a span are. Parts mostly stand in the order in which they appear, and fall
+/// in much the same order.
+fn window(life: &Life, course: &Course, span: usize) -> Range<usize> {
+    let Span { first, last } = course.spans[span];
+    let (Some(first), Some(last)) = (life.ages.get(first), life.ages.get(last)) else { return 0..0 };
+    let begin = life.parts.iter().position(|part| part.death > *first);
+    let end = life.parts.iter().rposition(|part| part.from <= *last);
+    begin.zip(end).map_or(0..0, |(begin, end)| begin..end + 1)
 }
 
 /// The share of a piece of a line at which it is nearest to a place.

@@ -2,9 +2,9 @@
 //!
 //! Such a plant is made by [`crate::between`] and never grown on. It stands at the age of the later tick, at which all
 //! that stood at the earlier one still stands, and each pass that asks for an age is given the later tick. Lengths,
-//! diameters, curvatures and frames are those of the moment; sizes and places of organs, and what looked otherwise at the
-//! earlier tick, follow from what is kept here.
-//! A plant at a tick has none of this. Absent: how the values come about.
+//! diameters, curvatures and frames are those of the moment; sizes and places of organs, and what looked otherwise at
+//! the earlier tick, follow from what is kept here. A plant at a tick has none of this. Absent: how the values come
+//! about.
 
 use super::handle::{NodeId, OrganId};
 use super::placing::Placed;

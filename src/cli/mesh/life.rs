@@ -28,8 +28,8 @@ pub struct Growing {
     #[arg(long, value_name = "AGES", requires = "ages", value_parser = clap::value_parser!(u32).range(2..=256))]
     pub keys: Option<u32>,
     /// How USD and GLB have leaves, flowers and fruits. USD has instances if nothing is asked for: small files, which
-    /// Blender plays from 4.5 on, and before shows for ever as they are at the first age. GLB has one mesh if nothing is
-    /// asked for, and instances of one age alone: Blender makes an object of each, which takes it seconds.
+    /// Blender plays from 4.5 on, and before shows for ever as they are at the first age. GLB has one mesh if nothing
+    /// is asked for, and instances of one age alone: Blender makes an object of each, which takes it seconds.
     #[arg(long, value_enum)]
     leaves: Option<Leaves>,
 }

@@ -1,11 +1,11 @@
 //! Which samples of a chain are kept, so that the tube along them is as near as its tolerance says.
 //!
 //! Of the samples between two that are kept, with the tolerance e: the distance of each to the line, and of its radius
-//! to the radius there, is at most e (or a share of the radius, where that is asked for), and their sum with the radius that is lost where the internode leans against the
-//! line, r (1 − cos θ), at most 4e/3. The polygon around takes at most 2e/3 more (`ring`), so that no corner of a round
-//! tube of the full mesh is farther than 2e from the reduced one. From each kept sample the farthest next one is sought
-//! by doubling steps and then by halving them: O(n log n) for n samples. (Imai & Iri 1988 find the least number of
-//! samples; going as far as possible comes close to it.)
+//! to the radius there, is at most e (or a share of the radius, where that is asked for), and their sum with the radius
+//! that is lost where the internode leans against the line, r (1 − cos θ), at most 4e/3. The polygon around takes at
+//! most 2e/3 more (`ring`), so that no corner of a round tube of the full mesh is farther than 2e from the reduced one.
+//! From each kept sample the farthest next one is sought by doubling steps and then by halving them: O(n log n) for n
+//! samples. (Imai & Iri 1988 find the least number of samples; going as far as possible comes close to it.)
 
 use super::super::Tolerance;
 use super::chain::Sample;
