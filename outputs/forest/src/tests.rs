@@ -1,6 +1,7 @@
 //! Rasters read from bytes that are written here by hand, plants against their expectation, and the table read back.
 
 use crate::{Count, Cover, Georeference, Heights, Instance, Planting, What, Where, write_instances};
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::io::Write as _;
 
@@ -39,11 +40,11 @@ const CELLS: [u16; 6] = [1, 0x8001, 2, 0, 0x4002, 0xffff];
 
 fn all(planting: &Planting, cover: &Cover, heights: Option<&Heights>) -> Vec<Instance> {
     let mut found = Vec::new();
-    let put = |instance| {
+    let keep = |instance| {
         found.push(instance);
         Ok::<(), ()>(())
     };
-    planting.each(cover, heights, put).unwrap();
+    planting.each(cover, heights, keep).unwrap();
     found
 }
 
@@ -83,7 +84,7 @@ fn one_a_cell_stands_in_its_cell() {
             assert!((corner..=corner + 2.0).contains(place), "{instance:?}");
         }
         assert!(instance.variant < 3 && (0.8..=1.2).contains(&instance.scale), "{instance:?}");
-        assert!((0.0..=std::f64::consts::TAU).contains(&instance.turn_rad));
+        assert!((0.0..=TAU).contains(&instance.turn_rad));
     }
 }
 
@@ -103,7 +104,7 @@ fn densities_are_met_in_the_mean() {
     near(&|plant| f64::from(plant.variant), 1.0, 2.0 / 3.0);
     near(&|plant| plant.place_m[0], 200.0, 200.0 * 200.0 / 12.0);
     near(&|plant| plant.place_m[1], 150.0, 200.0 * 200.0 / 12.0);
-    near(&|plant| plant.turn_rad, std::f64::consts::PI, std::f64::consts::TAU * std::f64::consts::TAU / 12.0);
+    near(&|plant| plant.turn_rad, std::f64::consts::PI, TAU * TAU / 12.0);
     near(&|plant| plant.scale, 1.0, 0.16 / 12.0);
     // Whole numbers of plants a cell are met exactly.
     assert_eq!(all(&planting(What::Tree(2), Count::PerSquareMetre(0.5)), &cover, None).len(), 20_000);
