@@ -35,7 +35,7 @@ pub struct Pictured {
 }
 
 /// A plant at an age, or a plot at a tick.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct PicturedStand<'p> {
     /// The plants, equal ones once: their own, or lent by what has grown them.
     pub plants: Vec<Cow<'p, Plant>>,

@@ -28,7 +28,7 @@ const PIXELS: f32 = 2000.0;
 /// The ages that are looked at for that extent.
 const LOOKS: usize = 4;
 /// The share of its radius by which the radius of wood may be off.
-const OF_A_RADIUS: f32 = 0.125;
+const OF_A_RADIUS: f32 = 0.25;
 /// The tolerance of plants of which nothing is seen, metres.
 const OF_NOTHING: f32 = 1e-3;
 /// The sides of tubes in a form of the page; the page chooses those of its wood itself.
