@@ -150,7 +150,7 @@ fn what_cannot_be_written_is_refused_with_a_reason() {
         (&["--ages", "1..999", "--plot", "--out", &usd], "--ages 999: the plot has the ticks 0 to"),
         (&["--ages", "1..9", "--plot", "--keys", "4", "--out", &usd], "--keys: this is for a life as GLB"),
         (&["--ages", "1..9", "--rig", "9", "--wind", "8", "--out", &usd], "cannot be used with"),
-        (&["--age", "-1", "--out", &usd], "an age in ticks is expected"),
+        (&["--age", "soon", "--out", &usd], "an age in ticks is expected"),
         (&["--ages", "1..9", "--keys", "4", "--out", &usd], "--keys: this is for a life as GLB"),
         (&["--ages", "1..9", "--triangles", "10k", "--out", &usd], "cannot be used with"),
         (&["--ages", "9..1", "--out", &usd], "the first age, 9, is after the last, 1"),
