@@ -2,6 +2,8 @@
 //!
 //! What a module leaves is used again by another with as many parameters. Absent: which module begins where (`string`).
 
+use crate::symbol::Symbol;
+
 /// The parameters of no module that a column may keep beside as many as its modules have.
 const MOST_FREE: usize = 4096;
 
@@ -73,4 +75,9 @@ impl Parameters {
             self.free_count += arity;
         }
     }
+}
+
+/// The most parameters of a kind.
+pub(crate) fn most_of(kinds: &[(Symbol, u16)]) -> usize {
+    kinds.iter().map(|&(_, arity)| usize::from(arity)).max().unwrap_or(0)
 }

@@ -5,7 +5,7 @@
 
 use crate::links::{Links, NONE};
 use crate::origins::Origins;
-use crate::parameters::Parameters;
+use crate::parameters::{Parameters, most_of};
 use crate::symbol::{CLOSE, Kind, OPEN, Symbol};
 use phytomer_sim::key::LineageKey;
 
@@ -118,12 +118,10 @@ impl ModuleString {
         self.kinds = kinds.into();
         self.kind.clear();
         self.links.clear(both_ways);
-        self.first.clear();
         self.key.clear();
-        self.origin.clear();
+        [&mut self.first, &mut self.origin, &mut self.free].map(Vec::clear);
         self.origins.clear();
         self.parameters.clear(most_of(kinds));
-        self.free.clear();
         self.length = 0;
     }
 
@@ -398,9 +396,4 @@ impl ModuleString {
         }
         self.parameters = closed;
     }
-}
-
-/// The most parameters of a kind.
-fn most_of(kinds: &[(Symbol, u16)]) -> usize {
-    kinds.iter().map(|&(_, arity)| usize::from(arity)).max().unwrap_or(0)
 }
