@@ -258,7 +258,7 @@ impl Picture {
     fn see(&self, pictured: &mut Pictured, regrown: &Regrown) -> Result<()> {
         self.few(pictured.stands.len() * self.range.len().max(1), "plants, counted at each range")?;
         let species = regrown.species();
-        let seen = |stand: &PicturedStand, metres: Option<f64>| {
+        let seen = |stand: &PicturedStand<'static>, metres: Option<f64>| {
             let mut stand = stand.clone();
             for member in &mut stand.members {
                 member.seen = self.part.seen(species[member.species], member.age, metres, false);

@@ -119,7 +119,7 @@ impl ModuleString {
         self.kind.clear();
         self.links.clear(both_ways);
         self.key.clear();
-        [&mut self.first, &mut self.origin, &mut self.free].map(Vec::clear);
+        [&mut self.first, &mut self.origin, &mut self.free].into_iter().for_each(Vec::clear);
         self.origins.clear();
         self.parameters.clear(most_of(kinds));
         self.length = 0;
