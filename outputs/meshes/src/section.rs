@@ -250,7 +250,12 @@ mod tests {
         for radii in [[0.4, 0.2], [0.3, 0.0], [0.05, 0.01]] {
             let of = frustum(radii);
             let (vertices, faces) = drawn(&section, [Ring::base(&of), Ring::tip(&of)]);
-            assert_closed(&vertices, &faces);
+            // Where a ring has no width its corners lie at one point, and some triangles have no area.
+            let at = |index: u32| vertices[index as usize].position().map(f32::to_bits);
+            let is_flat = |face: &Face| (0..3).any(|k| at(face.indices()[k]) == at(face.indices()[(k + 1) % 3]));
+            let wide: Vec<Face> = faces.iter().filter(|face| !is_flat(face)).copied().collect();
+            assert_eq!(wide.len() < faces.len(), radii[1] < 0.1, "{radii:?}");
+            assert_closed(&vertices, &wide);
             assert_unit_normals(&vertices);
             let even = |share: f32| radii[0] + share * (radii[1] - radii[0]);
             let inner = rings.iter().map(|[share, bulge]| [*share, (even(*share) + bulge * of.length).max(0.0)]);
