@@ -194,7 +194,7 @@ fn what_cannot_be_filmed_is_refused_with_words() {
         (vec!["--ages", "1.5.1..3", "--out", "a.gif"], 2, "ages in ticks are expected"),
         (vec!["--ages", "1..24.5", "--out", "a.gif"], 2, "--ages 24.5: the run has the ages 0 to 24"),
         (vec!["--ages", "nan..3", "--out", "a.gif"], 2, "ages in ticks are expected"),
-        (vec!["--ages", "1..3/-1", "--out", "a.gif"], 2, "ages in ticks are expected"),
+        (vec!["--ages", "1..3/-1", "--out", "a.gif"], 2, "a step of at least 0.001 is expected"),
         (vec!["--plant", "12", "--out", "a.gif"], 2, "--plant 12: the run has the plants 0 to 11"),
         (vec!["--plot", "12", "--out", "a.gif"], 2, "--plot 12: the run has the plots 0 to 11"),
         (vec!["--out", "a.avi"], 2, "`animate` cannot write `.avi`; the endings that it has: .webp, .gif"),
