@@ -55,12 +55,13 @@ fn a_mutation_is_refused_or_leaves_a_whole_run() {
     let home = memory_backed();
     let good = Path::new(env!("CARGO_MANIFEST_DIR")).join("config/tests/good");
     let files = corpus(&good, home.path());
+    let families: Vec<&[(String, Vec<u8>)]> = files.chunk_by(|a, b| family(&a.0) == family(&b.0)).collect();
     let threads = std::thread::available_parallelism().map_or(2, usize::from);
     let (next, counts) = (AtomicU64::new(0), Counts::default());
     std::thread::scope(|scope| {
         for thread in 0..threads {
             let bench = Bench::new(home.path(), thread);
-            let (files, next, counts) = (&files, &next, &counts);
+            let (files, next, counts) = (&families, &next, &counts);
             scope.spawn(move || {
                 while let number @ 0..MUTATIONS = next.fetch_add(1, Relaxed) {
                     bench.try_mutation(files, number, counts);
@@ -75,6 +76,12 @@ fn a_mutation_is_refused_or_leaves_a_whole_run() {
     // If nearly all mutants were refused, or none, or all reached their limits, this test would show little.
     assert!(refused > MUTATIONS / 4 && grown > MUTATIONS / 8, "{refused} refused, {grown} grown");
     assert!(overgrown < grown / 2, "{overgrown} of {grown} came to their limit");
+}
+
+/// The presets of one folder are much alike, and drawn as often together as any other file: of many trees with the same
+/// keys a mutation shows little more than of one.
+fn family(name: &str) -> &str {
+    name.split_once('+').map_or(name, |(folder, _)| folder)
 }
 
 /// A folder in memory where the system has one: a run syncs every file, which is slow on a disk.
@@ -100,8 +107,9 @@ impl Bench {
         Self { mutant, scenario, out: home.join(format!("out_{thread}")) }
     }
 
-    fn try_mutation(&self, files: &[(String, Vec<u8>)], number: u64, counts: &Counts) {
+    fn try_mutation(&self, families: &[&[(String, Vec<u8>)]], number: u64, counts: &Counts) {
         let mut draw = Draw::of_mutation(number);
+        let files = families[draw.below(families.len())];
         let (name, text) = &files[draw.below(files.len())];
         let kind = kind_of(&self.mutant.with_file_name(name).to_string_lossy());
         let text = broken(text, &mut draw);

@@ -184,7 +184,8 @@ fn replace_value(text: &mut Vec<u8>, draw: &mut Draw) {
     text.splice(equals + 1..end, by);
 }
 
-/// The good fixtures in `good` and the presets, each written into `folder` as a file.
+/// The good fixtures in `good` and the presets, each written into `folder` as a file, in the order of their names; that
+/// of a preset in a folder has a plus sign after the folder.
 pub fn corpus(good: &Path, folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();
     for entry in fs::read_dir(good).expect("the folder of good files") {
@@ -195,7 +196,7 @@ pub fn corpus(good: &Path, folder: &Path) -> Vec<(String, Vec<u8>)> {
     // A species and a scenario may share a name, and a file beside a scenario would be found before the preset.
     for (kind, prefix) in [(Kind::Species, "species"), (Kind::Scenario, "scenario")] {
         let named = |(name, text): &(&str, &str)| {
-            (format!("{prefix}_of_{}.toml", name.replace('/', "_")), text.as_bytes().to_vec())
+            (format!("{prefix}_of_{}.toml", name.replace('/', "+")), text.as_bytes().to_vec())
         };
         files.extend(presets(kind).iter().map(named));
     }

@@ -46,6 +46,28 @@ impl Section {
     }
 }
 
+impl Section {
+    /// The volume of an internode of a closed section over that of the frustum of circles as wide at its ends: by the
+    /// area within the corners, and by frusta from ring to ring. `radii` are half the widths at base and tip, in the
+    /// unit of `length`. 1 for an open section, which encloses nothing.
+    pub fn bulk(&self, radii: [f64; 2], length: f64) -> f64 {
+        let frustum = |a: f64, b: f64| a * a + a * b + b * b;
+        let round = frustum(radii[0], radii[1]);
+        if !self.closed || round <= 0.0 {
+            return 1.0;
+        }
+        let even = |share: f64| radii[0] + share * (radii[1] - radii[0]);
+        let (mut below, mut sum) = ([0.0, radii[0]], 0.0);
+        let inner = self.rings.iter().map(|ring| ring.map(f64::from));
+        let rings = inner.map(|[share, bulge]| [share, (even(share) + bulge * length).max(0.0)]);
+        for [share, radius] in rings.chain([[1.0, radii[1]]]) {
+            sum += (share - below[0]) * frustum(below[1], radius);
+            below = [share, radius];
+        }
+        area(&self.corners) / std::f64::consts::PI * sum / round
+    }
+}
+
 /// The area within, in squares of half the width; negative where the corners run clockwise.
 fn area(corners: &[[f32; 2]]) -> f64 {
     let next = |k: usize| corners[(k + 1) % corners.len()].map(f64::from);
@@ -54,4 +76,22 @@ fn area(corners: &[[f32; 2]]) -> f64 {
         x * v - u * y
     };
     0.5 * corners.iter().enumerate().map(twice).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of half the width has 2/π of the circle; of two cones that meet at a waist half as wide each frustum has
+    /// 7/12 of the cylinder around it.
+    #[test]
+    fn bulk_is_that_of_the_area_and_of_the_rings() {
+        let square = Section::of(vec![[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]], true);
+        let of_area = 2.0 / std::f64::consts::PI;
+        assert!((square.bulk([0.4, 0.1], 3.0) - of_area).abs() < 1e-12);
+        let waist = square.with_rings(vec![[0.5, -0.25]]);
+        assert!((waist.bulk([1.0, 1.0], 2.0) - of_area * 7.0 / 12.0).abs() < 1e-12);
+        let strip = Section::of(vec![[0.0, 1.0], [0.0, 0.0], [1.0, 0.0]], false);
+        assert_eq!((strip.bulk([1.0, 1.0], 2.0), waist.bulk([0.0, 0.0], 2.0)), (1.0, 1.0));
+    }
 }

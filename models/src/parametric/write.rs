@@ -9,6 +9,7 @@ use super::numbers::Numbers;
 use super::path::Path;
 use super::radius::{flare, radius_at};
 use super::sections::Sections;
+use phytomer_looks::Paints;
 use phytomer_sim::clock::{NEVER, Tick};
 use phytomer_sim::math;
 use phytomer_sim::model::Overgrown;
@@ -163,7 +164,13 @@ impl<'a> Writer<'a> {
             });
             self.plant.state_rest(below, Rest::Turned(turn));
             let section = self.sections.at(family.level, family.radius / family.length, before + rank - 1);
-            section.into_iter().for_each(|section| self.plant.give_section(below, section));
+            if let Some(section) = section {
+                let tip = radius_of(self.tree, family, f64::from(before + rank) / f64::from(res));
+                let solid = Paints::of(&self.plant.habit).sections().get(usize::from(section));
+                let bulk = solid.map_or(1.0, |solid| solid.bulk([radius, tip], family.length / f64::from(res)));
+                self.plant.give_section(below, section);
+                self.plant.state_bulk(below, bulk as f32);
+            }
         }
         self.plant.note(birth, axis, EventKind::Grew, rank);
         first

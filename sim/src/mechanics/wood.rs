@@ -14,11 +14,11 @@ impl Wood {
 }
 
 /// The volume of an internode, m³: the frustum of its two diameters, or of a blade its mean width by its thickness by
-/// its length.
+/// its length; where its section is no circle, what the plant states of it beside that ([`Plant::state_bulk`]).
 #[inline]
 pub fn wood_volume(plant: &Plant, node: NodeId) -> f64 {
     let nodes = &plant.nodes;
     let (section, length) = (Section::of(plant.look_of_node(node)), plant.posed_length(node));
-    let node = node.index();
-    section.volume(f64::from(length), f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]))
+    let (bulk, node) = (plant.own_looks.bulk_of(node), node.index());
+    bulk * section.volume(f64::from(length), f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]))
 }

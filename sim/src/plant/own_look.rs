@@ -19,6 +19,8 @@ pub struct OwnLooks {
     /// For each node the place of its cross section among those that the habit carries for drawing, counted from 1; 0
     /// for a circle.
     sections: Rare<u16>,
+    /// For each node its volume over that of the frustum of its two diameters; 0 where it is that frustum.
+    bulks: Rare<f32>,
 }
 
 impl OwnLooks {
@@ -46,17 +48,26 @@ impl OwnLooks {
         usize::from(self.sections.at(node.index())).checked_sub(1)
     }
 
+    /// The volume of a node over that of the round frustum, or the slab, of its two diameters.
+    #[inline]
+    pub fn bulk_of(&self, node: NodeId) -> f64 {
+        let bulk = self.bulks.at(node.index());
+        if bulk == 0.0 { 1.0 } else { f64::from(bulk) }
+    }
+
     /// Adds the own looks of a fragment, whose first node and organ become `node` and `organ`.
     pub(super) fn join(&mut self, more: &Self, [node, organ]: [usize; 2]) {
         self.nodes.join(&more.nodes, |at| node + at);
         self.organs.join(&more.organs, |at| organ + at);
         self.sections.join(&more.sections, |at| node + at);
+        self.bulks.join(&more.bulks, |at| node + at);
     }
 
     pub(super) fn clear(&mut self) {
         self.nodes.clear();
         self.organs.clear();
         self.sections.clear();
+        self.bulks.clear();
     }
 }
 
@@ -69,6 +80,12 @@ impl Plant {
     /// Gives a node the cross section at a place among those of the habit, below 65,535.
     pub fn give_section(&mut self, node: NodeId, place: u16) {
         self.own_looks.sections.set(node.index(), place.saturating_add(1));
+    }
+
+    /// States the volume of a node over that of the frustum of its two diameters, above 0, where its section makes it
+    /// another solid.
+    pub fn state_bulk(&mut self, node: NodeId, bulk: f32) {
+        self.own_looks.bulks.set(node.index(), bulk);
     }
 
     /// Gives an organ the look at a place of [`super::Looks::organs_apart`], below 65,535.
