@@ -3,8 +3,8 @@
 //!
 //! The areas are those of one side: of closed forms half the surface. Tables and meshes are read from the files of one
 //! run. Absent: blades and internodes of other forms, which are drawn as sheets without volume; and the volumes of
-//! internodes of trees of stems that bend away from the one below, since a ribbed stem goes on from the last ring of that
-//! one, which then stands obliquely.
+//! internodes of trees of stems that bend away from the one below, since a ribbed stem goes on from the last ring of
+//! that one, which then stands obliquely.
 
 #[path = "program/side_by_side.rs"]
 mod side_by_side;

@@ -82,8 +82,8 @@ fn area(corners: &[[f32; 2]]) -> f64 {
 mod tests {
     use super::*;
 
-    /// A square of half the width has 2/π of the circle; of two cones that meet at a waist half as wide each frustum has
-    /// 7/12 of the cylinder around it.
+    /// A square of half the width has 2/π of the circle; of two cones that meet at a waist half as wide each frustum
+    /// has 7/12 of the cylinder around it.
     #[test]
     fn bulk_is_that_of_the_area_and_of_the_rings() {
         let square = Section::of(vec![[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]], true);
