@@ -165,7 +165,9 @@ fn every_shipped_scenario_grows_as_foretold() {
     assert!(differences.is_empty(), "{}", differences.join("\n"));
 }
 
-/// Every shipped species that has a forecast, and more than a bound, has it in closed form: no figure is an estimate.
+/// Every shipped species that has a forecast, and more than a bound, has it in closed form: no figure is an estimate. Of
+/// a tree of stems it may be the most, where pruning or short stems make fewer, or an estimate where the number of clones
+/// is no whole number; then it is held to what grows, by the test above.
 #[test]
 fn the_forecast_of_every_shipped_species_is_exact() {
     let told = presets(Kind::Species).into_par_iter().filter_map(|(name, _)| {
@@ -173,10 +175,11 @@ fn the_forecast_of_every_shipped_species_is_exact() {
         if !is_foretold(&resolved.species.model) {
             return None;
         }
+        let is_of_stems = matches!(resolved.species.model, Model::Parametric(_));
         let exact = if is_bounded(&resolved.species.model) { Certainty::Bound } else { Certainty::Exact };
         let until = resolved.shown_at();
         let expected = resolved.model.expectation(until).unwrap_or_else(|| panic!("{name} has no forecast"));
-        (expected.certainty() != exact).then(|| format!("{name}: {:?}", expected.certainty()))
+        (expected.certainty() != exact && !is_of_stems).then(|| format!("{name}: {:?}", expected.certainty()))
     });
     assert_eq!(told.collect::<Vec<_>>(), Vec::<String>::new());
 }
