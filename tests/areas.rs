@@ -2,9 +2,7 @@
 //! the area of its `area_m2`, and the tubes of internodes hold their `wood_volume_m3`, to 1 %.
 //!
 //! The areas are those of one side: of closed forms half the surface. Tables and meshes are read from the files of one
-//! run. Absent: blades and internodes of other forms, which are drawn as sheets without volume; and the volumes of
-//! internodes of trees of stems that bend away from the one below, since a ribbed stem goes on from the last ring of
-//! that one, which then stands obliquely.
+//! run. Absent: blades and internodes of other forms, which are drawn as sheets without volume.
 
 #[path = "program/side_by_side.rs"]
 mod side_by_side;
@@ -37,13 +35,7 @@ struct Stated {
     kind: String,
     area: Option<f64>,
     volume: Option<f64>,
-    /// The component that bears it, and its direction.
-    bearer: Option<i32>,
-    direction: Option<Point>,
 }
-
-/// The cosine of the angle from which on an internode bends away from the one below: 3 degrees.
-const STRAIGHT: f64 = 0.99863;
 
 /// The one plant of a species, grown to an age at which it is not too large.
 fn plant_of(name: &str) -> Resolved {
@@ -81,18 +73,14 @@ fn rows(batch: &RecordBatch) -> Vec<(i32, Stated)> {
     let kinds = column("kind").as_dictionary::<Int8Type>();
     let words = kinds.values().as_string::<i32>();
     let components = column("component_id").as_primitive::<Int32Type>();
-    let bearers = column("parent_id").as_primitive::<Int32Type>();
     let number = |name: &str, row: usize| {
         let numbers = column(name).as_primitive::<Float32Type>();
         numbers.is_valid(row).then(|| f64::from(numbers.value(row)))
     };
     let row = |row: usize| {
         let kind = words.value(kinds.keys().value(row) as usize).to_owned();
-        let bearer = bearers.is_valid(row).then(|| bearers.value(row));
-        let directions = ["dir_x", "dir_y", "dir_z"].map(|name| number(name, row));
-        let direction = if let [Some(x), Some(y), Some(z)] = directions { Some([x, y, z]) } else { None };
         let (area, volume) = (number("area_m2", row), number("wood_volume_m3", row));
-        (components.value(row), Stated { kind, area, volume, bearer, direction })
+        (components.value(row), Stated { kind, area, volume })
     };
     (0..batch.num_rows()).map(row).collect()
 }
@@ -171,14 +159,7 @@ struct Sums {
     volumes: BTreeMap<String, [f64; 2]>,
 }
 
-/// Whether a component goes on in the direction of the one that bears it, or is borne by none.
-fn is_straight(of: &Stated, all: &BTreeMap<i32, Stated>) -> bool {
-    let below = of.bearer.and_then(|bearer| all.get(&bearer)?.direction);
-    let cosine = |a: Point, b: Point| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    below.zip(of.direction).is_none_or(|(below, own)| cosine(below, own) > STRAIGHT)
-}
-
-fn sums(folder: &Path, joined: bool) -> Sums {
+fn sums(folder: &Path) -> Sums {
     let run = Run::open(folder).expect("a run");
     let meshes: Vec<_> =
         fs::read_dir(folder.join("meshes")).expect("meshes").map(|file| file.expect("a file").path()).collect();
@@ -189,14 +170,12 @@ fn sums(folder: &Path, joined: bool) -> Sums {
         *sum += found;
         *of_table += stated;
     };
-    let all = stated(&run);
-    for (component, stated) in &all {
+    for (component, stated) in &stated(&run) {
         let triangles = drawn.get(component).map_or(&[][..], Vec::as_slice);
         if let Some(area) = stated.area {
             add(&mut sums.areas, &stated.kind, one_side(triangles), area);
         }
-        let is_compared = !joined || is_straight(stated, &all);
-        if let Some(of_table) = stated.volume.filter(|_| is_compared && is_closed(triangles) && !triangles.is_empty()) {
+        if let Some(of_table) = stated.volume.filter(|_| is_closed(triangles) && !triangles.is_empty()) {
             add(&mut sums.volumes, &stated.kind, volume(triangles), of_table);
         }
     }
@@ -211,7 +190,7 @@ fn meshes_of_every_shipped_species_have_the_areas_and_the_volumes_of_the_tables(
         let folder = home.path().join(name.replace('/', "-"));
         run(&plant_of(name), &Settings::in_folder(&folder), &Progress::default())
             .unwrap_or_else(|error| panic!("{name}: {error:#}"));
-        (name, sums(&folder, name.starts_with("wp/")))
+        (name, sums(&folder))
     });
     let mut wrong = Vec::new();
     let mut kinds = BTreeSet::new();

@@ -1,9 +1,10 @@
 //! Internodes with a cross section of their own: prisms and frusta over a closed section, strips over an open one.
 //!
-//! An internode that goes on where an internode with a section ends begins with the last ring of that one, so that a
-//! generalised cylinder has no gap where it bends. The ends of a closed section are closed by caps, which lie within
-//! the cylinder but at its ends. Normals stand across the section; they lean with a change of width where a section has
-//! rings between base and tip, and else do not. Absent: circles, which are tubes.
+//! Where an internode goes on from one with a section, both end in the plane that halves their angle (a mitre), so that
+//! a generalised cylinder has no gap where it bends and keeps its volume: what the mitre takes on one side of the axis
+//! line it gives on the other. The ends of a closed section are closed by caps, which lie within the cylinder but at its
+//! ends. Normals stand across the section; they lean with a change of width where a section has rings between base and
+//! tip, and else do not. Absent: circles, which are tubes.
 
 use super::chunk::{Tag, Vertex};
 use super::tube::{Frustum, cross};
@@ -38,18 +39,23 @@ pub struct Ring {
     pub up: [f32; 3],
     /// Half the width.
     pub radius: f32,
+    /// A vector across the plane that the ring is moved into, along its heading; `None`: the plane across the heading.
+    mitre: Option<[f32; 3]>,
 }
+
+/// The cosine of the sharpest bend that is mitred, 120 degrees: there a mitred ring is twice as wide.
+const SHARPEST: f32 = -0.5;
 
 impl Ring {
     /// The ring at the base of an internode.
     pub fn base(of: &Frustum) -> Self {
-        Self { middle: of.base, heading: of.heading, up: of.up, radius: of.radii[0] }
+        Self { middle: of.base, heading: of.heading, up: of.up, radius: of.radii[0], mitre: None }
     }
 
     /// The ring at its tip.
     pub fn tip(of: &Frustum) -> Self {
         let middle = [0, 1, 2].map(|k| of.base[k] + of.length * of.heading[k]);
-        Self { middle, heading: of.heading, up: of.up, radius: of.radii[1] }
+        Self { middle, heading: of.heading, up: of.up, radius: of.radii[1], mitre: None }
     }
 
     /// Whether another ring lies about the same point.
@@ -59,6 +65,33 @@ impl Ring {
         apart <= near * near
     }
 
+    /// This ring moved into the plane that halves the angle with the ring that it meets; where the bend is too sharp it
+    /// stays.
+    pub fn mitred(self, with: &Self) -> Self {
+        let both = [0, 1, 2].map(|k| self.heading[k] + with.heading[k]);
+        let bends = dot(self.heading, with.heading) >= SHARPEST;
+        Self { mitre: bends.then_some(both), ..self }
+    }
+
+    /// The mitred ring at the base of an internode that goes on from another one's tip on its axis: it begins with the
+    /// section of that one as the bend carries it along.
+    pub fn after(self, tip: &Self) -> Self {
+        let ring = self.mitred(tip);
+        // The least turn of one unit vector a to another one b takes a vector v across a to v - (b v)/(1 + a b) (a + b).
+        let carried = ring.mitre.map(|both| {
+            let share = dot(self.heading, tip.up) / (1.0 + dot(self.heading, tip.heading));
+            [0, 1, 2].map(|k| tip.up[k] - share * both[k])
+        });
+        Self { up: carried.unwrap_or(self.up), ..ring }
+    }
+
+    /// The unit vector across the plane of the ring.
+    fn across(&self) -> [f32; 3] {
+        let Some(both) = self.mitre else { return self.heading };
+        let length = dot(both, both).sqrt();
+        both.map(|x| x / length)
+    }
+
     fn turned(&self, [x, y]: [f32; 2]) -> [f32; 3] {
         let side = cross(self.heading, self.up);
         [0, 1, 2].map(|k| x * self.up[k] + y * side[k])
@@ -66,7 +99,8 @@ impl Ring {
 
     fn at(&self, corner: [f32; 2]) -> [f32; 3] {
         let out = self.turned(corner);
-        [0, 1, 2].map(|k| self.middle[k] + self.radius * out[k])
+        let along = self.mitre.map_or(0.0, |both| -dot(out, both) / dot(self.heading, both));
+        [0, 1, 2].map(|k| self.middle[k] + self.radius * (out[k] + along * self.heading[k]))
     }
 }
 
@@ -123,7 +157,7 @@ impl Prism {
             return;
         }
         for ((ring, out), way) in rings.iter().zip(ends.chunks_mut(self.corners.len() - 1)).zip([-1.0, 1.0]) {
-            let normal = ring.heading.map(|x| way * x);
+            let normal = ring.across().map(|x| way * x);
             for (corner, vertex) in self.corners.iter().zip(out) {
                 let round = corner.at.map(|x| 0.5 + 0.5 * x);
                 *vertex = Vertex::new(ring.at(corner.at), normal, round, tag);
@@ -140,7 +174,8 @@ impl Prism {
             Some(inner) => self.rings.get(inner).map_or((tip, 1.0), |&[share, bulge]| {
                 let middle = [0, 1, 2].map(|k| base.middle[k] + share * (tip.middle[k] - base.middle[k]));
                 let even = base.radius + share * (tip.radius - base.radius);
-                (Ring { middle, radius: (even + bulge * length(&[base, tip])).max(0.0), ..tip }, share)
+                let radius = (even + bulge * length(&[base, tip])).max(0.0);
+                (Ring { middle, radius, mitre: None, ..tip }, share)
             }),
         }
     }
@@ -158,6 +193,10 @@ impl Prism {
         let scale = (wider * wider + further * further).sqrt();
         if scale > 0.0 { [further / scale, wider / scale] } else { [1.0, 0.0] }
     }
+}
+
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The distance between two rings.
@@ -267,6 +306,41 @@ mod tests {
             let expected: f64 = all.windows(2).map(frustum).sum();
             let measured = volume(&vertices, &faces);
             assert!((measured / expected - 1.0).abs() < 1e-4, "{radii:?}: {measured} {expected}");
+        }
+    }
+
+    fn tilted(degrees: f64, from: &Frustum, radii: [f32; 2]) -> Frustum {
+        let (sin, cos) = phytomer_sim::math::sincos(degrees.to_radians());
+        let (sin, cos) = (sin as f32, cos as f32);
+        let (h, up) = (from.heading, from.up);
+        let heading = [0, 1, 2].map(|k| cos * h[k] + sin * up[k]);
+        let up = [0, 1, 2].map(|k| cos * up[k] - sin * h[k]);
+        Frustum { base: Ring::tip(from).middle, heading, up, length: 1.1, radii }
+    }
+
+    /// Two square prisms at an angle are both closed, meet corner by corner, and each has the volume that it has alone:
+    /// a mitre takes a wedge on one side and gives the same on the other. A sharper bend than 120 degrees is not mitred.
+    #[test]
+    fn a_bend_is_mitred_and_takes_no_volume() {
+        let section = Section::of(vec![[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]], true);
+        let from = frustum([0.2, 0.2]);
+        for degrees in [0.0, 5.0, 40.0, 90.0, -110.0, 130.0] {
+            let on = tilted(degrees, &from, [0.2, 0.2]);
+            let [tip, base] = [Ring::tip(&from), Ring::base(&on)];
+            let (below, faces) = drawn(&section, [Ring::base(&from), tip.mitred(&base)]);
+            let (above, _) = drawn(&section, [base.after(&tip), Ring::tip(&on)]);
+            let apart = (0..5).map(|k| {
+                let [a, b] = [below[5 + k].position(), above[k].position()];
+                (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f32::max)
+            });
+            let apart = apart.fold(0.0, f32::max);
+            assert_eq!(apart < 1e-6, degrees < 120.0, "{degrees}: {apart}");
+            for (vertices, length) in [(&below, 1.5), (&above, 1.1)] {
+                assert_closed(vertices, &faces);
+                assert_unit_normals(vertices);
+                let measured = volume(vertices, &faces);
+                assert!((measured / (2.0 * 0.04 * length) - 1.0).abs() < 1e-5, "{degrees}: {measured}");
+            }
         }
     }
 

@@ -28,6 +28,8 @@ pub struct Stems<'a> {
     forms: Vec<Drawn>,
     /// The forms of internodes with a cross section of their own, in the places of the sections.
     sections: Vec<Drawn>,
+    /// The next node of each node's axis; empty where no internode has a section.
+    next: Vec<NodeId>,
     /// What of the plant is drawn; `None`: all.
     pub(super) detail: Option<Detail>,
     /// The form of a segment that is drawn as a line.
@@ -103,10 +105,11 @@ impl<'a> Stems<'a> {
         let paints = Paints::of(&plant.habit);
         let mut forms: Vec<Drawn> = looks.map(|look| Drawn::of(look, paints, options)).collect();
         forms.push(Drawn::Tube(Tube::new(options.sides), false));
-        let sections = paints.sections().iter().map(|section| Drawn::Prism(Prism::new(section))).collect();
+        let sections: Vec<Drawn> = paints.sections().iter().map(|section| Drawn::Prism(Prism::new(section))).collect();
+        let next = if sections.is_empty() { Vec::new() } else { next_on_axis(plant) };
         let (detail, line) = (Detail::of(plant, age, options), Drawn::Tube(Tube::new(OF_A_LINE), true));
         let bark = options.bark_m.map(|metres| Bark::of(plant, age, metres));
-        Self { plant, age, kinds: options.kinds, paints, forms, sections, detail, line, bark }
+        Self { plant, age, kinds: options.kinds, paints, forms, sections, next, detail, line, bark }
     }
 
     /// The internodes of a range of nodes that are drawn.
@@ -174,15 +177,24 @@ impl<'a> Stems<'a> {
         Placement { base: frame.base, heading: frame.heading, up: frame.up, size, fullness: 1.0 }
     }
 
-    /// The rings of an internode with a section: it begins with that at the tip of the internode with a section that it
-    /// continues, if there is one.
+    /// The rings of an internode with a section, mitred with the internodes with a section that it continues and that
+    /// continues it on its axis, if there are such. On its axis it begins as that one ends; a stem that splits off is
+    /// turned about, and begins with its own section.
     fn rings(&self, node: NodeId) -> [Ring; 2] {
         let own = self.frustum(node);
         let [base, tip] = [Ring::base(&own), Ring::tip(&own)];
-        let before = self.plant.nodes.parent[node.index()].some();
-        let before = before.filter(|parent| self.plant.own_looks.section_of(*parent).is_some());
-        let joint = before.map(|parent| Ring::tip(&self.frustum(parent))).filter(|end| end.meets(&base));
-        [joint.map_or(base, |end| Ring { middle: base.middle, radius: base.radius, ..end }), tip]
+        let nodes = &self.plant.nodes;
+        let with_section = |other: &NodeId| self.plant.own_looks.section_of(*other).is_some();
+        let before = nodes.parent[node.index()].some().filter(with_section);
+        let end = before.map(|parent| (parent, Ring::tip(&self.frustum(parent)))).filter(|(_, end)| end.meets(&base));
+        let start = match end {
+            Some((parent, end)) if nodes.axis[parent.index()] == nodes.axis[node.index()] => base.after(&end),
+            Some((_, end)) => base.mitred(&end),
+            None => base,
+        };
+        let next = self.next.get(node.index()).and_then(|next| next.some()).filter(with_section);
+        let next = next.map(|next| Ring::base(&self.frustum(next))).filter(|start| start.meets(&tip));
+        [start, next.map_or(tip, |next| tip.mitred(&next))]
     }
 
     /// An internode as a frustum.
@@ -233,4 +245,16 @@ impl<'a> Stems<'a> {
             _ => at(look, self.age),
         }
     }
+}
+
+/// The next node of each node's axis.
+fn next_on_axis(plant: &Plant) -> Vec<NodeId> {
+    let nodes = &plant.nodes;
+    let mut next = vec![NodeId::NONE; nodes.len()];
+    for (place, (&parent, &axis)) in nodes.parent.iter().zip(&nodes.axis).enumerate() {
+        if let Some(parent) = parent.some().filter(|parent| nodes.axis[parent.index()] == axis) {
+            next[parent.index()] = NodeId(place as u32);
+        }
+    }
+    next
 }
