@@ -5,11 +5,12 @@
 //! gallery pages FOLDER` writes the page of every species, as `phytomer view` does, and an index of them. A species is
 //! grown by the shipped scenario of its name if there is one, else by itself, and drawn at the age that `phytomer
 //! picture` chooses; a scenario with members is drawn as `phytomer picture --plot` draws it. Every shipped species and
-//! plot is drawn; names stand here of the pages alone that ship.
+//! plot is drawn; a tree of stems stands in leaf and bare side by side, as in Plate 1 of Weber & Penn 1995. Names stand
+//! here of the pages alone that ship, and of the trees of Plates 6 and 7.
 
 use anyhow::{Context, Result, anyhow};
 use phytomer::config::{
-    Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, Trial, presets, validate, validate_species,
+    Kind, Model, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, Trial, presets, validate, validate_species,
 };
 use phytomer::outputs::pictures::{Canvas, Compression, Picture, draw_stands, write_png};
 use phytomer::run::filming::Filming;
@@ -27,6 +28,8 @@ use std::sync::Arc;
 /// The size of a picture of the gallery, and of the strip.
 const SIZE: [u32; 2] = [360, 480];
 const STRIP: [u32; 2] = [1600, 460];
+/// The size of a picture of a tree in two forms.
+const PAIR: [u32; 2] = [640, 480];
 /// The size of a picture of a plot.
 const PLOT_SIZE: [u32; 2] = [960, 640];
 /// The species and the ages, in months, of the strip: robusta coffee.
@@ -44,6 +47,17 @@ const INTRODUCTION: &str = "# Gallery\n\n\
     of its whole life to turn and to ask ([view.md](view.md)); NAME is the first word of a picture's title. ";
 const MORE_PAGES: &str =
     "`cargo run --release --example gallery pages FOLDER` makes those of all species, with an index.";
+
+/// The trees that Weber & Penn 1995 show in two forms: the name, the title, and of each form its words and what a
+/// species file states of it.
+const PLATES: [(&str, &str, [(&str, &str); 2]); 2] = [
+    (
+        "wp/sassafras",
+        "Plate 6",
+        [("leaves as they grow", "LeafBend = 0"), ("leaves turned to the light", "LeafBend = 1")],
+    ),
+    ("wp/weeping_willow", "Plate 7", [("unpruned", "PruneRatio = 0"), ("pruned", "PruneRatio = 1")]),
+];
 
 struct Sitter {
     scenario: Scenario,
@@ -72,6 +86,14 @@ fn main() -> Result<()> {
             write!(page, "\n## {}\n\n", if of.is_empty() { "Plants and examples" } else { of })?;
         }
         page += &sit(name, folder).with_context(|| format!("the species {name}"))?;
+    }
+    page += "\n## Trees in two forms\n\nAs Plates 6 and 7 of Weber & Penn 1995 show them ([parametric.md](parametric.md)).\n\n";
+    for (name, title, forms) in PLATES {
+        let file = format!("gallery/wp/{}.png", title.to_lowercase().replace(' ', "_"));
+        let [first, second] = forms.map(|(words, _)| words);
+        let pictured = in_forms(name, &forms).with_context(|| title)?;
+        save(&drawn(&pictured, PAIR), &pictured.note, &folder.join(&file))?;
+        writeln!(page, "![{title}]({file} \"{title}: {name}, {first} and {second}\")")?;
     }
     page += "\n## Plots\n\nEvery scenario that ships with several members, drawn by `phytomer picture --plot` at its last \
              tick.\n\n";
@@ -132,14 +154,19 @@ fn sit(name: &str, folder: &Path) -> Result<String> {
     let regrowth = sitter.regrowth();
     let age = regrowth.shown_at(&sitter.species, 0)?;
     // A plant among obstacles is drawn with them.
-    let pictured = if sitter.scenario.site.drawn().is_empty() {
+    let mut pictured = if sitter.scenario.site.drawn().is_empty() {
         pictured_plants(&regrowth, &[&sitter.species], &[0], &[age])?
     } else {
         pictured_plot(&regrowth, &[&sitter.species], (0, &[age]), false)?
     };
     let file = format!("gallery/{name}.png");
-    let canvas = drawn(&pictured, SIZE);
-    save(&canvas, &pictured.note, &folder.join(&file))?;
+    let has_leaves = matches!(&sitter.species.model, Model::Parametric(tree) if tree.whole.leaves.value() != 0.0);
+    let size = if has_leaves { PAIR } else { SIZE };
+    if has_leaves {
+        pictured.stands.extend(in_forms(name, &[("", "Leaves = 0")])?.stands);
+        pictured.stands.iter_mut().for_each(|stand| stand.label.clear());
+    }
+    save(&drawn(&pictured, size), &pictured.note, &folder.join(&file))?;
     println!("{name}: age {age}");
     let about = &sitter.species.about;
     let called = about.common_name.as_deref().unwrap_or(&about.name);
@@ -147,6 +174,26 @@ fn sit(name: &str, folder: &Path) -> Result<String> {
     let model = about.architectural_model.map(|model| format!(", {model:?}'s model")).unwrap_or_default();
     let picture = format!("![{called}]({file} \"{name}: {called}{latin}{model}, age {age}\")");
     Ok(if PAGES.contains(&name) { format!("[{picture}]({})\n", page_of(name)) } else { format!("{picture}\n") })
+}
+
+/// A species as it is in several forms, each with its words and with what its file states besides.
+fn in_forms(name: &str, forms: &[(&str, &str)]) -> Result<Pictured> {
+    let folder = tempfile::tempdir()?;
+    let mut all: Option<Pictured> = None;
+    for (words, states) in forms {
+        let file = folder.path().join("form.toml");
+        fs::write(&file, format!("inherits = \"{name}\"\nname = \"{name}\"\n{states}\n"))?;
+        let sitter = Sitter::of(&file.to_string_lossy())?;
+        let regrowth = sitter.regrowth();
+        let age = regrowth.shown_at(&sitter.species, 0)?;
+        let mut pictured = pictured_plants(&regrowth, &[&sitter.species], &[0], &[age])?;
+        pictured.stands.iter_mut().for_each(|stand| stand.label = (*words).to_owned());
+        match &mut all {
+            Some(all) => all.stands.append(&mut pictured.stands),
+            None => all = Some(pictured),
+        }
+    }
+    all.context("no form is asked for")
 }
 
 /// Draws the first plot of a scenario, if it has several members, and returns its caption.

@@ -1,15 +1,19 @@
-//! The fuzz targets on stable, for a stated time: `minute`, `minute --target species --seconds 600 --seed 7`, and one
-//! input again: `minute --target species --input FILE`.
+//! The fuzz targets on stable, for a stated time: `cargo run --example fuzz`, with `--target species --seconds 600 --seed
+//! 7` one of them, and one input again: `--target species --input FILE`. `.ci/run` has a minute of it.
 //!
 //! Each target runs in a process of its own, two at a time, over inputs that follow from the seed and their number. An
 //! input is written to a file before it is tried; where its process ends by a panic, a signal or a lack of memory, or
-//! answers too late, the file is kept in `fuzz/artifacts` with the command to see it again. Absent: coverage.
+//! answers too late, the file is kept in `fuzz/artifacts` with the command to see it again. The targets stand in the
+//! folder `fuzz`, which hands them to libFuzzer too. Absent: coverage.
 
-use phytomer_fuzz::{TARGETS, Target, broken, folder, lay_in, seeds};
+#[path = "../../fuzz/src/lib.rs"]
+mod targets;
+
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitCode};
 use std::time::{Duration, Instant, SystemTime};
 use std::{env, fs, thread};
+use targets::{TARGETS, Target, broken, folder, lay_in, seeds};
 
 /// No answer may be waited for longer than this, in the slowest build on a busy machine.
 const LONGEST: Duration = Duration::from_secs(20);
@@ -17,7 +21,7 @@ const LONGEST: Duration = Duration::from_secs(20);
 const MOST_MEMORY: u64 = 1500;
 /// Targets that run at a time.
 const AT_A_TIME: usize = 2;
-const USAGE: &str = "minute [--target NAME] [--seconds N] [--seed N] [--input FILE]";
+const USAGE: &str = "fuzz [--target NAME] [--seconds N] [--seed N] [--input FILE]";
 
 /// What was asked for.
 struct Asked {
@@ -173,14 +177,14 @@ fn ended(running: &mut Running) -> Option<Result<(), String>> {
 /// Keeps the input at which a process ended badly, and tells how to see it again.
 fn keep(running: &Running, what: &str) {
     let name = running.name;
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("artifacts").join(name);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/artifacts").join(name);
     fs::create_dir_all(&folder).expect("a folder");
     let since = running.started.duration_since(SystemTime::UNIX_EPOCH);
     let kept = folder.join(format!("{name}-{}", since.map_or(0, |since| since.as_millis())));
     if fs::copy(&running.current, &kept).is_err() {
         return eprintln!("{name}: {what}, before its first input");
     }
-    let again = "cargo run --manifest-path fuzz/Cargo.toml --no-default-features --bin minute --";
+    let again = "cargo run --example fuzz --";
     eprintln!("{name}: {what}; to see its input again:\n  {again} --target {name} --input {}", kept.display());
 }
 

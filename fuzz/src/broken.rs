@@ -4,7 +4,7 @@
 //! breaks bytes: flipped bits, extreme numbers, cuts, copies, and pieces of another seed. Crates that mutate on stable
 //! were looked at (mutatis, bolero): they change single bytes, and know neither the tokens of the files nor two seeds.
 
-use crate::seeds::mutate::{Draw, broken};
+use super::seeds::mutate::{Draw, broken};
 
 /// Numbers at which sizes, counts and offsets go wrong.
 const EXTREMES: [u64; 12] =

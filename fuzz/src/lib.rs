@@ -2,16 +2,19 @@
 //! memory.
 //!
 //! A species and a scenario go the whole way of `phytomer grow`; a mesh is read as a form, a weather file as its days,
-//! an L-system is grown with the files beside it (`lsystem`); a run folder, one of whose files is replaced, is checked,
-//! read and resumed. `fuzz_targets` hands these functions to libFuzzer, and `bin/minute` runs them on stable over
+//! an L-system is grown with the files beside it (`lsystem`); a forest is read with its rasters (`forest`), and a tree
+//! of another program is converted; a run folder, one of whose files is replaced, is checked,
+//! read and resumed. `fuzz_targets` hands these functions to libFuzzer, and `examples/fuzz` runs them on stable over
 //! broken copies of what ships (`seeds`, `broken`). Absent: files that are right, which the tests have.
 
 #![forbid(unsafe_code)]
 
 pub mod broken;
 mod documents;
+mod forest;
 mod lsystem;
 pub mod seeds;
+mod several;
 
 #[path = "../../config/weather/tests/answered/mod.rs"]
 mod answered;
@@ -26,6 +29,7 @@ use phytomer::outputs::meshes::{OwnForms, check_form};
 use phytomer::outputs::read::Run;
 use phytomer::outputs::{Checking, Depth, Mode, State, Table, check};
 use phytomer::run::{Progress, Settings, begin};
+use phytomer_peers::{Asked, convert};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -34,11 +38,14 @@ use tempfile::TempDir;
 /// A species by itself is checked over this many ticks.
 const UNTIL: u32 = 40;
 
+/// The endings of files of trees of other programs.
+pub const ENDINGS_OF_TREES: [&str; 3] = ["py", "xml", "json"];
+
 /// A target: any bytes in, nothing out.
 pub type Target = fn(&[u8]);
 
 /// Every target by its name.
-pub const TARGETS: [(&str, Target); 8] = [
+pub const TARGETS: [(&str, Target); 10] = [
     ("run_folder", run_folder),
     ("species", species),
     ("scenario", scenario),
@@ -46,7 +53,9 @@ pub const TARGETS: [(&str, Target); 8] = [
     ("obj", obj),
     ("glb", glb),
     ("weather", weather),
-    ("lsystem", lsystem::lsystem),
+    ("lsystem", lsystem),
+    ("forest", forest),
+    ("tree", tree),
 ];
 
 /// A temporary folder, in memory where there is some: a disk would be waited for at each input.
@@ -106,6 +115,24 @@ fn grow(scenario: &Path) {
     let out = tempfile::tempdir_in(home()).expect("a folder");
     let outcome = tried::grown(&resolved, &out.path().join("run"));
     assert!(!outcome.is_interrupted());
+}
+
+/// The file of a forest with its rasters.
+pub fn forest(data: &[u8]) {
+    forest::read(home(), data);
+}
+
+/// A tree of another program, converted and checked as a species. The first byte tells the ending of its file.
+pub fn tree(data: &[u8]) {
+    let Some((&choice, content)) = data.split_first() else { return };
+    let name = format!("tree.{}", ENDINGS_OF_TREES[usize::from(choice) % ENDINGS_OF_TREES.len()]);
+    if let Ok(converted) = convert(&name, content, Asked::default()) {
+        let file = home().join("converted.toml");
+        fs::write(&file, converted.species).expect("the species is written");
+        if let Err(report) = validate_species(&file.to_string_lossy(), UNTIL) {
+            tried::assert_tells(&report);
+        }
+    }
 }
 
 /// A PLY as a form.

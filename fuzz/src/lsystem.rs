@@ -1,10 +1,11 @@
 //! L-systems with the files beside them: read, grown for some steps within small limits, drawn and posed.
 //!
-//! An input is a list of files, each behind a line `=== NAME`. With a file `own` that is a species, which is read with
+//! An input is a list of files (`several`). With a file `own` that is a species, which is read with
 //! all others as the program does; without it the text `plant.l` is taken with its view file, surfaces, functions and
 //! maps of colours, with kinds of modules (`kinds`), with what answers `?E` (`environment`), and with two shapes.
 //! Absent: what is broken in them (`broken`), and the files that are right (`seeds`).
 
+use super::several::files;
 use phytomer_config::{Model, validate_texts};
 use phytomer_models::fault::Path;
 use phytomer_models::lsystem::text::{Environment, TextSystem};
@@ -14,34 +15,10 @@ use phytomer_sim::plant::{Kind, Plant, Seed};
 use phytomer_sim::plot::Plot;
 use phytomer_sim::pose::pose;
 
-/// What stands before the name of a file, at the beginning of a line.
-pub const FILE: &str = "=== ";
-
 /// The steps of a plant.
 const STEPS: u32 = 6;
 /// The most that a derivation may come to.
 const LIMITS: Limits = Limits { modules: 5000, rounds: 500_000 };
-
-/// The files of an input.
-fn files(data: &[u8]) -> Vec<(String, &[u8])> {
-    let mut files: Vec<(String, &[u8])> = Vec::new();
-    let mut rest = data;
-    while let Some(start) = find(rest) {
-        let behind = &rest[start + FILE.len()..];
-        let line = behind.iter().position(|byte| *byte == b'\n').unwrap_or(behind.len());
-        let content = behind.get(line + 1..).unwrap_or_default();
-        let length = find(content).unwrap_or(content.len());
-        files.push((String::from_utf8_lossy(&behind[..line]).trim().to_owned(), &content[..length]));
-        rest = &content[length..];
-    }
-    files
-}
-
-/// Where the next file begins.
-fn find(data: &[u8]) -> Option<usize> {
-    let is_start = |at: usize| at == 0 || data[at - 1] == b'\n';
-    (0..data.len()).find(|at| is_start(*at) && data[*at..].starts_with(FILE.as_bytes()))
-}
 
 /// An L-system with the files beside it.
 pub fn lsystem(data: &[u8]) {

@@ -1,10 +1,10 @@
 //! What is broken: the species and scenarios that ship, the good and the bad fixtures of `config`, small meshes, small
-//! weather files, and the files of a small run.
+//! weather files, trees of other programs, forests, and the files of a small run.
 //!
 //! Absent: a corpus that grows by coverage, which libFuzzer keeps by itself.
 
-use crate::answered::choice;
-use crate::{RESUMED, SEALED, files_of_a_run};
+use super::answered::choice;
+use super::{ENDINGS_OF_TREES, RESUMED, SEALED, files_of_a_run};
 use phytomer_weather::Format;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,9 +23,10 @@ meshes = { sides = 3, plants = [1] }
 output = { plants_per_part = 1 }
 "#;
 
-/// The folder of the project.
+/// The folder of the project. This file is compiled both in the package `fuzz` and in the example of that name.
 fn project() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+    let mut around = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+    around.find(|folder| folder.join("config/tests/good").is_dir()).expect("the project").to_path_buf()
 }
 
 /// Lays what ships and the good fixtures into a folder, where a broken file finds them beside it.
@@ -40,6 +41,7 @@ pub fn of(target: &str) -> Vec<Vec<u8>> {
         "species" | "scenario" => of_config(target == "scenario"),
         "weather" => of_weather(),
         "lsystem" => of_lsystems(),
+        "tree" => of_trees(),
         ending => of_folder(&project().join("fuzz/seeds"), ending),
     }
 }
@@ -69,6 +71,13 @@ fn of_lsystems() -> Vec<Vec<u8>> {
         seeds.push(format!("=== plant.l\n{text}=== plant.v\n{view}=== kinds\nA apical_bud\n").into_bytes());
     }
     seeds
+}
+
+/// The trees of other programs that the tests of their readers have, each by the ending of its file.
+fn of_trees() -> Vec<Vec<u8>> {
+    let folder = project().join("config/peers/tests/data");
+    let of = |(place, ending)| of_folder(&folder, ending).into_iter().map(move |file| [&[place], &*file].concat());
+    (0..).zip(ENDINGS_OF_TREES).flat_map(of).collect()
 }
 
 /// The files that the tests of weather have, each by its format.

@@ -1,10 +1,11 @@
-//! `schema`: the JSON Schemas of species and scenario files, for editors and for programs that write such files.
+//! `schema`: the JSON Schemas of species, scenario and forest files, for editors and for programs that write such files.
 //!
 //! Absent: the schemas themselves, which `phytomer-config` makes from the types.
 
 use super::{Verdict, terminal};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
+use phytomer_config::forest::forest_schema;
 use phytomer_config::{Kind, schema_of};
 
 /// Print the JSON Schema of a kind of file.
@@ -13,6 +14,7 @@ use phytomer_config::{Kind, schema_of};
 Examples:
   phytomer schema species
   phytomer schema scenario
+  phytomer schema forest
 
 An editor with taplo obeys a schema that the first line of a file names:
   #:schema ./species.schema.json")]
@@ -28,15 +30,17 @@ pub enum FileKind {
     Species,
     /// One run.
     Scenario,
+    /// One forest.
+    Forest,
 }
 
 impl Schema {
     pub fn obey(self) -> Result<Verdict> {
-        let kind = match self.kind {
-            FileKind::Species => Kind::Species,
-            FileKind::Scenario => Kind::Scenario,
-        };
-        terminal::put_json(&schema_of(kind))?;
+        match self.kind {
+            FileKind::Species => terminal::put_json(&schema_of(Kind::Species)),
+            FileKind::Scenario => terminal::put_json(&schema_of(Kind::Scenario)),
+            FileKind::Forest => terminal::put_json(forest_schema()),
+        }?;
         Ok(Verdict::Done)
     }
 }

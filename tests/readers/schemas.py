@@ -1,6 +1,8 @@
-"""An independent validator holds every shipped file against the JSON Schemas: schemas.py SPECIES SCENARIO PRESETS
+"""An independent validator holds every shipped file against the JSON Schemas:
+schemas.py SPECIES SCENARIO PRESETS FOREST PAGE
 
-SPECIES and SCENARIO are what `phytomer schema` prints; PRESETS is the folder with `species` and `scenarios`.
+SPECIES, SCENARIO and FOREST are what `phytomer schema` prints; PRESETS is the folder with `species` and `scenarios`,
+PAGE the documentation of forests, which has one as TOML.
 """
 
 import copy
@@ -35,4 +37,10 @@ for folder, check in (("species", validator(sys.argv[1])), ("scenarios", validat
         assert not faults, f"{path}:\n" + "\n".join(faults)
         assert "name" not in file or refuses_a_misspelling(check, file), f"{path}: a misspelt key is let through"
     print(f"{folder}: {len(files)} files obey the schema")
+
+check = validator(sys.argv[4])
+forest = tomllib.loads(Path(sys.argv[5]).read_text(encoding="utf-8").split("```toml")[1].split("```")[0])
+faults = [f"{error.json_path}: {error.message}" for error in check.iter_errors(forest)]
+assert not faults, "\n".join(faults)
+assert refuses_a_misspelling(check, forest), "a misspelt key of a forest is let through"
 print("schemas ok")

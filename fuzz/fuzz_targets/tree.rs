@@ -1,0 +1,7 @@
+//! `cargo +nightly fuzz run tree`: libFuzzer over `phytomer_fuzz::tree`.
+//!
+//! The target itself, and what must come of an input, are in the library; the seeds of the bin `minute` are not used.
+
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| phytomer_fuzz::tree(data));
