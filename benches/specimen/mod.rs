@@ -58,7 +58,8 @@ impl Specimen {
         self.resolved.scenario.ages.until
     }
 
-    fn sown(&self) -> Plot<'_> {
+    /// The plot of the plant, before it has grown.
+    pub fn sown(&self) -> Plot<'_> {
         Plot::of_one(self.model(), &seed_of(&self.resolved.scenario, 0))
     }
 
@@ -151,6 +152,21 @@ impl Specimen {
             bencher.iter(|| baseline::write_chunks(&ready, &mut kept, bytes));
         });
         group.finish();
+    }
+
+    /// Grows the plant once more in a plot that has grown before; dead parts are not shed.
+    pub fn grow_again(&self, plot: &mut Plot<'_>) {
+        plot.resow(&seed_of(&self.resolved.scenario, 0));
+        grow_alone(plot, self.until());
+    }
+
+    /// Meshes a grown plant and writes it as PLY into memory-backed storage.
+    pub fn write_mesh(&self, plot: &Plot<'_>) {
+        let scene = Scene::new(&plot.plants[0], self.until(), &MeshOptions::default());
+        let path = memory_backed(self.name);
+        let mut file = File::create(&path).expect("a file");
+        Ply.write(&scene, &scene.about(self.resolved.scenario.seed), &mut file).expect("a write");
+        std::fs::remove_file(path).expect("the file goes");
     }
 
     /// A PLY file in memory-backed storage, against a plain bulk write of the same bytes.
