@@ -1,5 +1,5 @@
-//! The fuzz targets on stable, for a stated time: `cargo run --example fuzz`, with `--target species --seconds 600 --seed
-//! 7` one of them, and one input again: `--target species --input FILE`. `.ci/run` has a minute of it.
+//! The fuzz targets on stable, for a stated time: `cargo run --example fuzz`, with `--target species --seconds 600
+//! --seed 7` one of them, and one input again: `--target species --input FILE`. `.ci/run` has a minute of it.
 //!
 //! Each target runs in a process of its own, two at a time, over inputs that follow from the seed and their number. An
 //! input is written to a file before it is tried; where its process ends by a panic, a signal or a lack of memory, or

@@ -1,4 +1,5 @@
-//! `schema`: the JSON Schemas of species, scenario and forest files, for editors and for programs that write such files.
+//! `schema`: the JSON Schemas of species, scenario and forest files, for editors and for programs that write such
+//! files.
 //!
 //! Absent: the schemas themselves, which `phytomer-config` makes from the types.
 

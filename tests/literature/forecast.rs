@@ -179,8 +179,8 @@ const DRAWN: [(&str, Certainty); 8] = [
     ("wp/white_cedar", Certainty::AtMost),
 ];
 
-/// Every shipped species that has a forecast has it in closed form, but for those of which no more than a bound is known,
-/// and for the named trees of stems. All are held to what grows, by the test above.
+/// Every shipped species that has a forecast has it in closed form, but for those of which no more than a bound is
+/// known, and for the named trees of stems. All are held to what grows, by the test above.
 #[test]
 fn the_forecast_of_every_shipped_species_is_exact() {
     let told = presets(Kind::Species).into_par_iter().filter_map(|(name, _)| {

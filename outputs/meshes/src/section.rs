@@ -2,9 +2,9 @@
 //!
 //! Where an internode goes on from one with a section, both end in the plane that halves their angle (a mitre), so that
 //! a generalised cylinder has no gap where it bends and keeps its volume: what the mitre takes on one side of the axis
-//! line it gives on the other. The ends of a closed section are closed by caps, which lie within the cylinder but at its
-//! ends. Normals stand across the section; they lean with a change of width where a section has rings between base and
-//! tip, and else do not. Absent: circles, which are tubes.
+//! line it gives on the other. The ends of a closed section are closed by caps, which lie within the cylinder but at
+//! its ends. Normals stand across the section; they lean with a change of width where a section has rings between base
+//! and tip, and else do not. Absent: circles, which are tubes.
 
 use super::chunk::{Tag, Vertex};
 use super::tube::{Frustum, cross};
@@ -77,7 +77,8 @@ impl Ring {
     /// section of that one as the bend carries it along.
     pub fn after(self, tip: &Self) -> Self {
         let ring = self.mitred(tip);
-        // The least turn of one unit vector a to another one b takes a vector v across a to v - (b v)/(1 + a b) (a + b).
+        // The least turn of one unit vector a to another one b takes a vector v across a to v - (b v)/(1 + a b) (a +
+        // b).
         let carried = ring.mitre.map(|both| {
             let share = dot(self.heading, tip.up) / (1.0 + dot(self.heading, tip.heading));
             [0, 1, 2].map(|k| tip.up[k] - share * both[k])
@@ -319,7 +320,8 @@ mod tests {
     }
 
     /// Two square prisms at an angle are both closed, meet corner by corner, and each has the volume that it has alone:
-    /// a mitre takes a wedge on one side and gives the same on the other. A sharper bend than 120 degrees is not mitred.
+    /// a mitre takes a wedge on one side and gives the same on the other. A sharper bend than 120 degrees is not
+    /// mitred.
     #[test]
     fn a_bend_is_mitred_and_takes_no_volume() {
         let section = Section::of(vec![[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]], true);
