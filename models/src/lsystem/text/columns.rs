@@ -26,6 +26,8 @@ pub(super) struct Measures {
     pub looks: Vec<(Kind, u16)>,
     /// Whether looks depend on colours.
     pub coloured: bool,
+    /// The volume within each contour over that of a cylinder as wide.
+    pub bulks: Vec<f32>,
 }
 
 /// The frame of the ground in the coordinates of the turtle: upright, its upper side along x.
@@ -142,6 +144,7 @@ fn write_node(
     }
     if let Some(section) = node.section {
         plant.give_section(id, section);
+        plant.state_bulk(id, measures.bulks.get(usize::from(section)).copied().unwrap_or(1.0));
     }
 }
 

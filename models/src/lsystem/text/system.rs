@@ -141,8 +141,10 @@ impl TextSystem {
         kinds.sort_unstable();
         kinds.dedup();
         let (looks, places, mut paints) = looks(&kinds, view.tapered_lines, colours);
-        let measures = Measures { step: self.step_m, width, looks: places, coloured: colours.is_some() };
         let named = shown.named(&mut paints);
+        // A contour is as wide at the base of a part as at its tip in proportion, so that its share is that of areas.
+        let bulks = paints.sections().iter().map(|section| section.bulk([1.0; 2], 1.0) as f32).collect();
+        let measures = Measures { step: self.step_m, width, looks: places, coloured: colours.is_some(), bulks };
         let for_drawing = paints.into_habit();
         let habit = Habit { trends: vec![Trend::STRAIGHT], looks, for_drawing, ..Habit::default() };
         let tapered = view.tapered_lines;

@@ -312,6 +312,11 @@ fn cylinders_have_their_contours_and_leaves_their_surfaces() {
     assert!((plant.organs.length[0] - 0.6).abs() < 1e-6);
     let sheets = phytomer_looks::Paints::of(&plant.habit);
     assert_eq!((sheets.surface(0).map(|surface| surface.faces().len()), sheets.sections().len()), (Some(32), 1));
+    // The closed B-spline through four points at a distance of 1 is no circle, and has less than its area.
+    let bulks = [0, 2].map(|node| plant.own_looks.bulk_of(NodeId(node)));
+    let of_contour = sheets.sections()[0].bulk([0.3, 0.2], 7.0);
+    assert!((bulks[0] - of_contour).abs() < 1e-6 && of_contour < 0.95, "{bulks:?} {of_contour}");
+    assert_eq!(bulks[1], 1.0);
 }
 
 #[test]
