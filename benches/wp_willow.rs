@@ -45,7 +45,7 @@ fn components(plot: &Plot<'_>) -> usize {
 fn budded(wanted: usize) -> Specimen {
     let at = |until: u32| {
         let text = format!("name = \"apple_{until}\"\nspecies = \"apple\"\nplants = 1\nages = {{ until = {until} }}\n");
-        Specimen::of_text("apple", &text)
+        Specimen::of_text("an_apple", &text)
     };
     (1..200).map(at).find(|specimen| components(&specimen.grown()) >= wanted).expect("an apple of that size")
 }
