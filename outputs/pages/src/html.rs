@@ -4,6 +4,8 @@
 //! it names by their SHA-256. The data are compressed as gzip (RFC 1952) by miniz, whose bytes are the same on every
 //! machine, and stand in base64 (RFC 4648) in a block that the browser does not run. Absent: what the data are.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use miniz_oxide::deflate::compress_to_vec;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -85,16 +87,7 @@ fn gzip(data: &[u8]) -> Vec<u8> {
 }
 
 fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for three in bytes.chunks(3) {
-        let word = (0..3).fold(0, |word, k| word << 8 | u32::from(three.get(k).copied().unwrap_or(0)));
-        for k in 0..4 {
-            let letter = LETTERS[(word >> (18 - 6 * k) & 63) as usize];
-            text.push(if k <= three.len() { char::from(letter) } else { '=' });
-        }
-    }
-    text
+    STANDARD.encode(bytes)
 }
 
 fn escaped(text: &str) -> String {
