@@ -39,6 +39,8 @@ pub enum Purpose {
     Sway = 10,
     /// The plants of a cell of a forest, in a stream of the cell.
     Forest = 11,
+    /// Which plants a bootstrap draws again, in a stream of the repetition.
+    Resampling = 12,
 }
 
 /// The number in (0, 1) that a uniform word stands for: the middle of its interval.
