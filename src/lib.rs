@@ -1,8 +1,8 @@
 //! Grow any plant from seed to death, a million at a time, and query the result like a database.
 //!
 //! This is the facade: the crates of the house under short names, and [`run`], which makes a run folder out of a
-//! scenario; [`forest`] plants a landscape from a raster; [`sample`] grows a few plants of a species to hold them
-//! against what was published. The command line is the binary's own (`cli/`).
+//! scenario; [`forest`] plants a landscape from a raster; [`report`] tells of runs in a page; [`sample`] grows a few
+//! plants of a species to hold them against what was published. The command line is the binary's own (`cli/`).
 //!
 //! ```no_run
 //! use phytomer::run::{self, Progress, Settings};
@@ -21,5 +21,6 @@ pub use phytomer_weather as weather;
 
 pub mod architecture;
 pub mod forest;
+pub mod report;
 pub mod run;
 pub mod sample;

@@ -26,6 +26,7 @@ mod named;
 mod out;
 mod picture;
 mod regrown;
+mod report;
 mod schema;
 mod span;
 pub mod terminal;
@@ -58,6 +59,7 @@ Examples:
   phytomer animate coffee --out life.webp       a film of its life
   phytomer view coffee --out life.html          its life as a page that opens in a browser
   phytomer forest my_site/site.toml             a landscape from a raster, as a table, meshes and a scene
+  phytomer report runs/coffee --out coffee.html what became of its plants, as a page with charts
 
 `phytomer help <verb>` has more of each.";
 
@@ -86,6 +88,7 @@ enum Verb {
     Animate(animate::Animate),
     View(view::View),
     Forest(forest::ForestVerb),
+    Report(report::ReportVerb),
 }
 
 /// How the program ends, other than by an error.
@@ -136,6 +139,7 @@ impl Cli {
             Verb::Animate(verb) => verb.obey(),
             Verb::View(verb) => verb.obey(),
             Verb::Forest(verb) => verb.obey(),
+            Verb::Report(verb) => verb.obey(),
         }
     }
 }

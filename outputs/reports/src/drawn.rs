@@ -1,17 +1,19 @@
 //! Charts as SVG and as PNG, drawn by kuva.
 //!
-//! Colours are those of Okabe & Ito 2008, which people with any colour vision tell apart, and marks differ besides. Each
-//! SVG has its title and its words for those who do not see it, and ids of its own, so that several stand in one page.
-//! Absent: the data (`chart`).
+//! Colours are those of Okabe & Ito 2008, which people with any colour vision tell apart, and marks differ besides.
+//! Each SVG has its title and its words for those who do not see it, and ids of its own, so that several stand in one
+//! page. Absent: the data (`chart`).
 
 use super::chart::{Chart, Contrasts, Mark, Plotted, Point, Series};
 use super::escape::text;
+use super::table::rounded;
 use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::{ForestPlot, Histogram, LegendPosition, LinePlot, ScatterPlot};
-use kuva::render::layout::Layout;
+use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::{Scene, render_multiple};
+use std::sync::Arc;
 
 /// Blue, vermilion, bluish green, orange, sky blue, reddish purple, black: Okabe & Ito 2008, without yellow, which is
 /// too pale for a line.
@@ -83,6 +85,7 @@ fn of_chart(chart: &Chart) -> Scene {
         .with_x_label(chart.x.label())
         .with_y_label(chart.y.label())
         .with_legend_position(LegendPosition::OutsideRightTop)
+        .with_tick_format(ticks())
         .with_width(SIZE[0])
         .with_height(SIZE[1]);
     let starts_at_0 = |value: fn(&Point) -> f64| {
@@ -149,7 +152,13 @@ fn of_contrasts(contrasts: &Contrasts) -> Scene {
     let plots: Vec<Plot> = vec![forest.into()];
     let layout = Layout::auto_from_plots(&plots)
         .with_x_label(contrasts.x.label())
+        .with_x_tick_format(ticks())
         .with_width(SIZE[0])
         .with_height(AROUND + ROW * contrasts.rows.len() as f64);
     render_multiple(plots, layout)
+}
+
+/// The numbers along an axis, as tables tell them.
+fn ticks() -> TickFormat {
+    TickFormat::Custom(Arc::new(rounded))
 }

@@ -1,7 +1,7 @@
 //! A report as one HTML file without any script: text, charts, pictures and tables.
 //!
-//! A [`Chart`] is data with units. It is drawn as SVG and PNG by the crate kuva, and told as CSV and as a specification of
-//! Vega-Lite, so that a figure, its table and its specification never differ. A [`Report`] is written as a page that
+//! A [`Chart`] is data with units. It is drawn as SVG and PNG by the crate kuva, and told as CSV and as a specification
+//! of Vega-Lite, so that a figure, its table and its specification never differ. A [`Report`] is written as a page that
 //! asks for nothing beyond itself. Absent: what a report of a run says, which the program decides, and statistics.
 
 mod chart;

@@ -114,8 +114,8 @@ fn a_figure_its_table_and_its_specification_have_the_same_numbers() {
     assert_eq!(of_contrasts["data"]["values"][1]["high"], 1.5);
 }
 
-/// One point, equal points, numbers at the ends of what there is: drawn, without a number that is none. Nothing but what
-/// is no number: said.
+/// One point, equal points, numbers at the ends of what there is: drawn, without a number that is none. Nothing but
+/// what is no number: said.
 #[test]
 fn anything_finite_is_drawn() {
     for mark in [Mark::Line, Mark::Dashed, Mark::Steps, Mark::Points, Mark::Bars] {

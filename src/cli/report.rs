@@ -1,0 +1,186 @@
+//! `report`: runs as one page without script, with the files of its figures where they are asked for.
+//!
+//! Absent: what a report says (`phytomer::report`).
+
+use super::named::{Recorded, run_folder};
+use super::out::{self, Format};
+use super::{Misuse, Verdict, amounts, terminal};
+use anyhow::{Context, Result};
+use clap::Args;
+use phytomer::report::field::{Field, FieldFault};
+use phytomer::report::{Reported, report};
+use phytomer::run::forms;
+use phytomer::run::picturing::pictured_plants;
+use phytomer::run::regrowth::Regrowth;
+use phytomer_config::Species;
+use phytomer_outputs::Destination;
+use phytomer_outputs::pictures::{Compression, Picture as Style, draw_stands, write_png};
+use phytomer_reports::{Figure, Picture, page, png, svg, vega_lite};
+use phytomer_sim::GrowthModel;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+const FORMATS: [Format; 2] = [Format { name: "HTML", extension: "html" }, Format { name: "HTML", extension: "htm" }];
+/// The most bytes of a file of measured plants.
+const MOST_BYTES: u64 = 256 << 20;
+/// The most plants in a picture.
+const MOST_PICTURED: u32 = 8;
+/// The width of a plant in a picture and the height of the picture, pixels.
+const WIDTH: u32 = 400;
+const HEIGHT: u32 = 560;
+
+/// Tell of runs in one page: growth, survival, contrasts of treatments, measured plants, pictures, provenance.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  phytomer report runs/coffee --out coffee.html
+  phytomer report runs/density --data field.csv --out density.html
+  phytomer report runs/dry runs/wet --title \"Two summers\" --figures figures --out both.html
+
+The page is one file without any script. Each figure has its numbers as CSV. --figures FOLDER writes each figure as SVG,
+PNG, CSV and as a specification of Vega-Lite. The file of --data has the column `age` in ticks and one or more columns of
+`summary` (height_m, crown_width_m, leaf_area_m2, wood_volume_m3, internodes), a row a plant.")]
+pub struct ReportVerb {
+    /// Run folders.
+    #[arg(value_name = "RUN", required = true)]
+    runs: Vec<String>,
+    /// The file that is written; `-` for stdout.
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Measured plants, as CSV.
+    #[arg(long, value_name = "FIELD.csv")]
+    data: Option<PathBuf>,
+    /// The title; the names of the runs if not given.
+    #[arg(long)]
+    title: Option<String>,
+    /// A folder for the files of the figures.
+    #[arg(long, value_name = "FOLDER")]
+    figures: Option<PathBuf>,
+    /// How many plants of each run are drawn side by side, grown again; 0 for none.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=i64::from(MOST_PICTURED)))]
+    plants: u32,
+}
+
+impl ReportVerb {
+    pub fn obey(self) -> Result<Verdict> {
+        out::check(&self.out, "report", &FORMATS)?;
+        let folders: Vec<PathBuf> = self.runs.iter().map(|name| folder(name)).collect::<Result<_>>()?;
+        let recorded: Vec<Recorded> = folders.iter().map(|folder| Recorded::of(folder)).collect::<Result<_>>()?;
+        let field = match self.data.as_deref().map(measured).transpose()? {
+            Some(Err(fault)) => {
+                terminal::say(&format!("error: {fault}"));
+                return Ok(Verdict::Invalid);
+            }
+            Some(Ok(field)) => Some(field),
+            None => None,
+        };
+        let file = Destination::create(&self.out)?;
+        let mut pictures = Vec::new();
+        for (name, recorded) in self.runs.iter().zip(&recorded) {
+            pictures.extend(drawn(name, recorded, self.plants)?);
+        }
+        let runs = self.runs.iter().zip(&recorded).map(|(name, recorded)| Reported {
+            name: short(name),
+            run: &recorded.run,
+            trial: &recorded.trial,
+            species: recorded.all_species().collect(),
+        });
+        let runs: Vec<Reported> = runs.collect();
+        let names: Vec<&str> = runs.iter().map(|reported| reported.name.as_str()).collect();
+        let title = self.title.clone().unwrap_or_else(|| names.join(", "));
+        let report = report(&title, &runs, field.as_ref(), pictures)?;
+        if let Some(folder) = &self.figures {
+            for figure in report.figures() {
+                put(figure, folder).with_context(|| format!("cannot write the figures into {}", folder.display()))?;
+            }
+        }
+        let bytes =
+            write(file, page(&report).as_bytes()).with_context(|| format!("cannot write {}", self.out.display()))?;
+        let figures = amounts::of(report.figures().count() as u64, "figure");
+        out::tell(&self.out, &format!("{figures}, {}", amounts::bytes(bytes as f64)))?;
+        Ok(Verdict::Done)
+    }
+}
+
+fn write(mut file: Destination, bytes: &[u8]) -> Result<u64> {
+    file.write_all(bytes)?;
+    file.finish()?;
+    Ok(bytes.len() as u64)
+}
+
+/// The folder of a run.
+fn folder(name: &str) -> Result<PathBuf> {
+    let lacks = || Misuse(format!("{name} is no run folder; `phytomer grow` makes one, as runs/coffee"));
+    Ok(run_folder(name).ok_or_else(lacks)?)
+}
+
+/// The last part of the path of a run.
+fn short(name: &str) -> String {
+    Path::new(name).file_name().map_or_else(|| name.to_owned(), |last| last.to_string_lossy().into_owned())
+}
+
+/// The measured plants of a file.
+fn measured(path: &Path) -> Result<std::result::Result<Field, FieldFault>> {
+    let doing = || format!("cannot read {}", path.display());
+    let about = fs::metadata(path).with_context(doing)?;
+    if !about.is_file() || about.len() > MOST_BYTES {
+        let shown = path.display();
+        return Err(Misuse(format!(
+            "--data {shown}: a file of at most {} is expected",
+            amounts::bytes(MOST_BYTES as f64)
+        ))
+        .into());
+    }
+    let bytes = fs::read(path).with_context(doing)?;
+    Ok(Field::read(&path.display().to_string(), &bytes))
+}
+
+/// The first plants of a run side by side, grown again to the age at which the first of them shows what it is.
+fn drawn(name: &str, recorded: &Recorded, count: u32) -> Result<Option<Picture>> {
+    if count == 0 {
+        return Ok(None);
+    }
+    let models = recorded.compile()?;
+    let species: Vec<&Species> = recorded.all_species().collect();
+    let forms = species.iter().map(|species| forms::of_run(species, &recorded.run));
+    let forms: Vec<_> = forms.collect::<std::result::Result<_, _>>()?;
+    let models: Vec<&dyn GrowthModel> = models.iter().map(AsRef::as_ref).collect();
+    let regrowth = Regrowth::new(recorded.trial.clone(), models, None);
+    let plants: Vec<u32> = (0..count.min(recorded.trial.plants())).collect();
+    let of = species[recorded.trial.species_of_plant(0)];
+    let age = regrowth.shown_at(of, 0)?;
+    let pictured = pictured_plants(&regrowth, &species, &plants, &[age])?;
+    let size = [(WIDTH * plants.len() as u32).clamp(2 * WIDTH, 4 * WIDTH), HEIGHT];
+    let canvas = draw_stands(&pictured.stands(&forms), &pictured.title, &Style { size, ..Style::default() });
+    let mut png = Vec::new();
+    write_png(&canvas, &pictured.note, Compression::Balanced, &mut png)?;
+    let whom = amounts::of(plants.len() as u64, "plant");
+    let caption = format!("{}: the first {whom} of the run at age {age}, in one scale.", short(name));
+    let words = format!("{whom} of {} side by side at age {age}, in sunshine, with their shadows", of.about.name);
+    Ok(Some(Picture { png, caption, words }))
+}
+
+/// Writes a figure as SVG, PNG, CSV and Vega-Lite.
+fn put(figure: &Figure, folder: &Path) -> Result<()> {
+    fs::create_dir_all(folder)?;
+    let save = |ending: &str, bytes: &[u8]| -> Result<()> {
+        let mut file = Destination::create(&folder.join(format!("{}.{ending}", figure.id)))?;
+        file.write_all(bytes)?;
+        file.finish()?;
+        Ok(())
+    };
+    let Figure { id, title, words, plotted, .. } = figure;
+    save("csv", plotted.table().csv().as_bytes())?;
+    if let Some(drawn) = svg(plotted, id, title, words) {
+        save("svg", drawn.as_bytes())?;
+    }
+    if let Some(drawn) = png(plotted) {
+        save("png", &drawn)?;
+    }
+    if let Some(specification) = vega_lite(plotted, title, words) {
+        let text = serde_json::to_string_pretty(&specification).map_err(io::Error::from)?;
+        save("vl.json", (text + "\n").as_bytes())?;
+    }
+    Ok(())
+}

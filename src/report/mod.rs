@@ -1,0 +1,64 @@
+//! A report of runs, as one page: how plants grew, which lived, how treatments differ, how the run stands to what was
+//! measured, and where it all comes from.
+//!
+//! Plants are the unit: bands and intervals are Student's, of plant values, at 95 %. Absent: how a page looks
+//! (`phytomer_reports`), and the statistics (`phytomer_measures`).
+
+mod comparison;
+mod contrasts;
+mod fates;
+pub mod field;
+mod growth;
+mod plants;
+mod provenance;
+
+use field::Field;
+use phytomer_config::{Species, Trial};
+use phytomer_outputs::Error;
+use phytomer_outputs::read::Run;
+use phytomer_reports::{Part, Picture, Report, Section};
+use plants::Grown;
+
+/// The level of all intervals.
+const LEVEL: f64 = 0.95;
+
+/// A run that is reported.
+pub struct Reported<'a> {
+    /// Its name in legends.
+    pub name: String,
+    /// The run folder.
+    pub run: &'a Run,
+    /// Its treatments and plots.
+    pub trial: &'a Trial,
+    /// Its species.
+    pub species: Vec<&'a Species>,
+}
+
+/// The report of some runs, beside measured plants where there are some, with pictures of plants.
+///
+/// # Errors
+/// Where a table cannot be read.
+pub fn report(title: &str, runs: &[Reported], field: Option<&Field>, pictures: Vec<Picture>) -> Result<Report, Error> {
+    let grown = Grown::read(runs)?;
+    let mut sections = vec![
+        section("Methods", vec![Part::Text(provenance::methods(runs, &grown))]),
+        section("Growth", growth::parts(&grown, field)),
+        section("Life and death", fates::parts(&grown)),
+    ];
+    let compared = contrasts::parts(&grown);
+    sections.extend((!compared.is_empty()).then(|| section("Treatments", compared)));
+    sections.extend(field.map(|field| section("Measured plants", comparison::parts(&grown, field))));
+    let shown = pictures.into_iter().map(Part::Picture).collect::<Vec<_>>();
+    sections.extend((!shown.is_empty()).then(|| section("Plants", shown)));
+    sections.push(section("Provenance", provenance::parts(runs)));
+    Ok(Report { title: title.to_owned(), about: provenance::about(runs, &grown), sections })
+}
+
+fn section(heading: &str, parts: Vec<Part>) -> Section {
+    Section { heading: heading.to_owned(), parts }
+}
+
+/// "95 %".
+fn percent(level: f64) -> String {
+    format!("{} %", (100.0 * level).round())
+}
