@@ -13,9 +13,9 @@ use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 15] = [
+const VERBS: [&str; 16] = [
     "init", "grow", "merge", "validate", "derive", "convert", "verify", "describe", "list", "schema", "mesh",
-    "picture", "animate", "view", "forest",
+    "picture", "animate", "view", "forest", "report",
 ];
 
 /// The examples of a verb's help: the lines that begin with the program's name.
@@ -36,6 +36,10 @@ fn every_example_of_help_runs() {
     lay_trees_of_others(folder.path());
     lay_site(folder.path());
     run(folder.path(), &["grow", "coffee", "--plants", "4", "--quiet"]).ending(0);
+    for run_of_report in ["runs/dry", "runs/wet"] {
+        run(folder.path(), &["grow", "coffee", "--plants", "3", "--quiet", "--out", run_of_report]).ending(0);
+    }
+    fs::write(folder.path().join("field.csv"), "age,height_m\n12,0.8\n12,0.9\n").unwrap();
     for share in ["1/2", "2/2"] {
         run(folder.path(), &["grow", "coffee", "--plants", DEALT, "--quiet", "--shard", share]).ending(0);
     }

@@ -35,8 +35,8 @@ const HEIGHT: u32 = 560;
 #[command(after_help = "\
 Examples:
   phytomer report runs/coffee --out coffee.html
-  phytomer report runs/density --data field.csv --out density.html
-  phytomer report runs/dry runs/wet --title \"Two summers\" --figures figures --out both.html
+  phytomer report runs/coffee --data field.csv --plants 5 --out beside_field.html
+  phytomer report runs/dry runs/wet --title Summers --figures figures --out both.html
 
 The page is one file without any script. Each figure has its numbers as CSV. --figures FOLDER writes each figure as SVG,
 PNG, CSV and as a specification of Vega-Lite. The file of --data has the column `age` in ticks and one or more columns of
