@@ -59,7 +59,7 @@ Examples:
   phytomer animate coffee --out life.webp       a film of its life
   phytomer view coffee --out life.html          its life as a page that opens in a browser
   phytomer forest my_site/site.toml             a landscape from a raster, as a table, meshes and a scene
-  phytomer report runs/coffee --out coffee.html what became of its plants, as a page with charts
+  phytomer report runs/coffee --out told.html   what became of its plants, as a page with charts
 
 `phytomer help <verb>` has more of each.";
 
