@@ -48,9 +48,11 @@ const INTRODUCTION: &str = "# Gallery\n\n\
 const MORE_PAGES: &str =
     "`cargo run --release --example gallery pages FOLDER` makes those of all species, with an index.";
 
-/// The trees that Weber & Penn 1995 show in two forms: the name, the title, and of each form its words and what a
-/// species file states of it.
-const PLATES: [(&str, &str, [(&str, &str); 2]); 2] = [
+/// A form of a species: its words, and what its file states besides.
+type Form<'a> = (&'a str, &'a str);
+
+/// The trees that Weber & Penn 1995 show in two forms: the name, the title, and the forms.
+const PLATES: [(&str, &str, [Form; 2]); 2] = [
     (
         "wp/sassafras",
         "Plate 6",
@@ -176,8 +178,8 @@ fn sit(name: &str, folder: &Path) -> Result<String> {
     Ok(if PAGES.contains(&name) { format!("[{picture}]({})\n", page_of(name)) } else { format!("{picture}\n") })
 }
 
-/// A species as it is in several forms, each with its words and with what its file states besides.
-fn in_forms(name: &str, forms: &[(&str, &str)]) -> Result<Pictured> {
+/// A species as it is in several forms.
+fn in_forms(name: &str, forms: &[Form]) -> Result<Pictured> {
     let folder = tempfile::tempdir()?;
     let mut all: Option<Pictured> = None;
     for (words, states) in forms {
