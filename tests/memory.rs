@@ -1,18 +1,21 @@
 //! The memory of plants, as the allocator counts it; nothing here depends on the columns.
 //!
 //! A component takes at most 96 bytes for topology, fates and pose together, and the peak of a population does not
-//! depend on its size. A pass over a tick of a plot takes the memory of its largest plant. A film of a life takes at
-//! most half as much again as one picture. The clone of a plant has no spare capacity, so its allocation is the size of
-//! its columns; the plant itself also has the spare capacity of its vectors. Absent: the optional log of events, the
-//! memory of a mesh, and freed memory that the system's allocator keeps.
+//! depend on its size. A pass over a tick of a plot takes the memory of its largest plant. A film of a life, and a file
+//! of it, take at most half as much again as one picture. The clone of a plant has no spare capacity, so its allocation
+//! is the size of its columns; the plant itself also has the spare capacity of its vectors. Absent: the optional log of
+//! events, the memory of a mesh, and freed memory that the system's allocator keeps.
 
 use peak_alloc::PeakAlloc;
 use phytomer::config::scenario::{BYTES_A_COMPONENT, Every, Record};
 use phytomer::config::{Resolved, validate};
 use phytomer::models::buds::LivingBuds;
 use phytomer::outputs::films::{Film, Timeline, WebP};
+use phytomer::outputs::life::{Maker, Nearness};
+use phytomer::outputs::meshes::MeshOptions;
 use phytomer::outputs::pictures::{Picture, draw_stands};
-use phytomer::outputs::{Mode, RunFolder, Table};
+use phytomer::outputs::usd::{Asked, Encoding, Member, Organs, Pace, Plants, write_life};
+use phytomer::outputs::{Destination, Mode, RunFolder, Table};
 use phytomer::run::filming::{Filming, Scene};
 use phytomer::run::picturing::pictured_plants;
 use phytomer::run::regrowth::{Regrowth, Whose};
@@ -239,12 +242,33 @@ fn film_of(resolved: &Resolved) -> usize {
     })
 }
 
+/// Its life at every age as binary USD.
+fn usd_of(resolved: &Resolved) -> usize {
+    let home = tempfile::tempdir().expect("a temporary folder");
+    let ages: Vec<Tick> = (1..=LAST).collect();
+    peak_while(|| {
+        let mut maker = Maker::new(Nearness::of(1e-3), &MeshOptions::default());
+        let shown = Regrowth::of(resolved).show(0, &ages, &mut |age, plant| {
+            maker.show(plant, age);
+            Ok(())
+        });
+        shown.expect("a plant");
+        let (lives, options, members) = ([maker.finish()], [MeshOptions::default()], [Member::default()]);
+        let asked = Asked { encoding: Encoding::Binary, organs: Organs::Instances, words: String::new() };
+        let (plants, pace) = (Plants::of(&lives, &options, &members), Pace { a_tick: 1.0, a_second: 24.0 });
+        let mut file = Destination::create(&home.path().join("life.usdc")).expect("a file");
+        write_life(&asked, &plants, 1e-3, &pace, &mut file).expect("room on the disk");
+    })
+}
+
 #[test]
-fn a_film_takes_at_most_half_more_than_a_picture() {
+fn a_film_and_a_file_of_a_life_take_at_most_half_more_than_a_picture() {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let resolved = validate("willow").unwrap_or_else(|report| panic!("{}", report.render(false)));
-    let [picture, film] = [picture_of(&resolved), film_of(&resolved)];
-    println!("{picture} bytes for a picture, {film} for a film");
+    let [picture, film, usd] = [picture_of(&resolved), film_of(&resolved), usd_of(&resolved)];
+    println!("{picture} bytes for a picture, {film} for a film, {usd} for a life as USD");
     assert!(picture > 20_000_000, "{picture} bytes: nothing is measured");
-    assert!(film as f64 <= 1.5 * picture as f64, "{film} bytes for a film, {picture} for a picture");
+    for (what, peak) in [("a film", film), ("a life as USD", usd)] {
+        assert!(peak as f64 <= 1.5 * picture as f64, "{peak} bytes for {what}, {picture} for a picture");
+    }
 }

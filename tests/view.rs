@@ -22,6 +22,23 @@ use tempfile::tempdir;
 const BUSH: &str = "name = \"viewed\"\nspecies = \"bush.toml\"\nplants = 2\nseed = 7\nspacing_m = 2\n\
                     ages = { until = 16, record = \"all\" }\n";
 
+/// The columns of a row that are compared.
+const OF_A_ROW: [&str; 13] = [
+    "parent_id",
+    "axis_id",
+    "order",
+    "rank",
+    "birth_age",
+    "age",
+    "plant_id",
+    "dir_x",
+    "dir_y",
+    "dir_z",
+    "up_x",
+    "up_y",
+    "up_z",
+];
+
 /// The folder of playwright-core and the browser; `None`, with the reason printed, where either is missing.
 fn browser() -> Option<(PathBuf, PathBuf)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -60,7 +77,7 @@ fn facts(run: &Path, plant: f64) -> Value {
         of_age[&kinds[row]] = json!(of_age[&kinds[row]].as_u64().unwrap_or(0) + 1);
         if ages[row] == last {
             let mut values = json!({"kind": kinds[row]});
-            for name in ["parent_id", "axis_id", "order", "rank", "birth_age", "age", "plant_id"] {
+            for name in OF_A_ROW {
                 let value = records.numbers(name)[row];
                 values[name] = if value.is_nan() { Value::Null } else { json!(value) };
             }

@@ -1,15 +1,16 @@
 //! The rows of `records` for a page, with the values that the table holds.
 //!
 //! A page keeps the columns that do not follow from the plant, its age and its form. Places and directions follow from
-//! the form; treatment, plot, plant, tick and age are the same for a whole plant. The columns of mechanics are kept for
-//! runs that record them. Absent: how a page stores the values (`phytomer_pages`).
+//! the form, but how an internode is turned about its direction does not, and is told; treatment, plot, plant, tick and
+//! age are the same for a whole plant. The columns of mechanics are kept for runs that record them. Absent: how a page
+//! stores the values (`phytomer_pages`).
 
 use crate::tables::columns::{RECORDS, RECORDS_OF_POSE};
 use crate::tables::schema::{self, Type};
 use crate::tables::{ComponentIndex, Membership, TableError, each_record};
 use phytomer_pages::{Column, Holds, Table};
 use phytomer_sim::Tick;
-use phytomer_sim::plant::Plant;
+use phytomer_sim::plant::{Class, Kind, Plant};
 
 /// The columns that a page does not keep.
 const DERIVED: [&str; 15] = [
@@ -30,11 +31,17 @@ const DERIVED: [&str; 15] = [
     "up_z",
 ];
 
+/// The directions of a component.
+const DIRECTIONS: [&str; 6] = ["dir_x", "dir_y", "dir_z", "up_x", "up_y", "up_z"];
+
 /// Fills tables of pages.
 #[derive(Debug)]
 pub struct Rows {
     columns: Vec<Column>,
+    /// The places of the columns that are kept, and then of those of directions.
     places: Vec<usize>,
+    /// The place of the kind among them.
+    kind: usize,
     index: ComponentIndex,
 }
 
@@ -43,8 +50,11 @@ impl Rows {
     pub fn new(mechanics: bool) -> Self {
         let count = if mechanics { RECORDS.len() } else { RECORDS_OF_POSE };
         let columns: Vec<Column> = RECORDS[..count].iter().map(of_page).collect();
-        let places = columns.iter().enumerate().filter(|(_, column)| column.kept).map(|(place, _)| place).collect();
-        Self { columns, places, index: ComponentIndex::default() }
+        let place = |name: &str| columns.iter().position(|column| column.name == name).unwrap_or_default();
+        let kept = (0..count).filter(|place| columns[*place].kept);
+        let places: Vec<usize> = kept.chain(DIRECTIONS.map(place)).collect();
+        let kind = places.iter().position(|known| *known == place("kind")).unwrap_or_default();
+        Self { columns, places, kind, index: ComponentIndex::default() }
     }
 
     /// The columns of the tables.
@@ -64,9 +74,18 @@ impl Rows {
     ) -> Result<(), TableError> {
         table.begin(at);
         each_record((of, plant, age), &self.places, &mut self.index, &mut |number, values| {
-            table.row(number, values.iter().copied());
+            let (kept, directions) = values.split_at(values.len() - DIRECTIONS.len());
+            table.row(number, kept.iter().copied());
+            if let ([x, y, z, u, v, w], true) = (directions, is_internode(kept[self.kind])) {
+                table.turned(number, [*x, *y, *z], [*u, *v, *w]);
+            }
         })
     }
+}
+
+/// Whether a kind, as `records` has it, is an internode.
+fn is_internode(kind: f64) -> bool {
+    Kind::ALL.get(kind as usize).is_some_and(|kind| kind.class() == Class::Internode)
 }
 
 fn of_page(column: &schema::Column) -> Column {
@@ -90,6 +109,8 @@ mod tests {
         let known = |name: &&str| RECORDS.iter().any(|column| column.name == *name);
         assert!(DERIVED.iter().all(known));
         let [with, without] = [true, false].map(|mechanics| Rows::new(mechanics).places.len());
-        assert_eq!((with, without), (RECORDS.len() - DERIVED.len(), RECORDS_OF_POSE - DERIVED.len()));
+        let told = DERIVED.len() - DIRECTIONS.len();
+        assert_eq!((with, without), (RECORDS.len() - told, RECORDS_OF_POSE - told));
+        assert!(DIRECTIONS.iter().all(|name| DERIVED.contains(name)));
     }
 }

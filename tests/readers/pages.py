@@ -118,6 +118,19 @@ def tracks(counts, ages, values, begin, kinds):
 
 
 AGES = header["ages"]
+DIRECTION = ("dir_x", "dir_y", "dir_z")
+UPPER = ("up_x", "up_y", "up_z")
+
+
+def upper(roll, heading):
+    """The upper side of an internode that points along a unit vector."""
+    x, y, z = heading
+    pole = 1 if roll < header["turn"] else -1
+    near = max(1 + pole * z, sys.float_info.min)
+    a = (1 - x * x / near, -x * y / near, -pole * x)
+    b = (y * a[2] - z * a[1], z * a[0] - x * a[2], x * a[1] - y * a[0])
+    turn = 2 * math.pi * (roll % header["turn"]) / header["turn"]
+    return [math.cos(turn) * p + math.sin(turn) * q for p, q in zip(a, b, strict=True)]
 
 
 def between(keys, number, real):
@@ -157,6 +170,7 @@ for number, plant in enumerate(header["plants"]):
         values[column["name"]] = tracks(*of, start, kinds if column["holds"] == "real" else [0] * len(start))
         if column["name"] == "kind":
             kinds = [keys[0][1] if keys else -1 for keys in values["kind"]]
+    rolls = tracks(*[numbers(f"{number}.row.roll.{what}") for what in ("counts", "ages", "values")], start, [0] * len(start))
 
     # Lines: the first key of a point differs from that of the point before, of a line from that of its host.
     counts, hosts = numbers(f"{number}.line.points"), sums(numbers(f"{number}.line.host"))
@@ -248,6 +262,14 @@ for number, plant in enumerate(header["plants"]):
                     meant = -1 if meant is None else int(meant)
                     assert found == meant, (column["name"], component, age, found, meant)
                 compared += 1
+            # The upper side of an internode is within three degrees, and the chord of that.
+            if row["kind"].endswith("internode"):
+                found = upper(between(rolls[component], at_age, False), [row[name] for name in DIRECTION])
+                off = math.dist(found, [row[name] for name in UPPER])
+                assert off <= 0.0524, ("up", component, age, found, off)
+                compared += 1
+            else:
+                assert not rolls[component], component
         # Organs stand where their rows say, but for the radius of what bears them.
         drawn = {components[part]: keys for part, keys in enumerate(parts) if stands(part_from[part], part_lasts[part], at_age)}
         organs = {i for i, row in recorded.items() if not row["kind"].endswith(("internode", "bud"))}

@@ -20,6 +20,7 @@
 
 mod kept;
 mod lines;
+mod lists;
 mod lives;
 mod maker;
 mod models;
@@ -36,9 +37,11 @@ pub use models::{Models, stepped};
 pub use phytomer_looks::{Surface, SurfacePoint};
 pub use phytomer_meshes::Model;
 pub use stand::{Member, Organs, StillOrgans, organs_alone, wood_of, wood_of_plot};
+use track::some_between;
 pub use track::{Key, Track, between};
 
 use glam::{Mat3, Vec3};
+use kept::Kept;
 use phytomer_sim::plant::{Form, Kind};
 use std::ops::Range;
 
@@ -87,9 +90,10 @@ pub struct Life {
     pub surfaces: Vec<Surface>,
     /// The forms of internodes that are drawn by themselves.
     pub stems: Vec<Model>,
-    places: Vec<Key<4>>,
-    poses: Vec<Key<12>>,
-    tints: Vec<Key<3>>,
+    places: Kept<4>,
+    poses: Kept<12>,
+    tints_of_points: Kept<3>,
+    tints_of_parts: Kept<3>,
 }
 
 /// The line of an axis, or of a part of it that is one tube.
@@ -229,28 +233,29 @@ impl Life {
         self.parts.iter_mut().flat_map(|part| [&mut part.from, &mut part.death]).for_each(tick);
         self.places.iter_mut().map(|(age, _)| age).for_each(tick);
         self.poses.iter_mut().map(|(age, _)| age).for_each(tick);
-        self.tints.iter_mut().map(|(age, _)| age).for_each(tick);
+        let tints = self.tints_of_points.iter_mut().chain(self.tints_of_parts.iter_mut());
+        tints.map(|(age, _)| age).for_each(tick);
         self
     }
 
     /// The keyframes of a point: x, y, z and the radius, metres.
     pub fn places(&self, point: &Point) -> &[Key<4>] {
-        &self.places[point.places.start as usize..point.places.end as usize]
+        self.places.of(&point.places)
     }
 
     /// The keyframes of the colour of the internode of a point.
     pub fn tints_of_point(&self, point: &Point) -> &[Key<3>] {
-        &self.tints[point.tints.start as usize..point.tints.end as usize]
+        self.tints_of_points.of(&point.tints)
     }
 
     /// The keyframes of a part: base, heading, upper side and sizes, as in [`Pose`].
     pub fn poses(&self, part: &Part) -> &[Key<12>] {
-        &self.poses[part.poses.start as usize..part.poses.end as usize]
+        self.poses.of(&part.poses)
     }
 
     /// The keyframes of the colour of a part.
     pub fn tints_of_part(&self, part: &Part) -> &[Key<3>] {
-        &self.tints[part.tints.start as usize..part.tints.end as usize]
+        self.tints_of_parts.of(&part.tints)
     }
 
     /// The points that a line has at an age, in their order: x, y, z and the radius.
@@ -266,9 +271,19 @@ impl Life {
         Pose { base: three(0), heading: unit(three(3)), up: unit(three(6)), size: three(9) }
     }
 
+    /// Where the base of a part is at an age.
+    pub fn base_at(&self, part: &Part, age: f32) -> [f32; 3] {
+        some_between(self.poses(part), age, 0)
+    }
+
+    /// The sizes of a part at an age, as in [`Pose`].
+    pub fn size_at(&self, part: &Part, age: f32) -> [f32; 3] {
+        some_between(self.poses(part), age, 9)
+    }
+
     /// The number of its keyframes.
     pub fn keys(&self) -> usize {
-        self.places.len() + self.poses.len() + self.tints.len()
+        self.places.len() + self.poses.len() + self.tints_of_points.len() + self.tints_of_parts.len()
     }
 }
 

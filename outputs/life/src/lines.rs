@@ -6,9 +6,9 @@
 //! the keyframes. Points are known again by the numbers of their internodes, so an axis may be written anew at each
 //! age, with internodes put in between. What comes back in another order is a new point.
 
-use super::kept::Kept;
+use super::kept::{Kept, Keyed};
+use super::lists::Blocks;
 use super::still::Still;
-use super::track::Track;
 use super::{Life, Line, Nearness, Point};
 use phytomer_meshes::{Found, Keeping, Sample, Stems, Tolerance, fits, simplify};
 use phytomer_sim::plant::{NodeId, Stretch};
@@ -20,7 +20,7 @@ const NONE: u32 = u32::MAX;
 #[derive(Debug, Clone, Default)]
 pub struct Lines {
     lines: Vec<Growing>,
-    points: Vec<State>,
+    points: Blocks<State>,
     /// The line of an axis by the number of its bud, and which of its lines it is.
     known: BTreeMap<(u32, u32), u32>,
     /// The point at the base and at the tip of each internode by its number.
@@ -43,18 +43,25 @@ struct Growing {
     stands: bool,
 }
 
-/// A point, with its tracks.
+/// A point.
 #[derive(Debug, Clone)]
 struct State {
     point: Point,
     line: u32,
     /// The place among the points of the line.
     rank: u32,
+    /// Its tracks while it stands.
+    moving: Option<Box<Moving>>,
+}
+
+/// A point that stands.
+#[derive(Debug, Clone)]
+struct Moving {
     seen: f32,
     /// Its internode, at the age at which it was last seen.
     node: NodeId,
-    place: Track<4>,
-    tint: Track<3>,
+    place: Keyed<4>,
+    tint: Keyed<3>,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -112,16 +119,15 @@ impl Showing<'_, '_> {
     /// A line stands as it stood; its bark goes on to change its colour.
     fn hold(&mut self, line: u32) {
         let (age, colour) = (self.age, [self.nearness.colour; 3]);
-        let Lines { lines, points, tints, .. } = &mut *self.lines;
+        let Lines { lines, points, .. } = &mut *self.lines;
         let line = &mut lines[line as usize];
         (line.seen, line.stands) = (age, true);
         for &number in line.points.iter().chain([&line.end]) {
-            let state = &mut points[number as usize];
-            if state.point.death.is_infinite() {
-                state.seen = age;
-                state.place.hold(age);
-                let tint = self.stems.colour(state.node).map(f32::from);
-                tints.take(number, &mut state.tint, (age, tint), &colour);
+            if let Some(moving) = &mut points[number].moving {
+                moving.seen = age;
+                moving.place.hold(age);
+                let tint = self.stems.colour(moving.node).map(f32::from);
+                moving.tint.take((age, tint), &colour);
             }
         }
     }
@@ -145,9 +151,9 @@ impl Showing<'_, '_> {
         for (place, sample) in samples[..last].iter().enumerate() {
             let known =
                 self.lines.of_internode.get(self.number(sample)).map_or(NONE, |ends| ends[usize::from(sample.end)]);
-            let state = self.lines.points.get(known as usize);
+            let state = self.lines.points.get(known);
             let goes_on = state.filter(|state| {
-                state.line == line && state.point.death.is_infinite() && rank.is_none_or(|rank| rank < state.rank)
+                state.line == line && state.moving.is_some() && rank.is_none_or(|rank| rank < state.rank)
             });
             rank = goes_on.map(|state| state.rank).or(rank);
             if goes_on.is_some() || place == 0 {
@@ -191,10 +197,6 @@ impl Showing<'_, '_> {
 
     fn begin(&mut self, line: u32, sample: &Sample, tip: bool, born: NodeId) -> u32 {
         let (plant, age) = (self.stems.plant(), self.age);
-        let number = self.lines.points.len() as u32;
-        let (place, tint) = ((age, place_of(sample)), (age, tint_of(sample)));
-        self.lines.places.keep(number, Some(place));
-        self.lines.tints.keep(number, Some(tint));
         let point = Point {
             component: plant.nodes.component[sample.node.index()],
             kind: plant.kind_of(sample.node),
@@ -206,9 +208,9 @@ impl Showing<'_, '_> {
             places: 0..0,
             tints: 0..0,
         };
-        let (place, tint) = (Track::begin(place), Track::begin(tint));
-        self.lines.points.push(State { point, line, rank: NONE, seen: age, node: sample.node, place, tint });
-        number
+        let (place, tint) = (Keyed::begin((age, place_of(sample))), Keyed::begin((age, tint_of(sample))));
+        let moving = Some(Box::new(Moving { seen: age, node: sample.node, place, tint }));
+        self.lines.points.push(State { point, line, rank: NONE, moving })
     }
 
     /// Puts new points among those of the line; points that have ended keep their places.
@@ -216,14 +218,14 @@ impl Showing<'_, '_> {
         let Lines { lines, points, scratch, .. } = &mut *self.lines;
         let Scratch { kept, order, .. } = scratch;
         let others = &kept[..kept.len() - 1];
-        if others.iter().all(|(_, point)| points[*point as usize].rank != NONE) {
+        if others.iter().all(|(_, point)| points[*point].rank != NONE) {
             return;
         }
         order.clear();
         let old = &mut lines[line as usize].points;
         let mut next = 0;
         for (_, point) in others {
-            let rank = points[*point as usize].rank;
+            let rank = points[*point].rank;
             if rank == NONE {
                 order.push(*point);
             } else {
@@ -233,7 +235,7 @@ impl Showing<'_, '_> {
         }
         order.extend_from_slice(&old[next..]);
         std::mem::swap(old, order);
-        old.iter().enumerate().for_each(|(rank, point)| points[*point as usize].rank = rank as u32);
+        old.iter().enumerate().for_each(|(rank, point)| points[*point].rank = rank as u32);
     }
 
     /// Takes the places of the points at this age.
@@ -243,19 +245,20 @@ impl Showing<'_, '_> {
         let part = half.distance / 3.0_f32.sqrt();
         let colour = [self.nearness.colour; 3];
         let (plant, age) = (self.stems.plant(), self.age);
-        let Lines { lines, points, places, tints, scratch, .. } = &mut *self.lines;
+        let Lines { lines, points, scratch, .. } = &mut *self.lines;
         (lines[line as usize].seen, lines[line as usize].stands) = (age, true);
         for &(place, number) in &scratch.kept {
-            let (sample, state) = (&samples[place as usize], &mut points[number as usize]);
-            (state.seen, state.node) = (age, sample.node);
-            if state.point.tip {
-                state.point.component = plant.nodes.component[sample.node.index()];
-                state.point.kind = plant.kind_of(sample.node);
+            let (sample, State { point, moving, .. }) = (&samples[place as usize], &mut points[number]);
+            let Some(moving) = moving else { continue };
+            (moving.seen, moving.node) = (age, sample.node);
+            if point.tip {
+                point.component = plant.nodes.component[sample.node.index()];
+                point.kind = plant.kind_of(sample.node);
             }
-            if state.point.from < age {
+            if point.from < age {
                 let near = [part, part, part, half.of_radius(sample.radius)];
-                places.take(number, &mut state.place, (age, place_of(sample)), &near);
-                tints.take(number, &mut state.tint, (age, tint_of(sample)), &colour);
+                moving.place.take((age, place_of(sample)), &near);
+                moving.tint.take((age, tint_of(sample)), &colour);
             }
         }
     }
@@ -295,11 +298,9 @@ impl Lines {
         for line in lines.iter_mut().filter(|line| line.stands) {
             line.stands = line.seen == age;
             for &number in line.points.iter().chain([&line.end]) {
-                let state = &mut points[number as usize];
-                if state.point.death.is_infinite() && state.seen != age {
-                    state.point.death = age;
-                    places.keep(number, state.place.end());
-                    tints.keep(number, state.tint.end());
+                let state = &mut points[number];
+                if state.moving.as_ref().is_some_and(|moving| moving.seen != age) {
+                    state.end(age, (places, tints));
                 }
             }
         }
@@ -307,26 +308,25 @@ impl Lines {
 
     /// Writes all lines into a life.
     pub fn finish(mut self, life: &mut Life) {
-        for (number, state) in self.points.iter().enumerate().filter(|(_, state)| state.point.death.is_infinite()) {
-            self.places.keep(number as u32, state.place.end());
-            self.tints.keep(number as u32, state.tint.end());
+        let Self { lines, points, places, tints, .. } = &mut self;
+        points.iter_mut().for_each(|state| state.end(f32::INFINITY, (places, tints)));
+        life.points = Vec::with_capacity(points.len());
+        for Growing { axis, bearer, order, points: own, end, .. } in std::mem::take(lines) {
+            let start = life.points.len();
+            life.points.extend(own.iter().chain([&end]).map(|number| points[*number].point.clone()));
+            life.lines.push(Line { axis, bearer, order, points: start..life.points.len() });
         }
-        let mut tracks = Vec::with_capacity(self.points.len());
-        for Growing { axis, bearer, order, points, end, .. } in &self.lines {
-            let start = tracks.len();
-            tracks.extend(points.iter().chain([end]).copied());
-            life.lines.push(Line { axis: *axis, bearer: *bearer, order: *order, points: start..tracks.len() });
+        (life.places, life.tints_of_points) = (self.places, self.tints);
+    }
+}
+
+impl State {
+    /// Ends a point that stands at an age; its keys have their places from then on.
+    fn end(&mut self, age: f32, (places, tints): (&mut Kept<4>, &mut Kept<3>)) {
+        if let Some(Moving { place, tint, .. }) = self.moving.take().map(|moving| *moving) {
+            self.point.death = age;
+            (self.point.places, self.point.tints) = (places.end(place), tints.end(tint));
         }
-        let (places, of_places) = self.places.sorted(&tracks);
-        let (tints, of_tints) = self.tints.sorted(&tracks);
-        let shift = life.tints.len() as u32;
-        let points = tracks.iter().zip(of_places.into_iter().zip(of_tints)).map(|(track, (places, tints))| {
-            let tints = tints.start + shift..tints.end + shift;
-            Point { places, tints, ..self.points[*track as usize].point.clone() }
-        });
-        life.points = points.collect();
-        life.places = places;
-        life.tints.extend(tints);
     }
 }
 

@@ -4,8 +4,8 @@
 //! goes to the base, to what the two directions move its farthest point, and to its size. Absent: forms, which are
 //! named and not made.
 
-use super::kept::Kept;
-use super::track::Track;
+use super::kept::{Kept, Keyed};
+use super::lists::{Blocks, Places};
 use super::{Life, Nearness, Part, What};
 use phytomer_looks::{Paints, Surface};
 use phytomer_meshes::{Model, OwnForm, Scene, Stems};
@@ -17,10 +17,12 @@ const NONE: u32 = u32::MAX;
 /// The parts of a plant, up to the last age that was shown.
 #[derive(Debug, Clone, Default)]
 pub struct Parts {
-    states: Vec<State>,
-    /// The part of each component by its number.
+    /// All of them, in the order in which they appeared.
+    parts: Blocks<Part>,
+    states: Places<State>,
+    /// The place of each component that stands, by its number.
     of_component: Vec<u32>,
-    /// The parts that stand.
+    /// The places of those that stand.
     standing: Vec<u32>,
     outlines: Vec<Vec<[f32; 3]>>,
     /// The curved surfaces that were met, with their places in the habit.
@@ -33,14 +35,17 @@ pub struct Parts {
 
 #[derive(Debug, Clone)]
 struct State {
-    part: Part,
+    /// Its place among all parts.
+    part: u32,
+    component: u32,
+    what: What,
     seen: f32,
     /// The extent of its outline or surface; 1 for other parts, whose sizes are metres.
     extent: f32,
     /// All that its pose followed from when it was last looked at.
     from: Option<OrganInputs>,
-    pose: Track<12>,
-    tint: Track<3>,
+    pose: Keyed<12>,
+    tint: Keyed<3>,
 }
 
 /// A part as it stands at an age.
@@ -59,7 +64,7 @@ impl Parts {
             let component = organs.component[organ.index()];
             let known = self.known_organ(scene, organ);
             let from = organ_follows_from(scene.plant(), organ, scene.age());
-            if known != NONE && from.is_some() && self.states[known as usize].from == from {
+            if from.is_some() && self.states.get(known).is_some_and(|state| state.from == from) {
                 self.hold(known, scene.organ_colours(organ), age, nearness);
                 continue;
             }
@@ -119,7 +124,7 @@ impl Parts {
     /// The part of a component that stands.
     fn known(&self, component: u32) -> u32 {
         let known = self.of_component.get(component as usize).copied().unwrap_or(NONE);
-        let stands = self.states.get(known as usize).is_some_and(|state| state.part.death.is_infinite());
+        let stands = self.states.get(known).is_some_and(|state| state.component == component);
         if stands { known } else { NONE }
     }
 
@@ -128,9 +133,9 @@ impl Parts {
     fn known_organ(&self, scene: &Scene, organ: OrganId) -> u32 {
         let plant = scene.plant();
         let known = self.known(plant.organs.component[organ.index()]);
-        let Some(state) = self.states.get(known as usize) else { return NONE };
+        let Some(state) = self.states.get(known) else { return NONE };
         let surface = || plant.stated_organs.surface(organ).map(|(place, _)| place);
-        let same = match state.part.what {
+        let same = match state.what {
             What::Organ(form) => form == plant.organs.form[organ.index()] && plant.outline_of(organ).is_empty(),
             What::Outlined(outline) => plant.outline_of(organ) == self.outlines[outline as usize],
             What::Surface(number) => surface() == Some(self.surfaces[number as usize].0),
@@ -164,35 +169,33 @@ impl Parts {
     }
 
     fn begin(&mut self, part: Part, shown: &Shown) {
-        let number = self.states.len() as u32;
-        let (pose, tint) = ((part.from, shown.pose), (part.from, shown.tint));
-        self.poses.keep(number, Some(pose));
-        self.tints.keep(number, Some(tint));
-        let component = part.component as usize;
-        self.of_component.resize(self.of_component.len().max(component + 1), NONE);
-        self.of_component[component] = number;
-        self.standing.push(number);
-        let extent = match part.what {
+        let Part { component, what, from: seen, .. } = part;
+        let extent = match what {
             What::Outlined(outline) => extent_of(self.outlines[outline as usize].iter().copied()),
             What::Surface(surface) => {
                 extent_of(self.surfaces[surface as usize].1.points().iter().map(|point| point.at))
             }
             What::Organ(_) | What::Internode => 1.0,
         };
-        let (pose, tint) = (Track::begin(pose), Track::begin(tint));
-        self.states.push(State { seen: part.from, part, extent, from: shown.from, pose, tint });
+        let (pose, tint) = (Keyed::begin((seen, shown.pose)), Keyed::begin((seen, shown.tint)));
+        let part = self.parts.push(part);
+        let place = self.states.add(State { part, component, what, seen, extent, from: shown.from, pose, tint });
+        let component = component as usize;
+        self.of_component.resize(self.of_component.len().max(component + 1), NONE);
+        self.of_component[component] = place;
+        self.standing.push(place);
     }
 
     /// A part stands as it stood; its colour may change.
-    fn hold(&mut self, number: u32, [blade, _]: [[u8; 4]; 2], age: f32, nearness: Nearness) {
-        let state = &mut self.states[number as usize];
+    fn hold(&mut self, place: u32, [blade, _]: [[u8; 4]; 2], age: f32, nearness: Nearness) {
+        let Some(state) = self.states.get_mut(place) else { return };
         state.seen = age;
         state.pose.hold(age);
-        self.tints.take(number, &mut state.tint, (age, rgb(blade)), &[nearness.colour; 3]);
+        state.tint.take((age, rgb(blade)), &[nearness.colour; 3]);
     }
 
-    fn take(&mut self, number: u32, shown: &Shown, age: f32, nearness: Nearness) {
-        let state = &mut self.states[number as usize];
+    fn take(&mut self, place: u32, shown: &Shown, age: f32, nearness: Nearness) {
+        let Some(state) = self.states.get_mut(place) else { return };
         (state.seen, state.from) = (age, shown.from);
         // A quarter of the tolerance in three coordinates together.
         let part = 0.25 * nearness.distance / 3.0_f32.sqrt();
@@ -200,42 +203,38 @@ impl Parts {
         let reach = (length.max(width).max(tip) * state.extent).max(part);
         let (turn, size) = (part / reach, part / state.extent);
         let near = [part, part, part, turn, turn, turn, turn, turn, turn, size, size, size];
-        self.poses.take(number, &mut state.pose, (age, shown.pose), &near);
-        self.tints.take(number, &mut state.tint, (age, shown.tint), &[nearness.colour; 3]);
+        state.pose.take((age, shown.pose), &near);
+        state.tint.take((age, shown.tint), &[nearness.colour; 3]);
     }
 
     fn end_unseen(&mut self, age: f32) {
-        let Self { states, standing, poses, tints, .. } = self;
-        standing.retain(|number| {
-            let state = &mut states[*number as usize];
-            let stands = state.seen == age;
+        let mut standing = std::mem::take(&mut self.standing);
+        standing.retain(|place| {
+            let stands = self.states.get(*place).is_some_and(|state| state.seen == age);
             if !stands {
-                state.part.death = age;
-                poses.keep(*number, state.pose.end());
-                tints.keep(*number, state.tint.end());
+                self.end(*place, age);
             }
             stands
         });
+        self.standing = standing;
+    }
+
+    /// Ends a part at an age; its keys have their places from then on.
+    fn end(&mut self, place: u32, death: f32) {
+        let Some(state) = self.states.take(place) else { return };
+        let Some(part) = self.parts.get_mut(state.part) else { return };
+        part.death = death;
+        (part.poses, part.tints) = (self.poses.end(state.pose), self.tints.end(state.tint));
     }
 
     /// Writes all parts into a life.
     pub fn finish(mut self, life: &mut Life) {
-        for number in self.standing {
-            self.poses.keep(number, self.states[number as usize].pose.end());
-            self.tints.keep(number, self.states[number as usize].tint.end());
+        for place in std::mem::take(&mut self.standing) {
+            self.end(place, f32::INFINITY);
         }
-        let tracks: Vec<u32> = (0..self.states.len() as u32).collect();
-        let (poses, of_poses) = self.poses.sorted(&tracks);
-        let (tints, of_tints) = self.tints.sorted(&tracks);
-        let shift = life.tints.len() as u32;
-        let parts = self.states.into_iter().zip(of_poses.into_iter().zip(of_tints));
-        let ended = parts.map(|(state, (poses, tints))| {
-            let tints = tints.start + shift..tints.end + shift;
-            Part { poses, tints, ..state.part }
-        });
-        life.parts = ended.collect();
-        life.poses = poses;
-        life.tints.extend(tints);
+        drop(self.states);
+        life.parts = self.parts.into_list();
+        (life.poses, life.tints_of_parts) = (self.poses, self.tints);
         life.outlines = self.outlines;
         life.stems = self.stems.into_iter().map(|(_, model)| model).collect();
         life.surfaces = self.surfaces.into_iter().map(|(_, surface)| surface).collect();

@@ -67,6 +67,12 @@ impl<const N: usize> Track<N> {
         if self.held > self.last.0 { self.add(self.held, self.last.1, tolerance) } else { None }
     }
 
+    /// The last key.
+    #[inline]
+    pub fn key(&self) -> Key<N> {
+        self.key
+    }
+
     /// The values that were taken last.
     pub fn latest(&self) -> [f32; N] {
         self.last.1
@@ -82,12 +88,28 @@ impl<const N: usize> Track<N> {
 /// The values at an age between keys, which must be in the order of their ages and at least one: linear between two,
 /// the first before all, the last after all.
 pub fn between<const N: usize>(keys: &[Key<N>], age: f32) -> [f32; N] {
-    let after = keys.partition_point(|(at, _)| *at <= age);
+    some_between(keys, age, 0)
+}
+
+/// As [`between`], of the values from a place on.
+#[inline]
+pub fn some_between<const N: usize, const M: usize>(keys: &[Key<N>], age: f32, first: usize) -> [f32; M] {
+    let after = first_after(keys, age);
     let (Some((from, low)), Some((to, high))) = (keys.get(after.wrapping_sub(1)), keys.get(after)) else {
-        return keys.get(after.saturating_sub(1)).map_or([0.0; N], |(_, values)| *values);
+        let held = keys.get(after.saturating_sub(1));
+        return held.map_or([0.0; M], |(_, values)| std::array::from_fn(|k| values[first + k]));
     };
     let share = (age - from) / (to - from);
-    std::array::from_fn(|k| low[k] + share * (high[k] - low[k]))
+    std::array::from_fn(|k| low[first + k] + share * (high[first + k] - low[first + k]))
+}
+
+/// The place of the first key after an age. Most tracks have few keys, and most ages are after all of them.
+#[inline]
+fn first_after<const N: usize>(keys: &[Key<N>], age: f32) -> usize {
+    if keys.last().is_some_and(|(at, _)| *at <= age) {
+        return keys.len();
+    }
+    keys.partition_point(|(at, _)| *at <= age)
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ mod forms;
 mod hosts;
 mod html;
 mod parts;
+mod roll;
 mod streams;
 mod table;
 #[cfg(test)]
@@ -159,7 +160,7 @@ impl Page {
         let header = json!({
             "format": 1, "version": env!("CARGO_PKG_VERSION"), "title": self.title, "note": self.note,
             "run": self.run, "seed": self.seed.to_string(), "tolerance_m": self.tolerance, "of_plot": self.of_plot,
-            "step_m": scale.step, "octave": OCTAVE, "least": LEAST, "near": scale.near,
+            "step_m": scale.step, "turn": roll::STEPS, "octave": OCTAVE, "least": LEAST, "near": scale.near,
             "ages": self.ages.iter().map(|(age, _)| *age).collect::<Vec<f32>>(),
             "captions": self.ages.iter().map(|(_, caption)| caption.as_str()).collect::<Vec<&str>>(),
             "events": self.events, "columns": self.columns.iter().map(of_column).collect::<Vec<Value>>(),

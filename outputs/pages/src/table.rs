@@ -6,6 +6,7 @@
 //! steps: with rounding, three parts in a hundred. Memory does not grow with the number of ages, but with what changes.
 //! Absent: which columns there are, and where their values come from.
 
+use super::roll;
 use super::streams::{Last, Stream, Streams, logarithmic};
 use phytomer_life::{Key, Track};
 use std::collections::BTreeMap;
@@ -63,12 +64,20 @@ enum Values {
     Tracked(Vec<(u32, Track<1>)>, Vec<(u32, Key<1>)>),
 }
 
+impl Default for Values {
+    fn default() -> Self {
+        Self::Held(Vec::new(), Vec::new())
+    }
+}
+
 /// The rows of a plant.
 #[derive(Debug, Clone, Default)]
 pub struct Table {
     ages: Vec<f32>,
     spans: Vec<Span>,
     columns: Vec<Values>,
+    /// How internodes are turned about their directions.
+    rolls: Values,
     /// The column of the kinds.
     kind: Option<usize>,
 }
@@ -78,7 +87,7 @@ impl Table {
     pub fn new(columns: &[Column]) -> Self {
         let of = |column: &Column| match column.holds {
             Holds::Real => Values::Tracked(Vec::new(), Vec::new()),
-            _ => Values::Held(Vec::new(), Vec::new()),
+            _ => Values::default(),
         };
         let kept = || columns.iter().filter(|column| column.kept);
         let kind = kept().position(|column| column.name == "kind");
@@ -105,6 +114,15 @@ impl Table {
         for (values, value) in self.columns.iter_mut().zip(values) {
             values.take((component, now, first), value);
         }
+    }
+
+    /// Where an internode points that has a row of the present age, and where its upper side is: unit vectors.
+    pub fn turned(&mut self, component: u32, heading: [f64; 3], up: [f64; 3]) {
+        let Some(now) = (self.ages.len() as u32).checked_sub(1) else { return };
+        let Values::Held(last, _) = &self.rolls else { return };
+        let last = last.get(component as usize).copied().filter(|last| *last >= 0);
+        let number = roll::number(heading, up, last);
+        self.rolls.take((component, now, last.is_none()), f64::from(number));
     }
 
     /// The number of components.
@@ -163,6 +181,7 @@ impl Table {
         for (number, values) in self.columns.into_iter().enumerate() {
             values.write(&format!("{name}.{number}"), &kinds, &|number| place(self.ages[number as usize]), streams);
         }
+        self.rolls.write(&format!("{name}.roll"), &kinds, &|number| place(self.ages[number as usize]), streams);
     }
 }
 

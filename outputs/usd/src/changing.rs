@@ -5,58 +5,80 @@
 //! since what lives has the largest number of 32 bits for its death.
 
 use super::course::{Course, State};
-use super::layer::{Attribute, Data, Layer, Value, Values};
+use super::layer::{Attribute, Data, Layer, List, Value, Values};
 use super::paint::{self, Palette};
 use std::io;
+use std::sync::{Mutex, PoisonError};
 
 /// The age of death of what lives.
 pub const LIVES: i32 = i32::MAX;
 
-/// The vertices of a topology, by what they belong to.
-#[derive(Debug, Default)]
-pub struct Tags {
+/// What is told of vertices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tag {
     /// Component numbers.
-    pub components: Vec<i32>,
+    Component,
     /// Ages of birth.
-    pub births: Vec<i32>,
+    Birth,
     /// Ages of death.
-    pub deaths: Vec<i32>,
+    Death,
 }
 
-/// The faces of a topology.
-#[derive(Debug, Default)]
-pub struct Faces {
+/// What is told of the vertices of a topology, vertex by vertex.
+#[derive(Debug)]
+pub struct Tags(Tag, Vec<i32>);
+
+/// What is told of faces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Told {
     /// The number of corners of each.
-    pub counts: Vec<i32>,
+    Counts,
     /// The corners, by their vertices.
-    pub corners: Vec<i32>,
+    Corners,
+}
+
+/// What is told of the faces of a topology.
+#[derive(Debug)]
+pub struct Faces {
+    told: Told,
+    list: Vec<i32>,
+    corners: usize,
 }
 
 impl Faces {
     /// Adds a face.
+    #[inline]
     pub fn add<const N: usize>(&mut self, corners: [usize; N]) {
         self.add_all(corners.into_iter());
     }
 
     /// Adds a face of any number of corners.
+    #[inline]
     pub fn add_all(&mut self, corners: impl ExactSizeIterator<Item = usize>) {
-        self.counts.push(corners.len() as i32);
-        self.corners.extend(corners.map(|corner| corner as i32));
+        self.corners += corners.len();
+        match self.told {
+            Told::Counts => self.list.push(corners.len() as i32),
+            Told::Corners => self.list.extend(corners.map(|corner| corner as i32)),
+        }
     }
 }
 
 impl Tags {
     /// Adds vertices of a component.
     pub fn add(&mut self, vertices: usize, component: u32, birth: f32, death: f32) {
-        let end = |list: &mut Vec<i32>, value: i32| list.resize(list.len() + vertices, value);
-        end(&mut self.components, component as i32);
-        end(&mut self.births, birth as i32);
-        end(&mut self.deaths, if death.is_finite() { death.ceil() as i32 } else { LIVES });
+        let Self(tag, list) = self;
+        let value = match tag {
+            Tag::Component => component as i32,
+            Tag::Birth => birth as i32,
+            Tag::Death if death.is_finite() => death.ceil() as i32,
+            Tag::Death => LIVES,
+        };
+        list.resize(list.len() + vertices, value);
     }
 }
 
 /// A mesh that changes along a course.
-pub trait Changing {
+pub trait Changing: Sync {
     /// The faces of a span.
     fn faces(&self, span: usize, faces: &mut Faces);
     /// What the vertices of a span belong to.
@@ -104,40 +126,42 @@ pub fn put(
     layer: &mut dyn Layer,
     attribute: Attribute,
     times: Option<&[(f64, usize)]>,
-    values: &mut Values,
+    values: &Values,
 ) -> io::Result<()> {
     match times {
         Some(times) => layer.attribute(attribute, Value::Timed(times, values)),
-        None => values(0, &mut |data| layer.attribute(attribute, Value::Always(data))),
+        None => layer.attribute(attribute, Value::Always(values(0)?.data())),
     }
 }
 
 fn write_faces(layer: &mut dyn Layer, mesh: &dyn Changing, course: &Course) -> io::Result<()> {
     let times = course.of_spans().map(Vec::as_slice);
-    let faces = |span: usize| {
-        let mut faces = Faces::default();
+    let faces = |span: usize, told: Told| {
+        let mut faces = Faces { told, list: Vec::new(), corners: 0 };
         mesh.faces(span, &mut faces);
-        if i32::try_from(faces.corners.len()).is_err() {
+        if i32::try_from(faces.corners).is_err() {
             return Err(io::Error::other("more than 2147483647 corners of faces: choose a larger tolerance"));
         }
-        Ok(faces)
+        Ok(List::Ints(faces.list))
     };
     let counts = Attribute::new("faceVertexCounts", "int[]");
-    put(layer, counts, times, &mut |span, take| take(Data::Ints(&faces(span)?.counts)))?;
+    put(layer, counts, times, &|span| faces(span, Told::Counts))?;
     let corners = Attribute::new("faceVertexIndices", "int[]");
-    put(layer, corners, times, &mut |span, take| take(Data::Ints(&faces(span)?.corners)))
+    put(layer, corners, times, &|span| faces(span, Told::Corners))
 }
 
 fn write_points(layer: &mut dyn Layer, mesh: &dyn Changing, course: &Course) -> io::Result<()> {
     let times = course.of_states().map(Vec::as_slice);
-    let (mut points, mut extents) = (Vec::new(), vec![[[0.0; 3]; 2]; course.states.len()]);
-    put(layer, Attribute::new("points", "point3f[]"), times, &mut |state, take| {
-        points.clear();
+    let extents = Mutex::new(vec![[[0.0; 3]; 2]; course.states.len()]);
+    put(layer, Attribute::new("points", "point3f[]"), times, &|state| {
+        let mut points = Vec::new();
         mesh.points(course.states[state], &mut points);
-        extents[state] = extent(points.iter().copied());
-        take(Data::Triples(&points))
+        let found = extent(points.iter().copied());
+        extents.lock().unwrap_or_else(PoisonError::into_inner)[state] = found;
+        Ok(List::Triples(points))
     })?;
-    put(layer, Attribute::new("extent", "float3[]"), times, &mut |state, take| take(Data::Triples(&extents[state])))
+    let extents = extents.into_inner().unwrap_or_else(PoisonError::into_inner);
+    put(layer, Attribute::new("extent", "float3[]"), times, &|state| Ok(List::Triples(extents[state].to_vec())))
 }
 
 /// The least and the largest coordinates of some points.
@@ -151,11 +175,15 @@ pub fn extent(points: impl Iterator<Item = [f32; 3]>) -> [[f32; 3]; 2] {
 
 fn write_tags(layer: &mut dyn Layer, mesh: &dyn Changing, course: &Course) -> io::Result<()> {
     let times = course.of_spans().map(Vec::as_slice);
-    for (place, name) in ["primvars:component_id", "primvars:birth_age", "primvars:death_age"].into_iter().enumerate() {
-        put(layer, Attribute::over(name, "int[]", "vertex"), times, &mut |span, take| {
-            let mut tags = Tags::default();
+    for (tag, name) in [
+        (Tag::Component, "primvars:component_id"),
+        (Tag::Birth, "primvars:birth_age"),
+        (Tag::Death, "primvars:death_age"),
+    ] {
+        put(layer, Attribute::over(name, "int[]", "vertex"), times, &|span| {
+            let mut tags = Tags(tag, Vec::new());
             mesh.tags(span, &mut tags);
-            take(Data::Ints([&tags.components, &tags.births, &tags.deaths][place]))
+            Ok(List::Ints(tags.1))
         })?;
     }
     Ok(())
@@ -169,12 +197,11 @@ fn write_colours(layer: &mut dyn Layer, mesh: &dyn Changing, course: &Course) ->
     let colours = Attribute::over("primvars:displayColor", "color3f[]", "vertex");
     layer.attribute(colours, Value::Always(Data::Triples(palette.colours())))?;
     let times = course.of_held().map(Vec::as_slice);
-    let mut places = Vec::new();
-    put(layer, Attribute::new("primvars:displayColor:indices", "int[]"), times, &mut |state, take| {
-        places.clear();
+    put(layer, Attribute::new("primvars:displayColor:indices", "int[]"), times, &|state| {
+        let (mut places, mut palette) = (Vec::new(), palette.clone());
         mesh.colours(course.states[state], &mut |vertices, colour| {
             places.resize(places.len() + vertices, palette.place(colour));
         });
-        take(Data::Ints(&places))
+        Ok(List::Ints(places))
     })
 }

@@ -1,9 +1,9 @@
 //! What a USD layer is made of: prims in a tree, with attributes, relationships and connections.
 //!
 //! A [`Layer`] is written from its first prim to its last, and each attribute as a whole, so that memory holds one
-//! value at a time. A value that changes is asked for by its number, once for each different value in a binary file,
-//! and once for each time in a text. Absent: what the prims mean, which is the schemas' of USD and of the writers
-//! above.
+//! value at a time, or two. A value that changes is asked for by its number, once for each different value in a binary
+//! file, where two are made at a time, and once for each time in a text. Absent: what the prims mean, which is the
+//! schemas' of USD and of the writers above.
 
 use std::io;
 
@@ -81,14 +81,42 @@ pub enum Value<'v, 'd> {
     None,
     /// The same at all times.
     Always(Data<'d>),
-    /// At each of some times the value of a number, and a function that hands on the value of each number.
-    Timed(&'v [(f64, usize)], &'v mut Values<'v>),
+    /// At each of some times the value of a number, and a function that makes the value of each number.
+    Timed(&'v [(f64, usize)], &'v Values<'v>),
     /// That of another attribute, by its path.
     Of(&'v str),
 }
 
-/// Hands the value of a number on.
-pub type Values<'v> = dyn FnMut(usize, &mut dyn FnMut(Data) -> io::Result<()>) -> io::Result<()> + 'v;
+/// Makes the value of a number; two threads may ask at once.
+pub type Values<'v> = dyn Fn(usize) -> io::Result<List> + Sync + 'v;
+
+/// A value that is a list, and belongs to who has it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum List {
+    /// Whole numbers.
+    Ints(Vec<i32>),
+    /// Whole numbers of 64 bits.
+    Longs(Vec<i64>),
+    /// Numbers.
+    Floats(Vec<f32>),
+    /// Triples.
+    Triples(Vec<[f32; 3]>),
+    /// Rotations as the bits of half precision: x, y, z and the real part.
+    Turns(Vec<[u16; 4]>),
+}
+
+impl List {
+    /// The value.
+    pub fn data(&self) -> Data<'_> {
+        match self {
+            Self::Ints(list) => Data::Ints(list),
+            Self::Longs(list) => Data::Longs(list),
+            Self::Floats(list) => Data::Floats(list),
+            Self::Triples(list) => Data::Triples(list),
+            Self::Turns(list) => Data::Turns(list),
+        }
+    }
+}
 
 /// A layer that is being written.
 pub trait Layer {

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::io;
 
 /// The colours of surfaces, each once.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Palette {
     places: BTreeMap<[u8; 3], i32>,
     colours: Vec<[f32; 3]>,

@@ -6,7 +6,7 @@
 
 use super::changing::{Changing, Faces, Tags, extent, put};
 use super::course::{Course, State};
-use super::layer::{Attribute, Data, Layer};
+use super::layer::{Attribute, Layer, List};
 use super::models::{self, rgb};
 use super::skeleton::Skeleton;
 use glam::{Quat, Vec3};
@@ -34,12 +34,37 @@ pub struct Parts<'a> {
 
 /// A part at a state.
 struct Standing<'a> {
-    life: usize,
+    skeleton: &'a Skeleton<'a>,
+    member: &'a Member,
+    /// Its place in the life.
+    place: usize,
     part: &'a Part,
-    pose: Pose,
-    tint: [f32; 3],
+    age: f32,
     /// What is to come has no size.
     is_there: bool,
+}
+
+impl Standing<'_> {
+    /// Where its base is.
+    fn base(&self) -> [f32; 3] {
+        self.placed(self.skeleton.life.base_at(self.part, self.age))
+    }
+
+    /// Its pose.
+    fn pose(&self) -> Pose {
+        let pose = self.skeleton.life.pose_at(self.part, self.age);
+        Pose { base: self.placed(pose.base), ..pose }
+    }
+
+    /// A base where the plant stands, or where what is to come waits.
+    fn placed(&self, base: [f32; 3]) -> [f32; 3] {
+        let base = if self.is_there { base } else { self.skeleton.waits(self.place) };
+        std::array::from_fn(|k| base[k] + self.member.offset[k])
+    }
+
+    fn tint(&self) -> [f32; 3] {
+        between(self.skeleton.life.tints_of_part(self.part), self.age)
+    }
 }
 
 impl<'a> Parts<'a> {
@@ -65,14 +90,7 @@ impl<'a> Parts<'a> {
         self.of_span(state.span).map(move |(member, place, part)| {
             let skeleton = &self.skeletons[member.life];
             let age = skeleton.life.ages[state.age];
-            let is_there = part.from <= age;
-            let mut pose = skeleton.life.pose_at(part, age);
-            if !is_there {
-                pose.base = skeleton.waits(place);
-            }
-            pose.base = std::array::from_fn(|k| pose.base[k] + member.offset[k]);
-            let tint = between(skeleton.life.tints_of_part(part), age);
-            Standing { life: member.life, part, pose, tint, is_there }
+            Standing { skeleton, member, place, part, age, is_there: part.from <= age }
         })
     }
 
@@ -87,25 +105,20 @@ impl<'a> Parts<'a> {
         layer.relationship("prototypes", &models.collect::<Vec<_>>())?;
         self.write_places(layer, course)?;
         let held = course.of_held().map(Vec::as_slice);
-        put(layer, Attribute::new("protoIndices", "int[]"), held, &mut |state, take| {
-            let of = |part: Standing| self.models.place(part.life, part.part, part.tint) as i32;
-            take(Data::Ints(&self.at_state(course.states[state]).map(of).collect::<Vec<_>>()))
+        put(layer, Attribute::new("protoIndices", "int[]"), held, &|state| {
+            let of = |part: Standing| self.models.place(part.member.life, part.part, part.tint()) as i32;
+            Ok(List::Ints(self.at_state(course.states[state]).map(of).collect()))
         })?;
         let spans = course.of_spans().map(Vec::as_slice);
-        put(layer, Attribute::new("ids", "int64[]"), spans, &mut |span, take| {
+        put(layer, Attribute::new("ids", "int64[]"), spans, &|span| {
             let ids = self.of_span(span).map(|(member, _, part)| member.id_of(part.component));
-            take(Data::Longs(&ids.collect::<Vec<_>>()))
+            Ok(List::Longs(ids.collect()))
         })?;
         if let Some(columns) = self.columns.filter(|columns| columns.names().contains(&UNTIL)) {
-            put(
-                layer,
-                Attribute::over(&format!("primvars:{UNTIL}"), "float[]", "vertex"),
-                spans,
-                &mut |span, take| {
-                    let until = self.of_span(span).map(|(_, _, part)| columns.until_of(part.component));
-                    take(Data::Floats(&until.collect::<Vec<_>>()))
-                },
-            )?;
+            put(layer, Attribute::over(&format!("primvars:{UNTIL}"), "float[]", "vertex"), spans, &|span| {
+                let until = self.of_span(span).map(|(_, _, part)| columns.until_of(part.component));
+                Ok(List::Floats(until.collect()))
+            })?;
         }
         layer.begin("Scope", "models", &[])?;
         models::write(self.models, layer, root)?;
@@ -116,26 +129,27 @@ impl<'a> Parts<'a> {
     fn write_places(&self, layer: &mut dyn Layer, course: &Course) -> io::Result<()> {
         let times = course.of_states().map(Vec::as_slice);
         let of = |state: usize| self.at_state(course.states[state]);
-        put(layer, Attribute::new("positions", "point3f[]"), times, &mut |state, take| {
-            take(Data::Triples(&of(state).map(|part| part.pose.base).collect::<Vec<_>>()))
+        put(layer, Attribute::new("positions", "point3f[]"), times, &|state| {
+            Ok(List::Triples(of(state).map(|part| part.base()).collect()))
         })?;
-        put(layer, Attribute::new("orientations", "quath[]"), times, &mut |state, take| {
+        put(layer, Attribute::new("orientations", "quath[]"), times, &|state| {
             let turn = |part: Standing| {
-                Quat::from_mat3(&part.pose.turn()).normalize().to_array().map(|part| f16::from_f32(part).to_bits())
+                let pose = part.skeleton.life.pose_at(part.part, part.age);
+                Quat::from_mat3(&pose.turn()).normalize().to_array().map(|part| f16::from_f32(part).to_bits())
             };
-            take(Data::Turns(&of(state).map(turn).collect::<Vec<_>>()))
+            Ok(List::Turns(of(state).map(turn).collect()))
         })?;
-        put(layer, Attribute::new("scales", "float3[]"), times, &mut |state, take| {
-            take(Data::Triples(&of(state).map(|part| self.scale(&part)).collect::<Vec<_>>()))
+        put(layer, Attribute::new("scales", "float3[]"), times, &|state| {
+            Ok(List::Triples(of(state).map(|part| self.scale(&part)).collect()))
         })?;
-        put(layer, Attribute::new("extent", "float3[]"), times, &mut |state, take| {
-            take(Data::Triples(&self.extent_of(of(state))))
+        put(layer, Attribute::new("extent", "float3[]"), times, &|state| {
+            Ok(List::Triples(self.extent_of(of(state)).to_vec()))
         })
     }
 
     fn scale(&self, part: &Standing) -> [f32; 3] {
-        let model = self.models.form(part.life, part.part).filter(|_| part.is_there);
-        model.map_or([0.0; 3], |model| model.scale(part.pose.size, part.part.fullness))
+        let model = self.models.form(part.member.life, part.part).filter(|_| part.is_there);
+        model.map_or([0.0; 3], |model| model.scale(part.skeleton.life.size_at(part.part, part.age), part.part.fullness))
     }
 
     /// The least and the largest coordinates of some parts. The vertices of a part are made only where the ball that
@@ -143,8 +157,9 @@ impl<'a> Parts<'a> {
     fn extent_of(&self, parts: impl Iterator<Item = Standing<'a>>) -> [[f32; 3]; 2] {
         let [mut low, mut high] = [Vec3::INFINITY, Vec3::NEG_INFINITY];
         for part in parts {
-            let base = Vec3::from_array(part.pose.base);
-            let reach = self.models.reach(part.life, part.part) * Vec3::from_array(part.pose.size).abs().max_element();
+            let base = Vec3::from_array(part.base());
+            let size = Vec3::from_array(part.skeleton.life.size_at(part.part, part.age));
+            let reach = self.models.reach(part.member.life, part.part) * size.abs().max_element();
             let reach = reach * part.part.fullness.max(1.0) + ROUNDING * (base.abs().max_element() + reach);
             if (base - reach).cmplt(low).any() || (base + reach).cmpgt(high).any() {
                 self.each_point(&part, &mut |point| {
@@ -158,10 +173,11 @@ impl<'a> Parts<'a> {
 
     /// The vertices of a part where they stand.
     fn each_point(&self, part: &Standing, see: &mut dyn FnMut([f32; 3])) {
-        let Some(model) = self.models.form(part.life, part.part) else { return };
-        let (turn, base) = (part.pose.turn(), Vec3::from_array(part.pose.base));
+        let Some(model) = self.models.form(part.member.life, part.part) else { return };
+        let pose = part.pose();
+        let (turn, base) = (pose.turn(), Vec3::from_array(pose.base));
         for vertex in &model.mesh.vertices {
-            let at = model.at(vertex.position(), part.pose.size, part.part.fullness);
+            let at = model.at(vertex.position(), pose.size, part.part.fullness);
             let at = if part.is_there { base + turn * Vec3::from_array(at) } else { base };
             see(at.to_array());
         }
@@ -194,7 +210,7 @@ impl Changing for Parts<'_> {
 
     fn colours(&self, state: State, paint: &mut dyn FnMut(usize, [u8; 3])) {
         for part in self.at_state(state) {
-            let place = self.models.place(part.life, part.part, part.tint);
+            let place = self.models.place(part.member.life, part.part, part.tint());
             let model = self.models.made().get(place).map_or(&[][..], |(_, model)| &model.mesh.vertices);
             for vertex in model {
                 paint(1, rgb(vertex));

@@ -84,12 +84,12 @@ impl<W: Write> Text<W> {
         writeln!(self.out)
     }
 
-    fn timed(&mut self, times: &[(f64, usize)], values: &mut Values) -> io::Result<()> {
+    fn timed(&mut self, times: &[(f64, usize)], values: &Values) -> io::Result<()> {
         writeln!(self.out, " = {{")?;
         for (time, number) in times {
             self.indent()?;
             write!(self.out, "    {time}: ")?;
-            values(*number, &mut |data| put(&mut self.out, data))?;
+            put(&mut self.out, values(*number)?.data())?;
             writeln!(self.out, ",")?;
         }
         self.indent()?;

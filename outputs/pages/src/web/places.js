@@ -21,9 +21,17 @@ const Places = (() => {
         standing.find((points) => points.length > 1);
       if (!found) return null;
       const [tag] = this.table.header.kinds[this.table.kinds[component]];
-      return tag.endsWith('bud')
-        ? this.between(found, found.length - 2, 1)
-        : this.ofInternode(found, component, number);
+      if (!tag.endsWith('bud')) return this.turned(this.ofInternode(found, component, number), component, number);
+      // A bud has the directions of the last internode of its axis.
+      const axis = this.table.internodes(this.table.axes[component]);
+      const last = axis.filter((internode) => this.table.stands(internode, number)).at(-1);
+      return this.turned(this.between(found, found.length - 2, 1), last, number);
+    }
+
+    // What is found of an internode, with its upper side.
+    turned(found, component, number) {
+      const upper = component === undefined ? null : this.table.upper(component, number, found.heading);
+      return upper ? { ...found, upper } : found;
     }
 
     ofPart(part, number) {

@@ -43,6 +43,30 @@ const Records = (() => {
       this.axes = this.firsts('axis_id');
       this.ranks = this.firsts('rank');
       this.ofAxis = null;
+      this.rolls = this.readRolls(data, `${name}.row.roll`);
+    }
+
+    // How internodes are turned about their directions: whole numbers that hold to the next.
+    readRolls(data, name) {
+      const begin = Data.starts(data.stream(`${name}.counts`));
+      const ages = Data.keyAges(begin, this.from, data.stream(`${name}.ages`));
+      return { begin, ages, values: Data.keyValues(begin, data.stream(`${name}.values`), null) };
+    }
+
+    // The upper side of an internode that points along a unit vector, at the age of a number; null where it is not told.
+    upper(component, number, [x, y, z]) {
+      const { begin, ages, values } = this.rolls;
+      const [first, end] = [begin[component], begin[component + 1]];
+      if (first === end) return null;
+      const roll = values[Math.max(lastUpTo(ages, first, end, number), first)];
+      const steps = this.header.turn;
+      const pole = roll < steps ? 1 : -1;
+      const near = Math.max(1 + pole * z, Number.MIN_VALUE);
+      // The axis x, turned as the vertical is turned into the direction along the shorter arc, and what is across both.
+      const a = [1 - (x * x) / near, (-x * y) / near, -pole * x];
+      const b = [y * a[2] - z * a[1], z * a[0] - x * a[2], x * a[1] - y * a[0]];
+      const turn = ((roll % steps) / steps) * 2 * Math.PI;
+      return a.map((of, k) => Math.cos(turn) * of + Math.sin(turn) * b[k]);
     }
 
     get length() {

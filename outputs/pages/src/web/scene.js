@@ -153,7 +153,7 @@ const Scenery = (() => {
           one,
           wood.components[i],
           () => wood.colours(i, this.number, this.next),
-          this.drawnPoint(wood, standing, k),
+          this.drawnPoint(one, standing, k),
         );
         writer.words[at + 8] = (now & 0xffffff) | (flags << 24);
         writer.words[at + 9] = next & 0xffffff;
@@ -164,11 +164,12 @@ const Scenery = (() => {
       });
     }
 
-    drawnPoint(wood, standing, k) {
+    drawnPoint({ wood, table }, standing, k) {
       if (!this.colouring) return null;
       const [i, after] = [standing[k], standing[Math.min(k + 1, standing.length - 1)]];
       const place = [0, 1, 2].map((c) => wood.next[4 * i + c]);
-      return { place, heading: Light.unit(place.map((x, c) => wood.next[4 * after + c] - x)) };
+      const heading = Light.unit(place.map((x, c) => wood.next[4 * after + c] - x));
+      return { place, heading, upper: table.upper(wood.components[i], this.next, heading) };
     }
 
     // The area of a tube for the light of the sky: a quarter of its surface.

@@ -4,8 +4,6 @@
 //! follows in one of three sizes, 1, 2 and 4 bytes, or 2, 4 and 8 of numbers of 64 bits. First come the commonest
 //! difference and all codes, four a byte from its low end, then the differences.
 
-use std::collections::BTreeMap;
-
 /// The most bytes of a block of LZ4; larger content is cut into several.
 const LARGEST_BLOCK: usize = 0x7E00_0000;
 
@@ -14,74 +12,65 @@ const SAMPLED: usize = 4096;
 
 /// Packs numbers.
 pub fn pack(numbers: &[i32]) -> Vec<u8> {
-    let mut last = 0_i32;
-    let differences: Vec<i32> =
-        numbers.iter().map(|number| number.wrapping_sub(std::mem::replace(&mut last, *number))).collect();
-    let common = commonest(differences.iter().map(|difference| i64::from(*difference)), differences.len()) as i32;
-    let mut coded = Coded::of(&common.to_le_bytes(), differences.len());
-    for difference in differences {
-        match (difference == common, i8::try_from(difference), i16::try_from(difference)) {
-            (true, ..) => coded.put(0, &[]),
-            (_, Ok(small), _) => coded.put(1, &small.to_le_bytes()),
-            (_, _, Ok(small)) => coded.put(2, &small.to_le_bytes()),
-            _ => coded.put(3, &difference.to_le_bytes()),
-        }
-    }
-    compress(&coded.finish())
+    let difference = |at: usize| numbers[at].wrapping_sub(if at == 0 { 0 } else { numbers[at - 1] });
+    let common = commonest(|at| i64::from(difference(at)), numbers.len()) as i32;
+    let code = |difference: i32| {
+        let sizes = 1 + u8::from(i8::try_from(difference).is_err()) + u8::from(i16::try_from(difference).is_err());
+        if difference == common { 0 } else { sizes }
+    };
+    let bytes = |at: usize| {
+        let difference = difference(at);
+        (code(difference), difference.to_le_bytes())
+    };
+    coded(&common.to_le_bytes(), numbers.len(), [0, 1, 2, 4], bytes)
 }
 
 /// Packs numbers of 64 bits.
 pub fn pack_longs(numbers: &[i64]) -> Vec<u8> {
-    let mut last = 0_i64;
-    let differences: Vec<i64> =
-        numbers.iter().map(|number| number.wrapping_sub(std::mem::replace(&mut last, *number))).collect();
-    let common = commonest(differences.iter().copied(), differences.len());
-    let mut coded = Coded::of(&common.to_le_bytes(), differences.len());
-    for difference in differences {
-        match (difference == common, i16::try_from(difference), i32::try_from(difference)) {
-            (true, ..) => coded.put(0, &[]),
-            (_, Ok(small), _) => coded.put(1, &small.to_le_bytes()),
-            (_, _, Ok(small)) => coded.put(2, &small.to_le_bytes()),
-            _ => coded.put(3, &difference.to_le_bytes()),
-        }
-    }
-    compress(&coded.finish())
+    let difference = |at: usize| numbers[at].wrapping_sub(if at == 0 { 0 } else { numbers[at - 1] });
+    let common = commonest(difference, numbers.len());
+    let code = |difference: i64| {
+        let sizes = 1 + u8::from(i16::try_from(difference).is_err()) + u8::from(i32::try_from(difference).is_err());
+        if difference == common { 0 } else { sizes }
+    };
+    let bytes = |at: usize| {
+        let difference = difference(at);
+        (code(difference), difference.to_le_bytes())
+    };
+    coded(&common.to_le_bytes(), numbers.len(), [0, 2, 4, 8], bytes)
 }
 
 /// The commonest of some numbers, the largest of equals.
-fn commonest(numbers: impl Iterator<Item = i64>, count: usize) -> i64 {
-    let mut counts: BTreeMap<i64, usize> = BTreeMap::new();
-    for number in numbers.step_by(count.div_ceil(SAMPLED).max(1) | 1) {
-        *counts.entry(number).or_default() += 1;
-    }
-    counts.into_iter().max_by_key(|(number, count)| (*count, *number)).map_or(0, |(number, _)| number)
+fn commonest(number: impl Fn(usize) -> i64, count: usize) -> i64 {
+    let mut sample: Vec<i64> = (0..count).step_by(count.div_ceil(SAMPLED).max(1) | 1).map(number).collect();
+    sample.sort_unstable();
+    let runs = sample.chunk_by(|a, b| a == b).map(|run| (run.len(), run[0]));
+    runs.max().map_or(0, |(_, number)| number)
 }
 
-/// Codes and differences in the making.
-struct Coded {
-    bytes: Vec<u8>,
-    /// Where the codes begin.
-    codes: usize,
+/// Packs the codes of so many differences and their first bytes, which are `sizes` of each code.
+fn coded<const N: usize>(
+    common: &[u8],
     count: usize,
-}
-
-impl Coded {
-    fn of(common: &[u8], numbers: usize) -> Self {
-        let mut bytes = common.to_vec();
-        bytes.resize(common.len() + numbers.div_ceil(4), 0);
-        Self { bytes, codes: common.len(), count: 0 }
+    sizes: [usize; 4],
+    difference: impl Fn(usize) -> (u8, [u8; N]),
+) -> Vec<u8> {
+    let codes = common.len();
+    let mut end = codes + count.div_ceil(4);
+    // All bytes of each difference are written, and the next one begins behind those that count.
+    let mut bytes = vec![0; end + N * count];
+    bytes[..codes].copy_from_slice(common);
+    for first in (0..count).step_by(4) {
+        let mut four = 0;
+        for place in first..count.min(first + 4) {
+            let (code, difference) = difference(place);
+            four |= code << (2 * (place - first));
+            bytes[end..end + N].copy_from_slice(&difference);
+            end += sizes[usize::from(code)];
+        }
+        bytes[codes + first / 4] = four;
     }
-
-    #[inline]
-    fn put(&mut self, code: u8, difference: &[u8]) {
-        self.bytes[self.codes + self.count / 4] |= code << (2 * (self.count % 4));
-        self.count += 1;
-        self.bytes.extend_from_slice(difference);
-    }
-
-    fn finish(self) -> Vec<u8> {
-        self.bytes
-    }
+    compress(&bytes[..end])
 }
 
 /// Packs bytes with LZ4: a zero and one block, or the number of blocks and each with its length.

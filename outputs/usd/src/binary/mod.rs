@@ -13,7 +13,7 @@ mod ints;
 mod tables;
 mod values;
 
-use super::layer::{Attribute, Data, Header, Layer, Value};
+use super::layer::{Attribute, Data, Header, Layer, List, Value, Values as Make};
 use phytomer_meshes::Patched;
 use std::io;
 use tables::{ROOT, Spec, Tables};
@@ -34,6 +34,26 @@ struct Open {
     fields: Vec<Field>,
     properties: Vec<u32>,
     children: Vec<u32>,
+}
+
+/// A list as it is written.
+enum Packed {
+    /// As it is in memory.
+    Plain(List),
+    /// So many whole numbers.
+    Ints(usize, Vec<u8>),
+    /// So many whole numbers of 64 bits.
+    Longs(usize, Vec<u8>),
+}
+
+impl Packed {
+    fn of(list: List) -> Self {
+        match &list {
+            List::Ints(numbers) if values::is_packed(numbers) => Self::Ints(numbers.len(), ints::pack(numbers)),
+            List::Longs(numbers) if values::is_packed(numbers) => Self::Longs(numbers.len(), ints::pack_longs(numbers)),
+            _ => Self::Plain(list),
+        }
+    }
 }
 
 /// A layer in the binary format.
@@ -104,6 +124,35 @@ impl<'o> Binary<'o> {
         })
     }
 
+    /// Writes the values of some times, each different one once. Two are made and packed at a time, by two threads.
+    fn timed(&mut self, times: &[(f64, usize)], make: &Make) -> io::Result<Rep> {
+        let most = times.iter().map(|(_, number)| number + 1).max().unwrap_or(0);
+        let mut reps: Vec<Option<Rep>> = vec![None; most];
+        let mut is_new = vec![true; most];
+        let numbers: Vec<usize> = times.iter().map(|(_, number)| *number).collect();
+        let numbers: Vec<usize> =
+            numbers.into_iter().filter(|number| std::mem::replace(&mut is_new[*number], false)).collect();
+        let packed = |number: usize| make(number).map(Packed::of);
+        for pair in numbers.chunks(2) {
+            let (first, second) = rayon::join(|| packed(pair[0]), || pair.get(1).map(|number| packed(*number)));
+            reps[pair[0]] = Some(self.packed(first?)?);
+            if let (Some(number), Some(second)) = (pair.get(1), second) {
+                reps[*number] = Some(self.packed(second?)?);
+            }
+        }
+        let samples = times.iter().filter_map(|(time, number)| Some((*time, reps[*number]?)));
+        self.values.write_samples(&samples.collect::<Vec<_>>())
+    }
+
+    /// The representation of a value that is packed.
+    fn packed(&mut self, packed: Packed) -> io::Result<Rep> {
+        match packed {
+            Packed::Plain(list) => self.rep(list.data()),
+            Packed::Ints(count, bytes) => self.values.write_packed(Type::Int, count, &bytes),
+            Packed::Longs(count, bytes) => self.values.write_packed(Type::Int64, count, &bytes),
+        }
+    }
+
     /// Adds a property of the open prim.
     fn property(&mut self, name: &str, fields: Vec<Field>, spec: Spec) {
         let token = self.tables.token(name);
@@ -169,19 +218,8 @@ impl Layer for Binary<'_> {
                 let rep = self.values.write_explicit(Type::PathListOp, &[path])?;
                 fields.push(self.field("connectionPaths", rep));
             }
-            Value::Timed(times, values) => {
-                let most = times.iter().map(|(_, number)| number + 1).max().unwrap_or(0);
-                let mut reps: Vec<Option<Rep>> = vec![None; most];
-                for (_, number) in times {
-                    if reps[*number].is_none() {
-                        values(*number, &mut |data| {
-                            reps[*number] = Some(self.rep(data)?);
-                            Ok(())
-                        })?;
-                    }
-                }
-                let samples = times.iter().filter_map(|(time, number)| Some((*time, reps[*number]?)));
-                let rep = self.values.write_samples(&samples.collect::<Vec<_>>())?;
+            Value::Timed(times, make) => {
+                let rep = self.timed(times, make)?;
                 fields.push(self.field("timeSamples", rep));
             }
         }

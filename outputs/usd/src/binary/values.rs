@@ -34,6 +34,11 @@ const COMPRESSED: u64 = 1 << 61;
 /// Lists with fewer whole numbers are not compressed.
 const FEWEST_COMPRESSED: usize = 16;
 
+/// Whether a list of whole numbers is compressed.
+pub fn is_packed<T>(list: &[T]) -> bool {
+    list.len() >= FEWEST_COMPRESSED
+}
+
 /// How lists of edits begin: which lists follow.
 const EXPLICIT: u8 = 1 | 2;
 const PREPENDED: u8 = 32;
@@ -144,7 +149,7 @@ impl<'o> Values<'o> {
     /// # Errors
     /// Those of the file.
     pub fn write_ints(&mut self, list: &[i32]) -> io::Result<Rep> {
-        if list.len() < FEWEST_COMPRESSED {
+        if !is_packed(list) {
             return self.write_list(Type::Int, list);
         }
         let packed = ints::pack(list);
@@ -156,14 +161,18 @@ impl<'o> Values<'o> {
     /// # Errors
     /// Those of the file.
     pub fn write_longs(&mut self, list: &[i64]) -> io::Result<Rep> {
-        if list.len() < FEWEST_COMPRESSED {
+        if !is_packed(list) {
             return self.write_list(Type::Int64, list);
         }
         let packed = ints::pack_longs(list);
         self.write_packed(Type::Int64, list.len(), &packed)
     }
 
-    fn write_packed(&mut self, of: Type, count: usize, packed: &[u8]) -> io::Result<Rep> {
+    /// Writes so many whole numbers that are packed.
+    ///
+    /// # Errors
+    /// Those of the file.
+    pub fn write_packed(&mut self, of: Type, count: usize, packed: &[u8]) -> io::Result<Rep> {
         let place = self.align()?;
         self.put_long(count as u64)?;
         self.put_long(packed.len() as u64)?;
