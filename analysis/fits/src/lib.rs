@@ -1,0 +1,20 @@
+//! Estimators of growth laws: functions from counts that people made on plants to parameters with their intervals.
+//!
+//! One law a module: [`activity`] (whether a bud grows at a tick), [`mortality`], [`nodes`] (nodes per growth unit),
+//! [`crown`] (de Reffye et al. 1988 §5), [`branching`] (fates of axillary buds along a shoot). Each gives [`Fit`]s, and
+//! [`choice`] compares the rivals of one data set by BIC. Absent on purpose: files, species, growth, and measures of
+//! recorded runs.
+
+pub mod activity;
+pub mod choice;
+pub mod draws;
+pub mod fit;
+mod likelihood;
+mod matrix;
+pub mod mortality;
+mod optimum;
+pub mod problem;
+pub mod special;
+
+pub use fit::{Estimate, Fit, Test};
+pub use problem::Problem;
