@@ -12,6 +12,7 @@ pub mod fit;
 mod likelihood;
 mod matrix;
 pub mod mortality;
+pub mod nodes;
 mod optimum;
 pub mod problem;
 pub mod special;

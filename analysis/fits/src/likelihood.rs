@@ -7,7 +7,7 @@
 
 use crate::fit::{Estimate, Fit};
 use crate::matrix::{Matrix, inverse};
-use crate::optimum::{hessian, largest, near};
+use crate::optimum::{Optimum, hessian, largest, near};
 use crate::problem::Problem;
 use phytomer_sim::math;
 
@@ -66,21 +66,34 @@ pub struct Model<'a> {
 }
 
 impl Model<'_> {
-    /// The estimates, searched for from each of `starts`.
+    /// The place of the largest likelihood, searched for from each of `starts`, and its ln L.
     ///
     /// # Errors
     /// No start has a finite likelihood.
-    pub fn fit(&self, starts: &[Vec<f64>]) -> Result<Fit, Problem> {
+    pub fn top(&self, starts: &[Vec<f64>]) -> Result<(Vec<f64>, f64), Problem> {
+        let best = self.best(starts)?;
+        Ok((self.outwards(&best.at), best.value))
+    }
+
+    fn best(&self, starts: &[Vec<f64>]) -> Result<Optimum, Problem> {
         let f = |x: &[f64]| (self.log_likelihood)(&self.outwards(x));
         let from = |start: &Vec<f64>| {
             let at: Vec<f64> =
                 start.iter().zip(self.parameters).map(|(value, (_, scale))| scale.inwards(*value)).collect();
-            largest(&f, &at, 0.4)
+            largest(&f, &at, 0.2)
         };
-        let found = starts.iter().map(from);
-        let best = found.max_by(|a, b| a.value.total_cmp(&b.value)).filter(|best| best.value.is_finite());
+        let best = starts.iter().map(from).max_by(|a, b| a.value.total_cmp(&b.value));
         let advice = "see whether the columns and their units are those that the law asks for";
-        let best = best.ok_or(Problem::NoMaximum { law: self.law, advice })?;
+        best.filter(|best| best.value.is_finite()).ok_or(Problem::NoMaximum { law: self.law, advice })
+    }
+
+    /// The estimates, with covariance and intervals.
+    ///
+    /// # Errors
+    /// As [`Model::top`].
+    pub fn fit(&self, starts: &[Vec<f64>]) -> Result<Fit, Problem> {
+        let f = |x: &[f64]| (self.log_likelihood)(&self.outwards(x));
+        let best = self.best(starts)?;
         let values = self.outwards(&best.at);
         let covariance = self.covariance(&f, &best.at, &values);
         let estimate = |place: usize| {
@@ -123,44 +136,51 @@ impl Model<'_> {
         inverted.into_iter().enumerate().map(scaled).collect()
     }
 
-    /// The limit of the profile interval on the side of `step`, on the parameter's own scale.
+    /// The limit of the profile interval on the side of `step`, a standard error, on the parameter's own scale. The root
+    /// of the drop is all but straight, so false position finds it in a few steps.
     fn limit(&self, f: &dyn Fn(&[f64]) -> f64, at: &[f64], top: f64, place: usize, step: f64) -> Option<f64> {
         let mut others: Vec<f64> = at.iter().enumerate().filter(|(k, _)| *k != place).map(|(_, x)| *x).collect();
-        let mut fall = |x: f64| {
+        let mut beyond = |x: f64| {
             let held = |rest: &[f64]| {
                 let mut point = rest.to_vec();
                 point.insert(place, x);
                 f(&point)
             };
             let best = near(&held, &others, 0.05);
-            if best.value.is_finite() {
-                others = best.at;
+            if !best.value.is_finite() {
+                return f64::INFINITY;
             }
-            top - best.value - DROP
+            others = best.at;
+            (top - best.value).max(0.0).sqrt() - DROP.sqrt()
         };
-        let (mut inside, mut outside, mut reach) = (at[place], at[place], step);
-        loop {
-            outside += reach;
-            if fall(outside) >= 0.0 {
+        let (mut inside, mut outside) = ((at[place], -DROP.sqrt()), (at[place], f64::NAN));
+        let mut reach = 2.0 * step;
+        for _ in 0..14 {
+            let x = inside.0 + reach;
+            let value = beyond(x);
+            if value >= 0.0 {
+                outside = (x, value);
                 break;
             }
-            inside = outside;
+            inside = (x, value);
             reach *= 1.6;
-            if (outside - at[place]).abs() > 30.0_f64.max(20.0 * step.abs()) {
-                return None;
-            }
         }
-        for _ in 0..45 {
-            let middle = 0.5 * (inside + outside);
-            if fall(middle) >= 0.0 {
-                outside = middle
+        if outside.1.is_nan() {
+            return None;
+        }
+        for _ in 0..40 {
+            let between = if outside.1.is_finite() { inside.1 / (inside.1 - outside.1) } else { 0.5 };
+            let x = inside.0 + between.clamp(0.02, 0.98) * (outside.0 - inside.0);
+            let value = beyond(x);
+            if value >= 0.0 {
+                outside = (x, value)
             } else {
-                inside = middle
+                inside = (x, value)
             }
-            if (outside - inside).abs() < 1e-5 {
-                break;
+            if value.abs() < 3e-5 || (outside.0 - inside.0).abs() < 1e-7 {
+                return Some(self.parameters[place].1.outwards(x));
             }
         }
-        Some(self.parameters[place].1.outwards(0.5 * (inside + outside)))
+        Some(self.parameters[place].1.outwards(0.5 * (inside.0 + outside.0)))
     }
 }

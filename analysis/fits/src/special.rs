@@ -5,9 +5,18 @@
 
 use phytomer_sim::math;
 use statrs::function::{beta, erf, gamma};
+use std::sync::OnceLock;
+
+/// The whole numbers whose factorials are kept.
+const KEPT: usize = 1024;
 
 /// ln Γ(x + 1), for x of 0 or more.
 pub fn ln_factorial(x: f64) -> f64 {
+    static TABLE: OnceLock<Vec<f64>> = OnceLock::new();
+    if x < KEPT as f64 && x.fract() == 0.0 && x >= 0.0 {
+        let fill = || (0..KEPT).map(|k| math::lgamma(k as f64 + 1.0)).collect();
+        return TABLE.get_or_init(fill)[x as usize];
+    }
     math::lgamma(x + 1.0)
 }
 

@@ -7,6 +7,8 @@
 mod absent;
 #[path = "measured/coffee.rs"]
 mod coffee;
+#[path = "measured/nodes.rs"]
+mod nodes;
 #[path = "measured/robusta.rs"]
 mod robusta;
 #[path = "measured/table.rs"]
