@@ -6,6 +6,7 @@
 //! recorded runs.
 
 pub mod activity;
+pub mod branching;
 pub mod choice;
 pub mod draws;
 pub mod fit;

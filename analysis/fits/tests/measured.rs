@@ -5,6 +5,8 @@
 
 #[path = "../../../tests/program/absent.rs"]
 mod absent;
+#[path = "measured/apple.rs"]
+mod apple;
 #[path = "measured/coffee.rs"]
 mod coffee;
 #[path = "measured/nodes.rs"]
