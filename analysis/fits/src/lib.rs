@@ -8,6 +8,7 @@
 pub mod activity;
 pub mod branching;
 pub mod choice;
+pub mod crown;
 pub mod draws;
 pub mod fit;
 mod likelihood;

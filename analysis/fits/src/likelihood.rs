@@ -75,6 +75,20 @@ impl Model<'_> {
         Ok((self.outwards(&best.at), best.value))
     }
 
+    /// The top within 10⁻⁶ of ln L, from a place that is near it.
+    ///
+    /// # Errors
+    /// The place has no finite likelihood.
+    pub fn nearby(&self, start: &[f64]) -> Result<(Vec<f64>, f64), Problem> {
+        let f = |x: &[f64]| (self.log_likelihood)(&self.outwards(x));
+        let at: Vec<f64> = start.iter().zip(self.parameters).map(|(value, (_, scale))| scale.inwards(*value)).collect();
+        let best = near(&f, &at, 0.05);
+        if best.value.is_finite() {
+            return Ok((self.outwards(&best.at), best.value));
+        }
+        Err(Problem::NoMaximum { law: self.law, advice: "see whether the columns are those that the law asks for" })
+    }
+
     fn best(&self, starts: &[Vec<f64>]) -> Result<Optimum, Problem> {
         let f = |x: &[f64]| (self.log_likelihood)(&self.outwards(x));
         let from = |start: &Vec<f64>| {
