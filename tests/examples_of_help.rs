@@ -13,9 +13,9 @@ use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 15] = [
+const VERBS: [&str; 16] = [
     "init", "grow", "merge", "validate", "derive", "convert", "verify", "describe", "list", "schema", "mesh",
-    "picture", "animate", "view", "forest",
+    "picture", "animate", "view", "fit", "forest",
 ];
 
 /// The examples of a verb's help: the lines that begin with the program's name.
@@ -35,6 +35,7 @@ fn every_example_of_help_runs() {
     run(folder.path(), &["init", "my_herb", "--model", "lsystem"]).ending(0);
     lay_trees_of_others(folder.path());
     lay_site(folder.path());
+    lay_counts(folder.path());
     run(folder.path(), &["grow", "coffee", "--plants", "4", "--quiet"]).ending(0);
     for share in ["1/2", "2/2"] {
         run(folder.path(), &["grow", "coffee", "--plants", DEALT, "--quiet", "--shard", share]).ending(0);
@@ -69,6 +70,14 @@ fn lay_trees_of_others(folder: &Path) {
     }
     let library = fs::read_to_string(data.join("orchard.xml")).unwrap().replace("\"Quince\"", "\"Almond\"");
     fs::write(folder.join("library.xml"), library).unwrap();
+}
+
+/// The tables that the examples of `fit` name.
+fn lay_counts(folder: &Path) {
+    let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("analysis/fits/samples");
+    for (from, to) in [("nodes.csv", "nodes.csv"), ("activity_days.csv", "days.csv")] {
+        fs::copy(samples.join(from), folder.join(to)).unwrap();
+    }
 }
 
 /// A site of four cells.

@@ -160,6 +160,11 @@ impl Observed {
         }
     }
 
+    /// How many axes were observed.
+    pub fn axes(&self) -> usize {
+        self.totals().0 as usize
+    }
+
     fn check(&self) -> Result<(), Problem> {
         let (axes, dead, ages) = self.totals();
         if axes <= 0.0 {

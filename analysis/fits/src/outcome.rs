@@ -103,7 +103,7 @@ pub fn fit(law: Law, data: &Data, wanted: &Wanted) -> Result<Outcome, Problem> {
         Data::Days(axes) => of_days(law, axes, wanted),
         Data::Mortality(observed) => {
             let choice = mortality::fit_all(observed)?;
-            let stated = stated::mortality(choice.taken(), wanted);
+            let stated = stated::mortality(choice.taken(), observed.axes(), wanted);
             let (taken, rivals) = (choice.taken, choice.rivals);
             Ok(Outcome { law, fits: choice.fits, taken, rivals, tests: Vec::new(), stated })
         }

@@ -49,14 +49,14 @@ fn text(words: &str) -> String {
 }
 
 /// `interval = { … }, n = …, source = "…"`; limits that the data do not set are left out.
-fn measured(fit: &Fit, estimates: &[(&str, &Estimate)], wanted: &Wanted) -> String {
+fn measured(fit: &Fit, n: usize, estimates: &[(&str, &Estimate)], wanted: &Wanted) -> String {
     let limits = estimates.iter().filter_map(|(name, estimate)| {
         let (low, high) = (number(estimate.low?)?, number(estimate.high?)?);
         Some(format!("{name} = [{low}, {high}]"))
     });
     let limits: Vec<String> = limits.collect();
     let interval = if limits.is_empty() { String::new() } else { format!("interval = {{ {} }}, ", limits.join(", ")) };
-    format!("{interval}n = {}, source = {}", fit.n, text(&format!("{}: {}", fit.law, wanted.source)))
+    format!("{interval}n = {n}, source = {}", text(&format!("{}: {}", fit.law, wanted.source)))
 }
 
 /// 1 − b as a probability to pause.
@@ -65,7 +65,7 @@ fn pause(fit: &Fit, name: &str, order: usize, wanted: &Wanted) -> Option<Stated>
     let turned =
         Estimate { value: 1.0 - b.value, low: b.high.map(|b| 1.0 - b), high: b.low.map(|b| 1.0 - b), ..b.clone() };
     let value = number(turned.value.clamp(0.0, 1.0))?;
-    let value = format!("{{ value = {value}, {} }}", measured(fit, &[("value", &turned)], wanted));
+    let value = format!("{{ value = {value}, {} }}", measured(fit, fit.n, &[("value", &turned)], wanted));
     Some(Stated { order, key: "pause".to_owned(), value })
 }
 
@@ -88,8 +88,8 @@ pub fn crown(fit: &Fit, wanted: &Wanted) -> Vec<Stated> {
     pause(fit, "b1", 0, wanted).into_iter().chain(pause(fit, "b2", 1, wanted)).chain(speed).collect()
 }
 
-/// The death of an order.
-pub fn mortality(fit: &Fit, wanted: &Wanted) -> Vec<Stated> {
+/// The death of an order, from so many axes.
+pub fn mortality(fit: &Fit, axes: usize, wanted: &Wanted) -> Vec<Stated> {
     let of = |kind: &str, names: [&str; 2]| {
         let [a, b] = names.map(|name| number(fit.value(name)));
         Some(format!(
@@ -115,7 +115,7 @@ pub fn mortality(fit: &Fit, wanted: &Wanted) -> Vec<Stated> {
     };
     let named: Vec<(&str, &Estimate)> =
         fit.estimates.iter().map(|estimate| (estimate.name.as_str(), estimate)).collect();
-    let value = format!("{{ {law}, {} }}", measured(fit, &named, wanted));
+    let value = format!("{{ {law}, {} }}", measured(fit, axes, &named, wanted));
     vec![Stated { order: 0, key: "death".to_owned(), value }]
 }
 
@@ -145,7 +145,7 @@ pub fn nodes(law: &Counts, fit: &Fit, wanted: &Wanted) -> Vec<Stated> {
     }
     let named: Vec<(&str, &Estimate)> =
         fit.estimates.iter().map(|estimate| (estimate.name.as_str(), estimate)).collect();
-    let value = format!("{{ {words}, {} }}", measured(fit, &named, wanted));
+    let value = format!("{{ {words}, {} }}", measured(fit, fit.n, &named, wanted));
     vec![Stated { order: 0, key: "growth_unit.nodes".to_owned(), value }]
 }
 
