@@ -1,4 +1,4 @@
-//! The crown's parameters from pairs of branches (de Reffye et al. 1988 §5): the activity b₁ of the bearing axis, b₂ of
+//! The crown's parameters from pairs of branches (crown analysis: de Reffye, Elguero & Costes 1991): the activity b₁ of the bearing axis, b₂ of
 //! its branches, and w, the speed of a branch's clock against that of its bearer.
 //!
 //! K nodes stand above a node with two branches. The N ticks since its birth are those of a bud that has made K nodes and

@@ -1,5 +1,5 @@
 //! Activity from counts: n axes make X nodes on average with variance V in N ticks, X = N b and V = N b (1 − b) (de
-//! Reffye et al. 1988 §3), so b = 1 − V / X and N = X / b.
+//! Reffye, Elguero & Costes 1991), so b = 1 − V / X and N = X / b.
 //!
 //! The interval is that of ln(1 − b), whose variance comes from those of a mean and a variance and from their
 //! covariance: 2/(n − 1) + κ/n + V/(n X²) − 2 μ₃/(n V X), with the excess κ = (1 − 6 b (1 − b))/V and the third moment
