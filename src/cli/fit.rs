@@ -1,8 +1,8 @@
 //! `fit`: from counts of plants to the keys of a species, with intervals.
 //!
-//! A table of measured plants is read, every rival of the law is fitted (`phytomer_fits`), and a species is written that
-//! inherits from a base and has the fitted keys alone, with `fit.json` beside it. Absent: estimates and readers of CSV,
-//! which are the library's.
+//! A table of measured plants is read, every rival of the law is fitted (`phytomer_fits`), and a species is written
+//! that inherits from a base and has the fitted keys alone, with `fit.json` beside it. Absent: estimates and readers of
+//! CSV, which are the library's.
 
 mod told;
 

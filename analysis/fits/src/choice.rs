@@ -1,8 +1,8 @@
 //! The choice among rivals: the law of the least BIC, or a simpler one within 2 of it.
 //!
-//! A difference of less than 2 is "not worth more than a bare mention" (Kass & Raftery 1995, §3.2, on the scale of
-//! 2 ln Bayes factor). All laws within 2 are rivals and are told; of them the one of the fewest parameters is taken, and
-//! of equally many the one of the least BIC.
+//! A difference of less than 2 is "not worth more than a bare mention" (Kass & Raftery 1995, §3.2, on the scale of 2 ln
+//! Bayes factor). All laws within 2 are rivals and are told; of them the one of the fewest parameters is taken, and of
+//! equally many the one of the least BIC.
 
 use crate::fit::Fit;
 

@@ -1,12 +1,12 @@
-//! The crown's parameters from pairs of branches (crown analysis: de Reffye, Elguero & Costes 1991): the activity b₁ of the bearing axis, b₂ of
-//! its branches, and w, the speed of a branch's clock against that of its bearer.
+//! The crown's parameters from pairs of branches (crown analysis: de Reffye, Elguero & Costes 1991): the activity b₁ of
+//! the bearing axis, b₂ of its branches, and w, the speed of a branch's clock against that of its bearer.
 //!
-//! K nodes stand above a node with two branches. The N ticks since its birth are those of a bud that has made K nodes and
-//! not yet one more: EN = (K + 1)/b₁ − 1, VN = (K + 1)(1 − b₁)/b₁². A branch has made a binomial number of nodes of
+//! K nodes stand above a node with two branches. The N ticks since its birth are those of a bud that has made K nodes
+//! and not yet one more: EN = (K + 1)/b₁ − 1, VN = (K + 1)(1 − b₁)/b₁². A branch has made a binomial number of nodes of
 //! ⌊w N⌋ trials of b₂, both branches with the same N. Moments (X = w b₂ EN, V − v = (w b₂)² VN, v/X = 1 − b₂, with the
-//! variance v within pairs) take the step of the clock for its mean and are biased: for .9, .7 and .8 at K = 20 they tend
-//! to .880, .700 and .761. So the exact likelihood of the pairs is maximised; moments are where the search begins. Only
-//! living branches may be counted: a dead branch stopped before its node was K nodes old.
+//! variance v within pairs) take the step of the clock for its mean and are biased: for .9, .7 and .8 at K = 20 they
+//! tend to .880, .700 and .761. So the exact likelihood of the pairs is maximised; moments are where the search begins.
+//! Only living branches may be counted: a dead branch stopped before its node was K nodes old.
 
 use crate::fit::{Estimate, Fit};
 use crate::likelihood::{Model, Scale};
@@ -287,7 +287,7 @@ mod tests {
         (0..pairs).map(|_| pair()).collect()
     }
 
-    /// EN and VN of de Reffye et al. (1988 §5).
+    /// EN and VN as the head of this file has them.
     #[test]
     fn ticks_have_their_closed_moments() {
         for (above, b1) in [(0, 0.5), (7, 0.9), (20, 0.9)] {

@@ -1,7 +1,7 @@
 //! Estimators of growth laws: functions from counts that people made on plants to parameters with their intervals.
 //!
 //! One law a module: [`activity`] (whether a bud grows at a tick), [`mortality`], [`nodes`] (nodes per growth unit),
-//! [`crown`] (crown analysis: de Reffye, Elguero & Costes 1991), [`branching`] (fates of axillary buds along a shoot). Each gives [`Fit`]s, and
+//! [`crown`] (b₁, b₂ and w), [`branching`] (fates of axillary buds along a shoot). Each gives [`Fit`]s, and
 //! [`choice`] compares the rivals of one data set by BIC. Absent on purpose: files, species, growth, and measures of
 //! recorded runs.
 

@@ -2,8 +2,8 @@
 //!
 //! The search goes over scales without bounds (ln x, ln x/(1 − x)); the covariance is the inverse of the observed
 //! information there, brought to the parameter's own scale by the delta method. Intervals of 95 % are those of the
-//! profile likelihood: a limit is where the largest ln L for that value of the parameter is 1.92 below the largest of all
-//! (Venzon & Moolgavkar 1988). A limit that is not found within reach does not exist, and is said to be absent.
+//! profile likelihood: a limit is where the largest ln L for that value of the parameter is 1.92 below the largest of
+//! all (Venzon & Moolgavkar 1988). A limit that is not found within reach does not exist, and is said to be absent.
 
 use crate::fit::{Estimate, Fit};
 use crate::matrix::{Matrix, inverse};
@@ -150,8 +150,8 @@ impl Model<'_> {
         inverted.into_iter().enumerate().map(scaled).collect()
     }
 
-    /// The limit of the profile interval on the side of `step`, a standard error, on the parameter's own scale. The root
-    /// of the drop is all but straight, so false position finds it in a few steps.
+    /// The limit of the profile interval on the side of `step`, a standard error, on the parameter's own scale. The
+    /// root of the drop is all but straight, so false position finds it in a few steps.
     fn limit(&self, f: &dyn Fn(&[f64]) -> f64, at: &[f64], top: f64, place: usize, step: f64) -> Option<f64> {
         let mut others: Vec<f64> = at.iter().enumerate().filter(|(k, _)| *k != place).map(|(_, x)| *x).collect();
         let mut beyond = |x: f64| {

@@ -1,9 +1,10 @@
 //! Mortality of axes, buds or branches: which cumulative hazard H(i) makes the dead fraction 1 − exp(−H(i)) by age i.
 //!
-//! Constant λ i, power (i/scale)^shape (the α iᵝ of robusta coffee, α = scale^−shape), Gompertz c (e^{g i} − 1), the last
-//! two also with a constant hazard λ i added (Makeham). Axes are followed to their death or the end of the study, or seen
-//! once, n of each age with the dead among them. BIC takes as n the deaths of those followed (Volinsky & Raftery 2000),
-//! and the ages of those seen once, each of which is one binomial observation. Absent: causes and covariates.
+//! Constant λ i, power (i/scale)^shape (the α iᵝ of robusta coffee, α = scale^−shape), Gompertz c (e^{g i} − 1), the
+//! last two also with a constant hazard λ i added (Makeham). Axes are followed to their death or the end of the study,
+//! or seen once, n of each age with the dead among them. BIC takes as n the deaths of those followed (Volinsky &
+//! Raftery 2000), and the ages of those seen once, each of which is one binomial observation. Absent: causes and
+//! covariates.
 
 use crate::choice::{Choice, choose};
 use crate::fit::{Estimate, Fit, Test};

@@ -101,8 +101,8 @@ pub struct LawForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub source: Option<String>,
-    /// The interval of 95 % of each number that was estimated, by the number's name: `interval = { alpha = [1e-8, 2e-8] }`.
-    /// It documents the law; growth does not read it.
+    /// The interval of 95 % of each number that was estimated, by the number's name: `interval = { alpha = [1e-8, 2e-8]
+    /// }`. It documents the law; growth does not read it.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub interval: BTreeMap<String, [f64; 2]>,
     /// How many observations the numbers were estimated from. It documents the law; growth does not read it.

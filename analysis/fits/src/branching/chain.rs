@@ -1,8 +1,9 @@
 //! A chain of zones: a left-to-right hidden semi-Markov chain (Guédon 2003; Guédon et al. 2001 for apple shoots).
 //!
-//! A shoot passes through zones in order, and may skip at most two; in a zone each bud has a fate with the zone's shares; a
-//! zone's length is 1 + NB(r, p); the end of the shoot cuts the last. Estimated by EM from several keyed beginnings. Which
-//! fates a zone may have can be bounded, such as latent buds alone at both ends. Absent: several chains at once.
+//! A shoot passes through zones in order, and may skip at most two; in a zone each bud has a fate with the zone's
+//! shares; a zone's length is 1 + NB(r, p); the end of the shoot cuts the last. Estimated by EM from several keyed
+//! beginnings. Which fates a zone may have can be bounded, such as latent buds alone at both ends. Absent: several
+//! chains at once.
 
 use super::Shoots;
 use super::durations::Length;

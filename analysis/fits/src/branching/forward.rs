@@ -1,8 +1,8 @@
-//! Forward and backward sums of a hidden semi-Markov chain along one shoot (Guédon 2003, §3), with the last zone cut off
-//! by the end of the shoot.
+//! Forward and backward sums of a hidden semi-Markov chain along one shoot (Guédon 2003, §3), with the last zone cut
+//! off by the end of the shoot.
 //!
-//! Products of at most some hundred probabilities stay within the range of a double where each is at least 10⁻³; a shoot
-//! whose likelihood is 0 says so. Absent: estimation.
+//! Products of at most some hundred probabilities stay within the range of a double where each is at least 10⁻³; a
+//! shoot whose likelihood is 0 says so. Absent: estimation.
 
 use super::chain::Chain;
 

@@ -1,8 +1,9 @@
 //! Fates of the axillary buds along a shoot: zones of independent buds against a chain of zones.
 //!
 //! `zones` has the law of de Reffye et al. (1988 §4), shares of fates by rank, buds independent; `chain` the hidden
-//! semi-Markov chain of Guédon (2003), whose zones have random lengths; `runs` tests either by the number of runs of equal
-//! fates, which independent buds have too many of; `order` the Markov order of a sequence of states. Absent: covariates.
+//! semi-Markov chain of Guédon (2003), whose zones have random lengths; `runs` tests either by the number of runs of
+//! equal fates, which independent buds have too many of; `order` the Markov order of a sequence of states. Absent:
+//! covariates.
 
 pub mod chain;
 mod durations;

@@ -1,7 +1,7 @@
 //! The Markov order of sequences of states: whether the next state depends on none, one or two states before it.
 //!
-//! ln L of each order from the counts of its transitions, all orders on the same places (from the third on), so that BIC
-//! compares them. Absent: transitions that change with rank.
+//! ln L of each order from the counts of its transitions, all orders on the same places (from the third on), so that
+//! BIC compares them. Absent: transitions that change with rank.
 
 use super::Shoots;
 use crate::fit::Fit;

@@ -302,8 +302,8 @@ pub fn waits(axes: &[BTreeMap<u32, u32>], before: u32) -> Vec<Wait> {
     waits
 }
 
-/// The nodes that each axis made between two days, of those seen on or before the first and on or after the second. What
-/// was last counted by a day holds for it.
+/// The nodes that each axis made between two days, of those seen on or before the first and on or after the second.
+/// What was last counted by a day holds for it.
 pub fn made(axes: &[BTreeMap<u32, u32>], from: u32, to: u32) -> Vec<u32> {
     let by = |days: &BTreeMap<u32, u32>, day: u32| days.range(..=day).next_back().map(|counted| *counted.1);
     let seen = axes.iter().filter(|days| days.keys().next_back().is_some_and(|last| *last >= to));

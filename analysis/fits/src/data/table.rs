@@ -1,7 +1,7 @@
 //! A table of texts with named columns, and what is wrong with it.
 //!
-//! Comma-separated values are read by the crate csv; every row has as many cells as the header. Faults are collected, at
-//! most [`MOST_FAULTS`] of them, each with file and line. Absent: the meaning of a column.
+//! Comma-separated values are read by the crate csv; every row has as many cells as the header. Faults are collected,
+//! at most [`MOST_FAULTS`] of them, each with file and line. Absent: the meaning of a column.
 
 use std::fmt;
 
@@ -43,8 +43,8 @@ pub struct Table {
 }
 
 impl Table {
-    /// Reads comma-separated values with a header. A byte order mark and blanks around cells are passed over; a line that
-    /// begins with `#` is a comment.
+    /// Reads comma-separated values with a header. A byte order mark and blanks around cells are passed over; a line
+    /// that begins with `#` is a comment.
     ///
     /// # Errors
     /// No header, two columns of one name, ragged lines, text that is not UTF-8.

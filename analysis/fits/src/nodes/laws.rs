@@ -280,8 +280,8 @@ fn goodness(counts: &[f64], law: &Counts) -> Option<Test> {
     ))
 }
 
-/// Every rival: the three families, shifted by up to the least count, and the mixtures. The laws are in the order of the
-/// fits of the choice. Those beyond 2 of the least BIC have neither errors nor limits.
+/// Every rival: the three families, shifted by up to the least count, and the mixtures. The laws are in the order of
+/// the fits of the choice. Those beyond 2 of the least BIC have neither errors nor limits.
 ///
 /// # Errors
 /// Fewer than two growth units, or all of the same number of nodes.

@@ -60,8 +60,8 @@ impl Family {
         }
     }
 
-    /// The largest likelihood from weights of 0, 1, 2 …; `n` holds the trials of a binomial. `None` where the family has
-    /// none: a negative binomial of counts that vary no more than a Poisson number, a mean of 0.
+    /// The largest likelihood from weights of 0, 1, 2 …; `n` holds the trials of a binomial. `None` where the family
+    /// has none: a negative binomial of counts that vary no more than a Poisson number, a mean of 0.
     pub fn fitted(self, weights: &[f64], n: Option<u32>) -> Option<Part> {
         let total: f64 = weights.iter().sum();
         let mean = weights.iter().zip(0..).map(|(w, k)| w * f64::from(k)).sum::<f64>() / total;
