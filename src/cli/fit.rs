@@ -10,6 +10,7 @@ use super::{Misuse, Verdict, refuse, terminal};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use phytomer_config::validate_texts;
+use phytomer_fits::check::{Checked, check};
 use phytomer_fits::data::columns::LAWS;
 use phytomer_fits::data::{Fault, Law, Table, read};
 use phytomer_fits::outcome::{Outcome, Wanted, fit};
@@ -23,6 +24,9 @@ use std::path::{Path, PathBuf};
 /// The most bytes of a file of data.
 const MOST_BYTES: u64 = 1 << 30;
 
+/// The seed of what a check draws.
+const SEED: u64 = 1988;
+
 /// Fit a law to measured plants, and write it as a species.
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -31,7 +35,7 @@ Examples:
   phytomer fit nodes.csv --law nodes            every rival law with its BIC, the one that is taken with intervals
   phytomer fit nodes.csv --law nodes --base poplar --order 2 --out my_poplar.toml
   phytomer fit days.csv --law activity --window 0..180 --base coffee --out my_coffee.toml
-  phytomer fit nodes.csv --law nodes --json
+  phytomer fit nodes.csv --law nodes --json --check 20
 
 Columns of each law (CSV with a header, or Parquet with these columns):
   activity     nodes made in one window by each axis; days of the window may be left out
@@ -84,6 +88,9 @@ pub struct Fit {
     /// Where the data come from, for `source`; left out: the name of the file.
     #[arg(long, value_name = "TEXT")]
     source: Option<String>,
+    /// Fit so many tables drawn from the fitted law, compare a measure that was not fitted, and predict what is left out.
+    #[arg(long, value_name = "TIMES", num_args = 0..=1, default_missing_value = "200", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    check: Option<u32>,
     /// Print the sample table of a law instead.
     #[arg(long, value_name = "LAW", value_parser = ["activity", "activity-days", "mortality", "mortality-followed", "nodes", "crown", "branching"])]
     sample: Option<String>,
@@ -136,7 +143,10 @@ impl Fit {
             Err(faults) => return self.decline(&faults),
         };
         match fit(law.into(), &data, &self.wanted(path)?) {
-            Ok(outcome) => self.finish(&outcome, path, &hash),
+            Ok(outcome) => {
+                let checked = self.check.map(|times| check(&outcome, &data, times as usize, SEED));
+                self.finish(&outcome, checked.as_ref(), path, &hash)
+            }
             Err(problem) => {
                 let problem = format!("{}: {problem}", path.display());
                 if self.json {
@@ -207,8 +217,11 @@ impl Fit {
         Ok(Verdict::Invalid)
     }
 
-    fn finish(&self, outcome: &Outcome, path: &Path, hash: &str) -> Result<Verdict> {
-        let object = json::object(outcome, &path.display().to_string(), hash);
+    fn finish(&self, outcome: &Outcome, checked: Option<&Checked>, path: &Path, hash: &str) -> Result<Verdict> {
+        let mut object = json::object(outcome, &path.display().to_string(), hash);
+        if let Some(checked) = checked {
+            object["check"] = json::checked(checked);
+        }
         if let (Some(out), Some(base)) = (&self.out, &self.base) {
             if let Some(verdict) = self.write(outcome, (out, base), &object)? {
                 return Ok(verdict);

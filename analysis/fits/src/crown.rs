@@ -8,6 +8,7 @@
 //! tend to .880, .700 and .761. So the exact likelihood of the pairs is maximised; moments are where the search begins.
 //! Only living branches may be counted: a dead branch stopped before its node was K nodes old.
 
+use crate::draws::Draws;
 use crate::fit::{Estimate, Fit};
 use crate::likelihood::{Model, Scale};
 use crate::problem::Problem;
@@ -138,6 +139,25 @@ fn trials(above: u32, b1: f64, w: f64) -> Vec<(usize, f64)> {
         }
     }
     ticks
+}
+
+/// Pairs with the nodes above them of others, as the model grows them.
+pub fn drawn(like: &[Pair], [b1, b2, w]: [f64; 3], draws: &mut Draws) -> Vec<Pair> {
+    let mut kept: Option<(u32, Vec<(usize, f64)>, Vec<f64>)> = None;
+    let mut pairs = Vec::with_capacity(like.len());
+    for Pair { above, .. } in like.iter().copied() {
+        let (_, trials, weights) = match kept.take().filter(|kept| kept.0 == above) {
+            Some(same) => kept.insert(same),
+            None => {
+                let trials = trials(above, b1, w);
+                let weights = trials.iter().map(|trial| trial.1).collect();
+                kept.insert((above, trials, weights))
+            }
+        };
+        let m = trials[draws.among(weights)].0 as u32;
+        pairs.push(Pair { above, nodes: [draws.binomial(m, b2), draws.binomial(m, b2)] });
+    }
+    pairs
 }
 
 /// Binomial probabilities of 0 … `most` successes.
@@ -273,18 +293,10 @@ fn needed(fit: &Fit, pairs: usize) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draws::Draws;
 
-    /// Pairs as the model grows them.
-    fn drawn(above: u32, [b1, b2, w]: [f64; 3], pairs: usize, seed: u64) -> Vec<Pair> {
-        let mut draws = Draws::new(seed, 0);
-        let weights = trials(above, b1, w);
-        let masses: Vec<f64> = weights.iter().map(|weight| weight.1).collect();
-        let mut pair = || {
-            let m = weights[draws.among(&masses)].0 as u32;
-            Pair { above, nodes: [draws.binomial(m, b2), draws.binomial(m, b2)] }
-        };
-        (0..pairs).map(|_| pair()).collect()
+    /// Pairs of one rank, as the model grows them.
+    fn drawn(above: u32, at: [f64; 3], pairs: usize, seed: u64) -> Vec<Pair> {
+        super::drawn(&vec![Pair { above, nodes: [0, 0] }; pairs], at, &mut Draws::new(seed, 0))
     }
 
     /// EN and VN as the head of this file has them.

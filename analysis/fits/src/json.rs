@@ -2,6 +2,7 @@
 //!
 //! A number that is not finite is null. Absent: writing the file.
 
+use crate::check::Checked;
 use crate::fit::{Fit, Test};
 use crate::outcome::Outcome;
 use serde_json::{Value, json};
@@ -30,4 +31,23 @@ pub fn object(outcome: &Outcome, data: &str, sha256: &str) -> Value {
     json!({"status": "done", "data": data, "data_sha256": sha256, "taken": outcome.taken().law,
         "within_2_bic": rivals, "fits": outcome.fits.iter().map(fit).collect::<Vec<_>>(),
         "tests": outcome.tests.iter().map(test).collect::<Vec<_>>(), "stated": stated})
+}
+
+/// What came of a check.
+pub fn checked(checked: &Checked) -> Value {
+    let parameters: Vec<Value> = checked
+        .parameters
+        .iter()
+        .map(|p| {
+            json!({"name": p.name, "drawn_from": p.truth, "bias": p.bias, "error": p.error, "coverage": p.coverage,
+                "coverage_interval": p.within})
+        })
+        .collect();
+    let predicted = checked
+        .predicted
+        .as_ref()
+        .map(|p| json!({"measure": p.name, "measured": p.measured, "mean_drawn": p.mean, "share_at_least": p.above}));
+    let left_out: Vec<Value> = checked.left_out.iter().map(|(law, l)| json!({"law": law, "mean_ln_l": l})).collect();
+    json!({"refits": checked.refits.0, "of": checked.refits.1, "parameters": parameters, "predicted": predicted,
+        "left_out": left_out})
 }

@@ -7,6 +7,7 @@
 
 pub mod activity;
 pub mod branching;
+pub mod check;
 pub mod choice;
 pub mod crown;
 pub mod data;

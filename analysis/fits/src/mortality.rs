@@ -154,7 +154,8 @@ impl Observed {
         }
     }
 
-    fn log_likelihood(&self, cumulative: &dyn Fn(f64) -> f64) -> f64 {
+    /// ln L of a cumulative hazard.
+    pub fn log_likelihood(&self, cumulative: &dyn Fn(f64) -> f64) -> f64 {
         match self {
             Self::Followed(axes) => axes.iter().map(|axis| of_followed(*axis, cumulative)).sum(),
             Self::SeenOnce(ages) => ages.iter().map(|age| of_seen(*age, cumulative)).sum(),

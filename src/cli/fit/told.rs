@@ -2,6 +2,7 @@
 //!
 //! Absent: `fit.json`, which has all of it in numbers.
 
+use phytomer_fits::check::Checked;
 use phytomer_fits::outcome::Outcome;
 use phytomer_fits::{Estimate, Fit, Test};
 use std::fmt::Write as _;
@@ -51,4 +52,34 @@ fn tested(text: &mut String, test: &Test) {
     } else {
         writeln!(text, "  {name} {statistic:.1}")
     };
+}
+
+/// What came of `--check`.
+pub fn checked(checked: &Checked) -> String {
+    let (made, times) = checked.refits;
+    let mut text = format!("check: {made} of {times} tables drawn from the law were fitted again\n");
+    for p in &checked.parameters {
+        let [low, high] = p.within.map(|share| 100.0 * share);
+        let _ = writeln!(
+            text,
+            "  {:<14} bias {:+.5} ± {:.5}; intervals hold the truth in {:.1} % (95 %: {low:.1} to {high:.1})",
+            p.name,
+            p.bias,
+            p.error,
+            100.0 * p.coverage
+        );
+    }
+    if let Some(measure) = &checked.predicted {
+        let (measured, mean, above) = (measure.measured, measure.mean, 100.0 * measure.above);
+        let _ = writeln!(
+            text,
+            "  not fitted: {} is {measured:.3}; {mean:.3} on average when drawn, as large or larger in {above:.1} %",
+            measure.name
+        );
+    }
+    for (law, mean) in &checked.left_out {
+        let _ = writeln!(text, "  left out and predicted, mean ln L: {law} {mean:.4}");
+    }
+    text.truncate(text.trim_end().len());
+    text
 }

@@ -45,6 +45,16 @@ pub fn fit(shoots: &Shoots, width: usize) -> (Zones, Fit) {
 }
 
 impl Zones {
+    /// ln L of other shoots. A share of a thousandth is kept for all fates together, so that one that the counted shoots
+    /// had not is not impossible; the last zone goes on.
+    pub fn log_likelihood(&self, shoots: &Shoots) -> f64 {
+        let zone = |rank: usize| &self.shares[(rank / self.width).min(self.shares.len() - 1)];
+        let ln = |(rank, fate): (usize, &usize)| {
+            phytomer_sim::math::log(0.999 * zone(rank)[*fate] + 0.001 / shoots.fates as f64)
+        };
+        shoots.shoots.iter().map(|shoot| shoot.iter().enumerate().map(ln).sum::<f64>()).sum()
+    }
+
     /// The fates of a shoot of so many buds.
     pub fn draw(&self, buds: usize, draws: &mut Draws) -> Vec<usize> {
         let zone = |rank: usize| &self.shares[(rank / self.width).min(self.shares.len() - 1)];

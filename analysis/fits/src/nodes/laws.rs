@@ -35,7 +35,8 @@ pub struct Counts {
 }
 
 impl Counts {
-    fn masses(&self, last: usize) -> Vec<f64> {
+    /// P(0), P(1) … P(last).
+    pub fn masses(&self, last: usize) -> Vec<f64> {
         let mut masses = vec![0.0; last + 1];
         for (weight, part) in &self.parts {
             let own = part.masses(last.saturating_sub(self.shift as usize));
