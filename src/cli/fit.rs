@@ -88,7 +88,8 @@ pub struct Fit {
     /// Where the data come from, for `source`; left out: the name of the file.
     #[arg(long, value_name = "TEXT")]
     source: Option<String>,
-    /// Fit so many tables drawn from the fitted law, compare a measure that was not fitted, and predict what is left out.
+    /// Fit so many tables drawn from the fitted law, compare a measure that was not fitted, and predict what is left
+    /// out.
     #[arg(long, value_name = "TIMES", num_args = 0..=1, default_missing_value = "200", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     check: Option<u32>,
     /// Print the sample table of a law instead.

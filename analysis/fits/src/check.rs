@@ -2,8 +2,8 @@
 //!
 //! (a) Data of the same design are drawn from the law that was taken and fitted again: bias of each parameter, and how
 //! often its interval holds the value that was drawn from (parametric bootstrap, Efron & Tibshirani 1993 §6.5). (b) A
-//! measure that is no part of the fit is compared with those of the drawn data (Gelman, Meng & Stern 1996). (c) Parts of
-//! the plants are left out in turn and predicted by the law of the others: the mean ln L of a left-out observation.
+//! measure that is no part of the fit is compared with those of the drawn data (Gelman, Meng & Stern 1996). (c) Parts
+//! of the plants are left out in turn and predicted by the law of the others: the mean ln L of a left-out observation.
 //! Absent: designs of unequal windows.
 
 use crate::branching::chain::{self, Asked};

@@ -169,6 +169,7 @@ fn of_branching(law: Law, shoots: &Shoots, words: &[String], wanted: &Wanted) ->
     zoned.tests.push(runs_test(&told));
     let ends = words.iter().position(|word| *word == wanted.latent);
     let mut fits = vec![zoned];
+    let mut chains = Vec::new();
     for ends in if ends.is_some() { vec![ends, None] } else { vec![None] } {
         let asked = Asked { zones: wanted.chain, ends, seed: SEED, beginnings: 20 };
         if let Ok((chain, mut fit)) = chain::fit(shoots, &asked) {
@@ -176,20 +177,20 @@ fn of_branching(law: Law, shoots: &Shoots, words: &[String], wanted: &Wanted) ->
                 if ends.is_some() { format!("{}, {} alone at both ends", fit.law, wanted.latent) } else { fit.law };
             let told = runs(shoots, SEED, 400, |buds, draws| chain.draw(buds, draws));
             fit.tests.push(runs_test(&told));
+            chains.push((fit.law.clone(), chain));
             fits.push(fit);
         }
     }
     let advice = "ask for wider zones";
     let choice = choose(fits).ok_or(Problem::NoMaximum { law: "branching", advice })?;
     let (taken, rivals) = (choice.taken, choice.rivals);
-    let stated = stated::zones(&of_zones, shoots, words, wanted);
+    let of_chain = chains.iter().find(|(law, _)| *law == choice.taken().law);
+    let stated = match of_chain {
+        Some((_, chain)) => stated::chain(chain, shoots, words, wanted),
+        None => stated::zones(&of_zones, shoots, words, wanted),
+    };
     let mut outcome = Outcome { law, fits: choice.fits, taken, rivals, tests: Vec::new(), stated };
-    let chained = outcome.taken().law.starts_with("chain");
     let notes = &mut outcome.fits[taken].notes;
-    if chained {
-        let note = "a species cannot state a chain of zones: the species file has the zones of independent buds";
-        notes.push(note.to_owned());
-    }
     if let Some(best) = orders(shoots).ok().and_then(choose) {
         notes.push(format!("of Markov chains without zones the best is that of order {}", order_of(best.taken())));
     }

@@ -3,6 +3,7 @@
 //! Numbers have seven digits; a law with a number that is not finite is left out. Absent: the rest of a species.
 
 use crate::branching::Shoots;
+use crate::branching::chain::Chain;
 use crate::branching::zones::Zones;
 use crate::fit::{Estimate, Fit};
 use crate::nodes::Part;
@@ -174,6 +175,42 @@ pub fn zones(zones: &Zones, shoots: &Shoots, words: &[String], wanted: &Wanted) 
         key: "axillary.pattern".to_owned(),
         value: format!("{{ zones = [{}] }}", zones.join(", ")),
     }]
+}
+
+/// A chain of zones: where it begins, the lengths, what follows, and in each zone the share of buds that bear an axis
+/// with the states of these. Shares below 10⁻⁶ are none.
+pub fn chain(chain: &Chain, shoots: &Shoots, words: &[String], wanted: &Wanted) -> Vec<Stated> {
+    let about = format!("chain fitted to {} buds of {} axes: {}", shoots.buds(), shoots.shoots.len(), wanted.source);
+    let weights = |row: &[f64]| {
+        let last = row.iter().rposition(|weight| *weight > 1e-6)?;
+        let row: Option<Vec<String>> =
+            row[..=last].iter().map(|weight| number(if *weight > 1e-6 { *weight } else { 0.0 })).collect();
+        Some(format!("[{}]", row?.join(", ")))
+    };
+    let latent = words.iter().position(|word| *word == wanted.latent);
+    let link = |zone: usize| {
+        let shares = &chain.shares[zone];
+        let awake = 1.0 - latent.map_or(0.0, |latent| shares[latent]);
+        let bearing = awake > 1e-6;
+        let states = shares.iter().enumerate().filter(|(fate, share)| Some(*fate) != latent && **share > 1e-6);
+        let states: Option<Vec<String>> =
+            states.map(|(fate, share)| Some(format!("{} = {}", text(&words[fate]), number(share / awake)?))).collect();
+        let state = if bearing { format!(", state = {{ {} }}", states?.join(", ")) } else { String::new() };
+        let ramification = number(if bearing { awake.min(1.0) } else { 0.0 })?;
+        let source = text(&about);
+        let own = format!("ramification = {{ value = {ramification}, source = {source} }}{state}");
+        if zone + 1 == chain.zones() {
+            return Some(format!("{{ {own} }}"));
+        }
+        let (r, p) = chain.lengths[zone];
+        let length = format!("negative_binomial = {{ r = {}, p = {} }}, shift = 1", number(r)?, number(p)?);
+        let next = weights(&chain.next[zone][zone + 1..]).map_or_else(String::new, |next| format!("next = {next}, "));
+        Some(format!("{{ length = {{ {length}, source = {source} }}, {next}{own} }}"))
+    };
+    let links: Option<Vec<String>> = (0..chain.zones()).map(link).collect();
+    let (Some(links), Some(begins)) = (links, weights(&chain.first)) else { return Vec::new() };
+    let value = format!("{{ from = {}, begins = {begins}, chain = [{}] }}", text(&wanted.from), links.join(", "));
+    vec![Stated { order: 0, key: "axillary.pattern".to_owned(), value }]
 }
 
 /// A species that inherits from a base and has these keys of an order (from 1) alone.

@@ -45,8 +45,8 @@ pub fn fit(shoots: &Shoots, width: usize) -> (Zones, Fit) {
 }
 
 impl Zones {
-    /// ln L of other shoots. A share of a thousandth is kept for all fates together, so that one that the counted shoots
-    /// had not is not impossible; the last zone goes on.
+    /// ln L of other shoots. A share of a thousandth is kept for all fates together, so that one that the counted
+    /// shoots had not is not impossible; the last zone goes on.
     pub fn log_likelihood(&self, shoots: &Shoots) -> f64 {
         let zone = |rank: usize| &self.shares[(rank / self.width).min(self.shares.len() - 1)];
         let ln = |(rank, fate): (usize, &usize)| {
