@@ -14,6 +14,7 @@
 
 pub use phytomer_analysis as analysis;
 pub use phytomer_config as config;
+pub use phytomer_fits as fits;
 pub use phytomer_models as models;
 pub use phytomer_outputs as outputs;
 pub use phytomer_sim as sim;

@@ -13,9 +13,9 @@ use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 16] = [
+const VERBS: [&str; 17] = [
     "init", "grow", "merge", "validate", "derive", "convert", "verify", "describe", "list", "schema", "mesh",
-    "picture", "animate", "view", "forest", "report",
+    "picture", "animate", "view", "fit", "forest", "report",
 ];
 
 /// The examples of a verb's help: the lines that begin with the program's name.
@@ -35,6 +35,7 @@ fn every_example_of_help_runs() {
     run(folder.path(), &["init", "my_herb", "--model", "lsystem"]).ending(0);
     lay_trees_of_others(folder.path());
     lay_site(folder.path());
+    lay_counts(folder.path());
     run(folder.path(), &["grow", "coffee", "--plants", "4", "--quiet"]).ending(0);
     for run_of_report in ["runs/dry", "runs/wet"] {
         run(folder.path(), &["grow", "coffee", "--plants", "3", "--quiet", "--out", run_of_report]).ending(0);
@@ -73,6 +74,14 @@ fn lay_trees_of_others(folder: &Path) {
     }
     let library = fs::read_to_string(data.join("orchard.xml")).unwrap().replace("\"Quince\"", "\"Almond\"");
     fs::write(folder.join("library.xml"), library).unwrap();
+}
+
+/// The tables that the examples of `fit` name.
+fn lay_counts(folder: &Path) {
+    let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("analysis/fits/samples");
+    for (from, to) in [("nodes.csv", "nodes.csv"), ("activity_days.csv", "days.csv")] {
+        fs::copy(samples.join(from), folder.join(to)).unwrap();
+    }
 }
 
 /// A site of four cells.

@@ -8,6 +8,7 @@
 //! Its format is described in `docs` and in its own `datapackage.json`. [`read`] opens it again, [`check()`] tells
 //! whether it is whole. Absent: growth rules.
 
+pub mod cells;
 pub mod colouring;
 pub mod destination;
 mod frames;

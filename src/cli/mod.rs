@@ -15,6 +15,7 @@ mod derive;
 mod describe;
 mod events;
 mod findings;
+mod fit;
 mod forest;
 mod grow;
 mod init;
@@ -58,6 +59,7 @@ Examples:
   phytomer picture coffee --age 48 --out coffee.png
   phytomer animate coffee --out life.webp       a film of its life
   phytomer view coffee --out life.html          its life as a page that opens in a browser
+  phytomer fit nodes.csv --law nodes            a law fitted to counts, with intervals and rivals
   phytomer forest my_site/site.toml             a landscape from a raster, as a table, meshes and a scene
   phytomer report runs/coffee --out told.html   what became of its plants, as a page with charts
 
@@ -87,6 +89,7 @@ enum Verb {
     Picture(picture::Picture),
     Animate(animate::Animate),
     View(view::View),
+    Fit(fit::Fit),
     Forest(forest::ForestVerb),
     Report(report::ReportVerb),
 }
@@ -138,6 +141,7 @@ impl Cli {
             Verb::Picture(verb) => verb.obey(),
             Verb::Animate(verb) => verb.obey(),
             Verb::View(verb) => verb.obey(),
+            Verb::Fit(verb) => verb.obey(),
             Verb::Forest(verb) => verb.obey(),
             Verb::Report(verb) => verb.obey(),
         }

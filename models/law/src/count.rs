@@ -5,6 +5,8 @@
 //! those of stat_tool (Guédon), with its lower bound as `shift`; the probabilities are in `mass`, the tables in
 //! `count_table`. That exactly one distribution is given is checked at the compilation.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -60,6 +62,14 @@ pub struct CountForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub source: Option<String>,
+    /// The interval of 95 % of each number that was estimated, by the number's name: `interval = { p = [0.5, 0.6] }`.
+    /// It documents the law; growth does not read it.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub interval: BTreeMap<String, [f64; 2]>,
+    /// How many observations the numbers were estimated from. It documents the law; growth does not read it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "u32")]
+    pub n: Option<u32>,
     /// True where the numbers are a guess and not a measure.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub assumed: bool,

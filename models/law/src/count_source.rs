@@ -5,6 +5,7 @@
 
 use super::count::{CountForm, Simple};
 use super::domain::Domain;
+use super::form::check_intervals;
 use super::formula::Formula;
 use super::mass::{MAX_COUNT, Mass};
 use super::range::ValueRange;
@@ -39,6 +40,7 @@ pub(super) struct Source<'a> {
 /// The distributions of a count: a single one, or the components of its mixture. Fails with every fault found.
 pub(super) fn sources<'a>(form: &CountForm, domain: &'a Domain, path: &Path) -> Result<Vec<Source<'a>>, Vec<Fault>> {
     form.simple().check_kind(Some(form.mixture.is_some()), path).map_err(|fault| vec![fault])?;
+    check_intervals(&form.interval, path).map_err(|fault| vec![fault])?;
     let Some(components) = &form.mixture else {
         return Ok(vec![Source::new(1.0, &form.simple(), None, domain, path)?]);
     };

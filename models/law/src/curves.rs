@@ -352,3 +352,35 @@ impl Curve for RobustaLaw {
         check_numbers(&[("alpha", self.alpha, false), ("beta", self.beta, true)], path, faults);
     }
 }
+
+/// The hazard of one tick of a Gompertz life length, 1 − exp(−c (e^(g x) − e^(g (x − 1)))), 0 at x = 0: the dead
+/// fraction by x is 1 − exp(−c (e^(g x) − 1)) (Gompertz 1825).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(inline)]
+pub struct GompertzLaw {
+    /// The variable x.
+    pub over: Variable,
+    /// Factor of the cumulative hazard; 0 means no mortality.
+    pub c: f64,
+    /// How fast the hazard rises, per unit of x; above 0.
+    pub g: f64,
+}
+
+impl Curve for GompertzLaw {
+    fn over(&self) -> Variable {
+        self.over
+    }
+
+    fn at(&self, x: f64) -> f64 {
+        hazard(x, |x| self.c * math::expm1(self.g * x))
+    }
+
+    fn extremes(&self, _: f64, _: f64) -> Option<(f64, f64)> {
+        Some((0.0, 1.0))
+    }
+
+    fn check(&self, _: &Domain, path: &Path, faults: &mut Vec<Fault>) {
+        check_numbers(&[("c", self.c, false), ("g", self.g, true)], path, faults);
+    }
+}

@@ -11,7 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::bare::{self, BareOr};
-use super::curves::{ExponentialLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw};
+use super::curves::{ExponentialLaw, GompertzLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw};
 use super::responses::{LinearPlateauLaw, MitscherlichLaw, QuadraticPlateauLaw};
 use crate::fault::{Fault, Path};
 
@@ -65,6 +65,14 @@ pub struct LawForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "RobustaLaw")]
     pub robusta: Option<RobustaLaw>,
+    /// The hazard of one tick whose dead fraction by x is 1 − exp(−c (e^(g x) − 1)).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "GompertzLaw")]
+    pub gompertz: Option<GompertzLaw>,
+    /// Several hazards at once, each a law: 1 − Π (1 − h), what any of several independent causes does in a tick.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Vec<Law>")]
+    pub hazards: Option<Vec<Law>>,
     /// The law of diminishing returns: max (1 − exp(−rate (x + offset))), which starts at 0 where x is −offset
     /// (Mitscherlich 1909).
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -93,6 +101,14 @@ pub struct LawForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub source: Option<String>,
+    /// The interval of 95 % of each number that was estimated, by the number's name: `interval = { alpha = [1e-8, 2e-8]
+    /// }`. It documents the law; growth does not read it.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub interval: BTreeMap<String, [f64; 2]>,
+    /// How many observations the numbers were estimated from. It documents the law; growth does not read it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "u32")]
+    pub n: Option<u32>,
     /// True where the numbers are a guess and not a measure.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub assumed: bool,
@@ -150,12 +166,23 @@ impl LawForm {
             ("logistic", self.logistic.is_some()),
             ("weibull", self.weibull.is_some()),
             ("robusta", self.robusta.is_some()),
+            ("gompertz", self.gompertz.is_some()),
+            ("hazards", self.hazards.is_some()),
             ("mitscherlich", self.mitscherlich.is_some()),
             ("linear_plateau", self.linear_plateau.is_some()),
             ("quadratic_plateau", self.quadratic_plateau.is_some()),
             ("expression", self.expression.is_some()),
             ("by_state", self.by_state.is_some()),
         ];
-        one_kind(&kinds, path)
+        one_kind(&kinds, path)?;
+        check_intervals(&self.interval, path)
     }
+}
+
+/// A fault where the limits of an interval are no numbers in order.
+pub(super) fn check_intervals(intervals: &BTreeMap<String, [f64; 2]>, path: &Path) -> Result<(), Fault> {
+    let wrong = intervals.iter().find(|(_, [low, high])| !(low.is_finite() && high.is_finite() && low <= high));
+    let Some((name, [low, high])) = wrong else { return Ok(()) };
+    let problem = format!("the interval of `{}` is [{low}, {high}]", super::spelling::clip(name));
+    Err(Fault::new(&path.key("interval").key(name), problem, "a lower and an upper limit, in this order"))
 }

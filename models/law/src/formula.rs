@@ -22,6 +22,8 @@ enum Term {
     Value(f64),
     Curve(Box<dyn Curve>),
     Code(Expression<Loaded>),
+    /// Independent causes of one end.
+    Hazards(Vec<Self>),
 }
 
 impl Term {
@@ -34,6 +36,49 @@ impl Term {
                 uses
             }
             Self::Code(code) => code.uses(),
+            Self::Hazards(terms) => {
+                let mut uses = Uses::default();
+                terms.iter().for_each(|term| uses.join(term.uses()));
+                uses
+            }
+        }
+    }
+
+    fn value(&self, domain: &Domain, at: At, stack: &mut Vec<f64>) -> f64 {
+        match self {
+            Self::Value(value) => *value,
+            Self::Curve(curve) => curve.at(domain.read(curve.over(), at)),
+            Self::Code(code) => code.value(domain, at, stack),
+            Self::Hazards(terms) => {
+                let outlives = |term: &Self| 1.0 - term.value(domain, at, &mut *stack);
+                1.0 - terms.iter().map(outlives).product::<f64>()
+            }
+        }
+    }
+
+    /// Adds the variables that the term names; not the age for a variable of the date.
+    fn name(&self, named: &mut BTreeSet<Variable>) {
+        match self {
+            Self::Value(_) => {}
+            Self::Curve(curve) => _ = named.insert(curve.over()),
+            Self::Code(code) => named.extend(code.named()),
+            Self::Hazards(terms) => terms.iter().for_each(|term| term.name(named)),
+        }
+    }
+
+    fn names_order(&self) -> bool {
+        match self {
+            Self::Code(code) => code.names_order(),
+            Self::Hazards(terms) => terms.iter().any(Self::names_order),
+            Self::Value(_) | Self::Curve(_) => false,
+        }
+    }
+
+    fn steps(&self) -> u64 {
+        match self {
+            Self::Code(code) => code.code.len() as u64,
+            Self::Hazards(terms) => terms.iter().map(|term| 2 + term.steps()).sum(),
+            Self::Value(_) | Self::Curve(_) => 8,
         }
     }
 
@@ -43,7 +88,7 @@ impl Term {
         let is_unknown = |variable: &Variable| !domain.asked.knows(*variable, has_ranks);
         // A law of the date depends on the age too: what was written is told.
         let variable = uses.of_the_date().find(is_unknown).or_else(|| uses.variables().find(is_unknown));
-        let of_order = matches!(self, Self::Code(code) if code.names_order()) && !domain.asked.knows_order();
+        let of_order = self.names_order() && !domain.asked.knows_order();
         let name = variable.map(Variable::name).or(of_order.then_some("order"));
         let here = name.map(|name| domain.asked.fault(name, path));
         here.or_else(|| uses.of_the_date().find_map(|variable| dates::fault_of(variable, domain, path)))
@@ -138,6 +183,8 @@ impl<'a> Formula<'a> {
         } else if let Some((kind, curve)) = form.curve() {
             curve.check(self.domain, &path.key(kind), faults);
             return Some(Term::Curve(curve));
+        } else if let Some(laws) = &form.hazards {
+            return self.hazards(laws, &path.key("hazards"), faults);
         } else if let Some(text) = &form.expression {
             match parser::parse(text, &OfLaws) {
                 Ok(code) => return Some(Term::Code(code)),
@@ -152,14 +199,35 @@ impl<'a> Formula<'a> {
         None
     }
 
+    /// The terms of several causes, each a law of its own without another sum of hazards.
+    fn hazards(&self, laws: &[Law], path: &Path, faults: &mut Vec<Fault>) -> Option<Term> {
+        let before = faults.len();
+        if laws.len() < 2 {
+            faults.push(Fault::new(path, format!("{} hazards", laws.len()), "a list of at least two laws"));
+        }
+        let mut terms = Vec::with_capacity(laws.len());
+        for (place, law) in laws.iter().enumerate() {
+            let path = path.index(place);
+            match law {
+                Law::Number(value) if (0.0..=1.0).contains(value) => terms.push(Term::Value(*value)),
+                Law::Number(value) => {
+                    faults.push(Fault::new(&path, format!("the hazard is {value}"), "a probability in [0, 1]"));
+                }
+                Law::Form(form) if form.hazards.is_some() || form.by_state.is_some() => {
+                    let inner = if form.hazards.is_some() { "hazards" } else { "by_state" };
+                    let problem = format!("{inner} inside hazards");
+                    faults.push(Fault::new(&path.key(inner), problem, "a law of one cause, the same in all states"));
+                }
+                Law::Form(form) => terms.extend(self.term(form, &path, faults)),
+            }
+        }
+        (faults.len() == before).then_some(Term::Hazards(terms))
+    }
+
     /// The value at a point; `stack` is scratch memory.
     pub fn value(&self, at: At, stack: &mut Vec<f64>) -> f64 {
         let Some(part) = self.part(at) else { return f64::NAN };
-        match &part.term {
-            Term::Value(value) => *value,
-            Term::Curve(curve) => curve.at(self.domain.read(curve.over(), at)),
-            Term::Code(code) => code.value(self.domain, at, stack),
-        }
+        part.term.value(self.domain, at, stack)
     }
 
     /// The values at every point of the law's own grid, or the first fault of each state: a value outside the range,
@@ -208,13 +276,7 @@ impl<'a> Formula<'a> {
     /// The variables that the law names, each once; not the age for a variable of the date.
     pub fn named(&self) -> BTreeSet<Variable> {
         let mut named = BTreeSet::new();
-        for part in &self.parts {
-            match &part.term {
-                Term::Value(_) => {}
-                Term::Curve(curve) => _ = named.insert(curve.over()),
-                Term::Code(code) => named.extend(code.named()),
-            }
-        }
+        self.parts.iter().for_each(|part| part.term.name(&mut named));
         named
     }
 
@@ -253,6 +315,7 @@ impl<'a> Formula<'a> {
         let of_part = |part: &Part| match &part.term {
             Term::Value(value) => Some((*value, *value)),
             Term::Curve(curve) => curve.over().bounds().and_then(|(low, high)| curve.extremes(low, high)),
+            Term::Hazards(_) => Some((0.0, 1.0)),
             Term::Code(_) => None,
         };
         self.parts.iter().try_fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), part| {
@@ -261,8 +324,7 @@ impl<'a> Formula<'a> {
     }
 
     fn steps(&self) -> u64 {
-        let cost = |part: &Part| if let Term::Code(code) = &part.term { code.code.len() as u64 } else { 8 };
-        self.parts.iter().map(cost).max().unwrap_or(1)
+        self.parts.iter().map(|part| part.term.steps()).max().unwrap_or(1)
     }
 }
 
@@ -297,6 +359,7 @@ impl LawForm {
             ("logistic", boxed(&self.logistic)),
             ("weibull", boxed(&self.weibull)),
             ("robusta", boxed(&self.robusta)),
+            ("gompertz", boxed(&self.gompertz)),
             ("mitscherlich", boxed(&self.mitscherlich)),
             ("linear_plateau", boxed(&self.linear_plateau)),
             ("quadratic_plateau", boxed(&self.quadratic_plateau)),

@@ -45,7 +45,9 @@ mod variate_table;
 pub use constant::{Constant, ConstantForm};
 pub use count::{Binomial, Count, CountComponent, CountForm, NegativeBinomial, Poisson};
 pub use count_table::CountTable;
-pub use curves::{Beyond, ExponentialLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw};
+pub use curves::{
+    Beyond, ExponentialLaw, GompertzLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw,
+};
 pub use domain::{At, Domain, HEIGHT_STEP, Longest, height_in_steps};
 pub use form::{Law, LawForm};
 pub use quantity::{Quantity, QuantityForm};

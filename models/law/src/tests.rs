@@ -102,6 +102,24 @@ fn hazards_multiply_to_their_cumulative_fractions() {
     }
 }
 
+/// The law that was fitted to the branches of robusta, and its rival: S(x) is the product of those of the causes.
+#[test]
+fn several_causes_multiply_what_outlives_each() {
+    let both = probability(law(read!(Law, { "hazards": [
+        { "weibull": { "over": "dimension", "scale": 40, "shape": 4.9 } }, { "value": 0.002 }] })));
+    let gompertz = probability(law(read!(Law, { "gompertz": { "over": "dimension", "c": 0.00744, "g": 0.1216 } })));
+    let (mut outlived, mut alive) = (1.0, 1.0);
+    for x in 1..=50 {
+        let at = At { age: 50, dimension: x, cycle: x, ..At::default() };
+        outlived *= 1.0 - both.probability(at);
+        alive *= 1.0 - gompertz.probability(at);
+        let x = f64::from(x);
+        let causes = math::exp(-math::pow(x / 40.0, 4.9)) * math::pow(0.998, x);
+        assert!((outlived - causes).abs() < 1e-7, "{x}: {outlived} {causes}");
+        assert!((alive - math::exp(-0.00744 * math::expm1(0.1216 * x))).abs() < 1e-7, "{x}");
+    }
+}
+
 #[test]
 fn robusta_fits_the_measured_dead_fractions() {
     let Some(text) = absent::measured("greenlab_published_tables.csv") else { return };

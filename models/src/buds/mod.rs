@@ -18,6 +18,8 @@ mod record;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_chain;
+#[cfg(test)]
 mod tests_cuts;
 #[cfg(test)]
 mod tests_dates;

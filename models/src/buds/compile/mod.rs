@@ -5,6 +5,7 @@
 //! no word at all.
 
 mod branching;
+mod chain;
 mod change;
 mod compiler;
 mod geometry;

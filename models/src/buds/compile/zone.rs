@@ -4,10 +4,11 @@
 //! ranks have slots in the step's record of words ([`ZoneRanks`]), and the nodes of the unit use them. Absent: the test
 //! of a bud.
 
+use super::chain::ChainLaw;
 use super::compiler::Compiler;
 use super::words::{Chance, Layout, Number};
 use crate::buds::params::{End, Order, Pattern, Zone, ZoneState};
-use crate::law::{At, Count, CountForm, CountTable, Variable};
+use crate::law::{At, Count, CountForm, CountTable, Law, Variable};
 
 /// The most zones of a growth unit.
 const MOST_ZONES: usize = 64;
@@ -68,11 +69,22 @@ impl<'a> Ramification<'a> {
 pub struct ZoneRanks {
     constant: Vec<Ranks>,
     drawn: Vec<(Number, Option<Number>)>,
+    chain: Option<ChainLaw>,
 }
 
-fn stated(order: &Order) -> Option<&[Zone]> {
+/// What zones of either kind have: the end from which they count, their law of ramification and their states.
+type Stated<'a> = (End, Option<&'a Law>, Option<&'a ZoneState>);
+
+fn stated(order: &Order) -> Option<(&'static str, Vec<Stated<'_>>)> {
     match &order.axillary.pattern {
-        Pattern::Rhythmic(rhythmic) => Some(&rhythmic.zones[..rhythmic.zones.len().min(MOST_ZONES)]),
+        Pattern::Rhythmic(rhythmic) => {
+            let zones = rhythmic.zones.iter().take(MOST_ZONES);
+            Some(("zones", zones.map(|zone| (zone.from, zone.ramification.as_ref(), zone.state.as_ref())).collect()))
+        }
+        Pattern::Chain(chain) => {
+            let links = chain.chain.iter().take(MOST_ZONES);
+            Some(("chain", links.map(|link| (chain.from, link.ramification.as_ref(), link.state.as_ref())).collect()))
+        }
         Pattern::Named(_) => None,
     }
 }
@@ -87,17 +99,17 @@ impl Zones {
         compiler: &mut Compiler,
         words: &mut Layout,
     ) -> Option<Self> {
-        let zones = stated(order)?;
-        let compiled = zones.iter().enumerate().map(|(index, zone)| {
-            let chance = zone.ramification.as_ref().map(|law| {
-                let table = compiler.probability(law, &format!("axillary.pattern.zones.{index}.ramification"));
+        let (list, zones) = stated(order)?;
+        let compiled = zones.into_iter().enumerate().map(|(index, (from, ramification, state))| {
+            let chance = ramification.map(|law| {
+                let table = compiler.probability(law, &format!("axillary.pattern.{list}.{index}.ramification"));
                 words.chance(table, most_buds)
             });
-            let keys = format!("axillary.pattern.zones.{index}.state");
-            let states = zone.state.as_ref().and_then(|state| states(state, &keys, compiler));
+            let keys = format!("axillary.pattern.{list}.{index}.state");
+            let states = state.and_then(|state| states(state, &keys, compiler));
             let states = states.map(|(of, which)| States { of, which: words.number(which, most_buds) });
             // A unit that draws some rank draws the ranks of every zone.
-            ZoneLaw { from: zone.from, ranks: ranks.constant.get(index).copied().unwrap_or_default(), chance, states }
+            ZoneLaw { from, ranks: ranks.constant.get(index).copied().unwrap_or_default(), chance, states }
         });
         Some(Self(compiled.collect()))
     }
@@ -195,28 +207,38 @@ impl ZoneLaw {
 impl ZoneRanks {
     /// Compiles and checks the ranks of every zone, with words for `units` growth units.
     pub fn compile(order: &Order, compiler: &mut Compiler, words: &mut Layout, units: u32) -> Self {
-        let zones = stated(order).unwrap_or_default().iter().enumerate();
+        let zones = match &order.axillary.pattern {
+            Pattern::Rhythmic(rhythmic) => rhythmic.zones.iter().take(MOST_ZONES).enumerate(),
+            Pattern::Chain(chain) => {
+                let chain = Some(ChainLaw::compile(chain, compiler, words, units));
+                return Self { constant: Vec::new(), drawn: Vec::new(), chain };
+            }
+            Pattern::Named(_) => [].iter().take(0).enumerate(),
+        };
         let compiled: Vec<_> = zones.map(|(index, zone)| ranks(zone, index, compiler)).collect();
         let constant = |(first, last): &(CountTable, Option<CountTable>)| {
             Some((first.constant()?, last.as_ref().map_or(Some(u32::MAX), CountTable::constant)?))
         };
         if let Some(constant) = compiled.iter().map(constant).collect() {
-            return Self { constant, drawn: Vec::new() };
+            return Self { constant, drawn: Vec::new(), chain: None };
         }
         let mut number = |table: CountTable| words.number(table, units);
         let drawn = compiled.into_iter().map(|(first, last)| (number(first), last.map(&mut number)));
-        Self { constant: Vec::new(), drawn: drawn.collect() }
+        Self { constant: Vec::new(), drawn: drawn.collect(), chain: None }
     }
 
     /// Whether a growth unit draws ranks.
     #[inline]
     pub fn are_drawn(&self) -> bool {
-        !self.drawn.is_empty()
+        !self.drawn.is_empty() || self.chain.is_some()
     }
 
     /// The ranks of the zones of the `unit`-th growth unit of a step.
     pub fn draw(&self, words: &[u32], unit: u32, at: At, ranks: &mut Vec<Ranks>) {
         ranks.clear();
+        if let Some(chain) = &self.chain {
+            return chain.draw(words, unit, at, ranks);
+        }
         let last = |last: &Option<Number>| last.as_ref().map_or(u32::MAX, |last| last.draw(words, unit, at));
         ranks.extend(self.drawn.iter().map(|(first, end)| (first.draw(words, unit, at), last(end))));
     }
@@ -225,11 +247,15 @@ impl ZoneRanks {
     pub fn ask_only(&self, known: &[Variable]) -> bool {
         let mut tables = self.drawn.iter().flat_map(|(first, last)| std::iter::once(first).chain(last));
         tables.all(|number| number.table.asks_only(known))
+            && self.chain.as_ref().is_none_or(|chain| chain.asks_only(known))
     }
 
     /// For each zone the probability that it holds the node of rank 0, 1, 2 … from its end of the unit; later nodes
     /// have the last probability.
     pub fn holding(&self, at: At) -> Vec<Vec<f64>> {
+        if let Some(chain) = &self.chain {
+            return chain.holding(at);
+        }
         let begun = |first: &Number| running(&first.table.pmf(at));
         let holding = |(first, last): &(Number, Option<Number>)| {
             let (begun, ended) = (begun(first), last.as_ref().map_or(vec![0.0], |last| running(&last.table.pmf(at))));

@@ -211,6 +211,8 @@ pub enum Pattern {
     Named(PatternName),
     /// Rhythmic: the nodes of the named zones of the growth unit, and no others.
     Rhythmic(Rhythmic),
+    /// Rhythmic, by zones one after the other whose lengths are drawn.
+    Chain(Chain),
 }
 
 impl Default for Pattern {
@@ -258,6 +260,42 @@ pub struct Zone {
     pub ramification: Option<Law>,
     /// The state in which the axes of this zone start, as long shoots at the tip and short ones below: one, or a share
     /// for each; left out: that of the order's axillary buds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<ZoneState>,
+}
+
+/// Zones one after the other along a growth unit, each of a random length: a left-to-right semi-Markov chain, as it is
+/// fitted to fates of axillary buds (Guédon et al. 2001). Zones may be skipped; the last goes on to the end of the unit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Chain {
+    /// From which end of the growth unit the zones follow one another.
+    pub from: End,
+    /// The weights of the first zone, the second … as the one in which a unit begins. Left out: the first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub begins: Vec<f64>,
+    /// The zones in their order.
+    #[schemars(length(min = 1, max = 64))]
+    pub chain: Vec<Link>,
+}
+
+/// A zone of a chain.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Link {
+    /// The botanists' name of the zone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Its number of nodes, at least 1, drawn once a growth unit. Left out: to the end of the unit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length: Option<Count>,
+    /// The weights of the next zone, the one after it … as the one that follows. Left out: the next.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub next: Vec<f64>,
+    /// The law of ramification of this zone; left out: that of the order.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ramification: Option<Law>,
+    /// The state in which the axes of this zone start; left out: that of the order's axillary buds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<ZoneState>,
 }
