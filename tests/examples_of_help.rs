@@ -13,9 +13,9 @@ use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 15] = [
-    "init", "grow", "merge", "validate", "derive", "convert", "verify", "describe", "list", "schema", "mesh",
-    "picture", "animate", "view", "forest",
+const VERBS: [&str; 16] = [
+    "init", "grow", "merge", "validate", "derive", "convert", "verify", "describe", "measure", "list", "schema",
+    "mesh", "picture", "animate", "view", "forest",
 ];
 
 /// The examples of a verb's help: the lines that begin with the program's name.
