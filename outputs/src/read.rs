@@ -221,7 +221,11 @@ impl Batches {
                 .as_ref()
                 .map(|names| ProjectionMask::columns(file.parquet_schema(), names.iter().map(String::as_str)));
             let file = file.with_batch_size(self.rows);
-            caught(|| mask.map_or(file, |mask| file.with_projection(mask)).build())
+            let file = match mask {
+                Some(mask) => file.with_projection(mask),
+                None => file,
+            };
+            caught(|| file.build())
         };
         let reader = open(&part).and_then(|file| build(file).map_err(TableError::read(&part)));
         Some(reader.map(|reader| self.now = Some((part, reader))))

@@ -114,7 +114,7 @@ impl Measure {
         if runs.is_empty() {
             return Err(Misuse(format!("measure {last}: a run is expected before the name of the measure")).into());
         }
-        let folder = |run: &String| {
+        let folder = |run: &String| -> Result<PathBuf> {
             let missing = || Misuse(format!("there is no run `{run}`: a run folder or a run below runs/ is expected"));
             Ok(run_folder(run).ok_or_else(missing)?)
         };

@@ -38,7 +38,9 @@ pub(super) fn measure(living: Living, sources: &[Source], groups: &mut Groups, l
             notes.insert(format!("{name}: no interval: {}", Lack::Plants { found: clusters, needed: 2 }));
         }
         match aalen_johansen(lives, level) {
-            Err(lack) => drop(notes.insert(format!("{name}: no share of causes: {lack}"))),
+            Err(lack) => {
+                notes.insert(format!("{name}: no share of causes: {lack}"));
+            }
             Ok(rows) => sheet.rows.extend(rows.into_iter().map(|of| {
                 let row = Cells::of(name, &mut notes).word(CAUSES.get(of.cause).copied().unwrap_or("unknown"));
                 let row = row.count(of.ticks).count(of.ended).real(of.share).maybe(of.of_plants);

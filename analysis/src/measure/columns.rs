@@ -75,8 +75,11 @@ impl Columns<'_> {
         let array = self.array(name)?;
         let dictionary = array.as_any_dictionary_opt().ok_or_else(|| self.missing(name))?;
         let values = dictionary.values().as_string_opt::<i32>().ok_or_else(|| self.missing(name))?;
-        let words = values.iter().map(|word| word.unwrap_or_default().to_owned()).collect();
+        let words: Vec<String> = values.iter().map(|word| word.unwrap_or_default().to_owned()).collect();
         let keys = dictionary.keys();
+        if values.is_empty() {
+            return Ok(Words { words: Vec::new(), keys: vec![-1; keys.len()] });
+        }
         let normalized = dictionary.normalized_keys();
         let key = |(row, key): (usize, usize)| if keys.is_null(row) { -1 } else { key as i32 };
         Ok(Words { words, keys: normalized.into_iter().enumerate().map(key).collect() })

@@ -140,7 +140,9 @@ pub(super) fn variances(size: &Size, sources: &[Source], groups: &mut Groups, le
     ];
     let (mut sheet, mut notes) = (Sheet::new("variance", &columns), BTreeSet::new());
     match components(&found, level) {
-        Err(lack) => drop(notes.insert(format!("no components of variance: {lack}"))),
+        Err(lack) => {
+            notes.insert(format!("no components of variance: {lack}"));
+        }
         Ok(of) => {
             let row = Cells::of(size.column, &mut notes).count(of.groups).count(of.n).real(of.between).real(of.within);
             let row = row.estimate("share between groups", of.intraclass);

@@ -113,9 +113,8 @@ impl Groups {
 
     /// The groups of the plants of a run, where the grouping is known of a plant.
     pub fn of_plants(&mut self, source: &Source) -> Option<Vec<u32>> {
-        let mut number = |name: String| self.number(&name);
         let name = |value: i32| if value < 0 { "none".to_owned() } else { value.to_string() };
-        let of: Box<dyn Fn(&super::source::Plant) -> String> = match &self.by.clone() {
+        let of: Box<dyn Fn(&super::source::Plant) -> String> = match self.by.clone() {
             By::Nothing => Box::new(|_| "all".to_owned()),
             By::Run => Box::new(|_| source.label.clone()),
             By::Treatment => Box::new(|plant| source.treatments[plant.treatment as usize].clone()),
@@ -123,13 +122,10 @@ impl Groups {
             By::Replicate => Box::new(move |plant| name(plant.replicate)),
             By::Block => Box::new(move |plant| name(plant.block)),
             By::Plot => Box::new(move |plant| name(plant.plot)),
-            By::Factor(factor) => {
-                let factor = factor.clone();
-                Box::new(move |plant| level(source, plant.treatment, &factor))
-            }
+            By::Factor(factor) => Box::new(move |plant| level(source, plant.treatment, &factor)),
             By::Word(_) | By::Int(_) => return None,
         };
-        Some(source.plants.iter().map(|plant| number(of(plant))).collect())
+        Some(source.plants.iter().map(|plant| self.number(&of(plant))).collect())
     }
 
     /// The group of each row of a batch.

@@ -63,7 +63,9 @@ pub(super) fn measure(living: Living, sources: &[Source], groups: &mut Groups, l
                 rows(&mut curves, name, &curve, &mut notes);
                 medians.rows.push(median(name, lives, &curve, &mut notes));
             }
-            Err(lack) => drop(notes.insert(format!("{name}: no survival: {lack}"))),
+            Err(lack) => {
+                notes.insert(format!("{name}: no survival: {lack}"));
+            }
         }
     }
     if curves.rows.is_empty() {

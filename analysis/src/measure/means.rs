@@ -40,7 +40,9 @@ pub(super) fn measure<U: Unit>(
     for (number, group) in groups.sorted() {
         let Some(ratio) = found.get(number as usize) else { continue };
         match ratio.mean(level) {
-            Err(lack) => drop(notes.insert(format!("{group}: no mean: {lack}"))),
+            Err(lack) => {
+                notes.insert(format!("{group}: no mean: {lack}"));
+            }
             Ok(mean) => {
                 let row = Cells::of(group, &mut notes).count(mean.plants).count(mean.units).real(mean.value);
                 let row = row.estimate("deviation of units", mean.deviation);
