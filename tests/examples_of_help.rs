@@ -13,9 +13,10 @@ use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 17] = [
-    "init", "grow", "merge", "validate", "derive", "convert", "verify", "describe", "list", "schema", "mesh",
-    "picture", "animate", "view", "fit", "forest", "report",
+const VERBS: [&str; 18] = [
+    "init", "grow", "merge", "validate", "derive", "convert", "verify", "describe", "measure", "list", "schema",
+    "mesh", "picture", "animate", "view", "fit", "forest", "report",
+];
 ];
 
 /// The examples of a verb's help: the lines that begin with the program's name.

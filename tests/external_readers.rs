@@ -1,6 +1,7 @@
 //! Independent readers of the files of a run: pyarrow, DuckDB and Polars for the tables, plyfile, trimesh, Open3D,
-//! meshio and PyVista for the meshes; Pillow for pictures; jsonschema for the schemas of species and scenarios, and
-//! taplo, which editors use for TOML, for the line by which a file names its schema.
+//! meshio and PyVista for the meshes; Pillow for pictures; lifelines, statsmodels and scipy for measures; jsonschema for
+//! the schemas of species and scenarios, and taplo, which editors use for TOML, for the line by which a file names its
+//! schema.
 //!
 //! They are installed in `.venv`, which `.ci/run` fills from `tests/readers/requirements.txt`; where they are missing
 //! the tests skip and say so, but never in CI. `PHYTOMER_RUN` names a run folder to read beside the small one grown
@@ -157,6 +158,32 @@ fn independent_readers_agree_on_plots_of_several_plants() {
     let run = folder.path().join("run");
     mixed::write(&run);
     read(&python, "tables.py", &[run.to_str().expect("a path in UTF-8")]);
+}
+
+/// Coffee trees under two sites: buds, axes and leaves that die, branches of several orders.
+const MEASURED: &str = r#"
+name = "measured"
+species = "coffee"
+plants = 14
+seed = 16
+ages = { until = 36, record = [12, 36] }
+
+[[experiment.factor]]
+name = "site"
+level = [{ name = "level" }, { name = "roofed", site = { plane = [{ point_m = [0, 0, 0.9], normal = [0, 0, 1] }] } }]
+"#;
+
+/// Each measure against lifelines, statsmodels and scipy, which take the rows from DuckDB.
+#[test]
+fn independent_statisticians_agree_on_the_measures_of_a_run() {
+    let Some(python) = python() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let scenario = folder.path().join("measured.toml");
+    std::fs::write(&scenario, MEASURED).expect("a scenario file");
+    let run = grow(folder.path(), scenario.to_str().expect("a path in UTF-8"));
+    read(&python, "measures.py", &[env!("CARGO_BIN_EXE_phytomer"), &run]);
 }
 
 #[test]

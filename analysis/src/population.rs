@@ -4,35 +4,10 @@
 //! at whichever tick of its plot each plant has that age. Standing dead plants are counted as dead and are not
 //! measured.
 
+use phytomer_measures::Moments;
 use phytomer_outputs::Error;
 use phytomer_outputs::read::{Run, SummaryRow};
 use std::collections::BTreeMap;
-
-/// Mean and standard deviation of a measure over the living plants.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Moments {
-    /// The number of plants that were measured.
-    pub n: u64,
-    /// The mean; 0 where nothing was measured.
-    pub mean: f64,
-    /// The sum of squared deviations from the mean.
-    squares: f64,
-}
-
-impl Moments {
-    /// Adds one measured value (Welford 1962: stable in one pass).
-    pub fn add(&mut self, value: f64) {
-        self.n += 1;
-        let before = value - self.mean;
-        self.mean += before / self.n as f64;
-        self.squares += before * (value - self.mean);
-    }
-
-    /// The sample standard deviation, in the unit of the values; `None` with fewer than two values.
-    pub fn standard_deviation(&self) -> Option<f64> {
-        (self.n > 1).then(|| (self.squares / (self.n - 1) as f64).sqrt())
-    }
-}
 
 /// A population at one recorded age.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -80,15 +55,6 @@ pub fn population(run: &Run) -> Result<BTreeMap<u32, AgeOfPopulation>, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn moments_are_those_of_the_textbook() {
-        let mut moments = Moments::default();
-        [2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0].into_iter().for_each(|value| moments.add(value));
-        assert_eq!(moments.mean, 5.0);
-        assert!((moments.standard_deviation().unwrap() - (32.0_f64 / 7.0).sqrt()).abs() < 1e-12);
-        assert_eq!(Moments::default().standard_deviation(), None);
-    }
 
     #[test]
     fn the_dead_are_counted_and_not_measured() {

@@ -21,6 +21,7 @@ mod grow;
 mod init;
 mod interrupt;
 mod list;
+mod measure;
 mod merge;
 mod mesh;
 mod named;
@@ -53,6 +54,7 @@ Examples:
   phytomer convert my_tree.xml my_tree.toml     a tree of Arbaro, tree-gen, Sapling or Helios as a species
   phytomer verify runs/coffee                   whether every file of a run is as it was written
   phytomer describe coffee                      what a run, a scenario or a species holds
+  phytomer measure runs/coffee bud-life --by order   how long buds live, with intervals of plants
   phytomer list                                 everything that ships
   phytomer schema species                       the JSON Schema of a species file
   phytomer mesh coffee --plant 0 --age 12 --out coffee.ply
@@ -83,6 +85,7 @@ enum Verb {
     Convert(convert::Convert),
     Verify(verify::Verify),
     Describe(describe::Describe),
+    Measure(measure::Measure),
     List(list::List),
     Schema(schema::Schema),
     Mesh(mesh::Mesh),
@@ -135,6 +138,7 @@ impl Cli {
             Verb::Convert(verb) => verb.obey(),
             Verb::Verify(verb) => verb.obey(),
             Verb::Describe(verb) => verb.obey(),
+            Verb::Measure(verb) => verb.obey(),
             Verb::List(verb) => verb.obey(),
             Verb::Schema(verb) => verb.obey(),
             Verb::Mesh(verb) => verb.obey(),

@@ -18,7 +18,7 @@ def find(name):
 
 
 with open(sys.argv[1], encoding="utf-8") as lines:
-    names = [line.strip() for line in lines if line.strip() and not line.startswith("#")]
+    names = [line.split("==")[0].strip() for line in lines if line.strip() and not line.startswith("#")]
 missing = []
 for name in names:
     try:

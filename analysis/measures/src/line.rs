@@ -45,6 +45,21 @@ impl Pairs {
         self.xy += dx * (y - self.y);
     }
 
+    /// Adds all pairs of another sample (Chan, Golub & LeVeque 1979).
+    pub fn merge(&mut self, other: &Self) {
+        if other.n == 0 {
+            return;
+        }
+        let (a, b) = (self.n as f64, other.n as f64);
+        let (dx, dy, share) = (other.x - self.x, other.y - self.y, a * b / (a + b));
+        self.n += other.n;
+        self.x += dx * b / (a + b);
+        self.y += dy * b / (a + b);
+        self.xx += other.xx + dx * dx * share;
+        self.yy += other.yy + dy * dy * share;
+        self.xy += other.xy + dx * dy * share;
+    }
+
     /// The number of pairs.
     pub fn len(&self) -> u64 {
         self.n
@@ -143,6 +158,15 @@ mod tests {
     fn a_falling_line_has_its_ends_in_order() {
         let axis = pairs(&[(1.0, 5.0), (2.0, 4.2), (3.0, 2.9), (4.0, 2.1)]).major_axis(0.95).unwrap();
         assert!(axis.slope.value < 0.0 && axis.slope.interval.low < axis.slope.interval.high);
+    }
+
+    #[test]
+    fn two_samples_together_are_one() {
+        let all = [(1.0, 2.5), (2.0, 2.0), (4.0, 7.0), (5.5, 6.0), (6.0, 9.0)];
+        let mut merged = pairs(&all[..2]);
+        merged.merge(&pairs(&all[2..]));
+        let (merged, whole) = (merged.least_squares(0.95).unwrap(), pairs(&all).least_squares(0.95).unwrap());
+        assert!((merged.slope.value - whole.slope.value).abs() < 1e-13 && (merged.r2 - whole.r2).abs() < 1e-13);
     }
 
     #[test]

