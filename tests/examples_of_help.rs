@@ -17,7 +17,6 @@ const VERBS: [&str; 18] = [
     "init", "grow", "merge", "validate", "derive", "convert", "verify", "describe", "measure", "list", "schema",
     "mesh", "picture", "animate", "view", "fit", "forest", "report",
 ];
-];
 
 /// The examples of a verb's help: the lines that begin with the program's name.
 fn examples(help: &str) -> Vec<Vec<&str>> {
