@@ -71,7 +71,7 @@ fn the_numbers_of_a_report_are_those_of_summary() {
     let words =
         ["report", "run", "--data", "field.csv", "--plants", "2", "--figures", "figures", "--out", "report.html"];
     let told = run(folder.path(), &words).ending(0).stdout;
-    assert!(told.starts_with("report.html: 11 figures, "), "{told}");
+    assert!(told.starts_with("report.html: 13 figures, "), "{told}");
     let (run, figures) = (folder.path().join("run"), folder.path().join("figures"));
     let heights = of_summary(&run, "height_m");
     let told = rows(&figures.join("growth-height-m.csv"));
@@ -160,7 +160,7 @@ fn a_browser_shows_a_report_without_scripts_and_without_network() {
         .expect("node starts");
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     let found: Value = serde_json::from_slice(&done.stdout).expect("JSON");
-    assert_eq!(found, serde_json::json!({"figures": 11, "pictures": 1, "tables": 4}));
+    assert_eq!(found, serde_json::json!({"figures": 13, "pictures": 1, "tables": TABLES}));
     // For whoever wants to look at it.
     if let Some(kept) = std::env::var_os("PHYTOMER_SHOTS") {
         fs::copy(folder.path().join("page.png"), Path::new(&kept).join("report.png")).expect("a picture is kept");

@@ -12,7 +12,7 @@ use phytomer::report::{Reported, report};
 use phytomer::run::forms;
 use phytomer::run::picturing::pictured_plants;
 use phytomer::run::regrowth::Regrowth;
-use phytomer_config::Species;
+use phytomer_config::{Species, Trial};
 use phytomer_outputs::Destination;
 use phytomer_outputs::pictures::{Compression, Picture as Style, draw_stands, write_png};
 use phytomer_reports::{Figure, Picture, page, png, svg, vega_lite};
@@ -147,7 +147,7 @@ fn drawn(name: &str, recorded: &Recorded, count: u32) -> Result<Option<Picture>>
     let forms: Vec<_> = forms.collect::<std::result::Result<_, _>>()?;
     let models: Vec<&dyn GrowthModel> = models.iter().map(AsRef::as_ref).collect();
     let regrowth = Regrowth::new(recorded.trial.clone(), models, None);
-    let plants: Vec<u32> = (0..count.min(recorded.trial.plants())).collect();
+    let plants = dealt(&recorded.trial, count);
     let of = species[recorded.trial.species_of_plant(0)];
     let age = regrowth.shown_at(of, 0)?;
     let pictured = pictured_plants(&regrowth, &species, &plants, &[age])?;
@@ -156,9 +156,35 @@ fn drawn(name: &str, recorded: &Recorded, count: u32) -> Result<Option<Picture>>
     let mut png = Vec::new();
     write_png(&canvas, &pictured.note, Compression::Balanced, &mut png)?;
     let whom = amounts::of(plants.len() as u64, "plant");
-    let caption = format!("{}: the first {whom} of the run at age {age}, in one scale.", short(name));
+    let trial = &recorded.trial;
+    let treatment = |plant: &u32| trial.treatments()[trial.plant(*plant).treatment].name.clone();
+    let of_treatments = match trial.treatments() {
+        [_] => String::new(),
+        _ => format!(", from the left of {}", plants.iter().map(treatment).collect::<Vec<_>>().join(", ")),
+    };
+    let caption = format!("{}: {whom} at age {age} in one scale{of_treatments}.", short(name));
     let words = format!("{whom} of {} side by side at age {age}, in sunshine, with their shadows", of.about.name);
     Ok(Some(Picture { png, caption, words }))
+}
+
+/// Plants of a run, the first of each treatment, then the second of each. Plants are numbered treatment by treatment.
+fn dealt(trial: &Trial, count: u32) -> Vec<u32> {
+    let plants = trial.plants();
+    let treatments = trial.treatments().len();
+    let first = |treatment: usize| {
+        let (mut low, mut high) = (0, plants);
+        while low < high {
+            let middle = low + (high - low) / 2;
+            if trial.plant(middle).treatment < treatment { low = middle + 1 } else { high = middle }
+        }
+        low
+    };
+    let firsts: Vec<u32> = (0..=treatments).map(first).collect();
+    let of_round = |round: u32| {
+        let of = firsts.windows(2).map(move |pair| (pair[0].saturating_add(round), pair[1]));
+        of.filter(|(plant, end)| plant < end).map(|(plant, _)| plant).collect::<Vec<u32>>()
+    };
+    (0..count).flat_map(of_round).take(count as usize).collect()
 }
 
 /// Writes a figure as SVG, PNG, CSV and Vega-Lite.

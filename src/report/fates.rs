@@ -43,7 +43,7 @@ pub fn parts(grown: &Grown) -> Vec<Part> {
     if groups.len() > 1 {
         parts.push(Part::Text(match log_rank(&groups) {
             Ok(test) => {
-                format!("Log-rank test of equal lives: χ² = {:.3}, {} df, p = {:.4}.", test.statistic, test.df, test.p)
+                format!("Log-rank test of equal lives: χ² = {:.3}, {} df, {}.", test.statistic, test.df, chance(test.p))
             }
             Err(lack) => format!("No log-rank test of equal lives: {lack}."),
         }));
@@ -63,4 +63,9 @@ fn lives(grown: &Grown) -> Table {
         vec![Cell::words(group.name.as_str()), plants, died, whole(median), low, high]
     };
     Table { columns, rows: grown.groups.iter().map(row).collect() }
+}
+
+/// A probability in words: "p = 0.0312", "p < 0.0001".
+fn chance(p: f64) -> String {
+    if p < 1e-4 { "p < 0.0001".to_owned() } else { format!("p = {p:.4}") }
 }

@@ -1,9 +1,10 @@
-//! A report of runs, as one page: how plants grew, which lived, how treatments differ, how the run stands to what was
-//! measured, and where it all comes from.
+//! A report of runs, as one page: how plants grew, which lived, how treatments differ, how they branch, how
+//! the run stands to what was measured, and where it all comes from.
 //!
 //! Plants are the unit: bands and intervals are Student's, of plant values, at 95 %. Absent: how a page looks
 //! (`phytomer_reports`), and the statistics (`phytomer_measures`).
 
+mod architecture;
 mod comparison;
 mod contrasts;
 mod fates;
@@ -44,6 +45,7 @@ pub fn report(title: &str, runs: &[Reported], field: Option<&Field>, pictures: V
         section("Methods", vec![Part::Text(provenance::methods(runs, &grown))]),
         section("Growth", growth::parts(&grown, field)),
         section("Life and death", fates::parts(&grown)),
+        section("Architecture", architecture::parts(runs)),
     ];
     let compared = contrasts::parts(&grown);
     sections.extend((!compared.is_empty()).then(|| section("Treatments", compared)));
