@@ -262,11 +262,11 @@ for number, plant in enumerate(header["plants"]):
                     meant = -1 if meant is None else int(meant)
                     assert found == meant, (column["name"], component, age, found, meant)
                 compared += 1
-            # The upper side of an internode is within three degrees, and the chord of that.
+            # The upper side of an internode is within a degree, and the chord of that.
             if row["kind"].endswith("internode"):
                 found = upper(between(rolls[component], at_age, False), [row[name] for name in DIRECTION])
                 off = math.dist(found, [row[name] for name in UPPER])
-                assert off <= 0.0524, ("up", component, age, found, off)
+                assert off <= 0.01746, ("up", component, age, found, off)
                 compared += 1
             else:
                 assert not rolls[component], component

@@ -9,9 +9,9 @@
 use std::f64::consts::TAU;
 
 /// The steps of a full turn.
-pub const STEPS: i32 = 180;
-/// The sine of half of the angle by which the upper side may be off before the number changes: three degrees.
-const HALF: f64 = 0.026_18;
+pub const STEPS: i32 = 720;
+/// The sine of half of the angle by which the upper side may be off before the number changes: one degree.
+const HALF: f64 = 0.008_726_5;
 /// The height of a unit vector, seen from either vertical, from which that vertical is taken, and until which it stays.
 const TAKEN: f64 = 0.0;
 const STAYS: f64 = -0.5;
@@ -107,9 +107,9 @@ mod tests {
                 let now = number(heading, up, last);
                 changes += i32::from(last.is_some_and(|last| last != now));
                 last = Some(now);
-                // The chord of three degrees.
+                // Within a degree.
                 let found = upper(heading, now);
-                assert!(dot(found, up) > cos(TAU / 120.0) - 1e-6, "{heading:?} {found:?} {up:?}");
+                assert!(dot(found, up) > cos(TAU / 360.0) - 1e-6, "{heading:?} {found:?} {up:?}");
             }
             assert_eq!(changes, 1, "{azimuth}");
         }

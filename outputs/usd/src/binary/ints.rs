@@ -43,9 +43,24 @@ pub fn pack_longs(numbers: &[i64]) -> Vec<u8> {
 /// The commonest of some numbers, the largest of equals.
 fn commonest(number: impl Fn(usize) -> i64, count: usize) -> i64 {
     let mut sample: Vec<i64> = (0..count).step_by(count.div_ceil(SAMPLED).max(1) | 1).map(number).collect();
+    if let Some(most) = majority(&sample) {
+        return most;
+    }
     sample.sort_unstable();
     let runs = sample.chunk_by(|a, b| a == b).map(|run| (run.len(), run[0]));
     runs.max().map_or(0, |(_, number)| number)
+}
+
+/// The number that more than half of some numbers are, if there is one (Boyer and Moore 1991).
+fn majority(numbers: &[i64]) -> Option<i64> {
+    let (mut most, mut lead) = (0, 0_usize);
+    for number in numbers {
+        if lead == 0 {
+            most = *number;
+        }
+        lead = if most == *number { lead + 1 } else { lead - 1 };
+    }
+    (numbers.iter().filter(|number| **number == most).count() > numbers.len() / 2).then_some(most)
 }
 
 /// Packs the codes of so many differences and their first bytes, which are `sizes` of each code.
@@ -117,6 +132,20 @@ mod tests {
             last
         });
         numbers.collect()
+    }
+
+    #[test]
+    fn the_commonest_is_the_largest_of_equals() {
+        for (numbers, most) in [
+            (&[][..], 0),
+            (&[3, 3, -1][..], 3),
+            (&[5, 7, 5, 7][..], 7),
+            (&[-2, 9, -2, 4, -2, 9][..], -2),
+            (&[1, 2][..], 2),
+        ] {
+            assert_eq!(commonest(|at| numbers[at], numbers.len()), most, "{numbers:?}");
+        }
+        assert_eq!((majority(&[4, 4, 1]), majority(&[4, 4, 1, 1]), majority(&[])), (Some(4), None, None));
     }
 
     #[test]
