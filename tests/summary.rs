@@ -41,6 +41,11 @@ struct Told {
     high: [f32; 3],
     leaf_area: f64,
     wood_volume: f64,
+    /// The axis of the seed by the least number of an axis that stands on the seed, with the diameter at its base.
+    base: Option<(f64, f64)>,
+    /// The greatest diameter at 1.3 m of living internodes of order 1.
+    at_breast_height: f64,
+    lowest_leaf: f64,
     /// Each component with whether it lives.
     standing: BTreeMap<u32, bool>,
 }
@@ -110,6 +115,8 @@ fn by_records(records: &Columns) -> Plants {
     let number = |name: &str| records.numbers(name);
     let (plant, age, component, axis) = (number("plant_id"), number("age"), number("component_id"), number("axis_id"));
     let (order, alive, area, volume) = (number("order"), number("alive"), number("area_m2"), number("wood_volume_m3"));
+    let (diameter, diameter_tip) = (number("diameter_m"), number("diameter_tip_m"));
+    let (rank, parent) = (number("rank"), number("parent_id"));
     let (length, kind) = (number("length_m"), records.words("kind"));
     let (base, dir) = (["x_m", "y_m", "z_m"].map(number), ["dir_x", "dir_y", "dir_z"].map(number));
     let mut plants = Plants::new();
@@ -117,6 +124,8 @@ fn by_records(records: &Columns) -> Plants {
         let told = plants.entry((plant[row] as u32, age[row] as u32)).or_insert_with(|| Told {
             low: [f32::INFINITY; 3],
             high: [f32::NEG_INFINITY; 3],
+            at_breast_height: f64::NAN,
+            lowest_leaf: f64::NAN,
             ..Told::default()
         });
         let lives = alive[row] == 1.0;
@@ -142,9 +151,21 @@ fn by_records(records: &Columns) -> Plants {
                 told.low[k] = told.low[k].min(tip);
                 told.high[k] = told.high[k].max(tip);
             }
+            if order[row] == 1.0 {
+                let tip = base[2][row] as f32 + length[row] as f32 * dir[2][row] as f32;
+                let (low, top) = (base[2][row], f64::from(tip));
+                if low <= 1.3 && 1.3 < top {
+                    let slope = (diameter_tip[row] - diameter[row]) / (top - low);
+                    told.at_breast_height = told.at_breast_height.max(diameter[row] + slope * (1.3 - low));
+                }
+            }
+            if rank[row] == 1.0 && parent[row].is_nan() && told.base.is_none_or(|(known, _)| axis[row] < known) {
+                told.base = Some((axis[row], diameter[row]));
+            }
         }
-        if matches!(kind[row].as_str(), "leaf" | "leaflet") && !area[row].is_nan() {
-            told.leaf_area += area[row];
+        if matches!(kind[row].as_str(), "leaf" | "leaflet") {
+            told.leaf_area += if area[row].is_nan() { 0.0 } else { area[row] };
+            told.lowest_leaf = told.lowest_leaf.min(base[2][row]);
         }
         told.wood_volume += if stem { volume[row] } else { 0.0 };
     }
@@ -220,6 +241,12 @@ fn check(summary: &Columns, row: usize, told: &Told, last_death: f64) {
     };
     assert_eq!(number("height_m").to_bits(), height.to_bits(), "height_m: {height}");
     assert_eq!(number("crown_width_m").to_bits(), width.to_bits(), "crown_width_m: {width}");
+    let base = told.base.map_or(f64::NAN, |(_, diameter)| diameter);
+    assert_eq!(number("basal_diameter_m").to_bits(), base.to_bits(), "basal_diameter_m: {base}");
+    assert_eq!(number("lowest_leaf_m").to_bits(), told.lowest_leaf.to_bits(), "lowest_leaf_m: {}", told.lowest_leaf);
+    let (stated, at) = (number("diameter_at_1_3_m"), told.at_breast_height);
+    let agree = (stated.is_nan() && at.is_nan()) || (stated - at).abs() <= ROUNDING * at;
+    assert!(agree, "diameter_at_1_3_m: {stated}, and by records {at}");
     for (column, sum) in [("leaf_area_m2", told.leaf_area), ("wood_volume_m3", told.wood_volume)] {
         let stated = number(column);
         assert!((stated - sum).abs() <= ROUNDING * sum, "{column}: {stated}, and its parts are {sum}");

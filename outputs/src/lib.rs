@@ -21,6 +21,8 @@ mod specimen;
 mod specimen_plots;
 mod storage;
 pub mod tables;
+pub mod views;
+pub mod views_of_run;
 
 pub use destination::Destination;
 pub use frames::Frames;

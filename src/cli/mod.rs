@@ -25,6 +25,7 @@ mod mesh;
 mod named;
 mod out;
 mod picture;
+mod query;
 mod regrown;
 mod schema;
 mod span;
@@ -57,6 +58,7 @@ Examples:
   phytomer picture coffee --age 48 --out coffee.png
   phytomer animate coffee --out life.webp       a film of its life
   phytomer view coffee --out life.html          its life as a page that opens in a browser
+  phytomer query --views runs/coffee            its tables as views for DuckDB, or SQL with the feature `sql`
   phytomer forest my_site/site.toml             a landscape from a raster, as a table, meshes and a scene
 
 `phytomer help <verb>` has more of each.";
@@ -85,6 +87,7 @@ enum Verb {
     Picture(picture::Picture),
     Animate(animate::Animate),
     View(view::View),
+    Query(query::Query),
     Forest(forest::ForestVerb),
 }
 
@@ -135,6 +138,7 @@ impl Cli {
             Verb::Picture(verb) => verb.obey(),
             Verb::Animate(verb) => verb.obey(),
             Verb::View(verb) => verb.obey(),
+            Verb::Query(verb) => verb.obey(),
             Verb::Forest(verb) => verb.obey(),
         }
     }
