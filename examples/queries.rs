@@ -1,4 +1,5 @@
-//! The time of twelve named queries over a run, against DuckDB on the same files and with as many threads.
+//! The time of twelve named queries over a run, against DuckDB on the same files which has as many threads as it is
+//! given; phytomer has one.
 //!
 //! `cargo run --release --features sql --example queries -- RUN [THREADS]`. Each query runs three times by turns in both
 //! engines; the best times are told, their ratios, and the geometric mean of the ratios. DuckDB is that of `.venv`,
@@ -67,7 +68,7 @@ fn main() -> Result<()> {
     let run = Run::open(Path::new(folder))?;
     let rows = run.rows()?.get(&phytomer_outputs::Table::Records).copied().unwrap_or_default();
     let last = run.json()["until"].as_u64().context("run.json tells no last tick")?;
-    let engine = Engine::over(&[("run".to_owned(), run)], &Settings { threads, ..Settings::default() })?;
+    let engine = Engine::over(&[("run".to_owned(), run)], &Settings::default())?;
     let views = std::env::temp_dir().join(format!("queries-{}.sql", std::process::id()));
     std::fs::write(&views, views_of(folder)?)?;
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -79,7 +80,7 @@ fn main() -> Result<()> {
         .context("DuckDB is expected in .venv, which .ci/run fills")?;
     let mut questions = duckdb.stdin.take().context("a pipe")?;
     let mut answers = BufReader::new(duckdb.stdout.take().context("a pipe")?);
-    println!("{rows} rows of records, {threads} threads, the best of {TURNS} turns");
+    println!("{rows} rows of records, {threads} threads of DuckDB and one of phytomer, the best of {TURNS} turns");
     let mut logs = 0.0;
     for (name, sql) in QUERIES {
         let sql = sql.replace("LAST", &last.to_string());

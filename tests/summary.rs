@@ -50,6 +50,14 @@ struct Told {
     standing: BTreeMap<u32, bool>,
 }
 
+impl Told {
+    /// What is told of a plant of which nothing stands.
+    fn of_nothing() -> Self {
+        let (low, high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        Self { low, high, at_breast_height: f64::NAN, lowest_leaf: f64::NAN, ..Self::default() }
+    }
+}
+
 /// Plants by number and age.
 type Plants = BTreeMap<(u32, u32), Told>;
 
@@ -121,13 +129,7 @@ fn by_records(records: &Columns) -> Plants {
     let (base, dir) = (["x_m", "y_m", "z_m"].map(number), ["dir_x", "dir_y", "dir_z"].map(number));
     let mut plants = Plants::new();
     for row in 0..plant.len() {
-        let told = plants.entry((plant[row] as u32, age[row] as u32)).or_insert_with(|| Told {
-            low: [f32::INFINITY; 3],
-            high: [f32::NEG_INFINITY; 3],
-            at_breast_height: f64::NAN,
-            lowest_leaf: f64::NAN,
-            ..Told::default()
-        });
+        let told = plants.entry((plant[row] as u32, age[row] as u32)).or_insert_with(Told::of_nothing);
         let lives = alive[row] == 1.0;
         told.standing.insert(component[row] as u32, lives);
         let stem = kind[row].ends_with("internode");
@@ -269,7 +271,7 @@ fn compare(resolved: Resolved) -> [u32; 2] {
     let of = |sown: &f64| recorded.iter().filter(|tick| f64::from(**tick) >= *sown).count();
     let expected = sowings.numbers("sown_tick").iter().map(of).sum::<usize>();
     assert_eq!(plants.len(), expected, "{name}: a row a plant and recorded tick from its sowing on");
-    let nothing = Told::default();
+    let nothing = Told::of_nothing();
     let mut budless = 0;
     for row in 0..plants.len() {
         let (plant, age) = (plants[row] as u32, ages[row] as u32);

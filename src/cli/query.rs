@@ -42,7 +42,7 @@ pub struct Query {
     #[arg(required = true, num_args = 1.., value_name = "RUN… SQL")]
     words: Vec<String>,
     /// Print the views and macros of the runs for DuckDB, with whole paths.
-    #[arg(long, conflicts_with_all = ["out", "json", "memory", "threads", "rows"])]
+    #[arg(long, conflicts_with_all = ["out", "json", "memory", "rows"])]
     views: bool,
     /// The file to write: .csv, .json or .parquet.
     #[arg(long, value_name = "FILE", conflicts_with = "json")]
@@ -53,9 +53,6 @@ pub struct Query {
     /// The memory that sorting, joining and grouping may take before they write to the folder for temporary files.
     #[arg(long, value_name = "BYTES", default_value = "2GiB", value_parser = bytes)]
     memory: usize,
-    /// The number of parts that are worked on side by side; as many as there are processors if not given.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
     /// The most rows that a table on the terminal shows.
     #[arg(long, value_name = "N", default_value_t = 1000)]
     rows: usize,

@@ -3,7 +3,8 @@
 //!
 //! A table of a run is the list of its part files that the run's papers name, never a pattern, so a query sees what
 //! `describe` sees. Memory that sorts, joins and groups ask for is limited; beyond it they write to the temporary
-//! folder of the system. Absent: what becomes of the rows (`output`).
+//! folder of the system. Absent: what becomes of the rows (`output`), and more
+//! than one thread.
 
 use super::error::Error;
 use super::functions::Macro;
@@ -12,6 +13,7 @@ use super::stop::Stop;
 use arrow_schema::Schema;
 use datafusion::catalog::{MemorySchemaProvider, SchemaProvider};
 use datafusion::common::DataFusionError;
+use datafusion::common::config::ConfigNonZeroUsize;
 use datafusion::datasource::ViewTable;
 use datafusion::datasource::file_format::parquet::ParquetFormat;
 use datafusion::datasource::listing::{ListingOptions, ListingTable, ListingTableConfig, ListingTableUrl};
@@ -31,26 +33,30 @@ use tokio::runtime::{Builder, Runtime};
 /// The schema that holds the tables of single runs.
 const FILES: &str = "files";
 
-/// The longest SQL, bytes. A sum of as many terms as fit is a tree as deep, which is planned, and dropped, by recursion.
+/// The longest SQL, bytes. A sum of as many terms as fit is a tree as deep, which is planned, and dropped, by
+/// recursion.
 const LONGEST: usize = 64 << 10;
 
 /// The stack of a query; what is not used of it takes no memory.
 const STACK_BYTES: usize = 1 << 30;
 
+/// The batches of rows that find room in the memory, at least.
+const BATCHES: usize = 64;
+
+/// The bytes of a row, about.
+const BYTES_A_ROW: usize = 128;
+
 /// What a query may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
-    /// The number of threads.
-    pub threads: usize,
     /// The memory that sorts, joins and groups may take before they write to the disk, bytes.
     pub memory_bytes: usize,
 }
 
 impl Default for Settings {
-    /// All processors, and 2 GiB.
+    /// 2 GiB.
     fn default() -> Self {
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        Self { threads, memory_bytes: 2 << 30 }
+        Self { memory_bytes: 2 << 30 }
     }
 }
 
@@ -72,11 +78,18 @@ impl Engine {
         let pool = Arc::new(FairSpillPool::new(settings.memory_bytes));
         let environment = RuntimeEnvBuilder::new().with_memory_pool(pool).build_arc();
         let environment = environment.map_err(|error| Error::of_run(&error))?;
-        let mut config =
-            SessionConfig::new().with_target_partitions(settings.threads.max(1)).with_information_schema(true);
+        // One thread works on a query, and takes its parts one after another.
+        let mut config = SessionConfig::new().with_target_partitions(1).with_information_schema(true);
         let options = config.options_mut();
         options.sql_parser.collect_spans = true;
         options.execution.parquet.pushdown_filters = true;
+        // A merge holds a batch of each of its inputs, which no disk can take: where memory is little, batches are
+        // small, and the merge of sorted files gets its part.
+        let most = options.execution.batch_size.get();
+        let rows = (settings.memory_bytes / (BATCHES * BYTES_A_ROW)).clamp(128, most);
+        options.execution.batch_size = ConfigNonZeroUsize::try_new(rows).map_err(|error| Error::of_run(&error))?;
+        let for_merges = options.execution.sort_spill_reservation_bytes;
+        options.execution.sort_spill_reservation_bytes = for_merges.min(settings.memory_bytes / 20);
         let engine = Self { runtime, context: SessionContext::new_with_config_rt(config, environment) };
         engine.lay_out(runs)?;
         Ok(engine)
@@ -122,7 +135,9 @@ impl Engine {
     pub fn query(&self, sql: &str, stop: &Stop, rows: &mut dyn Rows) -> Result<u64, Error> {
         if sql.len() > LONGEST {
             let length = sql.len();
-            return Err(Error::Sql(format!("the SQL has {length} bytes; expected at most {LONGEST}: split the question")));
+            return Err(Error::Sql(format!(
+                "the SQL has {length} bytes; expected at most {LONGEST}: split the question"
+            )));
         }
         let work = || {
             self.runtime.block_on(async {

@@ -20,8 +20,8 @@ impl Query {
         let target = self.target()?;
         let stop = Stop::default();
         let (asked, told) = (stop.clone(), stop.clone());
-        interrupt::listen(move || asked.is_stopped(), move || told.stop(), "")?;
-        let engine = Engine::over(runs, &self.settings());
+        interrupt::listen(move || asked.is_stopped(), move || told.stop(), "stopping")?;
+        let engine = Engine::over(runs, &Settings { memory_bytes: self.memory });
         let done = engine.and_then(|engine| match target {
             Some((path, format)) => {
                 let mut rows = open(path, format)?;
@@ -66,11 +66,6 @@ impl Query {
             }
         };
         Ok(Some((path, format)))
-    }
-
-    fn settings(&self) -> Settings {
-        let given = Settings::default();
-        Settings { memory_bytes: self.memory, threads: self.threads.map_or(given.threads, usize::from) }
     }
 
     fn tell(&self, count: u64, table: Option<(String, usize)>) -> Result<Verdict> {

@@ -10,8 +10,8 @@ impl Query {
     /// Says how the question can be asked; the line for DuckDB goes to stdout.
     pub(super) fn ask(&self, runs: &[NamedRun], sql: &str) -> Result<Verdict> {
         terminal::say(
-            "error: this program was built without SQL. `cargo install --path . --features sql` builds one with it, in some \
-             ten minutes. DuckDB (duckdb.org) reads the same views and answers now:",
+            "error: this program was built without SQL. `cargo install --path . --features sql` builds one with it, in many \
+             minutes. DuckDB (duckdb.org) reads the same views and answers now:",
         );
         let folders: Vec<String> = runs.iter().map(|(_, run)| in_shell(&run.path().display().to_string())).collect();
         let format = match self.out.as_ref().and_then(|path| path.extension()) {
@@ -25,7 +25,7 @@ impl Query {
             in_shell(sql)
         ))?;
         // What only the engine reads.
-        let _ = (self.memory, self.threads, self.rows);
+        let _ = (self.memory, self.rows);
         Ok(Verdict::Usage)
     }
 }
