@@ -27,7 +27,9 @@ fn examples(help: &str) -> Vec<Vec<&str>> {
 /// The words of a line; what stands in quotes is one word.
 fn words_of(line: &str) -> Vec<&str> {
     let pieces = line.split('"').enumerate();
-    pieces.flat_map(|(place, piece)| if place % 2 == 1 { vec![piece] } else { piece.split_whitespace().collect() }).collect()
+    pieces
+        .flat_map(|(place, piece)| if place % 2 == 1 { vec![piece] } else { piece.split_whitespace().collect() })
+        .collect()
 }
 
 /// Every example as it stands, but with fewer plants for `grow`, so that the tests stay short.
