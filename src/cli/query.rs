@@ -86,11 +86,14 @@ fn named(words: &[String]) -> Result<Vec<NamedRun>> {
         let folder = run_folder(word).or_else(|| run_folder(&below.display().to_string())).ok_or_else(|| {
             Misuse(format!("there is no run `{word}`: a run folder or a run below {RUNS}/ is expected, and then SQL"))
         })?;
-        let name = std::path::absolute(&folder)?.file_name().unwrap_or_default().display().to_string();
-        let name = if runs.iter().any(|(known, _)| *known == name) { word.clone() } else { name };
-        if runs.iter().any(|(known, _)| *known == name) {
+        let whole = std::path::absolute(&folder)?;
+        let is_there =
+            |(known, run): &NamedRun| known == word || std::path::absolute(run.path()).is_ok_and(|at| at == whole);
+        if runs.iter().any(is_there) {
             return Err(Misuse(format!("the run `{word}` is named twice")).into());
         }
+        let name = whole.file_name().unwrap_or_default().display().to_string();
+        let name = if runs.iter().any(|(known, _)| *known == name) { word.clone() } else { name };
         runs.push((name, Run::open(&folder)?));
     }
     Ok(runs)
