@@ -41,8 +41,21 @@ struct Told {
     high: [f32; 3],
     leaf_area: f64,
     wood_volume: f64,
+    /// The axis of the seed by the least number of an axis that stands on the seed, with the diameter at its base.
+    base: Option<(f64, f64)>,
+    /// The greatest diameter at 1.3 m of living internodes of order 1.
+    at_breast_height: f64,
+    lowest_leaf: f64,
     /// Each component with whether it lives.
     standing: BTreeMap<u32, bool>,
+}
+
+impl Told {
+    /// What is told of a plant of which nothing stands.
+    fn of_nothing() -> Self {
+        let (low, high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        Self { low, high, at_breast_height: f64::NAN, lowest_leaf: f64::NAN, ..Self::default() }
+    }
 }
 
 /// Plants by number and age.
@@ -110,15 +123,13 @@ fn by_records(records: &Columns) -> Plants {
     let number = |name: &str| records.numbers(name);
     let (plant, age, component, axis) = (number("plant_id"), number("age"), number("component_id"), number("axis_id"));
     let (order, alive, area, volume) = (number("order"), number("alive"), number("area_m2"), number("wood_volume_m3"));
+    let (diameter, diameter_tip) = (number("diameter_m"), number("diameter_tip_m"));
+    let (rank, parent) = (number("rank"), number("parent_id"));
     let (length, kind) = (number("length_m"), records.words("kind"));
     let (base, dir) = (["x_m", "y_m", "z_m"].map(number), ["dir_x", "dir_y", "dir_z"].map(number));
     let mut plants = Plants::new();
     for row in 0..plant.len() {
-        let told = plants.entry((plant[row] as u32, age[row] as u32)).or_insert_with(|| Told {
-            low: [f32::INFINITY; 3],
-            high: [f32::NEG_INFINITY; 3],
-            ..Told::default()
-        });
+        let told = plants.entry((plant[row] as u32, age[row] as u32)).or_insert_with(Told::of_nothing);
         let lives = alive[row] == 1.0;
         told.standing.insert(component[row] as u32, lives);
         let stem = kind[row].ends_with("internode");
@@ -142,9 +153,21 @@ fn by_records(records: &Columns) -> Plants {
                 told.low[k] = told.low[k].min(tip);
                 told.high[k] = told.high[k].max(tip);
             }
+            if order[row] == 1.0 {
+                let tip = base[2][row] as f32 + length[row] as f32 * dir[2][row] as f32;
+                let (low, top) = (base[2][row], f64::from(tip));
+                if low <= 1.3 && 1.3 < top {
+                    let slope = (diameter_tip[row] - diameter[row]) / (top - low);
+                    told.at_breast_height = told.at_breast_height.max(diameter[row] + slope * (1.3 - low));
+                }
+            }
+            if rank[row] == 1.0 && parent[row].is_nan() && told.base.is_none_or(|(known, _)| axis[row] < known) {
+                told.base = Some((axis[row], diameter[row]));
+            }
         }
-        if matches!(kind[row].as_str(), "leaf" | "leaflet") && !area[row].is_nan() {
-            told.leaf_area += area[row];
+        if matches!(kind[row].as_str(), "leaf" | "leaflet") {
+            told.leaf_area += if area[row].is_nan() { 0.0 } else { area[row] };
+            told.lowest_leaf = told.lowest_leaf.min(base[2][row]);
         }
         told.wood_volume += if stem { volume[row] } else { 0.0 };
     }
@@ -220,6 +243,12 @@ fn check(summary: &Columns, row: usize, told: &Told, last_death: f64) {
     };
     assert_eq!(number("height_m").to_bits(), height.to_bits(), "height_m: {height}");
     assert_eq!(number("crown_width_m").to_bits(), width.to_bits(), "crown_width_m: {width}");
+    let base = told.base.map_or(f64::NAN, |(_, diameter)| diameter);
+    assert_eq!(number("basal_diameter_m").to_bits(), base.to_bits(), "basal_diameter_m: {base}");
+    assert_eq!(number("lowest_leaf_m").to_bits(), told.lowest_leaf.to_bits(), "lowest_leaf_m: {}", told.lowest_leaf);
+    let (stated, at) = (number("diameter_at_1_3_m"), told.at_breast_height);
+    let agree = (stated.is_nan() && at.is_nan()) || (stated - at).abs() <= ROUNDING * at;
+    assert!(agree, "diameter_at_1_3_m: {stated}, and by records {at}");
     for (column, sum) in [("leaf_area_m2", told.leaf_area), ("wood_volume_m3", told.wood_volume)] {
         let stated = number(column);
         assert!((stated - sum).abs() <= ROUNDING * sum, "{column}: {stated}, and its parts are {sum}");
@@ -242,7 +271,7 @@ fn compare(resolved: Resolved) -> [u32; 2] {
     let of = |sown: &f64| recorded.iter().filter(|tick| f64::from(**tick) >= *sown).count();
     let expected = sowings.numbers("sown_tick").iter().map(of).sum::<usize>();
     assert_eq!(plants.len(), expected, "{name}: a row a plant and recorded tick from its sowing on");
-    let nothing = Told::default();
+    let nothing = Told::of_nothing();
     let mut budless = 0;
     for row in 0..plants.len() {
         let (plant, age) = (plants[row] as u32, ages[row] as u32);

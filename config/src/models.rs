@@ -209,6 +209,11 @@ impl Model {
         self.parameters().full_grown_at()
     }
 
+    /// As [`Parameters::states`].
+    pub fn states(&self) -> &[String] {
+        self.parameters().states()
+    }
+
     /// As [`Parameters::year`].
     pub(crate) fn year(&self) -> Option<(Path, u32)> {
         self.parameters().year()

@@ -128,6 +128,11 @@ pub trait Parameters {
         None
     }
 
+    /// The names of the states that an axis can be in, in the order of their numbers; empty where the model has none.
+    fn states(&self) -> &[String] {
+        &[]
+    }
+
     /// A tree of stems by levels as it is at `age`; `None` where the plants of the model have no levels.
     fn levelled(&self, age: Tick) -> Option<Levelled> {
         let _ = age;

@@ -22,6 +22,8 @@ mod specimen;
 mod specimen_plots;
 mod storage;
 pub mod tables;
+pub mod views;
+pub mod views_of_run;
 
 pub use destination::Destination;
 pub use frames::Frames;

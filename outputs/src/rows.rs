@@ -60,7 +60,7 @@ pub fn components_of(plot: &Plot, at: usize, last: Tick) -> Result<Vec<Component
     let mut index = ComponentIndex::default();
     index.read(plant)?;
     let mut columns = ComponentColumns::default();
-    columns.fill(of, (plant, &index), 0..index.len(), last, &mut Vec::new());
+    columns.fill(of, (plant, &index, &[]), 0..index.len(), last, &mut Vec::new());
     let c = &columns;
     let row = |i: usize| ComponentRow {
         plant_id: c.plant[i].unsigned_abs(),

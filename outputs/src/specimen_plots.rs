@@ -110,6 +110,8 @@ pub fn mixed_plan(plots: u32, plots_per_part: u32) -> RunPlan {
     plan.recorded.insert(0, 0);
     plan.provenance.treatments = ["control", "shade"].map(str::to_owned).to_vec();
     plan.provenance.species = SPECIES.map(str::to_owned).to_vec();
+    plan.provenance.states = vec![vec!["young".to_owned(), "old".to_owned()]; SPECIES.len()];
+    plan.provenance.ticks_per_year = vec![Some(4.0); SPECIES.len()];
     plan
 }
 

@@ -7,7 +7,7 @@
 //! the stump lives as long as a bud of what it still bears.
 
 use crate::clock::{NEVER, Tick};
-use crate::plant::{AxisId, Cause, Event, EventKind, Plant};
+use crate::plant::{AxisId, Cause, Event, EventKind, NO_STATE, Plant};
 
 /// Writes the death and the fall of every branch of `plant` whose buds are all dead, and of what it bears.
 pub fn shed(plant: &mut Plant) {
@@ -64,7 +64,7 @@ pub fn note_falls(plant: &mut Plant, age: Tick) {
         let with_bearer = plant.axes.bearer[axis].some().map_or(NEVER, |bearer| plant.shed_of(bearer));
         let tick = plant.axes.shed[axis];
         if tick <= age && tick < with_bearer.min(plant.cuts.off(AxisId(axis as u32))) {
-            events.push(Event { tick, axis: AxisId(axis as u32), kind: EventKind::Shed, count: 1 });
+            events.push(Event { tick, axis: AxisId(axis as u32), kind: EventKind::Shed, count: 1, state: NO_STATE });
         }
     }
     plant.events = Some(events);

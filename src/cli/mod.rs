@@ -27,6 +27,7 @@ mod mesh;
 mod named;
 mod out;
 mod picture;
+mod query;
 mod regrown;
 mod report;
 mod schema;
@@ -62,6 +63,7 @@ Examples:
   phytomer animate coffee --out life.webp       a film of its life
   phytomer view coffee --out life.html          its life as a page that opens in a browser
   phytomer fit nodes.csv --law nodes            a law fitted to counts, with intervals and rivals
+  phytomer query --views runs/coffee            its tables as views for DuckDB, or SQL with the feature `sql`
   phytomer forest my_site/site.toml             a landscape from a raster, as a table, meshes and a scene
   phytomer report runs/coffee --out told.html   what became of its plants, as a page with charts
 
@@ -93,6 +95,7 @@ enum Verb {
     Animate(animate::Animate),
     View(view::View),
     Fit(fit::Fit),
+    Query(query::Query),
     Forest(forest::ForestVerb),
     Report(report::ReportVerb),
 }
@@ -146,6 +149,7 @@ impl Cli {
             Verb::Animate(verb) => verb.obey(),
             Verb::View(verb) => verb.obey(),
             Verb::Fit(verb) => verb.obey(),
+            Verb::Query(verb) => verb.obey(),
             Verb::Forest(verb) => verb.obey(),
             Verb::Report(verb) => verb.obey(),
         }

@@ -5,7 +5,8 @@
 
 use super::RunError;
 use super::forecast::Forecast;
-use phytomer_config::{Resolved, Treatment, Trial, scenario};
+use phytomer_config::scenario::Grid;
+use phytomer_config::{Resolved, Scenario, Treatment, Trial, scenario};
 use phytomer_outputs::tables::Factor;
 use phytomer_outputs::{Input, Provenance, RunPlan, Sample, Table};
 use sha2::{Digest, Sha256};
@@ -57,12 +58,15 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunErr
         precision_m: scenario.output.float_precision_m,
         mechanics: scenario.output.mechanics,
         calendars: trial.calendars().to_vec(),
+        ground_areas_m2: trial.treatments().iter().map(|treatment| ground_area_m2(&treatment.scenario)).collect(),
         species_of_models: trial.cohorts().iter().map(|cohort| cohort.species).collect(),
         provenance: Provenance {
             scenario: scenario.name.clone(),
             treatments: trial.treatments().iter().map(|treatment| treatment.name.clone()).collect(),
             factors: factors(&trial),
             species: resolved.all_species().iter().map(|species| species.about.name.clone()).collect(),
+            states: resolved.all_species().iter().map(|species| species.model.states().to_vec()).collect(),
+            ticks_per_year: resolved.all_species().iter().map(|species| species.ticks_per_year()).collect(),
             seed: scenario.seed,
             version: program.version.clone(),
             git_hash: program.git_hash.clone(),
@@ -82,6 +86,12 @@ fn table(table: scenario::Table) -> Table {
         scenario::Table::Treatments => Table::Treatments,
         scenario::Table::Site => Table::Site,
     }
+}
+
+/// The ground of a plant on the grid of a scenario, m²: that of a place, shared by the members of a plot.
+fn ground_area_m2(scenario: &Scenario) -> Option<f64> {
+    let Grid { across, along } = scenario.grid()?;
+    Some((across[0] * along[1] - across[1] * along[0]).abs() / f64::from(scenario.members().max(1)))
 }
 
 /// The factors of the experiment, with the level of each treatment.

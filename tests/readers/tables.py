@@ -151,6 +151,55 @@ means = con.sql("select count(distinct species), sum(plants) from growth()").fet
 assert means == (species, con.sql("select count(*) from summary").fetchall()[0][0]), means
 print(f"sowing: {species} species, sown at {ticks} ticks")
 
+# Events have the order of their axis, and the names of states go with their numbers.
+for table in ("records", "components", "events", "records_world"):
+    wrong = con.sql(f'select count(*) from {table} where axis_order is distinct from "order"').fetchall()[0][0]
+    assert wrong == 0, f"{table}: {wrong} rows have another axis_order"
+wrong = con.sql("""
+    select count(*) from events e join components c using (plot_id, plant_id, component_id)
+    where e.axis_order <> c.axis_order or (e.event = 'branched' and e.state is not null and e.state <> c.state)
+""").fetchall()[0][0]
+assert wrong == 0, f"events: {wrong} rows have the order or the state of another axis"
+for table in ("components", "events"):
+    names = con.sql(f"""
+        select species, state, count(distinct state_name), count(state_name), count(*)
+        from {table} join plants using (plot_id, plant_id) group by all
+    """).fetchall()
+    wrong = [row for row in names if row[2] > 1 or row[3] not in (0, row[4])]
+    assert not wrong, f"{table}: states with several names: {wrong}"
+
+# A growth unit is told by an event with its number of nodes; no node has more axillary axes than buds.
+wrong = con.sql("""
+    with made as (
+        select plot_id, plant_id, axis_id, count(*) as nodes, max(growth_unit) as units, max(cycle) as cycles
+        from components where growth_unit is not null group by all
+    ), told as (
+        select plot_id, plant_id, axis_id, sum(count) as nodes, count(*) as units from events where event = 'grew' group by all
+    )
+    select count(*) from made left join told using (plot_id, plant_id, axis_id)
+    where told.nodes is distinct from made.nodes or told.units < made.units or made.cycles < 1
+""").fetchall()[0][0]
+assert wrong == 0, f"components: the growth units of {wrong} axes are not those of events"
+buds = con.sql("""
+    with borne as (
+        select plot_id, plant_id, parent_id as component_id, count(*) as axes from components
+        where kind = 'apical_bud' and origin = 'axillary' group by all
+    )
+    select count(*) filter (axes > axillary_buds), sum(axillary_buds), sum(axes)
+    from components left join borne using (plot_id, plant_id, component_id) where axillary_buds is not null
+""").fetchall()[0]
+assert buds[0] == 0, f"components: {buds[0]} nodes have more axillary axes than buds"
+print(f"growth units agree with events; {buds[1]} axillary buds, {buds[2]} of them became axes")
+
+# Years are ages by the ticks of a year; the ground of plants is told or not within a treatment.
+years = con.sql("""
+    select count(*) from summary join plants using (plot_id, plant_id)
+    where abs(age_years * ticks_per_year - age) > 1e-9 * (age + 1) or (age_years is null) <> (ticks_per_year is null)
+""").fetchall()[0][0]
+assert years == 0, f"summary: {years} ages in years are not those of the species"
+wrong = con.sql("select count(*) from plants where ground_area_m2 <= 0").fetchall()[0][0]
+assert wrong == 0, f"plants: {wrong} have no ground"
+
 # A row a treatment, with a column for each factor; each plant is of one of them, and pairs are found in each.
 treatments = con.sql("select treatment_index, treatment from treatments order by treatment_index").fetchall()
 assert [index for index, _ in treatments] == list(range(len(treatments))), treatments

@@ -30,7 +30,7 @@ impl Axis<'_> {
     /// Ends the axis with the whole plant, also one that a resting bud would have begun later: nothing follows its end.
     pub(super) fn die_whole(&mut self) {
         self.plant.axes.end_apex(self.bud.axis, self.whole_death, ApexFate::Attacked);
-        self.plant.note(self.whole_death, self.bud.axis, EventKind::Attacked, 1);
+        self.plant.note_in_state(self.bud.state, self.whole_death, self.bud.axis, EventKind::Attacked, 1);
     }
 
     /// The preformed and neoformed nodes that a growth unit of a weakened plant makes: ⌊n m + u⌋ of each.

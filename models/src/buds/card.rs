@@ -45,6 +45,10 @@ impl Parameters for Buds {
         self.state_shares_of_meshes(share)
     }
 
+    fn states(&self) -> &[String] {
+        &self.states
+    }
+
     fn year(&self) -> Option<(Path, u32)> {
         let path = Path::root().key("season").key("ticks_per_year");
         self.season.as_ref().map(|season| (path, season.ticks_per_year.value()))

@@ -142,7 +142,7 @@ impl<'a> Axis<'a> {
             return self.end(ApexFate::Attacked, EventKind::Attacked, ApexEnd::Death);
         }
         if laws.pause.happens(&self.words.step, 0, at) {
-            self.plant.note(self.tick, self.bud.axis, EventKind::Paused, 1);
+            self.note(EventKind::Paused, 1);
             return Ok(true);
         }
         if laws.flower.happens(&self.words.step, 0, at) {
@@ -190,7 +190,7 @@ impl<'a> Axis<'a> {
             self.read_node();
             self.node(rank, nodes, short, rank > preformed)?;
         }
-        self.plant.note(self.tick, self.bud.axis, EventKind::Grew, nodes);
+        self.note(EventKind::Grew, nodes);
         Ok(())
     }
 
@@ -218,10 +218,15 @@ impl<'a> Axis<'a> {
         Ok(())
     }
 
+    /// Writes down what the bud did, in its present state.
+    fn note(&mut self, event: EventKind, count: u32) {
+        self.plant.note_in_state(self.bud.state, self.tick, self.bud.axis, event, count);
+    }
+
     fn end(&mut self, fate: ApexFate, event: EventKind, end: ApexEnd) -> Result<bool, Full> {
         self.plant.axes.end_apex(self.bud.axis, self.tick, fate);
         let count = if fate == ApexFate::Completed { self.bud.units } else { 1 };
-        self.plant.note(self.tick, self.bud.axis, event, count);
+        self.note(event, count);
         self.follow_end(end)?;
         Ok(false)
     }

@@ -50,16 +50,18 @@ impl Axis<'_> {
         let at = self.at(rank);
         let azimuth = self.bud.azimuth;
         let node = self.internode(rank, short, neoformed, at);
-        if self.laws.node.is_bare {
+        let buds = if self.laws.node.is_bare {
             self.bud.dormant = 0;
+            0
         } else {
-            self.dress(node, rank, nodes, azimuth);
-        }
+            self.dress(node, rank, nodes, azimuth)
+        };
+        self.plant.nodes.state_making(node, self.bud.units + 1, self.bud.cycle, buds);
         if self.plant.is_overgrown() { Err(Full) } else { Ok(()) }
     }
 
-    /// Adds leaves, lateral flowers, and the axes that buds become.
-    fn dress(&mut self, node: NodeId, rank: u32, nodes: u32, azimuth: f32) {
+    /// Adds leaves, lateral flowers, and the axes that buds become. Returns the number of axillary buds.
+    fn dress(&mut self, node: NodeId, rank: u32, nodes: u32, azimuth: f32) -> u32 {
         let at = self.at(rank);
         let laws = &self.laws.node;
         let words = &self.words.on_node;
@@ -77,6 +79,7 @@ impl Axis<'_> {
         }
         self.axillary(AxillaryBuds { node, rank, nodes, buds, spacing }, azimuth);
         self.reiterations(node, reiterations, azimuth + spacing / 2.0, at);
+        buds
     }
 
     fn internode(&mut self, rank: u32, short: bool, neoformed: bool, at: At) -> NodeId {
@@ -309,6 +312,6 @@ impl Axis<'_> {
             shed_after: NEVER,
         };
         let axis = add_axis(self.model, self.plant, new);
-        self.plant.note(self.tick, axis, event, 1);
+        self.plant.note_in_state(new.state, self.tick, axis, event, 1);
     }
 }

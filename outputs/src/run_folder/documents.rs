@@ -11,9 +11,9 @@ use super::seal::DOCUMENT;
 use super::share::{SHARE, Share};
 use crate::storage::durable;
 use crate::tables::arrow::plant_ontology;
-use crate::tables::columns::SITE;
 use crate::tables::schema::{Column, Type};
 use crate::tables::{Factor, RunPlan, Table, treatments};
+use crate::views::{Tables, for_duckdb};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -228,121 +228,8 @@ fn factor_field(factor: &Factor) -> Value {
     })
 }
 
-/// The view of a run with `records` and `plants`: the rows of `records` with the places of components in the plot. The
-/// sums are in double precision, as the places of plants are.
-const WORLD: (&str, &str) = (
-    "Records with their places in the plot, `world_x_m`, `world_y_m` and `world_z_m`, beside those from the plant's seed.",
-    "records_world AS SELECT r.*, p.x_m + r.x_m AS world_x_m, p.y_m + r.y_m AS world_y_m, p.z_m + r.z_m AS world_z_m \
-     FROM records r JOIN plants p USING (plot_id, plant_id)",
-);
-
-/// The macros of `views.sql`: the tables that each needs, its description, and its SQL.
-const MACROS: [(&[Table], &str, &str); 10] = [
-    (
-        &[Table::Records],
-        "Everything that stands on plants of an age: SELECT kind, count(*) FROM at_age(10) GROUP BY kind;",
-        "at_age(a) AS TABLE SELECT * FROM {records} WHERE age = a",
-    ),
-    (
-        &[Table::Records],
-        "Everything that stands at a tick of the plot, which is the age of plants that were sown at tick 0.",
-        "at_tick(t) AS TABLE SELECT * FROM {records} WHERE tick = t",
-    ),
-    (
-        &[Table::Records],
-        "The internodes of each order at an age, with their length and wood volume, by plant.",
-        "orders_at(a) AS TABLE SELECT plant_id, \"order\", count(*) AS internodes, sum(length_m) AS length_m, \
-         sum(pi() / 12 * length_m * (diameter_m ** 2 + diameter_m * diameter_tip_m + diameter_tip_m ** 2)) AS \
-         wood_volume_m3 FROM records WHERE age = a AND ends_with(kind, 'internode') GROUP BY ALL ORDER BY ALL",
-    ),
-    (
-        &[Table::Components],
-        "What was alive at any age of its plant, recorded or not.",
-        "alive_at(a) AS TABLE SELECT * FROM components WHERE birth_age <= a AND (death_age IS NULL OR death_age > a)",
-    ),
-    (
-        &[Table::Components],
-        "One row an axis.",
-        "axes() AS TABLE SELECT b.plant_id, b.axis_id, b.bearing_axis_id, b.\"order\", b.origin, b.birth_age, b.death_age, \
-         count(i.component_id) AS internodes, sum(i.length_m) AS length_m FROM components b LEFT JOIN components i ON \
-         i.plant_id = b.plant_id AND i.axis_id = b.axis_id AND ends_with(i.kind, 'internode') WHERE b.kind = \
-         'apical_bud' GROUP BY ALL ORDER BY ALL",
-    ),
-    (
-        &[Table::Events],
-        "How often each fate befell a bud, by age.",
-        "fates() AS TABLE SELECT age, event, count(*) AS buds FROM events GROUP BY ALL ORDER BY ALL",
-    ),
-    (
-        &[Table::Site],
-        "What the date brought to each treatment and replicate, tick by tick, its parts together.",
-        "sites() AS TABLE SELECT treatment, replicate, block, tick, max(date) AS date, max(degree_days) AS degree_days, \
-         max(degree_day_sum) AS degree_day_sum, max(day_length_h) AS day_length_h, max(nitrogen_kg_ha) AS \
-         nitrogen_kg_ha, sum(plots) AS plots, sum(living_plants) AS living_plants, {pressures} FROM site GROUP BY ALL ORDER \
-         BY ALL",
-    ),
-    (
-        &[Table::Summary, Table::Plants],
-        "Means over the plants of each treatment and species, by age.",
-        "growth() AS TABLE SELECT s.treatment, p.species, s.age, count(*) AS plants, count(*) FILTER (alive) AS alive, \
-         avg(internodes) AS internodes, avg(leaves) AS leaves, avg(height_m) AS height_m, avg(leaf_area_m2) AS \
-         leaf_area_m2 FROM summary s JOIN plants p USING (plot_id, plant_id) GROUP BY ALL ORDER BY ALL",
-    ),
-    (
-        &[Table::Summary, Table::Treatments],
-        "The means of each treatment at an age, with its level of each factor.",
-        "treatments_at(a) AS TABLE SELECT t.*, count(*) AS plants, count(*) FILTER (s.alive) AS alive, \
-         avg(s.internodes) AS internodes, avg(s.leaves) AS leaves, avg(s.height_m) AS height_m, avg(s.leaf_area_m2) AS \
-         leaf_area_m2 FROM treatments t JOIN summary s USING (treatment) WHERE s.age = a GROUP BY ALL ORDER BY treatment_index",
-    ),
-    (
-        &[Table::Summary, Table::Plants],
-        "The plants at an age with what pairs them across treatments: replicate, and number within it. Plants of the same \
-         replicate and number have the same draws.",
-        "pairs_at(a) AS TABLE SELECT p.replicate, p.block, p.number, s.* FROM summary s JOIN (SELECT plot_id, plant_id, \
-         replicate, block, row_number() OVER (PARTITION BY treatment, replicate ORDER BY plant_id) - 1 AS number FROM \
-         plants) p USING (plot_id, plant_id) WHERE s.age = a ORDER BY ALL",
-    ),
-];
-
-/// The macro of a run with the columns of mechanics.
-const MECHANICS: (&str, &str) = (
-    "What each plant weighs at an age, in kg, and where it is bent most, in N m and 1/m.",
-    "mechanics_at(a) AS TABLE SELECT plant_id, sum(wood_volume_m3) AS wood_volume_m3, sum(fresh_mass_kg) AS fresh_mass_kg, \
-     max(bending_moment_N_m) AS bending_moment_N_m, max(curvature_per_m) AS curvature_per_m FROM records WHERE age = a \
-     GROUP BY ALL ORDER BY ALL",
-);
-
-/// The means of the pressures of pests over the rows of several parts, each row with the weight of its living plants.
-fn mean_pressures() -> String {
-    let pressures = SITE.iter().map(|column| column.name).filter(|name| name.starts_with("pest_pressure"));
-    let mean = |name: &str| {
-        let living = format!("sum(living_plants) FILTER ({name} IS NOT NULL)");
-        format!("sum({name} * living_plants) / nullif({living}, 0) AS {name}")
-    };
-    pressures.map(mean).collect::<Vec<_>>().join(", ")
-}
-
 fn views(plan: &RunPlan) -> String {
-    let mut sql =
-        String::from("-- For DuckDB. Paths are relative: start DuckDB in this folder, then `.read views.sql`.\n");
-    for table in &plan.tables {
-        let name = table.name();
-        sql += &format!("\n-- {}\n", table.description());
-        sql += &format!("CREATE OR REPLACE VIEW {name} AS SELECT * FROM read_parquet('{name}/part-*.parquet');\n");
-    }
-    let has = |tables: &[Table]| tables.iter().all(|table| plan.tables.contains(table));
-    let located = has(&[Table::Records, Table::Plants]);
-    if located {
-        let (comment, body) = WORLD;
-        sql += &format!("\n-- {comment}\nCREATE OR REPLACE VIEW {body};\n");
-    }
-    let wanted = MACROS.iter().filter(|(tables, ..)| has(tables)).map(|(_, comment, body)| (*comment, *body));
-    let mechanics = plan.mechanics && has(&[Table::Records]);
-    for (comment, body) in wanted.chain(mechanics.then_some(MECHANICS)) {
-        let body = body.replace("{records}", if located { "records_world" } else { "records" });
-        let body = body.replace("{pressures}", &mean_pressures());
-        sql += &format!("\n-- {comment}\nCREATE OR REPLACE MACRO {body};\n");
-    }
-    sql
+    let about = "Paths are relative: start DuckDB in this folder, then `.read views.sql`. `phytomer query --views` prints \
+                 the same with whole paths, also of several runs.";
+    for_duckdb(about, &[Tables::of_plan(plan)])
 }

@@ -100,6 +100,7 @@ pub fn key_values(table: Table, plan: &RunPlan) -> Vec<KeyValue> {
         entry("scenario", provenance.scenario.clone()),
         entry("treatments", serde_json::json!(provenance.treatments).to_string()),
         entry("species", serde_json::json!(provenance.species).to_string()),
+        entry("ticks_per_year", serde_json::json!(provenance.ticks_per_year).to_string()),
         entry("seed", provenance.seed.to_string()),
         entry("units", units(plan.mechanics && table == Table::Records)),
         entry("rounding", rounding(plan)),

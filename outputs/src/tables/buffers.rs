@@ -35,7 +35,7 @@ pub enum Values {
     Double(Vec<f64>),
     /// Indices into the column's list of words; negative for null.
     Word(Vec<i8>),
-    /// Indices into the run's list of names, never null.
+    /// Indices into the run's list of names; negative for null.
     Name(Vec<i32>),
 }
 
@@ -133,7 +133,7 @@ pub fn lend(values: Values, column: &Column, words: &Arc<StringArray>) -> Result
             (Arc::new(DictionaryArray::try_new(keys, words.clone())?), Lent::Word(buffer))
         }
         Values::Name(values) => {
-            let (keys, buffer) = numbers::<Int32Type>(values, false, |_| true);
+            let (keys, buffer) = numbers::<Int32Type>(values, nullable, |value| value >= 0);
             (Arc::new(DictionaryArray::try_new(keys, words.clone())?), Lent::Name(buffer))
         }
     })

@@ -6,14 +6,16 @@
 //! relative to the seed of its plant, in single precision; that of the seed is in `plants`, in double precision.
 
 mod site;
+mod summary;
 
 pub use site::SITE;
+pub use summary::SUMMARY;
 
 use super::schema::{Column, Encoding, Named, Rounding, Type};
 use phytomer_sim::plant::{Cause, EventKind, Kind, Origin};
 
 /// The version of these lists: it changes with a column's name, type or meaning.
-pub const SCHEMA_VERSION: &str = "4";
+pub const SCHEMA_VERSION: &str = "5";
 
 /// The tags of [`Kind`], in the order of their numbers.
 pub static KINDS: [&str; Kind::ALL.len()] = {
@@ -91,6 +93,13 @@ const PARENT: Column = Column::id(
 .or_null();
 const AXIS: Column = Column::id("axis_id", "The axis, as the component_id of its apical bud.");
 const ORDER: Column = Column::small("order", "The order of the axis; the trunk is 1.");
+const STATE_NAME: Column = Column::new(
+    "state_name",
+    Type::Name(Named::State),
+    Encoding::Dictionary,
+    "The name of that state in the species. Null where the species names no states, or `state` is null.",
+)
+.or_null();
 const KIND: Column = Column::word("kind", &KINDS, "What the component is.");
 
 /// The number of columns of [`RECORDS`] that every run has; the columns of mechanics follow, for runs that state them.
@@ -187,7 +196,7 @@ pub static RECORDS: [Column; RECORDS_OF_POSE + 4] = [
 ];
 
 /// A row per component that ever lived, by the last tick of the run.
-pub static COMPONENTS: [Column; 26] = [
+pub static COMPONENTS: [Column; 30] = [
     TREATMENT,
     PLOT,
     PLANT,
@@ -206,6 +215,7 @@ pub static COMPONENTS: [Column; 26] = [
     KIND,
     Column::word("origin", &ORIGINS, "How the axis came to be."),
     Column::small("state", "The state in which the axis started, as the model numbers them."),
+    STATE_NAME,
     Column::small(
         "position",
         "The position among its like on the node, from 0: of a lateral organ, or of the bud that an axis came from. Null \
@@ -223,7 +233,25 @@ pub static COMPONENTS: [Column; 26] = [
         "The rank of the same internode in its growth unit, from 1. Null for the bud of the seed.",
     )
     .or_null(),
+    Column::small(
+        "growth_unit",
+        "The number of the growth unit of the internode on its axis, from 1; units without nodes count. Null for organs and \
+         buds, for models without growth units, and above 65,534.",
+    )
+    .or_null(),
+    Column::small(
+        "cycle",
+        "The clock step of its axis at which the internode was made, from 1; steps at which the bud paused count. Null as \
+         `growth_unit`.",
+    )
+    .or_null(),
     Column::truth("neoformed", "Whether the internode was made after bud break. Null for organs and buds.").or_null(),
+    Column::small(
+        "axillary_buds",
+        "The axillary buds of the node at the tip of the internode, whether they became axes or lie dormant. Null as \
+         `growth_unit`.",
+    )
+    .or_null(),
     Column::tick("birth_age", "The age of the plant at which the component appeared."),
     Column::tick("birth_dimension", "The ticks since the birth of the axis, at the component's. Null for buds.")
         .or_null(),
@@ -264,7 +292,7 @@ pub static COMPONENTS: [Column; 26] = [
 ];
 
 /// A row per fate of a bud or a branch, up to the last tick of the run.
-pub static EVENTS: [Column; 9] = [
+pub static EVENTS: [Column; 12] = [
     TREATMENT,
     PLOT,
     PLANT,
@@ -272,6 +300,14 @@ pub static EVENTS: [Column; 9] = [
     AGE,
     Column::id("component_id", "The apical bud: of the new axis where one began, of the branch that fell for `shed`."),
     Column::id("axis_id", "The axis of that bud: the same number, so that events join by axis too."),
+    ORDER,
+    Column::small(
+        "state",
+        "The state of the bud when it happened, as the model numbers them; of a new axis the state in which it starts. Null \
+         for models without states, and for what befalls a branch whole: cuts, harvests, falls and buckling.",
+    )
+    .or_null(),
+    STATE_NAME,
     Column::word("event", &EVENT_TAGS, "What happened; the falls of organs are in components."),
     Column::small(
         "count",
@@ -280,54 +316,8 @@ pub static EVENTS: [Column; 9] = [
     ),
 ];
 
-/// A row per plant and recorded tick; none before the plant is sown.
-pub static SUMMARY: [Column; 21] = [
-    TREATMENT,
-    PLOT,
-    PLANT,
-    TICK,
-    AGE,
-    Column::id("internodes", "Living internodes of every kind: those whose kind ends in `internode`."),
-    Column::id("leaves", "Leaves on the plant, of kind `leaf`; leaflets, bracts and the parts of flowers are none."),
-    Column::id("flowers", "Flowers on the plant, and inflorescences and spikelets that are drawn as one."),
-    Column::id("fruits", "Fruits on the plant, and infructescences and strobili."),
-    Column::id("buds", "Living apical buds. An apex that has become a flower is none."),
-    Column::id("dead_internodes", "Dead internodes that still stand."),
-    Column::id("axes", "Axes with an internode that stands, living or dead, or a living bud."),
-    Column::small("max_order", "The highest order among them; 0 where none is left."),
-    Column::double("height_m", "m", "The highest tip of a living internode above the seed. Null where none lives.")
-        .or_null(),
-    Column::double(
-        "crown_width_m",
-        "m",
-        "The mean of the extents along x and y of the tips of living internodes. Null where none lives.",
-    )
-    .or_null(),
-    Column::double("leaf_area_m2", "m2", "One side of every leaf and leaflet on the plant."),
-    Column::double(
-        "wood_volume_m3",
-        "m3",
-        "The volume of the internodes that stand, living and dead: frusta, and of blades their area by their thickness.",
-    ),
-    Column::truth(
-        "alive",
-        "Whether the plant lives, which is when any of its components at this age does, as `records` and `components` tell. \
-         It may live without a bud: on the flower or fruit that an apex has become, or on a branch that has completed its \
-         growth and persists.",
-    ),
-    Column::tick("death_age", "The age at which the last of its components died. Null while the plant lives.")
-        .or_null(),
-    Column::id("harvested_fruits", "Fruits of the plant that were harvested by this age: the yield."),
-    Column::double(
-        "harvested_fresh_mass_kg",
-        "kg",
-        "The fresh mass of these fruits when they were harvested. Null where the species states no mass of fruits.",
-    )
-    .or_null(),
-];
-
 /// A row per plant.
-pub static PLANTS: [Column; 11] = [
+pub static PLANTS: [Column; 13] = [
     TREATMENT,
     PLOT,
     PLANT,
@@ -337,6 +327,7 @@ pub static PLANTS: [Column; 11] = [
     ),
     BLOCK,
     Column::new("species", Type::Name(Named::Species), Encoding::Dictionary, "The species of the plant."),
+    Column::double("ticks_per_year", "tick", "The ticks of a year of the species. Null where it states none.").or_null(),
     Column::tick(
         "sown_tick",
         "The tick of the plot at which the plant was sown: its age 0. Null for a seed that did not germinate.",
@@ -350,6 +341,13 @@ pub static PLANTS: [Column; 11] = [
     ),
     Column::double("y_m", "m", "The place of the seed in the plot, northward; never rounded."),
     Column::double("z_m", "m", "The place of the seed in the plot, upward; never rounded."),
+    Column::double(
+        "ground_area_m2",
+        "m2",
+        "The ground of the plant: that of a place of the grid of its treatment, shared by the members of a plot. Null where \
+         the scenario states no distances.",
+    )
+    .or_null(),
     Column::truth(
         "sampled",
         "Whether `components`, `records` and `events` have rows of the plant: true unless the run has a sample that it is \

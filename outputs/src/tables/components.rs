@@ -4,10 +4,12 @@
 
 use super::buffers::{NULL, columns, known};
 use super::component_index::{Component, ComponentIndex, inclination};
-use super::membership::Membership;
+use super::membership::{Membership, name_of};
 use super::records::{area_of, number_of};
 use phytomer_sim::Tick;
-use phytomer_sim::plant::{AxisId, Cause, Class, Departed, Kind, LineageKey, NodeId, OrganId, Origin, Plant};
+use phytomer_sim::plant::{
+    AxisId, BUDS_NOT_TOLD, Cause, Class, Departed, Kind, LineageKey, NOT_TOLD, NodeId, Nodes, OrganId, Origin, Plant,
+};
 use std::ops::Range;
 
 columns! {
@@ -25,10 +27,14 @@ columns! {
         kind: Word(i8) = row.kind as i8,
         origin: Word(i8) = row.axis.origin as i8,
         state: Int(i32) = i32::from(row.axis.state),
+        state_name: Name(i32) = name_of(of.states, row.axis.state),
         position: Int(i32) = row.position,
         rank: Int(i32) = row.rank,
         unit_rank: Int(i32) = row.unit_rank,
+        growth_unit: Int(i32) = row.making.growth_unit,
+        cycle: Int(i32) = row.making.cycle,
         neoformed: Bool(i8) = row.neoformed,
+        axillary_buds: Int(i32) = row.making.axillary_buds,
         birth: Int(i32) = row.birth as i32,
         birth_dimension: Int(i32) = row.birth_dimension,
         delay: Int(i32) = row.delay,
@@ -47,6 +53,8 @@ columns! {
 struct OfPlant<'a> {
     of: Membership,
     plant: &'a Plant,
+    /// The names of the states of its model.
+    states: &'a [i32],
     /// The last recorded age of the plant.
     last: Tick,
 }
@@ -61,6 +69,7 @@ pub struct ComponentRow {
     position: i32,
     rank: i32,
     unit_rank: i32,
+    making: Making,
     neoformed: i8,
     birth: Tick,
     birth_dimension: i32,
@@ -72,6 +81,30 @@ pub struct ComponentRow {
     shed: Tick,
     cause: Cause,
     trend: f32,
+}
+
+/// How a bud made an internode and its node.
+#[derive(Clone, Copy)]
+struct Making {
+    growth_unit: i32,
+    cycle: i32,
+    axillary_buds: i32,
+}
+
+impl Making {
+    /// Of organs and buds, and where the model has no growth units.
+    const NOT_TOLD: Self = Self { growth_unit: NULL, cycle: NULL, axillary_buds: NULL };
+
+    #[inline]
+    fn of(nodes: &Nodes, i: usize) -> Self {
+        let told = |number: u16| if number == NOT_TOLD { NULL } else { i32::from(number) };
+        let buds = nodes.axillary_buds[i];
+        Self {
+            growth_unit: told(nodes.growth_unit[i]),
+            cycle: told(nodes.cycle[i]),
+            axillary_buds: if buds == BUDS_NOT_TOLD { NULL } else { i32::from(buds) },
+        }
+    }
 }
 
 /// The values that a component has of its axis.
@@ -89,7 +122,7 @@ impl ComponentColumns {
     pub fn fill(
         &mut self,
         of: Membership,
-        (plant, index): (&Plant, &ComponentIndex),
+        (plant, index, states): (&Plant, &ComponentIndex, &[i32]),
         numbers: Range<u32>,
         last: Tick,
         rows: &mut Vec<ComponentRow>,
@@ -107,7 +140,7 @@ impl ComponentColumns {
         };
         let lived = |row: &ComponentRow| row.birth <= last && (row.kind == Kind::ApicalBud || row.birth < row.death);
         rows.extend(numbers.map(row_of).filter(lived));
-        self.extend(rows, &OfPlant { of, plant, last });
+        self.extend(rows, &OfPlant { of, plant, states, last });
     }
 }
 
@@ -125,6 +158,7 @@ fn of_node(plant: &Plant, node: NodeId, index: &ComponentIndex) -> ComponentRow 
         position: NULL,
         rank: nodes.rank[i] as i32,
         unit_rank: i32::from(nodes.unit_rank[i]),
+        making: Making::of(nodes, i),
         neoformed: i8::from(nodes.formation[i].is_neoformed()),
         birth: nodes.birth[i],
         birth_dimension: nodes.birth[i].saturating_sub(axes.birth[axis.index()]) as i32,
@@ -156,6 +190,7 @@ fn of_organ(plant: &Plant, organ: OrganId) -> ComponentRow {
         position: if organs.position[i] == u16::MAX { NULL } else { i32::from(organs.position[i]) },
         rank: nodes.rank[node] as i32,
         unit_rank: i32::from(nodes.unit_rank[node]),
+        making: Making::NOT_TOLD,
         neoformed: -1,
         birth: organs.birth[i],
         birth_dimension: organs.birth[i].saturating_sub(axes.birth[axis.index()]) as i32,
@@ -187,6 +222,7 @@ fn of_bud(plant: &Plant, axis: AxisId) -> ComponentRow {
         position: i32::from(axes.position[i]),
         rank: bearer.map_or(NULL, |node| plant.nodes.rank[node] as i32),
         unit_rank: bearer.map_or(NULL, |node| i32::from(plant.nodes.unit_rank[node])),
+        making: Making::NOT_TOLD,
         neoformed: -1,
         birth: axes.appearance[i],
         birth_dimension: NULL,
@@ -221,6 +257,7 @@ fn of_departed(departed: &Departed) -> ComponentRow {
         position: departed.position.map_or(NULL, i32::from),
         rank: number_or_null(departed.rank),
         unit_rank: departed.unit_rank.map_or(NULL, i32::from),
+        making: Making::NOT_TOLD,
         neoformed: departed.neoformed.map_or(-1, i8::from),
         birth: departed.birth,
         birth_dimension: number_or_null(departed.birth_dimension),

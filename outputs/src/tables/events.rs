@@ -4,14 +4,14 @@
 //! sorted, both give equal rows. The events of a plot are first dealt to its ticks, plant by plant, then sorted within
 //! each tick and plant. This holds a second copy of the events of one plot in memory.
 
-use super::buffers::columns;
-use super::membership::{Membership, by_number};
-use phytomer_sim::plant::{AxisId, Event, EventKind, Plant};
+use super::buffers::{NULL, columns};
+use super::membership::{Membership, by_number, name_of};
+use phytomer_sim::plant::{AxisId, Event, EventKind, NO_STATE, Plant};
 use phytomer_sim::{Plot, Tick};
 
 columns! {
     /// The buffers of `events`.
-    EventColumns of event: Event, of: (Membership, &Plant) {
+    EventColumns of event: Event, of: (Membership, &Plant, &[i32]) {
         treatment: Name(i32) = of.0.treatment as i32,
         plot: Int(i32) = of.0.plot as i32,
         plant: Int(i32) = of.1.id as i32,
@@ -19,16 +19,19 @@ columns! {
         age: Int(i32) = event.tick as i32,
         component: Int(i32) = of.1.bud_number(event.axis) as i32,
         axis: Int(i32),
+        order: Int(i32) = i32::from(of.1.order_of(event.axis)),
+        state: Int(i32) = if event.state == NO_STATE { NULL } else { i32::from(event.state) },
+        state_name: Name(i32) = name_of(of.2, event.state),
         event: Word(i8) = event.kind as i8,
         count: Int(i32) = event.count as i32,
     }
 }
 
 impl EventColumns {
-    /// Adds a row for each of the events of one plant.
-    pub fn fill(&mut self, of: Membership, plant: &Plant, events: &[Event]) {
+    /// Adds a row for each of the events of one plant. `states` are the names of the states of its model.
+    pub fn fill(&mut self, of: Membership, (plant, states): (&Plant, &[i32]), events: &[Event]) {
         let before = self.component.len();
-        self.extend(events, (of, plant));
+        self.extend(events, (of, plant, states));
         self.axis.extend_from_slice(&self.component[before..]);
     }
 }
@@ -62,7 +65,8 @@ impl SortedEvents {
         let mut before = 0;
         next.iter_mut().for_each(|next| before += std::mem::replace(next, before));
         self.events.clear();
-        self.events.resize(before, Event { tick: 0, axis: AxisId::TRUNK, kind: EventKind::Grew, count: 0 });
+        self.events
+            .resize(before, Event { tick: 0, axis: AxisId::TRUNK, kind: EventKind::Grew, count: 0, state: NO_STATE });
         self.stretches.clear();
         for at in order {
             self.deal(plot, at, last, &mut next);

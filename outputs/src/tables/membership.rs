@@ -4,6 +4,7 @@
 //! All rows of a plant share it, in every table. Ticks count from the start of the plot, ages from the sowing of a
 //! plant; in the tables only this file converts between ticks and ages. Absent: the plant itself.
 
+use super::buffers::NULL;
 use phytomer_sim::{Member, Plot, Tick};
 
 /// The plot, species and sowing of a plant.
@@ -51,4 +52,11 @@ pub fn by_number(plot: &Plot) -> Vec<usize> {
     let mut places: Vec<usize> = (0..plot.plants.len()).collect();
     places.sort_by_key(|&at| plot.plants[at].id);
     places
+}
+
+/// The name of a state of a plant's model, as an index into the run's list of state names; −1 (null) where it has none.
+/// `states` are the names of the model's states, by their numbers.
+#[inline]
+pub fn name_of(states: &[i32], state: u8) -> i32 {
+    states.get(usize::from(state)).copied().unwrap_or(NULL)
 }

@@ -150,6 +150,7 @@ fn words_of(column: &Column, provenance: &Provenance) -> Arc<StringArray> {
     Arc::new(match column.holds {
         Type::Word(words) => StringArray::from_iter_values(words),
         Type::Name(Named::Treatment) => StringArray::from_iter_values(&provenance.treatments),
+        Type::Name(Named::State) => StringArray::from_iter_values(provenance.state_names()),
         Type::Name(Named::Species) => StringArray::from_iter_values(&provenance.species),
         _ => StringArray::from_iter_values([""; 0]),
     })

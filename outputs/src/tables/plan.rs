@@ -37,6 +37,9 @@ pub struct RunPlan {
     pub calendars: Vec<Calendars>,
     /// The species of each model, as an index into [`Provenance::species`]; a species is its own model beyond the list.
     pub species_of_models: Vec<usize>,
+    /// The ground of a plant in the plots of each treatment, m², in the order of the treatments; `None` where plants have
+    /// no neighbours, and for treatments beyond the list.
+    pub ground_areas_m2: Vec<Option<f64>>,
     /// The origin of the figures.
     pub provenance: Provenance,
 }
@@ -52,6 +55,10 @@ pub struct Provenance {
     pub factors: Vec<Factor>,
     /// The names of the species of the run, each once.
     pub species: Vec<String>,
+    /// The names of the states of each species, in the order of their numbers; none for species beyond the list.
+    pub states: Vec<Vec<String>>,
+    /// The ticks of a year of each species; `None` where it states none, and for species beyond the list.
+    pub ticks_per_year: Vec<Option<f64>>,
     /// The seed of all random draws.
     pub seed: u64,
     /// The program's version.
@@ -97,5 +104,25 @@ impl RunPlan {
     /// The columns of a table in this run.
     pub fn columns(&self, table: Table) -> &'static [Column] {
         table.columns(self.mechanics)
+    }
+}
+
+impl Provenance {
+    /// The names of the states of all species, each once, in the order of their first mention.
+    pub fn state_names(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for name in self.states.iter().flatten() {
+            if !names.contains(&name.as_str()) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// For each species, the places of the names of its states among [`Provenance::state_names`].
+    pub fn places_of_states(&self) -> Vec<Vec<i32>> {
+        let names = self.state_names();
+        let place = |name: &String| names.iter().position(|known| known == name).map_or(-1, |place| place as i32);
+        self.states.iter().map(|states| states.iter().map(place).collect()).collect()
     }
 }

@@ -10,24 +10,35 @@ use phytomer_sim::plant::Plant;
 
 columns! {
     /// The buffers of `plants`.
-    PlantColumns of plant: Plant, of: Membership {
-        treatment: Name(i32) = of.treatment as i32,
-        plot: Int(i32) = of.plot as i32,
+    PlantColumns of plant: Plant, of: (Membership, Standing) {
+        treatment: Name(i32) = of.0.treatment as i32,
+        plot: Int(i32) = of.0.plot as i32,
         plant: Int(i32) = plant.id as i32,
-        replicate: Int(i32) = of.replicate as i32,
-        block: Int(i32) = of.block.map_or(NULL, |block| block as i32),
-        species: Name(i32) = of.species as i32,
-        sown: Int(i32) = of.sown as i32,
+        replicate: Int(i32) = of.0.replicate as i32,
+        block: Int(i32) = of.0.block.map_or(NULL, |block| block as i32),
+        species: Name(i32) = of.0.species as i32,
+        ticks_per_year: Double(f64) = of.1.ticks_per_year.unwrap_or(f64::NAN),
+        sown: Int(i32) = of.0.sown as i32,
         x: Double(f64) = plant.place[0],
         y: Double(f64) = plant.place[1],
         z: Double(f64) = plant.place[2],
-        sampled: Bool(i8) = i8::from(of.sampled),
+        ground_area: Double(f64) = of.1.ground_area_m2.unwrap_or(f64::NAN),
+        sampled: Bool(i8) = i8::from(of.0.sampled),
     }
+}
+
+/// What species and scenario state for a plant.
+#[derive(Debug, Clone, Copy)]
+pub struct Standing {
+    /// The ticks of a year of its species.
+    pub ticks_per_year: Option<f64>,
+    /// Its share of the ground of the grid, m².
+    pub ground_area_m2: Option<f64>,
 }
 
 impl PlantColumns {
     /// Adds the row of one plant.
-    pub fn add(&mut self, of: Membership, plant: &Plant) {
-        self.extend(std::slice::from_ref(plant), of);
+    pub fn add(&mut self, of: Membership, standing: Standing, plant: &Plant) {
+        self.extend(std::slice::from_ref(plant), (of, standing));
     }
 }

@@ -9,9 +9,9 @@
 
 use super::sink::{Rows, Sink};
 use super::{
-    ComponentColumns, ComponentIndex, ComponentRow, EventColumns, Group, Membership, PlantAtAge, PlantColumns,
-    RecordColumns, RecordRow, RunPlan, Sample, SiteColumns, SortedEvents, SummaryColumns, Table, TableError, by_number,
-    summarise,
+    ComponentColumns, ComponentIndex, ComponentRow, EventColumns, Group, Membership, OfSpecies, PlantAtAge,
+    PlantColumns, RecordColumns, RecordRow, RunPlan, Sample, SiteColumns, SortedEvents, Standing, SummaryColumns,
+    Table, TableError, by_number, summarise,
 };
 use phytomer_sim::site::calendars::Calendars;
 use phytomer_sim::{Ending, Plot, Tick};
@@ -41,7 +41,8 @@ pub struct Recording<S> {
     lives: Vec<ComponentRow>,
     sorted: SortedEvents,
     calendars: Vec<Calendars>,
-    species_of_models: Vec<usize>,
+    species: OfSpecies,
+    ground_areas_m2: Vec<Option<f64>>,
     /// The present treatment and replicate.
     group: Group,
 }
@@ -79,7 +80,8 @@ impl<S: Sink> Recording<S> {
             lives: Vec::new(),
             sorted: SortedEvents::default(),
             calendars: plan.calendars.clone(),
-            species_of_models: plan.species_of_models.clone(),
+            species: OfSpecies::of(plan),
+            ground_areas_m2: plan.ground_areas_m2.clone(),
             group: Group::default(),
         })
     }
@@ -130,11 +132,12 @@ impl<S: Sink> Recording<S> {
         for at in by_number(plot).into_iter().filter(chosen) {
             let (of, plant) = (Membership::of(plot, at), &plot.plants[at]);
             let Some(last) = of.age_at(last) else { continue };
+            let states = self.species.states(of);
             self.index.read(plant)?;
             let mut next = 0;
             while next < self.index.len() {
                 let numbers = self.index.following(table.room(), &mut next);
-                table.columns.fill(of, (plant, &self.index), numbers, last, &mut self.lives);
+                table.columns.fill(of, (plant, &self.index, states), numbers, last, &mut self.lives);
                 table.flush_if_full()?;
             }
         }
@@ -148,7 +151,8 @@ impl<S: Sink> Recording<S> {
         for (at, mut left) in self.sorted.stretches().filter(chosen) {
             while !left.is_empty() {
                 let (events, others) = left.split_at(left.len().min(table.room()));
-                table.columns.fill(Membership::of(plot, at), &plot.plants[at], events);
+                let of = Membership::of(plot, at);
+                table.columns.fill(of, (&plot.plants[at], self.species.states(of)), events);
                 table.flush_if_full()?;
                 left = others;
             }
@@ -160,9 +164,11 @@ impl<S: Sink> Recording<S> {
         let Some(table) = &mut self.tables.plants else { return Ok(()) };
         for at in by_number(plot) {
             let of = Membership::of(plot, at);
-            let species = self.species_of_models.get(of.species).copied().unwrap_or(of.species);
+            let species = self.species.number(of);
+            let ground_area_m2 = self.ground_areas_m2.get(of.treatment as usize).copied().flatten();
+            let standing = Standing { ticks_per_year: self.species.ticks_per_year(of), ground_area_m2 };
             let of = Membership { sampled: has(self.sample, plot, at), species, ..of };
-            table.columns.add(of, &plot.plants[at]);
+            table.columns.add(of, standing, &plot.plants[at]);
             table.flush_if_full()?;
         }
         Ok(())

@@ -30,6 +30,8 @@ pub enum Named {
     Treatment,
     /// The species of a plant.
     Species,
+    /// A state of an apical bud, as a species names it.
+    State,
 }
 
 /// How a column is encoded in Parquet, before compression.

@@ -10,7 +10,8 @@ use super::membership::Membership;
 use phytomer_sim::Tick;
 use phytomer_sim::mechanics::wood_volume;
 use phytomer_sim::plant::{AxisId, Cause, Class, Kind, NodeId, OrganId, Plant};
-use phytomer_sim::pose::node_frame;
+use phytomer_sim::pose::{node_frame, organ_frame};
+use std::ops::Range;
 
 columns! {
     /// The buffers of `summary`.
@@ -36,6 +37,9 @@ columns! {
         death: Int(i32) = if of.plant.lives(of.age) { NULL } else { of.plant.death as i32 },
         harvested_fruits: Int(i32) = summary.harvested_fruits as i32,
         harvested_mass: Double(f64) = summary.harvested_mass,
+        basal_diameter: Double(f64) = summary.basal_diameter,
+        breast_diameter: Double(f64) = summary.breast_diameter,
+        lowest_leaf: Double(f64) = summary.lowest_leaf,
     }
 }
 
@@ -78,7 +82,17 @@ pub struct Summary {
     pub harvested_fruits: u32,
     /// Their fresh mass when they were harvested, kg; NaN where the species states no mass of fruits.
     pub harvested_mass: f64,
+    /// The diameter at the base of the first internode of the axis of the seed, m; NaN where it does not live.
+    pub basal_diameter: f64,
+    /// The greatest diameter at [`BREAST_HEIGHT_M`] of the living internodes of order 1 that rise through that height, m;
+    /// NaN where none does.
+    pub breast_diameter: f64,
+    /// The height of the base of the lowest leaf or leaflet above the seed, m; NaN where there is none.
+    pub lowest_leaf: f64,
 }
+
+/// The height at which foresters measure the diameter of a stem, m.
+pub const BREAST_HEIGHT_M: f64 = 1.3;
 
 impl Summary {
     /// The summary of `plant`, posed at `age`, in O(n) for n components.
@@ -95,7 +109,8 @@ impl Summary {
 
 /// The summary of `plant` at `age`; `index` holds the plant with the tips of its axes at that age.
 pub fn summarise(plant: &Plant, index: &ComponentIndex, age: Tick) -> Summary {
-    let mut summary = Summary::default();
+    let [basal_diameter, breast_diameter, lowest_leaf] = [f64::NAN; 3];
+    let mut summary = Summary { basal_diameter, breast_diameter, lowest_leaf, ..Summary::default() };
     count_nodes(plant, age, &mut summary);
     count_organs(plant, age, &mut summary);
     count_axes(plant, index, age, &mut summary);
@@ -116,6 +131,9 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
             return;
         }
         summary.internodes += standing.len() as u32;
+        if axes.order[axis.index()] == 1 {
+            measure_stem(plant, axis, standing.clone(), summary);
+        }
         for node in standing {
             let tip = node_frame(plant, NodeId(node as u32)).base;
             for k in 0..3 {
@@ -128,6 +146,24 @@ fn count_nodes(plant: &Plant, age: Tick, summary: &mut Summary) {
     let lives = summary.internodes > 0;
     summary.height = if lives { f64::from(high[2]) } else { f64::NAN };
     summary.crown_width = if lives { (extent(0) + extent(1)) / 2.0 } else { f64::NAN };
+}
+
+/// Measures the diameters of living internodes of an axis of order 1. A trunk of relays is measured as any other, since
+/// relays are of its order. Diameters are straight from the base of an internode to its tip, as its frustum is.
+fn measure_stem(plant: &Plant, axis: AxisId, standing: Range<usize>, summary: &mut Summary) {
+    let nodes = &plant.nodes;
+    for node in standing {
+        if axis == AxisId::TRUNK && nodes.rank[node] == 1 {
+            summary.basal_diameter = nodes.diameter[node].into();
+        }
+        let (base, tip) = (plant.frames.base[node][2], node_frame(plant, NodeId(node as u32)).base[2]);
+        let (base, tip) = (f64::from(base), f64::from(tip));
+        if base <= BREAST_HEIGHT_M && BREAST_HEIGHT_M < tip {
+            let share = (BREAST_HEIGHT_M - base) / (tip - base);
+            let (low, high) = (f64::from(nodes.diameter[node]), f64::from(nodes.diameter_tip[node]));
+            summary.breast_diameter = summary.breast_diameter.max(low + (high - low) * share);
+        }
+    }
 }
 
 fn count_organs(plant: &Plant, age: Tick, summary: &mut Summary) {
@@ -148,6 +184,8 @@ fn count_organs(plant: &Plant, age: Tick, summary: &mut Summary) {
         let kind = organs.kind[organ];
         if kind.is_foliage() {
             summary.leaf_area += plant.organ_area::<f64>(OrganId(organ as u32), age);
+            let height = organ_frame(plant, OrganId(organ as u32), age).base[2];
+            summary.lowest_leaf = summary.lowest_leaf.min(height.into());
         }
         summary.leaves += u32::from(kind == Kind::Leaf);
         summary.flowers += u32::from(kind.class() == Class::Flower);

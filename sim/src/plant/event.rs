@@ -98,6 +98,9 @@ impl EventKind {
     }
 }
 
+/// The state of an event of which none is told.
+pub const NO_STATE: u8 = u8::MAX;
+
 /// One event of one bud.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Event {
@@ -109,4 +112,7 @@ pub struct Event {
     pub kind: EventKind,
     /// The number that the kind of event names; else 1.
     pub count: u32,
+    /// The state of the bud when it happened, as the model numbers them: for a new axis the state in which it starts.
+    /// [`NO_STATE`] where the model has no states, and of what befalls a branch whole: cuts, harvests and falls.
+    pub state: u8,
 }

@@ -83,6 +83,7 @@ impl Plant {
             cuts: Default::default(),
             ledger: Vec::new(),
             gone_buds: Vec::new(),
+            gone_orders: Vec::new(),
             bearers: Vec::new(),
             dormant: self.dormant.begun(),
             budget: self.budget,

@@ -138,6 +138,7 @@ impl Plant {
             ..self.departed_on(axis)
         });
         self.gone_buds.push(component);
+        self.gone_orders.push(self.axes.order[i]);
     }
 
     /// What all components of an axis have in common, for its bud.

@@ -45,7 +45,7 @@ pub use appeared::{Appeared, Stretch};
 pub use axis::{ApexFate, Axes, NewAxis, Origin};
 pub use cut::{Cut, Cuts, Taking};
 pub use dormant::{Dormant, DormantBuds};
-pub use event::{Event, EventKind};
+pub use event::{Event, EventKind, NO_STATE};
 pub use exposure::{Exposure, Hazard, Survival};
 pub use for_drawing::{Carried, ForDrawing};
 pub use form::Form;
@@ -59,7 +59,7 @@ pub(crate) use lasting::Lasting;
 pub use ledger::Departed;
 pub use length::Rewritten;
 pub use look::{InternodeLook, Looks, OrganLook, OrganLooks, PaintNumber, Shape};
-pub use node::{NewNode, Nodes};
+pub use node::{BUDS_NOT_TOLD, NOT_TOLD, NewNode, Nodes};
 pub use organ::{NewOrgan, Organs};
 pub use outline::StatedOrgans;
 pub use own_look::OwnLooks;
@@ -131,6 +131,8 @@ pub struct Plant {
     pub ledger: Vec<Departed>,
     /// The apical buds of axes that have left the columns, by their numbers, in the order of departure.
     gone_buds: Vec<u32>,
+    /// The orders of their axes.
+    gone_orders: Vec<u8>,
     /// The component that bore each component at its birth; empty where nothing ever changes its bearer.
     bearers: Vec<u32>,
     /// The axillary buds that lie dormant, where a cut may release them.
@@ -188,6 +190,7 @@ impl Plant {
             cuts: Cuts::default(),
             ledger: Vec::new(),
             gone_buds: Vec::new(),
+            gone_orders: Vec::new(),
             bearers: Vec::new(),
             dormant: DormantBuds::default(),
             budget: ThreadBudget::default(),
@@ -213,6 +216,7 @@ impl Plant {
         self.begin_rewriting();
         self.ledger.clear();
         self.gone_buds.clear();
+        self.gone_orders.clear();
         self.bearers.clear();
         self.age = 0;
         self.height = 0.0;
@@ -299,8 +303,14 @@ impl Plant {
     /// Adds an event, where the run keeps events.
     #[inline]
     pub fn note(&mut self, tick: Tick, axis: AxisId, kind: EventKind, count: u32) {
+        self.note_in_state(NO_STATE, tick, axis, kind, count);
+    }
+
+    /// As [`Plant::note`], with the state of the bud.
+    #[inline]
+    pub fn note_in_state(&mut self, state: u8, tick: Tick, axis: AxisId, kind: EventKind, count: u32) {
         if let Some(events) = &mut self.events {
-            events.push(Event { tick, axis, kind, count });
+            events.push(Event { tick, axis, kind, count, state });
         }
     }
 

@@ -9,6 +9,12 @@ use super::joint::Joint;
 use crate::clock::Tick;
 use std::ops::Range;
 
+/// The growth unit and the cycle of an internode whose model tells none, or whose number is as great.
+pub const NOT_TOLD: u16 = u16::MAX;
+
+/// The axillary buds of a node whose model tells none.
+pub const BUDS_NOT_TOLD: u8 = u8::MAX;
+
 /// The values of a new internode.
 #[derive(Debug, Clone, Copy)]
 pub struct NewNode {
@@ -51,6 +57,12 @@ columns! {
         rank: u32 = node.rank,
         /// The rank in the growth unit, from 1.
         unit_rank: u16 = node.unit_rank,
+        /// The number of the growth unit on its axis, from 1; [`NOT_TOLD`] where the model has no growth units.
+        growth_unit: u16 = NOT_TOLD,
+        /// The clock step of the axis that made it, from 1; [`NOT_TOLD`] where the model has no clock steps.
+        cycle: u16 = NOT_TOLD,
+        /// The axillary buds of the node, dormant or not; [`BUDS_NOT_TOLD`] where the model has none.
+        axillary_buds: u8 = BUDS_NOT_TOLD,
         /// Short type and neoformation, one bit each.
         formation: Formation = Formation::of(&node),
         /// The trend, as a place among the habit's trends, or the axis's own.
@@ -94,6 +106,16 @@ impl Formation {
 }
 
 impl Nodes {
+    /// States how a bud made a node: the number of the growth unit and the clock step of the axis, each from 1, and the
+    /// axillary buds of the node. Numbers too great for their columns are not told.
+    #[inline]
+    pub fn state_making(&mut self, node: NodeId, growth_unit: u32, cycle: u32, axillary_buds: u32) {
+        let told = |number: u32| u16::try_from(number).unwrap_or(NOT_TOLD);
+        self.growth_unit[node.index()] = told(growth_unit);
+        self.cycle[node.index()] = told(cycle);
+        self.axillary_buds[node.index()] = u8::try_from(axillary_buds).unwrap_or(BUDS_NOT_TOLD);
+    }
+
     /// The nodes of a run.
     #[inline]
     pub fn run(&self, run: usize) -> Range<usize> {

@@ -72,4 +72,13 @@ impl Plant {
             None => self.gone_buds.get((u32::MAX - axis.0) as usize).copied().unwrap_or_default(),
         }
     }
+
+    /// The order of an axis, also of one that is gone ([`AxisId::gone`]).
+    #[inline]
+    pub fn order_of(&self, axis: AxisId) -> u8 {
+        match self.axes.order.get(axis.index()) {
+            Some(order) => *order,
+            None => self.gone_orders.get((u32::MAX - axis.0) as usize).copied().unwrap_or_default(),
+        }
+    }
 }

@@ -9,7 +9,9 @@
 
 use super::string::{Born, Living, Module};
 use phytomer_sim::clock::{NEVER, Tick};
-use phytomer_sim::plant::{ApexFate, AxisId, Event, EventKind, LineageKey, NewAxis, NewNode, NodeId, Origin, Plant};
+use phytomer_sim::plant::{
+    ApexFate, AxisId, Event, EventKind, LineageKey, NO_STATE, NewAxis, NewNode, NodeId, Origin, Plant,
+};
 use std::collections::BTreeMap;
 use std::f32::consts::PI;
 
@@ -185,5 +187,11 @@ pub(super) fn note_new(plant: &mut Plant, last: Tick) {
             }
         }
     }
-    events.extend(new.into_iter().map(|((tick, axis, kind), count)| Event { tick, axis, kind, count }));
+    events.extend(new.into_iter().map(|((tick, axis, kind), count)| Event {
+        tick,
+        axis,
+        kind,
+        count,
+        state: NO_STATE,
+    }));
 }

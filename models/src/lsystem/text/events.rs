@@ -4,7 +4,7 @@
 //! Absent: which modules are lost, and why (`model`).
 
 use phytomer_sim::clock::Tick;
-use phytomer_sim::plant::{AxisId, Event, EventKind, LineageKey, NewAxis, NodeId, Plant};
+use phytomer_sim::plant::{AxisId, Event, EventKind, LineageKey, NO_STATE, NewAxis, NodeId, Plant};
 
 /// What is to be noted of a tick, by the numbers of buds, and the buds of the axes in the columns before.
 #[derive(Debug, Default)]
@@ -79,7 +79,13 @@ pub(super) fn note(plant: &mut Plant, age: Tick, noted: &mut Noted) {
             event.axis = place(*number);
         }
     }
-    events.extend(new.iter().map(|&(bud, kind, count)| Event { tick: age, axis: place(bud), kind, count }));
+    events.extend(new.iter().map(|&(bud, kind, count)| Event {
+        tick: age,
+        axis: place(bud),
+        kind,
+        count,
+        state: NO_STATE,
+    }));
     plant.events = Some(events);
 }
 
