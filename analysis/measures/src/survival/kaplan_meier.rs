@@ -9,6 +9,9 @@ use super::lives::{Counts, Lives};
 use crate::{Interval, Lack, quantile};
 use phytomer_sim::math::{exp, log};
 
+/// What a product of shares may lie above its exact value: a survival of one half is at the median.
+const ROUNDING: f64 = 1e-12;
+
 /// One duration of a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
@@ -121,7 +124,7 @@ impl Curve {
     /// # Errors
     /// [`Lack::NotReached`] where more survive at the end.
     pub fn outlasted_by(&self, share: f64) -> Result<u32, Lack> {
-        self.steps.iter().find(|step| step.survival <= share).map(|step| step.ticks).ok_or(Lack::NotReached)
+        self.steps.iter().find(|step| step.survival <= share + ROUNDING).map(|step| step.ticks).ok_or(Lack::NotReached)
     }
 
     /// The ends of the interval of [`Curve::outlasted_by`]: the durations at which the interval of survival begins and

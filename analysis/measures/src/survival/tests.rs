@@ -26,6 +26,13 @@ fn freireich_survives_ten_weeks_at_7529() {
     assert_eq!((curve.outlasted_by(0.5), curve.outlasted_by(0.1)), (Ok(23), Err(Lack::NotReached)));
 }
 
+/// Half of 28 lives ended, in five steps whose shares are no binary numbers: the product is the median all the same.
+#[test]
+fn a_survival_of_one_half_is_at_the_median() {
+    let weeks: Vec<i32> = [3, 3, 3, 3, 2].iter().zip(13..).flat_map(|(n, week)| vec![week; *n]).chain([-36; 14]).collect();
+    assert_eq!(kaplan_meier(&lives(&weeks, 0), 0.95).unwrap().outlasted_by(0.5), Ok(17));
+}
+
 /// Where each life is a plant, the variance of plants is Greenwood's, but for k / (k − 1).
 #[test]
 fn the_variance_of_plants_of_one_life_is_greenwoods() {
