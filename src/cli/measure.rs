@@ -1,7 +1,7 @@
 //! `measure`: a measure of one or several runs, as a table for the terminal, as JSON or as a file.
 //!
-//! The last word is the name of the measure, all words before it are runs. What could not be estimated is told beside the
-//! table. Absent: the measures, which are `phytomer_analysis::measure`'s.
+//! The last word is the name of the measure, all words before it are runs. What could not be estimated is told beside
+//! the table. Absent: the measures, which are `phytomer_analysis::measure`'s.
 
 mod shown;
 

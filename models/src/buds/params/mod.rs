@@ -265,7 +265,8 @@ pub struct Zone {
 }
 
 /// Zones one after the other along a growth unit, each of a random length: a left-to-right semi-Markov chain, as it is
-/// fitted to fates of axillary buds (Guédon et al. 2001). Zones may be skipped; the last goes on to the end of the unit.
+/// fitted to fates of axillary buds (Guédon et al. 2001). Zones may be skipped; the last goes on to the end of the
+/// unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Chain {
