@@ -10,11 +10,11 @@
 
 use anyhow::{Context, Result, anyhow};
 use phytomer::config::{
-    Kind, Model, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, Trial, presets, validate, validate_species,
+    Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, Trial, presets, validate, validate_species,
 };
 use phytomer::outputs::pictures::{Canvas, Compression, Picture, draw_stands, write_png};
 use phytomer::run::filming::Filming;
-use phytomer::run::picturing::{Pictured, pictured_plants, pictured_plot};
+use phytomer::run::picturing::{Pictured, PicturedStand, pictured_plants, pictured_plot};
 use phytomer::run::regrowth::{Regrowth, Whose};
 use phytomer::run::viewing::View;
 use phytomer::sim::between::Moment;
@@ -89,7 +89,7 @@ fn main() -> Result<()> {
         }
         page += &sit(name, folder).with_context(|| format!("the species {name}"))?;
     }
-    page += "\n## Trees in two forms\n\nAs Plates 6 and 7 of Weber & Penn 1995 show them ([parametric.md](parametric.md)).\n\n";
+    page += "\n## Trees in two forms\n\nAs Plates 6 and 7 of Weber & Penn 1995 show them.\n\n";
     for (name, title, forms) in PLATES {
         let file = format!("gallery/wp/{}.png", title.to_lowercase().replace(' ', "_"));
         let [first, second] = forms.map(|(words, _)| words);
@@ -162,7 +162,7 @@ fn sit(name: &str, folder: &Path) -> Result<String> {
         pictured_plot(&regrowth, &[&sitter.species], (0, &[age]), false)?
     };
     let file = format!("gallery/{name}.png");
-    let has_leaves = matches!(&sitter.species.model, Model::Parametric(tree) if tree.whole.leaves.value() != 0.0);
+    let has_leaves = name.starts_with("wp/") && pictured.stands.iter().any(has_organs);
     let size = if has_leaves { PAIR } else { SIZE };
     if has_leaves {
         pictured.stands.extend(in_forms(name, &[("", "Leaves = 0")])?.stands);
@@ -176,6 +176,11 @@ fn sit(name: &str, folder: &Path) -> Result<String> {
     let model = about.architectural_model.map(|model| format!(", {model:?}'s model")).unwrap_or_default();
     let picture = format!("![{called}]({file} \"{name}: {called}{latin}{model}, age {age}\")");
     Ok(if PAGES.contains(&name) { format!("[{picture}]({})\n", page_of(name)) } else { format!("{picture}\n") })
+}
+
+/// Whether a plant of a stand has organs.
+fn has_organs(stand: &PicturedStand) -> bool {
+    stand.plants.iter().any(|plant| plant.organs.len() > 0)
 }
 
 /// A species as it is in several forms.

@@ -24,5 +24,7 @@ pub mod problem;
 pub mod special;
 pub mod stated;
 
+mod wanted;
+
 pub use fit::{Estimate, Fit, Test};
 pub use problem::Problem;

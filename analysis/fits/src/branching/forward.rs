@@ -4,7 +4,7 @@
 //! Products of at most some hundred probabilities stay within the range of a double where each is at least 10⁻³; a
 //! shoot whose likelihood is 0 says so. Absent: estimation.
 
-use super::chain::Chain;
+use super::chained::Chain;
 
 /// The sums of one shoot, and of all shoots together.
 #[derive(Debug, Clone)]

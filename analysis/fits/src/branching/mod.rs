@@ -6,6 +6,7 @@
 //! covariates.
 
 pub mod chain;
+mod chained;
 mod durations;
 mod forward;
 pub mod order;
