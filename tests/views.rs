@@ -1,7 +1,7 @@
 //! `phytomer query --views` of one run and of two, and what `query` says where the program has no SQL engine.
 //!
-//! DuckDB of `.venv` reads the views from another folder, so that their paths must be whole; where it is missing the test
-//! skips and says so, but never in CI. Absent: the engine (`query`), and the views in the run folder
+//! DuckDB of `.venv` reads the views from another folder, so that their paths must be whole; where it is missing the
+//! test skips and says so, but never in CI. Absent: the engine (`query`), and the views in the run folder
 //! (`external_readers`).
 
 #[path = "program/absent.rs"]

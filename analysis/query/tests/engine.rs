@@ -1,10 +1,10 @@
-//! The engine of queries: its rows are those of DuckDB on the same views, it only reads, its errors have places, memory is
-//! limited.
+//! The engine of queries: its rows are those of DuckDB on the same views, it only reads, its errors have places,
+//! memory is limited.
 //!
-//! Two runs of one scenario with two treatments, of different seeds, so that the column `run` tells them apart. They are
-//! grown by the program that `PHYTOMER_RELEASE` names, else by the one of the dev profile, so that nothing of it is built
-//! again here; without one the tests skip and say so, but never in CI. Absent: the command line (`tests/query.rs` of the
-//! program), and speed (`examples/queries.rs`).
+//! Two runs of one scenario with two treatments, of different seeds, so that the column `run` tells them apart. They
+//! are grown by the program that `PHYTOMER_RELEASE` names, else by the one of the dev profile, so that nothing of it
+//! is built again here; without one the tests skip and say so, but never in CI. Absent: the command line
+//! (`tests/query.rs` of the program), and speed (`examples/queries.rs`).
 
 #[path = "../../../tests/program/absent.rs"]
 mod absent;

@@ -37,8 +37,8 @@ pub struct RunPlan {
     pub calendars: Vec<Calendars>,
     /// The species of each model, as an index into [`Provenance::species`]; a species is its own model beyond the list.
     pub species_of_models: Vec<usize>,
-    /// The ground of a plant in the plots of each treatment, m², in the order of the treatments; `None` where plants have
-    /// no neighbours, and for treatments beyond the list.
+    /// The ground of a plant in the plots of each treatment, m², in the order of the treatments; `None` where plants
+    /// have no neighbours, and for treatments beyond the list.
     pub ground_areas_m2: Vec<Option<f64>>,
     /// The origin of the figures.
     pub provenance: Provenance,
