@@ -1,7 +1,7 @@
 //! Independent readers of the files of a run: pyarrow, DuckDB and Polars for the tables, plyfile, trimesh, Open3D,
-//! meshio and PyVista for the meshes; Pillow for pictures; lifelines, statsmodels and scipy for measures; jsonschema for
-//! the schemas of species and scenarios, and taplo, which editors use for TOML, for the line by which a file names its
-//! schema.
+//! meshio and PyVista for the meshes; Pillow for pictures; lifelines, statsmodels and scipy for measures; jsonschema
+//! for the schemas of species and scenarios, and taplo, which editors use for TOML, for the line by which a file names
+//! its schema.
 //!
 //! They are installed in `.venv`, which `.ci/run` fills from `tests/readers/requirements.txt`; where they are missing
 //! the tests skip and say so, but never in CI. `PHYTOMER_RUN` names a run folder to read beside the small one grown

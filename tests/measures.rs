@@ -1,7 +1,7 @@
 //! `measure` on the command line: what it tells of small runs, and how it refuses what cannot be measured.
 //!
-//! Numbers are held against other programs in `external_readers`, intervals in `analysis/measures/tests`. Here are runs of
-//! one plant, of one group, without a table, unfinished or of another schema: each gives a fault with its file, or a
+//! Numbers are held against other programs in `external_readers`, intervals in `analysis/measures/tests`. Here are runs
+//! of one plant, of one group, without a table, unfinished or of another schema: each gives a fault with its file, or a
 //! result that says what could not be estimated, and never NaN.
 
 mod program;

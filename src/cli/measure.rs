@@ -1,7 +1,7 @@
 //! `measure`: a measure of one or several runs, as a table for the terminal, as JSON or as a file.
 //!
-//! The last word is the name of the measure, all words before it are runs. What could not be estimated is told beside the
-//! table. Absent: the measures, which are `phytomer_analysis::measure`'s.
+//! The last word is the name of the measure, all words before it are runs. What could not be estimated is told beside
+//! the table. Absent: the measures, which are `phytomer_analysis::measure`'s.
 
 mod shown;
 
@@ -28,9 +28,10 @@ Examples:
   phytomer measure runs/coffee branching --out branching.csv
   phytomer measure runs/coffee power --of height_m --difference 0.1
 
-The plant is the unit: intervals are of plant values or of a bootstrap by plant, and the design effect tells how much more
-a mean of buds, axes or leaves varies than one of as many independent units would. The end of a run, a cut and a limit of
-components censor lives. docs/statistics.md has the formula and the source of each measure, and when not to use it.")]
+The plant is the unit: intervals are of plant values or of a bootstrap by plant, and the design effect tells how much
+more a mean of buds, axes or leaves varies than one of as many independent units would. The end of a run, a cut and a
+limit of components censor lives. docs/statistics.md has the formula and the source of each measure, and when not to
+use it.")]
 pub struct Measure {
     /// Run folders, or runs below runs/ by their names; then the name of a measure.
     #[arg(value_name = "RUN... NAME", required_unless_present = "list")]

@@ -3,8 +3,8 @@
 //! eq. 14.15).
 //!
 //! Which plants a repetition draws is a function of the seed and the number of the repetition, so the interval is the
-//! same on any machine and number of threads. Not for extremes, nor for fewer than about ten plants: see the coverage in
-//! `docs/statistics.md`. Absent: the statistic, which the caller reckons from how often each plant was drawn.
+//! same on any machine and number of threads. Not for extremes, nor for fewer than about ten plants: see the coverage
+//! in `docs/statistics.md`. Absent: the statistic, which the caller reckons from how often each plant was drawn.
 
 use crate::{Interval, Lack, quantile};
 use phytomer_sim::key::LineageKey;

@@ -1,9 +1,11 @@
 //! Branching ratios: botanical, between the orders that botanists count from the trunk, and Strahler's, between those
-//! that are counted from the tips (Horton 1945; Strahler 1957; for trees McMahon & Kronauer 1976, Borchert & Slade 1981).
+//! that are counted from the tips (Horton 1945; Strahler 1957; for trees McMahon & Kronauer 1976, Borchert & Slade
+//! 1981).
 //!
 //! Strahler: a tip is of order 1; where two or more branches of the highest order k among those at a node meet, the
-//! parent is of order k + 1, else of order k. A stream is a chain of one order. The bifurcation ratio is the antilogarithm of
-//! the slope of log N over the order, with the sign turned (Horton), by least squares over all orders that occur.
+//! parent is of order k + 1, else of order k. A stream is a chain of one order. The bifurcation ratio is the
+//! antilogarithm of the slope of log N over the order, with the sign turned (Horton), by least squares over all orders
+//! that occur.
 
 use crate::Lack;
 use phytomer_sim::math::{exp, log};

@@ -1,9 +1,9 @@
 //! Directions: mean angle, resultant length and spread (Mardia & Jupp 2000, §2.2–2.3), with an interval of plants.
 //!
-//! R = |Σ e^{iθ}| / n, mean angle = arg Σ e^{iθ}, circular standard deviation √(−2 ln R). The interval of the mean angle
-//! takes the influence of each plant, the part of its sum across the mean direction over the length of the whole sum,
-//! with Student's t. Not where R is near 0: there is no mean direction then, and the interval says so by its width.
-//! Rayleigh's test of uniformity (Mardia & Jupp, eq. 6.3.5, to O(n⁻²)) takes directions as independent.
+//! R = |Σ e^{iθ}| / n, mean angle = arg Σ e^{iθ}, circular standard deviation √(−2 ln R). The interval of the mean
+//! angle takes the influence of each plant, the part of its sum across the mean direction over the length of the whole
+//! sum, with Student's t. Not where R is near 0: there is no mean direction then, and the interval says so by its
+//! width. Rayleigh's test of uniformity (Mardia & Jupp, eq. 6.3.5, to O(n⁻²)) takes directions as independent.
 
 use crate::{Interval, Lack, quantile};
 use phytomer_sim::math::{atan2, exp, log, sincos};

@@ -1,9 +1,9 @@
 //! Contrasts of two treatments: of pairs of plants that share their draws, and of plants that do not.
 //!
-//! Paired: the mean of the differences with Student's interval, and d_z = mean / sd of the differences. Unpaired: Welch's
-//! interval (1947), and Cohen's d over the pooled deviation. Both effect sizes are corrected for small samples by
-//! 1 − 3 / (4 df − 1) (Hedges 1981), with the large-sample interval of Hedges & Olkin (1985, §5.E): variances
-//! 1/n₁ + 1/n₂ + d² / (2 (n₁ + n₂)), and for pairs 1/n + d² / (2n). Absent: more than two treatments (`variance`).
+//! Paired: the mean of the differences with Student's interval, and d_z = mean / sd of the differences. Unpaired:
+//! Welch's interval (1947), and Cohen's d over the pooled deviation. Both effect sizes are corrected for small samples
+//! by 1 − 3 / (4 df − 1) (Hedges 1981), with the large-sample interval of Hedges & Olkin (1985, §5.E): variances 1/n₁ +
+//! 1/n₂ + d² / (2 (n₁ + n₂)), and for pairs 1/n + d² / (2n). Absent: more than two treatments (`variance`).
 
 use crate::moments::{Estimate, Moments};
 use crate::{Interval, Lack, quantile};

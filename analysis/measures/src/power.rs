@@ -54,8 +54,8 @@ pub fn power(design: Design, d: f64, n: u64, alpha: f64) -> Result<f64, Lack> {
 /// probability `wanted`.
 ///
 /// # Errors
-/// [`Lack::NoVariance`] for no difference, [`Lack::OutOfRange`] where `wanted` is not between `alpha` and 1, or where more
-/// than 2⁴⁰ plants would be needed.
+/// [`Lack::NoVariance`] for no difference, [`Lack::OutOfRange`] where `wanted` is not between `alpha` and 1, or where
+/// more than 2⁴⁰ plants would be needed.
 pub fn plants(design: Design, d: f64, wanted: f64, alpha: f64) -> Result<u64, Lack> {
     if d == 0.0 {
         return Err(Lack::NoVariance);

@@ -116,8 +116,8 @@ pub fn chi2_above(chi2: f64, df: f64) -> Result<f64, Lack> {
     finite(ChiSquared::new(df).ok().map(|squared| squared.sf(chi2)))
 }
 
-/// The share below `t` of Student's distribution with `df` degrees of freedom about the noncentrality `delta`:
-/// ∫ Φ(t s − δ) f(s) ds, where s = √(χ²/ν) (Johnson, Kotz & Balakrishnan 1995, ch. 31). Simpson's rule over ten standard
+/// The share below `t` of Student's distribution with `df` degrees of freedom about the noncentrality `delta`: ∫ Φ(t s
+/// − δ) f(s) ds, where s = √(χ²/ν) (Johnson, Kotz & Balakrishnan 1995, ch. 31). Simpson's rule over ten standard
 /// deviations of s; within 1e-9 for 2 degrees of freedom and more.
 pub fn noncentral_t_below(t: f64, df: f64, delta: f64) -> f64 {
     const STEPS: usize = 2000;
@@ -142,7 +142,8 @@ fn finite(value: Option<f64>) -> Result<f64, Lack> {
 mod tests {
     use super::*;
 
-    /// Values of scipy 1.17 (`stats.t.ppf`, `stats.norm.ppf`, `stats.f.sf`, `stats.f.ppf`, `stats.chi2.sf`, `stats.nct.cdf`).
+    /// Values of scipy 1.17 (`stats.t.ppf`, `stats.norm.ppf`, `stats.f.sf`, `stats.f.ppf`, `stats.chi2.sf`,
+    /// `stats.nct.cdf`).
     #[test]
     fn quantiles_are_those_of_scipy() {
         let near = |value: f64, scipy: f64| assert!((value / scipy - 1.0).abs() < 1e-9, "{value} is not {scipy}");

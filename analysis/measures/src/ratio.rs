@@ -3,8 +3,8 @@
 //!
 //! Buds, axes and leaves of one plant are alike, so n plants of m units hold less than n·m independent units. The mean
 //! over all units is a ratio of two sums of plants, R = Σy / Σm, whose variance is that of the residuals y − R m of the
-//! plants: n / (n − 1) Σ(y − R m)² / (Σm)². The design effect is that variance over the one that independent units would
-//! give. Interval: Student's with n − 1 degrees of freedom. Seven sums are kept, however many plants there are.
+//! plants: n / (n − 1) Σ(y − R m)² / (Σm)². The design effect is that variance over the one that independent units
+//! would give. Interval: Student's with n − 1 degrees of freedom. Seven sums are kept, however many plants there are.
 
 use crate::moments::{Estimate, Moments};
 use crate::{Interval, Lack, quantile};
@@ -12,7 +12,8 @@ use crate::{Interval, Lack, quantile};
 /// The units of one plant.
 pub type OfPlant = Moments;
 
-/// The sums over plants. Values are taken relative to the first plant's mean, so that little is lost where plants are alike.
+/// The sums over plants. Values are taken relative to the first plant's mean, so that little is lost where plants are
+/// alike.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Ratio {
     plants: u64,

@@ -2,8 +2,8 @@
 //! McCulloch 1992, §3.6; for unequal groups §3.6e).
 //!
 //! F = MSB / MSW. Between groups σ²ₐ = (MSB − MSW) / n₀, n₀ = (N − Σn²/N) / (a − 1); a negative estimate is told as it
-//! is. The share between groups is the intraclass correlation, with the interval of Searle (1971, p. 414), which is exact for
-//! equal groups. Absent: several crossed factors.
+//! is. The share between groups is the intraclass correlation, with the interval of Searle (1971, p. 414), which is
+//! exact for equal groups. Absent: several crossed factors.
 
 use crate::{Interval, Lack, Moments, quantile};
 
@@ -32,7 +32,8 @@ pub struct Components {
     pub interval: Result<Interval, Lack>,
 }
 
-/// The components of variance between and within groups, with an interval at `level`. Groups without values are left out.
+/// The components of variance between and within groups, with an interval at `level`. Groups without values are left
+/// out.
 ///
 /// # Errors
 /// [`Lack::Groups`] with fewer than two groups, [`Lack::Values`] where no group has two values.

@@ -1,7 +1,7 @@
 //! The share of repetitions in which each interval holds the truth: 4,000 samples with a fixed seed.
 //!
-//! At a level of 95 % a share has a standard error of .0034, so 93 to 97 % is more than five of them on either side. What
-//! lies outside is named here with its own bounds and documented in `docs/statistics.md`.
+//! At a level of 95 % a share has a standard error of .0034, so 93 to 97 % is more than five of them on either side.
+//! What lies outside is named here with its own bounds and documented in `docs/statistics.md`.
 
 use phytomer_measures::circular::{Directions, OfPlant};
 use phytomer_measures::line::Pairs;
@@ -147,7 +147,8 @@ fn mean_directions_of_plants() {
     });
 }
 
-/// Lives of buds on plants whose hazards differ: geometric, with the hazard of the plant .05 or .15, censored at random.
+/// Lives of buds on plants whose hazards differ: geometric, with the hazard of the plant .05 or .15, censored at
+/// random.
 fn grown(draws: &mut Draws, plants: std::ops::Range<u32>, lives: &mut Lives) {
     for plant in plants {
         let hazard = if draws.share() < 0.5 { 0.05 } else { 0.15 };

@@ -1,4 +1,5 @@
-//! Measured plants: the allometry of 100 taxa (Falster et al. 2015, BAAD) and the annual shoots of sessile oak (Heuret).
+//! Measured plants: the allometry of 100 taxa (Falster et al. 2015, BAAD) and the annual shoots of sessile oak
+//! (Heuret).
 //!
 //! The numbers that must come out were reckoned by other programs. The files are outside the project (`absent`).
 

@@ -1,8 +1,8 @@
 //! Measure of activity: the share of the clock steps at which a living bud grew and did not pause.
 //!
-//! b = grew / (grew + paused) over the rows of `events` (de Reffye et al. 1988 §3), a mean of buds' steps within plants.
-//! Unit: share of steps. A bud that dies at a step is no part of it. Absent: the estimate from counts of nodes alone, which
-//! is a fit and not a measure.
+//! b = grew / (grew + paused) over the rows of `events` (de Reffye et al. 1988 §3), a mean of buds' steps within
+//! plants. Unit: share of steps. A bud that dies at a step is no part of it. Absent: the estimate from counts of nodes
+//! alone, which is a fit and not a measure.
 
 use super::columns::Columns;
 use super::fault::Fault;

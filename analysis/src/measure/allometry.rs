@@ -1,8 +1,8 @@
 //! Measure of allometry: how one size of plants scales with another, as a line through the logarithms of both.
 //!
-//! Standardised major axis, for how two sizes scale, and least squares, for predicting y from x (Warton et al. 2006); each
-//! plant is a point, at one age. Unit: the slope has none. Plants in which a size is zero or missing are left out and
-//! counted. Absent: lines through other axes.
+//! Standardised major axis, for how two sizes scale, and least squares, for predicting y from x (Warton et al. 2006);
+//! each plant is a point, at one age. Unit: the slope has none. Plants in which a size is zero or missing are left out
+//! and counted. Absent: lines through other axes.
 
 use super::columns::Columns;
 use super::fault::Fault;

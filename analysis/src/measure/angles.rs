@@ -1,10 +1,11 @@
-//! Measures of angles at an age, from the poses in `records`: divergence of leaves along an axis, and insertion of leaves
-//! and axes.
+//! Measures of angles at an age, from the poses in `records`: divergence of leaves along an axis, and insertion of
+//! leaves and axes.
 //!
-//! Divergence: the angle about the axis from a leaf to the first leaf of the next node, anticlockwise as seen from the tip,
-//! both directions projected across the internode that bears the second. Insertion: the angle between the direction of the
-//! leaf, or of the first internode of an axis, and that of the internode that bears it. Both are of the plant as it stands,
-//! bent and turned. Circular means (Mardia & Jupp 2000) with intervals of plants. Unit: degrees.
+//! Divergence: the angle about the axis from a leaf to the first leaf of the next node, anticlockwise as seen from the
+//! tip, both directions projected across the internode that bears the second. Insertion: the angle between the
+//! direction of the leaf, or of the first internode of an axis, and that of the internode that bears it. Both are of
+//! the plant as it stands, bent and turned. Circular means (Mardia & Jupp 2000) with intervals of plants. Unit:
+//! degrees.
 
 use super::columns::Columns;
 use super::fault::Fault;

@@ -1,9 +1,9 @@
 //! Measure of branching: the branches of each order for one of the order before, and Strahler's bifurcation ratio.
 //!
-//! Botanical: axes of order k + 1 over axes of order k, of those that made an internode by the end of the run; relays of an
-//! axis stand in its order and count as axes. Strahler: streams of internodes by their order from the tips (Strahler 1957).
-//! Intervals are BCa bootstraps by plant with a fixed seed. At most 4,096 plants of a group are drawn again: the counts of
-//! more are added to theirs in turn. Absent: the numbers at other ages.
+//! Botanical: axes of order k + 1 over axes of order k, of those that made an internode by the end of the run; relays
+//! of an axis stand in its order and count as axes. Strahler: streams of internodes by their order from the tips
+//! (Strahler 1957). Intervals are BCa bootstraps by plant with a fixed seed. At most 4,096 plants of a group are drawn
+//! again: the counts of more are added to theirs in turn. Absent: the numbers at other ages.
 
 use super::columns::Columns;
 use super::fault::Fault;

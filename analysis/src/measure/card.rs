@@ -19,8 +19,8 @@ pub struct Card {
     pub formula: &'static str,
     /// Its unit.
     pub unit: &'static str,
-    /// The columns of its table by which rows can be grouped, beside run, treatment, factor, species, replicate, block and
-    /// plot.
+    /// The columns of its table by which rows can be grouped, beside run, treatment, factor, species, replicate, block
+    /// and plot.
     pub groups: &'static [&'static str],
     pub(super) of: Of,
 }

@@ -1,7 +1,7 @@
 //! The columns of a batch of rows, by name and as numbers or words.
 //!
-//! Whole numbers, real numbers and truths of any width are read alike, so that a measure does not depend on how a column
-//! is stored. Absent: reading of files.
+//! Whole numbers, real numbers and truths of any width are read alike, so that a measure does not depend on how a
+//! column is stored. Absent: reading of files.
 
 use super::fault::Fault;
 use arrow_array::cast::AsArray;

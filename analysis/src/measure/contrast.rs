@@ -1,8 +1,8 @@
 //! Measures of treatments: contrasts with effect sizes, components of variance, and the plants that a difference needs.
 //!
-//! Plants of one number, replicate and run seed draw alike in every treatment, so their differences are pairs: what differs
-//! comes of the treatment. Each level is held against the first; intervals are not adjusted for their number. One value of
-//! each plant is in memory. Absent: the formulas (`phytomer_measures::contrast`, `variance`, `power`).
+//! Plants of one number, replicate and run seed draw alike in every treatment, so their differences are pairs: what
+//! differs comes of the treatment. Each level is held against the first; intervals are not adjusted for their number.
+//! One value of each plant is in memory. Absent: the formulas (`phytomer_measures::contrast`, `variance`, `power`).
 
 use super::fault::Fault;
 use super::groups::{By, Groups, level as level_of};

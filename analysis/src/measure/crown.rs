@@ -1,8 +1,10 @@
-//! Measures of the crown at an age, from the leaves in `records`: the profile of leaf area by height, and the clear bole.
+//! Measures of the crown at an age, from the leaves in `records`: the profile of leaf area by height, and the clear
+//! bole.
 //!
-//! Profile: the leaf area of a plant, one side, in each layer of height above its seed; means of plants, a plant without a
-//! leaf in a layer counts 0 there. Clear bole: the height of the lowest leaf, of plants that have one; it stands for the
-//! base of the living crown. Intervals are Student's of plants. A leaf belongs to the layer of its base. Unit: m², m.
+//! Profile: the leaf area of a plant, one side, in each layer of height above its seed; means of plants, a plant
+//! without a leaf in a layer counts 0 there. Clear bole: the height of the lowest leaf, of plants that have one; it
+//! stands for the base of the living crown. Intervals are Student's of plants. A leaf belongs to the layer of its base.
+//! Unit: m², m.
 
 use super::columns::Columns;
 use super::fault::Fault;

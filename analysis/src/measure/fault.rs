@@ -1,6 +1,7 @@
 //! Faults of measures: what cannot be asked of these runs, with the file and what to do.
 //!
-//! What a run has but is too little for an estimate is no fault: the result says so. Absent: faults of the command line.
+//! What a run has but is too little for an estimate is no fault: the result says so. Absent: faults of the command
+//! line.
 
 use phytomer_outputs::Error;
 use phytomer_outputs::tables::TableError;

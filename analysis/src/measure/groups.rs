@@ -1,7 +1,7 @@
 //! Groups of rows: by a column of the table, by what is known of the plant, or by a factor of the experiment.
 //!
-//! A group has a number as soon as a row of it is met; results come in the order of its name, numbers by size. Absent: what
-//! is done with the rows.
+//! A group has a number as soon as a row of it is met; results come in the order of its name, numbers by size. Absent:
+//! what is done with the rows.
 
 use super::columns::{Columns, Words};
 use super::fault::Fault;

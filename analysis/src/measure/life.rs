@@ -1,8 +1,8 @@
 //! Measure of life: survival by dimension in ticks, with the log-rank test between groups.
 //!
-//! S(t) = Π (1 − d/n) (Kaplan & Meier 1958); Greenwood's standard error takes lives as independent, that of plants and the
-//! interval do not. Unit: share of lives. The design effect of a step is the ratio of both variances. Absent: causes
-//! (`causes`).
+//! S(t) = Π (1 − d/n) (Kaplan & Meier 1958); Greenwood's standard error takes lives as independent, that of plants and
+//! the interval do not. Unit: share of lives. The design effect of a step is the ratio of both variances. Absent:
+//! causes (`causes`).
 
 use super::fault::Fault;
 use super::groups::Groups;

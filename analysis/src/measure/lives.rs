@@ -1,8 +1,8 @@
 //! The lives of buds, axes and leaves, read from `components` for the measures of survival and of causes.
 //!
-//! A life begins at `birth_age` and ends at `death_age`. It is censored by the last recorded age of its plant, which a limit
-//! of components makes an earlier one, and by a cut or a harvest. What is cut at a tick is cut before that tick's growth, so
-//! it was exposed to death until the tick before. Absent: the statistics.
+//! A life begins at `birth_age` and ends at `death_age`. It is censored by the last recorded age of its plant, which a
+//! limit of components makes an earlier one, and by a cut or a harvest. What is cut at a tick is cut before that tick's
+//! growth, so it was exposed to death until the tick before. Absent: the statistics.
 
 use super::columns::Columns;
 use super::fault::Fault;

@@ -1,7 +1,7 @@
 //! The sheet of means of units within plants, which measures of activity, nodes and angles share.
 //!
-//! Each row has the mean over units with its interval of plants, the design effect and the Monte-Carlo error, which is the
-//! standard error of the mean over the drawn plants. Absent: what a unit is.
+//! Each row has the mean over units with its interval of plants, the design effect and the Monte-Carlo error, which is
+//! the standard error of the mean over the drawn plants. Absent: what a unit is.
 
 use super::fault::Fault;
 use super::groups::Groups;

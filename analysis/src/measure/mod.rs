@@ -1,7 +1,8 @@
 //! Measures of recorded runs: the list of them, what each is, and the way to take one.
 //!
-//! A measure streams over one table of one or several runs; its memory depends on the plants and groups, not on the rows.
-//! The plant is the unit of every interval. Absent: how a measure is asked for and shown, which is the command line's.
+//! A measure streams over one table of one or several runs; its memory depends on the plants and groups, not on the
+//! rows. The plant is the unit of every interval. Absent: how a measure is asked for and shown, which is the command
+//! line's.
 
 mod activity;
 mod allometry;

@@ -1,8 +1,9 @@
 //! Measures of nodes: nodes per growth unit and nodes per axis, of what had grown by the end of the run.
 //!
-//! Internodes of an axis are counted in the order of `components`; a growth unit begins where `unit_rank` is 1. Growth units
-//! without nodes leave no internode and are not counted. An axis is counted from its bud on, with no node too. Axes that
-//! still grow are counted as they stand. Unit: nodes; means of units within plants. Absent: laws of the counts.
+//! Internodes of an axis are counted in the order of `components`; a growth unit begins where `unit_rank` is 1. Growth
+//! units without nodes leave no internode and are not counted. An axis is counted from its bud on, with no node too.
+//! Axes that still grow are counted as they stand. Unit: nodes; means of units within plants. Absent: laws of the
+//! counts.
 
 use super::columns::Columns;
 use super::fault::Fault;

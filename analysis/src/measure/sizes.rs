@@ -1,8 +1,8 @@
 //! Measures of size: height, crown, leaf area, leaf area index, wood and other numbers of plants at an age.
 //!
-//! A row of `summary` is a value of a plant; dead plants are not measured. The interval is Student's of plants. The leaf area
-//! index is leaf area over the ground of the plant, m²/m². Where a plot has several plants they share its site: the design
-//! effect is the variance by plots over that by plants. Absent: differences (`contrast`).
+//! A row of `summary` is a value of a plant; dead plants are not measured. The interval is Student's of plants. The
+//! leaf area index is leaf area over the ground of the plant, m²/m². Where a plot has several plants they share its
+//! site: the design effect is the variance by plots over that by plants. Absent: differences (`contrast`).
 
 use super::columns::Columns;
 use super::fault::Fault;

@@ -1,7 +1,7 @@
 //! Rows of a table, plant by plant: the one pass over a run that measures share.
 //!
-//! Rows are sorted by plot, so what is kept of plants is that of one plot at a time. Only the columns that a measure names
-//! are read. Absent: what a measure keeps of a plant.
+//! Rows are sorted by plot, so what is kept of plants is that of one plot at a time. Only the columns that a measure
+//! names are read. Absent: what a measure keeps of a plant.
 
 use super::columns::Columns;
 use super::fault::Fault;

@@ -1,7 +1,7 @@
 //! The share of lives that have ended by each cause, by duration (Aalen & Johansen 1978).
 //!
-//! F_k(t) = Σ S(s − 1) d_k(s) / n(s): with causes that compete, one minus the Kaplan–Meier curve of one cause is no share of
-//! anything. The variance is that of plants, by the influence of each plant on F_k.
+//! F_k(t) = Σ S(s − 1) d_k(s) / n(s): with causes that compete, one minus the Kaplan–Meier curve of one cause is no
+//! share of anything. The variance is that of plants, by the influence of each plant on F_k.
 
 use super::kaplan_meier::log_log;
 use super::lives::{Counts, Lives};

@@ -1,9 +1,9 @@
 //! The product-limit estimate of survival (Kaplan & Meier 1958) with Greenwood's variance (1926) and that of plants.
 //!
-//! S(t) = Π (1 − d/n); Greenwood: Var ln S = Σ d / (n (n − d)), for independent lives. Of plants: the influence of a plant
-//! on ln S is −Σ (d_p − n_p h) / (n (1 − h)), and the variance k/(k − 1) times the sum of their squares over k plants;
-//! where each life is a plant that is Greenwood's but for k/(k − 1). Intervals are those of ln(−ln S) (Kalbfleisch &
-//! Prentice 2002, §1.4), of plants with Student's t. Not to be read where few are at risk.
+//! S(t) = Π (1 − d/n); Greenwood: Var ln S = Σ d / (n (n − d)), for independent lives. Of plants: the influence of a
+//! plant on ln S is −Σ (d_p − n_p h) / (n (1 − h)), and the variance k/(k − 1) times the sum of their squares over k
+//! plants; where each life is a plant that is Greenwood's but for k/(k − 1). Intervals are those of ln(−ln S)
+//! (Kalbfleisch & Prentice 2002, §1.4), of plants with Student's t. Not to be read where few are at risk.
 
 use super::lives::{Counts, Lives};
 use crate::{Interval, Lack, quantile};

@@ -1,8 +1,8 @@
 //! Lives counted by duration, once for all plants and once for each cluster of plants.
 //!
-//! A run may have a million plants, so at most [`CLUSTERS`] tables are kept: up to that number each plant has its own, more
-//! plants are dealt into them in turn, as in a delete-a-group jackknife (Kott 2001). So memory depends on the longest
-//! life and not on the number of lives. Absent: any estimate.
+//! A run may have a million plants, so at most [`CLUSTERS`] tables are kept: up to that number each plant has its own,
+//! more plants are dealt into them in turn, as in a delete-a-group jackknife (Kott 2001). So memory depends on the
+//! longest life and not on the number of lives. Absent: any estimate.
 
 /// The greatest number of clusters of plants.
 pub const CLUSTERS: u32 = 256;

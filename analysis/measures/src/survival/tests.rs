@@ -1,5 +1,5 @@
-//! The remission times of Freireich et al. (1963), as Kalbfleisch & Prentice (2002) and Klein & Moeschberger (2003) have
-//! them, and closed forms.
+//! The remission times of Freireich et al. (1963), as Kalbfleisch & Prentice (2002) and Klein & Moeschberger (2003)
+//! have them, and closed forms.
 
 use super::*;
 use crate::Lack;
@@ -29,7 +29,8 @@ fn freireich_survives_ten_weeks_at_7529() {
 /// Half of 28 lives ended, in five steps whose shares are no binary numbers: the product is the median all the same.
 #[test]
 fn a_survival_of_one_half_is_at_the_median() {
-    let weeks: Vec<i32> = [3, 3, 3, 3, 2].iter().zip(13..).flat_map(|(n, week)| vec![week; *n]).chain([-36; 14]).collect();
+    let ended = [3, 3, 3, 3, 2].iter().zip(13..).flat_map(|(n, week)| vec![week; *n]);
+    let weeks: Vec<i32> = ended.chain([-36; 14]).collect();
     assert_eq!(kaplan_meier(&lives(&weeks, 0), 0.95).unwrap().outlasted_by(0.5), Ok(17));
 }
 
@@ -56,7 +57,8 @@ fn freireichs_log_rank_is_16_793() {
     assert!(of_plants.p < 1e-3 && of_plants.of_plants == Some(41), "{of_plants:?}");
 }
 
-/// Copies of each life on one plant tell nothing new: the test of plants stays, that of independent lives grows ninefold.
+/// Copies of each life on one plant tell nothing new: the test of plants stays, that of independent lives grows
+/// ninefold.
 #[test]
 fn copies_on_a_plant_do_not_sharpen_the_test_of_plants() {
     let copied = |weeks: &[i32], first: u32| {
