@@ -7,6 +7,8 @@
 
 use super::Shoots;
 pub use super::chained::Chain;
+use super::chained::SKIPPED;
+use super::durations::Length;
 use super::forward::{Expected, Lengths, add};
 use crate::draws::Draws;
 use crate::fit::{Estimate, Fit};

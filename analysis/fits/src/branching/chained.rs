@@ -7,7 +7,7 @@ use super::durations::Length;
 use crate::draws::Draws;
 
 /// The most zones that are skipped at once.
-const SKIPPED: usize = 2;
+pub(super) const SKIPPED: usize = 2;
 /// A chain of zones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
