@@ -2,9 +2,9 @@
 //!
 //! A file has one root with the wood as a mesh, the organs as a PointInstancer or merged into a mesh, and materials, in
 //! metres, Z up. A still is a plant at an age; a life has time samples, cut into spans of constant topology (`course`).
-//! What is written goes through a `Layer`, of which there is one for each encoding; a new encoding is one file and one
-//! line here. Memory holds two values at a time at most. The same plants give the same bytes. Absent: growing, lives
-//! (`phytomer_life`), triangles of wood and forms (`phytomer_meshes`), and which file is written.
+//! What is written goes through a `Layer`, of which there is one for each encoding; a new encoding is one file and
+//! one line here. Memory holds two values at a time at most. The same plants give the same bytes. Absent: growing,
+//! lives (`phytomer_life`), triangles of wood and forms (`phytomer_meshes`), and which file is written.
 
 mod binary;
 mod changing;
