@@ -1,5 +1,5 @@
-//! A chain of zones as numbers: where shoots begin, what follows what, the fates and the length of each zone; and shoots
-//! drawn from it.
+//! A chain of zones as numbers: where shoots begin, what follows what, the fates and the length of each zone; and
+//! shoots drawn from it.
 //!
 //! Absent: estimates (`chain`) and sums over all ways through it (`forward`).
 
