@@ -1,10 +1,10 @@
-//! The time of twelve named queries over a run, against DuckDB on the same files which has as many threads as it is
-//! given; phytomer has one.
+//! The time of twelve named queries over a run, against DuckDB on the same files. DuckDB has as many threads as it
+//! is given, phytomer has one.
 //!
-//! `cargo run --release --features sql --example queries -- RUN [THREADS]`. Each query runs three times by turns in both
-//! engines; the best times are told, their ratios, and the geometric mean of the ratios. DuckDB is that of `.venv`,
-//! which `.ci/run` fills. In the dev profile the ratios mean nothing. Absent: growing the run, such as `phytomer grow
-//! poplar --plants 300`.
+//! `cargo run --release --features sql --example queries -- RUN [THREADS]`. Each query runs three times by turns in
+//! both engines; the best times are told, their ratios, and the geometric mean of the ratios. DuckDB is that of
+//! `.venv`, which `.ci/run` fills. In the dev profile the ratios mean nothing. Absent: growing the run, such as
+//! `phytomer grow poplar --plants 300`.
 
 use anyhow::{Context, Result, ensure};
 use phytomer_outputs::read::Run;
