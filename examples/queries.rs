@@ -1,5 +1,5 @@
-//! The time of twelve named queries over a run, against DuckDB on the same files which has as many threads as it is
-//! given; phytomer has one.
+//! The time of twelve named queries over a run, against DuckDB on the same files. DuckDB has as many threads as it
+//! is given, phytomer has one.
 //!
 //! `cargo run --release --features sql --example queries -- RUN [THREADS]`. Each query runs three times by turns in
 //! both engines; the best times are told, their ratios, and the geometric mean of the ratios. DuckDB is that of
