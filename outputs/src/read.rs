@@ -161,8 +161,8 @@ impl Run {
         Ok(Batches { parts: self.parts(table)?.into_iter(), rows, columns: None, now: None })
     }
 
-    /// As [`Run::batches`], with only those of the named columns that the table has, in the order of the table. No other
-    /// column is read from the disk.
+    /// As [`Run::batches`], with only those of the named columns that the table has, in the order of the table. No
+    /// other column is read from the disk.
     ///
     /// # Errors
     /// As [`Run::batches`].
