@@ -38,7 +38,7 @@ pub enum Fault {
         second_schema: String,
     },
     /// A run has no such table.
-    #[error("{}: the run has no table `{table}`, which this measure reads; ask for it under [output] tables of the scenario", path.display())]
+    #[error("{}: the run has no table `{table}`, which this measure reads; name it among the `tables` of the scenario and grow again", path.display())]
     NoTable {
         /// The run folder.
         path: PathBuf,
