@@ -21,6 +21,7 @@ pub mod nodes;
 mod optimum;
 pub mod outcome;
 pub mod problem;
+pub mod sensitivity;
 pub mod special;
 pub mod stated;
 
