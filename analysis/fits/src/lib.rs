@@ -5,6 +5,7 @@
 //! [`choice`] compares the rivals of one data set by BIC. Absent on purpose: files, species, growth, and measures of
 //! recorded runs.
 
+pub mod abc;
 pub mod activity;
 pub mod branching;
 pub mod check;
