@@ -1,5 +1,5 @@
-//! `fit` as a person uses it: from a table to a species that validates, with `fit.json` beside it; and the ways in which
-//! it refuses.
+//! `fit` as a person uses it: from a table to a species that validates, with `fit.json` beside it; and the ways in
+//! which it refuses.
 //!
 //! Absent: the estimates, which `analysis/fits/tests` hold to measured plants.
 

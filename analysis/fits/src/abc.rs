@@ -1,5 +1,6 @@
 //! Estimation without a likelihood: population Monte-Carlo ABC (Beaumont, Cornuet, Marin & Robert 2009), whose distance
-//! halves its share from generation to generation, adjusted by local linear regression (Beaumont, Zhang & Balding 2002).
+//! halves its share from generation to generation, adjusted by local linear regression (Beaumont, Zhang & Balding
+//! 2002).
 //!
 //! A simulator is a function from parameters and a seed to summaries, or to nothing where the parameters cannot be.
 //! Particles are drawn and moved by keyed draws and simulated in parallel, so that the result is the same on any number
@@ -231,8 +232,8 @@ fn kernel(at: &[f64], from: &[f64], steps: &[f64]) -> f64 {
     at.iter().zip(from).zip(steps).map(one).product()
 }
 
-/// Each parameter, as ln of its odds within the prior, is moved along its regression on the summaries to those observed;
-/// Epanechnikov's weights by distance.
+/// Each parameter, as ln of its odds within the prior, is moved along its regression on the summaries to those
+/// observed; Epanechnikov's weights by distance.
 fn adjusted(kept: Vec<Particle>, observed: &[f64], scales: &[f64], priors: &[[f64; 2]]) -> Vec<Particle> {
     let widest = kept.iter().map(|p| p.distance).fold(0.0, f64::max) * 1.000_001;
     let near = |p: &Particle| if widest > 0.0 { 1.0 - (p.distance / widest) * (p.distance / widest) } else { 1.0 };
@@ -268,8 +269,8 @@ fn adjusted(kept: Vec<Particle>, observed: &[f64], scales: &[f64], priors: &[[f6
     particles
 }
 
-/// Simulation-based calibration: parameters are drawn from the prior, summaries from them, and the share of the posterior
-/// below each parameter is told. Where the posterior is right these shares are uniform on (0, 1).
+/// Simulation-based calibration: parameters are drawn from the prior, summaries from them, and the share of the
+/// posterior below each parameter is told. Where the posterior is right these shares are uniform on (0, 1).
 ///
 /// # Errors
 /// As [`abc`].

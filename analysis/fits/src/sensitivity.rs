@@ -3,8 +3,8 @@
 //! A model is a function from numbers in [0, 1), one a factor, and the seed of a repetition to a result. Morris: mean
 //! size and spread of elementary effects along random ways. Sobol': first-order indices by the estimator of Saltelli et
 //! al. (2010, Table 2 b), total ones by that of Jansen (1999), on Owen-scrambled Sobol' points (Burley 2020); intervals
-//! by a bootstrap over the points. All evaluations of a point use one seed (common random numbers), and the share of the
-//! seed's noise is the variance between two seeds at equal points. Absent: the model, and files.
+//! by a bootstrap over the points. All evaluations of a point use one seed (common random numbers), and the share of
+//! the seed's noise is the variance between two seeds at equal points. Absent: the model, and files.
 
 use crate::draws::Draws;
 use crate::problem::Problem;

@@ -1,5 +1,5 @@
-//! Chains of zones: where zones begin, how long they are and which are skipped, rank by rank, in grown plants and in the
-//! forecast.
+//! Chains of zones: where zones begin, how long they are and which are skipped, rank by rank, in grown plants and in
+//! the forecast.
 //!
 //! Seeds are fixed; a bound is 4 standard errors of the stated probability. Absent: chains that were fitted to plants.
 
