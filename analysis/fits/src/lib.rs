@@ -25,6 +25,7 @@ pub mod problem;
 pub mod sensitivity;
 pub mod special;
 pub mod stated;
+pub mod wanted;
 
 pub use fit::{Estimate, Fit, Test};
 pub use problem::Problem;

@@ -42,10 +42,10 @@ mod tests {
     fn an_inverse_times_its_matrix_is_one() {
         let matrix = vec![vec![0.0, 2.0, 1.0], vec![3.0, 1.0, -4.0], vec![1.0, 0.5, 7.0]];
         let inverted = inverse(&matrix).unwrap();
-        for row in 0..3 {
+        for (place, row) in matrix.iter().enumerate() {
             for column in 0..3 {
-                let entry: f64 = (0..3).map(|k| matrix[row][k] * inverted[k][column]).sum();
-                assert!((entry - f64::from(u8::from(row == column))).abs() < 1e-14);
+                let entry: f64 = (0..3).map(|k| row[k] * inverted[k][column]).sum();
+                assert!((entry - f64::from(u8::from(place == column))).abs() < 1e-14);
             }
         }
         assert_eq!(inverse(&vec![vec![1.0, 2.0], vec![2.0, 4.0]]), None);

@@ -8,7 +8,7 @@ use crate::branching::zones::Zones;
 use crate::fit::{Estimate, Fit};
 use crate::nodes::Part;
 use crate::nodes::laws::Counts;
-use crate::outcome::Wanted;
+use crate::wanted::Wanted;
 use phytomer_sim::math;
 
 /// A key of an order, with its value in TOML.

@@ -8,6 +8,7 @@
 pub mod chain;
 mod durations;
 mod forward;
+mod law;
 pub mod order;
 pub mod runs;
 pub mod zones;
