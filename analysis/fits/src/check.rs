@@ -303,7 +303,8 @@ fn of_shoots(shoots: &Shoots) -> Vec<(String, f64)> {
 mod tests {
     use super::*;
     use crate::data::{Law, Table, columns, read};
-    use crate::outcome::{Wanted, fit};
+    use crate::outcome::fit;
+    use crate::wanted::Wanted;
 
     fn checked(law: Law, sample: &str, times: usize) -> Checked {
         let data = read(law, &Table::from_csv("t.csv", sample.as_bytes()).unwrap()).unwrap();

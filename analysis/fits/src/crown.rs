@@ -141,9 +141,12 @@ fn trials(above: u32, b1: f64, w: f64) -> Vec<(usize, f64)> {
     ticks
 }
 
+/// The trials of a branch at a number of nodes above it, and their probabilities alone.
+type OfRank = (u32, Vec<(usize, f64)>, Vec<f64>);
+
 /// Pairs with the nodes above them of others, as the model grows them.
 pub fn drawn(like: &[Pair], [b1, b2, w]: [f64; 3], draws: &mut Draws) -> Vec<Pair> {
-    let mut kept: Option<(u32, Vec<(usize, f64)>, Vec<f64>)> = None;
+    let mut kept: Option<OfRank> = None;
     let mut pairs = Vec::with_capacity(like.len());
     for Pair { above, .. } in like.iter().copied() {
         let (_, trials, weights) = match kept.take().filter(|kept| kept.0 == above) {

@@ -5,6 +5,7 @@
 //! [`choice`] compares the rivals of one data set by BIC. Absent on purpose: files, species, growth, and measures of
 //! recorded runs.
 
+pub mod abc;
 pub mod activity;
 pub mod branching;
 pub mod check;
@@ -21,10 +22,10 @@ pub mod nodes;
 mod optimum;
 pub mod outcome;
 pub mod problem;
+pub mod sensitivity;
 pub mod special;
 pub mod stated;
-
-mod wanted;
+pub mod wanted;
 
 pub use fit::{Estimate, Fit, Test};
 pub use problem::Problem;

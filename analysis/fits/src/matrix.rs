@@ -42,11 +42,9 @@ mod tests {
     fn an_inverse_times_its_matrix_is_one() {
         let matrix = vec![vec![0.0, 2.0, 1.0], vec![3.0, 1.0, -4.0], vec![1.0, 0.5, 7.0]];
         let inverted = inverse(&matrix).unwrap();
-        for row in 0..3 {
-            for column in 0..3 {
-                let entry: f64 = (0..3).map(|k| matrix[row][k] * inverted[k][column]).sum();
-                assert!((entry - f64::from(u8::from(row == column))).abs() < 1e-14);
-            }
+        let product = |row: &[f64], column: usize| (0..3).map(|k| row[k] * inverted[k][column]).sum::<f64>();
+        for (place, row) in matrix.iter().enumerate() {
+            (0..3).for_each(|c| assert!((product(row, c) - f64::from(u8::from(place == c))).abs() < 1e-14));
         }
         assert_eq!(inverse(&vec![vec![1.0, 2.0], vec![2.0, 4.0]]), None);
         assert_eq!(inverse(&vec![vec![f64::NAN]]), None);

@@ -18,7 +18,7 @@ use crate::mortality;
 use crate::nodes;
 use crate::problem::Problem;
 use crate::stated::{self, Stated};
-pub use crate::wanted::Wanted;
+use crate::wanted::Wanted;
 use std::collections::BTreeMap;
 
 /// What came of a fit.

@@ -1,6 +1,6 @@
-//! What is asked of a fit beside its law and its data.
+//! What is asked of a fit beyond its law and its data.
 //!
-//! Absent: fits.
+//! Windows, the variable of a hazard, zones, and the words for the source. Absent: what comes of it (`outcome`).
 
 /// What is asked of a fit.
 #[derive(Debug, Clone, PartialEq)]

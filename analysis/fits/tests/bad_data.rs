@@ -5,7 +5,8 @@
 
 use phytomer_fits::data::columns::LAWS;
 use phytomer_fits::data::{Law, Table, read};
-use phytomer_fits::outcome::{Wanted, fit};
+use phytomer_fits::outcome::fit;
+use phytomer_fits::wanted::Wanted;
 
 /// What is told of a table: its faults, or the problem, or the law that is taken with what is stated.
 fn told(law: Law, bytes: &[u8]) -> String {

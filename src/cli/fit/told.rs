@@ -36,13 +36,18 @@ fn bic(fit: &Fit) -> String {
 }
 
 fn line(text: &mut String, estimate: &Estimate) {
-    let _ = write!(text, "  {:<14} {:.5}", estimate.name, estimate.value);
-    let _ = match (estimate.low, estimate.high) {
-        (Some(low), Some(high)) => writeln!(text, "  (95 %: {low:.5} to {high:.5})"),
-        (Some(low), None) => writeln!(text, "  (95 %: {low:.5} or more)"),
-        (None, Some(high)) => writeln!(text, "  (95 %: {high:.5} or less)"),
+    let _ = write!(text, "  {:<14} {}", estimate.name, shown(estimate.value));
+    let _ = match (estimate.low.map(shown), estimate.high.map(shown)) {
+        (Some(low), Some(high)) => writeln!(text, "  (95 %: {low} to {high})"),
+        (Some(low), None) => writeln!(text, "  (95 %: {low} or more)"),
+        (None, Some(high)) => writeln!(text, "  (95 %: {high} or less)"),
         (None, None) => writeln!(text),
     };
+}
+
+/// Five decimals, or a power of ten for what is smaller than a thousandth.
+fn shown(value: f64) -> String {
+    if value == 0.0 || value.abs() >= 1e-3 { format!("{value:.5}") } else { format!("{value:.3e}") }
 }
 
 fn tested(text: &mut String, test: &Test) {

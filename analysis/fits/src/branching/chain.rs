@@ -6,10 +6,10 @@
 //! chains at once.
 
 use super::Shoots;
-pub use super::chained::Chain;
-use super::chained::SKIPPED;
 use super::durations::Length;
 use super::forward::{Expected, Lengths, add};
+pub use super::law::Chain;
+use super::law::SKIPPED;
 use crate::draws::Draws;
 use crate::fit::{Estimate, Fit};
 use crate::problem::Problem;
@@ -31,14 +31,6 @@ pub struct Asked {
 }
 
 impl Chain {
-    /// The same chain with a share of a thousandth for all fates together in each zone, for shoots that it was not
-    /// fitted to.
-    pub fn softened(&self) -> Self {
-        let fates = self.shares.first().map_or(1, Vec::len) as f64;
-        let soft = |row: &Vec<f64>| row.iter().map(|share| 0.999 * share + 0.001 / fates).collect();
-        Self { shares: self.shares.iter().map(soft).collect(), ..self.clone() }
-    }
-
     /// ln L of shoots.
     pub fn log_likelihood(&self, shoots: &Shoots) -> f64 {
         self.expected(shoots).map_or(f64::NEG_INFINITY, |sums| sums.log_likelihood)

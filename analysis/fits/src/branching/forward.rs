@@ -4,7 +4,9 @@
 //! Products of at most some hundred probabilities stay within the range of a double where each is at least 10⁻³; a
 //! shoot whose likelihood is 0 says so. Absent: estimation.
 
-use super::chained::Chain;
+#![allow(clippy::needless_range_loop, reason = "places and zones are indices of several tables at once")]
+
+use super::law::Chain;
 
 /// The sums of one shoot, and of all shoots together.
 #[derive(Debug, Clone)]

@@ -6,9 +6,9 @@
 //! covariates.
 
 pub mod chain;
-mod chained;
 mod durations;
 mod forward;
+mod law;
 pub mod order;
 pub mod runs;
 pub mod zones;

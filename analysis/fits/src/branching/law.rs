@@ -1,13 +1,13 @@
-//! A chain of zones as numbers: where shoots begin, what follows what, the fates and the length of each zone; and
-//! shoots drawn from it.
+//! A chain of zones as a law: where it begins, how long its zones are, which follows, and the fates in each.
 //!
-//! Absent: estimates (`chain`) and sums over all ways through it (`forward`).
+//! Absent: its estimate (`chain`) and its likelihood (`forward`).
 
 use super::durations::Length;
 use crate::draws::Draws;
 
 /// The most zones that are skipped at once.
 pub(super) const SKIPPED: usize = 2;
+
 /// A chain of zones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
@@ -32,6 +32,7 @@ impl Chain {
         zone + 1..(zone + 2 + SKIPPED).min(self.zones())
     }
 
+    /// The law of the length of a zone.
     pub(super) fn length(&self, zone: usize) -> Length {
         Length { r: self.lengths[zone].0, p: self.lengths[zone].1 }
     }
@@ -56,5 +57,13 @@ impl Chain {
             }
         }
         fates
+    }
+
+    /// The same chain with a share of a thousandth for all fates together in each zone, for shoots that it was not
+    /// fitted to.
+    pub fn softened(&self) -> Self {
+        let fates = self.shares.first().map_or(1, Vec::len) as f64;
+        let soft = |row: &Vec<f64>| row.iter().map(|share| 0.999 * share + 0.001 / fates).collect();
+        Self { shares: self.shares.iter().map(soft).collect(), ..self.clone() }
     }
 }
