@@ -180,7 +180,7 @@ fn sit(name: &str, folder: &Path) -> Result<String> {
 
 /// Whether a plant of a stand has organs.
 fn has_organs(stand: &PicturedStand) -> bool {
-    stand.plants.iter().any(|plant| plant.organs.len() > 0)
+    stand.plants.iter().any(|plant| !plant.organs.is_empty())
 }
 
 /// A species as it is in several forms.

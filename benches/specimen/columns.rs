@@ -29,7 +29,7 @@ fn write_axes(from: &Axes, into: &mut Axes) {
 
 fn write_nodes(from: &Nodes, into: &mut Nodes) {
     rewrite!(Nodes, from, into; parent, axis, component, birth, rank, unit_rank, formation, trend, length,
-        primary_diameter, diameter, diameter_tip, azimuth, runs);
+        primary_diameter, diameter, diameter_tip, azimuth, growth_unit, cycle, axillary_buds, runs);
 }
 
 fn write_organs(from: &Organs, into: &mut Organs) {

@@ -224,15 +224,16 @@ impl Fit {
         if let Some(checked) = checked {
             object["check"] = json::checked(checked);
         }
-        if let (Some(out), Some(base)) = (&self.out, &self.base) {
-            if let Some(verdict) = self.write(outcome, (out, base), &object)? {
-                return Ok(verdict);
-            }
+        if let (Some(out), Some(base)) = (&self.out, &self.base)
+            && let Some(verdict) = self.write(outcome, (out, base), &object)?
+        {
+            return Ok(verdict);
         }
         if self.json {
             terminal::put_json(&object)?
         } else {
-            terminal::put(&told::table(outcome))?
+            terminal::put(&told::table(outcome))?;
+            checked.map(|checked| terminal::put(&told::checked(checked))).transpose()?;
         }
         Ok(Verdict::Done)
     }

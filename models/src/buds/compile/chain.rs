@@ -108,7 +108,7 @@ impl ChainLaw {
                         holds[zone][rank] += left;
                     }
                     left -= p * share;
-                    for (on, weight) in next.iter().enumerate().take_while(|_| rank + 1 <= ranks) {
+                    for (on, weight) in next.iter().enumerate().take_while(|_| rank < ranks) {
                         if let Some(begins) = begins.get_mut(zone + 1 + on) {
                             begins[rank + 1] += p * share * weight;
                         }
