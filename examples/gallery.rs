@@ -89,7 +89,7 @@ fn main() -> Result<()> {
         }
         page += &sit(name, folder).with_context(|| format!("the species {name}"))?;
     }
-    page += "\n## Trees in two forms\n\nAs Plates 6 and 7 of Weber & Penn 1995 show them.\n\n";
+    page += "\n## Plants in two forms\n\nLeaves that turn to the light, and pruning.\n\n";
     for (name, title, forms) in PLATES {
         let file = format!("gallery/wp/{}.png", title.to_lowercase().replace(' ', "_"));
         let [first, second] = forms.map(|(words, _)| words);

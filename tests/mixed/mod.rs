@@ -53,6 +53,7 @@ pub fn write(path: &Path) {
     let [bush, doubling] = SPECIES.map(resolved);
     let mut plan = plan_of(&bush, &Program::default()).expect("a plan");
     plan.provenance.species = SPECIES.map(str::to_owned).to_vec();
+    plan.provenance.ticks_per_year = [&bush, &doubling].map(|of| of.species.ticks_per_year()).to_vec();
     plan.provenance.treatments = TREATMENTS.map(str::to_owned).to_vec();
     let folder = RunFolder::create(path, plan, Mode::New).expect("a run folder");
     for shard in folder.missing_shards() {

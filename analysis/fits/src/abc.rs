@@ -305,7 +305,7 @@ mod tests {
     /// particles are worth.
     #[test]
     fn the_posterior_of_a_share() {
-        let posterior = abc(&successes(600), &[552.0 / 600.0], &asked(800, 12)).unwrap();
+        let posterior = abc(&successes(600), &[552.0 / 600.0], &asked(2000, 12)).unwrap();
         let ((mean, sd), n) = (posterior.moments(0), posterior.effective());
         println!("{mean} {sd} {n} {} {}", posterior.generations, posterior.within);
         assert!(n > 300.0, "{n}");

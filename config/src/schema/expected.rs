@@ -93,7 +93,7 @@ fn describe_table(schema: &Json) -> String {
     let keys = if required.is_empty() { known_keys(schema) } else { required };
     match keys.as_slice() {
         [] => "a table".to_owned(),
-        keys if keys.len() > 16 => "a table".to_owned(),
+        keys if keys.len() > 24 => "a table".to_owned(),
         keys => format!("a table with {}", keys.iter().map(|k| format!("`{k}`")).collect::<Vec<_>>().join(", ")),
     }
 }
