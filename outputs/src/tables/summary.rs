@@ -84,7 +84,7 @@ pub struct Summary {
     pub harvested_mass: f64,
     /// The diameter at the base of the first internode of the axis of the seed, m; NaN where it does not live.
     pub basal_diameter: f64,
-    /// The greatest diameter at [`BREAST_HEIGHT_M`] of the living internodes of order 1 that rise through that height,
+    /// The greatest diameter at 1.3 m of the living internodes of order 1 that rise through that height,
     /// m; NaN where none does.
     pub breast_diameter: f64,
     /// The height of the base of the lowest leaf or leaflet above the seed, m; NaN where there is none.
