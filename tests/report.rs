@@ -4,17 +4,18 @@
 //! The means of a figure are reckoned once more here from the rows of `summary`, which the parquet crate reads. Absent:
 //! statistics (`analysis/measures`), and how a page is made (`outputs/reports`).
 
-#[path = "program/absent.rs"]
-mod absent;
+#[path = "program/browser.rs"]
+mod browser;
 mod program;
 mod read;
 
+use browser::browser;
 use program::{data, run, write};
 use read::Columns;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use tempfile::{TempDir, tempdir};
 
@@ -129,22 +130,6 @@ fn what_is_wrong_is_told() {
     assert!(!folder.path().join("a.html").exists());
 }
 
-/// The folder of playwright-core and the browser; `None`, with the reason printed, where either is missing.
-fn browser() -> Option<(PathBuf, PathBuf)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let named = |variable: &str, usual: PathBuf| std::env::var_os(variable).map_or(usual, PathBuf::from);
-    let driver = named("PHYTOMER_PLAYWRIGHT", root.join(".venv/node"));
-    let browser = named("CHROMIUM", PathBuf::from("/usr/bin/chromium"));
-    let needed = [driver.join("node_modules/playwright-core/package.json"), browser.clone()];
-    if let Some(missing) = needed.iter().find(|path| !path.is_file()) {
-        let reason = format!("{} is missing", missing.display());
-        assert!(!absent::in_ci(), "CI must have a browser: {reason}");
-        absent::skip(&format!("no browser to read a report with ({reason}); .ci/run installs it"));
-        return None;
-    }
-    Some((driver, browser))
-}
-
 #[test]
 fn a_browser_shows_a_report_without_scripts_and_without_network() {
     let Some((driver, browser)) = browser() else { return };
@@ -161,8 +146,4 @@ fn a_browser_shows_a_report_without_scripts_and_without_network() {
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     let found: Value = serde_json::from_slice(&done.stdout).expect("JSON");
     assert_eq!(found, serde_json::json!({"figures": 13, "pictures": 1, "tables": 7}));
-    // For whoever wants to look at it.
-    if let Some(kept) = std::env::var_os("PHYTOMER_SHOTS") {
-        fs::copy(folder.path().join("page.png"), Path::new(&kept).join("report.png")).expect("a picture is kept");
-    }
 }

@@ -5,16 +5,17 @@
 //! says so, but never in CI. What it must see are the rows of `records` of the same plant, read by the parquet crate.
 //! The data of pages are read once more in Python (`tests/external_readers.rs`).
 
-#[path = "program/absent.rs"]
-mod absent;
+#[path = "program/browser.rs"]
+mod browser;
 mod program;
 mod read;
 
+use browser::browser;
 use program::{data, program as phytomer, run, said, write};
 use read::Columns;
 use serde_json::{Map, Value, json};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use tempfile::tempdir;
 
@@ -38,25 +39,6 @@ const OF_A_ROW: [&str; 13] = [
     "up_y",
     "up_z",
 ];
-
-/// The folder of playwright-core and the browser; `None`, with the reason printed, where either is missing.
-fn browser() -> Option<(PathBuf, PathBuf)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let named = |variable: &str, usual: PathBuf| std::env::var_os(variable).map_or(usual, PathBuf::from);
-    let driver = named("PHYTOMER_PLAYWRIGHT", root.join(".venv/node"));
-    let browser = named("CHROMIUM", PathBuf::from("/usr/bin/chromium"));
-    let needed = [driver.join("node_modules/playwright-core/package.json"), browser.clone()];
-    let missing = needed.iter().find(|path| !path.is_file());
-    let node = Command::new("node").arg("--version").output().is_ok_and(|done| done.status.success());
-    let reason = match missing {
-        Some(path) => format!("{} is missing", path.display()),
-        None if !node => "node is missing".to_owned(),
-        None => return Some((driver, browser)),
-    };
-    assert!(!absent::in_ci(), "CI must have a browser: {reason}");
-    absent::skip(&format!("no browser to test pages with ({reason}); .ci/run installs it"));
-    None
-}
 
 /// The scenario of the tests in a folder, and its run.
 fn bush(folder: &Path) {
