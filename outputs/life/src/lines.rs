@@ -135,7 +135,13 @@ impl Showing<'_, '_> {
     /// Half of the tolerance.
     fn half(&self) -> Tolerance {
         let Nearness { distance, share, .. } = self.nearness;
-        Tolerance { distance: 0.5 * distance, share: 0.5 * share, colour: u8::MAX, keeps: Keeping::Section }
+        Tolerance {
+            distance: 0.5 * distance,
+            share: 0.5 * share,
+            colour: u8::MAX,
+            keeps: Keeping::Section,
+            organs: false,
+        }
     }
 
     fn number(&self, sample: &Sample) -> usize {

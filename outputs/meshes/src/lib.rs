@@ -89,6 +89,8 @@ pub struct Tolerance {
     pub colour: u8,
     /// What the polygons around the wood keep of its circles.
     pub keeps: Keeping,
+    /// Whether organs have fewer triangles too, where none of their corners moves farther than the distance.
+    pub organs: bool,
 }
 
 /// What a polygon keeps of the circle that it is drawn for.
@@ -115,13 +117,13 @@ impl Tolerance {
     /// Within a distance, metres, whatever the colours.
     pub fn of(distance: f32) -> Self {
         let distance = distance.max(Self::LEAST);
-        Self { distance, share: f32::INFINITY, colour: u8::MAX, keeps: Keeping::Section }
+        Self { distance, share: f32::INFINITY, colour: u8::MAX, keeps: Keeping::Section, organs: false }
     }
 
     /// Within a distance, metres, for a picture: wood keeps its width, and a face has one colour, which is nearly that
-    /// of all internodes along it.
+    /// of all internodes along it. Organs are within it as well.
     pub fn of_a_picture(distance: f32) -> Self {
-        Self { colour: 6, keeps: Keeping::Width, ..Self::of(distance) }
+        Self { colour: 6, keeps: Keeping::Width, organs: true, ..Self::of(distance) }
     }
 }
 

@@ -288,7 +288,19 @@ impl<'a> Scene<'a> {
         }
         match self.outlines.faces(organ) {
             Some(faces) => OrganForm::Outline(self.plant.outline_of(organ), faces),
-            None => OrganForm::Shape(self.options.shape(self.plant.organs.form[organ.index()])),
+            None => OrganForm::Shape(self.shape_of(organ)),
+        }
+    }
+
+    /// The shape of the form of an organ: a coarser one where the tolerance allows it. It is that of its full size, so
+    /// that it stays the same while the organ grows.
+    #[inline]
+    fn shape_of(&self, organ: OrganId) -> &FormMesh {
+        let (organs, place) = (&self.plant.organs, organ.index());
+        let shape = self.options.shape(organs.form[place]);
+        match self.options.tolerance.filter(|tolerance| tolerance.organs) {
+            Some(tolerance) => shape.within(tolerance.distance, [organs.length[place], organs.width[place]]),
+            None => shape,
         }
     }
 

@@ -2,7 +2,7 @@
 //! does to its parts, and how its triangles come onto the film.
 //!
 //! Blocks are made when they are used and dropped; those of a plant that stands at several places are made once and
-//! kept, and so are those of an obstacle. Absent: what stands together (`placed`).
+//! kept, and so are those of an obstacle, and those of plants that are small near a camera. Absent: what stands together (`placed`).
 
 use super::camera::Camera;
 use super::extent::corners;
@@ -27,7 +27,7 @@ pub struct Body<'a> {
     stuff: [Stuff; Kind::ALL.len()],
     /// Where it stands.
     pub places: Vec<Vec3>,
-    /// The meshes of its blocks, where it stands at several places; else empty, and blocks are made when they are used.
+    /// The meshes of its blocks, where they are kept; else empty, and blocks are made when they are used.
     kept: Vec<Arc<Mesh>>,
 }
 
@@ -39,12 +39,13 @@ impl<'a> Body<'a> {
         colours: Option<Vec<[u8; 3]>>,
         places: Vec<Vec3>,
     ) -> Self {
-        Self::of(Scene::new(plant, age, options), colours, places, &[])
+        let keeps = places.len() > 1;
+        Self::of(Scene::new(plant, age, options), colours, places, keeps)
     }
 
-    /// A scene at its places, of which the boxes of the last blocks are known.
-    fn of(scene: Scene<'a>, colours: Option<Vec<[u8; 3]>>, places: Vec<Vec3>, known: &[[Vec3; 2]]) -> Self {
-        let blocks = 0..if places.len() > 1 { scene.blocks() } else { 0 };
+    /// A scene at its places; whether its blocks are made once and kept.
+    fn of(scene: Scene<'a>, colours: Option<Vec<[u8; 3]>>, places: Vec<Vec3>, keeps: bool) -> Self {
+        let blocks = 0..if keeps { scene.blocks() } else { 0 };
         let kept = blocks.into_par_iter().map(|block| {
             let mut mesh = Mesh::default();
             scene.block(block, &mut mesh);
@@ -52,25 +53,23 @@ impl<'a> Body<'a> {
         });
         let (kept, blocks) = (kept.collect(), scene.blocks());
         let stuff = stuff(scene.plant());
-        Self { scene: Some(scene), colours, boxes: Vec::new(), stuff, places, kept }.boxed(blocks, known)
+        Self { scene: Some(scene), colours, boxes: Vec::new(), stuff, places, kept }.boxed(blocks)
     }
 
     /// An obstacle: a closed mesh in the coordinates of its stand.
     pub fn obstacle(mesh: &Arc<Mesh>) -> Self {
         let (kept, stuff) = (vec![Arc::clone(mesh)], [Stuff { thin: false, closed: true }; Kind::ALL.len()]);
-        Self { scene: None, colours: None, boxes: Vec::new(), stuff, places: vec![Vec3::ZERO], kept }.boxed(1, &[])
+        Self { scene: None, colours: None, boxes: Vec::new(), stuff, places: vec![Vec3::ZERO], kept }.boxed(1)
     }
 
-    /// With the bounding boxes of its blocks, of which the last are known.
-    fn boxed(mut self, blocks: usize, known: &[[Vec3; 2]]) -> Self {
+    /// With the bounding boxes of its blocks.
+    fn boxed(mut self, blocks: usize) -> Self {
         let body = &self;
-        let boxes =
-            (0..blocks - known.len()).into_par_iter().map_init(Boxing::default, |working, block| match &body.scene {
-                Some(scene) if body.kept.is_empty() => scene.block_box(block, working),
-                _ => around(body.kept.get(block).into_iter().flat_map(|mesh| &mesh.vertices).map(at)),
-            });
+        let boxes = (0..blocks).into_par_iter().map_init(Boxing::default, |working, block| match &body.scene {
+            Some(scene) if body.kept.is_empty() => scene.block_box(block, working),
+            _ => around(body.kept.get(block).into_iter().flat_map(|mesh| &mesh.vertices).map(at)),
+        });
         self.boxes = boxes.collect();
-        self.boxes.extend_from_slice(known);
         self
     }
 
@@ -84,14 +83,16 @@ impl<'a> Body<'a> {
         self.scene.is_none()
     }
 
-    /// The same plant with its wood within half a pixel of a camera that sees its stand at `offset`; `None` for an
-    /// obstacle.
-    pub fn near(&self, camera: &Camera, offset: Vec3) -> Option<Self> {
+    /// The same plant with its wood and its organs within half a pixel of a camera that sees its stand at `offset`;
+    /// `None` for an obstacle. Its blocks are kept where there is `room` for its vertices, which they then take.
+    pub fn near(&self, camera: &Camera, offset: Vec3, room: &mut u64) -> Option<Self> {
         let scene = self.scene.as_ref()?;
         let seen = self.placed_boxes().flat_map(corners).map(|corner| camera.scale_at(corner + offset));
         let most = seen.fold(f32::MIN_POSITIVE, f32::max);
-        let organs = &self.boxes[self.boxes.len() - scene.organ_blocks()..];
-        Some(Self::of(scene.within(Tolerance::of_a_picture(0.5 / most)), None, self.places.clone(), organs))
+        let near = scene.within(Tolerance::of_a_picture(0.5 / most));
+        let left = room.checked_sub(near.counts().vertices);
+        *room = left.unwrap_or(*room);
+        Some(Self::of(near, None, self.places.clone(), left.is_some() || self.places.len() > 1))
     }
 
     /// A block of it, made in `mesh` where it is not kept.

@@ -127,7 +127,10 @@ impl Camera {
     pub fn unproject(&self, x: f32, y: f32, depth: f32) -> Vec3 {
         let (right, down) = (x - self.centre[0], y - self.centre[1]);
         let (w, per_pixel) = match self.lens {
-            Lens::Perspective { focal } => (1.0 / depth, 1.0 / (depth * focal)),
+            Lens::Perspective { focal } => {
+                let w = 1.0 / depth;
+                (w, w / focal)
+            }
             Lens::Parallel { scale, reach } => ((1.0 - depth) * reach, 1.0 / scale),
         };
         self.eye + self.gaze.forward * w + (self.gaze.right * right - self.gaze.up * down) * per_pixel

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
 
 /// The colour and material of a face.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Paint {
     /// Red, green and blue, as a screen shows them.
     pub colour: [u8; 3],
@@ -24,7 +24,7 @@ pub struct Paint {
 }
 
 /// The visible surface at a sample.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Seen {
     /// Its depth.
     pub depth: f32,
@@ -76,6 +76,12 @@ impl Film {
             let normal = Vec3::from_array([0, 1, 2].map(|k| planes[k].at(x, y)));
             self.paints[index].fetch_max(packed(paint, normal), Relaxed);
         });
+    }
+
+    /// Whether a sample shows anything but the background.
+    #[inline]
+    pub fn covers(&self, index: usize) -> bool {
+        self.depths[index].load(Relaxed) > 0
     }
 
     /// The visible surface at a sample; `None` for the background.

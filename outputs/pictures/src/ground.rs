@@ -43,9 +43,26 @@ pub struct Behind {
     pub depth: f32,
 }
 
+/// The roots of the light of the colours of a background.
+#[derive(Debug)]
+pub struct Tones {
+    zenith: Vec3,
+    horizon: Vec3,
+    earth: Vec3,
+}
+
+impl Default for Tones {
+    fn default() -> Self {
+        let [zenith, horizon, earth] = [ZENITH, HORIZON, EARTH].map(tone::roots);
+        Self { zenith, horizon, earth }
+    }
+}
+
 /// The background of one picture.
 #[derive(Debug)]
 pub struct Ground<'a> {
+    /// Its colours.
+    pub tones: Tones,
     /// Its camera.
     pub camera: &'a Camera,
     /// The plants that stand on it.
@@ -76,12 +93,12 @@ impl Ground<'_> {
             let opacity = 1.0 - (left.x + left.y + left.z) / 3.0;
             return Behind { roots: tone::roots(SHADE), opacity, depth };
         }
-        let earth = paper.lerp(tone::roots(EARTH), self.nearness(point));
+        let earth = paper.lerp(self.tones.earth, self.nearness(point));
         Behind { roots: earth * left.map(f32::sqrt), opacity: 1.0, depth }
     }
 
     fn paper(&self, y: f32) -> Vec3 {
-        tone::roots(ZENITH).lerp(tone::roots(HORIZON), smooth(y / self.height / 0.85))
+        self.tones.zenith.lerp(self.tones.horizon, smooth(y / self.height / 0.85))
     }
 
     /// The background in a level gaze: the ground as a line one pixel wide, and the section below it.
@@ -112,8 +129,9 @@ impl Ground<'_> {
             let light = footing.light;
             let point = point - footing.offset;
             let high = light.shadow.sun.z;
-            let open = falling_on(light.sky.at(point), Vec3::Z).min(1.0);
-            let sky = 1.0 - (1.0 - open) * light.sky.holds(point);
+            let holds = light.sky.holds(point);
+            let open = if holds > 0.0 { falling_on(light.sky.at(point), Vec3::Z).min(1.0) } else { 1.0 };
+            let sky = 1.0 - (1.0 - open) * holds;
             let gets = SUN * (high * light.shadow.share(point)) + SKY * sky;
             left * (gets / (SUN * high + SKY))
         })

@@ -13,6 +13,7 @@ mod canvas;
 mod caption;
 mod cast;
 mod colouring;
+mod develop;
 mod draw;
 mod extent;
 mod film;

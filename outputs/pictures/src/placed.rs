@@ -2,7 +2,8 @@
 //! their triangles: a single plant, or all plants of a plot.
 //!
 //! Meshes are those of [`phytomer_meshes`], made block by block on any free thread, used and dropped: a picture of ten
-//! million triangles needs no more memory than one of ten. A plant that stands at several places is made once and kept.
+//! million triangles needs no more memory than one of a million. A plant that stands at several places is made once and
+//! kept, and so are a stand's first plants, up to half a million vertices.
 //! Triangles only add to sums of whole numbers and to maxima, so their order has no effect. Absent: the plants and
 //! obstacles one by one (`body`).
 
@@ -26,6 +27,9 @@ const EMPTY: Vec3 = Vec3::Z;
 
 /// Rounding of places, as a share of their distance from the origin: far more than single precision makes.
 const ROUNDING: f32 = 1e-6;
+
+/// The most vertices of a stand that are made once for a picture and kept; each is some 60 bytes with its triangles.
+const ROOM: u64 = 1 << 19;
 
 /// The number of places of one plant that a thread handles with one block.
 const PLACES_AT_ONCE: usize = 16;
@@ -95,11 +99,12 @@ impl<'a> PlacedStand<'a> {
         Self { bodies, plants, looks, offset: Vec3::ZERO, number }
     }
 
-    /// The same stand with the wood of its plants within half a pixel of a camera, in natural colours: trunks are round
-    /// from near, and twigs have few faces from afar. Obstacles stay as they are.
+    /// The same stand with its plants within half a pixel of a camera, in natural colours: trunks are round from near,
+    /// and twigs and leaves have few faces from afar. Obstacles stay as they are.
     pub fn near(&self, camera: &Camera) -> Self {
         let (plants, obstacles) = self.bodies.split_at(self.plants);
-        let plants = plants.iter().filter_map(|body| body.near(camera, self.offset)).collect();
+        let mut room = ROOM;
+        let plants = plants.iter().filter_map(|body| body.near(camera, self.offset, &mut room)).collect();
         let obstacles: Vec<Arc<Mesh>> = obstacles.iter().flat_map(|body| body.meshes().iter().cloned()).collect();
         Self { offset: self.offset, ..Self::new(plants, &obstacles, self.number) }
     }
@@ -225,8 +230,8 @@ impl<'a> PlacedStand<'a> {
     pub fn expose(&self, camera: &Camera, film: &Film, window: &Window, fine: f32, painting: bool) {
         let rows = [window.rows.start as f32, window.rows.end as f32];
         let in_rows = |look: &Look, place: Vec3| {
-            let reached = self.rows_of(look, camera, place + self.offset, fine);
-            reached.is_some_and(|[a, b]| a <= rows[1] && b >= rows[0])
+            let reached = self.reached(look, camera, place + self.offset);
+            reached.is_some_and(|[a, b]| a.y * fine - 1.0 <= rows[1] && b.y * fine + 1.0 >= rows[0])
         };
         let places = |look: &Look| &self.bodies[look.body].places[look.places.clone()];
         self.each_look(
@@ -244,18 +249,28 @@ impl<'a> PlacedStand<'a> {
         );
     }
 
-    /// The rows of samples that a block may reach at a place; `None` for an empty block.
-    fn rows_of(&self, look: &Look, camera: &Camera, place: Vec3, fine: f32) -> Option<[f32; 2]> {
+    /// The columns of a picture, pixels, that it may reach; `None` without anything to see.
+    pub fn columns(&self, camera: &Camera) -> Option<[f32; 2]> {
+        let of = |look: &Look| {
+            let places = self.bodies[look.body].places[look.places.clone()].iter();
+            let reached = places.filter_map(|place| self.reached(look, camera, *place + self.offset));
+            reached.map(|[low, high]| [low.x - 1.0, high.x + 1.0]).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
+        };
+        self.looks.par_iter().filter_map(of).reduce_with(|[a, b], [c, d]| [a.min(c), b.max(d)])
+    }
+
+    /// The rectangle of the picture, pixels, that a block may reach at a place; `None` for an empty block.
+    fn reached(&self, look: &Look, camera: &Camera, place: Vec3) -> Option<[Vec3; 2]> {
         let [low, high] = self.bodies[look.body].boxes[look.block];
-        let mut rows = [f32::INFINITY, f32::NEG_INFINITY];
+        let mut reached = [Vec3::INFINITY, Vec3::NEG_INFINITY];
         if low.x > high.x {
             return None;
         }
         for corner in corners([low, high]) {
             let seen = camera.project(corner + place)?;
-            rows = [rows[0].min(seen.y * fine - 1.0), rows[1].max(seen.y * fine + 1.0)];
+            reached = [reached[0].min(seen), reached[1].max(seen)];
         }
-        Some(rows)
+        Some(reached)
     }
 
     /// Calls a function with every selected block, on all threads, and joins the results in any order.

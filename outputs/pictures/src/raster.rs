@@ -7,42 +7,50 @@
 use glam::Vec3;
 use std::ops::Range;
 
-/// A window of samples: all columns of some rows of a picture.
+/// A window of samples: some columns of some rows of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Window {
-    /// Samples in a row.
-    pub width: u32,
+    /// The columns, counted over the whole picture.
+    pub columns: Range<u32>,
     /// The rows, counted over the whole picture.
     pub rows: Range<u32>,
     /// The shift of the samples of a row from the middles of their columns, in columns; the list repeats row after row.
-    pub shifts: &'static [f32],
+    pub shifts: [f32; TOGETHER as usize],
 }
 
 /// The rows whose samples lie together in memory, column by column: four by four samples, such as those of a pixel, are
 /// neighbours, and a triangle meets few lines of the cache.
-const TOGETHER: u32 = 4;
+pub const TOGETHER: u32 = 4;
 
 /// Shifts for rows that stand straight below one another.
-pub const UPRIGHT: &[f32] = &[0.0];
+pub const UPRIGHT: [f32; TOGETHER as usize] = [0.0; TOGETHER as usize];
 
 impl Window {
     /// The places of its samples in memory, of which a few at the end may have no sample.
     pub fn len(&self) -> usize {
-        self.width as usize * self.rows.len().next_multiple_of(TOGETHER as usize)
+        self.columns.len() * self.rows.len().next_multiple_of(TOGETHER as usize)
     }
 
     /// The place of the sample of a column on a row, which is one of its rows.
     #[inline]
     pub fn index(&self, column: u32, row: u32) -> usize {
-        let row = row - self.rows.start;
-        ((row / TOGETHER) as usize * self.width as usize + column as usize) * TOGETHER as usize
+        let (column, row) = (column - self.columns.start, row - self.rows.start);
+        ((row / TOGETHER) as usize * self.columns.len() + column as usize) * TOGETHER as usize
             + (row % TOGETHER) as usize
+    }
+
+    /// The samples of the window that lie together with that of a column on a row, where both are the first of
+    /// [`TOGETHER`]: their places in memory, columns and rows, in the order of memory.
+    #[inline]
+    pub fn together(&self, column: u32, row: u32) -> impl Iterator<Item = (usize, u32, u32)> + use<> {
+        let first = self.index(column, row);
+        (0..TOGETHER * TOGETHER).map(move |k| (first + k as usize, column + k / TOGETHER, row + k % TOGETHER))
     }
 
     /// The position of the sample of a column on a row, in columns.
     #[inline]
     pub fn place(&self, column: u32, row: u32) -> f32 {
-        column as f32 + 0.5 + self.shifts[row as usize % self.shifts.len()]
+        column as f32 + 0.5 + self.shifts[(row % TOGETHER) as usize]
     }
 }
 
@@ -113,24 +121,45 @@ pub fn cover(corners: &[Vec3; 3], window: &Window, mut put: impl FnMut(Sample)) 
     let depth = Plane::through(corners, corners.map(|corner| corner.z));
     let deepest = a.z.min(b.z).min(c.z);
     let nearest = a.z.max(b.z).max(c.z);
-    let (long, upper, lower) = (Side::new(a, c), Side::new(a, b), Side::new(b, c));
-    for row in rows {
-        let y = row as f32 + 0.5;
-        let ends = [long.at(y), if y < b.y { upper.at(y) } else { lower.at(y) }];
-        let shift = window.shifts[row as usize % window.shifts.len()] + 0.5;
-        let Some(columns) = between(ends[0].min(ends[1]) - shift, ends[0].max(ends[1]) - shift, &(0..window.width))
-        else {
-            continue;
-        };
-        let first = window.index(0, row);
-        for column in columns {
-            let x = column as f32 + shift;
-            // Rounding may lead slightly beyond the depths of the corners.
-            let depth = depth.at(x, y).max(deepest).min(nearest);
-            put(Sample { index: first + (column * TOGETHER) as usize, x, y, depth });
+    let sides = [Side::new(a, c), Side::new(a, b), Side::new(b, c)];
+    let mut four = rows.start - rows.start % TOGETHER;
+    while four < rows.end {
+        let (firsts, lasts) = spans(&sides, b.y, four, &window.shifts);
+        for row in four.max(rows.start)..(four + TOGETHER).min(rows.end) {
+            let k = (row % TOGETHER) as usize;
+            let first = firsts[k].max(window.columns.start as i32);
+            let last = lasts[k].min(window.columns.end as i32 - 1);
+            if first > last {
+                continue;
+            }
+            let (y, shift) = (row as f32 + 0.5, window.shifts[k] + 0.5);
+            let start = window.index(window.columns.start, row);
+            for column in first as u32..=last as u32 {
+                let x = column as f32 + shift;
+                // Rounding may lead slightly beyond the depths of the corners.
+                let depth = depth.at(x, y).max(deepest).min(nearest);
+                put(Sample { index: start + ((column - window.columns.start) * TOGETHER) as usize, x, y, depth });
+            }
         }
+        four += TOGETHER;
     }
 }
+
+/// The first and the last column on each of some rows from `four` on, between the long side of a triangle and its upper
+/// side, from the middle corner on its lower side. The rows are computed together, which a processor does at once.
+#[inline]
+fn spans([long, upper, lower]: &[Side; 3], middle: f32, four: u32, shifts: &Four<f32>) -> (Four<i32>, Four<i32>) {
+    let (mut firsts, mut lasts) = ([0; TOGETHER as usize], [0; TOGETHER as usize]);
+    for k in 0..TOGETHER as usize {
+        let y = (four as i32 + k as i32) as f32 + 0.5;
+        let ends = [long.at(y), if y < middle { upper.at(y) } else { lower.at(y) }];
+        let shift = shifts[k] + 0.5;
+        (firsts[k], lasts[k]) = (above(ends[0].min(ends[1]) - shift), below(ends[0].max(ends[1]) - shift));
+    }
+    (firsts, lasts)
+}
+
+type Four<T> = [T; TOGETHER as usize];
 
 /// One side of a triangle, from its upper to its lower end.
 struct Side {
@@ -153,12 +182,24 @@ impl Side {
     }
 }
 
+/// The least whole number that is not below `x`.
+#[inline]
+fn above(x: f32) -> i32 {
+    let whole = x as i32;
+    whole.saturating_add(i32::from(x > whole as f32))
+}
+
+/// The largest whole number that is not above `x`.
+#[inline]
+fn below(x: f32) -> i32 {
+    let whole = x as i32;
+    whole.saturating_sub(i32::from(x < whole as f32))
+}
+
 /// The whole numbers of `within` from `low` to `high`, both included; `None` where there are none.
 #[inline]
 fn between(low: f32, high: f32, within: &Range<u32>) -> Option<Range<u32>> {
-    let [first, last] = [low as i32, high as i32];
-    let first = (first.saturating_add(i32::from(low > first as f32))).max(within.start as i32);
-    let last = (last.saturating_sub(i32::from(high < last as f32))).min(within.end as i32 - 1);
+    let [first, last] = [above(low).max(within.start as i32), below(high).min(within.end as i32 - 1)];
     // A comparison with NaN is false.
     (low <= high && first <= last).then(|| first as u32..last as u32 + 1)
 }

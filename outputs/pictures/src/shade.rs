@@ -6,7 +6,7 @@
 //! leaf in full light shows its stated colour. Absent: textures, gloss beyond a faint sheen of leaves, and light that
 //! is scattered twice, for which there is a small constant.
 
-use super::film::{Paint, Seen};
+use super::film::Paint;
 use super::shadow::Shadow;
 use super::sky::{Sky, falling_on};
 use super::tone;
@@ -42,36 +42,46 @@ pub struct Light {
     pub sky: Sky,
 }
 
-/// The light that leaves the surface `seen` at `point` in the direction `back`; `tap` chooses a point of the sun's
-/// disc.
-#[inline]
-pub fn shade(seen: &Seen, point: Vec3, back: Vec3, light: &Light, tap: usize) -> Vec3 {
-    let Paint { colour, thin, stained, .. } = seen.paint;
-    let normal = seen.normal.normalize_or(back);
+/// The light that leaves a surface towards the eye.
+#[derive(Debug, Clone, Copy)]
+pub struct Shaded {
+    /// The light where the sun does not reach it.
+    pub shade: Vec3,
+    /// The light in the sun; `None` for a surface that the sun never reaches.
+    pub sunlit: Option<Vec3>,
+    /// Its normal on the side that is seen.
+    pub normal: Vec3,
+}
+
+/// The light that leaves a surface of this paint and unit normal at a point, in the unit direction `back`.
+pub fn shade(paint: Paint, normal: Vec3, (point, back): (Vec3, Vec3), light: &Light) -> Shaded {
+    let Paint { colour, thin, stained, .. } = paint;
     let normal = if thin && normal.dot(back) < 0.0 { -normal } else { normal };
     let towards_sun = normal.dot(light.shadow.sun);
+    let faces_sun = thin || towards_sun > 0.0;
     let sky = light.sky.at(point);
     let (near, far) = (falling_on(sky, normal), falling_on(sky, -normal));
     let open = (2.0 * sky[0]).min(1.0);
     let from_ground = GROUND * ((0.5 - 0.5 * normal.z) * (0.25 + 0.75 * open));
     let around = from_ground + LEAST;
     let base = tone::light(colour);
-    let facing = if thin || towards_sun > 0.0 { light.shadow.lit(point, normal, tap) } else { false };
-    let sun = if facing { SUN } else { Vec3::ZERO };
-    if stained {
-        let lit = if facing { STAIN_SUN * towards_sun.abs() } else { 0.0 };
-        return base * (STAIN + STAIN_SKY * near.max(far) + lit);
-    }
-    if !thin {
-        return base * (sun * towards_sun.max(0.0) + SKY * near + around);
-    }
-    let pale = base.min_element();
-    let passed = SKY * (PASSED_SKY * pale * (1.0 - near).max(0.0)) + (SUN - sun) * (PASSED_SUN * pale);
-    let thrown = sun * (BACK * towards_sun.max(0.0)) + SKY * (BACK * near) + around + passed;
-    let tint = THROUGH_TINT.lerp(Vec3::ONE, pale);
-    let through = (sun * (-towards_sun).max(0.0) + SKY * far) * THROUGH * tint;
-    let half = (light.shadow.sun + back).normalize_or_zero().dot(normal).max(0.0);
-    let gloss = half * half * half * half;
-    let sheen = (sun * (gloss * gloss * gloss) + SKY * (0.5 * near)) * SHEEN * 0.5;
-    base * (thrown + through) + sheen
+    let (shade, sun) = if stained {
+        (base * (STAIN + STAIN_SKY * near.max(far)), base * (STAIN_SUN * towards_sun.abs()))
+    } else if thin {
+        let pale = base.min_element();
+        let passed = SKY * (PASSED_SKY * pale * (1.0 - near).max(0.0)) + SUN * (PASSED_SUN * pale);
+        let tint = THROUGH_TINT.lerp(Vec3::ONE, pale);
+        let half = (light.shadow.sun + back).normalize_or_zero().dot(normal).max(0.0);
+        let gloss = half * half * half * half;
+        let thrown = SKY * (BACK * near) + around + passed;
+        let through = SKY * far * THROUGH * tint;
+        let shade = base * (thrown + through) + SKY * (0.5 * near * SHEEN * 0.5);
+        // What the sun adds where it reaches the face itself; then its neighbours pass on none of it.
+        let thrown = BACK * towards_sun.max(0.0) - PASSED_SUN * pale;
+        let through = tint * ((-towards_sun).max(0.0) * THROUGH);
+        (shade, SUN * (base * (through + thrown) + gloss * gloss * gloss * SHEEN * 0.5))
+    } else {
+        (base * (SKY * near + around), base * SUN * towards_sun.max(0.0))
+    };
+    Shaded { shade, sunlit: faces_sun.then(|| shade + sun), normal }
 }

@@ -66,7 +66,7 @@ impl Shadow {
         let size = [wide, tall].map(|side| (side * scale).ceil() + 4.0);
         let middle = [0.5 * (east - west), 0.5 * (north - south)];
         let camera = Camera::parallel(gaze, middle, seen.depths, scale, size.map(|side| 0.5 * side));
-        let window = Window { width: size[0] as u32, rows: 0..size[1] as u32, shifts: UPRIGHT };
+        let window = Window { columns: 0..size[0] as u32, rows: 0..size[1] as u32, shifts: UPRIGHT };
         let mut depths = Vec::new();
         depths.resize_with(window.len(), AtomicU32::default);
         let reach = match camera.lens {
@@ -87,7 +87,7 @@ impl Shadow {
     #[inline]
     fn above(&self, seen: Vec3, tap: [f32; 2], radius: f32) -> Option<f32> {
         let (x, y) = (seen.x + radius * tap[0], seen.y + radius * tap[1]);
-        let inside = x >= 0.0 && y >= 0.0 && x < self.window.width as f32 && y < self.window.rows.end as f32;
+        let inside = x >= 0.0 && y >= 0.0 && x < self.window.columns.end as f32 && y < self.window.rows.end as f32;
         if !inside {
             return None;
         }
@@ -115,7 +115,7 @@ impl Shadow {
     /// The share of the sun that reaches a point of the ground.
     pub fn share(&self, point: Vec3) -> f32 {
         let seen = self.lifted(point, Vec3::Z);
-        let width = self.window.width.max(self.window.rows.end) as f32;
+        let width = self.window.columns.end.max(self.window.rows.end) as f32;
         let search = 0.5 * SOFTNESS * self.reach / self.texel;
         let nearby = |seen: Vec3| seen.x < -search || seen.y < -search || seen.x.max(seen.y) > width + search;
         if nearby(seen) {

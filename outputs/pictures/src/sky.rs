@@ -93,75 +93,113 @@ impl Crown {
     /// Computes the light of the sky in each cell.
     pub fn lighten(self) -> Sky {
         let depths: Vec<f32> = self.areas.iter().map(|parts| parts.load(Relaxed) as f32 / PARTS).collect();
-        let directions = directions();
-        let open: Vec3 = directions.iter().map(|(direction, share)| *direction * *share).sum();
+        let rings: Vec<Ring> = RINGS.iter().enumerate().map(|(number, ring)| Ring::new(number, *ring)).collect();
+        let open: f32 = rings.iter().flat_map(|ring| ring.directions.iter().map(|to| to.z * ring.share)).sum();
         // The scale gives a face that looks straight up under open sky the light 1.
-        let scale = 0.5 / open.z;
+        let scale = 0.5 / open;
         let mut light = vec![[0.0; 4]; depths.len()];
-        for some in directions.chunks(AT_ONCE) {
-            let swept: Vec<Vec<f32>> = some.par_iter().map(|(direction, _)| self.sweep(&depths, *direction)).collect();
-            light.par_iter_mut().enumerate().for_each(|(cell, light)| {
-                for ((direction, share), swept) in some.iter().zip(&swept) {
-                    let arrives = swept[cell] * share;
-                    light[0] += 0.5 * arrives;
-                    (0..3).for_each(|k| light[k + 1] += scale * arrives * direction[k]);
-                }
-            });
+        let mut swept = vec![vec![0.0; depths.len()]; AT_ONCE];
+        for Ring { height, share, directions } in &rings {
+            let half = |depth: &f32| if *depth > 0.0 { expf(-0.5 * depth / height) } else { 1.0 };
+            let halves: Vec<f32> = depths.par_iter().map(half).collect();
+            for some in directions.chunks(AT_ONCE) {
+                some.par_iter().zip(&mut swept).for_each(|(to, swept)| self.sweep(&halves, *to, swept));
+                let weights = some.iter().map(|to| [0.5, scale * to.x, scale * to.y, scale * to.z].map(|x| x * share));
+                let weights: Vec<[f32; 4]> = weights.collect();
+                light.par_iter_mut().enumerate().for_each(|(cell, light)| {
+                    for (weights, swept) in weights.iter().zip(&swept) {
+                        let arrives = swept[cell];
+                        light.iter_mut().zip(weights).for_each(|(light, weight)| *light += arrives * weight);
+                    }
+                });
+            }
         }
         Sky { low: self.low, cell: self.cell, size: self.size, light }
     }
 
-    /// The light of one direction that arrives at the middle of each cell.
-    fn sweep(&self, depths: &[f32], direction: Vec3) -> Vec<f32> {
+    /// Puts the light of one direction that arrives at the middle of each cell into `arrives`; `halves` are the shares
+    /// of it that half a cell lets through.
+    fn sweep(&self, halves: &[f32], direction: Vec3, arrives: &mut [f32]) {
         let [width, rows, layers] = self.size;
         let layer = width * rows;
-        let mut arrives = vec![1.0; depths.len()];
-        let mut leaves = vec![1.0; layer];
-        let (dx, dy) = (direction.x / direction.z, direction.y / direction.z);
+        let mut above = Layer::open([width, rows], [direction.x / direction.z, direction.y / direction.z]);
         for z in (0..layers).rev() {
-            let (arrives, depths) = (&mut arrives[z * layer..][..layer], &depths[z * layer..][..layer]);
-            for (row, out) in arrives.chunks_mut(width).enumerate() {
-                for (column, out) in out.iter_mut().enumerate() {
-                    *out = between(&leaves, [width, rows], column as f32 + dx, row as f32 + dy);
-                }
+            let (arrives, halves) = (&mut arrives[z * layer..][..layer], &halves[z * layer..][..layer]);
+            for (row, (arrives, halves)) in arrives.chunks_mut(width).zip(halves.chunks(width)).enumerate() {
+                above.seen_from(row, arrives);
+                arrives.iter_mut().zip(halves).for_each(|(light, half)| *light *= half);
             }
-            for ((arrives, depth), leaves) in arrives.iter_mut().zip(depths).zip(&mut leaves) {
-                let half = if *depth > 0.0 { expf(-0.5 * depth / direction.z) } else { 1.0 };
-                *arrives *= half;
-                *leaves = *arrives * half;
+            for (row, (arrives, halves)) in arrives.chunks(width).zip(halves.chunks(width)).enumerate() {
+                let leaves = above.row(row).iter_mut().zip(arrives.iter().zip(halves));
+                leaves.for_each(|(leaves, (light, half))| *leaves = light * half);
             }
         }
-        arrives
     }
 }
 
-/// The directions of the sky, and the share of the sky that each stands for.
-fn directions() -> Vec<(Vec3, f32)> {
-    let mut all = Vec::new();
-    for (ring, (elevation, count, share)) in RINGS.into_iter().enumerate() {
+/// The light that leaves the cells of a layer towards those below along one direction, with open sky around.
+struct Layer {
+    values: Vec<f32>,
+    /// Values in a row.
+    stride: usize,
+    /// Cells of the grid in a row.
+    width: usize,
+    /// Cells of open sky on each side.
+    margin: usize,
+    /// The way along a row and across rows between the middles of two layers: whole cells, counted from the margin's
+    /// edge, and the rest of a cell.
+    whole: [usize; 2],
+    rest: [f32; 2],
+}
+
+impl Layer {
+    fn open([width, rows]: [usize; 2], way: [f32; 2]) -> Self {
+        let below = way.map(f32::floor);
+        let margin = below.iter().fold(1.0, |most: f32, cells| most.max(cells.abs() + 1.0)) as usize;
+        let stride = width + 2 * margin;
+        let whole = below.map(|cells| (margin as f32 + cells) as usize);
+        let rest = [way[0] - below[0], way[1] - below[1]];
+        Self { values: vec![1.0; stride * (rows + 2 * margin)], stride, width, margin, whole, rest }
+    }
+
+    /// The values of a row of the grid.
+    fn row(&mut self, row: usize) -> &mut [f32] {
+        &mut self.values[(row + self.margin) * self.stride + self.margin..][..self.width]
+    }
+
+    /// The light from this layer at the cells of a row of the layer below, interpolated between four cells.
+    fn seen_from(&self, row: usize, out: &mut [f32]) {
+        let [x, y] = self.rest;
+        let start = (row + self.whole[1]) * self.stride + self.whole[0];
+        let [upper, lower] = [start, start + self.stride].map(|start| {
+            let (left, right) = (&self.values[start..][..self.width], &self.values[start + 1..][..self.width]);
+            left.iter().zip(right)
+        });
+        for (out, (upper, lower)) in out.iter_mut().zip(upper.zip(lower)) {
+            let [upper, lower] = [upper, lower].map(|(left, right)| left * (1.0 - x) + right * x);
+            *out = upper * (1.0 - y) + lower * y;
+        }
+    }
+}
+
+/// A ring of directions of the sky.
+struct Ring {
+    /// The height of each direction, a unit vector.
+    height: f32,
+    /// The share of the sky that each direction stands for.
+    share: f32,
+    directions: Vec<Vec3>,
+}
+
+impl Ring {
+    fn new(number: usize, (elevation, count, share): (f32, u16, f32)) -> Self {
         let (sin, cos) = sincosf(elevation * PI / 180.0);
-        for k in 0..count {
-            let (y, x) = sincosf(TAU * (f32::from(k) + 0.37 * ring as f32) / f32::from(count));
-            all.push((Vec3::new(cos * x, cos * y, sin), share / f32::from(count)));
-        }
+        let direction = |k: u16| {
+            let (y, x) = sincosf(TAU * (f32::from(k) + 0.37 * number as f32) / f32::from(count));
+            Vec3::new(cos * x, cos * y, sin)
+        };
+        Self { height: sin, share: share / f32::from(count), directions: (0..count).map(direction).collect() }
     }
-    all
-}
-
-/// A value interpolated between four cells of a layer; 1 outside.
-#[inline]
-fn between(layer: &[f32], [width, rows]: [usize; 2], x: f32, y: f32) -> f32 {
-    // The whole number below, without a call of the library.
-    let below = |x: f32| x as i32 - i32::from(x < (x as i32) as f32);
-    let (left, top) = (below(x), below(y));
-    let (fx, fy) = (x - left as f32, y - top as f32);
-    let at = |x: i32, y: i32| {
-        let inside = x >= 0 && y >= 0 && (x as usize) < width && (y as usize) < rows;
-        if inside { layer[y as usize * width + x as usize] } else { 1.0 }
-    };
-    let upper = at(left, top) * (1.0 - fx) + at(left + 1, top) * fx;
-    let lower = at(left, top + 1) * (1.0 - fx) + at(left + 1, top + 1) * fx;
-    upper * (1.0 - fy) + lower * fy
 }
 
 impl Sky {
@@ -184,20 +222,19 @@ impl Sky {
             share[k] = x - first[k] as f32;
         }
         let step = [1, self.size[0], self.size[0] * self.size[1]];
-        let last = [0, 1, 2].map(|k| if first[k] + 1 < self.size[k] { step[k] } else { 0 });
         let base = first[0] + first[1] * step[1] + first[2] * step[2];
-        let mut sum = [0.0; 4];
-        for corner in 0..8 {
-            let (mut index, mut weight) = (base, 1.0);
-            for k in 0..3 {
-                let beyond = corner >> k & 1 == 1;
-                index += if beyond { last[k] } else { 0 };
-                weight *= if beyond { share[k] } else { 1.0 - share[k] };
-            }
-            (0..4).for_each(|k| sum[k] += weight * self.light[index][k]);
-        }
-        sum
+        // Beyond the last cell of an axis its share is 0, and the cell counts for its neighbour.
+        let next = [0, 1, 2].map(|k| if first[k] + 1 < self.size[k] { step[k] } else { 0 });
+        let along = |cell: usize| mixed(&self.light[cell], &self.light[cell + next[0]], share[0]);
+        let across = |cell: usize| mixed(&along(cell), &along(cell + next[1]), share[1]);
+        mixed(&across(base), &across(base + next[2]), share[2])
     }
+}
+
+/// What lies between two lights, at a share of the way.
+#[inline]
+fn mixed(a: &[f32; 4], b: &[f32; 4], share: f32) -> [f32; 4] {
+    [0, 1, 2, 3].map(|k| a[k] + (b[k] - a[k]) * share)
 }
 
 /// The light of a point that a face with this unit normal receives; 1 for a level face under open sky.

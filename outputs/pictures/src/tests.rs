@@ -21,7 +21,7 @@ use std::sync::Arc;
 const WHITE: Paint = Paint { colour: [255; 3], thin: false, stained: false, subject: 0 };
 
 fn window(width: u32, height: u32) -> Window {
-    Window { width, rows: 0..height, shifts: UPRIGHT }
+    Window { columns: 0..width, rows: 0..height, shifts: UPRIGHT }
 }
 
 fn picture(size: [u32; 2], view: View) -> Picture {

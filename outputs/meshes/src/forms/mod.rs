@@ -11,6 +11,7 @@
 mod arch;
 mod blade;
 mod cluster;
+mod coarse;
 mod flat;
 mod flower;
 mod fruit;
@@ -22,10 +23,11 @@ mod side;
 mod tests;
 
 use super::chunk::{Tag, Vertex};
+use coarse::Coarse;
 use phytomer_looks::FormName;
 use phytomer_sim::plant::Form;
 use side::Side;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
 /// A corner of a shape, in its unit box.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,6 +66,8 @@ pub struct FormMesh {
     /// Whether it becomes slim or full in each of its parts; else in its width.
     in_parts: bool,
     side: Side,
+    /// The same form with fewer triangles, made when it is first asked for.
+    coarser: OnceLock<Vec<Coarse>>,
 }
 
 /// The placement of a shape, in metres and unit vectors.
@@ -106,13 +110,25 @@ impl FormMesh {
     fn new(depth: Depth) -> Self {
         let (points, faces) = (Vec::new(), Vec::new());
         let side = Side::of(&points, &faces, depth);
-        Self { points, faces, polygons: Vec::new(), depth, in_parts: false, side }
+        Self { points, faces, polygons: Vec::new(), depth, in_parts: false, side, coarser: OnceLock::new() }
     }
 
     /// The shape with its area computed, to be called after its last triangle is added.
     fn measured(mut self) -> Self {
         self.side = Side::of(&self.points, &self.faces, self.depth);
         self
+    }
+
+    /// The same form with fewer triangles, the finest first; none where it has no fewer.
+    fn coarser(&self) -> &[Coarse] {
+        self.coarser.get_or_init(|| coarse::coarser(self))
+    }
+
+    /// The coarsest form that lies within a distance, metres, of this one for an organ of this length and width.
+    #[inline]
+    pub fn within(&self, distance: f32, size: [f32; 2]) -> &Self {
+        let serves = self.coarser().iter().rev().find(|coarse| coarse.distance(size) <= distance);
+        serves.map_or(self, |coarse| &coarse.mesh)
     }
 
     /// The area of one side as a share of length × width, for an organ with `aspect` = width / length.

@@ -112,7 +112,7 @@ mod tests {
     use phytomer_sim::plant::NodeId;
 
     const FINE: Tolerance =
-        Tolerance { distance: 0.001, share: f32::INFINITY, colour: u8::MAX, keeps: Keeping::Section };
+        Tolerance { distance: 0.001, share: f32::INFINITY, colour: u8::MAX, keeps: Keeping::Section, organs: false };
 
     fn chain(count: usize, at: impl Fn(f32) -> (Vec3, f32)) -> Vec<Sample> {
         let place = |k: usize| at(k as f32 / count as f32);
