@@ -5,6 +5,8 @@
 //! axis is faster than the clock, and these follow one another. In models without growth units what appears has the
 //! share f. Diameters of new nodes go from 0, but for nodes that are put between others: these have that of the later
 //! tick. An organ on a new node appears with it, another new organ with the share f of its size.
+//! The corners of an outline go evenly where there are as many at both ticks, and so do the factors of one curved
+//! surface.
 
 use crate::clock::Tick;
 use crate::plant::{Lasting, NodeId, OrganId, Plant};
@@ -25,6 +27,10 @@ pub(super) struct Shares {
     new_organs: Vec<(OrganId, Option<usize>)>,
     /// Full lengths and widths of organs that differ.
     full: Vec<(OrganId, [[f32; 2]; 2])>,
+    /// Corners of outlines that differ, as many at both ticks.
+    outlines: Vec<(OrganId, [Vec<[f32; 3]>; 2])>,
+    /// Factors of curved surfaces that differ.
+    surfaces: Vec<(OrganId, [[f32; 3]; 2])>,
 }
 
 fn between(a: f32, b: f32, share: f32) -> f32 {
@@ -97,11 +103,27 @@ impl Shares {
                 if full[0] != full[1] {
                     self.full.push((organ, full));
                 }
+                self.remember_form([(before, *old), (plant, organ)]);
             } else if plant.organ_stands(organ, age) {
                 let node = plant.organs.node[place];
                 let found = self.new.binary_search_by_key(&node, |(node, _)| *node).ok();
                 self.new_organs.push((organ, found));
             }
+        }
+    }
+
+    /// Takes the outline or the surface that an organ states at both ticks.
+    fn remember_form(&mut self, [(before, old), (plant, organ)]: [(&Plant, OrganId); 2]) {
+        let outlines = [before.outline_of(old), plant.outline_of(organ)];
+        if outlines[0].len() == outlines[1].len() && outlines[0] != outlines[1] {
+            self.outlines.push((organ, outlines.map(<[[f32; 3]]>::to_vec)));
+        }
+        let surfaces = [before.stated_organs.surface(old), plant.stated_organs.surface(organ)];
+        if let [Some((was, from)), Some((will, to))] = surfaces
+            && was == will
+            && from != to
+        {
+            self.surfaces.push((organ, [from, to]));
         }
     }
 
@@ -122,7 +144,7 @@ impl Shares {
         sizes
     }
 
-    /// Writes the lengths into the frames, and the full sizes of organs where they differ.
+    /// Writes the lengths into the frames, and the full sizes and own forms of organs where they differ.
     pub fn lengthen(&self, plant: &mut Plant, share: f32) {
         let lengths = &mut plant.frames.lengths;
         lengths.clear();
@@ -133,6 +155,13 @@ impl Shares {
         for (organ, [was, will]) in &self.full {
             plant.organs.length[organ.index()] = between(was[0], will[0], share);
             plant.organs.width[organ.index()] = between(was[1], will[1], share);
+        }
+        let place = |was: &[f32; 3], will: &[f32; 3]| [0, 1, 2].map(|k| between(was[k], will[k], share));
+        for (organ, [was, will]) in &self.outlines {
+            plant.move_outline(*organ, was.iter().zip(will).map(|(was, will)| place(was, will)));
+        }
+        for (organ, [was, will]) in &self.surfaces {
+            plant.scale_surface(*organ, place(was, will));
         }
     }
 

@@ -3,7 +3,7 @@
 use super::Between;
 use crate::clock::Tick;
 use crate::model::Growth;
-use crate::plant::{Habit, NewAxis, NewNode, NodeId, Plant, Seed, Trend};
+use crate::plant::{Habit, NewAxis, NewNode, NewOrgan, NodeId, Plant, Seed, Trend};
 use crate::pose::pose;
 use std::sync::Arc;
 
@@ -71,4 +71,27 @@ fn the_nodes_of_a_growth_unit_follow_one_another() {
         assert_eq!(of(plant, 4)[0], 2.0 + lengths[0]);
         assert!((of(plant, 3)[2] - share * 0.003).abs() < 1e-9);
     }
+}
+
+#[test]
+fn the_corners_of_an_outline_go_evenly() {
+    let leafy = |side: f32, corners: usize, age: Tick| {
+        let mut plant = trunk(&[1], age);
+        let organ = plant.add_organ(NewOrgan { node: NodeId(0), ..NewOrgan::LEAF });
+        let all = [[0.0; 3], [side, 0.0, 0.0], [side, side, 0.0], [0.0, side, 0.0]];
+        plant.state_outline(organ, &all[..corners]);
+        (plant, organ)
+    };
+    let (before, after) = (leafy(0.1, 4, 1), leafy(0.3, 4, 2));
+    let mut way = Between::new(&before.0, &after.0, 2, Growth::Rewrites, false);
+    for share in [0.25, 0.75, 0.5] {
+        let (plant, side) = (way.at(share), 0.1 + 0.2 * share);
+        let corners = plant.outline_of(after.1);
+        assert!((corners[1][0] - side).abs() < 1e-6 && (corners[2][1] - side).abs() < 1e-6, "{corners:?}");
+        assert!((plant.organs.area[after.1.index()] - side * side).abs() < 1e-6, "the area of the square");
+    }
+    // With another number of corners it is the later outline.
+    let triangle = leafy(0.3, 3, 2);
+    let mut way = Between::new(&before.0, &triangle.0, 2, Growth::Rewrites, false);
+    assert_eq!(way.at(0.5).outline_of(triangle.1), triangle.0.outline_of(triangle.1));
 }

@@ -104,6 +104,22 @@ impl Plant {
         self.organs.area[organ.index()] = area;
     }
 
+    /// Moves the corners of the outline of an organ, and gives it the area of the polygon.
+    pub(crate) fn move_outline(&mut self, organ: OrganId, to: impl Iterator<Item = [f32; 3]>) {
+        let of = &mut self.stated_organs;
+        let [start, count] = of.spans.at(organ.index());
+        let corners = &mut of.corners[start as usize..(start + count) as usize];
+        corners.iter_mut().zip(to).for_each(|(corner, to)| *corner = to);
+        self.organs.area[organ.index()] = area(corners) as f32;
+    }
+
+    /// Changes the factors of the curved surface of an organ; its area stays.
+    pub(crate) fn scale_surface(&mut self, organ: OrganId, scale: [f32; 3]) {
+        let of = &mut self.stated_organs;
+        let (place, _) = of.surfaces.at(organ.index());
+        of.surfaces.set(organ.index(), (place, scale));
+    }
+
     /// The corners of the polygon that an organ fills, in its frame, metres when it is full-grown; empty where it has
     /// the shape of its form.
     #[inline]
