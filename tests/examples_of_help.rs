@@ -84,10 +84,12 @@ fn lay_trees_of_others(folder: &Path) {
     fs::write(folder.join("library.xml"), library).unwrap();
 }
 
-/// The tables that the examples of `fit` name.
+/// The tables that the examples of `fit` and `report` name.
 fn lay_counts(folder: &Path) {
     let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("analysis/fits/samples");
-    for (from, to) in [("nodes.csv", "nodes.csv"), ("activity_days.csv", "days.csv")] {
+    for (from, to) in
+        [("nodes.csv", "nodes.csv"), ("activity_days.csv", "days.csv"), ("mortality_seen.csv", "mortality.csv")]
+    {
         fs::copy(samples.join(from), folder.join(to)).unwrap();
     }
 }

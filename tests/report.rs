@@ -72,7 +72,7 @@ fn the_numbers_of_a_report_are_those_of_summary() {
     let words =
         ["report", "run", "--data", "field.csv", "--plants", "2", "--figures", "figures", "--out", "report.html"];
     let told = run(folder.path(), &words).ending(0).stdout;
-    assert!(told.starts_with("report.html: 13 figures, "), "{told}");
+    assert!(told.starts_with("report.html: 25 figures, "), "{told}");
     let (run, figures) = (folder.path().join("run"), folder.path().join("figures"));
     let heights = of_summary(&run, "height_m");
     let told = rows(&figures.join("growth-height-m.csv"));
@@ -105,6 +105,58 @@ fn the_numbers_of_a_report_are_those_of_summary() {
     assert_eq!(specification["data"]["values"][0]["y"], 1.0);
 }
 
+/// Growth units of order 2 of the tall plants, counted here once more from `components`: the shares of the figure, the
+/// law of its species beside them, and counted units.
+#[test]
+fn distributions_are_those_of_components() {
+    let folder = grown();
+    write(folder.path(), "nodes.csv", "order,nodes,count\n2,1,30\n2,2,12\n5,1,4\n");
+    let words =
+        ["report", "run", "--data", "field.csv", "--data", "nodes.csv", "--plants", "0", "--figures", "figures"];
+    run(folder.path(), &[&words[..], &["--out", "report.html"]].concat()).ending(0);
+    let components = Columns::of(&folder.path().join("run"), "components");
+    let [plants, axes, units, orders] =
+        ["plant_id", "axis_id", "growth_unit", "order"].map(|name| components.numbers(name));
+    let kinds = components.words("kind");
+    let mut nodes: BTreeMap<[u64; 3], usize> = BTreeMap::new();
+    let own = |row: &usize| plants[*row] < 12.0 && orders[*row] == 2.0 && kinds[*row] == "internode";
+    for row in (0..plants.len()).filter(own) {
+        *nodes.entry([plants[row], axes[row], units[row]].map(|number| number as u64)).or_default() += 1;
+    }
+    let told = rows(&folder.path().join("figures/nodes-bush-2.csv"));
+    let of = |name: &str| -> Vec<[f64; 2]> {
+        let own = told.iter().filter(|row| row[0] == name);
+        own.map(|row| [1, 2].map(|k| row[k].parse().expect("a number"))).collect()
+    };
+    for [at, share] in of("grown") {
+        let counted = nodes.values().filter(|nodes| **nodes as f64 == at).count() as f64 / nodes.len() as f64;
+        assert!((share - counted).abs() < 1e-12, "{at}: {share} {counted}");
+    }
+    // B(3, .6) of units that have a node.
+    let law = of("law");
+    for ([at, share], expected) in law.iter().zip([0.288, 0.432, 0.216]) {
+        assert!((share - expected / 0.936).abs() < 1e-8, "{at}: {share}");
+    }
+    assert_eq!(law.len(), 3);
+    let measured = told.iter().filter(|row| row[0] == "\"measured");
+    assert_eq!(
+        measured.map(|row| row[3].parse::<f64>().expect("a share")).collect::<Vec<_>>(),
+        [30.0 / 42.0, 12.0 / 42.0]
+    );
+    let page = fs::read_to_string(folder.path().join("report.html")).expect("the page");
+    assert!(
+        page.contains("run has no axes of order 5 that nodes.csv could be held against."),
+        "an order that did not grow"
+    );
+    // The law of a trunk whose buds die with .03 at each step, as it stands in the figure of lives.
+    let lives = rows(&folder.path().join("figures/lives-bush-1.csv"));
+    for row in lives.iter().filter(|row| row[0] == "law") {
+        let [tick, share] = [1, 2].map(|k| row[k].parse::<f64>().expect("a number"));
+        let alive = (0..tick as u32).fold(1.0, |alive, _| 0.97 * alive);
+        assert!((share - alive).abs() < 1e-7, "{row:?}");
+    }
+}
+
 #[test]
 fn a_report_has_the_same_bytes_each_time() {
     let folder = grown();
@@ -127,6 +179,15 @@ fn what_is_wrong_is_told() {
     assert!(said.stderr.contains("`report` cannot write `.pdf`"), "{}", said.stderr);
     let said = run(folder.path(), &["report", "run", "--data", "none.csv", "--out", "a.html"]).ending(1);
     assert!(said.stderr.contains("cannot read none.csv"), "{}", said.stderr);
+    write(folder.path(), "nodes.csv", "nodes,count\n3,1\n4,x\n");
+    let said = run(folder.path(), &["report", "run", "--data", "nodes.csv", "--out", "a.html"]).ending(3);
+    assert!(said.stderr.contains("nodes.csv:3: `count` is `x`, which is no number"), "{}", said.stderr);
+    write(folder.path(), "ragged.csv", "age,axes,dead\n3,10,1\n4,10\n");
+    let said = run(folder.path(), &["report", "run", "--data", "ragged.csv", "--out", "a.html"]).ending(3);
+    assert!(said.stderr.contains("ragged.csv:3: 2 cells under 3 names"), "{}", said.stderr);
+    let twice = ["report", "run", "--data", "field.csv", "--data", "field.csv", "--out", "a.html"];
+    let said = run(folder.path(), &twice).ending(2);
+    assert!(said.stderr.contains("both have plants by age"), "{}", said.stderr);
     assert!(!folder.path().join("a.html").exists());
 }
 
@@ -145,5 +206,5 @@ fn a_browser_shows_a_report_without_scripts_and_without_network() {
         .expect("node starts");
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     let found: Value = serde_json::from_slice(&done.stdout).expect("JSON");
-    assert_eq!(found, serde_json::json!({"figures": 13, "pictures": 1, "tables": 7}));
+    assert_eq!(found, serde_json::json!({"figures": 25, "pictures": 1, "tables": 7}));
 }

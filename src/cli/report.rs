@@ -2,12 +2,13 @@
 //!
 //! Absent: what a report says (`phytomer::report`).
 
+mod data;
+
 use super::named::{Recorded, run_folder};
 use super::out::{self, Format};
 use super::{Misuse, Verdict, amounts, terminal};
 use anyhow::{Context, Result};
 use clap::Args;
-use phytomer::report::field::{Field, FieldFault};
 use phytomer::report::{Reported, report};
 use phytomer::run::forms;
 use phytomer::run::picturing::pictured_plants;
@@ -22,8 +23,6 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 const FORMATS: [Format; 2] = [Format { name: "HTML", extension: "html" }, Format { name: "HTML", extension: "htm" }];
-/// The most bytes of a file of measured plants.
-const MOST_BYTES: u64 = 256 << 20;
 /// The most plants in a picture.
 const MOST_PICTURED: u32 = 8;
 /// The width of a plant in a picture and the height of the picture, pixels.
@@ -36,11 +35,14 @@ const HEIGHT: u32 = 560;
 Examples:
   phytomer report runs/coffee --out coffee.html
   phytomer report runs/coffee --data field.csv --plants 5 --out beside_field.html
+  phytomer report runs/coffee --data mortality.csv --order 2 --out beside_counts.html
   phytomer report runs/dry runs/wet --title Summers --figures figures --out both.html
 
 The page is one file without any script. Each figure has its numbers as CSV. --figures FOLDER writes each figure as SVG,
-PNG, CSV and as a specification of Vega-Lite. The file of --data has the column `age` in ticks and one or more columns of
-`summary` (height_m, crown_width_m, leaf_area_m2, wood_volume_m3, internodes), a row a plant.")]
+PNG, CSV and as a specification of Vega-Lite. A file of --data has the column `age` in ticks and one or more columns of
+`summary` (height_m, crown_width_m, leaf_area_m2, wood_volume_m3, internodes), a row a plant; or it is a table as
+`phytomer fit` reads (nodes per growth unit, mortality, fates of buds; `phytomer fit --sample LAW` prints one), whose column
+`order`, or --order, tells the axes that were measured. --data may be given several times.")]
 pub struct ReportVerb {
     /// Run folders.
     #[arg(value_name = "RUN", required = true)]
@@ -48,9 +50,18 @@ pub struct ReportVerb {
     /// The file that is written; `-` for stdout.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Measured plants, as CSV.
+    /// Measured plants, growth units, axes or buds, as CSV.
     #[arg(long, value_name = "FIELD.csv")]
-    data: Option<PathBuf>,
+    data: Vec<PathBuf>,
+    /// The order of the measured axes, where their table has no column `order`; 1 is the trunk.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    order: u32,
+    /// Only rows of measured axes with this text in a column.
+    #[arg(long = "where", value_name = "COLUMN=TEXT")]
+    only: Vec<String>,
+    /// The end from which the ranks of buds are counted.
+    #[arg(long, default_value = "tip", value_parser = ["tip", "base"])]
+    from: String,
     /// The title; the names of the runs if not given.
     #[arg(long)]
     title: Option<String>,
@@ -67,13 +78,12 @@ impl ReportVerb {
         out::check(&self.out, "report", &FORMATS)?;
         let folders: Vec<PathBuf> = self.runs.iter().map(|name| folder(name)).collect::<Result<_>>()?;
         let recorded: Vec<Recorded> = folders.iter().map(|folder| Recorded::of(folder)).collect::<Result<_>>()?;
-        let field = match self.data.as_deref().map(measured).transpose()? {
-            Some(Err(fault)) => {
-                terminal::say(&format!("error: {fault}"));
+        let (field, asked) = match data::read(&self)? {
+            Ok(read) => read,
+            Err(faults) => {
+                faults.iter().for_each(|fault| terminal::say(&format!("error: {fault}")));
                 return Ok(Verdict::Invalid);
             }
-            Some(Ok(field)) => Some(field),
-            None => None,
         };
         let file = Destination::create(&self.out)?;
         let mut pictures = Vec::new();
@@ -89,7 +99,7 @@ impl ReportVerb {
         let runs: Vec<Reported> = runs.collect();
         let names: Vec<&str> = runs.iter().map(|reported| reported.name.as_str()).collect();
         let title = self.title.clone().unwrap_or_else(|| names.join(", "));
-        let report = report(&title, &runs, field.as_ref(), pictures)?;
+        let report = report(&title, &runs, (field.as_ref(), &asked), pictures)?;
         if let Some(folder) = &self.figures {
             for figure in report.figures() {
                 put(figure, folder).with_context(|| format!("cannot write the figures into {}", folder.display()))?;
@@ -118,22 +128,6 @@ fn folder(name: &str) -> Result<PathBuf> {
 /// The last part of the path of a run.
 fn short(name: &str) -> String {
     Path::new(name).file_name().map_or_else(|| name.to_owned(), |last| last.to_string_lossy().into_owned())
-}
-
-/// The measured plants of a file.
-fn measured(path: &Path) -> Result<std::result::Result<Field, FieldFault>> {
-    let doing = || format!("cannot read {}", path.display());
-    let about = fs::metadata(path).with_context(doing)?;
-    if !about.is_file() || about.len() > MOST_BYTES {
-        let shown = path.display();
-        return Err(Misuse(format!(
-            "--data {shown}: a file of at most {} is expected",
-            amounts::bytes(MOST_BYTES as f64)
-        ))
-        .into());
-    }
-    let bytes = fs::read(path).with_context(doing)?;
-    Ok(Field::read(&path.display().to_string(), &bytes))
 }
 
 /// The first plants of a run side by side, grown again to the age at which the first of them shows what it is.

@@ -2,6 +2,7 @@
 //!
 //! `age` is in ticks of the run. Columns that a report does not know are passed over and told. Absent: the comparison.
 
+use super::laws::measured::COLUMNS;
 use super::plants::MEASURES;
 use phytomer_measures::Moments;
 use std::collections::BTreeMap;
@@ -64,7 +65,7 @@ impl Field {
         let (Some(age), false) = (age, known.is_empty()) else {
             let columns = MEASURES.map(|measure| measure.column).join(", ");
             let has: Vec<&str> = header.iter().collect();
-            let expected = format!("expected the column age (ticks) and one or more of {columns}");
+            let expected = format!("expected the column age (ticks) and one or more of {columns}, or {COLUMNS}");
             return Err(fault(1, format!("the columns are {}", has.join(", ")), &expected));
         };
         let mut field = Self { name: name.to_owned(), ..Self::default() };

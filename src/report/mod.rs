@@ -10,10 +10,12 @@ mod contrasts;
 mod fates;
 pub mod field;
 mod growth;
+pub mod laws;
 mod plants;
 mod provenance;
 
 use field::Field;
+use laws::Asked;
 use phytomer_config::{Species, Trial};
 use phytomer_outputs::Error;
 use phytomer_outputs::read::Run;
@@ -35,17 +37,23 @@ pub struct Reported<'a> {
     pub species: Vec<&'a Species>,
 }
 
-/// The report of some runs, beside measured plants where there are some, with pictures of plants.
+/// The report of some runs, beside measured plants and distributions where there are some, with pictures of plants.
 ///
 /// # Errors
 /// Where a table cannot be read.
-pub fn report(title: &str, runs: &[Reported], field: Option<&Field>, pictures: Vec<Picture>) -> Result<Report, Error> {
+pub fn report(
+    title: &str,
+    runs: &[Reported],
+    (field, asked): (Option<&Field>, &Asked),
+    pictures: Vec<Picture>,
+) -> Result<Report, Error> {
     let grown = Grown::read(runs)?;
     let mut sections = vec![
         section("Methods", vec![Part::Text(provenance::methods(runs, &grown))]),
         section("Growth", growth::parts(&grown, field)),
         section("Life and death", fates::parts(&grown)),
         section("Architecture", architecture::parts(runs)),
+        section("Distributions", laws::parts(runs, asked)),
     ];
     let compared = contrasts::parts(&grown);
     sections.extend((!compared.is_empty()).then(|| section("Treatments", compared)));

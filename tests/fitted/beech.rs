@@ -6,7 +6,8 @@
 use crate::chi2::homogeneity;
 use crate::measured::{Table, counted};
 use crate::simulated::drawn;
-use phytomer_models::law::{Binomial, Count, CountForm, Law, NegativeBinomial, Poisson};
+use phytomer_fits::nodes;
+use phytomer_models::law::{Binomial, Count, CountForm, Law, Poisson};
 
 fn binomial(n: f64, p: f64) -> Count {
     let binomial = Some(Binomial { n: Law::from(n), p: Law::from(p) });
@@ -36,8 +37,13 @@ fn buds_of_nothofagus() {
 #[test]
 fn shoots_of_nothofagus() {
     let Some(table) = Table::read("nodes_per_growth_unit_histograms.csv") else { return };
-    let negative_binomial = Some(NegativeBinomial { r: Law::from(5.989), p: Law::from(0.5343) });
-    let law = Count::from(CountForm { negative_binomial, shift: 7, ..CountForm::default() });
+    let poisson = Some(Poisson { mean: Law::from(12.22) });
+    let law = Count::from(CountForm { poisson, ..CountForm::default() });
     let measured = table.histogram("nothofagus_antarctica_shoot_2");
-    homogeneity(&measured, &counted(drawn(law)), 3).assert_fits("Nothofagus, shoots, 7 + NB(5.99, .534)");
+    homogeneity(&measured, &counted(drawn(law)), 1).assert_fits("Nothofagus, shoots, P(12.22)");
+    // One number is enough: by BIC no law with more is better.
+    let (_, choice) = nodes::fit_all(&measured).expect("counts");
+    let taken = choice.taken();
+    assert_eq!(taken.law, "P(12.22)");
+    assert!((taken.bic().expect("a BIC") - 440.3).abs() < 0.1, "{taken:?}");
 }

@@ -18,4 +18,5 @@ mod oak;
 mod pine;
 mod poplar;
 mod simulated;
+mod stated;
 mod without_data;

@@ -78,12 +78,9 @@ pub fn activity(fit: &Fit, wanted: &Wanted) -> Vec<Stated> {
 /// The pauses of an axis and its branches, and the speed of these.
 pub fn crown(fit: &Fit, wanted: &Wanted) -> Vec<Stated> {
     let speed = fit.estimate("w").and_then(|w| {
-        let limits = match (w.low, w.high) {
-            (Some(low), Some(high)) => format!(", 95 % interval {low:.3} to {high:.3}"),
-            _ => String::new(),
-        };
-        let source = text(&format!("{}, n {}{limits}: {}", fit.law, fit.n, wanted.source));
-        let value = format!("{{ value = {}, source = {source} }}", number((w.value * 1000.0).round() / 1000.0)?);
+        // The clock of an axis is an exact ratio, so that its speed has few decimals.
+        let value = number((w.value * 1000.0).round() / 1000.0)?;
+        let value = format!("{{ value = {value}, {} }}", measured(fit, fit.n, &[("value", w)], wanted));
         Some(Stated { order: 1, key: "speed".to_owned(), value })
     });
     pause(fit, "b1", 0, wanted).into_iter().chain(pause(fit, "b2", 1, wanted)).chain(speed).collect()

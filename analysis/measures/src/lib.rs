@@ -17,6 +17,7 @@ pub mod power;
 pub mod proportion;
 pub mod quantile;
 pub mod ratio;
+pub mod shares;
 pub mod survival;
 pub mod variance;
 

@@ -36,6 +36,12 @@ impl Moments {
         moments
     }
 
+    /// The moments of units of which so many are 1 and the others 0.
+    pub(crate) fn of_share(ones: u64, all: u64) -> Self {
+        let (of, n) = (ones as f64, all as f64);
+        Self { n: all, mean: of / n, squares: of * (n - of) / n }
+    }
+
     /// Adds one value.
     pub fn add(&mut self, value: f64) {
         self.n += 1;

@@ -13,6 +13,7 @@ mod causes;
 mod columns;
 mod contrast;
 mod crown;
+pub mod distributions;
 mod fault;
 mod groups;
 mod life;

@@ -4,13 +4,15 @@
 //! A drawn speed is one of the ratios that are listed, so that the clock of each axis stays exactly rational. Absent on
 //! purpose: continuous distributions of speeds, whose draws would be no ratios; and the clock itself (`sim::clock`).
 
+use std::collections::BTreeMap;
+
 use phytomer_sim::clock::Speed;
 use phytomer_sim::site::calendar::{Dates, TickLength};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::count_table::CountTable;
-use super::form::one_kind;
+use super::form::{check_intervals, one_kind};
 use crate::fault::{Fault, Path};
 
 /// The most clock steps that an axis may make a tick.
@@ -57,6 +59,14 @@ pub struct SpeedForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub source: Option<String>,
+    /// The interval of 95 % of each number that was estimated, by the number's name: `interval = { value = [0.5, 0.6]
+    /// }`. It documents the speed; growth does not read it.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub interval: BTreeMap<String, [f64; 2]>,
+    /// How many observations the numbers were estimated from. It documents the speed; growth does not read it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "u32")]
+    pub n: Option<u32>,
     /// True where the numbers are a guess and not a measure.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub assumed: bool,
@@ -118,7 +128,7 @@ impl Speeds {
             ("empirical", form.empirical.is_some()),
             ("phyllochron_degree_days", form.phyllochron_degree_days.is_some()),
         ];
-        one_kind(&kinds, path).map_err(|fault| vec![fault])?;
+        one_kind(&kinds, path).and_then(|()| check_intervals(&form.interval, path)).map_err(|fault| vec![fault])?;
         form.check_weights(path)?;
         if let Some(phyllochron) = form.phyllochron_degree_days {
             let speed = of_phyllochron(phyllochron, dates, &path.key("phyllochron_degree_days"));

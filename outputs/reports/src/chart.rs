@@ -22,6 +22,8 @@ pub enum Mark {
     Dashed,
     /// A line that keeps its height until the next point, as of survival.
     Steps,
+    /// The same, broken, for what a law says of survival.
+    DashedSteps,
     /// Points, with bars from `low` to `high`.
     Points,
     /// Bars of one width around x, as of counts.

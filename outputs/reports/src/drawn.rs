@@ -93,7 +93,19 @@ fn of_chart(chart: &Chart) -> Scene {
     };
     let low = |point: &Point| point.interval.map_or(point.y, |ends| ends[0].min(point.y));
     let layout = if starts_at_0(low) { layout.with_y_axis_min(0.0) } else { layout };
-    render_multiple(plots, layout)
+    render_multiple(plots, whole_numbers(chart, layout))
+}
+
+/// Bars stand about whole numbers: the axis begins and ends at one, and its numbers are whole, not the edges of bars.
+fn whole_numbers(chart: &Chart, mut layout: Layout) -> Layout {
+    let mut bars = chart.series.iter().filter(|series| series.mark == Mark::Bars).flat_map(|series| &series.points);
+    if !bars.all(|point| point.x.fract() == 0.0) || chart.series.iter().all(|series| series.mark != Mark::Bars) {
+        return layout;
+    }
+    let all = || chart.series.iter().flat_map(|series| &series.points).map(|point| point.x);
+    let [low, high] = [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)];
+    layout.x_bin_width = None;
+    layout.with_x_axis_min((low - 1.0).floor()).with_x_axis_max((high + 1.0).ceil())
 }
 
 fn plot(series: &Series, colour: &str) -> Plot {
@@ -108,6 +120,7 @@ fn plot(series: &Series, colour: &str) -> Plot {
         Mark::Line => line().into(),
         Mark::Dashed => line().with_dashed().into(),
         Mark::Steps => line().with_step().into(),
+        Mark::DashedSteps => line().with_step().with_dashed().into(),
         Mark::Points => {
             let drawn =
                 ScatterPlot::new().with_data(points).with_color(colour).with_size(4.0).with_legend(&*series.name);
@@ -118,9 +131,16 @@ fn plot(series: &Series, colour: &str) -> Plot {
         }
         Mark::Bars => {
             let (edges, counts) = bars(&series.points);
-            Histogram::from_bins(edges, counts).with_color(colour).with_legend(&*series.name).into()
+            Histogram::from_bins(edges, counts).with_color(pale(colour)).with_legend(&*series.name).into()
         }
     }
+}
+
+/// Halfway to white: lines and points stand before bars.
+fn pale(colour: &str) -> String {
+    let part = |at: usize| colour.get(at..at + 2).and_then(|digits| u32::from_str_radix(digits, 16).ok()).unwrap_or(0);
+    let [red, green, blue] = [1, 3, 5].map(|at| part(at).midpoint(255));
+    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 /// The edges of bars and their heights. Bars are as wide as the least distance between two of them; where the next one

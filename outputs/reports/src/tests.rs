@@ -14,6 +14,7 @@ fn chart() -> Chart {
         series("dry <b>", Mark::Points, 0.5, Some(0.25)),
         series("law", Mark::Dashed, 0.7, None),
         series("seen", Mark::Steps, 0.9, None),
+        series("law of lives", Mark::DashedSteps, 0.8, None),
         series("counts", Mark::Bars, 0.1, None),
     ];
     Chart { x: Axis::of("age", "months"), y: Axis::of("height", "m"), series }
@@ -100,7 +101,7 @@ fn a_figure_its_table_and_its_specification_have_the_same_numbers() {
     let plotted = Plotted::Chart(chart());
     let (table, spec) = (plotted.table(), vega_lite(&plotted, "title", "words").expect("a specification"));
     let values = spec["data"]["values"].as_array().expect("values");
-    assert_eq!((table.rows.len(), values.len()), (30, 30));
+    assert_eq!((table.rows.len(), values.len()), (36, 36));
     for (row, value) in table.rows.iter().zip(values) {
         let told = ["series", "x", "y", "low", "high"].map(|key| match &value[key] {
             serde_json::Value::String(words) => Cell::words(words.as_str()),
@@ -109,7 +110,7 @@ fn a_figure_its_table_and_its_specification_have_the_same_numbers() {
         assert_eq!(row.as_slice(), told.as_slice());
     }
     // A layer a series, and one more for each with intervals.
-    assert_eq!(spec["layer"].as_array().map(Vec::len), Some(7));
+    assert_eq!(spec["layer"].as_array().map(Vec::len), Some(8));
     let of_contrasts = vega_lite(&contrasts(), "", "").expect("a specification");
     assert_eq!(of_contrasts["data"]["values"][1]["high"], 1.5);
 }
@@ -118,7 +119,7 @@ fn a_figure_its_table_and_its_specification_have_the_same_numbers() {
 /// what is no number: said.
 #[test]
 fn anything_finite_is_drawn() {
-    for mark in [Mark::Line, Mark::Dashed, Mark::Steps, Mark::Points, Mark::Bars] {
+    for mark in [Mark::Line, Mark::Dashed, Mark::Steps, Mark::DashedSteps, Mark::Points, Mark::Bars] {
         for values in
             [vec![[1.0, 1.0]], vec![[2.0, 0.0]; 3], vec![[0.0, -1e-300], [1e9, 1e12]], vec![[-5.0, -3.0], [0.5, 2.0]]]
         {

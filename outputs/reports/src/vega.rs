@@ -50,12 +50,14 @@ fn of_chart(chart: &Chart) -> (Vec<Value>, Vec<Value>) {
 
 /// The layers of a series: its interval, and its marks.
 fn layers(series: &Series, chart: &Chart, colour: &Value) -> Vec<Value> {
-    let has_intervals = series.points.iter().any(|point| point.interval.is_some());
+    // Bars are drawn without theirs, which the data hold.
+    let has_intervals = series.mark != Mark::Bars && series.points.iter().any(|point| point.interval.is_some());
     let only = json!([{ "filter": { "field": "series", "equal": series.name } }]);
     let mark = match series.mark {
         Mark::Line => json!({ "type": "line" }),
         Mark::Dashed => json!({ "type": "line", "strokeDash": [6, 4] }),
         Mark::Steps => json!({ "type": "line", "interpolate": "step-after" }),
+        Mark::DashedSteps => json!({ "type": "line", "interpolate": "step-after", "strokeDash": [6, 4] }),
         Mark::Points => json!({ "type": "point", "filled": true }),
         Mark::Bars => json!({ "type": "bar", "opacity": 0.7 }),
     };
