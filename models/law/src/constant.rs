@@ -3,11 +3,14 @@
 //! Such a number holds for a whole species, and its key names its unit: the mass of a leaf, the drag of a crown. Absent
 //! on purpose: distributions and laws, which [`Variate`](super::Variate) and [`Law`](super::Law) have.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::ValueRange;
 use super::bare::{self, Bare, BareOr};
+use super::form::check_intervals;
 use crate::fault::{Fault, Path};
 
 /// A number that is not drawn. Written bare, or as a table with its source, for example
@@ -32,6 +35,18 @@ pub struct ConstantForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub source: Option<String>,
+    /// The interval of 95 % of each number that was estimated, by the number's name. It documents the number;
+    /// growth does not read it.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub interval: BTreeMap<String, [f64; 2]>,
+    /// How many observations the numbers were estimated from. It documents the number; growth does not read it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "u32")]
+    pub n: Option<u32>,
+    /// The range in which `phytomer fit --law abc` looks for the number: `prior = { value = [0.1, 0.5] }`. Growth does
+    /// not read it.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub prior: BTreeMap<String, [f64; 2]>,
     /// True where the number is a guess and not a measure.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub assumed: bool,
@@ -51,6 +66,9 @@ impl Constant {
     /// # Errors
     /// A fault at the path of the number itself where it is outside `range`.
     pub fn within(&self, path: &Path, range: ValueRange) -> Result<f64, Fault> {
+        if let Self::Form(form) = self {
+            check_intervals(&form.interval, path)?;
+        }
         let value = self.value();
         if range.holds(value) {
             return Ok(value);

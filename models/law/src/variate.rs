@@ -3,11 +3,13 @@
 //!
 //! The parameters are laws. The draws are in `variate_table`; that exactly one kind is given is checked there.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::bare::{self, BareOr};
-use super::form::{Law, one_kind};
+use super::form::{Law, check_intervals, one_kind};
 use crate::fault::{Fault, Path};
 
 /// A number or a continuous random variable. Written as a bare number, or as a table with exactly one distribution,
@@ -58,6 +60,18 @@ pub struct VariateForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub source: Option<String>,
+    /// The interval of 95 % of each number that was estimated, by the number's name. It documents the variable;
+    /// growth does not read it.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub interval: BTreeMap<String, [f64; 2]>,
+    /// How many observations the numbers were estimated from. It documents the variable; growth does not read it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "u32")]
+    pub n: Option<u32>,
+    /// The range in which `phytomer fit --law abc` looks for each number, by the number's name:
+    /// `prior = { mean = [40, 60] }`. Growth does not read it.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub prior: BTreeMap<String, [f64; 2]>,
     /// True where the numbers are a guess and not a measure.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub assumed: bool,
@@ -134,6 +148,7 @@ impl VariateForm {
             ("lognormal", self.lognormal.is_some()),
             ("empirical", self.empirical.is_some()),
         ];
-        one_kind(&kinds, path)
+        one_kind(&kinds, path)?;
+        check_intervals(&self.interval, path)
     }
 }

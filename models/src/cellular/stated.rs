@@ -13,5 +13,5 @@ pub(super) const WEIGHT: ValueRange = ValueRange { min: 0.0, max: 1000.0, what: 
 
 /// The diameter of an internode, millimetres, of a species that states none.
 pub(super) fn assumed_diameter() -> Constant {
-    Constant::from(ConstantForm { value: 10.0, source: None, assumed: true })
+    Constant::from(ConstantForm { value: 10.0, assumed: true, ..ConstantForm::default() })
 }
