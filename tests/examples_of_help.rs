@@ -13,9 +13,27 @@ use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 19] = [
-    "init", "grow", "merge", "validate", "derive", "convert", "verify", "describe", "measure", "list", "schema",
-    "mesh", "picture", "animate", "view", "fit", "query", "forest", "report",
+const VERBS: [&str; 20] = [
+    "init",
+    "grow",
+    "merge",
+    "validate",
+    "derive",
+    "convert",
+    "verify",
+    "describe",
+    "measure",
+    "list",
+    "schema",
+    "mesh",
+    "picture",
+    "animate",
+    "view",
+    "fit",
+    "query",
+    "forest",
+    "sensitivity",
+    "report",
 ];
 
 /// The examples of a verb's help: the lines that begin with the program's name.
@@ -87,8 +105,13 @@ fn lay_trees_of_others(folder: &Path) {
 /// The tables that the examples of `fit` name.
 fn lay_counts(folder: &Path) {
     let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("analysis/fits/samples");
-    for (from, to) in [("nodes.csv", "nodes.csv"), ("activity_days.csv", "days.csv")] {
+    for (from, to) in [("nodes.csv", "nodes.csv"), ("activity_days.csv", "days.csv"), ("abc.csv", "seen.csv")] {
         fs::copy(samples.join(from), folder.join(to)).unwrap();
+    }
+    let prior =
+        "inherits = \"coffee\"\nname = \"mine\"\n[[order]]\npause = { value = 0.1, prior = { value = [0.02, 0.3] } }\n";
+    for name in ["my_coffee.toml", "my_species.toml"] {
+        fs::write(folder.join(name), prior).unwrap();
     }
 }
 
@@ -115,6 +138,14 @@ fn obey_example(folder: &Path, number: usize, words: &[&str]) {
             words.extend((!words.contains(&"--resume")).then_some("--overwrite"));
         }
         "animate" => words = small_film(&words),
+        "sensitivity" => {
+            words = words.iter().map(|word| if *word == "256" { "4" } else { *word }).collect();
+            words.extend(["--ways", "4", "--plants", "1", "--quiet"]);
+            words.extend(if words.contains(&"--points") { &[][..] } else { &["--points", "4"] });
+        }
+        "fit" if words.contains(&"abc") && words.contains(&"--base") => {
+            words.extend(["--particles", "20", "--generations", "2", "--plants", "2", "--quiet"]);
+        }
         "forest" => words.extend((!words.contains(&"--overwrite")).then_some("--overwrite")),
         _ => {}
     }
