@@ -110,7 +110,7 @@ fn lay_counts(folder: &Path) {
     }
     let prior =
         "inherits = \"coffee\"\nname = \"mine\"\n[[order]]\npause = { value = 0.1, prior = { value = [0.02, 0.3] } }\n";
-    for name in ["my_coffee.toml", "my_species.toml"] {
+    for name in ["priors.toml", "my_species.toml"] {
         fs::write(folder.join(name), prior).unwrap();
     }
 }

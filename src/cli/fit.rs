@@ -40,7 +40,7 @@ Examples:
   phytomer fit days.csv --law activity --window 0..180 --base coffee --out my_coffee.toml
   phytomer fit nodes.csv --law nodes --json --check 20
   phytomer fit runs/coffee --law mortality --order 2                   what a run would have told
-  phytomer fit seen.csv --law abc --base my_coffee.toml --out fitted.toml      numbers with a `prior`, by simulation
+  phytomer fit seen.csv --law abc --base priors.toml --out fitted.toml   numbers with a `prior`, by simulation
   phytomer fit runs/coffee --law abc --summary height_m@48 --base coffee --vary order.1.pause=0.02..0.3
 
 Columns of each law (CSV with a header, or Parquet with these columns):
