@@ -2,7 +2,8 @@
 //!
 //! This is the facade: the crates of the house under short names, and [`run`], which makes a run folder out of a
 //! scenario; [`forest`] plants a landscape from a raster; [`report`] tells of runs in a page; [`sample`] grows a few
-//! plants of a species to hold them against what was published. The command line is the binary's own (`cli/`).
+//! plants of a species to hold them against what was published; [`simulate`] tells what plants of other numbers are
+//! like. The command line is the binary's own (`cli/`).
 //!
 //! ```no_run
 //! use phytomer::run::{self, Progress, Settings};
@@ -21,7 +22,9 @@ pub use phytomer_sim as sim;
 pub use phytomer_weather as weather;
 
 pub mod architecture;
+pub mod counted;
 pub mod forest;
 pub mod report;
 pub mod run;
 pub mod sample;
+pub mod simulate;

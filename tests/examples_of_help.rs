@@ -13,9 +13,27 @@ use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 19] = [
-    "init", "grow", "merge", "validate", "derive", "convert", "verify", "describe", "measure", "list", "schema",
-    "mesh", "picture", "animate", "view", "fit", "query", "forest", "report",
+const VERBS: [&str; 20] = [
+    "init",
+    "grow",
+    "merge",
+    "validate",
+    "derive",
+    "convert",
+    "verify",
+    "describe",
+    "measure",
+    "list",
+    "schema",
+    "mesh",
+    "picture",
+    "animate",
+    "view",
+    "fit",
+    "query",
+    "forest",
+    "sensitivity",
+    "report",
 ];
 
 /// The examples of a verb's help: the lines that begin with the program's name.
@@ -87,10 +105,15 @@ fn lay_trees_of_others(folder: &Path) {
 /// The tables that the examples of `fit` and `report` name.
 fn lay_counts(folder: &Path) {
     let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("analysis/fits/samples");
-    for (from, to) in
-        [("nodes.csv", "nodes.csv"), ("activity_days.csv", "days.csv"), ("mortality_seen.csv", "mortality.csv")]
-    {
+    let tables =
+        ["nodes", "activity_days", "mortality_seen", "abc"].into_iter().zip(["nodes", "days", "mortality", "seen"]);
+    for (from, to) in tables.map(|(from, to)| (format!("{from}.csv"), format!("{to}.csv"))) {
         fs::copy(samples.join(from), folder.join(to)).unwrap();
+    }
+    let prior =
+        "inherits = \"coffee\"\nname = \"mine\"\n[[order]]\npause = { value = 0.1, prior = { value = [0.02, 0.3] } }\n";
+    for name in ["priors.toml", "my_species.toml"] {
+        fs::write(folder.join(name), prior).unwrap();
     }
 }
 
@@ -117,6 +140,14 @@ fn obey_example(folder: &Path, number: usize, words: &[&str]) {
             words.extend((!words.contains(&"--resume")).then_some("--overwrite"));
         }
         "animate" => words = small_film(&words),
+        "sensitivity" => {
+            words = words.iter().map(|word| if *word == "256" { "4" } else { *word }).collect();
+            words.extend(["--ways", "4", "--plants", "1", "--quiet"]);
+            words.extend(if words.contains(&"--points") { &[][..] } else { &["--points", "4"] });
+        }
+        "fit" if words.contains(&"abc") && words.contains(&"--base") => {
+            words.extend(["--particles", "20", "--generations", "2", "--plants", "2", "--quiet"]);
+        }
         "forest" => words.extend((!words.contains(&"--overwrite")).then_some("--overwrite")),
         _ => {}
     }

@@ -1,7 +1,7 @@
 //! Independent readers of the files of a run: pyarrow, DuckDB and Polars for the tables, plyfile, trimesh, Open3D,
-//! meshio and PyVista for the meshes; Pillow for pictures; lifelines, statsmodels and scipy for measures; jsonschema
-//! for the schemas of species and scenarios, and taplo, which editors use for TOML, for the line by which a file names
-//! its schema.
+//! meshio and PyVista for the meshes; Pillow for pictures; lifelines, statsmodels and scipy for measures; numpy for
+//! sensitivities; jsonschema for the schemas of species and scenarios, and taplo, which editors use for TOML, for the
+//! line by which a file names its schema.
 //!
 //! They are installed in `.venv`, which `.ci/run` fills from `tests/readers/requirements.txt`; where they are missing
 //! the tests skip and say so, but never in CI. `PHYTOMER_RUN` names a run folder to read beside the small one grown
@@ -184,6 +184,47 @@ fn independent_statisticians_agree_on_the_measures_of_a_run() {
     std::fs::write(&scenario, MEASURED).expect("a scenario file");
     let run = grow(folder.path(), scenario.to_str().expect("a path in UTF-8"));
     read(&python, "measures.py", &[env!("CARGO_BIN_EXE_phytomer"), &run]);
+}
+
+/// Ishigami's function.
+fn ishigami(at: &[f64]) -> f64 {
+    use phytomer::sim::math;
+    let [x, y, z] = [0, 1, 2].map(|k| std::f64::consts::PI * (2.0 * at[k] - 1.0));
+    let (first, second) = (math::sin(x), math::sin(y));
+    first + 7.0 * second * second + 0.1 * z * z * z * z * first
+}
+
+#[test]
+fn an_independent_statistician_agrees_on_sensitivities() {
+    use phytomer::fits::sensitivity::{morris_design, morris_effects, sobol_design, sobol_indices};
+    let Some(python) = python() else {
+        return;
+    };
+    let ways = morris_design(3, 40, 7).expect("a design");
+    let results: Vec<f64> = ways.iter().map(|own| ishigami(&own.at)).collect();
+    let effects = morris_effects(&ways, &results, 7).into_iter();
+    let effects =
+        effects.map(|e| serde_json::json!({"size": e.size, "size_within": e.size_within, "spread": e.spread}));
+    let points = sobol_design(3, 1024, 7).expect("a design");
+    let values: Vec<f64> = points.iter().map(|own| ishigami(&own.at)).collect();
+    let sobol = sobol_indices(3, &values, 7).expect("indices");
+    let indices = sobol.indices.iter();
+    let indices =
+        indices.map(|i| serde_json::json!({"first": i.first, "total": i.total, "total_within": i.total_within}));
+    let at = |design: &[phytomer::fits::sensitivity::Evaluation]| -> Vec<Vec<f64>> {
+        design.iter().map(|own| own.at.clone()).collect()
+    };
+    let told = serde_json::json!({
+        "factors": 3,
+        "morris": {"at": at(&ways), "results": results, "effects": effects.collect::<Vec<_>>()},
+        "sobol": {
+            "at": at(&points), "results": values, "indices": indices.collect::<Vec<_>>(), "noise": sobol.noise,
+        },
+    });
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("told.json");
+    std::fs::write(&file, told.to_string()).expect("the file is written");
+    read(&python, "sensitivity.py", &[file.to_str().expect("a path in UTF-8")]);
 }
 
 #[test]

@@ -106,3 +106,50 @@ fn counts_of_fuji_become_an_apple() {
     write(folder, "trial.toml", "name = \"trial\"\nspecies = \"fuji.toml\"\nplants = 3\nages = { until = 6 }\n");
     run(folder, &["grow", "trial.toml", "--quiet"]).ending(0);
 }
+
+/// A run of coffee as data of each law that its tables can tell of.
+#[test]
+fn a_run_is_data_of_every_law() {
+    let folder = tempdir().unwrap();
+    let folder = folder.path();
+    let scenario = "name = \"trial\"\nspecies = \"coffee\"\nplants = 60\nages = { until = 30, record = [30] }\n";
+    write(folder, "trial.toml", scenario);
+    run(folder, &["grow", "trial.toml", "--quiet"]).ending(0);
+    let fit = |law: &'static str, more: &[&'static str]| {
+        let told = run(folder, &[&["fit", "runs/trial", "--law", law, "--json"][..], more].concat()).ending(0);
+        told.json()["fits"][0].clone()
+    };
+    let within = |fit: &serde_json::Value, name: &str, truth: f64| {
+        let own = fit["estimates"].as_array().unwrap().iter().find(|own| own["name"] == name).unwrap();
+        let [low, high] = ["low", "high"].map(|limit| own[limit].as_f64().unwrap());
+        println!("{name}: {low} to {high}");
+        assert!(low <= truth && truth <= high, "{own}");
+    };
+    // The trunk of this species pauses in .08 of its ticks, and hardly dies by then.
+    within(&fit("activity", &["--window", "1..30"]), "b", 0.92);
+    // Its branches die by a law of their cycles, which pass as ticks do.
+    let deaths = fit("mortality", &["--order", "2", "--check", "10"]);
+    assert!(deaths["n"].as_f64().unwrap() > 1.0, "{deaths}");
+    let fates = fit("branching", &["--order", "1", "--zone", "10", "--chain", "2"]);
+    assert!(fates["n"].as_f64().unwrap() > 1000.0, "{fates}");
+    let crown = fit("crown", &["--order", "1"]);
+    within(&crown, "b1", 0.92);
+    // Whole plants are left out.
+    let told = run(folder, &["fit", "runs/trial", "--law", "mortality", "--order", "2", "--check", "10"]).ending(0);
+    assert!(told.stdout.contains("left out and predicted"), "{}", told.stdout);
+    // Growth units of one node each cannot be fitted, which is told.
+    let said = run(folder, &["fit", "runs/trial", "--law", "nodes"]).ending(3);
+    assert!(said.stderr.contains("runs/trial"), "{}", said.stderr);
+    let out = ["--base", "coffee", "--out", "mine.toml", "--window", "1..30"];
+    run(folder, &[&["fit", "runs/trial", "--law", "activity"][..], &out].concat()).ending(0);
+    let species = fs::read_to_string(folder.join("mine.toml")).unwrap();
+    assert!(species.contains("pause = { value = ") && species.contains("trial"), "{species}");
+    for (words, code, told) in [
+        (vec!["fit", "runs/trial", "--law", "activity"], 2, "--window 12..36"),
+        (vec!["fit", "runs/trial", "--law", "mortality", "--order", "7"], 3, "no plant has an axis of order 7"),
+        (vec!["fit", "runs", "--law", "mortality"], 3, "runs"),
+    ] {
+        let said = run(folder, &words).ending(code);
+        assert!(said.stderr.contains(told), "{}", said.stderr);
+    }
+}

@@ -21,6 +21,7 @@ use crate::document::Node;
 use crate::load::{Found, Loader, Mention, path_of};
 use crate::meaning;
 use crate::models::{Model, Reads};
+use crate::numbers::Numbers;
 use crate::report::Fault;
 use crate::scenario::Scenario;
 use crate::species::Species;
@@ -198,6 +199,7 @@ fn read_species(loader: &mut Loader, mention: &Mention) -> Option<Found> {
     if let Some(about) = &found.about {
         loader.tell(&found.node, about.faults());
         check_year(loader, &found.node, about, &found.model);
+        check_priors(loader, &found.node, about, &found.model);
     }
     Some(found)
 }
@@ -217,6 +219,14 @@ pub(crate) fn check_species(
             loader.tell(&node, faults);
             None
         }
+    }
+}
+
+/// Each prior names a number of its table.
+fn check_priors(loader: &mut Loader, node: &Node, about: &About, model: &Model) {
+    let species = Species { about: about.clone(), model: model.clone() };
+    if let Err(faults) = Numbers::of(&species).map_or(Ok(Vec::new()), |numbers| numbers.priors()) {
+        loader.tell(node, faults);
     }
 }
 

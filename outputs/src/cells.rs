@@ -1,19 +1,27 @@
 //! Any Parquet file as named columns of text, for tables of measured plants.
 //!
-//! Whole and decimal numbers, truth values (1 and 0), texts and dictionaries of texts; a null is an empty text. Absent:
-//! lists, structures, dates, and the tables of runs (`read`).
+//! Whole and decimal numbers, truth values (1 and 0), texts and dictionaries of texts; a null is an empty text. So are
+//! columns of a run, and small tables of texts and numbers are written. Absent: lists, structures, dates, and how the
+//! tables of runs are found (`read`).
 
+use crate::destination::Destination;
+use crate::read::Run;
+use crate::tables::Table;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{
     ArrowDictionaryKeyType, Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type, UInt16Type,
     UInt32Type, UInt64Type,
 };
-use arrow_array::{Array, ArrayRef, ArrowPrimitiveType};
+use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, Float64Array, RecordBatch, StringArray};
 use arrow_schema::DataType;
+use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::basic::{Compression, ZstdLevel};
+use parquet::file::properties::WriterProperties;
 use std::fs::File;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::sync::Arc;
 
 /// The names of the columns, and the rows.
 pub type Cells = (Vec<String>, Vec<Vec<String>>);
@@ -91,12 +99,60 @@ fn words<K: ArrowDictionaryKeyType>(column: &ArrayRef) -> Vec<String> {
     dictionary.keys_iter().map(word).collect()
 }
 
+/// The values of a column that is written.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Written {
+    /// Texts.
+    Texts(Vec<String>),
+    /// Numbers; `None` is null.
+    Numbers(Vec<Option<f64>>),
+}
+
+/// Writes a small table as a Parquet file, zstd.
+///
+/// # Errors
+/// In words: columns of unequal lengths, or a failed write.
+pub fn write(path: &Path, columns: Vec<(&str, Written)>) -> Result<(), String> {
+    let failed = |error: &dyn std::fmt::Display| format!("cannot write {}: {error}", path.display());
+    let columns = columns.into_iter().map(|(name, values)| {
+        let array: ArrayRef = match values {
+            Written::Texts(texts) => Arc::new(StringArray::from(texts)),
+            Written::Numbers(numbers) => Arc::new(Float64Array::from(numbers)),
+        };
+        (name, array, true)
+    });
+    let batch = RecordBatch::try_from_iter_with_nullable(columns).map_err(|error| failed(&error))?;
+    let mut file = Destination::create(path).map_err(|error| failed(&error))?;
+    let properties = WriterProperties::builder().set_compression(Compression::ZSTD(ZstdLevel::default())).build();
+    let mut writer = ArrowWriter::try_new(&mut file, batch.schema(), Some(properties)).map_err(|e| failed(&e))?;
+    writer.write(&batch).and_then(|()| writer.close()).map_err(|error| failed(&error))?;
+    file.finish().map(drop).map_err(|error| failed(&error))
+}
+
+/// Columns of a table of a run as texts, row after row; the columns are in the order of the table.
+///
+/// # Errors
+/// In words: a table that cannot be read.
+pub fn of_run(run: &Run, table: Table, columns: &[&str]) -> Result<Cells, String> {
+    let (mut names, mut rows): Cells = (Vec::new(), Vec::new());
+    for batch in run.batches_with(table, columns).map_err(|error| error.to_string())? {
+        let batch = batch.map_err(|error| error.to_string())?;
+        names = batch.schema().fields().iter().map(|field| field.name().clone()).collect();
+        let columns: Result<Vec<Vec<String>>, String> =
+            batch.columns().iter().zip(&names).map(|(column, name)| texts(column, name)).collect();
+        let columns = columns?;
+        rows.extend((0..batch.num_rows()).map(|row| columns.iter().map(|column| column[row].clone()).collect()));
+        if rows.len() > MOST_ROWS {
+            return Err(format!("it has more than {MOST_ROWS} rows"));
+        }
+    }
+    Ok((names, rows))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use arrow_array::{BooleanArray, DictionaryArray, Float64Array, Int32Array, RecordBatch, StringArray};
-    use parquet::arrow::ArrowWriter;
-    use std::sync::Arc;
+    use arrow_array::{BooleanArray, DictionaryArray, Int32Array};
 
     #[test]
     fn what_was_written_is_read_as_text() {

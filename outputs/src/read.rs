@@ -7,7 +7,7 @@
 use crate::run_folder::{Error, Papers, RunJson};
 use crate::storage::FileError;
 use crate::storage::durable::files_in;
-use crate::tables::{Table, TableError};
+use crate::tables::{Table, TableBatches, TableError};
 use arrow_array::types::{Float64Type, Int32Type};
 use arrow_array::{Array, BooleanArray, PrimitiveArray, RecordBatch};
 use arrow_schema::SchemaRef;
@@ -30,6 +30,8 @@ pub struct Run {
     json: Value,
     /// The files that belong to the run; `None` for a run of an older program.
     named: Option<BTreeSet<PathBuf>>,
+    /// The rows, of a run whose tables are in memory.
+    rows: Option<Arc<TableBatches>>,
 }
 
 /// One row of `summary`, in the units of its columns.
@@ -70,8 +72,24 @@ impl Run {
         match papers.run {
             RunJson::Missing => Err(Error::NotARun { path }),
             RunJson::Damaged { .. } => Err(Error::Damaged { path: path.join("run.json") }),
-            RunJson::Older(json) => Ok(Self { path, json, named: None }),
-            RunJson::Whole(json) => Ok(Self { path, json, named }),
+            RunJson::Older(json) => Ok(Self { path, json, named: None, rows: None }),
+            RunJson::Whole(json) => Ok(Self { path, json, named, rows: None }),
+        }
+    }
+
+    /// A run whose tables are in memory, with what `run.json` would hold; `name` stands for its folder.
+    pub fn in_memory(name: &str, json: Value, rows: TableBatches) -> Self {
+        Self { path: PathBuf::from(name), json, named: None, rows: Some(Arc::new(rows)) }
+    }
+
+    /// Whether the run has rows of a table.
+    ///
+    /// # Errors
+    /// Where the folder cannot be read.
+    pub fn has(&self, table: Table) -> Result<bool, Error> {
+        match &self.rows {
+            Some(rows) => Ok(rows.contains_key(&table)),
+            None => Ok(!self.parts(table)?.is_empty()),
         }
     }
 
@@ -158,7 +176,10 @@ impl Run {
     /// # Errors
     /// As [`Run::batches`].
     pub fn batches_of(&self, table: Table, rows: usize) -> Result<Batches, Error> {
-        Ok(Batches { parts: self.parts(table)?.into_iter(), rows, columns: None, now: None })
+        let of_table = self.rows.as_ref().map(|rows| rows.get(&table).cloned().unwrap_or_default());
+        let parts = if of_table.is_some() { Vec::new() } else { self.parts(table)? };
+        let in_memory = of_table.unwrap_or_default().into_iter();
+        Ok(Batches { parts: parts.into_iter(), rows, columns: None, now: None, in_memory })
     }
 
     /// As [`Run::batches`], with only those of the named columns that the table has, in the order of the table. No
@@ -210,6 +231,8 @@ pub struct Batches {
     /// The columns that are read; `None` for all.
     columns: Option<Vec<String>>,
     now: Option<(PathBuf, ParquetRecordBatchReader)>,
+    /// The batches of a run in memory.
+    in_memory: std::vec::IntoIter<RecordBatch>,
 }
 
 impl Batches {
@@ -231,6 +254,15 @@ impl Batches {
         Some(reader.map(|reader| self.now = Some((part, reader))))
     }
 
+    /// A batch in memory with the columns that are read.
+    fn chosen(&self, batch: RecordBatch) -> Result<RecordBatch, TableError> {
+        let Some(names) = &self.columns else { return Ok(batch) };
+        let schema = batch.schema();
+        let is_read = |place: &usize| names.iter().any(|name| name == schema.field(*place).name());
+        let places: Vec<usize> = (0..batch.num_columns()).filter(is_read).collect();
+        batch.project(&places).map_err(|source| TableError::Batch { table: "in memory", source: source.into() })
+    }
+
     /// Ends the iterator: no batch comes after an error.
     fn ended_by(&mut self, error: TableError) -> TableError {
         (self.parts, self.now) = (Vec::new().into_iter(), None);
@@ -242,6 +274,9 @@ impl Iterator for Batches {
     type Item = Result<RecordBatch, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {
+        if let Some(batch) = self.in_memory.next() {
+            return Some(self.chosen(batch));
+        }
         loop {
             if let Some((part, reader)) = &mut self.now {
                 match caught(|| Ok(reader.next().transpose()?)).map_err(TableError::read(part)) {

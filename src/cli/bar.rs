@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use phytomer::run::filming::Filming;
 use phytomer::run::{Progress, Reading};
 use phytomer_outputs::Checking;
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::thread;
 use std::time::Duration;
 
@@ -60,6 +60,15 @@ pub fn filming<T>(filming: &Filming, frames: u32, hidden: bool, work: impl FnOnc
 /// Does `work` while a bar shows how many of the ages of a page have been grown.
 pub fn viewing<T>(filming: &Filming, hidden: bool, work: impl FnOnce() -> T) -> T {
     beside(hidden, |_| (filming.share(), "growing".to_owned()), work)
+}
+
+/// Does `work` while a bar shows how many of about so many simulations have been done.
+pub fn simulating<T>(done: &AtomicU64, about: u64, hidden: bool, work: impl FnOnce() -> T) -> T {
+    let state = |_: &ProgressBar| {
+        let done = done.load(Relaxed);
+        (done as f64 / about.max(1) as f64, amounts::of(done, "simulation"))
+    };
+    beside(hidden, state, work)
 }
 
 /// "1.2 MB of 30 MB checked", or "copied" while a merge writes them.

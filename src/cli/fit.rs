@@ -4,13 +4,15 @@
 //! that inherits from a base and has the fitted keys alone, with `fit.json` beside it. Absent: estimates and readers of
 //! CSV, which are the library's.
 
+mod abc;
 mod told;
 
 use super::{Misuse, Verdict, refuse, terminal};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
+use phytomer::counted;
 use phytomer_config::validate_texts;
-use phytomer_fits::check::{Checked, check};
+use phytomer_fits::check::{Checked, Material, check};
 use phytomer_fits::data::columns::LAWS;
 use phytomer_fits::data::{Fault, Law, Table, read};
 use phytomer_fits::outcome::{Outcome, fit};
@@ -37,6 +39,9 @@ Examples:
   phytomer fit nodes.csv --law nodes --base poplar --order 2 --out my_poplar.toml
   phytomer fit days.csv --law activity --window 0..180 --base coffee --out my_coffee.toml
   phytomer fit nodes.csv --law nodes --json --check 20
+  phytomer fit runs/coffee --law mortality --order 2                   what a run would have told
+  phytomer fit seen.csv --law abc --base priors.toml --out fitted.toml   numbers with a `prior`, by simulation
+  phytomer fit runs/coffee --law abc --summary height_m@48 --base coffee --vary order.1.pause=0.02..0.3
 
 Columns of each law (CSV with a header, or Parquet with these columns):
   activity     nodes made in one window by each axis; days of the window may be left out
@@ -45,12 +50,15 @@ Columns of each law (CSV with a header, or Parquet with these columns):
   nodes        nodes of a growth unit; count of such units may be left out
   crown        above: nodes of the bearer above a pair of living branches; first, second: nodes of the two
   branching    axis, rank from 1, fate in a word (a state of the species, or latent)
+  abc          summary (height_m@60; see `phytomer sensitivity --help`), value; plants may be left out
+A column `plant` may stand beside those of any law: --check then leaves whole plants out. DATA may be a run folder:
+axes of --order are counted, with ticks as days; activity then needs --window.
 
 The species inherits from --base and holds the fitted keys alone, each with source, n and interval; fit.json, beside it,
 has estimates, covariance, log-likelihood, BIC and tests of all rivals. docs/statistics.md has every formula. Exit code 3
 where the file is wrong or the law cannot be estimated: nothing is written then.")]
 pub struct Fit {
-    /// The table: .csv, .txt or .parquet.
+    /// The table: .csv, .txt or .parquet; or a run folder.
     #[arg(value_name = "DATA", required_unless_present = "sample")]
     data: Option<PathBuf>,
     /// What is fitted.
@@ -74,9 +82,9 @@ pub struct Fit {
     /// Waiting times that began before this day.
     #[arg(long, value_name = "DAY")]
     before: Option<u32>,
-    /// The variable of a hazard.
-    #[arg(long, default_value = "cycle", value_parser = ["cycle", "dimension", "age"])]
-    over: String,
+    /// The variable of a hazard [default: cycle; of a run: dimension].
+    #[arg(long, value_parser = ["cycle", "dimension", "age"])]
+    over: Option<String>,
     /// The ranks of a zone of branching.
     #[arg(long, default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=1000))]
     zone: u32,
@@ -94,11 +102,13 @@ pub struct Fit {
     #[arg(long, value_name = "TIMES", num_args = 0..=1, default_missing_value = "200", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     check: Option<u32>,
     /// Print the sample table of a law instead.
-    #[arg(long, value_name = "LAW", value_parser = ["activity", "activity-days", "mortality", "mortality-followed", "nodes", "crown", "branching"])]
+    #[arg(long, value_name = "LAW", value_parser = ["activity", "activity-days", "mortality", "mortality-followed", "nodes", "crown", "branching", "abc"])]
     sample: Option<String>,
     /// The contents of fit.json on stdout.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    abc: abc::Abc,
 }
 
 /// The laws that can be fitted.
@@ -109,16 +119,20 @@ enum Word {
     Nodes,
     Crown,
     Branching,
+    /// No likelihood: simulation of the numbers that have a prior.
+    Abc,
 }
 
-impl From<Word> for Law {
-    fn from(word: Word) -> Self {
-        match word {
-            Word::Activity => Self::Activity,
-            Word::Mortality => Self::Mortality,
-            Word::Nodes => Self::Nodes,
-            Word::Crown => Self::Crown,
-            Word::Branching => Self::Branching,
+impl Word {
+    /// The law; `None` for what is simulated.
+    fn law(self) -> Option<Law> {
+        match self {
+            Self::Activity => Some(Law::Activity),
+            Self::Mortality => Some(Law::Mortality),
+            Self::Nodes => Some(Law::Nodes),
+            Self::Crown => Some(Law::Crown),
+            Self::Branching => Some(Law::Branching),
+            Self::Abc => None,
         }
     }
 }
@@ -132,7 +146,12 @@ impl Fit {
             return Err(Misuse("`fit` needs a table and --law".to_owned()).into());
         };
         self.check_out()?;
-        let (table, hash) = match load(path)? {
+        let Some(law) = law.law() else { return abc::fit(&self, path) };
+        if let Some(option) = self.abc.given() {
+            return Err(Misuse(format!("{option} is for --law abc, which simulates; this law has a likelihood")).into());
+        }
+        let loaded = if path.is_dir() { self.counted(path, law)? } else { load(path)? };
+        let (table, hash) = match loaded {
             Ok(loaded) => loaded,
             Err(faults) => return self.decline(&faults),
         };
@@ -140,25 +159,49 @@ impl Fit {
             Ok(table) => table,
             Err(fault) => return self.decline(&[fault]),
         };
-        let data = match read(law.into(), &table) {
+        let data = match read(law, &table) {
             Ok(data) => data,
             Err(faults) => return self.decline(&faults),
         };
-        match fit(law.into(), &data, &self.wanted(path)?) {
+        let wanted = self.wanted(path)?;
+        match fit(law, &data, &wanted) {
             Ok(outcome) => {
-                let checked = self.check.map(|times| check(&outcome, &data, times as usize, SEED));
+                let material = Material { outcome: &outcome, data: &data, table: &table, wanted: &wanted };
+                let checked = self.check.map(|times| check(&material, times as usize, SEED));
                 self.finish(&outcome, checked.as_ref(), path, &hash)
             }
-            Err(problem) => {
-                let problem = format!("{}: {problem}", path.display());
-                if self.json {
-                    terminal::put_json(&json!({"status": "not estimated", "problem": problem}))?;
-                } else {
-                    terminal::say(&problem);
-                }
-                Ok(Verdict::Invalid)
-            }
+            Err(problem) => self.not_estimated(path, &problem.to_string()),
         }
+    }
+
+    /// Tells why nothing was estimated.
+    fn not_estimated(&self, path: &Path, problem: &str) -> Result<Verdict> {
+        let problem = format!("{}: {problem}", path.display());
+        if self.json {
+            terminal::put_json(&json!({"status": "not estimated", "problem": problem}))?;
+        } else {
+            terminal::say(&problem);
+        }
+        Ok(Verdict::Invalid)
+    }
+
+    /// What is counted on the plants of a run, with the hash of its `run.json`, which has those of its tables.
+    fn counted(&self, path: &Path, law: Law) -> Result<Loaded> {
+        if law == Law::Activity && self.window.is_none() {
+            let words = "a run knows its ticks: name the window in which growth is counted, such as --window 12..36";
+            return Err(Misuse(format!("{}: {words}", path.display())).into());
+        }
+        let table = match counted::table(path, law, self.order) {
+            Ok(table) => table,
+            Err(problem) => {
+                let expected = "a finished run with such axes".to_owned();
+                let file = path.display().to_string();
+                return Ok(Err(vec![Fault { file, line: None, problem, expected }]));
+            }
+        };
+        let json = path.join("run.json");
+        let bytes = std::fs::read(&json).with_context(|| format!("cannot read {}", json.display()))?;
+        Ok(Ok((table, hash_of(&bytes))))
     }
 
     fn check_out(&self) -> Result<(), Misuse> {
@@ -183,7 +226,7 @@ impl Fit {
         Ok(Wanted {
             window: window.transpose()?,
             before: self.before,
-            over: self.over.clone(),
+            over: self.over.clone().unwrap_or_else(|| if path.is_dir() { "dimension" } else { "cycle" }.to_owned()),
             zone: self.zone as usize,
             chain: self.chain as usize,
             from: self.from.clone(),
@@ -248,6 +291,17 @@ impl Fit {
         let name = out.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         let about = format!("Fitted by phytomer fit: {}.", outcome.taken().law);
         let species = stated::species(base, &name, self.order as usize, &outcome.stated, &about);
+        self.write_files(out, base, species, object)
+    }
+
+    /// Checks a species by its model, then writes it and fit.json; a verdict where the model refuses it.
+    fn write_files(
+        &self,
+        out: &Path,
+        base: &str,
+        species: String,
+        object: &serde_json::Value,
+    ) -> Result<Option<Verdict>> {
         let shown = out.display().to_string();
         let of_base = if base.ends_with(".toml") {
             Some(std::fs::read_to_string(base).with_context(|| format!("cannot read {base}"))?)
@@ -273,6 +327,9 @@ impl Fit {
 
 /// The sample of a law on stdout.
 fn sample(law: &str) -> Result<Verdict> {
+    if law == "abc" {
+        return terminal::put(phytomer_fits::data::observed::SAMPLE.trim_end()).map(|()| Verdict::Done);
+    }
     let words = match law {
         "activity-days" => "activity, day by day",
         "mortality" => "mortality, seen once",
@@ -285,16 +342,20 @@ fn sample(law: &str) -> Result<Verdict> {
     Ok(Verdict::Done)
 }
 
+/// A table with the hash of its file, or its faults.
+type Loaded = std::result::Result<(Table, String), Vec<Fault>>;
+
+/// The SHA-256 of bytes.
+fn hash_of(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 /// A table with the hash of its file.
-fn load(path: &Path) -> Result<Result<(Table, String), Vec<Fault>>> {
+fn load(path: &Path) -> Result<Loaded> {
     let shown = path.display().to_string();
     let told = |problem: String, expected: &str| {
         vec![Fault { file: shown.clone(), line: None, problem, expected: expected.to_owned() }]
     };
-    if path.is_dir() {
-        let expected = "a table; DuckDB makes one of a run's files, as views.sql shows";
-        return Ok(Err(told("it is a folder".to_owned(), expected)));
-    }
     let length = std::fs::metadata(path).with_context(|| format!("cannot read {shown}"))?.len();
     if length > MOST_BYTES {
         return Ok(Err(told(
@@ -303,7 +364,7 @@ fn load(path: &Path) -> Result<Result<(Table, String), Vec<Fault>>> {
         )));
     }
     let bytes = std::fs::read(path).with_context(|| format!("cannot read {shown}"))?;
-    let hash = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    let hash = hash_of(&bytes);
     if bytes.starts_with(b"PAR1") {
         return Ok(match phytomer_outputs::cells::read(path) {
             Ok((names, rows)) => {

@@ -31,6 +31,8 @@ mod query;
 mod regrown;
 mod report;
 mod schema;
+mod sensitivity;
+mod simulated;
 mod span;
 pub mod terminal;
 mod validate;
@@ -65,6 +67,7 @@ Examples:
   phytomer fit nodes.csv --law nodes            a law fitted to counts, with intervals and rivals
   phytomer query --views runs/coffee            its tables as views for DuckDB, or SQL with the feature `sql`
   phytomer forest my_site/site.toml             a landscape from a raster, as a table, meshes and a scene
+  phytomer sensitivity coffee --of height_m@48   which of its numbers matter for its height
   phytomer report runs/coffee --out told.html   what became of its plants, as a page with charts
 
 `phytomer help <verb>` has more of each.";
@@ -98,6 +101,7 @@ enum Verb {
     Query(query::Query),
     Forest(forest::ForestVerb),
     Report(report::ReportVerb),
+    Sensitivity(sensitivity::Sensitivity),
 }
 
 /// How the program ends, other than by an error.
@@ -152,6 +156,7 @@ impl Cli {
             Verb::Query(verb) => verb.obey(),
             Verb::Forest(verb) => verb.obey(),
             Verb::Report(verb) => verb.obey(),
+            Verb::Sensitivity(verb) => verb.obey(),
         }
     }
 }

@@ -7,7 +7,7 @@
 use super::{Grower, Keeper, Program, Progress, RunError, forms, in_turn, plan_of, pool};
 use phytomer_config::Resolved;
 use phytomer_outputs::tables::{MemoryTables, TableBatches, treatments};
-use phytomer_outputs::{OvergrownPlot, Table};
+use phytomer_outputs::{OvergrownPlot, RunPlan, Table};
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick};
 
 /// What a run in memory has made.
@@ -45,11 +45,34 @@ pub struct InMemory {
 pub fn in_memory(resolved: &Resolved, threads: usize, progress: &Progress) -> Result<InMemory, RunError> {
     let (resolved, _) = forms::settled(resolved)?;
     let plan = plan_of(&resolved, &Program::default())?;
+    grown(&resolved, &plan, threads, progress)
+}
+
+/// As [`in_memory`], on the thread that calls it and in the pool that the thread is of: for callers that grow many
+/// small runs side by side.
+///
+/// # Errors
+/// As [`in_memory`].
+pub fn in_memory_here(resolved: &Resolved) -> Result<InMemory, RunError> {
+    let (resolved, _) = forms::settled(resolved)?;
+    let (plan, progress) = (plan_of(&resolved, &Program::default())?, Progress::default());
+    let grower = Grower::of(&resolved, &plan, &progress);
+    let shards: Result<Vec<InMemory>, RunError> =
+        (0..plan.shards()).map(|shard| MemoryKeeper::grown(&grower, shard)).collect();
+    joined(shards?, &plan)
+}
+
+fn grown(resolved: &Resolved, plan: &RunPlan, threads: usize, progress: &Progress) -> Result<InMemory, RunError> {
     progress.begin(&resolved.scenario, resolved.trial().plants().into(), plan.shards() as usize);
-    let grower = Grower::of(&resolved, &plan, progress);
+    let grower = Grower::of(resolved, plan, progress);
     let all: Vec<u32> = (0..plan.shards()).collect();
     let grown = |shard| MemoryKeeper::grown(&grower, shard);
     let shards = pool(threads)?.install(|| in_turn::on_all_threads(&all, grown))?;
+    joined(shards, plan)
+}
+
+/// The tables of all shards, in their order.
+fn joined(shards: Vec<InMemory>, plan: &RunPlan) -> Result<InMemory, RunError> {
     let mut run = InMemory::default();
     for shard in shards {
         for (table, batches) in shard.batches {
@@ -58,7 +81,7 @@ pub fn in_memory(resolved: &Resolved, threads: usize, progress: &Progress) -> Re
         run.overgrown.extend(shard.overgrown);
     }
     if plan.tables.contains(&Table::Treatments) {
-        let rows = treatments::batch(&plan).map_err(phytomer_outputs::Error::from)?;
+        let rows = treatments::batch(plan).map_err(phytomer_outputs::Error::from)?;
         run.batches.insert(Table::Treatments, vec![rows]);
     }
     Ok(run)

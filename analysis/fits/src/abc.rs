@@ -4,8 +4,8 @@
 //!
 //! A simulator is a function from parameters and a seed to summaries, or to nothing where the parameters cannot be.
 //! Particles are drawn and moved by keyed draws and simulated in parallel, so that the result is the same on any number
-//! of threads. Summaries are scaled by their median absolute deviation among the first particles. [`ranks`] checks the
-//! whole by simulation (Talts et al. 2018). Absent: simulators, priors other than uniform ones, and files.
+//! of threads. Summaries are scaled by their median absolute deviation among the first particles. Absent: checks of
+//! the whole (`calibration`), simulators, priors other than uniform ones, and files.
 
 use crate::draws::Draws;
 use crate::matrix::inverse;
@@ -67,6 +67,19 @@ impl Posterior {
     /// How many particles of equal weight tell as much (Kish 1965).
     pub fn effective(&self) -> f64 {
         1.0 / self.particles.iter().map(|p| p.weight * p.weight).sum::<f64>()
+    }
+
+    /// The covariance of two parameters.
+    pub fn covariance(&self, a: usize, b: usize) -> f64 {
+        let [mean_a, mean_b] = [a, b].map(|parameter| self.moments(parameter).0);
+        self.particles.iter().map(|p| p.weight * (p.at[a] - mean_a) * (p.at[b] - mean_b)).sum()
+    }
+
+    /// Mean and standard deviation of a summary of the particles.
+    pub fn simulated(&self, summary: usize) -> (f64, f64) {
+        let mean = self.particles.iter().map(|p| p.weight * p.summaries[summary]).sum::<f64>();
+        let off = |p: &Particle| (p.summaries[summary] - mean) * (p.summaries[summary] - mean);
+        (mean, self.particles.iter().map(|p| p.weight * off(p)).sum::<f64>().sqrt())
     }
 
     /// The value that a share of the weight is below.
@@ -142,7 +155,7 @@ fn first(simulate: Simulator<'_>, observed: &[f64], asked: &Asked) -> Vec<Partic
 }
 
 /// The seed of a simulation.
-fn seed_of(seed: u64, generation: u32, number: u64) -> u64 {
+pub(crate) fn seed_of(seed: u64, generation: u32, number: u64) -> u64 {
     seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (u64::from(generation) << 40) ^ number
 }
 
@@ -269,25 +282,6 @@ fn adjusted(kept: Vec<Particle>, observed: &[f64], scales: &[f64], priors: &[[f6
     particles
 }
 
-/// Simulation-based calibration: parameters are drawn from the prior, summaries from them, and the share of the
-/// posterior below each parameter is told. Where the posterior is right these shares are uniform on (0, 1).
-///
-/// # Errors
-/// As [`abc`].
-pub fn ranks(simulate: Simulator<'_>, asked: &Asked, times: u32) -> Result<Vec<Vec<f64>>, Problem> {
-    let mut told = Vec::new();
-    for time in 0..u64::from(times) {
-        let mut draws = Draws::new(asked.seed ^ 0x5bc0_0000_0000, time);
-        let truth: Vec<f64> = asked.priors.iter().map(|[low, high]| low + (high - low) * draws.share()).collect();
-        let Some(observed) = simulate(&truth, seed_of(asked.seed, u32::MAX, time)) else { continue };
-        let posterior = abc(simulate, &observed, &Asked { seed: asked.seed.wrapping_add(1 + time), ..asked.clone() })?;
-        let below =
-            |(k, truth): (usize, &f64)| posterior.particles.iter().filter(|p| p.at[k] < *truth).map(|p| p.weight).sum();
-        told.push(truth.iter().enumerate().map(below).collect());
-    }
-    Ok(told)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -311,17 +305,6 @@ mod tests {
         assert!(n > 300.0, "{n}");
         assert!((mean - 0.9186).abs() < 4.0 * 0.01114 / n.sqrt(), "{mean} of {n}");
         assert!((sd / 0.01114 - 1.0).abs() < 4.0 / (2.0 * n).sqrt(), "{sd} of {n}");
-    }
-
-    /// 200 shares in five cells: χ² with 4 df is below 23.5 but once in ten thousand.
-    #[test]
-    fn shares_of_the_posterior_are_uniform() {
-        let told = ranks(&successes(40), &asked(200, 4), 200).unwrap();
-        let mut cells = [0.0; 5];
-        told.iter().for_each(|shares| cells[((shares[0] * 5.0) as usize).min(4)] += 1.0);
-        let statistic: f64 = cells.iter().map(|c| (c - 40.0) * (c - 40.0) / 40.0).sum();
-        println!("{cells:?} {statistic}");
-        assert!(told.len() == 200 && statistic < 23.5, "{cells:?}");
     }
 
     #[test]

@@ -144,6 +144,11 @@ fn trials(above: u32, b1: f64, w: f64) -> Vec<(usize, f64)> {
 /// The trials of a branch at a number of nodes above it, and their probabilities alone.
 type OfRank = (u32, Vec<(usize, f64)>, Vec<f64>);
 
+/// ln L of pairs at b₁, b₂ and w.
+pub(crate) fn log_likelihood(pairs: &[Pair], [b1, b2, w]: [f64; 3]) -> f64 {
+    Sums::of(pairs).log_likelihood(b1, b2, w)
+}
+
 /// Pairs with the nodes above them of others, as the model grows them.
 pub fn drawn(like: &[Pair], [b1, b2, w]: [f64; 3], draws: &mut Draws) -> Vec<Pair> {
     let mut kept: Option<OfRank> = None;

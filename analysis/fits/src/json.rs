@@ -39,8 +39,8 @@ pub fn checked(checked: &Checked) -> Value {
         .parameters
         .iter()
         .map(|p| {
-            json!({"name": p.name, "drawn_from": p.truth, "bias": p.bias, "error": p.error, "coverage": p.coverage,
-                "coverage_interval": p.within})
+            json!({"name": p.name, "drawn_from": p.truth, "bias": p.bias, "error": p.error,
+                "coverage": p.coverage.map(|own| own.0), "coverage_interval": p.coverage.map(|own| own.1)})
         })
         .collect();
     let predicted = checked

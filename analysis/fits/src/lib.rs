@@ -8,6 +8,7 @@
 pub mod abc;
 pub mod activity;
 pub mod branching;
+pub mod calibration;
 pub mod check;
 pub mod choice;
 pub mod crown;

@@ -24,8 +24,8 @@ use std::collections::BTreeMap;
 /// What came of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// The law that was asked for.
-    pub law: Law,
+    /// The law that was asked for; `None` for what was simulated.
+    pub law: Option<Law>,
     /// All rivals in order of BIC.
     pub fits: Vec<Fit>,
     /// The place of the law that is taken.
@@ -45,12 +45,10 @@ impl Outcome {
     }
 
     fn alone(law: Law, fit: Fit, stated: Vec<Stated>) -> Self {
-        Self { law, fits: vec![fit], taken: 0, rivals: 1, tests: Vec::new(), stated }
+        Self { law: Some(law), fits: vec![fit], taken: 0, rivals: 1, tests: Vec::new(), stated }
     }
 }
 
-/// The days of a wait of waiting times that the record must still have after its beginning, as a share of it.
-const LAST_SHARE: f64 = 2.0 / 3.0;
 /// The seed of what a fit draws.
 const SEED: u64 = 1988;
 
@@ -70,13 +68,13 @@ pub fn fit(law: Law, data: &Data, wanted: &Wanted) -> Result<Outcome, Problem> {
             let choice = mortality::fit_all(observed)?;
             let stated = stated::mortality(choice.taken(), observed.axes(), wanted);
             let (taken, rivals) = (choice.taken, choice.rivals);
-            Ok(Outcome { law, fits: choice.fits, taken, rivals, tests: Vec::new(), stated })
+            Ok(Outcome { law: Some(law), fits: choice.fits, taken, rivals, tests: Vec::new(), stated })
         }
         Data::Nodes(counts) => {
             let (laws, choice) = nodes::fit_all(counts)?;
             let stated = stated::nodes(&laws[choice.taken], choice.taken(), wanted);
             let (taken, rivals) = (choice.taken, choice.rivals);
-            Ok(Outcome { law, fits: choice.fits, taken, rivals, tests: Vec::new(), stated })
+            Ok(Outcome { law: Some(law), fits: choice.fits, taken, rivals, tests: Vec::new(), stated })
         }
         Data::Crown(pairs) => {
             let fit = crown::fit(pairs)?;
@@ -93,7 +91,7 @@ fn of_days(law: Law, axes: &[BTreeMap<u32, u32>], wanted: &Wanted) -> Result<Out
     let fit = match wanted.window {
         Some((from, to)) => Moments::of(&made(axes, from, to)).activity(Some(f64::from(to.saturating_sub(from))))?,
         None => {
-            let before = wanted.before.unwrap_or((f64::from(last) * LAST_SHARE) as u32);
+            let before = wanted.begun_before(axes);
             let mut fit = waiting(&waits(axes, before))?;
             fit.notes.push(format!("waits begun before day {before} of {last}"));
             fit
@@ -136,7 +134,7 @@ fn of_branching(law: Law, shoots: &Shoots, words: &[String], wanted: &Wanted) ->
     let mut fits = vec![zoned];
     let mut chains = Vec::new();
     for ends in if ends.is_some() { vec![ends, None] } else { vec![None] } {
-        let asked = Asked { zones: wanted.chain, ends, seed: SEED, beginnings: 20 };
+        let asked = asked_chain(wanted, ends);
         if let Ok((chain, mut fit)) = chain::fit(shoots, &asked) {
             fit.law =
                 if ends.is_some() { format!("{}, {} alone at both ends", fit.law, wanted.latent) } else { fit.law };
@@ -154,12 +152,17 @@ fn of_branching(law: Law, shoots: &Shoots, words: &[String], wanted: &Wanted) ->
         Some((_, chain)) => stated::chain(chain, shoots, words, wanted),
         None => stated::zones(&of_zones, shoots, words, wanted),
     };
-    let mut outcome = Outcome { law, fits: choice.fits, taken, rivals, tests: Vec::new(), stated };
+    let mut outcome = Outcome { law: Some(law), fits: choice.fits, taken, rivals, tests: Vec::new(), stated };
     let notes = &mut outcome.fits[taken].notes;
     if let Some(best) = orders(shoots).ok().and_then(choose) {
         notes.push(format!("of Markov chains without zones the best is that of order {}", order_of(best.taken())));
     }
     Ok(outcome)
+}
+
+/// What is asked of a chain of zones.
+pub(crate) fn asked_chain(wanted: &Wanted, ends: Option<usize>) -> Asked {
+    Asked { zones: wanted.chain, ends, seed: SEED, beginnings: 20 }
 }
 
 fn order_of(fit: &Fit) -> &str {

@@ -1,10 +1,11 @@
 //! Which of a model's numbers matter: the screening of Morris (1991) and the indices of Sobol' (1993).
 //!
-//! A model is a function from numbers in [0, 1), one a factor, and the seed of a repetition to a result. Morris: mean
-//! size and spread of elementary effects along random ways. Sobol': first-order indices by the estimator of Saltelli et
-//! al. (2010, Table 2 b), total ones by that of Jansen (1999), on Owen-scrambled Sobol' points (Burley 2020); intervals
-//! by a bootstrap over the points. All evaluations of a point use one seed (common random numbers), and the share of
-//! the seed's noise is the variance between two seeds at equal points. Absent: the model, and files.
+//! A model is a function from numbers in [0, 1], one a factor, and the seed of a repetition to a result. A design says
+//! where it is to be evaluated, in any order and on any threads, and what the results tell. Morris: mean size and
+//! spread of elementary effects along random ways. Sobol': first-order indices by the estimator of Saltelli et al.
+//! (2010, Table 2 b), total ones by that of Jansen (1999), on Owen-scrambled Sobol' points (Burley 2020). Intervals are
+//! those of a bootstrap over ways or points. All evaluations of a way or a point use one seed (common random numbers),
+//! and the share of the seed's noise is the variance between two seeds at equal points. Absent: the model, and files.
 
 use crate::draws::Draws;
 use crate::problem::Problem;
@@ -13,17 +14,34 @@ use sobol_burley::sample;
 /// A model: shares of the ranges of its factors, and a seed.
 pub type Model<'a> = &'a (dyn Fn(&[f64], u64) -> f64 + Sync);
 
-/// The most factors of one analysis; the points have two dimensions a factor.
+/// The most factors of the indices; the points have two dimensions a factor.
 pub const MOST_FACTORS: usize = 100;
+
+/// The most factors of a screening.
+pub const MOST_SCREENED: usize = 2000;
 
 /// The most base points: the sequence has no more.
 pub const MOST_POINTS: u32 = 1 << 16;
+
+/// Samples of a bootstrap.
+const SAMPLES: usize = 200;
+
+/// Where a model is to be evaluated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evaluation {
+    /// The share of the range of each factor.
+    pub at: Vec<f64>,
+    /// The seed.
+    pub seed: u64,
+}
 
 /// The effect of a factor along random ways.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effect {
     /// The mean size of the elementary effects (Campolongo et al. 2007).
     pub size: f64,
+    /// Its interval of 95 %.
+    pub size_within: [f64; 2],
     /// Their standard deviation: above 0 where the effect is not linear, or depends on other factors.
     pub spread: f64,
 }
@@ -48,12 +66,15 @@ pub struct Sobol {
     pub indices: Vec<Indices>,
     /// The variance between two seeds at one point, as a share of the variance of all.
     pub noise: f64,
+    /// Its interval.
+    pub noise_within: [f64; 2],
 }
 
-fn checked(factors: usize, points: usize) -> Result<(), Problem> {
-    if factors == 0 || factors > MOST_FACTORS {
+fn checked(factors: usize, most: usize, points: usize) -> Result<(), Problem> {
+    if factors == 0 || factors > most {
         let (what, found) = ("the number of factors".to_owned(), factors as f64);
-        return Err(Problem::Impossible { what, found, expected: "1 to 100" });
+        let expected = if most == MOST_FACTORS { "1 to 100" } else { "1 to 2000" };
+        return Err(Problem::Impossible { what, found, expected });
     }
     if points < 4 {
         return Err(Problem::TooFew { what: "points", found: points, needed: 4, purpose: "a sensitivity" });
@@ -61,39 +82,105 @@ fn checked(factors: usize, points: usize) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Elementary effects over so many ways, on a grid of four levels with steps of 2/3.
+/// The evaluations of so many ways on a grid of four levels, with steps of 2/3: factors + 1 of each way in turn.
+///
+/// # Errors
+/// No factors or too many, fewer than four ways.
+pub fn morris_design(factors: usize, ways: usize, seed: u64) -> Result<Vec<Evaluation>, Problem> {
+    checked(factors, MOST_SCREENED, ways)?;
+    const STEP: f64 = 2.0 / 3.0;
+    let mut design = Vec::with_capacity(ways * (factors + 1));
+    for way in 0..ways as u64 {
+        let mut draws = Draws::new(seed, way);
+        // Levels 0 and 1/3 go up, 2/3 and 1 go down.
+        let mut at: Vec<f64> = (0..factors).map(|_| draws.below(4) as f64 / 3.0).collect();
+        let mut order: Vec<usize> = (0..factors).collect();
+        (1..factors).rev().for_each(|k| order.swap(k, draws.below(k + 1)));
+        design.push(Evaluation { at: at.clone(), seed: way });
+        for factor in order {
+            at[factor] = (at[factor] + if at[factor] < 0.5 { STEP } else { -STEP }).clamp(0.0, 1.0);
+            design.push(Evaluation { at: at.clone(), seed: way });
+        }
+    }
+    Ok(design)
+}
+
+/// Elementary effects from the results of a design, in its order; a result that is not finite makes the effects on both
+/// sides of it unknown, and they are left out. `seed` is that of the bootstrap.
+pub fn morris_effects(design: &[Evaluation], results: &[f64], seed: u64) -> Vec<Effect> {
+    let factors = design.first().map_or(0, |first| first.at.len());
+    let mut effects = vec![Vec::new(); factors];
+    for (points, values) in design.chunks(factors + 1).zip(results.chunks(factors + 1)) {
+        for (pair, values) in points.windows(2).zip(values.windows(2)) {
+            let moved = (0..factors).find(|k| pair[0].at[*k] != pair[1].at[*k]);
+            let Some(factor) = moved else { continue };
+            let effect = (values[1] - values[0]) / (pair[1].at[factor] - pair[0].at[factor]);
+            effects[factor].extend(effect.is_finite().then_some(effect));
+        }
+    }
+    let mut draws = Draws::new(seed, u64::MAX);
+    effects.iter().map(|effects| effect(effects, &mut draws)).collect()
+}
+
+fn effect(effects: &[f64], draws: &mut Draws) -> Effect {
+    let n = effects.len() as f64;
+    let mean = effects.iter().sum::<f64>() / n;
+    let square = effects.iter().map(|effect| (effect - mean) * (effect - mean)).sum::<f64>();
+    let size = |chosen: &[f64]| chosen.iter().map(|effect| effect.abs()).sum::<f64>() / chosen.len() as f64;
+    let mut sizes: Vec<f64> = (0..if effects.is_empty() { 0 } else { SAMPLES })
+        .map(|_| size(&(0..effects.len()).map(|_| effects[draws.below(effects.len())]).collect::<Vec<f64>>()))
+        .collect();
+    Effect { size: size(effects), size_within: middle(&mut sizes), spread: (square / (n - 1.0)).sqrt() }
+}
+
+/// The limits between which 95 % of samples lie.
+fn middle(values: &mut [f64]) -> [f64; 2] {
+    values.sort_by(f64::total_cmp);
+    match values.len() {
+        0 => [f64::NAN; 2],
+        n => [values[n / 40], values[n - 1 - n / 40]],
+    }
+}
+
+/// Elementary effects over so many ways.
 ///
 /// # Errors
 /// No factors or too many, fewer than four ways.
 pub fn morris(model: Model<'_>, factors: usize, ways: usize, seed: u64) -> Result<Vec<Effect>, Problem> {
-    checked(factors, ways)?;
-    const STEP: f64 = 2.0 / 3.0;
-    let mut effects = vec![Vec::with_capacity(ways); factors];
-    for way in 0..ways as u64 {
-        let mut draws = Draws::new(seed, way);
-        // Levels 0 and 1/3 go up, 2/3 and 1 go down.
-        let mut point: Vec<f64> = (0..factors).map(|_| draws.below(4) as f64 / 3.0).collect();
-        let mut order: Vec<usize> = (0..factors).collect();
-        (1..factors).rev().for_each(|k| order.swap(k, draws.below(k + 1)));
-        let mut last = model(&point, way);
-        for factor in order {
-            let step = if point[factor] < 0.5 { STEP } else { -STEP };
-            point[factor] += step;
-            let here = model(&point, way);
-            effects[factor].push((here - last) / step);
-            last = here;
-        }
-    }
-    let n = ways as f64;
-    let of = |effects: Vec<f64>| {
-        let mean = effects.iter().sum::<f64>() / n;
-        let square = effects.iter().map(|effect| (effect - mean) * (effect - mean)).sum::<f64>();
-        Effect { size: effects.iter().map(|effect| effect.abs()).sum::<f64>() / n, spread: (square / (n - 1.0)).sqrt() }
-    };
-    Ok(effects.into_iter().map(of).collect())
+    let design = morris_design(factors, ways, seed)?;
+    let results: Vec<f64> = design.iter().map(|own| model(&own.at, own.seed)).collect();
+    Ok(morris_effects(&design, &results, seed))
 }
 
-/// The values of the model at the points of one base sample.
+/// The evaluations of so many base points: for each in turn A, B, A with another seed, and A with the column of each
+/// factor from B.
+///
+/// # Errors
+/// No factors or too many, fewer than four points or too many.
+pub fn sobol_design(factors: usize, points: u32, seed: u32) -> Result<Vec<Evaluation>, Problem> {
+    checked(factors, MOST_FACTORS, points as usize)?;
+    if points > MOST_POINTS {
+        let (what, found) = ("the number of points".to_owned(), f64::from(points));
+        return Err(Problem::Impossible { what, found, expected: "at most 65536" });
+    }
+    let share = |point: u32, dimension: usize| f64::from(sample(point, dimension as u32, seed));
+    let mut design = Vec::with_capacity(points as usize * (factors + 3));
+    for point in 0..points {
+        let [a, b] = [0, factors].map(|from| (0..factors).map(|k| share(point, from + k)).collect::<Vec<f64>>());
+        let own = u64::from(point);
+        design.push(Evaluation { at: a.clone(), seed: own });
+        design.push(Evaluation { at: b.clone(), seed: own });
+        design.push(Evaluation { at: a.clone(), seed: own + (1 << 40) });
+        for factor in 0..factors {
+            let mut at = a.clone();
+            at[factor] = b[factor];
+            design.push(Evaluation { at, seed: own });
+        }
+    }
+    Ok(design)
+}
+
+/// The results of the model at the points of one base sample.
 struct Values {
     a: Vec<f64>,
     b: Vec<f64>,
@@ -103,42 +190,32 @@ struct Values {
     again: Vec<f64>,
 }
 
-/// First-order and total indices from so many base points; the model is called factors + 3 times for each.
+/// First-order and total indices from the results of a design, in its order. A point with a result that is not finite
+/// is left out with all its evaluations. `seed` is that of the bootstrap.
 ///
 /// # Errors
-/// No factors or too many, fewer than four points, a result that never differs.
-pub fn sobol(model: Model<'_>, factors: usize, points: u32, seed: u32) -> Result<Sobol, Problem> {
-    checked(factors, points as usize)?;
-    if points > MOST_POINTS {
-        let (what, found) = ("the number of points".to_owned(), f64::from(points));
-        return Err(Problem::Impossible { what, found, expected: "at most 65536" });
-    }
-    let at = |point: u32, dimension: usize| f64::from(sample(point, dimension as u32, seed));
+/// Fewer than four points, a result that never differs.
+pub fn sobol_indices(factors: usize, results: &[f64], seed: u32) -> Result<Sobol, Problem> {
     let mut values = Values { a: Vec::new(), b: Vec::new(), mixed: vec![Vec::new(); factors], again: Vec::new() };
-    for point in 0..points {
-        let [a, b] = [0, factors].map(|from| (0..factors).map(|k| at(point, from + k)).collect::<Vec<f64>>());
-        let own = u64::from(point);
-        values.a.push(model(&a, own));
-        values.b.push(model(&b, own));
-        values.again.push(model(&a, own + (1 << 40)));
-        for (factor, mixed) in values.mixed.iter_mut().enumerate() {
-            let mut point = a.clone();
-            point[factor] = b[factor];
-            mixed.push(model(&point, own));
-        }
+    for own in results.chunks_exact(factors + 3).filter(|own| own.iter().all(|value| value.is_finite())) {
+        values.a.push(own[0]);
+        values.b.push(own[1]);
+        values.again.push(own[2]);
+        values.mixed.iter_mut().zip(&own[3..]).for_each(|(mixed, value)| mixed.push(*value));
     }
-    let all: Vec<usize> = (0..points as usize).collect();
+    let all: Vec<usize> = (0..values.a.len()).collect();
+    checked(factors, MOST_FACTORS, all.len())?;
     let variance = variance(&values, &all);
     if !(variance > 0.0 && variance.is_finite()) {
         let consequence = "no factor has a share of it; widen the ranges, or look at another result";
         return Err(Problem::Degenerate { what: "the result is the same at all points".to_owned(), consequence });
     }
     let mut draws = Draws::new(seed.into(), 1);
-    let drawn: Vec<Vec<usize>> = (0..200).map(|_| (0..all.len()).map(|_| draws.below(all.len())).collect()).collect();
+    let drawn: Vec<Vec<usize>> =
+        (0..SAMPLES).map(|_| (0..all.len()).map(|_| draws.below(all.len())).collect()).collect();
     let within = |of: &dyn Fn(&[usize]) -> f64| {
         let mut told: Vec<f64> = drawn.iter().map(|chosen| of(chosen)).collect();
-        told.sort_by(f64::total_cmp);
-        [told[4], told[194]]
+        middle(&mut told)
     };
     let indices = (0..factors).map(|factor| Indices {
         first: first(&values, factor, &all),
@@ -146,9 +223,18 @@ pub fn sobol(model: Model<'_>, factors: usize, points: u32, seed: u32) -> Result
         total: total(&values, factor, &all),
         total_within: within(&|chosen| total(&values, factor, chosen)),
     });
-    let squares = values.a.iter().zip(&values.again).map(|(a, again)| (a - again) * (a - again));
-    let noise = squares.sum::<f64>() / (2.0 * f64::from(points)) / variance;
-    Ok(Sobol { indices: indices.collect(), noise })
+    let (noise, noise_within) = (noise(&values, &all), within(&|chosen| noise(&values, chosen)));
+    Ok(Sobol { indices: indices.collect(), noise, noise_within })
+}
+
+/// First-order and total indices from so many base points; the model is called factors + 3 times for each.
+///
+/// # Errors
+/// No factors or too many, fewer than four points, a result that never differs.
+pub fn sobol(model: Model<'_>, factors: usize, points: u32, seed: u32) -> Result<Sobol, Problem> {
+    let design = sobol_design(factors, points, seed)?;
+    let results: Vec<f64> = design.iter().map(|own| model(&own.at, own.seed)).collect();
+    sobol_indices(factors, &results, seed)
 }
 
 /// Of the values at both base samples.
@@ -157,6 +243,12 @@ fn variance(values: &Values, chosen: &[usize]) -> f64 {
     let n = 2.0 * chosen.len() as f64;
     let mean = all().sum::<f64>() / n;
     all().map(|value| (value - mean) * (value - mean)).sum::<f64>() / n
+}
+
+/// Half the mean square between two seeds, by the variance.
+fn noise(values: &Values, chosen: &[usize]) -> f64 {
+    let square = |&k: &usize| (values.a[k] - values.again[k]) * (values.a[k] - values.again[k]);
+    chosen.iter().map(square).sum::<f64>() / (2.0 * chosen.len() as f64) / variance(values, chosen)
 }
 
 /// Saltelli et al. (2010): mean of f(B) (f(A with B's column) − f(A)), by the variance. A constant is taken from all

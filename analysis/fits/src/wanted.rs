@@ -2,6 +2,8 @@
 //!
 //! Windows, the variable of a hazard, zones, and the words for the source. Absent: what comes of it (`outcome`).
 
+use std::collections::BTreeMap;
+
 /// What is asked of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wanted {
@@ -21,6 +23,17 @@ pub struct Wanted {
     pub from: String,
     /// Where the data come from, for the `source` of each law.
     pub source: String,
+}
+
+/// The days of a wait of waiting times that the record must still have after its beginning, as a share of it.
+const LAST_SHARE: f64 = 2.0 / 3.0;
+
+impl Wanted {
+    /// The day before which waits of these axes begin.
+    pub fn begun_before(&self, axes: &[BTreeMap<u32, u32>]) -> u32 {
+        let last = axes.iter().filter_map(|days| days.keys().next_back()).max().copied().unwrap_or(0);
+        self.before.unwrap_or((f64::from(last) * LAST_SHARE) as u32)
+    }
 }
 
 impl Default for Wanted {

@@ -16,5 +16,5 @@ mod stop;
 pub use arrow_schema::SchemaRef;
 pub use engine::{Engine, Settings};
 pub use error::Error;
-pub use output::{Format, Rows, Table, TableText, open};
+pub use output::{First, Format, Rows, Table, TableText, open};
 pub use stop::Stop;

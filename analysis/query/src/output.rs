@@ -5,7 +5,10 @@
 
 use super::error::Error;
 use arrow_array::RecordBatch;
-use arrow_schema::{ArrowError, SchemaRef};
+use arrow_array::cast::AsArray;
+use arrow_array::types::Float64Type;
+use arrow_schema::{ArrowError, DataType, SchemaRef};
+use datafusion::arrow::compute::cast;
 use datafusion::arrow::csv::{self, WriterBuilder};
 use datafusion::arrow::json::ArrayWriter;
 use datafusion::arrow::util::display::FormatOptions;
@@ -36,6 +39,29 @@ pub trait Rows: Send {
     /// # Errors
     /// A failed write.
     fn finish(self: Box<Self>) -> Result<(), Error>;
+}
+
+/// Keeps the first number of the first row, of whatever type, and nothing else.
+#[derive(Debug, Default)]
+pub struct First(pub Option<f64>);
+
+impl Rows for First {
+    fn begin(&mut self, _: &SchemaRef) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn add(&mut self, batch: &RecordBatch) -> Result<(), Error> {
+        let first = batch.columns().first().filter(|column| self.0.is_none() && !column.is_empty());
+        // What is no number is null after the cast.
+        let number = first.and_then(|column| cast(column, &DataType::Float64).ok());
+        let number = number.and_then(|column| column.as_primitive_opt::<Float64Type>()?.iter().next()?);
+        self.0 = self.0.or(number.filter(|number| number.is_finite()));
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), Error> {
+        Ok(())
+    }
 }
 
 /// A format of files.

@@ -7,6 +7,7 @@ use super::angles::Angle;
 use super::fault::Fault;
 use super::lives::Living;
 use super::nodes::Nodes;
+use phytomer_outputs::Table;
 
 /// A measure.
 #[derive(Debug)]
@@ -23,6 +24,28 @@ pub struct Card {
     /// and plot.
     pub groups: &'static [&'static str],
     pub(super) of: Of,
+}
+
+impl Card {
+    /// Whether it tells one number of a run, or of a group: a mean, a share, a median or a ratio.
+    pub fn tells_a_number(&self) -> bool {
+        match self.of {
+            Of::Life(_) | Of::Activity | Of::Nodes(_) | Of::Branching | Of::Angle(_) | Of::ClearBole => true,
+            Of::Size { per_ground, .. } => !per_ground,
+            Of::Alive => true,
+            Of::Causes(_) | Of::Profile | Of::Allometry | Of::Contrast | Of::Variance | Of::Power => false,
+        }
+    }
+
+    /// The table that it reads.
+    pub fn table(&self) -> Table {
+        match self.of {
+            Of::Life(_) | Of::Causes(_) | Of::Nodes(_) | Of::Branching => Table::Components,
+            Of::Activity => Table::Events,
+            Of::Angle(_) | Of::Profile | Of::ClearBole => Table::Records,
+            _ => Table::Summary,
+        }
+    }
 }
 
 /// How a measure is taken.

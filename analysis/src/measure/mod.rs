@@ -32,6 +32,7 @@ pub use result::{Cell, Column, Measured, Sheet};
 use angles::AtAge;
 use card::Of;
 use groups::{By, Groups};
+use phytomer_outputs::read::Run;
 use sizes::Size;
 use source::Source;
 use std::path::Path;
@@ -70,7 +71,19 @@ impl Default for Asked {
 /// [`Fault`]: runs that are not finished, of several schemas or without the table, and what cannot be asked of them.
 pub fn measure(folders: &[&Path], card: &Card, asked: &Asked) -> Result<Measured, Fault> {
     check(asked)?;
-    let sources = Source::open(folders)?;
+    taken(Source::open(folders)?, card, asked)
+}
+
+/// Takes a measure of runs that are open, such as one whose tables are in memory.
+///
+/// # Errors
+/// As [`measure`].
+pub fn measure_runs(runs: Vec<Run>, card: &Card, asked: &Asked) -> Result<Measured, Fault> {
+    check(asked)?;
+    taken(Source::of_runs(runs)?, card, asked)
+}
+
+fn taken(sources: Vec<Source>, card: &Card, asked: &Asked) -> Result<Measured, Fault> {
     let by = By::of(asked.by.as_deref(), card.name, card.groups, &sources)?;
     let all_ages = by == By::Int("age");
     let mut groups = Groups::new(by);

@@ -50,6 +50,23 @@ pub struct Measured {
 }
 
 impl Measured {
+    /// The one number that a measure tells of a group, or of all; `None` where it tells none.
+    pub fn number(&self, group: Option<&str>) -> Option<f64> {
+        const VALUES: [&str; 4] = ["mean", "share", "median", "value"];
+        let (sheet, column) = self.sheets.iter().find_map(|sheet| {
+            let is_value = |column: &Column| VALUES.contains(&column.0);
+            Some((sheet, sheet.columns.iter().position(is_value)?))
+        })?;
+        let of_group = |row: &&Vec<Cell>| group.is_none_or(|group| row.first() == Some(&Cell::Word(group.to_owned())));
+        // Of several rows the last is that of the whole, such as Strahler's ratio.
+        let row = sheet.rows.iter().rfind(of_group)?;
+        match row.get(column) {
+            Some(Cell::Real(value)) => Some(*value),
+            Some(Cell::Count(count)) => Some(*count as f64),
+            _ => None,
+        }
+    }
+
     /// A measure of these sheets, without notes.
     pub fn of(sheets: Vec<Sheet>) -> Self {
         Self { sheets, notes: BTreeSet::new() }

@@ -48,11 +48,16 @@ impl Source {
     /// # Errors
     /// A run that cannot be read or is not finished, or runs of several schemas.
     pub fn open(folders: &[&Path]) -> Result<Vec<Self>, Fault> {
+        let runs: Result<Vec<Run>, _> = folders.iter().map(|folder| Run::open(folder)).collect();
+        Self::of_runs(runs?)
+    }
+
+    /// The same of runs that are open, such as one in memory.
+    pub fn of_runs(runs: Vec<Run>) -> Result<Vec<Self>, Fault> {
         let (mut sources, mut first): (Vec<Self>, u32) = (Vec::new(), 0);
-        for folder in folders {
-            let run = Run::open(folder)?;
+        for run in runs {
             if !run.is_complete() {
-                return Err(Fault::Unfinished { path: folder.to_path_buf() });
+                return Err(Fault::Unfinished { path: run.path().to_path_buf() });
             }
             if let Some(before) = sources.first() {
                 same_schema(&before.run, &run)?;

@@ -51,7 +51,7 @@ pub(super) fn each_plant<U: Unit>(
 ) -> Result<(), Fault> {
     let table = unit.table();
     let path = source.run.path();
-    if source.run.parts(table)?.is_empty() {
+    if !source.run.has(table)? {
         return Err(Fault::NoTable { path: path.to_path_buf(), table: table.name() });
     }
     let of_plants = groups.of_plants(source);

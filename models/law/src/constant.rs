@@ -35,14 +35,18 @@ pub struct ConstantForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub source: Option<String>,
-    /// The interval of 95 % of the number, where it was estimated: `interval = { value = [0.18, 0.22] }`. It documents
-    /// the number; growth does not read it.
+    /// The interval of 95 % of each number that was estimated, by the number's name. It documents the number;
+    /// growth does not read it.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub interval: BTreeMap<String, [f64; 2]>,
-    /// How many observations the number was estimated from. It documents the number; growth does not read it.
+    /// How many observations the numbers were estimated from. It documents the number; growth does not read it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "u32")]
     pub n: Option<u32>,
+    /// The range in which `phytomer fit --law abc` looks for the number: `prior = { value = [0.1, 0.5] }`. Growth does
+    /// not read it.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub prior: BTreeMap<String, [f64; 2]>,
     /// True where the number is a guess and not a measure.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub assumed: bool,
@@ -63,10 +67,10 @@ impl Constant {
     /// A fault at the path of the number itself where it is outside `range`, and one at the limits of its interval
     /// where they are no numbers in order.
     pub fn within(&self, path: &Path, range: ValueRange) -> Result<f64, Fault> {
-        let value = self.value();
         if let Self::Form(form) = self {
             check_intervals(&form.interval, path)?;
         }
+        let value = self.value();
         if range.holds(value) {
             return Ok(value);
         }

@@ -70,6 +70,10 @@ pub struct CountForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "u32")]
     pub n: Option<u32>,
+    /// The range in which `phytomer fit --law abc` looks for each number, by the number's name:
+    /// `prior = { p = [0.1, 0.9] }`. Growth does not read it.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub prior: BTreeMap<String, [f64; 2]>,
     /// True where the numbers are a guess and not a measure.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub assumed: bool,

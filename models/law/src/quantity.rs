@@ -3,6 +3,8 @@
 //! Such a number holds for a whole species: the ticks of a year, the order of a reiteration. Absent on purpose:
 //! distributions and laws, which [`Count`](super::Count) has; and bounds, which the user of the number checks.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -31,6 +33,10 @@ pub struct QuantityForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub source: Option<String>,
+    /// The range in which `phytomer fit --law abc` looks for the number: `prior = { value = [10, 14] }`. Growth does
+    /// not read it.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub prior: BTreeMap<String, [f64; 2]>,
     /// True where the number is a guess and not a measure.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub assumed: bool,

@@ -60,14 +60,18 @@ pub struct VariateForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub source: Option<String>,
-    /// The interval of 95 % of each number that was estimated, by the number's name: `interval = { mean = [4, 5] }`. It
-    /// documents the variable; growth does not read it.
+    /// The interval of 95 % of each number that was estimated, by the number's name. It documents the variable;
+    /// growth does not read it.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub interval: BTreeMap<String, [f64; 2]>,
     /// How many observations the numbers were estimated from. It documents the variable; growth does not read it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "u32")]
     pub n: Option<u32>,
+    /// The range in which `phytomer fit --law abc` looks for each number, by the number's name:
+    /// `prior = { mean = [40, 60] }`. Growth does not read it.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub prior: BTreeMap<String, [f64; 2]>,
     /// True where the numbers are a guess and not a measure.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub assumed: bool,

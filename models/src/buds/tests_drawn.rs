@@ -117,7 +117,7 @@ fn sourced() -> Numbers {
             Variate::from(VariateForm { value, assumed: true, ..VariateForm::default() })
         },
         quantity: |value| {
-            Quantity::from(QuantityForm { value, source: Some("a field book".to_owned()), assumed: false })
+            Quantity::from(QuantityForm { value, source: Some("a field book".to_owned()), ..QuantityForm::default() })
         },
         speed: |text| Speeds::from(SpeedForm { value: Some(ratio(text)), assumed: true, ..SpeedForm::default() }),
     }

@@ -64,15 +64,13 @@ pub fn checked(checked: &Checked) -> String {
     let (made, times) = checked.refits;
     let mut text = format!("check: {made} of {times} tables drawn from the law were fitted again\n");
     for p in &checked.parameters {
-        let [low, high] = p.within.map(|share| 100.0 * share);
-        let _ = writeln!(
-            text,
-            "  {:<14} bias {:+.5} ± {:.5}; intervals hold the truth in {:.1} % (95 %: {low:.1} to {high:.1})",
-            p.name,
-            p.bias,
-            p.error,
-            100.0 * p.coverage
-        );
+        let _ = write!(text, "  {:<14} bias {:+.5} ± {:.5}", p.name, p.bias, p.error);
+        let _ = match p.coverage.map(|(share, limits)| (100.0 * share, limits.map(|limit| 100.0 * limit))) {
+            Some((share, [low, high])) => {
+                writeln!(text, "; intervals hold the truth in {share:.1} % (95 %: {low:.1} to {high:.1})")
+            }
+            None => writeln!(text),
+        };
     }
     if let Some(measure) = &checked.predicted {
         let (measured, mean, above) = (measure.measured, measure.mean, 100.0 * measure.above);

@@ -91,6 +91,11 @@ fn below(days: f64, at: &[f64]) -> f64 {
     sum
 }
 
+/// ln L of waits at b, the days of a tick and the deviation.
+pub(crate) fn log_likelihood_of(waits: &[Wait], at: &[f64]) -> f64 {
+    log_likelihood(&counted(waits), at)
+}
+
 fn log_likelihood(counted: &[(Wait, f64)], at: &[f64]) -> f64 {
     let (mut sum, mut last) = (0.0, (f64::NAN, 0.0));
     for (wait, number) in counted {

@@ -50,6 +50,12 @@ impl Chain {
         shoots.shoots.iter().all(|shoot| add(self, &lengths, shoot, &mut sums)).then_some(sums)
     }
 
+    /// The chain of other shoots to which EM climbs from this one; `None` where it cannot make them.
+    pub fn refitted(&self, shoots: &Shoots) -> Option<Self> {
+        let (top, chain) = self.clone().climbed(shoots, 200);
+        top.is_finite().then_some(chain)
+    }
+
     /// One step of EM.
     fn improved(&self, sums: &Expected) -> Self {
         let shares = |weights: &[f64], old: &[f64]| {

@@ -284,16 +284,19 @@ fn clip(text: &str) -> String {
     if clipped.len() < text.len() { format!("{clipped}…") } else { clipped }
 }
 
+/// The days at which an axis was seen with more nodes than before. Two nodes on one day cannot be: a bud makes one at a
+/// tick.
+pub fn emissions(days: &BTreeMap<u32, u32>) -> Vec<u32> {
+    let each = days.iter().zip(days.iter().skip(1));
+    each.filter(|(earlier, later)| later.1 > earlier.1).map(|(_, later)| *later.0).collect()
+}
+
 /// The days between the nodes of each axis, for waits begun before a day.
 pub fn waits(axes: &[BTreeMap<u32, u32>], before: u32) -> Vec<Wait> {
     let mut waits = Vec::new();
     for days in axes {
         let Some(last) = days.keys().next_back() else { continue };
-        let mut emitted = Vec::new();
-        for (earlier, later) in days.iter().zip(days.iter().skip(1)) {
-            // Two nodes on one day cannot be: a bud makes one at a tick.
-            emitted.extend((later.1 > earlier.1).then_some(*later.0));
-        }
+        let emitted = emissions(days);
         for (place, day) in emitted.iter().enumerate().filter(|(_, day)| **day < before) {
             let next = emitted.get(place + 1);
             waits.push(Wait { days: f64::from(next.unwrap_or(last) - day), ended: next.is_some() });

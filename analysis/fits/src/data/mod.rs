@@ -4,6 +4,7 @@
 //! its rows, or tells every fault with file and line. Absent: opening files, and Parquet, which the program reads.
 
 pub mod columns;
+pub mod observed;
 pub mod table;
 
 pub use columns::{Data, Law, read};

@@ -56,7 +56,7 @@ pub struct Cell {
 }
 
 fn assumed_diameter() -> Constant {
-    Constant::from(crate::law::ConstantForm { value: 50.0, assumed: true, ..Default::default() })
+    Constant::from(crate::law::ConstantForm { value: 50.0, assumed: true, ..crate::law::ConstantForm::default() })
 }
 
 impl D0l {
