@@ -94,15 +94,18 @@ fn read(path: &Path) -> Result<BTreeMap<String, Vec<f64>>, Box<dyn Error>> {
     Ok(tables)
 }
 
+/// ln L by data set and pair.
+type Values = BTreeMap<(String, String), f64>;
+
 /// The ln L of each mixture by the script, and its seconds.
-fn of_scipy(path: &Path) -> Result<(BTreeMap<(String, String), f64>, f64), Box<dyn Error>> {
+fn of_scipy(path: &Path) -> Result<(Values, f64), Box<dyn Error>> {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let python = here.join("../../.venv/bin/python");
     let done = Command::new(python).arg(here.join("examples/mixtures.py")).arg(path).output()?;
     if !done.status.success() {
         return Err(String::from_utf8_lossy(&done.stderr).into());
     }
-    let (mut found, mut seconds) = (BTreeMap::new(), f64::NAN);
+    let (mut found, mut seconds) = (Values::new(), f64::NAN);
     for line in String::from_utf8(done.stdout)?.lines() {
         match line.split(' ').collect::<Vec<_>>()[..] {
             [name, pair, value] => drop(found.insert((name.to_owned(), pair.to_owned()), value.parse()?)),

@@ -48,10 +48,14 @@ fn union(criterion: &mut Criterion) {
 fn turns(_: &mut Criterion) {
     let Some(pairs) = std::env::var("PHYTOMER_PAIRS").ok().and_then(|pairs| pairs.parse().ok()) else { return };
     let [few, more, many] = [10_000, 100_000, 1_000_000].map(discs);
-    let exact = |discs: &[Disc]| drop(black_box(area(black_box(discs))));
+    let exact = |discs: &[Disc]| {
+        black_box(area(black_box(discs)));
+    };
     by_turns("discs: 100,000 beside 10,000", pairs, || (), || exact(&more), || exact(&few));
     by_turns("discs: 1,000,000 beside 100,000", pairs, || (), || exact(&many), || exact(&more));
-    let lines = || drop(black_box(area_by_lines(black_box(&more), 0.01)));
+    let lines = || {
+        black_box(area_by_lines(black_box(&more), 0.01));
+    };
     by_turns("discs: 100,000 exactly beside lines", pairs, || (), || exact(&more), lines);
 }
 

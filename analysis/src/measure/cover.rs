@@ -53,20 +53,23 @@ impl Unit for Foliage {
 /// The columns that tell a leaf.
 const COLUMNS: [&str; 9] = ["kind", "x_m", "y_m", "z_m", "dir_x", "dir_y", "dir_z", "length_m", "area_m2"];
 
-/// From the number of a row to the middle of the leaf and its area; `None` for what is no leaf.
-fn leaf(columns: &Columns<'_>) -> Result<impl Fn(usize) -> Option<([f64; 3], f64)>, Fault> {
+/// The middle of a leaf and its area.
+type Leaf = ([f64; 3], f64);
+
+/// From the number of a row to its leaf; `None` for what is no leaf.
+fn leaf<'a>(columns: &Columns<'a>) -> Result<RowOf<'a, Leaf>, Fault> {
     let kinds = columns.words("kind")?;
     let is_leaf: Vec<bool> = kinds.words.iter().map(|kind| kind == "leaf" || kind == "leaflet").collect();
     let number = |name: &str| columns.numbers(name);
     let base = [number("x_m")?, number("y_m")?, number("z_m")?];
     let along = [number("dir_x")?, number("dir_y")?, number("dir_z")?];
     let (length, area) = (number("length_m")?, number("area_m2")?);
-    Ok(move |row: usize| {
+    Ok(Box::new(move |row| {
         kinds.at(row).filter(|kind| is_leaf[*kind])?;
         let half = 0.5 * length[row].unwrap_or_default();
         let place = |i: usize| Some(base[i][row]? + half * along[i][row].unwrap_or_default());
         Some(([place(0)?, place(1)?, place(2)?], area[row]?))
-    })
+    }))
 }
 
 /// The sums over the plants of a run of their effective leaf areas from above, m², by recorded age. Reads the leaves of
@@ -90,8 +93,7 @@ pub fn effective_leaf_areas(run: &Run) -> Result<BTreeMap<u32, f64>, Fault> {
         let columns = Columns { batch: &batch, run: run.path(), table: Table::Records.name() };
         let of = [columns.ints("plot_id")?, columns.ints("age")?, columns.ints("plant_id")?];
         let leaf = leaf(&columns)?;
-        for row in 0..columns.rows() {
-            let Some((place, area)) = leaf(row) else { continue };
+        for (row, (place, area)) in (0..columns.rows()).filter_map(|row| Some((row, leaf(row)?))) {
             // Rows are sorted by plot, tick and plant.
             let plant = [0, 1, 2].map(|column| of[column][row]);
             if plant != now {

@@ -201,7 +201,7 @@ fn polished(counts: &[f64], law: Counts) -> Result<Fitted, Problem> {
     let f = |at: &[f64]| log_likelihood(counts, &with(&law, at).masses(last));
     let units: f64 = counts.iter().sum();
     let model = Model { law: "a law of nodes", parameters: &names, log_likelihood: &f, n: units as usize };
-    let mut fit = model.fit(&[values.clone()])?;
+    let mut fit = model.fit(std::slice::from_ref(&values))?;
     if law.parts.len() == 1 {
         // One part is at its top already: the search moves it by roundings alone.
         fit.estimates.iter_mut().zip(values).for_each(|(estimate, value)| estimate.value = value);
