@@ -2,11 +2,13 @@
 //!
 //! A component takes at most 96 bytes for topology, fates and pose together, and the peak of a population does not
 //! depend on its size. A pass over a tick of a plot takes the memory of its largest plant. A film of a life, and a file
-//! of it, take at most half as much again as one picture. The clone of a plant has no spare capacity, so its allocation
+//! of it, take at most half as much again as one picture. A measure of a run takes the memory of a part and of what it
+//! keeps of plants. The clone of a plant has no spare capacity, so its allocation
 //! is the size of its columns; the plant itself also has the spare capacity of its vectors. Absent: the optional log of
 //! events, the memory of a mesh, and freed memory that the system's allocator keeps.
 
 use peak_alloc::PeakAlloc;
+use phytomer::analysis::measure::{Asked as Measuring, MEASURES, measure};
 use phytomer::config::scenario::{BYTES_A_COMPONENT, Every, Record};
 use phytomer::config::{Resolved, validate};
 use phytomer::models::buds::LivingBuds;
@@ -82,9 +84,8 @@ fn a_component_takes_at_most_96_bytes() {
     }
 }
 
-/// The most bytes that a run of `plants` coffee plants has allocated at once, in one thread, so that no coincidence of
-/// threads is measured. Parts have one size, since the smaller parts of a small run would take less.
-fn peak_of(plants: u32) -> usize {
+/// A run of coffee plants. Parts have one size, since the smaller parts of a small run would take less.
+fn coffee(plants: u32) -> Resolved {
     let mut resolved = validate("coffee").unwrap_or_else(|report| panic!("{}", report.render(false)));
     let scenario = &mut resolved.scenario;
     scenario.plants = plants;
@@ -92,7 +93,13 @@ fn peak_of(plants: u32) -> usize {
     scenario.ages.record = Record::Every(Every { every: 12, from: None });
     scenario.meshes = None;
     scenario.output.plants_per_part = Some(100);
-    let (outcome, peak) = run_alone(&resolved);
+    resolved
+}
+
+/// The most bytes that a run of `plants` coffee plants has allocated at once, in one thread, so that no coincidence of
+/// threads is measured.
+fn peak_of(plants: u32) -> usize {
+    let (outcome, peak) = run_alone(&coffee(plants));
     println!("{plants} plants, {} components in {} parts: {peak} bytes", outcome.report.components, outcome.shards);
     assert_eq!(outcome.shards, plants / 100);
     peak
@@ -134,6 +141,36 @@ fn the_peak_of_a_population_does_not_depend_on_its_size() {
     let [few, many] = [200, 2_000].map(peak_of);
     assert!(few > 1_000_000, "{few} bytes: nothing is measured");
     assert!(many as f64 <= few as f64 * 1.25, "{few} bytes for 200 plants, {many} for 2,000");
+}
+
+/// The most bytes that each measure of a run of coffee plants allocates, and the rows of its records and components.
+fn peaks_of_measures(plants: u32) -> (Vec<usize>, u64) {
+    let home = tempfile::tempdir().expect("a temporary folder");
+    let folder = home.path().join("run");
+    let settings = Settings { threads: 2, ..Settings::in_folder(folder.clone()) };
+    let outcome = run::run(&coffee(plants), &settings, &Progress::default()).expect("a run");
+    let asked = Measuring { difference: Some(0.1), by: None, ..Measuring::default() };
+    let peak = |card| peak_while(|| drop(measure(&[&folder], card, &asked).expect("a finished run")));
+    (MEASURES.iter().map(peak).collect(), outcome.report.components)
+}
+
+/// What measures keep of a plant, at most: its row of `plants`, and a few numbers.
+const OF_A_PLANT: usize = 256;
+
+/// Ten times the plants, and ten times the rows.
+#[test]
+fn the_memory_of_measures_does_not_grow_with_the_run() {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let [(few, components), (many, more)] = [200, 2_000].map(peaks_of_measures);
+    assert!(more > 9 * components && components > 100_000, "{components} components and {more}");
+    for (card, (few, many)) in MEASURES.iter().zip(few.into_iter().zip(many)) {
+        println!("{}: {few} bytes of 200 plants, {many} of 2,000", card.name);
+        assert!(few > 100_000, "{}: {few} bytes: nothing is measured", card.name);
+        let most = few as f64 * 1.25 + (1_800 * OF_A_PLANT) as f64;
+        assert!(many as f64 <= most, "{}: {few} bytes of 200 plants, {many} of 2,000", card.name);
+        // All rows of one column of four bytes would be more than that.
+        assert!(most < 4.0 * more as f64 + few as f64, "{}: the bound tells nothing", card.name);
+    }
 }
 
 /// The most bytes that a table allocates for its pass over the last tick of a plot of these coffee plants, and the

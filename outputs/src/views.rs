@@ -3,14 +3,22 @@
 //! Each body is SQL that DuckDB and DataFusion both read: no `GROUP BY ALL`, no `**`, columns grouped and sorted by
 //! name. DuckDB takes the bodies from `views.sql` as views and macros, `phytomer query` takes them as views and table
 //! functions. Every view with the column `order`, a reserved word of SQL, has `axis_order` too; where species state
-//! the ticks of a year, ages are told in years beside ticks. Absent: the engines, and which tables a run folder has
-//! (`views_of_run`).
+//! the ticks of a year, ages are told in years and days beside ticks. Absent: the engines, and which tables a run folder
+//! has (`views_of_run`).
 
 mod macros;
 
 use crate::tables::columns::SITE;
 use crate::tables::{Provenance, RunPlan, Table};
 use macros::{MACROS, MECHANICS, WORLD};
+use phytomer_sim::site::date::DAYS_OF_A_YEAR;
+
+/// The columns of ages in ticks, each with the names of those in years and in days.
+const AGES: [[&str; 3]; 3] = [
+    ["age", "age_years", "age_days"],
+    ["birth_age", "birth_years", "birth_days"],
+    ["death_age", "death_years", "death_days"],
+];
 
 /// The year of the species of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,20 +79,23 @@ impl Tables {
         let has = |name: &str| columns.iter().any(|column| column.name == name);
         let plants = self.source(Table::Plants);
         let ticks = match self.year {
-            Year::Of(ticks) => Some(format!("{ticks:?}")),
+            Year::Of(ticks) => Some(real(ticks)),
             Year::BySpecies => plants.map(|_| "y.ticks_per_year".to_owned()),
             Year::NotStated => None,
         };
         let mut joined = String::new();
         let mut added = if has("order") { ", t.\"order\" AS axis_order".to_owned() } else { String::new() };
-        for (age, years) in [("age", "age_years"), ("birth_age", "birth_years"), ("death_age", "death_years")] {
+        for [age, years, days] in AGES {
             // `records` and `summary` tell other ages only beside that of the row.
             if !has(age) || age != "age" && table != Table::Components {
                 continue;
             }
             added += &match &ticks {
-                Some(ticks) => format!(", CAST(t.{age} AS DOUBLE) / {ticks} AS {years}"),
-                None => format!(", CAST(NULL AS DOUBLE) AS {years}"),
+                Some(ticks) => format!(
+                    ", CAST(t.{age} AS DOUBLE) / {ticks} AS {years}, CAST(t.{age} AS DOUBLE) * {} / {ticks} AS {days}",
+                    real(DAYS_OF_A_YEAR)
+                ),
+                None => format!(", CAST(NULL AS DOUBLE) AS {years}, CAST(NULL AS DOUBLE) AS {days}"),
             };
             if let (Year::BySpecies, Some(plants)) = (self.year, plants) {
                 joined = format!(" LEFT JOIN {plants} y ON y.plot_id = t.plot_id AND y.plant_id = t.plant_id");
@@ -166,6 +177,11 @@ pub fn for_duckdb(about: &str, runs: &[Tables]) -> String {
 /// A text as SQL states it.
 pub fn quoted(text: &str) -> String {
     format!("'{}'", text.replace('\'', "''"))
+}
+
+/// A number as both engines read it as one of double precision: bare, DuckDB would take it as a decimal.
+fn real(number: f64) -> String {
+    format!("CAST({number:?} AS DOUBLE)")
 }
 
 /// The means of the pressures of pests over the rows of several parts, each row with the weight of its living plants.

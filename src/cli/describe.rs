@@ -31,7 +31,8 @@ pub struct Describe {
     /// A run folder, a scenario or a species, by path or by name.
     #[arg(value_name = "RUN|SCENARIO|SPECIES")]
     name: String,
-    /// Of a run, look whether its files are there and how long they are, and do not read them all.
+    /// Of a run, look whether its files are there and how long they are, and do not read them all; its effective leaf
+    /// area is then not told.
     #[arg(long)]
     quick: bool,
     /// As one JSON object on stdout.
@@ -79,7 +80,7 @@ impl Describe {
                 Ok(Verdict::Failed)
             }
             found => {
-                let held = run::Held::of(recorded?, folder, found)?;
+                let held = run::Held::of(recorded?, folder, found, depth)?;
                 self.tell(&held.as_text(), &held.as_json())?;
                 Ok(Verdict::Done)
             }

@@ -26,6 +26,7 @@ Examples:
   phytomer measure runs/coffee height --by age
   phytomer measure runs/coffee nodes-per-axis --by order --json
   phytomer measure runs/coffee branching --out branching.csv
+  phytomer measure runs/coffee effective-leaf-area --sun 30,180
   phytomer measure runs/coffee power --of height_m --difference 0.1
 
 The plant is the unit: intervals are of plant values or of a bootstrap by plant, and the design effect tells how much more
@@ -56,6 +57,9 @@ pub struct Measure {
     /// The thickness of the layers of a crown profile, metres.
     #[arg(long, value_name = "METRES", default_value_t = 0.5)]
     layer: f64,
+    /// The sun that effective-leaf-area is seen from: altitude and azimuth from north over east, degrees [default: above].
+    #[arg(long, value_name = "ALTITUDE,AZIMUTH", allow_hyphen_values = true, value_parser = sun)]
+    sun: Option<[f64; 2]>,
     /// The difference that `power` is to find, in the unit of --of.
     #[arg(long, allow_negative_numbers = true)]
     difference: Option<f64>,
@@ -75,6 +79,14 @@ const FORMATS: [Format; 2] = [Format { name: "CSV", extension: "csv" }, Format {
 /// A name that is not empty.
 fn name(word: &str) -> Result<String, String> {
     if word.is_empty() { Err("the name of a column is expected".to_owned()) } else { Ok(word.to_owned()) }
+}
+
+/// Two numbers with a comma between them.
+fn sun(word: &str) -> Result<[f64; 2], String> {
+    let numbers = word
+        .split_once(',')
+        .and_then(|(altitude, azimuth)| Some([altitude.trim().parse().ok()?, azimuth.trim().parse().ok()?]));
+    numbers.ok_or_else(|| "an altitude and an azimuth in degrees are expected, such as 30,180".to_owned())
 }
 
 impl Measure {
@@ -122,7 +134,7 @@ impl Measure {
     }
 
     fn asked(&self) -> Asked {
-        let Self { by, age, of, x, level, layer, difference, power, .. } = self;
+        let Self { by, age, of, x, level, layer, sun, difference, power, .. } = self;
         Asked {
             by: by.clone(),
             level: *level,
@@ -130,6 +142,7 @@ impl Measure {
             of: of.clone(),
             x: x.clone(),
             layer_m: *layer,
+            sun_deg: *sun,
             difference: *difference,
             power: *power,
         }

@@ -6,6 +6,7 @@ use phytomer_config::{About, Species, Trial};
 use phytomer_sim::Tick;
 use phytomer_sim::between::Moment;
 use phytomer_sim::site::calendar::Calendar;
+use phytomer_sim::site::date::DAYS_OF_A_YEAR;
 use std::collections::BTreeSet;
 
 /// Ages as a list in words.
@@ -69,9 +70,6 @@ fn years_of(species: &[&Species], tick: Moment) -> String {
     let first = years.next().flatten();
     first.filter(|first| years.all(|year| year == Some(*first))).map(|ticks| in_years(tick, ticks)).unwrap_or_default()
 }
-
-/// The days of a year of the calendar, on the average.
-const DAYS_OF_A_YEAR: f64 = 365.2425;
 
 /// The date at which the ticks of an age are over, and the years from sowing to it: ticks of degree-days are not of one
 /// length.

@@ -300,6 +300,36 @@ def crowns():
     near(row["high"], stats.t.interval(0.95, len(bole) - 1, bole.mean(), stats.sem(bole))[1], "clear bole, high", 1e-7)
 
 
+def effective_leaf_areas():
+    """The union of discs by spans of fine lines; the error of a line is that of the disc's edge beside it."""
+    leaves = defaultdict(list)
+    for plant, *leaf in rows(f"""
+            select plant_id, x_m::double + length_m / 2 * dir_x::double, y_m::double + length_m / 2 * dir_y::double,
+                z_m::double + length_m / 2 * dir_z::double, sqrt(area_m2::double / pi())
+            from {table("records")} where age = {until} and kind in ('leaf', 'leaflet')"""):
+        leaves[plant].append(leaf)
+    plants = rows(f"select count(distinct plant_id) from {table('records')} where age = {until}")[0][0]
+    altitude, azimuth = np.radians(30), np.radians(200)
+    light = np.array([np.cos(altitude) * np.sin(azimuth), np.cos(altitude) * np.cos(azimuth), np.sin(altitude)])
+    right = np.cross([0, 0, 1], light) / np.cos(altitude)
+    for words, across in (((), np.eye(3)[:2]), (("--sun", "30,200"), np.array([right, np.cross(light, right)]))):
+        found = 0
+        for of in leaves.values():
+            of = np.array(of)
+            places, radii = of[:, :3] @ across.T, of[:, 3]
+            step = np.median(radii) / 100
+            for y in np.arange((places[:, 1] - radii).min() + step / 2, (places[:, 1] + radii).max(), step):
+                half = np.sqrt(np.maximum(radii**2 - (y - places[:, 1]) ** 2, 0))
+                met = half > 0
+                begin, end = places[met, 0] - half[met], places[met, 0] + half[met]
+                order = np.argsort(begin)
+                begin, end = begin[order], np.maximum.accumulate(end[order])
+                before = np.concatenate([[-np.inf], end[:-1]])
+                found += step * np.maximum(end - np.maximum(begin, before), 0).sum()
+        row = measure("effective-leaf-area", *words)["effective_leaf_area"]["rows"][0]
+        near(row["mean"], found / plants, f"effective leaf area {' '.join(words)}", 1e-3)
+
+
 for kind in LIVES:
     survival(kind)
     causes(kind)
@@ -320,4 +350,5 @@ insertions()
 divergences()
 branching()
 crowns()
+effective_leaf_areas()
 print(f"{run}: {checked} numbers of measures agree with lifelines, statsmodels and scipy")

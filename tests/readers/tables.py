@@ -191,12 +191,22 @@ buds = con.sql("""
 assert buds[0] == 0, f"components: {buds[0]} nodes have more axillary axes than buds"
 print(f"growth units agree with events; {buds[1]} axillary buds, {buds[2]} of them became axes")
 
-# Years are ages by the ticks of a year; the ground of plants is told or not within a treatment.
+# Years and days are ages by the ticks of a year; the ground of plants is told or not within a treatment.
 years = con.sql("""
     select count(*) from summary join plants using (plot_id, plant_id)
     where abs(age_years * ticks_per_year - age) > 1e-9 * (age + 1) or (age_years is null) <> (ticks_per_year is null)
 """).fetchall()[0][0]
 assert years == 0, f"summary: {years} ages in years are not those of the species"
+for table, ages in (("summary", ["age"]), ("records", ["age"]), ("events", ["age"]), ("components", ["birth", "death"])):
+    for age in ages:
+        ticks = age if age == "age" else f"{age}_age"
+        wrong = con.sql(f"""
+            select count(*) from {table} join (select plot_id, plant_id, ticks_per_year from plants) using (plot_id, plant_id)
+            where abs({age}_days - {age}_years * 146097 / 400) > 1e-9 * ({age}_days + 1)
+            or (ticks_per_year = 12 and abs({age}_days - {ticks} * 30.436875) > 1e-9 * ({age}_days + 1))
+            or ({age}_days is null) <> (ticks_per_year is null or {ticks} is null)
+        """).fetchall()[0][0]
+        assert wrong == 0, f"{table}: {wrong} ages in days are not those of the species"
 wrong = con.sql("select count(*) from plants where ground_area_m2 <= 0").fetchall()[0][0]
 assert wrong == 0, f"plants: {wrong} have no ground"
 

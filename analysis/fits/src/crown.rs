@@ -12,7 +12,7 @@ use crate::draws::Draws;
 use crate::fit::{Estimate, Fit};
 use crate::likelihood::{Model, Scale};
 use crate::problem::Problem;
-use crate::special::{ln_choose, ln_factorial, x_ln_y};
+use crate::special::{ln_choose, x_ln_y};
 use phytomer_sim::math;
 
 /// The two branches of a node.
@@ -168,17 +168,21 @@ pub fn drawn(like: &[Pair], [b1, b2, w]: [f64; 3], draws: &mut Draws) -> Vec<Pai
     pairs
 }
 
-/// Binomial probabilities of 0 … `most` successes.
+/// Binomial probabilities of 0 … `most` successes: that of the most likely number, and from it each by its neighbour,
+/// (m − x) p / ((x + 1) q).
 fn binomial(trials: usize, p: f64, most: usize) -> Vec<f64> {
-    let (m, ln_p, ln_q) = (trials as f64, math::log(p), math::log1p(-p));
-    let mass = |x: usize| {
-        if x > trials {
-            return 0.0;
-        }
-        let k = x as f64;
-        math::exp(ln_factorial(m) - ln_factorial(k) - ln_factorial(m - k) + k * ln_p + (m - k) * ln_q)
-    };
-    (0..=most).map(mass).collect()
+    let (m, odds) = (trials as f64, p / (1.0 - p));
+    let mut masses = vec![0.0; most + 1];
+    let (start, last) = ((((m + 1.0) * p) as usize).min(most).min(trials), most.min(trials));
+    let k = start as f64;
+    masses[start] = math::exp(ln_choose(m, k) + x_ln_y(k, p) + (m - k) * math::log1p(-p));
+    for x in start..last {
+        masses[x + 1] = masses[x] * odds * (m - x as f64) / (x as f64 + 1.0);
+    }
+    for x in (0..start).rev() {
+        masses[x] = masses[x + 1] * (x as f64 + 1.0) / (odds * (m - x as f64));
+    }
+    masses
 }
 
 /// b₁, b₂ and w by the exact likelihood of pairs, with as many ranks as there are.
@@ -301,6 +305,24 @@ fn needed(fit: &Fit, pairs: usize) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Each probability from its neighbour is that of the formula, and all sum to 1.
+    #[test]
+    fn binomial_probabilities() {
+        for (m, p) in [(0, 0.3), (1, 0.02), (40, 0.7), (90, 0.995), (2000, 0.4)] {
+            let masses = binomial(m, p, m + 3);
+            for (x, mass) in masses.iter().enumerate() {
+                let (m, k) = (m as f64, x as f64);
+                let ln = ln_choose(m, k) + x_ln_y(k, p) + x_ln_y(m - k, 1.0 - p);
+                let expected = if k > m { 0.0 } else { math::exp(ln) };
+                assert!((mass - expected).abs() <= 1e-10 * expected + 1e-300, "B({m}, {p}) at {k}: {mass} {expected}");
+            }
+            assert!((masses.iter().sum::<f64>() - 1.0).abs() < 1e-10, "B({m}, {p})");
+            for (half, whole) in binomial(m, p, m / 2).iter().zip(&masses) {
+                assert!((half - whole).abs() <= 1e-10 * whole + 1e-300, "B({m}, {p}), the first half");
+            }
+        }
+    }
 
     /// Pairs of one rank, as the model grows them.
     fn drawn(above: u32, at: [f64; 3], pairs: usize, seed: u64) -> Vec<Pair> {

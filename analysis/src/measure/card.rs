@@ -5,6 +5,7 @@
 use super::activity::Steps;
 use super::angles::Angle;
 use super::fault::Fault;
+use super::form::Form;
 use super::lives::Living;
 use super::nodes::Nodes;
 use phytomer_outputs::Table;
@@ -59,6 +60,8 @@ pub(super) enum Of {
     Size { column: &'static str, unit: &'static str, per_ground: bool },
     Alive,
     Angle(Angle),
+    Form(Form),
+    Cover,
     Profile,
     ClearBole,
     Allometry,
@@ -80,7 +83,7 @@ const fn plain(name: &'static str, tells: &'static str, column: &'static str, un
 }
 
 /// Every measure.
-pub static MEASURES: [Card; 25] = [
+pub static MEASURES: [Card; 29] = [
     Card {
         name: "bud-life",
         tells: "Survival of apical buds by dimension, with the log-rank test between groups.",
@@ -197,6 +200,38 @@ pub static MEASURES: [Card; 25] = [
         unit: "m2/m2",
         groups: &["age"],
         of: Of::Size { column: "leaf_area_m2", unit: "m2/m2", per_ground: true },
+    },
+    Card {
+        name: "effective-leaf-area",
+        tells: "What the leaves of a plant cover together, as discs seen from above or from --sun.",
+        formula: "union of discs by Green's theorem (Honda & Fisher 1978; Aono & Kunii 1984); mean of plants ± t s/√n",
+        unit: "m2",
+        groups: &[],
+        of: Of::Cover,
+    },
+    Card {
+        name: "axiality",
+        tells: "How clear the main axis is at a branching: 0 for a fork, 1 where it goes straight on.",
+        formula: "(|h_l| - |h_m|)/(|h_l| + |h_m|) of grown angles (after Aono & Kunii 1984); Σy / Σm over plants",
+        unit: "",
+        groups: &[],
+        of: Of::Form(Form::Axiality),
+    },
+    Card {
+        name: "crown-cone",
+        tells: "The half-angle of the cone with the height of the plant and the reach of its widest place.",
+        formula: "arctan(reach/height) (after Aono & Kunii 1984); mean of plants",
+        unit: "deg",
+        groups: &[],
+        of: Of::Form(Form::Cone),
+    },
+    Card {
+        name: "widest-place",
+        tells: "The height of the widest place of a plant over its height.",
+        formula: "of the farthest tip from the vertical through the seed (after Aono & Kunii 1984); mean of plants",
+        unit: "",
+        groups: &[],
+        of: Of::Form(Form::Widest),
     },
     Card {
         name: "living",

@@ -6,6 +6,7 @@
 use super::columns::{Columns, Words};
 use super::fault::Fault;
 use super::source::Source;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// What rows are grouped by.
@@ -88,10 +89,10 @@ pub(super) struct Groups {
 }
 
 /// The group of each row of a batch.
-pub(super) enum Keyed {
+pub(super) enum Keyed<'a> {
     Constant(u32),
-    Words(Words, Vec<u32>),
-    Ints(Vec<i32>, BTreeMap<i32, u32>),
+    Words(Words<'a>, Vec<u32>),
+    Ints(Cow<'a, [i32]>, BTreeMap<i32, u32>),
     OfPlant(Vec<u32>),
 }
 
@@ -129,7 +130,12 @@ impl Groups {
     }
 
     /// The group of each row of a batch.
-    pub fn keyed(&mut self, source: &Source, columns: &Columns<'_>, of_plants: Option<&[u32]>) -> Result<Keyed, Fault> {
+    pub fn keyed<'a>(
+        &mut self,
+        source: &Source,
+        columns: &Columns<'a>,
+        of_plants: Option<&[u32]>,
+    ) -> Result<Keyed<'a>, Fault> {
         match self.by.clone() {
             By::Nothing => Ok(Keyed::Constant(self.number("all"))),
             By::Run => Ok(Keyed::Constant(self.number(&source.label))),
@@ -141,7 +147,7 @@ impl Groups {
             By::Int(name) => {
                 let values = columns.ints(name)?;
                 let mut numbers = BTreeMap::new();
-                for value in &values {
+                for value in values.iter() {
                     if !numbers.contains_key(value) {
                         let word = if *value < 0 { "none".to_owned() } else { value.to_string() };
                         numbers.insert(*value, self.number(&word));
@@ -173,7 +179,7 @@ pub(super) fn level(source: &Source, treatment: u32, factor: &str) -> String {
     source.levels.get(factor).and_then(|levels| levels.get(treatment)).cloned().unwrap_or_else(|| "none".to_owned())
 }
 
-impl Keyed {
+impl Keyed<'_> {
     pub fn at(&self, row: usize) -> u32 {
         match self {
             Self::Constant(group) => *group,

@@ -12,9 +12,11 @@ mod card;
 mod causes;
 mod columns;
 mod contrast;
+mod cover;
 mod crown;
 pub mod distributions;
 mod fault;
+mod form;
 mod groups;
 mod life;
 mod lives;
@@ -26,12 +28,14 @@ mod source;
 mod stream;
 
 pub use card::{Card, MEASURES};
+pub use cover::effective_leaf_areas;
 pub use fault::Fault;
 pub use result::{Cell, Column, Measured, Sheet};
 
 use angles::AtAge;
 use card::Of;
 use groups::{By, Groups};
+use phytomer_measures::cover::Direction;
 use phytomer_outputs::read::Run;
 use sizes::Size;
 use source::Source;
@@ -52,6 +56,9 @@ pub struct Asked {
     pub x: Option<String>,
     /// The thickness of the layers of a crown profile, metres.
     pub layer_m: f64,
+    /// Where the sun stands that an effective leaf area faces: its altitude and its azimuth from north over east,
+    /// degrees; from above where it is not said.
+    pub sun_deg: Option<[f64; 2]>,
     /// The difference that is wanted, in the unit of the number.
     pub difference: Option<f64>,
     /// The probability with which it is to be found.
@@ -60,8 +67,8 @@ pub struct Asked {
 
 impl Default for Asked {
     fn default() -> Self {
-        let (by, age, of, x, difference) = (None, None, None, None, None);
-        Self { by, level: 0.95, age, of, x, layer_m: 0.5, difference, power: 0.8 }
+        let (by, age, of, x, sun_deg, difference) = (None, None, None, None, None, None);
+        Self { by, level: 0.95, age, of, x, layer_m: 0.5, sun_deg, difference, power: 0.8 }
     }
 }
 
@@ -106,6 +113,18 @@ fn taken(sources: Vec<Source>, card: &Card, asked: &Asked) -> Result<Measured, F
         Of::Angle(angle) => {
             let unit = AtAge { angle, age: age_of(sources, asked)? };
             angles::measure(&unit, sources, groups, level)
+        }
+        Of::Form(form) => {
+            let unit = form::Standing { form, age: age_of(sources, asked)? };
+            let of_values = if form == form::Form::Cone { "deg" } else { "" };
+            means::measure(&unit, ("form", of_values), (sources, groups, level), |own| unit.values(&own))
+        }
+        Of::Cover => {
+            let radians =
+                |[altitude, azimuth]: [f64; 2]| Direction::of_sun(altitude.to_radians(), azimuth.to_radians());
+            let direction = asked.sun_deg.map_or(Direction::ABOVE, radians);
+            let unit = cover::Foliage { age: age_of(sources, asked)?, direction };
+            cover::measure(&unit, sources, groups, level)
         }
         Of::Profile | Of::ClearBole => {
             let leaves = crown::Leaves { age: age_of(sources, asked)?, layer_m: asked.layer_m };
@@ -155,6 +174,12 @@ fn check(asked: &Asked) -> Result<(), Fault> {
     between("--power", asked.power)?;
     if !(asked.layer_m > 0.0 && asked.layer_m.is_finite()) {
         return Err(Fault::Asked(format!("--layer {}: a thickness above 0 m is expected", asked.layer_m)));
+    }
+    if let Some([altitude, azimuth]) = asked.sun_deg
+        && !((0.0..=90.0).contains(&altitude) && (-360.0..=360.0).contains(&azimuth))
+    {
+        let expected = "an altitude from 0 to 90 and an azimuth from -360 to 360 degrees are expected, such as 30,180";
+        return Err(Fault::Asked(format!("--sun {altitude},{azimuth}: {expected}")));
     }
     match asked.difference {
         Some(difference) if !(difference.is_finite() && difference != 0.0) => {

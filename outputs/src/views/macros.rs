@@ -96,7 +96,8 @@ pub const MACROS: [Macro; 10] = [
         name: "growth",
         parameters: Some(&[]),
         comment: "Means over the plants of each treatment and species, by age.",
-        body: "SELECT {run}s.treatment, p.species, s.age, max(s.age_years) AS age_years, count(*) AS plants, count(*) FILTER \
+        body: "SELECT {run}s.treatment, p.species, s.age, max(s.age_years) AS age_years, max(s.age_days) AS \
+               age_days, count(*) AS plants, count(*) FILTER \
                (WHERE s.alive) AS alive, avg(s.internodes) AS internodes, avg(s.leaves) AS leaves, avg(s.height_m) AS \
                height_m, avg(s.leaf_area_m2) AS leaf_area_m2 FROM summary s JOIN (SELECT {run}plot_id, plant_id, species \
                FROM plants) p USING ({run}plot_id, plant_id) GROUP BY {run}s.treatment, p.species, s.age ORDER BY \

@@ -17,6 +17,8 @@ pub struct Date {
 
 /// Days of an era of 400 years.
 const DAYS_OF_ERA: i32 = 146_097;
+/// The days of a year, on the average of an era.
+pub const DAYS_OF_A_YEAR: f64 = DAYS_OF_ERA as f64 / 400.0;
 /// Days from 0000-03-01 to 1970-01-01.
 const TO_EPOCH: i32 = 719_468;
 /// The years that a date may have.

@@ -8,6 +8,7 @@ use super::super::named::Recorded;
 use super::super::{amounts, findings};
 use anyhow::Result;
 use phytomer_analysis::architecture::{Qualified, qualified};
+use phytomer_analysis::measure::effective_leaf_areas;
 use phytomer_analysis::{AgeOfPopulation, Moments, population};
 use phytomer_outputs::{Checkup, Depth, State, Table};
 use serde_json::{Value, json};
@@ -25,6 +26,8 @@ pub struct Held {
     tables: BTreeMap<Table, Size>,
     meshes: Size,
     population: BTreeMap<u32, AgeOfPopulation>,
+    /// The sums of the effective leaf areas of plants by age, m²; `None` where the rows were not read.
+    effective: Option<BTreeMap<u32, f64>>,
     architecture: Option<Qualified>,
 }
 
@@ -79,11 +82,11 @@ impl Size {
 }
 
 impl Held {
-    /// Looks into the folder.
+    /// Looks into the folder. At the depth of bytes the leaves in `records` are read too.
     ///
     /// # Errors
     /// Where a file of it cannot be read.
-    pub fn of(recorded: Recorded, folder: PathBuf, found: Option<Checkup>) -> Result<Self> {
+    pub fn of(recorded: Recorded, folder: PathBuf, found: Option<Checkup>, depth: Depth) -> Result<Self> {
         let mut tables = BTreeMap::new();
         for (table, rows) in recorded.run.rows()? {
             let mut size = Size { rows, ..Size::default() };
@@ -97,7 +100,11 @@ impl Held {
         }
         let population = population(&recorded.run)?;
         let architecture = qualified(&recorded.run, recorded.trial.plants())?;
-        Ok(Self { recorded, folder, found, tables, meshes, population, architecture })
+        let effective = match depth {
+            Depth::Bytes if tables.contains_key(&Table::Records) => Some(effective_leaf_areas(&recorded.run)?),
+            _ => None,
+        };
+        Ok(Self { recorded, folder, found, tables, meshes, population, effective, architecture })
     }
 
     fn words(&self, key: &str) -> &str {
@@ -199,21 +206,28 @@ impl Held {
             return String::new();
         }
         let mut text = format!(
-            "\n  {:>5} {:>9} {:>9} {:>16} {:>20} {:>16}\n",
-            "age", "living", "dead", "height, m", "internodes", "leaf area, m2"
+            "\n  {:>5} {:>9} {:>9} {:>16} {:>20} {:>16} {:>13}\n",
+            "age", "living", "dead", "height, m", "internodes", "leaf area, m2", "effective, m2"
         );
         for (age, of) in &self.population {
             let _ = writeln!(
                 text,
-                "  {age:>5} {:>9} {:>9} {:>16} {:>20} {:>16}",
+                "  {age:>5} {:>9} {:>9} {:>16} {:>20} {:>16} {:>13}",
                 amounts::count(of.living),
                 amounts::count(of.dead),
                 spread(&of.height_m, 2),
                 spread(&of.internodes, 1),
-                spread(&of.leaf_area_m2, 2)
+                spread(&of.leaf_area_m2, 2),
+                self.effective_of(*age, of).map_or_else(|| "-".to_owned(), |area| format!("{area:.2}"))
             );
         }
         text
+    }
+
+    /// The mean of living plants: what the leaves of each cover together, seen from above.
+    fn effective_of(&self, age: u32, of: &AgeOfPopulation) -> Option<f64> {
+        let sum = self.effective.as_ref()?.get(&age).copied().unwrap_or_default();
+        (of.living > 0).then(|| sum / of.living as f64)
     }
 
     fn population_as_json(&self) -> Vec<Value> {
@@ -226,6 +240,7 @@ impl Held {
                 "height_m": moments(&of.height_m),
                 "internodes": moments(&of.internodes),
                 "leaf_area_m2": moments(&of.leaf_area_m2),
+                "effective_leaf_area_m2": self.effective_of(*age, of),
             })
         };
         self.population.iter().map(row).collect()

@@ -201,7 +201,11 @@ fn polished(counts: &[f64], law: Counts) -> Result<Fitted, Problem> {
     let f = |at: &[f64]| log_likelihood(counts, &with(&law, at).masses(last));
     let units: f64 = counts.iter().sum();
     let model = Model { law: "a law of nodes", parameters: &names, log_likelihood: &f, n: units as usize };
-    let mut fit = model.fit(&[values])?;
+    let mut fit = model.fit(std::slice::from_ref(&values))?;
+    if law.parts.len() == 1 {
+        // One part is at its top already: the search moves it by roundings alone.
+        fit.estimates.iter_mut().zip(values).for_each(|(estimate, value)| estimate.value = value);
+    }
     let at: Vec<f64> = fit.estimates.iter().map(|estimate| estimate.value).collect();
     let law = with(&law, &at);
     fit.law = law.words();
@@ -210,10 +214,12 @@ fn polished(counts: &[f64], law: Counts) -> Result<Fitted, Problem> {
         if let Part::Binomial { n, .. } = *part {
             let name = if law.parts.len() == 1 { "n".to_owned() } else { format!("n_{}", place + 1) };
             let top = fit.log_likelihood.unwrap_or(f64::NAN);
-            let estimate = profile(counts, &law, place, n, top);
+            let (estimate, along) = profile(counts, &law, place, n, top);
             if estimate.high.is_none() {
                 fit.notes.push(format!("{name} has no upper limit: a Poisson part says nearly as much"));
             }
+            let share = name.replace('n', "p");
+            fit.estimates.iter_mut().filter(|of| of.name == share).for_each(|of| widen(of, along, estimate.high));
             fit.estimates.push(Estimate { name, ..estimate });
         }
     }
@@ -224,14 +230,32 @@ fn polished(counts: &[f64], law: Counts) -> Result<Fitted, Problem> {
     Ok((law, fit))
 }
 
-/// The n whose profile lies within the 95 % interval, each with all else at its best.
-fn profile(counts: &[f64], law: &Counts, place: usize, n: u32, top: f64) -> Estimate {
+/// The limits of the p of a binomial part, found at one n, with what p does along the profile of n; none below where n
+/// has none above.
+fn widen(share: &mut Estimate, along: [f64; 2], most: Option<f64>) {
+    let wider = |limit: f64, end: f64| {
+        let [at, off] = [limit - share.value, end - share.value];
+        (at * at + off * off).sqrt()
+    };
+    let low = share.low.map(|low| (share.value - wider(low, along[0])).max(0.0)).filter(|_| most.is_some());
+    let high = share.high.map(|high| (share.value + wider(high, along[1])).min(1.0));
+    (share.low, share.high) = (low, high);
+}
+
+/// The n whose profile lies within the 95 % interval, each with all else at its best, and the least and the greatest p
+/// among them.
+fn profile(counts: &[f64], law: &Counts, place: usize, n: u32, top: f64) -> (Estimate, [f64; 2]) {
     let within = |value: f64| value >= top - DROP;
-    let walk = |ns: &mut dyn Iterator<Item = u32>| {
+    let share = |law: &Counts| if let Part::Binomial { p, .. } = law.parts[place].1 { p } else { f64::NAN };
+    let mut along = [share(law); 2];
+    let mut walk = |ns: &mut dyn Iterator<Item = u32>| {
         let (mut last, mut reached) = (law.clone(), n);
         for n in ns {
             match held(counts, &last, place, Some(n)) {
-                Some((value, found)) if within(value) => (last, reached) = (found, n),
+                Some((value, found)) if within(value) => {
+                    along = [along[0].min(share(&found)), along[1].max(share(&found))];
+                    (last, reached) = (found, n);
+                }
                 _ => break,
             }
         }
@@ -240,7 +264,7 @@ fn profile(counts: &[f64], law: &Counts, place: usize, n: u32, top: f64) -> Esti
     let (low, high) = (walk(&mut (1..n).rev()), walk(&mut (n + 1..=MOST_TRIALS)));
     let endless = held(counts, law, place, None).is_some_and(|found| within(found.0));
     let high = (!endless && high < MOST_TRIALS).then_some(f64::from(high));
-    Estimate { name: String::new(), value: f64::from(n), error: None, low: Some(f64::from(low)), high }
+    (Estimate { name: String::new(), value: f64::from(n), error: None, low: Some(f64::from(low)), high }, along)
 }
 
 /// The largest ln L near a law with the n of one part held, or with a Poisson part in its place.

@@ -15,23 +15,35 @@ pub struct Mixture {
 
 impl Mixture {
     pub fn masses(&self, last: usize) -> Vec<f64> {
-        let [a, b] = self.parts.map(|part| part.masses(last));
-        a.iter().zip(&b).map(|(a, b)| self.weight * a + (1.0 - self.weight) * b).collect()
+        sums(&self.of_parts(last))
+    }
+
+    /// The probabilities of each part, by its weight.
+    fn of_parts(&self, last: usize) -> [Vec<f64>; 2] {
+        let weights = [self.weight, 1.0 - self.weight];
+        [0, 1].map(|part| {
+            let mut masses = self.parts[part].masses(last);
+            masses.iter_mut().for_each(|mass| *mass *= weights[part]);
+            masses
+        })
     }
 
     /// The share of the first part in each count.
     fn shares(&self, last: usize) -> Vec<f64> {
-        let [a, b] = self.parts.map(|part| part.masses(last));
-        let share = |(a, b): (&f64, &f64)| {
-            let (first, second) = (self.weight * a, (1.0 - self.weight) * b);
-            if first + second > 0.0 { first / (first + second) } else { 0.5 }
-        };
-        a.iter().zip(&b).map(share).collect()
+        shares(&self.of_parts(last))
     }
 
     pub fn log_likelihood(&self, counts: &[f64]) -> f64 {
         log_likelihood(counts, &self.masses(counts.len() - 1))
     }
+}
+
+fn sums([first, second]: &[Vec<f64>; 2]) -> Vec<f64> {
+    first.iter().zip(second).map(|(a, b)| a + b).collect()
+}
+
+fn shares([first, second]: &[Vec<f64>; 2]) -> Vec<f64> {
+    first.iter().zip(second).map(|(a, b)| if a + b > 0.0 { a / (a + b) } else { 0.5 }).collect()
 }
 
 /// Σ c ln P of counts and probabilities.
@@ -96,7 +108,8 @@ fn climb(counts: &[f64], asked: Asked, mut shares: Vec<f64>, steps: usize, least
         let part = |k: usize, weights: &[f64]| asked.families[k].fitted(weights, asked.trials[k]);
         let (Some(a), Some(b)) = (part(0, &of_first), part(1, &of_second)) else { return last };
         let mixture = Mixture { weight, parts: [a, b] };
-        let value = mixture.log_likelihood(counts);
+        let of_parts = mixture.of_parts(counts.len() - 1);
+        let value = log_likelihood(counts, &sums(&of_parts));
         if !value.is_finite() {
             return last;
         }
@@ -105,7 +118,7 @@ fn climb(counts: &[f64], asked: Asked, mut shares: Vec<f64>, steps: usize, least
         if gain < least {
             break;
         }
-        shares = mixture.shares(counts.len() - 1);
+        shares = self::shares(&of_parts);
     }
     last
 }

@@ -3,7 +3,6 @@
 //! Poisson and binomial have closed forms, but for the n of the binomial, which is sought among whole numbers; the r of
 //! the negative binomial is sought on a scale of ln r. Absent: mixtures, intervals.
 
-use crate::optimum::near;
 use crate::special::{ln_choose, ln_factorial, x_ln_y};
 use phytomer_sim::math;
 
@@ -113,18 +112,55 @@ fn variance(weights: &[f64], mean: f64) -> f64 {
     weights.iter().zip(0..).map(|(w, k)| w * off(f64::from(k))).sum::<f64>() / weights.iter().sum::<f64>()
 }
 
+/// The r of the largest likelihood at the p that gives the mean, which has one top where counts vary more than a
+/// Poisson number (Levin & Reeds 1977): the root of Σ S/(r + j) − W ln(1 + mean/r), S the weight of the counts above j
+/// and W that of all, by Newton's steps in ln r between bounds.
 fn negative_binomial(weights: &[f64], mean: f64) -> Option<Part> {
     let variance = variance(weights, mean);
     if variance <= mean * 1.000_1 {
         return None;
     }
-    let part = |ln_r: f64| {
+    let mut above: Vec<f64> = weights.iter().skip(1).copied().collect();
+    (1..above.len()).rev().for_each(|j| above[j - 1] += above[j]);
+    let whole: f64 = weights.iter().sum();
+    // The slope by ln r, and its own slope without what vanishes at the root.
+    let slopes = |ln_r: f64| {
         let r = math::exp(ln_r);
-        Part::NegativeBinomial { r, p: r / (r + mean) }
+        let (mut first, mut second) = (-whole * math::log1p(mean / r), whole * mean / (r * (r + mean)));
+        for (j, above) in above.iter().enumerate() {
+            let each = 1.0 / (r + j as f64);
+            first += above * each;
+            second -= above * each * each;
+        }
+        [first, second * r]
     };
     let start = math::log(mean * mean / (variance - mean));
-    let best = near(&|at| part(at[0]).log_likelihood(weights), &[start], 0.2);
-    best.value.is_finite().then(|| part(best.at[0]))
+    let (mut low, mut high) = (start - 1.0, start + 1.0);
+    let mut steps = 0;
+    while slopes(low)[0] < 0.0 && steps < 60 {
+        (low, steps) = (low - 1.0, steps + 1);
+    }
+    while slopes(high)[0] > 0.0 && steps < 60 {
+        (high, steps) = (high + 1.0, steps + 1);
+    }
+    let mut at = start;
+    for _ in 0..100 {
+        let [first, second] = slopes(at);
+        if first > 0.0 {
+            low = at
+        } else {
+            high = at
+        }
+        let next = at - first / second;
+        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+        let step = (next - at).abs();
+        at = next;
+        if step < 1e-11 {
+            break;
+        }
+    }
+    let r = math::exp(at);
+    at.is_finite().then(|| Part::NegativeBinomial { r, p: r / (r + mean) })
 }
 
 impl Part {
@@ -153,23 +189,58 @@ impl Part {
         }
     }
 
-    /// P(0), P(1) … P(last).
+    /// P(0), P(1) … P(last): that of the most likely number, and from it each by its neighbour.
     pub fn masses(self, last: usize) -> Vec<f64> {
-        self.ln_masses(last + 1).into_iter().map(math::exp).collect()
+        let mut masses = vec![0.0; last + 1];
+        // The most likely number, and the last one that there is.
+        let (most, top) = match self {
+            Self::Poisson { mean } => (mean, last),
+            Self::Binomial { n, p } => ((f64::from(n) + 1.0) * p, last.min(n as usize)),
+            Self::NegativeBinomial { r, p } => ((r - 1.0) * (1.0 - p) / p, last),
+        };
+        let start = (most as usize).min(top);
+        masses[start] = math::exp(self.ln_mass(start as u32));
+        for x in start..top {
+            masses[x + 1] = masses[x] * self.next(x as f64);
+        }
+        for x in (0..start).rev() {
+            masses[x] = masses[x + 1] / self.next(x as f64);
+        }
+        masses
+    }
+
+    /// The probability of x + 1 over that of x.
+    fn next(self, x: f64) -> f64 {
+        match self {
+            Self::Poisson { mean } => mean / (x + 1.0),
+            Self::Binomial { n, p } => (f64::from(n) - x) / (x + 1.0) * (p / (1.0 - p)),
+            Self::NegativeBinomial { r, p } => (r + x) / (x + 1.0) * (1.0 - p),
+        }
     }
 
     /// ln P of 0, 1 … so many counts. Γ(r + k)/Γ(r) is a product, one factor a count.
     fn ln_masses(self, counts: usize) -> Vec<f64> {
-        let Self::NegativeBinomial { r, p } = self else {
-            return (0..counts as u32).map(|k| self.ln_mass(k)).collect();
-        };
-        let (ln_p, ln_q) = (r * math::log(p), math::log1p(-p));
-        let (mut rising, mut masses) = (0.0, Vec::with_capacity(counts));
-        for x in (0..counts as u32).map(f64::from) {
-            masses.push(rising - ln_factorial(x) + ln_p + x * ln_q);
-            rising += math::log(r + x);
+        let numbers = (0..counts as u32).map(f64::from);
+        match self {
+            Self::Poisson { mean } => {
+                let ln = math::log(mean);
+                numbers.map(|x| x * ln - mean - ln_factorial(x)).collect()
+            }
+            Self::Binomial { n, p } => {
+                let (n, ln_p, ln_q) = (f64::from(n), math::log(p), math::log1p(-p));
+                let mass = |x: f64| if x > n { f64::NEG_INFINITY } else { ln_choose(n, x) + x * ln_p + (n - x) * ln_q };
+                numbers.map(mass).collect()
+            }
+            Self::NegativeBinomial { r, p } => {
+                let (ln_p, ln_q, mut rising) = (r * math::log(p), math::log1p(-p), 0.0);
+                let mass = |x: f64| {
+                    let mass = rising - ln_factorial(x) + ln_p + x * ln_q;
+                    rising += math::log(r + x);
+                    mass
+                };
+                numbers.map(mass).collect()
+            }
         }
-        masses
     }
 
     /// Mean.
