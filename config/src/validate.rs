@@ -302,6 +302,7 @@ mod tests {
             "states",
             "binary",
             "gmt1_drawn",
+            "gmt_composed",
             "sourced",
             "minimal_species",
             "wood_laws",

@@ -67,21 +67,19 @@ fn trees_of_two_daughters() {
 #[test]
 fn sympodial_trees_are_gmt1() {
     use phytomer_models::fault::Path;
-    use phytomer_models::geometric::Gmt1;
+    use phytomer_models::geometric::{Descriptor, GeometricTree, Gmt1, Rule};
     for (figure, r2, a1, a2) in
         [("a", 0.7, 5.0, 65.0), ("b", 0.7, 10.0, 60.0), ("c", 0.8, 20.0, 50.0), ("d", 0.8, 35.0, 35.0)]
     {
-        let gmt1 = Gmt1 {
-            h1_deg: a1.into(),
-            h2_deg: (-a2).into(),
-            r1: 0.9.into(),
-            r2: r2.into(),
-            diameter_ratio: 0.707.into(),
-            divergence_deg: 0.0.into(),
-            levels: 7.into(),
-            first_length_m: 1.0.into(),
-            first_diameter_m: 0.1.into(),
+        let rule = Rule {
+            h1_deg: Some(a1.into()),
+            h2_deg: Some((-a2).into()),
+            r1: Some(0.9.into()),
+            r2: Some(r2.into()),
+            diameter_ratio: Some(0.707.into()),
+            ..Rule::default()
         };
+        let gmt1 = Gmt1::from(GeometricTree::from(Descriptor::new(rule, 7)));
         let model = gmt1.compile(8, &Path::root()).expect("a sound tree");
         let seed = Seed { plant: 0, draws: 0, run_seed: 1, component_limit: 100_000, keep_events: false };
         let mut plot = Plot::of_one(&model, &seed);

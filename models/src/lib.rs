@@ -13,6 +13,7 @@ pub mod lsystem;
 pub mod parameters;
 pub mod parametric;
 pub mod shapes;
+mod turns;
 
 pub use phytomer_law as law;
 pub use phytomer_law::fault;

@@ -23,6 +23,7 @@ pub mod nodes;
 mod optimum;
 pub mod outcome;
 pub mod problem;
+pub mod proportions;
 pub mod sensitivity;
 pub mod special;
 pub mod stated;

@@ -33,8 +33,8 @@ impl Card {
         match self.of {
             Of::Life(_) | Of::Activity | Of::Nodes(_) | Of::Branching | Of::Angle(_) | Of::ClearBole => true,
             Of::Size { per_ground, .. } => !per_ground,
-            Of::Alive => true,
-            Of::Causes(_) | Of::Profile | Of::Allometry | Of::Contrast | Of::Variance | Of::Power => false,
+            Of::Form(_) | Of::Alive => true,
+            Of::Causes(_) | Of::Cover | Of::Profile | Of::Allometry | Of::Contrast | Of::Variance | Of::Power => false,
         }
     }
 
@@ -43,7 +43,7 @@ impl Card {
         match self.of {
             Of::Life(_) | Of::Causes(_) | Of::Nodes(_) | Of::Branching => Table::Components,
             Of::Activity => Table::Events,
-            Of::Angle(_) | Of::Profile | Of::ClearBole => Table::Records,
+            Of::Angle(_) | Of::Form(_) | Of::Cover | Of::Profile | Of::ClearBole => Table::Records,
             _ => Table::Summary,
         }
     }

@@ -18,6 +18,7 @@ use phytomer_measures::shares::Shares;
 use phytomer_measures::survival::{Fate, Lives};
 use phytomer_outputs::Table;
 use phytomer_sim::plant::{Cause, Origin};
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -228,13 +229,13 @@ fn short(kind: &str) -> Option<bool> {
 /// How buds ended, by the rows of a batch.
 struct Ends<'a> {
     source: &'a Source,
-    plant: Vec<i32>,
-    death: Vec<i32>,
-    causes: super::columns::Words,
+    plant: Cow<'a, [i32]>,
+    death: Cow<'a, [i32]>,
+    causes: super::columns::Words<'a>,
 }
 
 impl<'a> Ends<'a> {
-    fn of(source: &'a Source, columns: &Columns<'_>) -> Result<Self, Fault> {
+    fn of(source: &'a Source, columns: &Columns<'a>) -> Result<Self, Fault> {
         let (plant, death) = (columns.ints("plant_id")?, columns.ints("death_age")?);
         Ok(Self { source, plant, death, causes: columns.words("cause_of_death")? })
     }

@@ -5,7 +5,7 @@
 
 use super::*;
 use crate::fault::Path;
-use crate::geometric::{Gmt1, Gmt1Model};
+use crate::geometric::{Descriptor, GeometricModel, GeometricTree, Gmt1, Rule};
 use phytomer_sim::model::{Grow, Growth, Overgrown};
 use phytomer_sim::plant::{Habit, LineageKey, NodeId, Rest};
 use phytomer_sim::site::View;
@@ -13,24 +13,23 @@ use std::panic::AssertUnwindSafe;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-pub fn sound() -> Gmt1Model {
-    let tree = Gmt1 {
-        h1_deg: 10.0.into(),
-        h2_deg: (-60.0).into(),
-        r1: 0.9.into(),
-        r2: 0.7.into(),
-        diameter_ratio: 0.7.into(),
-        divergence_deg: 140.0.into(),
-        levels: 5.into(),
-        first_length_m: 1.0.into(),
-        first_diameter_m: 0.1.into(),
+pub fn sound() -> GeometricModel {
+    let rule = Rule {
+        h1_deg: Some(10.0.into()),
+        h2_deg: Some((-60.0).into()),
+        r1: Some(0.9.into()),
+        r2: Some(0.7.into()),
+        diameter_ratio: Some(0.7.into()),
+        divergence_deg: Some(140.0.into()),
+        ..Rule::default()
     };
+    let tree = Gmt1::from(GeometricTree::from(Descriptor::new(rule, 5)));
     tree.compile(6, &Path::root()).expect("the tree is sound")
 }
 
 /// A tree that something happens to after each growth to an age.
 struct Spoilt {
-    tree: Gmt1Model,
+    tree: GeometricModel,
     growth: Growth,
     spoil: fn(Tick, &mut Plant),
     tells_limit: bool,

@@ -6,6 +6,7 @@
 //! up. Absent on purpose: levels, axes and everything that a plant is.
 
 use phytomer_sim::math;
+use std::f64::consts::PI;
 
 /// A branch whose horizontal part is smaller than this share of its length counts as vertical. The headings of a
 /// vertical axis are off by some 1e-16, and no branch that is meant to lean leans by 1e-12 (a sixth of a micron a
@@ -19,10 +20,45 @@ const VERTICAL: f64 = 1e-12;
 /// mother and the horizontal across her. A deviation of δ turns that plane by δ about the mother, counter-clockwise
 /// seen from her tip backwards. `angle` is h_i and, as the deviation, in radians; `ratio` is R_i.
 pub fn child(mother: [f64; 3], ratio: f64, angle: f64, deviation: f64) -> [f64; 3] {
-    let t = length(mother);
-    let across = turned(left_of(mother), mother.map(|x| x / t), deviation);
-    let (sin, cos) = math::sincos(angle);
-    [0, 1, 2].map(|i| ratio * (mother[i] * cos + t * across[i] * sin))
+    Spread::of(mother, math::sincos(deviation)).child(ratio, math::sincos(angle))
+}
+
+/// The plane in which a mother bears her children.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spread {
+    mother: [f64; 3],
+    /// T of the paper.
+    length: f64,
+    /// The unit vector across the mother on her left.
+    across: [f64; 3],
+}
+
+impl Spread {
+    /// The maximal gradient plane, turned about the mother by an angle with this sine and cosine.
+    #[inline]
+    pub fn of(mother: [f64; 3], turn: (f64, f64)) -> Self {
+        let length = length(mother);
+        Self { mother, length, across: turned(left_of(mother), mother.map(|x| x / length), turn) }
+    }
+
+    /// The vector of a child at an angle with this sine and cosine.
+    #[inline]
+    pub fn child(&self, ratio: f64, (sin, cos): (f64, f64)) -> [f64; 3] {
+        [0, 1, 2].map(|i| ratio * (self.mother[i] * cos + self.length * self.across[i] * sin))
+    }
+
+    /// The angle between the mother and a vector, and the azimuth of the vector about her from her right,
+    /// counter-clockwise seen from her tip backwards, in [0, 2π), radians; 0 where there is none.
+    pub fn angles(&self, vector: [f64; 3]) -> (f64, f64) {
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let [x, y, z] = self.mother.map(|x| x / self.length);
+        let [a, b, c] = self.across;
+        let beyond = [y * c - z * b, z * a - x * c, x * b - y * a];
+        let (left, far) = (dot(vector, self.across), dot(vector, beyond));
+        let azimuth = math::atan2(0.0 - far, 0.0 - left);
+        let angle = math::atan2((left * left + far * far).sqrt(), dot(vector, [x, y, z]));
+        (angle, if azimuth < 0.0 { (azimuth + 2.0 * PI).min(2.0 * PI - 1e-9) } else { azimuth })
+    }
 }
 
 /// The horizontal unit vector on the left of a branch, (−S v, S u, 0).
@@ -40,12 +76,12 @@ pub fn left_of(branch: [f64; 3]) -> [f64; 3] {
     [-s * v, s * u, 0.0]
 }
 
-/// The horizontal unit vector `left` turned by `by` radians about the unit vector `about`, at right angles to it.
-fn turned(left: [f64; 3], about: [f64; 3], by: f64) -> [f64; 3] {
+/// The horizontal unit vector `left` turned about the unit vector `about`, at right angles to it, by an angle with this
+/// sine and cosine.
+fn turned(left: [f64; 3], about: [f64; 3], (sin, cos): (f64, f64)) -> [f64; 3] {
     let [a, b, _] = left;
     let [x, y, z] = about;
     let beyond = [-z * b, z * a, x * b - y * a];
-    let (sin, cos) = math::sincos(by);
     [0, 1, 2].map(|i| cos * left[i] + sin * beyond[i])
 }
 
@@ -57,7 +93,7 @@ pub(super) fn length([u, v, w]: [f64; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::{FRAC_PI_2, PI};
+    use std::f64::consts::FRAC_PI_2;
 
     fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
         a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

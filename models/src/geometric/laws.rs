@@ -1,107 +1,139 @@
-//! The laws of GMT1's parameters, compiled, and their draws: a plant draws each parameter once for its whole life.
+//! The laws of a tree's numbers, compiled, and their draws: a plant draws each number once for its whole life, but the
+//! angles of GMT4 anew at each branching.
 //!
-//! Each parameter has a word of its own in the plant's stream, whether it is drawn or not, so that stating the law of
-//! one parameter changes no other; a tree that is rebuilt at each age reads the same words again. The laws depend on no
-//! variable: a tree has its parameters before it has an age, an order or a rank. Absent on purpose: the use of the
-//! parameters (`tree`).
+//! Each number of each rule of branching has a word of its own in the plant's stream, whether it is drawn or not, so
+//! that stating the law of one number changes no other; a tree that is rebuilt at each age reads the same words again.
+//! The laws depend on no variable: a tree has its numbers before it has an age, an order or a rank. Absent on purpose:
+//! the use of the numbers (`tree`), and which laws may stand together (`checks`).
 
-use super::gmt1::Gmt1;
-use super::tree::Tree;
+use super::descriptor::{Rule, TreeType};
 use crate::fault::{Fault, Path};
 use crate::law::{At, Domain, ValueRange, Variate, VariateTable};
-use phytomer_sim::plant::LineageKey;
-use phytomer_sim::random::{PlantRandom, Purpose};
+use crate::turns::{GOLDEN_ANGLE_DEG, fibonacci};
+use phytomer_sim::random::Stream;
 
-/// The number of real parameters of GMT1.
-const PARAMETERS: usize = 8;
+/// The numbers of a rule that are laws.
+pub(super) const NUMBERS: usize = 8;
+/// The words that a rule has in the stream of a plant.
+pub(super) const WORDS: u64 = 16;
 
 const ANGLE: ValueRange = ValueRange { min: -180.0, max: 180.0, what: "an angle in degrees" };
 const TURN: ValueRange = ValueRange { min: -360.0, max: 360.0, what: "an angle in degrees" };
-const RATIO: ValueRange = ValueRange { min: f64::MIN_POSITIVE, max: 1.0, what: "a ratio" };
-const METRES: ValueRange = ValueRange { min: f64::MIN_POSITIVE, max: 1000.0, what: "metres" };
+pub(super) const RATIO: ValueRange = ValueRange { min: f64::MIN_POSITIVE, max: 1.0, what: "a ratio" };
 
-/// The shortest and the thinnest branch that a tree may have, metres: less than any cell, and single precision still
-/// holds all its digits.
-const SMALLEST_M: f64 = 1e-9;
+/// The numbers of a rule, in the order of [`STATED`].
+pub(super) const H1: usize = 0;
+pub(super) const H2: usize = 1;
+pub(super) const R1: usize = 2;
+pub(super) const R2: usize = 3;
+pub(super) const DIAMETER: usize = 4;
+pub(super) const DIVERGENCE: usize = 5;
+pub(super) const DELTA: usize = 6;
+pub(super) const R0: usize = 7;
 
-/// The laws of the parameters, in the order of [`stated`], which is the order of their words.
+/// A number's key and range, its word in the stream, and its value where no file states it.
+type Stated = (&'static str, ValueRange, u64, Option<f64>);
+
+/// The words 6 and 7 are those of the first branch (`plan`).
+pub(super) const STATED: [Stated; NUMBERS] = [
+    ("h1_deg", ANGLE, 0, None),
+    ("h2_deg", ANGLE, 1, None),
+    ("r1", RATIO, 2, None),
+    ("r2", RATIO, 3, None),
+    ("diameter_ratio", RATIO, 4, None),
+    ("divergence_deg", TURN, 5, Some(0.0)),
+    ("delta_deg", TURN, 8, Some(0.0)),
+    ("r0", RATIO, 9, None),
+];
+
+/// The laws of one rule of branching; `None` where the number is that of the tree's own rule.
 #[derive(Debug, Clone)]
-pub(super) struct Laws {
-    tables: [VariateTable; PARAMETERS],
-    is_random: bool,
+pub(super) struct RuleLaws {
+    pub of: TreeType,
+    pub tables: [Option<VariateTable>; NUMBERS],
 }
 
-/// The parameters, each with its key and its range.
-fn stated(tree: &Gmt1) -> [(&'static str, &Variate, ValueRange); PARAMETERS] {
-    [
-        ("h1_deg", &tree.h1_deg, ANGLE),
-        ("h2_deg", &tree.h2_deg, ANGLE),
-        ("r1", &tree.r1, RATIO),
-        ("r2", &tree.r2, RATIO),
-        ("diameter_ratio", &tree.diameter_ratio, RATIO),
-        ("divergence_deg", &tree.divergence_deg, TURN),
-        ("first_length_m", &tree.first_length_m, METRES),
-        ("first_diameter_m", &tree.first_diameter_m, METRES),
-    ]
+/// The law of a key that may be a name.
+fn stated(rule: &Rule, place: usize) -> Option<&Variate> {
+    let laws = [
+        &rule.h1_deg,
+        &rule.h2_deg,
+        &rule.r1,
+        &rule.r2,
+        &rule.diameter_ratio,
+        &rule.divergence_deg,
+        &rule.delta_deg,
+        &rule.r0,
+    ];
+    laws[place].as_ref()
 }
 
-impl Laws {
-    /// The laws of a tree whose parameters stand at `path`. A law that fails adds its faults; its table is then NaN, in
-    /// which the other checks find no fault.
-    pub fn compile(tree: &Gmt1, path: &Path, faults: &mut Vec<Fault>) -> Self {
-        let tables = stated(tree).map(|(key, law, range)| {
-            law.compile(&Domain::ONCE, &path.key(key), range).unwrap_or_else(|mut found| {
-                faults.append(&mut found);
-                VariateTable::always(f64::NAN)
-            })
-        });
-        let is_random = tables.iter().any(VariateTable::is_random);
-        Self { tables, is_random }
-    }
+/// Compiles a law; one that fails adds its faults and is NaN, in which the other checks find no fault.
+pub(super) fn table(law: &Variate, path: &Path, range: ValueRange, faults: &mut Vec<Fault>) -> VariateTable {
+    law.compile(&Domain::ONCE, path, range).unwrap_or_else(|mut found| {
+        faults.append(&mut found);
+        VariateTable::always(f64::NAN)
+    })
+}
 
-    /// The tree of a plant.
-    pub fn draw(&self, random: &PlantRandom) -> Tree {
-        let mut words = [0; PARAMETERS];
-        if self.is_random {
-            random.stream(LineageKey::SEED, Purpose::Plant).read(&mut words);
-        }
-        let mut drawn = [0.0; PARAMETERS];
-        for ((value, table), word) in drawn.iter_mut().zip(&self.tables).zip(words) {
-            *value = table.draw_f64(word, At::default());
-        }
-        let [h1, h2, r1, r2, diameter_ratio, divergence_deg, length_m, diameter_m] = drawn;
-        Tree::new([h1, h2], [r1, r2], diameter_ratio, divergence_deg, [length_m, diameter_m])
-    }
-
-    /// Adds a fault where both branching angles can be 0: the two children would coincide.
-    pub fn check_angles(&self, path: &Path, faults: &mut Vec<Fault>) {
-        let [h1, h2, ..] = &self.tables;
-        if h1.can_be(0.0) && h2.can_be(0.0) {
-            let how = if h1.is_random() || h2.is_random() { "can both be 0" } else { "are both 0" };
-            let expected = "h1² + h2² ≠ 0: at least one branching angle that is not 0";
-            faults.push(Fault::new(&path.key("h2_deg"), format!("h1_deg and h2_deg {how}"), expected));
-        }
-    }
-
-    /// Adds a fault where branches of the last level can be too small: their length by the smaller ratio of lengths,
-    /// their diameter by the ratio of diameters, each with the smallest values that can be drawn.
-    pub fn check_smallest(&self, levels: u32, path: &Path, faults: &mut Vec<Fault>) {
-        let [_, _, r1, r2, diameter_ratio, _, length, diameter] = &self.tables;
-        let [left, right] = [r1, r2].map(|ratio| ratio.extent()[0]);
-        let (key, ratio) = if left <= right { ("r1", r1) } else { ("r2", r2) };
-        for (key, first, ratio, word) in
-            [(key, length, ratio, "long"), ("diameter_ratio", diameter, diameter_ratio, "thick")]
-        {
-            let size = (0..levels).fold(first.extent()[0], |size, _| size * ratio.extent()[0]);
-            if size < SMALLEST_M {
-                let (how, bounded) = match first.is_random() || ratio.is_random() {
-                    true => ("can be", "; `min` bounds what is drawn"),
-                    false => ("is", ""),
-                };
-                let problem = format!("after {levels} levels a branch {how} {size:.1e} m {word}");
-                let expected = format!("branches of at least {SMALLEST_M:e} m{bounded}");
-                faults.push(Fault::new(&path.key(key), problem, expected));
+impl RuleLaws {
+    /// The laws that a rule at `path` states.
+    pub fn compile(rule: &Rule, of: TreeType, path: &Path, faults: &mut Vec<Fault>) -> Self {
+        let mut tables = STATED.map(|_| None);
+        for (place, (key, range, ..)) in STATED.into_iter().enumerate() {
+            if of.takes(key) {
+                tables[place] = stated(rule, place).map(|law| table(law, &path.key(key), range, faults));
             }
         }
+        if let Some(name) = &rule.divergence {
+            let path = path.key("divergence");
+            if rule.divergence_deg.is_some() {
+                let problem = "divergence and divergence_deg are both given";
+                faults.push(Fault::new(&path, problem, "one of the two"));
+            }
+            tables[DIVERGENCE] = Some(VariateTable::always(named(name, &path, faults)));
+        }
+        Self { of, tables }
     }
+
+    /// The least and the largest value of a number; NaN where the rule states none.
+    pub fn extent(&self, place: usize) -> [f64; 2] {
+        self.tables[place].as_ref().map_or([f64::NAN; 2], VariateTable::extent)
+    }
+
+    /// Whether any number of the rule is drawn.
+    pub fn is_random(&self) -> bool {
+        self.tables.iter().flatten().any(VariateTable::is_random)
+    }
+
+    /// The numbers of a plant: those of `base` where the rule states none. `words` stands at the first word of the
+    /// rule; `None` where nothing is drawn.
+    pub fn draw(&self, mut words: Option<(&mut Stream, u64)>, base: Option<&[f64; NUMBERS]>) -> [f64; NUMBERS] {
+        let mut read = |word: u64| match &mut words {
+            Some((stream, first)) => {
+                stream.seek(*first + word);
+                stream.word()
+            }
+            None => 0,
+        };
+        let mut numbers = [0.0; NUMBERS];
+        for (place, (.., word, default)) in STATED.into_iter().enumerate() {
+            numbers[place] = match (&self.tables[place], base) {
+                (Some(law), _) => law.draw_f64(read(word), At::default()),
+                (None, Some(base)) => base[place],
+                (None, None) => default.unwrap_or(f64::NAN),
+            };
+        }
+        numbers
+    }
+}
+
+/// The degrees of a divergence by its name.
+fn named(name: &str, path: &Path, faults: &mut Vec<Fault>) -> f64 {
+    let degrees = if name == "spiral" { Some(GOLDEN_ANGLE_DEG) } else { fibonacci(name) };
+    degrees.unwrap_or_else(|| {
+        let expected = "a Fibonacci fraction of a turn such as \"2/5\" or \"3/8\", or \"spiral\"";
+        faults.push(Fault::new(path, format!("the divergence is \"{name}\""), expected));
+        f64::NAN
+    })
 }

@@ -1,26 +1,49 @@
-//! Geometric models: trees as repeated branchings, each child a fixed ratio and angle of its mother (Aono & Kunii,
+//! Geometric models: trees as repeated branchings, each child a ratio and an angle of its mother (Aono & Kunii,
 //! *Botanical Tree Image Generation*, IEEE CG&A 4(5), 1984).
 //!
-//! [`Gmt1`] is the parameter struct, `laws` has a plant's draws of the parameters, `branching` the paper's equations,
-//! `tree` a tree that they build, `model` its growth, level by level, and `compile` leads from the parameters to the
-//! model. The model has no buds, and nothing is random once a plant has its parameters: the plant is rebuilt at each
-//! age, and the heading of each internode is stated. Absent on purpose: the deviators, ternary branching and statistics
-//! of GMT2 to GMT4.
+//! [`Descriptor`] is the tree as people state it, with [`Rule`] for a branching and the small tables of `parts`;
+//! [`GeometricTree`] joins several on one root, and [`Gmt1`] to [`Gmt4`] are the four models of it. `keys` says which
+//! type takes which key, `courses` and `foliage` read keys, `compile` leads to the `plan` of a tree, with its `laws`
+//! and `counts`, and `checks` it. `branching`, `course` and `deviators` are the paper's equations, `level` and `tree` a
+//! tree that they build, `model` its growth, level by level. The models have no buds, and nothing is random once a
+//! plant has its numbers, but the angles of GMT4: the plant is rebuilt at each age, and the heading of each internode
+//! is stated.
 
 mod branching;
-mod card;
+mod checks;
 mod compile;
-mod gmt1;
+mod counts;
+mod course;
+mod courses;
+mod descriptor;
+mod deviators;
+mod foliage;
+mod gmt;
+mod keys;
 mod laws;
+mod level;
 mod model;
+mod parts;
+mod plan;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_changing;
+#[cfg(test)]
+mod tests_composed;
+#[cfg(test)]
+mod tests_deviated;
+#[cfg(test)]
 mod tests_drawn;
+#[cfg(test)]
+mod tests_forecast;
 #[cfg(test)]
 mod tests_parameters;
 mod tree;
 
 pub use branching::{child, left_of};
-pub use gmt1::{Gmt1, MOST_LEVELS};
-pub use model::Gmt1Model;
+pub use course::{Category, Curve};
+pub use descriptor::{CombinedLevels, Descriptor, GeometricTree, GluedTree, MOST_LEVELS, Rule, TreeType};
+pub use gmt::{Gmt1, Gmt2, Gmt3, Gmt4};
+pub use model::GeometricModel;
+pub use parts::{Controller, CutLateral, Falloff, TreeLeaf};

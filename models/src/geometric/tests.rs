@@ -3,7 +3,7 @@
 //!
 //! Absent: drawn parameters (`tests_drawn`) and refused parameters (`tests_parameters`).
 
-use super::{Gmt1, Gmt1Model};
+use super::{Descriptor, GeometricModel, GeometricTree, Gmt1, Rule};
 use crate::contract;
 use crate::fault::Path;
 use crate::law::{Quantity, Variate};
@@ -35,22 +35,33 @@ const TABLE_1: [Row; 15] = [
 ];
 
 fn parameters(&(_, h1_deg, h2_deg, r1, r2, divergence_deg, levels): &Row) -> Gmt1 {
-    let [h1_deg, h2_deg, r1, r2, divergence_deg] = [h1_deg, h2_deg, r1, r2, divergence_deg].map(Variate::from);
-    let [diameter_ratio, first_length_m, first_diameter_m] = [0.7, 1.0, 0.1].map(Variate::from);
-    let levels = Quantity::from(levels);
-    Gmt1 { h1_deg, h2_deg, r1, r2, diameter_ratio, divergence_deg, levels, first_length_m, first_diameter_m }
+    let rule = rule([h1_deg, h2_deg], [r1, r2], divergence_deg);
+    Gmt1::from(GeometricTree::from(Descriptor::new(rule, levels)))
 }
 
-fn with_levels(tree: Gmt1, levels: u32) -> Gmt1 {
-    Gmt1 { levels: Quantity::from(levels), ..tree }
+/// Two children with these angles and ratios, left and right; R_diam is 0.7.
+pub(super) fn rule(h_deg: [f64; 2], r: [f64; 2], divergence_deg: f64) -> Rule {
+    let [h1_deg, h2_deg, r1, r2, divergence_deg] =
+        [h_deg[0], h_deg[1], r[0], r[1], divergence_deg].map(|number| Some(Variate::from(number)));
+    Rule { h1_deg, h2_deg, r1, r2, divergence_deg, diameter_ratio: Some(0.7.into()), ..Rule::default() }
+}
+
+fn with_levels(mut tree: Gmt1, levels: u32) -> Gmt1 {
+    tree.0.tree.levels = Quantity::from(levels);
+    tree
+}
+
+/// The components of a tree at an age, from the numbers of the model.
+fn components_at(tree: &Gmt1, age: Tick) -> u64 {
+    model(tree).components_at(age)
 }
 
 fn table_1(name: &str) -> &'static Row {
     TABLE_1.iter().find(|row| row.0 == name).expect("a row of Table 1")
 }
 
-fn model(tree: &Gmt1) -> Gmt1Model {
-    tree.compile(tree.levels.value() + 1, &Path::root()).expect("the tree is sound")
+fn model(tree: &Gmt1) -> GeometricModel {
+    tree.compile(tree.0.tree.levels.value() + 1, &Path::root()).expect("the tree is sound")
 }
 
 fn row(name: &str) -> Gmt1 {
@@ -70,7 +81,7 @@ pub(super) fn heading(plant: &Plant, node: usize) -> [f32; 3] {
 }
 
 /// The tip of each internode, from the columns: lengths along stated headings.
-fn tips(plant: &Plant) -> Vec<[f64; 3]> {
+pub(super) fn tips(plant: &Plant) -> Vec<[f64; 3]> {
     let mut tips: Vec<[f64; 3]> = Vec::new();
     for i in 0..plant.nodes.len() {
         let base = plant.nodes.parent[i].some().map_or([0.0; 3], |parent| tips[parent.index()]);
@@ -80,10 +91,10 @@ fn tips(plant: &Plant) -> Vec<[f64; 3]> {
     tips
 }
 
-type Point = [f64; 3];
+pub(super) type Point = [f64; 3];
 
 /// The printed equations with the rule for a vertical mother, then a turn about her (Rodrigues' formula).
-fn printed_child(a: Point, b: Point, ratio: f64, h: f64, turn: f64) -> Point {
+pub(super) fn printed_child(a: Point, b: Point, ratio: f64, h: f64, turn: f64) -> Point {
     let [u, v, w] = [0, 1, 2].map(|k| b[k] - a[k]);
     let t = (u * u + v * v + w * w).sqrt();
     let horizontal = (u * u + v * v).sqrt();
@@ -133,7 +144,7 @@ fn a_tree_of_age_n_has_2_to_the_n_less_1_branches_and_its_lengths_their_closed_f
         for age in 1..=row.6 + 1 {
             let plant = grown(&tree, age);
             assert_eq!(plant.nodes.len(), (1 << age) - 1, "{} at age {age}", row.0);
-            assert_eq!(u64::from(plant.components()), tree.components_at(age));
+            assert_eq!(u64::from(plant.components()), components_at(&tree, age));
             let sum: f64 = plant.nodes.length.iter().map(|&long| f64::from(long)).sum();
             let closed: f64 = (0..age).map(|k| math::pow(row.3 + row.4, f64::from(k))).sum();
             assert!((sum / closed - 1.0).abs() < 1e-6, "{} at age {age}: {sum} is not {closed}", row.0);
@@ -146,7 +157,7 @@ fn what_is_expected_of_a_tree_is_what_grows() {
     let tree = with_levels(row("5f"), 6);
     let expected = model(&tree).expectation(9).expect("counts without chance");
     for age in 0..=9 {
-        assert_eq!(expected.components(age), tree.components_at(age) as f64, "at age {age}");
+        assert_eq!(expected.components(age), components_at(&tree, age) as f64, "at age {age}");
         let plant = grown(&tree, age);
         for (order, means) in (1..).zip(&expected.orders) {
             let axes = plant.axes.order.iter().filter(|&&o| o == order).count();
@@ -184,7 +195,12 @@ fn a_monopodial_tree_has_the_height_of_equation_2() {
 #[test]
 fn the_smaller_angle_carries_the_axis_on_and_the_other_begins_the_next_order() {
     for name in ["5a", "5e", "5g", "7d"] {
-        let mirrored = |tree: Gmt1| Gmt1 { h1_deg: tree.h2_deg, h2_deg: tree.h1_deg, r1: tree.r2, r2: tree.r1, ..tree };
+        let mirrored = |mut tree: Gmt1| {
+            let rule = &mut tree.0.tree.rule;
+            std::mem::swap(&mut rule.h1_deg, &mut rule.h2_deg);
+            std::mem::swap(&mut rule.r1, &mut rule.r2);
+            tree
+        };
         for (tree, first) in [(row(name), 1), (mirrored(row(name)), if name == "5a" { 1 } else { 2 })] {
             let plant = grown(&tree, 6);
             for i in (0..plant.nodes.len()).filter(|i| 2 * i + 2 < plant.nodes.len()) {
@@ -221,7 +237,8 @@ fn the_kth_lateral_of_an_upright_trunk_stands_at_k_divergence_angles() {
 /// Without divergence "all the lateral branches develop near the same plane": of an upright trunk, in x–z.
 #[test]
 fn without_divergence_all_that_a_straight_trunk_bears_first_lies_in_the_front_plane() {
-    let tree = Gmt1 { divergence_deg: Variate::from(0.0), ..row("5g") };
+    let mut tree = row("5g");
+    tree.0.tree.rule.divergence_deg = None;
     let plant = grown(&tree, 10);
     let laterals = (0..plant.nodes.len()).filter(|&i| plant.nodes.rank[i] == 1 && plant.nodes.birth[i] > 1);
     let of_trunk = |&i: &usize| plant.axes.order[plant.nodes.axis[i].index()] == 2;

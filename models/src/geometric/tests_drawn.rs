@@ -5,7 +5,7 @@
 //! stated distribution. Absent: the draws themselves, which stand with the laws.
 
 use super::tests::heading as stated_heading;
-use super::{Gmt1, Gmt1Model};
+use super::{GeometricModel, Gmt1};
 use crate::contract;
 use crate::fault::Path;
 use phytomer_sim::model::GrowthModel;
@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 const KEYS: [&str; 8] =
     ["h1_deg", "h2_deg", "r1", "r2", "diameter_ratio", "divergence_deg", "first_length_m", "first_diameter_m"];
 
-fn compiled(stated: Value) -> Gmt1Model {
+fn compiled(stated: Value) -> GeometricModel {
     let tree: Gmt1 = serde_json::from_value(stated).expect("it reads");
     tree.compile(20, &Path::root()).unwrap_or_else(|faults| panic!("{faults:?}"))
 }
@@ -60,7 +60,7 @@ fn found(plant: &Plant) -> [f64; 8] {
     ]
 }
 
-fn plants(model: &Gmt1Model, count: u32) -> Vec<[f64; 8]> {
+fn plants(model: &GeometricModel, count: u32) -> Vec<[f64; 8]> {
     (0..count).map(|number| found(&contract::grown(model, 3, &contract::seed_of(5, number)))).collect()
 }
 

@@ -7,14 +7,11 @@
 use super::compiler::Compiler;
 use crate::buds::params::{Order, Phyllotaxis, ShapeName};
 use crate::law::VariateTable;
+use crate::turns::{GOLDEN_ANGLE_DEG, fibonacci};
 use phytomer_sim::plant::Shape;
 
 /// Radians in a degree.
 pub const DEGREE: f32 = std::f32::consts::PI / 180.0;
-
-/// The golden angle, degrees: the limit of the divergences 1/2, 1/3, 2/5, 3/8, 5/13 … of Schimper and Braun (Aono &
-/// Kunii 1984, "Phyllotaxis").
-const GOLDEN_ANGLE_DEG: f64 = 137.507_764_050_037_85;
 
 impl From<ShapeName> for Shape {
     fn from(name: ShapeName) -> Self {
@@ -60,21 +57,6 @@ fn named(name: &str, keys: &str, most_borne: u32, compiler: &mut Compiler) -> f6
             0.0
         }),
     }
-}
-
-/// The degrees of a Fibonacci fraction of a turn, F(n)/F(n+2): 1/2, 1/3, 2/5, 3/8, 5/13, 8/21, 13/34 … (Aono & Kunii
-/// 1984, "Phyllotaxis").
-fn fibonacci(fraction: &str) -> Option<f64> {
-    let (turns, leaves) = fraction.split_once('/')?;
-    let (turns, leaves): (u64, u64) = (turns.trim().parse().ok()?, leaves.trim().parse().ok()?);
-    let (mut a, mut b) = (1, 1);
-    while a <= turns && b < 1_000_000 {
-        if (turns, leaves) == (a, a + b) {
-            return Some(360.0 * turns as f64 / leaves as f64);
-        }
-        (a, b) = (b, a + b);
-    }
-    None
 }
 
 #[cfg(test)]
