@@ -22,6 +22,7 @@ pub use phytomer_sim as sim;
 pub use phytomer_weather as weather;
 
 pub mod architecture;
+pub mod asystem;
 pub mod counted;
 pub mod forest;
 pub mod report;

@@ -13,7 +13,7 @@ use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 20] = [
+const VERBS: [&str; 21] = [
     "init",
     "grow",
     "merge",
@@ -34,6 +34,7 @@ const VERBS: [&str; 20] = [
     "forest",
     "sensitivity",
     "report",
+    "asystem",
 ];
 
 /// The examples of a verb's help: the lines that begin with the program's name.
@@ -62,6 +63,8 @@ fn every_example_of_help_runs() {
     lay_trees_of_others(folder.path());
     lay_site(folder.path());
     lay_counts(folder.path());
+    let script = "open paper plotter; create gmt1 oak 4 .9 .7 20 -40; exit;";
+    fs::write(folder.path().join("my_trees.asys"), script).unwrap();
     run(folder.path(), &["grow", "coffee", "--plants", "4", "--quiet"]).ending(0);
     for run_of_report in ["runs/dry", "runs/wet"] {
         run(folder.path(), &["grow", "coffee", "--plants", "3", "--quiet", "--out", run_of_report]).ending(0);

@@ -3,7 +3,7 @@
 //!
 //! A species and a scenario go the whole way of `phytomer grow`; a mesh is read as a form, a weather file as its days,
 //! an L-system is grown with the files beside it (`lsystem`); a forest is read with its rasters (`forest`), and a tree
-//! of another program is converted; a run folder, one of whose files is replaced, is checked,
+//! of another program is converted; a script of the A-system is run; a run folder, one of whose files is replaced, is checked,
 //! read and resumed. `fuzz_targets` hands these functions to libFuzzer, and `examples/fuzz` runs them on stable over
 //! broken copies of what ships (`seeds`, `broken`). Absent: files that are right, which the tests have.
 
@@ -24,11 +24,13 @@ mod tried;
 pub use lsystem::lsystem;
 use phytomer::analysis::architecture::qualified;
 use phytomer::analysis::population;
+use phytomer::asystem::{Stage, Written};
 use phytomer::config::{Resolved, validate, validate_species};
 use phytomer::outputs::meshes::{OwnForms, check_form};
 use phytomer::outputs::read::Run;
 use phytomer::outputs::{Checking, Depth, Mode, State, Table, check};
 use phytomer::run::{Progress, Settings, begin};
+use phytomer_asystem::{Statement, Step};
 use phytomer_peers::{Asked, convert};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -45,7 +47,7 @@ pub const ENDINGS_OF_TREES: [&str; 3] = ["py", "xml", "json"];
 pub type Target = fn(&[u8]);
 
 /// Every target by its name.
-pub const TARGETS: [(&str, Target); 10] = [
+pub const TARGETS: [(&str, Target); 11] = [
     ("run_folder", run_folder),
     ("species", species),
     ("scenario", scenario),
@@ -56,6 +58,7 @@ pub const TARGETS: [(&str, Target); 10] = [
     ("lsystem", lsystem),
     ("forest", forest),
     ("tree", tree),
+    ("asystem", asystem),
 ];
 
 /// A temporary folder, in memory where there is some: a disk would be waited for at each input.
@@ -133,6 +136,31 @@ pub fn tree(data: &[u8]) {
             tried::assert_tells(&report);
         }
     }
+}
+
+/// A script of the A-system: checked, and run where its trees are small, into a folder beside which nothing appears.
+pub fn asystem(data: &[u8]) {
+    let text = String::from_utf8_lossy(data);
+    let steps = match phytomer::asystem::checked(&text) {
+        Err(refused) => return assert!(!refused.faults.is_empty()),
+        Ok(checked) => checked.steps,
+    };
+    let is_small = |step: &Step| match &step.statement {
+        Statement::Create { level, .. } | Statement::Combine { level, .. } => *level <= 6,
+        Statement::Animate { level, .. } => *level <= 2,
+        Statement::Cont { on, steps } => !*on || steps.is_some_and(|steps| steps <= 2),
+        _ => true,
+    };
+    if steps.len() > 40 || !steps.iter().all(is_small) {
+        return;
+    }
+    let around = tempfile::tempdir_in(home()).expect("a folder");
+    let mut stage = Stage::new(&around.path().join("out"));
+    let mut last = Written::default();
+    // A tree may be too far away for its growth; that is told.
+    let _ = steps.iter().try_for_each(|step| stage.take(step).map(drop)).and_then(|()| stage.end(&mut last));
+    let beside = fs::read_dir(around.path()).expect("a folder").filter_map(Result::ok);
+    assert!(beside.map(|entry| entry.file_name()).all(|name| name == "out"), "a file outside of its folder");
 }
 
 /// A PLY as a form.

@@ -42,6 +42,7 @@ pub fn of(target: &str) -> Vec<Vec<u8>> {
         "weather" => of_weather(),
         "lsystem" => of_lsystems(),
         "tree" => of_trees(),
+        "asystem" => of_folder(&project().join("docs/asystem"), "asys"),
         ending => of_folder(&project().join("fuzz/seeds"), ending),
     }
 }

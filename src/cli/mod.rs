@@ -6,6 +6,7 @@
 mod afar;
 mod amounts;
 mod animate;
+mod asystem;
 mod bar;
 mod budget;
 pub mod causes;
@@ -69,6 +70,7 @@ Examples:
   phytomer forest my_site/site.toml             a landscape from a raster, as a table, meshes and a scene
   phytomer sensitivity coffee --of height_m@48   which of its numbers matter for its height
   phytomer report runs/coffee --out told.html   what became of its plants, as a page with charts
+  phytomer asystem my_trees.asys --out drawn    trees by the commands of the A-system
 
 `phytomer help <verb>` has more of each.";
 
@@ -102,6 +104,7 @@ enum Verb {
     Forest(forest::ForestVerb),
     Report(report::ReportVerb),
     Sensitivity(sensitivity::Sensitivity),
+    Asystem(asystem::Asystem),
 }
 
 /// How the program ends, other than by an error.
@@ -157,6 +160,7 @@ impl Cli {
             Verb::Forest(verb) => verb.obey(),
             Verb::Report(verb) => verb.obey(),
             Verb::Sensitivity(verb) => verb.obey(),
+            Verb::Asystem(verb) => verb.obey(),
         }
     }
 }

@@ -4,20 +4,40 @@
 //! material whose normals differ little. Only whether the sun reaches it is asked at each sample, by a tap of its own.
 //! A pixel without plants is its background. Absent: the samples themselves (`film`), light (`shade`).
 
-use super::draw::{FINE, Set};
+use super::camera::Camera;
 use super::film::{Film, Seen};
 use super::ground::{Behind, Ground};
-use super::raster::Window;
-use super::shade::shade;
+use super::placed::PlacedStand;
+use super::raster::{TOGETHER, Window};
+use super::shade::{Light, shade};
 use super::tone;
 use glam::Vec3;
 
+/// The number of samples of a pixel along each side; those of a pixel lie together in memory.
+pub const FINE: u32 = TOGETHER;
 /// The samples of a pixel.
 const SAMPLES: usize = (FINE * FINE) as usize;
 
 /// The least cosine between the normals of samples that are lit as one, 18 degrees. Light goes with the cosine, so that
 /// the mean normal of a round twig gives its mean light to within a fiftieth.
 const ONE_SURFACE: f32 = 0.95;
+
+/// The content of a picture.
+#[derive(Debug)]
+pub struct Set<'a> {
+    /// The stands, in their places in the picture.
+    pub stands: &'a [PlacedStand<'a>],
+    /// The light over each stand.
+    pub lights: &'a [Light],
+    /// The camera.
+    pub camera: Camera,
+    /// Whether ground is drawn.
+    pub ground: bool,
+    /// Whether the background is transparent.
+    pub transparent: bool,
+    /// The middle and the size of the ground around each stand.
+    pub around: &'a [(Vec3, f32)],
+}
 
 /// Turns samples into pixels.
 pub struct Developer<'a> {

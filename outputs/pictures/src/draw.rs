@@ -3,41 +3,21 @@
 //! A pixel is the mean of [`FINE`]² samples (`develop`). Rows are drawn in pages, so that memory does not grow with the
 //! picture; blocks of plants that a page does not show are skipped for it, and so are columns that no plant reaches.
 
-use super::camera::Camera;
 use super::canvas::Canvas;
-use super::develop::{Developer, Spots};
+use super::develop::{Developer, FINE, Set, Spots};
 use super::film::Film;
 use super::ground::{Footing, Ground, Tones};
 use super::placed::PlacedStand;
-use super::raster::{TOGETHER, Window};
+use super::raster::Window;
 use super::shade::Light;
 use glam::Vec3;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// The number of samples of a pixel along each side; those of a pixel lie together in memory.
-pub const FINE: u32 = TOGETHER;
 /// The number of samples of a page, at 12 bytes each.
 const PAGE: u32 = 1 << 20;
 /// The rows of samples of one pixel stand apart by a quarter of a sample.
 const SHIFTS: [f32; FINE as usize] = [-0.375, 0.125, -0.125, 0.375];
-
-/// The content of a picture.
-#[derive(Debug)]
-pub struct Set<'a> {
-    /// The stands, in their places in the picture.
-    pub stands: &'a [PlacedStand<'a>],
-    /// The light over each stand.
-    pub lights: &'a [Light],
-    /// The camera.
-    pub camera: Camera,
-    /// Whether ground is drawn.
-    pub ground: bool,
-    /// Whether the background is transparent.
-    pub transparent: bool,
-    /// The middle and the size of the ground around each stand.
-    pub around: &'a [(Vec3, f32)],
-}
 
 /// Draws a picture of this size, pixels, without text.
 pub fn draw(set: &Set, [width, height]: [u32; 2]) -> Canvas {

@@ -1,0 +1,81 @@
+//! The trees of a stage as plants: grown to a tick, turned about their main axes, with their roots at the origin.
+
+use super::trees::Tree;
+use phytomer_config::scenario::DEFAULT_SEED;
+use phytomer_models::fault::Path;
+use phytomer_models::geometric::{GeometricModel, GeometricTree, TreeType};
+use phytomer_sim::math::sincosf;
+use phytomer_sim::plant::{Plant, Seed};
+use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick, grow};
+
+/// The most branches, buds and leaves of a tree of a stage.
+pub const MOST_COMPONENTS: u32 = 8_000_000;
+
+/// The number of components that a tree comes to have; `None` where its numbers are wrong.
+pub fn foretold(tree: &Tree) -> Option<u64> {
+    let grows = tree.grows(1)?;
+    let (last, tree_type) = (grows.full_grown_at(), tree.tree_type());
+    Some(model(&grows, tree_type, last).ok()?.components_at(last))
+}
+
+fn model(grows: &GeometricTree, tree_type: TreeType, until: Tick) -> Result<GeometricModel, String> {
+    grows.compile(tree_type, until, &Path::root()).map_err(|faults| {
+        let told: Vec<String> = faults.iter().map(|fault| format!("{}: {}", fault.path, fault.problem)).collect();
+        told.join("; ")
+    })
+}
+
+/// A tree at a tick of so many to a growth level; the last one where the tick is beyond it.
+///
+/// # Errors
+/// What keeps it from growing.
+pub fn plant_of(tree: &Tree, steps: u32, tick: Tick) -> Result<(Plant, Tick), String> {
+    let grows = tree.grows(steps).ok_or("a tree of nothing")?;
+    let age = tick.min(grows.full_grown_at());
+    let model = model(&grows, tree.tree_type(), age)?;
+    let seed =
+        Seed { plant: 0, draws: 0, run_seed: DEFAULT_SEED, component_limit: MOST_COMPONENTS, keep_events: false };
+    let mut plot = Plot::of_one(&model, &seed);
+    let mut last = Last { age, plant: None };
+    match grow(&mut plot, age, &mut last).map_err(|error| error.to_string())? {
+        Ending::Complete => {}
+        Ending::Overgrown { age, .. } => {
+            return Err(format!("it has more than {MOST_COMPONENTS} components at age {age}"));
+        }
+    }
+    let mut plant = last.plant.ok_or("it does not stand")?;
+    turn(&mut plant, tree.segment.degrees);
+    Ok((plant, age))
+}
+
+/// Keeps the plant as it stands at an age.
+struct Last {
+    age: Tick,
+    plant: Option<Plant>,
+}
+
+impl Recorder for Last {
+    fn wants(&self, age: Tick) -> bool {
+        age == self.age
+    }
+
+    fn record(&mut self, _: Tick, plot: &Plot) -> Result<(), RecordError> {
+        self.plant = plot.plants.first().cloned();
+        Ok(())
+    }
+}
+
+/// Turns a plant about the direction of its first branch, which leads through its root (Rodrigues).
+fn turn(plant: &mut Plant, degrees: f64) {
+    let Some(axis) = plant.frames.heading.first().copied().filter(|_| degrees % 360.0 != 0.0) else { return };
+    let (sin, cos) = sincosf((degrees % 360.0).to_radians() as f32);
+    let turned = |v: [f32; 3]| {
+        let dot = axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
+        let cross = [axis[1] * v[2] - axis[2] * v[1], axis[2] * v[0] - axis[0] * v[2], axis[0] * v[1] - axis[1] * v[0]];
+        [0, 1, 2].map(|k| v[k] * cos + cross[k] * sin + axis[k] * dot * (1.0 - cos))
+    };
+    let frames = &mut plant.frames;
+    for column in [&mut frames.base, &mut frames.heading, &mut frames.up] {
+        column.iter_mut().for_each(|place| *place = turned(*place));
+    }
+}
