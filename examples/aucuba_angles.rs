@@ -1,11 +1,11 @@
 //! Figs. 8 and 9 of Aono & Kunii 1984: what the leaves of Aucuba cover together, by its branching angles.
 //!
-//! `cargo run --release --example aucuba_angles [FOLDER]` writes `aucuba_leaves.svg` (Fig. 8: the same discs on a tree of
-//! small and of large angles, from above) and `aucuba_angles.svg` (Fig. 9: the area against |h2| for h1 = 10, 20, 25, 30
-//! and 40°), into the folder for temporary files if none is given, and tells where the measured angles, 27° and −37°, lie.
-//! The tree is GMT1 without a divergence, ratio .786, level 6 (their fit of Aucuba), first branch 1; its 64 tips bear
-//! equal discs. The paper gives no size of discs, and the curves depend on it: three are drawn. Absent: the scan lines,
-//! which the paper used; areas are exact.
+//! `cargo run --release --example aucuba_angles [FOLDER]` writes `aucuba_leaves.svg` (Fig. 8: the same discs on a tree
+//! of small and of large angles, from above) and `aucuba_angles.svg` (Fig. 9: the area against |h2| for h1 = 10, 20,
+//! 25, 30 and 40°), into the folder for temporary files if none is given, and tells where the measured angles, 27° and
+//! −37°, lie. The tree is GMT1 without a divergence, ratio .786, level 6 (their fit of Aucuba), first branch 1; its 64
+//! tips bear equal discs. The paper gives no size of discs, and the curves depend on it: three are drawn. Absent: the
+//! scan lines, which the paper used; areas are exact.
 
 use anyhow::{Context, Result};
 use phytomer::models::geometric::child;

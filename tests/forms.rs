@@ -20,8 +20,9 @@ fn number(folder: &Path, words: &[&str], column: &str) -> f64 {
     table["rows"][0][column].as_f64().unwrap_or_else(|| panic!("{column} in {told}"))
 }
 
-/// Figs. 5a, 5c, 5d and 5g have axialities of 0, 3/7, 5/7 and 1 as grown, in the order of Table 1. From 6a to 6d and from
-/// 7a to 7d the cone becomes wider, and of all only the reverse cone of 7d is widest above its middle among 7a to 7d.
+/// Figs. 5a, 5c, 5d and 5g have axialities of 0, 3/7, 5/7 and 1 as grown, in the order of Table 1. From 6a to 6d and
+/// from 7a to 7d the cone becomes wider, and of all only the reverse cone of 7d is widest above its middle among 7a to
+/// 7d.
 #[test]
 fn axiality_and_cone_of_table_1() {
     let home = tempdir().expect("a temporary folder");

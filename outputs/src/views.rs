@@ -2,8 +2,8 @@
 //!
 //! Each body is SQL that DuckDB and DataFusion both read: no `GROUP BY ALL`, no `**`, columns grouped and sorted by
 //! name. DuckDB takes the bodies from `views.sql` as views and macros, `phytomer query` takes them as views and table
-//! functions. Every view with the column `order`, a reserved word of SQL, has `axis_order` too; where species state
-//! the ticks of a year, ages are told in years and days beside ticks. Absent: the engines, and which tables a run folder
+//! functions. Every view with the column `order`, a reserved word of SQL, has `axis_order` too; where species state the
+//! ticks of a year, ages are told in years and days beside ticks. Absent: the engines, and which tables a run folder
 //! has (`views_of_run`).
 
 mod macros;

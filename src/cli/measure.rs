@@ -57,7 +57,8 @@ pub struct Measure {
     /// The thickness of the layers of a crown profile, metres.
     #[arg(long, value_name = "METRES", default_value_t = 0.5)]
     layer: f64,
-    /// The sun that effective-leaf-area is seen from: altitude and azimuth from north over east, degrees [default: above].
+    /// The sun that effective-leaf-area is seen from: altitude, and azimuth from north over east, degrees [default:
+    /// above].
     #[arg(long, value_name = "ALTITUDE,AZIMUTH", allow_hyphen_values = true, value_parser = sun)]
     sun: Option<[f64; 2]>,
     /// The difference that `power` is to find, in the unit of --of.

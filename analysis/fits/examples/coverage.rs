@@ -4,9 +4,9 @@
 //! cargo run --release -p phytomer-fits --example coverage [TIMES [WORDS]]
 //! ```
 //!
-//! With WORDS only the designs whose names have them are repeated. Repetitions are shared by the threads of the machine and do not depend on them. Beside each share stands the one of
-//! the intervals that have both limits. Absent: the designs (`tests/coverage/designs.rs`), and laws that are quick
-//! enough for a test of 4,000 (`tests/coverage.rs`).
+//! With WORDS only the designs whose names have them are repeated. Repetitions are shared by the threads of the machine
+//! and do not depend on them. Beside each share stands the one of the intervals that have both limits. Absent: the
+//! designs (`tests/coverage/designs.rs`), and laws that are quick enough for a test of 4,000 (`tests/coverage.rs`).
 
 #[path = "../tests/coverage/designs.rs"]
 mod designs;

@@ -6,10 +6,10 @@
 //! ```
 //!
 //! `fit_all` finds every law of each data set, with errors, limits and the profile of n for the rivals; the script
-//! (`mixtures.py` beside this file, by the Python of `.venv`) has the mixtures of the same pairs of families by the same
-//! method, and neither errors nor limits. Beside the times stands the number of mixtures that either finds with a ln L
-//! of .01 more. Times are those of the processor, so that other work on the machine does not count; Linux alone tells
-//! them of a thread, elsewhere the clock does. Absent: a bound; times depend on the machine.
+//! (`mixtures.py` beside this file, by the Python of `.venv`) has the mixtures of the same pairs of families by the
+//! same method, and neither errors nor limits. Beside the times stands the number of mixtures that either finds with a
+//! ln L of .01 more. Times are those of the processor, so that other work on the machine does not count; Linux alone
+//! tells them of a thread, elsewhere the clock does. Absent: a bound; times depend on the machine.
 
 use phytomer_fits::nodes::laws::PAIRS;
 use phytomer_fits::nodes::{Family, fit_all, fit_mixture};

@@ -1,8 +1,8 @@
 //! How often intervals of 95 % hold the truth, in 4,000 keyed repetitions each: within 93 to 97 %, or the figure that
 //! `docs/statistics.md` tells.
 //!
-//! The standard error of such a share is .0034. Mixtures and the crown take long: here 40 to 200 repetitions with bounds
-//! four standard errors around the figures of 4,000, which the example `coverage` repeats. Absent: measured data
+//! The standard error of such a share is .0034. Mixtures and the crown take long: here 40 to 200 repetitions with
+//! bounds four standard errors around the figures of 4,000, which the example `coverage` repeats. Absent: measured data
 //! (`measured`).
 
 #[path = "coverage/designs.rs"]

@@ -1,5 +1,5 @@
-//! The union of discs: exactly, for ten thousand, a hundred thousand and a million discs at the same density, and by scan
-//! lines at a hundredth of the radius.
+//! The union of discs: exactly, for ten thousand, a hundred thousand and a million discs at the same density, and by
+//! scan lines at a hundredth of the radius.
 //!
 //! Discs lie at random, twice as much area as ground, so that each meets eight others. `PHYTOMER_PAIRS=5 cargo bench -p
 //! phytomer-measures --bench discs -- turns` tells the ratios by turns: ten times the discs are to take twelve times as

@@ -1,5 +1,6 @@
 //! Statistics of plants: means with their design effect, proportions, survival, circular means, lines, branching
-//! ratios, contrasts, variance components, power, and a bootstrap by plant; the area that discs cover, and forms of trees.
+//! ratios, contrasts, variance components, power, and a bootstrap by plant; the area that discs cover, and forms of
+//! trees.
 //!
 //! The plant is the unit. Buds, axes and leaves of one plant are not independent, so intervals are of the values of
 //! plants; what a file offers for single units says so. Each file has a formula with its source. What cannot be

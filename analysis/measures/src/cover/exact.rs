@@ -1,9 +1,10 @@
-//! The union of discs exactly: by Green's theorem its area is ½ ∮ (x dy − y dx) along the arcs that no other disc covers.
+//! The union of discs exactly: by Green's theorem its area is ½ ∮ (x dy − y dx) along the arcs that no other disc
+//! covers.
 //!
-//! The arc of a circle of radius r about (a, b) from the angle s to t gives ½ r (r (t − s) + a (sin t − sin s) − b (cos t −
-//! cos s)). A disc within another has no arc, and of equal discs the first alone. Holes are counted right, since their
-//! arcs run the other way round as seen from them. The time is linear in the pairs that meet but for the sort of the
-//! arcs of each disc; memory too. Error: that of rounding, relative to the whole. Absent: anything but discs.
+//! The arc of a circle of radius r about (a, b) from the angle s to t gives ½ r (r (t − s) + a (sin t − sin s) − b (cos
+//! t − cos s)). A disc within another has no arc, and of equal discs the first alone. Holes are counted right, since
+//! their arcs run the other way round as seen from them. The time is linear in the pairs that meet but for the sort of
+//! the arcs of each disc; memory too. Error: that of rounding, relative to the whole. Absent: anything but discs.
 
 use super::Disc;
 use super::neighbours::Grid;

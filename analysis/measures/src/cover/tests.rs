@@ -87,7 +87,8 @@ fn radii_that_differ() {
     is(area(&discs), PI * 500.0 * 500.0);
 }
 
-/// The tips of Aucuba as the printed equations of GMT1 place them without a divergence, h 27° and −37°, ratio .786, level 6.
+/// The tips of Aucuba as the printed equations of GMT1 place them without a divergence, h 27° and −37°, ratio .786,
+/// level 6.
 fn aucuba() -> Vec<[f64; 3]> {
     let mut branches = vec![([0.0; 3], [0.0, 0.0, 1.0])];
     for _ in 0..6 {
