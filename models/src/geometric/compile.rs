@@ -160,7 +160,7 @@ impl Descriptor {
         let Some(stated) = self.first_direction else { return [0.0, 0.0, 1.0] };
         let [x, y, z] = within(stated, DIRECTION, &path, faults);
         let long = (x * x + y * y + z * z).sqrt();
-        if !(long > 1e-9) {
+        if long.is_nan() || long <= 1e-9 {
             faults.push(Fault::new(&path, "the direction has no length", "at least one number that is not 0"));
             return [0.0, 0.0, 1.0];
         }

@@ -48,7 +48,7 @@ fn lateral(outline: &Outline<'_>, first: usize, reach: usize, number: u64, all: 
     let mut branches = vec![0_u64; orders];
     branches[1] = number;
     let mut begun = branches.clone();
-    for level in first..=reach {
+    for (level, added) in all.iter_mut().enumerate().take(reach + 1).skip(first) {
         if level > first {
             let sideways = u64::from(outline.children[level - 1]) - 1;
             begun = (0..orders).map(|k| if k > 0 { branches[k - 1].saturating_mul(sideways) } else { 0 }).collect();
@@ -57,7 +57,6 @@ fn lateral(outline: &Outline<'_>, first: usize, reach: usize, number: u64, all: 
             }
         }
         for order in 0..orders {
-            let added = &mut all[level];
             added.branches[order] = added.branches[order].saturating_add(branches[order]);
             added.axes[order] = added.axes[order].saturating_add(begun[order]);
         }

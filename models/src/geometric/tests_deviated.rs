@@ -43,7 +43,10 @@ fn row_12(deviation_m: Option<Point>) -> Rule {
 }
 
 const DOWN_11: Point = [0.3, 0.3, -0.3];
-const TABLE_4: [(&str, Option<Point>, &[(f64, Point)]); 4] = [
+/// Figure, uniform deviation, and controllers with their strengths.
+type Row = (&'static str, Option<Point>, &'static [(f64, Point)]);
+
+const TABLE_4: [Row; 4] = [
     ("11a", Some(DOWN_11), &[]),
     ("11c", None, &[(1.6, [30.0, 0.0, 0.0])]),
     ("11d", None, &[(-1.0, [30.0, 0.0, 0.0])]),
@@ -194,7 +197,7 @@ fn a_controller_on_the_second_level_moves_that_level_and_what_it_bears_alone() {
     // What stands on it follows from the moved mother by the formula of GMT1 alone.
     for i in 7..63 {
         let (mother, way) = ((i - 1) / 2, (i - 1) % 2);
-        let (a, b) = ((mother > 0).then(|| after[(mother - 1) / 2]).unwrap_or_default(), after[mother]);
+        let (a, b) = (if mother > 0 { after[(mother - 1) / 2] } else { [0.0; 3] }, after[mother]);
         let turn = f64::from(plant.nodes.rank[mother] - 1) * 140.0 * PI / 180.0;
         let expected = printed_child(a, b, [0.9, 0.8][way], [0.0, -45.0][way] * PI / 180.0, turn);
         assert!((0..3).all(|k| (after[i][k] - expected[k]).abs() < 2e-5), "branch {i}");
