@@ -1,4 +1,5 @@
-//! The trees and clusters of a script, statement by statement, and the modes that hold for trees that are yet to be made.
+//! The trees and clusters of a script, statement by statement, and the modes that hold for trees that are yet to be
+//! made.
 //!
 //! Names have been checked (`phytomer_asystem`), so a name that is not there changes nothing.
 

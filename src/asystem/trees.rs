@@ -1,8 +1,8 @@
 //! The trees of a stage: what a script has said of each, and where it stands.
 //!
 //! Growth levels, ratios, angles, deviators, cuts and leaves become keys of a [`GeometricTree`] when it is asked for; a
-//! zoom multiplies every length in it. Places and turns belong to the stage. Absent: growth (`grown`), and how trees are
-//! drawn (`drawn`).
+//! zoom multiplies every length in it. Places and turns belong to the stage. Absent: growth (`grown`), and how trees
+//! are drawn (`drawn`).
 
 use phytomer_asystem::{Angles, Colour, Controller, Deformation, GirthForm, Part, TreeDescriptor, TreeType as Word};
 use phytomer_looks::FormName;

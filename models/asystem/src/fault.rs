@@ -1,7 +1,7 @@
 //! What is wrong with a script, and where.
 //!
-//! All faults of a script are told at once, in their order. Of more than a hundred only the number is kept: one slip may
-//! have many consequences.
+//! All faults of a script are told at once, in their order. Of more than a hundred only the number is kept: one slip
+//! may have many consequences.
 
 use std::fmt;
 

@@ -1,8 +1,8 @@
 //! The names of a script, statement by statement: what exists, what is new, and what belongs to what.
 //!
 //! Names are checked before anything is drawn, and again as statements are typed. A tree is in at most one cluster, as
-//! the paper's `SEGMENT` has one class. What is glued or merged is part of what comes of it, and its name is free again.
-//! Absent: what trees look like.
+//! the paper's `SEGMENT` has one class. What is glued or merged is part of what comes of it, and its name is free
+//! again. Absent: what trees look like.
 
 use super::commands::COMMANDS;
 use super::fault::Fault;

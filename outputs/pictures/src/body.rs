@@ -2,7 +2,8 @@
 //! does to its parts, and how its triangles come onto the film.
 //!
 //! Blocks are made when they are used and dropped; those of a plant that stands at several places are made once and
-//! kept, and so are those of an obstacle, and those of plants that are small near a camera. Absent: what stands together (`placed`).
+//! kept, and so are those of an obstacle, and those of plants that are small near a camera. Absent: what stands
+//! together (`placed`).
 
 use super::camera::Camera;
 use super::extent::corners;

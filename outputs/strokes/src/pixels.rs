@@ -1,7 +1,7 @@
 //! A sheet as pixels: each polygon is filled over a grid of samples, four by four a pixel, and a pixel is their mean.
 //!
-//! Polygons are filled row by row between the crossings of their sides, by the even-odd rule. A page of rows is drawn at
-//! a time, so that memory does not grow with the sheet.
+//! Polygons are filled row by row between the crossings of their sides, by the even-odd rule. A page of rows is drawn
+//! at a time, so that memory does not grow with the sheet.
 
 use super::flat::Flat;
 use super::{Port, Sheet};
