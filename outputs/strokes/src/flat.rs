@@ -31,7 +31,7 @@ impl Shadow {
     pub fn of(&self, [x, y, z]: Place) -> Option<Place> {
         let [ex, ey, ez] = self.emitter;
         let share = ez / (ez - z);
-        (z < ez).then(|| [ex + (x - ex) * share, ey + (y - ey) * share, 0.0])
+        (z < ez).then_some([ex + (x - ex) * share, ey + (y - ey) * share, 0.0])
     }
 }
 
