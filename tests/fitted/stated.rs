@@ -55,7 +55,7 @@ fn poplars_state_what_was_fitted() {
         let (law, fit, form) = (&laws[choice.taken], choice.taken(), nodes_of(species, order));
         let what = format!("{species}, order {order}");
         println!("| {what} | {} | n {} |", fit.law, fit.n);
-        assert_eq!((form.n, form.shift), (Some(counts.iter().sum::<f64>() as u32), law.shift as u32), "{what}");
+        assert_eq!((form.n, form.shift), (Some(counts.iter().sum::<f64>() as u32), law.shift), "{what}");
         intervals(&what, &form.interval, fit);
         let parts = form.mixture.clone().unwrap_or_default();
         assert_eq!(parts.len().max(1), law.parts.len(), "{what}");
