@@ -125,15 +125,15 @@ fn a_run_is_data_of_every_law() {
         println!("{name}: {low} to {high}");
         assert!(low <= truth && truth <= high, "{own}");
     };
-    // The trunk of this species pauses in .08 of its ticks, and hardly dies by then.
-    within(&fit("activity", &["--window", "1..30"]), "b", 0.92);
+    // The trunk of this species pauses in .12 of its ticks, and hardly dies by then.
+    within(&fit("activity", &["--window", "1..30"]), "b", 0.88);
     // Its branches die by a law of their cycles, which pass as ticks do.
     let deaths = fit("mortality", &["--order", "2", "--check", "10"]);
     assert!(deaths["n"].as_f64().unwrap() > 1.0, "{deaths}");
     let fates = fit("branching", &["--order", "1", "--zone", "10", "--chain", "2"]);
     assert!(fates["n"].as_f64().unwrap() > 1000.0, "{fates}");
     let crown = fit("crown", &["--order", "1"]);
-    within(&crown, "b1", 0.92);
+    within(&crown, "b1", 0.88);
     // Whole plants are left out.
     let told = run(folder, &["fit", "runs/trial", "--law", "mortality", "--order", "2", "--check", "10"]).ending(0);
     assert!(told.stdout.contains("left out and predicted"), "{}", told.stdout);
