@@ -168,7 +168,8 @@ fn every_shipped_scenario_grows_as_foretold() {
 /// The trees of stems whose numbers follow from what is drawn. The clones of the first three are no whole number a
 /// segment (Weber & Penn 1995 §4.2), and their means are estimates. The crowns of the others, shapes 5 and 8, have no
 /// width at one end (§4.3); the stems there that would be under a millimetre long do not grow. Of the trees of Aono &
-/// Kunii 1984 deviators move tips by more than the last branches are long, and might move one to nothing, where it ends.
+/// Kunii 1984 deviators move tips by more than the last branches are long, and might move one to nothing, where it
+/// ends.
 const DRAWN: [(&str, Certainty); 14] = [
     ("wp/black_oak", Certainty::About),
     ("wp/cottonwood", Certainty::About),
