@@ -33,6 +33,7 @@ enum Keys<'a> {
 
 impl Words<'_> {
     /// The place of the word of a row in `words`; `None` for null.
+    #[inline]
     pub fn at(&self, row: usize) -> Option<usize> {
         match &self.keys {
             Keys::Bytes(keys) if keys.is_null(row) => None,
