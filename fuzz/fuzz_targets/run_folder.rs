@@ -1,6 +1,6 @@
 //! `cargo +nightly fuzz run run_folder`: libFuzzer over `phytomer_fuzz::run_folder`.
 //!
-//! The target itself, and what must come of an input, are in the library; the seeds of the bin `minute` are not used.
+//! The target itself, and what must come of an input, are in the library; libFuzzer begins with no seeds.
 //! libFuzzer ends at any panic, so also at those of the crate arrow-ipc that `outputs` makes an error of.
 
 #![no_main]

@@ -1,6 +1,6 @@
 //! `cargo +nightly fuzz run species`: libFuzzer over `phytomer_fuzz::species`.
 //!
-//! The target itself, and what must come of an input, are in the library; the seeds of the bin `minute` are not used.
+//! The target itself, and what must come of an input, are in the library; libFuzzer begins with no seeds.
 
 #![no_main]
 

@@ -4,8 +4,8 @@ use super::trees::Tree;
 use phytomer_config::scenario::DEFAULT_SEED;
 use phytomer_models::fault::Path;
 use phytomer_models::geometric::{GeometricModel, GeometricTree, TreeType};
-use phytomer_sim::math::sincosf;
 use phytomer_sim::plant::{Plant, Seed};
+use phytomer_sim::rotation::Rotation;
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick, grow};
 
 /// The most branches, buds and leaves of a tree of a stage.
@@ -65,15 +65,11 @@ impl Recorder for Last {
     }
 }
 
-/// Turns a plant about the direction of its first branch, which leads through its root (Rodrigues).
+/// Turns a plant about the direction of its first branch, which leads through its root.
 fn turn(plant: &mut Plant, degrees: f64) {
     let Some(axis) = plant.frames.heading.first().copied().filter(|_| degrees % 360.0 != 0.0) else { return };
-    let (sin, cos) = sincosf((degrees % 360.0).to_radians() as f32);
-    let turned = |v: [f32; 3]| {
-        let dot = axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
-        let cross = [axis[1] * v[2] - axis[2] * v[1], axis[2] * v[0] - axis[0] * v[2], axis[0] * v[1] - axis[1] * v[0]];
-        [0, 1, 2].map(|k| v[k] * cos + cross[k] * sin + axis[k] * dot * (1.0 - cos))
-    };
+    let rotation = Rotation::about(axis.map(f64::from), (degrees % 360.0).to_radians());
+    let turned = |place: [f32; 3]| rotation.turned(place.map(f64::from)).map(|x| x as f32);
     let frames = &mut plant.frames;
     for column in [&mut frames.base, &mut frames.heading, &mut frames.up] {
         column.iter_mut().for_each(|place| *place = turned(*place));

@@ -162,7 +162,7 @@ impl Stage {
         if !station.frames.is_empty() {
             let frames: Vec<String> =
                 (0..station.frames.len()).map(|frame| frame_name(name, &station, frame)).collect();
-            let path = self.folder.join(format!("{name}_frames.txt"));
+            let path = self.folder.join(format!("{name}-frames.txt"));
             write_times(&frames, &station.frames, &path)?;
             written.files.push(path);
         }
@@ -232,9 +232,9 @@ fn grown(name: &str, tree: &Tree, steps: u32, tick: Tick) -> Result<(Plant, Tick
     plant_of(tree, steps, tick).map_err(|problem| StageError::Tree(name.to_owned(), problem))
 }
 
-/// The name of a frame, from 0.
+/// The name of a frame, from 0. No workstation has a hyphen in its name, so that no other file has this name.
 fn frame_name(name: &str, station: &Station, frame: usize) -> String {
-    format!("{name}_{frame:04}.{}", station.ending())
+    format!("{name}-{frame:04}.{}", station.ending())
 }
 
 fn help(command: &Command) -> String {

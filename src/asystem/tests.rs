@@ -96,14 +96,14 @@ fn workstations_write_their_files_into_one_folder() {
     let names: Vec<String> =
         written.files.iter().map(|path| path.file_name().unwrap().to_string_lossy().into_owned()).collect();
     // Of b three levels of two steps, of c two trees, of a two levels.
-    let frames = |name: &str| names.iter().filter(|file| file.starts_with(&format!("{name}_0"))).count();
+    let frames = |name: &str| names.iter().filter(|file| file.starts_with(&format!("{name}-0"))).count();
     assert_eq!((frames("d"), frames("p"), frames("m")), (6 + 2 + 2, 6 + 2 + 2, 0), "{names:?}");
-    for name in ["d.png", "p.svg", "m.ply", "d_frames.txt", "p_frames.txt"] {
+    for name in ["d.png", "p.svg", "m.ply", "d-frames.txt", "p-frames.txt"] {
         assert!(names.iter().any(|file| file == name), "{name} in {names:?}");
     }
-    let times = fs::read_to_string(folder.path().join("d_frames.txt")).unwrap();
+    let times = fs::read_to_string(folder.path().join("d-frames.txt")).unwrap();
     assert!(
-        times.starts_with("ffconcat version 1.0\nfile 'd_0000.png'\nduration 0.2\n") && times.contains("duration 1\n")
+        times.starts_with("ffconcat version 1.0\nfile 'd-0000.png'\nduration 0.2\n") && times.contains("duration 1\n")
     );
     assert!(times.ends_with("duration 0.5\n"));
     assert!(written.files.iter().all(|path| path.parent() == Some(folder.path()) && path.is_file()));
@@ -134,6 +134,10 @@ fn what_the_models_refuse_is_told_before_anything_is_drawn() {
     );
     let crossed = told("\n  create gmt4 a 3 .9 .8 1 20 60 -20 -60;");
     assert!(crossed.starts_with("2:3: the tree `a`"), "{crossed}");
+    for shorter in [10, 25] {
+        let gone = told(&format!("create gmt1 a 3 .9 .8 20 -40; deform a off off on 0 0 0 -{shorter};"));
+        assert!(gone.contains("1:31: the tree `a`, first_length_m"), "{shorter}: {gone}");
+    }
     let leaf = told("create gmt1 a 3 .9 .8 20 -40; leaf a gmt1 eliptic 3 0 99 0;");
     assert!(leaf.contains("the nearest is `elliptic`"), "{leaf}");
 }

@@ -206,7 +206,8 @@ impl Tree {
             self.root = *root;
             if let Some(stem) = self.stems.first_mut() {
                 let long = length(stem.way);
-                let share = (long + more) / long;
+                // A branch that would be shorter than nothing has no length, which the models refuse.
+                let share = ((long + more) / long).max(0.0);
                 stem.way = stem.way.map(|x| x * share);
             }
             self.stems.iter_mut().for_each(|stem| stem.root = *root);

@@ -17,8 +17,8 @@ pub struct Coarse {
 }
 
 impl Coarse {
-    /// The farthest that an organ of this length and width lies from its full form, metres. It is as wide as its area
-    /// asks, about.
+    /// The farthest that a corner of an organ of this length and width lies from the full form, metres, where the
+    /// organ has the width that its form states; the fullness by its area moves corners a little more or less.
     #[inline]
     pub fn distance(&self, [length, width]: [f32; 2]) -> f32 {
         let depth = if self.mesh.depth == super::Depth::Width { width } else { length };
@@ -65,7 +65,7 @@ fn coarse(full: &FormMesh, corners: u32, stalks: bool) -> Coarse {
     Coarse { mesh, off }
 }
 
-/// At most so many corners of a polygon, in their order: those from which the others lie least far.
+/// At most so many corners of a polygon, in their order, chosen so that the corners left out lie as near as can be.
 fn kept(points: &[Point], corners: u32) -> Vec<Point> {
     if points.len() <= corners as usize {
         return points.to_vec();
