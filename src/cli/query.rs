@@ -42,7 +42,7 @@ pub struct Query {
     #[arg(required = true, num_args = 1.., value_name = "RUN… SQL")]
     words: Vec<String>,
     /// Print the views and macros of the runs for DuckDB, with whole paths.
-    #[arg(long, conflicts_with_all = ["out", "json", "memory", "rows"])]
+    #[arg(long, conflicts_with_all = ["out", "json", "memory", "rows", "threads"])]
     views: bool,
     /// The file to write: .csv, .json or .parquet.
     #[arg(long, value_name = "FILE", conflicts_with = "json")]
@@ -53,6 +53,9 @@ pub struct Query {
     /// The memory that sorting, joining and grouping may take before they write to the folder for temporary files.
     #[arg(long, value_name = "BYTES", default_value = "2GiB", value_parser = bytes)]
     memory: usize,
+    /// Threads; as many as the machine has, at most 8, if not given. No row depends on it.
+    #[arg(long, value_name = "N", value_parser = threads)]
+    threads: Option<usize>,
     /// The most rows that a table on the terminal shows.
     #[arg(long, value_name = "N", default_value_t = 1000)]
     rows: usize,
@@ -107,6 +110,12 @@ fn views(runs: &[NamedRun]) -> Result<String> {
         tables.push(tables_of(run, name, |table| duckdb_source(&folder, table))?);
     }
     Ok(for_duckdb("Paths are whole: `.read` it in any folder, or start `duckdb -init` with it.", &tables))
+}
+
+/// A number of threads.
+fn threads(text: &str) -> Result<usize, String> {
+    let expected = || format!("`{text}` is no number of threads; expected a whole number from 1 to 1024");
+    text.parse().ok().filter(|threads| (1..=1024).contains(threads)).ok_or_else(expected)
 }
 
 /// A number of bytes as people write it: `500MB`, `2GiB`.

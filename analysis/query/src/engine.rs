@@ -3,11 +3,14 @@
 //!
 //! A table of a run is the list of its part files that the run's papers name, never a pattern, so a query sees what
 //! `describe` sees. Memory that sorts, joins and groups ask for is limited; beyond it they write to the temporary
-//! folder of the system. Absent: what becomes of the rows (`output`), and more
-//! than one thread.
+//! folder of the system. Every scan is cut into [`PARTS`] parts, which threads share, and parts meet in their order
+//! (`order`), so that rows, their order and the sums of real numbers do not depend on the number of threads. Absent:
+//! what becomes of the rows (`output`).
 
+use super::codes::GroupByCodes;
 use super::error::Error;
 use super::functions::Macro;
+use super::order::KeepOrder;
 use super::output::Rows;
 use super::stop::Stop;
 use arrow_schema::Schema;
@@ -19,7 +22,8 @@ use datafusion::datasource::file_format::parquet::ParquetFormat;
 use datafusion::datasource::listing::{ListingOptions, ListingTable, ListingTableConfig, ListingTableUrl};
 use datafusion::execution::context::SQLOptions;
 use datafusion::execution::memory_pool::FairSpillPool;
-use datafusion::execution::runtime_env::RuntimeEnvBuilder;
+use datafusion::execution::runtime_env::{RuntimeEnv, RuntimeEnvBuilder};
+use datafusion::execution::session_state::SessionStateBuilder;
 use datafusion::logical_expr::LogicalPlan;
 use datafusion::prelude::{SessionConfig, SessionContext};
 use futures::StreamExt;
@@ -46,17 +50,25 @@ const BATCHES: usize = 64;
 /// The bytes of a row, about.
 const BYTES_A_ROW: usize = 128;
 
+/// The parts of a scan, on any number of threads: what parts find and where they meet is the same everywhere.
+const PARTS: usize = 8;
+
+/// The most threads that read files and write what memory does not hold, beside those that compute.
+const READERS: usize = 16;
+
 /// What a query may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
     /// The memory that sorts, joins and groups may take before they write to the disk, bytes.
     pub memory_bytes: usize,
+    /// The threads that work on a query; 0 for as many as the machine has.
+    pub threads: usize,
 }
 
 impl Default for Settings {
-    /// 2 GiB.
+    /// 2 GiB and all threads of the machine.
     fn default() -> Self {
-        Self { memory_bytes: 2 << 30 }
+        Self { memory_bytes: 2 << 30, threads: 0 }
     }
 }
 
@@ -72,25 +84,22 @@ impl Engine {
     /// # Errors
     /// Where the part files of a run cannot be read.
     pub fn over(runs: &[(String, Run)], settings: &Settings) -> Result<Self, Error> {
-        let runtime = Builder::new_current_thread()
+        let threads = match settings.threads {
+            0 => std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
+            threads => threads,
+        };
+        let runtime = Builder::new_multi_thread()
+            .worker_threads(threads.min(PARTS))
+            .max_blocking_threads(READERS)
+            .thread_stack_size(STACK_BYTES)
             .build()
             .map_err(|error| Error::Run(format!("no threads can be started: {error}")))?;
         let pool = Arc::new(FairSpillPool::new(settings.memory_bytes));
         let environment = RuntimeEnvBuilder::new().with_memory_pool(pool).build_arc();
         let environment = environment.map_err(|error| Error::of_run(&error))?;
-        // One thread works on a query, and takes its parts one after another.
-        let mut config = SessionConfig::new().with_target_partitions(1).with_information_schema(true);
-        let options = config.options_mut();
-        options.sql_parser.collect_spans = true;
-        options.execution.parquet.pushdown_filters = true;
-        // A merge holds a batch of each of its inputs, which no disk can take: where memory is little, batches are
-        // small, and the merge of sorted files gets its part.
-        let most = options.execution.batch_size.get();
-        let rows = (settings.memory_bytes / (BATCHES * BYTES_A_ROW)).clamp(128, most);
-        options.execution.batch_size = ConfigNonZeroUsize::try_new(rows).map_err(|error| Error::of_run(&error))?;
-        let for_merges = options.execution.sort_spill_reservation_bytes;
-        options.execution.sort_spill_reservation_bytes = for_merges.min(settings.memory_bytes / 20);
-        let engine = Self { runtime, context: SessionContext::new_with_config_rt(config, environment) };
+        let config = config_of(settings.memory_bytes)?;
+        let order = KeepOrder { at_once: threads + 1 };
+        let engine = Self { runtime, context: context_of(config, environment, order) };
         engine.lay_out(runs)?;
         Ok(engine)
     }
@@ -170,6 +179,43 @@ impl Engine {
         }
         Ok(count)
     }
+}
+
+/// What DataFusion may do: it cuts the files of a table into [`PARTS`] ranges and nothing else into parts, takes no
+/// range from a slower part, and looks for first rows in each part alone, so that time decides nothing.
+fn config_of(memory_bytes: usize) -> Result<SessionConfig, Error> {
+    let mut config = SessionConfig::new().with_target_partitions(PARTS).with_information_schema(true);
+    let options = config.options_mut();
+    options.sql_parser.collect_spans = true;
+    options.execution.parquet.pushdown_filters = true;
+    options.execution.enable_file_stream_work_stealing = false;
+    options.optimizer.enable_round_robin_repartition = false;
+    options.optimizer.repartition_aggregations = false;
+    options.optimizer.repartition_joins = false;
+    options.optimizer.repartition_windows = false;
+    // Sorts of all parts at once would leave no memory for their merge; first rows are found in parts all the same.
+    options.optimizer.repartition_sorts = false;
+    options.optimizer.enable_topk_dynamic_filter_pushdown = false;
+    // It waits until the first side of all parts of a join is there, and parts are joined in turn.
+    options.optimizer.enable_join_dynamic_filter_pushdown = false;
+    // A merge holds a batch of each of its inputs, which no disk can take: where memory is little, batches are
+    // small, and the merge of sorted files gets its part.
+    let most = options.execution.batch_size.get();
+    let rows = (memory_bytes / (BATCHES * BYTES_A_ROW)).clamp(128, most);
+    options.execution.batch_size = ConfigNonZeroUsize::try_new(rows).map_err(|error| Error::of_run(&error))?;
+    let for_merges = options.execution.sort_spill_reservation_bytes;
+    options.execution.sort_spill_reservation_bytes = for_merges.min(memory_bytes / 20);
+    Ok(config)
+}
+
+fn context_of(config: SessionConfig, environment: Arc<RuntimeEnv>, order: KeepOrder) -> SessionContext {
+    let state = SessionStateBuilder::new().with_config(config).with_runtime_env(environment).with_default_features();
+    SessionContext::new_with_state(
+        state
+            .with_optimizer_rule(Arc::new(GroupByCodes::default()))
+            .with_physical_optimizer_rule(Arc::new(order))
+            .build(),
+    )
 }
 
 /// Refuses a plan that would change anything.

@@ -7,9 +7,12 @@
 
 #![cfg(feature = "engine")]
 
+mod aligned;
+mod codes;
 mod engine;
 mod error;
 mod functions;
+mod order;
 mod output;
 mod stop;
 

@@ -1,36 +1,17 @@
 //! The engine of queries: its rows are those of DuckDB on the same views, it only reads, its errors have places, memory
 //! is limited.
 //!
-//! Two runs of one scenario with two treatments, of different seeds, so that the column `run` tells them apart. They
-//! are grown by the program that `PHYTOMER_RELEASE` names, else by the one of the dev profile, so that nothing of it is
-//! built again here; without one the tests skip and say so, but never in CI. Absent: the command line (`tests/query.rs`
+//! Absent: joins by parts and groups by words (`plans`), the command line (`tests/query.rs`
 //! of the program), and speed (`examples/queries.rs`).
 
-#[path = "../../../tests/program/absent.rs"]
-mod absent;
+mod grown;
 
 use arrow_array::{Array, Float32Array, RecordBatch};
-use phytomer_outputs::read::Run;
+use grown::{absent, engine_over, grown, phytomer, program, root};
 use phytomer_query::{Engine, Error, Format, Rows, SchemaRef, Settings, Stop, Table, open};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
-use tempfile::TempDir;
-
-const SCENARIO: &str = "
-name = \"two\"
-species = \"apple\"
-plants = 4
-seed = 7
-spacing_m = 2
-ages = { until = 8, record = \"all\" }
-output = { mechanics = true, plants_per_part = 2 }
-
-[[experiment.factor]]
-name = \"stand\"
-level = [{ name = \"wide\" }, { name = \"dense\", spacing_m = 1 }]
-";
 
 /// Queries whose rows both engines give.
 const QUERIES: [&str; 26] = [
@@ -66,49 +47,12 @@ const QUERIES: [&str; 26] = [
      NOT NULL GROUP BY run, plant_id, axis_id, growth_unit) SELECT nodes, count(*) AS units FROM per_unit GROUP BY nodes",
 ];
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-/// The program that grows the runs.
-fn program() -> Option<PathBuf> {
-    let named = std::env::var_os("PHYTOMER_RELEASE").map(|path| root().join(path));
-    let built = named.unwrap_or_else(|| root().join("target/debug/phytomer"));
-    if built.is_file() {
-        return Some(built);
-    }
-    assert!(!absent::in_ci(), "CI must have a program that grows: {}", built.display());
-    absent::skip("no program that grows runs; `cargo build` makes one");
-    None
-}
-
-fn phytomer(program: &Path, folder: &Path, words: &[&str]) -> String {
-    let done = Command::new(program).current_dir(folder).args(words).output().expect("the program starts");
-    assert!(done.status.success(), "{words:?}: {}", String::from_utf8_lossy(&done.stderr));
-    String::from_utf8(done.stdout).expect("UTF-8")
-}
-
-/// A folder with the runs `one` and `the other's` below runs/; grown once.
-fn grown() -> Option<&'static Path> {
-    static GROWN: OnceLock<Option<TempDir>> = OnceLock::new();
-    let grown = GROWN.get_or_init(|| {
-        let program = program()?;
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        fs::write(folder.path().join("two.toml"), SCENARIO).expect("a file");
-        for (seed, name) in [("7", "runs/one"), ("8", "runs/the other's")] {
-            phytomer(&program, folder.path(), &["grow", "two.toml", "--seed", seed, "--out", name, "--quiet"]);
-        }
-        Some(folder)
-    });
-    grown.as_ref().map(TempDir::path)
-}
-
 fn engine(folder: &Path, memory_bytes: usize) -> Engine {
-    let runs = ["one", "the other's"].map(|name| {
-        let run = Run::open(&folder.join("runs").join(name)).expect("a run");
-        (name.to_owned(), run)
-    });
-    Engine::over(&runs, &Settings { memory_bytes }).unwrap_or_else(|error| panic!("{error}"))
+    engine_of(folder, &Settings { memory_bytes, threads: 2 })
+}
+
+fn engine_of(folder: &Path, settings: &Settings) -> Engine {
+    engine_over(folder, &["one", "the other's"], settings)
 }
 
 /// The names and the sizes of the files in the folder of the runs.
@@ -289,6 +233,70 @@ impl Rows for Checked {
     fn finish(self: Box<Self>) -> Result<(), Error> {
         Ok(())
     }
+}
+
+/// Queries whose rows are in no order that they state, have ties, or sum real numbers in the order of the work.
+const IN_NO_ORDER: [&str; 8] = [
+    "SELECT plant_id, age, sum(length_m) AS length_m, count(DISTINCT axis_id) AS axes FROM records GROUP BY plant_id, age",
+    "SELECT sum(x_m) AS x, avg(diameter_m) AS d, stddev(z_m) AS z FROM records",
+    "SELECT component_id, age FROM records ORDER BY age DESC LIMIT 50",
+    "SELECT component_id, kind FROM records ORDER BY kind",
+    "SELECT component_id, x_m FROM records LIMIT 1000",
+    "SELECT c.component_id, r.age FROM components c LEFT JOIN records r ON c.run = r.run AND c.plant_id = r.plant_id AND \
+     c.component_id = r.component_id AND r.z_m > 0.5",
+    "SELECT p.plant_id, e.event FROM plants p FULL JOIN events e ON p.run = e.run AND p.plant_id + 1 = e.plant_id",
+    "SELECT component_id, row_number() OVER (PARTITION BY kind ORDER BY age) AS place FROM records WHERE length_m > 0.1",
+];
+
+/// The rows of a query as they come, every bit of them.
+#[derive(Default)]
+struct Kept {
+    batches: Vec<RecordBatch>,
+}
+
+impl Rows for Kept {
+    fn begin(&mut self, _schema: &SchemaRef) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn add(&mut self, batch: &RecordBatch) -> Result<(), Error> {
+        self.batches.push(batch.clone());
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+impl Kept {
+    /// The rows in one batch: where batches end is not told.
+    fn rows(&self) -> RecordBatch {
+        let schema = self.batches.first().expect("a batch").schema();
+        datafusion::arrow::compute::concat_batches(&schema, &self.batches).expect("batches of one schema")
+    }
+}
+
+/// Threads share the parts of a query, and parts meet in their order.
+#[test]
+fn rows_and_their_order_do_not_depend_on_threads() {
+    let Some(folder) = grown() else { return };
+    let engines = [1, 2, 5].map(|threads| engine_of(folder, &Settings { memory_bytes: 1 << 30, threads }));
+    for sql in QUERIES.iter().chain(&IN_NO_ORDER) {
+        let [one, two, five] = engines.each_ref().map(|engine| {
+            let mut kept = Kept::default();
+            engine.query(sql, &Stop::default(), &mut kept).unwrap_or_else(|error| panic!("{sql}: {error}"));
+            kept
+        });
+        if one.batches.is_empty() {
+            assert!(sql.contains("(-1)") || sql.contains("(0)"), "{sql}: no rows");
+            continue;
+        }
+        assert_eq!(one.rows(), two.rows(), "{sql}");
+        assert_eq!(one.rows(), five.rows(), "{sql}");
+    }
+    let told = text(&engines[1], "EXPLAIN SELECT kind, count(*) FROM records GROUP BY kind").expect("a plan");
+    assert!(told.contains("InOrder") && !told.contains("RepartitionExec"), "{told}");
 }
 
 #[test]

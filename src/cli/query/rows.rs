@@ -21,7 +21,7 @@ impl Query {
         let stop = Stop::default();
         let (asked, told) = (stop.clone(), stop.clone());
         interrupt::listen(move || asked.is_stopped(), move || told.stop(), "stopping")?;
-        let engine = Engine::over(runs, &Settings { memory_bytes: self.memory });
+        let engine = Engine::over(runs, &Settings { memory_bytes: self.memory, threads: self.threads.unwrap_or(0) });
         let done = engine.and_then(|engine| match target {
             Some((path, format)) => {
                 let mut rows = open(path, format)?;

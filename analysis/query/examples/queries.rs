@@ -1,15 +1,15 @@
-//! The time of twelve named queries over a run, against DuckDB on the same files. DuckDB has as many threads as it
-//! is given, phytomer has one.
+//! The time of twelve named queries over a run, against DuckDB on the same files, each with as many threads as are
+//! asked for.
 //!
-//! `cargo run --release --features sql --example queries -- RUN [THREADS]`. Each query runs three times by turns in
-//! both engines; the best times are told, their ratios, and the geometric mean of the ratios. DuckDB is that of
-//! `.venv`, which `.ci/run` fills. In the dev profile the ratios mean nothing. Absent: growing the run, such as
-//! `phytomer grow poplar --plants 300`.
+//! `cargo run --release -p phytomer-query --features engine --example queries -- RUN [THREADS [NAME…]]`, where names
+//! choose among the queries. Each runs three times by turns in both engines; the best times are told, their ratios, the geometric mean of the ratios, and on Linux
+//! the most memory that phytomer's side has had. DuckDB is that of `.venv`, which `.ci/run` fills. In the dev profile the
+//! ratios mean nothing. Absent: growing the run, such as `phytomer grow poplar --plants 300`.
 
-use anyhow::{Context, Result, ensure};
-use phytomer::sim::math::{exp, log};
 use phytomer_outputs::read::Run;
 use phytomer_query::{Engine, Settings, Stop, Table};
+use phytomer_sim::math::{exp, log};
+use std::error::Error;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -55,6 +55,7 @@ const QUERIES: [(&str, &str); 12] = [
 const PYTHON: &str = "
 import sys, time, duckdb
 con = duckdb.connect(config={'threads': int(sys.argv[2])})
+con.execute('SET enable_progress_bar = false')
 con.execute(open(sys.argv[1], encoding='utf-8').read())
 for sql in sys.stdin:
     begun = time.perf_counter()
@@ -62,28 +63,29 @@ for sql in sys.stdin:
     print(time.perf_counter() - begun, flush=True)
 ";
 
-fn main() -> Result<()> {
+fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let folder = words.first().context("expected the path of a run folder")?;
-    let threads: usize = words.get(1).map_or(Ok(2), |word| word.parse()).context("expected a number of threads")?;
+    let folder = words.first().ok_or("expected the path of a run folder")?;
+    let threads: usize = words.get(1).map_or(Ok(2), |word| word.parse())?;
+    let named = words.get(2..).unwrap_or_default();
+    let chosen = |name: &str| named.is_empty() || named.iter().any(|word| word == name);
     let run = Run::open(Path::new(folder))?;
     let rows = run.rows()?.get(&phytomer_outputs::Table::Records).copied().unwrap_or_default();
-    let last = run.json()["until"].as_u64().context("run.json tells no last tick")?;
-    let engine = Engine::over(&[("run".to_owned(), run)], &Settings::default())?;
+    let last = run.json()["until"].as_u64().ok_or("run.json tells no last tick")?;
+    let engine = Engine::over(&[("run".to_owned(), run)], &Settings { threads, ..Settings::default() })?;
     let views = std::env::temp_dir().join(format!("queries-{}.sql", std::process::id()));
     std::fs::write(&views, views_of(folder)?)?;
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut duckdb = Command::new(here.join(".venv/bin/python"))
         .args(["-c", PYTHON, &views.display().to_string(), &threads.to_string()])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
-        .spawn()
-        .context("DuckDB is expected in .venv, which .ci/run fills")?;
-    let mut questions = duckdb.stdin.take().context("a pipe")?;
-    let mut answers = BufReader::new(duckdb.stdout.take().context("a pipe")?);
-    println!("{rows} rows of records, {threads} threads of DuckDB and one of phytomer, the best of {TURNS} turns");
-    let mut logs = 0.0;
-    for (name, sql) in QUERIES {
+        .spawn()?;
+    let mut questions = duckdb.stdin.take().ok_or("a pipe")?;
+    let mut answers = BufReader::new(duckdb.stdout.take().ok_or("a pipe")?);
+    println!("{rows} rows of records, {threads} threads of each, the best of {TURNS} turns");
+    let (mut logs, mut count) = (0.0, 0.0);
+    for (name, sql) in QUERIES.into_iter().filter(|(name, _)| chosen(name)) {
         let sql = sql.replace("LAST", &last.to_string());
         let (mut ours, mut theirs) = (f64::INFINITY, f64::INFINITY);
         for _ in 0..TURNS {
@@ -94,19 +96,28 @@ fn main() -> Result<()> {
             questions.flush()?;
             let mut line = String::new();
             answers.read_line(&mut line)?;
-            theirs = theirs.min(line.trim().parse().with_context(|| format!("DuckDB gave no rows of {sql}"))?);
+            theirs = theirs.min(line.trim().parse().map_err(|_| format!("DuckDB gave no rows of {sql}"))?);
         }
-        logs += log(ours / theirs);
+        (logs, count) = (logs + log(ours / theirs), count + 1.0);
         println!("{name:>18}: {ours:8.3} s, DuckDB {theirs:8.3} s, ratio {:.2}", ours / theirs);
     }
-    println!("geometric mean of the ratios: {:.2}", exp(logs / QUERIES.len() as f64));
+    println!("geometric mean of the ratios: {:.2}", exp(logs / count));
+    if let Some(most) = most_memory() {
+        println!("the most memory of phytomer: {most}");
+    }
     drop(questions);
-    ensure!(duckdb.wait()?.success(), "DuckDB failed");
-    Ok(std::fs::remove_file(&views)?)
+    std::fs::remove_file(&views)?;
+    if duckdb.wait()?.success() { Ok(()) } else { Err("DuckDB failed".into()) }
+}
+
+/// The most memory that this process has had, as Linux tells it.
+fn most_memory() -> Option<String> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    status.lines().find_map(|line| Some(line.strip_prefix("VmHWM:")?.trim().to_owned()))
 }
 
 /// The views of the run, as `phytomer query --views` prints them.
-fn views_of(folder: &str) -> Result<String> {
+fn views_of(folder: &str) -> Result<String, Box<dyn Error>> {
     use phytomer_outputs::views::for_duckdb;
     use phytomer_outputs::views_of_run::{duckdb_source, tables_of};
     let folder = std::path::absolute(folder)?;
