@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 
 use crate::resolved::Resolved;
 use crate::scenario::{
-    Ages, DEFAULT_SEED, Every, Experiment, Limits, Output, Planting, Record, Scenario, Site, tables,
+    Ages, DEFAULT_SEED, Every, Experiment, Laid, Limits, Output, Planting, Record, Scenario, Site, tables,
 };
 use crate::species::Species;
 use crate::trial::Treatment;
@@ -45,6 +45,8 @@ impl ResolvedSpecies {
             site: Site::default(),
             define: BTreeMap::new(),
             member: Vec::new(),
+            stand: None,
+            laid: Laid::default(),
             event: Vec::new(),
             ages: Ages { until, record: Record::Every(recorded(until)) },
             planting_date: None,

@@ -16,6 +16,7 @@ use crate::inherit::merge_chain;
 use crate::library::{Kind, Library};
 use crate::meaning;
 use crate::models::{MODELS, Model, ModelName, any_file};
+use crate::places;
 use crate::report::Fault;
 use crate::schema;
 use crate::solids;
@@ -89,6 +90,12 @@ impl Loader {
     pub fn fill_solids(&mut self, node: &mut Node) {
         let Self { library, sources, faults } = self;
         solids::fill(node, solids::Reading { library, sources, faults });
+    }
+
+    /// Puts the places of a file into the tree of a scenario, and states the plants of its stand.
+    pub fn fill_stand(&mut self, node: &mut Node) {
+        let Self { library, sources, faults } = self;
+        places::fill(node, solids::Reading { library, sources, faults });
     }
 
     /// Reads a value of type `T` from a tree that was checked against its schema. `refused` are the faults of that

@@ -16,6 +16,7 @@ mod planting;
 mod plots;
 mod sample;
 mod site;
+pub mod stand;
 mod surroundings;
 pub(crate) mod tables;
 
@@ -26,8 +27,9 @@ pub use field_plot::FieldPlot;
 pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use pests::{Attacked, Clustered, Host, Larvae, Pest, exposure};
 pub use planting::{Grid, Planting};
-pub use plots::Member;
+pub use plots::{Laid, Member};
 pub use site::{DrawnObstacle, Kills, Obstacle, Plane, Site, Wind};
+pub use stand::Stand;
 pub use tables::Table;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -97,6 +99,14 @@ pub struct Scenario {
     /// tick 0.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub member: Vec<Member>,
+    /// Many plants in each plot by a layout, as `[stand]`, instead of `member`: rows, triangles, hills, random places, a
+    /// fan, a file. `plants` may then be left out for one plot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stand: Option<Stand>,
+    /// The members of the stand.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub laid: Laid,
     /// What people do to the plants, as `[[event]]`: pruning, thinning, harvest. Nothing if not given. Of one tick they
     /// are done in the order of this file.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -305,6 +315,7 @@ impl Scenario {
             self.check_ages(list, &meshes.key("ages"), &mut faults);
         }
         self.check_mesh_plants(plants, &meshes.key("plants"), &mut faults);
+        self.check_stand(&mut faults);
         self.check_members(&mut faults);
         self.check_sample(&mut faults);
         let run = pests::Run {

@@ -135,8 +135,15 @@ fn mentions(scenario: &Node) -> Vec<Mention> {
     let own = (scenario.get("species"), path_of(&["species"]));
     let members = scenario.get("member").map(Node::items).unwrap_or_default().iter().enumerate();
     let members = members.map(|(k, member)| (member.get("species"), path_of(&["member"]).index(k).key("species")));
+    let stand = |keys: &[&str]| {
+        let items = keys.iter().try_fold(scenario, |node, key| node.get(key)).map(Node::items).unwrap_or_default();
+        let path = path_of(keys);
+        let named = items.iter().enumerate();
+        named.map(|(k, item)| (item.get("species"), path.index(k).key("species"))).collect::<Vec<_>>()
+    };
+    let of_stand = stand(&["stand", "plant"]).into_iter().chain(stand(&["stand", "layout", "at"]));
     let mut mentions: Vec<Mention> = Vec::new();
-    for (value, path) in [own].into_iter().chain(members) {
+    for (value, path) in [own].into_iter().chain(members).chain(of_stand) {
         let Some(value) = value else { continue };
         let Some(name) = value.text().filter(|name| !name.is_empty()) else { continue };
         if mentions.iter().all(|known| known.name != name) {

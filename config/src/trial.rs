@@ -271,7 +271,7 @@ impl Trial {
     /// Whether a plant is planted by an event alone, so that it is not known before when.
     pub fn is_successor(&self, plant: u32) -> bool {
         let PlantPlace { treatment, member, .. } = self.plant(plant);
-        let stated = self.treatments[treatment].scenario.member.get(member as usize);
+        let stated = self.treatments[treatment].scenario.stated_members().get(member as usize);
         stated.is_some_and(|member| member.replaces.is_some())
     }
 
@@ -279,7 +279,7 @@ impl Trial {
     pub(crate) fn successor_of(&self, species: usize) -> Option<usize> {
         self.treatments.iter().find_map(|Treatment { scenario, species: places, .. }| {
             let of_species = |member: &Member| places.get(scenario.species_of(member)) == Some(&species);
-            scenario.member.iter().position(|member| member.replaces.is_some() && of_species(member))
+            scenario.stated_members().iter().position(|member| member.replaces.is_some() && of_species(member))
         })
     }
 

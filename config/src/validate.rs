@@ -169,8 +169,17 @@ fn looks_like_species(node: &Node) -> bool {
 pub fn schema_of(kind: Kind) -> Json {
     match kind {
         Kind::Species => any_file(),
-        Kind::Scenario => scenario_schema().clone(),
+        Kind::Scenario => with_plants_or_stand(scenario_schema().clone()),
     }
+}
+
+/// A schema of scenarios in which a stand may take the place of the number of plants, as it does in files.
+fn with_plants_or_stand(mut schema: Json) -> Json {
+    if let Some(required) = schema["required"].as_array_mut() {
+        required.retain(|key| key != "plants");
+    }
+    schema["anyOf"] = serde_json::json!([{ "required": ["plants"] }, { "required": ["stand"] }]);
+    schema
 }
 
 fn scenario_schema() -> &'static Json {
@@ -194,13 +203,17 @@ fn check_scenario(loader: &mut Loader, source: Source) -> Option<Checked> {
     let bare = node?;
     let mut node = bare.clone();
     loader.fill_solids(&mut node);
+    loader.fill_stand(&mut node);
     let mut refused = Vec::new();
     schema::check(scenario_schema(), &node, &mut refused);
     icasa::name_keys(&mut refused);
     let scenario: Option<Scenario> = loader.read(&node, &Keys::PLAIN, &refused, serde_path_to_error::deserialize);
     // A level may change the file of a mesh.
     let mut expanded = expanded(loader, &bare, &refused);
-    expanded.iter_mut().for_each(|expanded| loader.fill_solids(&mut expanded.node));
+    for Expanded { node, .. } in &mut expanded {
+        loader.fill_solids(node);
+        loader.fill_stand(node);
+    }
     loader.faults.extend(refused.iter().cloned());
     let read = treatments::check(loader, scenario_schema(), (&node, scenario.as_ref()), expanded);
     let replicates = scenario.as_ref().map_or(1, |scenario| scenario.experiment.replicates);

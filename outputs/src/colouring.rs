@@ -30,9 +30,12 @@ pub enum ColouringError {
     Table(#[from] TableError),
 }
 
+/// The species of each plant, which is a column of `plants`.
+const SPECIES: &str = "species";
+
 /// The names of the columns that plants can be coloured by.
 pub fn colour_columns() -> impl Iterator<Item = &'static str> {
-    RECORDS.iter().map(|column| column.name)
+    RECORDS.iter().map(|column| column.name).chain([SPECIES])
 }
 
 /// The membership of the plants of a picture: plot, treatment and species, which the plants themselves do not hold.
@@ -42,6 +45,8 @@ pub struct Belonging<'a> {
     pub members: &'a [Membership],
     /// The run's list of treatments.
     pub treatments: &'a [String],
+    /// The names of the run's species.
+    pub species: &'a [String],
 }
 
 /// The values of a column of `records` for every component of some plants: one list per plant, one number per
@@ -51,6 +56,9 @@ pub struct Belonging<'a> {
 /// # Errors
 /// [`ColouringError`], for an unknown column, a column without values, or a plant too large for a table.
 pub fn colouring(column: &str, subjects: &[Subject], of: Belonging<'_>) -> Result<Colouring, ColouringError> {
+    if column == SPECIES {
+        return Ok(by_species(subjects, of));
+    }
     let known = RECORDS.iter().find(|known| known.name == column);
     let column = known.ok_or_else(|| ColouringError::NoSuchColumn { column: column.to_owned() })?;
     let members = of.members.iter().copied().chain(std::iter::repeat(Membership::default()));
@@ -62,6 +70,14 @@ pub fn colouring(column: &str, subjects: &[Subject], of: Belonging<'_>) -> Resul
         return Err(ColouringError::NothingToColour { column: column.name, reason: reason(column.name, subjects) });
     }
     Ok(Colouring { name: column.name.to_owned(), values, scale: scale(column, most as usize, of.treatments) })
+}
+
+/// Each component by the species of its plant.
+fn by_species(subjects: &[Subject], of: Belonging<'_>) -> Colouring {
+    let members = of.members.iter().map(|member| member.species as f64).chain(std::iter::repeat(0.0));
+    let values = subjects.iter().zip(members);
+    let values = values.map(|(subject, species)| vec![species; subject.plant.components() as usize]).collect();
+    Colouring { name: SPECIES.to_owned(), values, scale: Scale::Classes { first: 0, names: of.species.to_vec() } }
 }
 
 /// The scale of a column: amounts, or classes with their names; `most` is the largest value.
@@ -118,7 +134,7 @@ mod tests {
     use std::sync::Arc;
 
     /// A plant without a membership.
-    const ALONE: Belonging<'_> = Belonging { members: &[], treatments: &[] };
+    const ALONE: Belonging<'_> = Belonging { members: &[], treatments: &[], species: &[] };
 
     /// One upright internode.
     fn pole(length: f32, diameter: f32) -> Plant {
@@ -156,10 +172,17 @@ mod tests {
             plant
         });
         let subjects = plants.each_ref().map(|plant| Subject { plant, age: 1, label: String::new() });
-        let member = |plot, treatment, sown| Membership { plot, treatment, sown, ..Membership::default() };
+        let member = |plot, treatment, sown| Membership {
+            plot,
+            treatment,
+            sown,
+            species: treatment as usize,
+            ..Membership::default()
+        };
         let members = [member(1, 0, 0), member(1, 0, 7), member(2, 1, 0)];
         let treatments = ["control", "shade"].map(str::to_owned);
-        let of = Belonging { members: &members, treatments: &treatments };
+        let species = ["apple", "poplar"].map(str::to_owned);
+        let of = Belonging { members: &members, treatments: &treatments, species: &species };
         let values = |column: &str| {
             let found = colouring(column, &subjects, of).expect("values");
             assert!(found.values.iter().all(|plant| plant.iter().all(|value| *value == plant[0])));
@@ -169,6 +192,7 @@ mod tests {
         assert_eq!(values("plant_id").0, [3, 4, 5]);
         assert_eq!(values("tick").0, [1, 8, 1]);
         assert_eq!(values("age").0, [1, 1, 1]);
+        assert_eq!(values("species"), (vec![0, 0, 1], Scale::Classes { first: 0, names: species.to_vec() }));
         assert_eq!(values("treatment"), (vec![0, 0, 1], Scale::Classes { first: 0, names: treatments.to_vec() }));
     }
 

@@ -3,6 +3,7 @@
 //! Each tick the trunk makes an internode with a leaf, which lives for three ticks, and a bud. The bud grows two
 //! internodes and dies, and its branch falls two ticks later. At tick 6 the trunk bears a flower, at tick 8 it dies.
 
+use crate::tables::OfMember;
 use crate::{Mode, Provenance, RunFolder, RunPlan, RunReport, ShardReport, Table};
 use phytomer_sim::mechanics::Wood;
 use phytomer_sim::model::Overgrown;
@@ -176,7 +177,7 @@ pub fn plan(plots: u32, plots_per_part: u32) -> RunPlan {
         mechanics: false,
         calendars: vec![Calendars::default()],
         species_of_models: Vec::new(),
-        ground_areas_m2: vec![Some(6.25)],
+        members: vec![vec![OfMember { ground_area_m2: Some(6.25), guard: false }]],
         provenance: Provenance {
             scenario: "Sapling".to_owned(),
             treatments: vec!["control".to_owned()],

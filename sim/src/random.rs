@@ -41,6 +41,10 @@ pub enum Purpose {
     Forest = 11,
     /// Which plants a bootstrap draws again, in a stream of the repetition.
     Resampling = 12,
+    /// What a stand draws once for a member of all its plots: its emergence, its species.
+    Member = 13,
+    /// Where in its stand a plant stands.
+    Place = 14,
 }
 
 /// The number in (0, 1) that a uniform word stands for: the middle of its interval.

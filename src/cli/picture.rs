@@ -105,7 +105,7 @@ pub struct Picture {
     /// a pixel asks.
     #[arg(long, value_parser = clap::value_parser!(u8).range(3..=64))]
     sides: Option<u8>,
-    /// Colour the components by a column of `records`, with a legend.
+    /// Colour the components by a column of `records`, or by `species`, with a legend.
     #[arg(long, value_name = "COLUMN", value_parser = PossibleValuesParser::new(colour_columns()), hide_possible_values = true)]
     colour_by: Option<String>,
     #[command(flatten)]
@@ -289,7 +289,8 @@ impl Picture {
         let treatments: Vec<String> =
             regrown.trial.treatments().iter().map(|treatment| treatment.name.clone()).collect();
         let members = pictured.memberships();
-        let of = Belonging { members: &members, treatments: &treatments };
+        let names: Vec<String> = regrown.species().iter().map(|species| species.about.name.clone()).collect();
+        let of = Belonging { members: &members, treatments: &treatments, species: &names };
         let colour_by = self.colour_by.as_ref().map(|column| colouring(column, &subjects, of)).transpose()?;
         let style = Style { view: view.unwrap_or(View::Front), colour_by, ..self.style() };
         let stands = pictured.stands(&regrown.forms);

@@ -68,6 +68,11 @@ fn box_of(scenario: &Scenario, grid: Option<&Grid>) -> ([f64; 2], [f64; 2]) {
     let corners = [(0, 0), (last, 0), (0, last), (last, last)];
     let corners = corners.map(|(row, rank)| grid.map_or([0.0; 2], |grid| grid.place(row, rank)));
     let beside: Vec<[f64; 3]> = scenario.plot_members().iter().map(|member| member.place()).collect();
+    let ground = scenario.stand.as_ref().map(|stand| stand.ground());
+    let beside = beside
+        .into_iter()
+        .chain(ground.iter().flat_map(|ground| [ground.least, ground.most]).map(|[x, y]| [x, y, 0.0]));
+    let beside: Vec<[f64; 3]> = beside.collect();
     let edge = |axis: usize, pick: fn(f64, f64) -> f64| {
         let of_plots = corners.iter().map(|corner| corner[axis]).fold(corners[0][axis], pick);
         let of_members = beside.iter().map(|place| place[axis]).fold(0.0, pick);

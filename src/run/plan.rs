@@ -5,9 +5,8 @@
 
 use super::RunError;
 use super::forecast::Forecast;
-use phytomer_config::scenario::Grid;
 use phytomer_config::{Resolved, Scenario, Treatment, Trial, scenario};
-use phytomer_outputs::tables::Factor;
+use phytomer_outputs::tables::{Factor, OfMember};
 use phytomer_outputs::{Input, Provenance, RunPlan, Sample, Table};
 use sha2::{Digest, Sha256};
 
@@ -58,7 +57,7 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunErr
         precision_m: scenario.output.float_precision_m,
         mechanics: scenario.output.mechanics,
         calendars: trial.calendars().to_vec(),
-        ground_areas_m2: trial.treatments().iter().map(|treatment| ground_area_m2(&treatment.scenario)).collect(),
+        members: trial.treatments().iter().map(|treatment| members(&treatment.scenario)).collect(),
         species_of_models: trial.cohorts().iter().map(|cohort| cohort.species).collect(),
         provenance: Provenance {
             scenario: scenario.name.clone(),
@@ -88,10 +87,18 @@ fn table(table: scenario::Table) -> Table {
     }
 }
 
-/// The ground of a plant on the grid of a scenario, m²: that of a place, shared by the members of a plot.
-fn ground_area_m2(scenario: &Scenario) -> Option<f64> {
-    let Grid { across, along } = scenario.grid()?;
-    Some((across[0] * along[1] - across[1] * along[0]).abs() / f64::from(scenario.members().max(1)))
+/// What a scenario states of each member of its plots; once where it is the same of all.
+fn members(scenario: &Scenario) -> Vec<OfMember> {
+    let stated = scenario.stated_members();
+    let of = |number: u32| OfMember {
+        ground_area_m2: scenario.ground_area_m2(number),
+        guard: stated.get(number as usize).is_some_and(|member| member.guard),
+    };
+    let all: Vec<OfMember> = (0..scenario.members()).map(of).collect();
+    match all.first() {
+        Some(first) if all.iter().all(|member| member == first) => vec![*first],
+        _ => all,
+    }
 }
 
 /// The factors of the experiment, with the level of each treatment.

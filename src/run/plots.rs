@@ -133,7 +133,15 @@ impl<'a> Plots<'a> {
     pub fn place_of(&self, plant: u32) -> [f64; 3] {
         let place = self.plot_place(self.trial.plant(plant).plot);
         let beside = self.trial.member_of(plant).place();
-        [0, 1, 2].map(|axis| place[axis] + beside[axis])
+        let shift = self.shift_of(plant);
+        [0, 1, 2].map(|axis| place[axis] + beside[axis] + shift[axis])
+    }
+
+    /// How far a plant stands from the place of its member, metres.
+    fn shift_of(&self, plant: u32) -> [f64; 3] {
+        let PlantPlace { treatment, replicate, number, .. } = self.trial.plant(plant);
+        let random = PlantRandom::new(self.trial.scenario().seed, draw_key(replicate, number));
+        self.trial.treatments()[treatment].scenario.shift_of(&random)
     }
 
     /// States what the plot is in the trial, and what its plants stand on.
@@ -158,11 +166,11 @@ impl<'a> Plots<'a> {
         let place = self.plot_place(plot);
         let cohorts = self.trial.cohorts_of(of.treatment, of.replicate);
         let sowing = |((member, cohort), plant): ((&Member, &usize), u32)| {
-            let beside = member.place();
+            let (beside, shift) = (member.place(), self.shift_of(plant));
             Sowing {
                 species: *cohort,
                 seed: self.seed_of(plant),
-                place: [0, 1, 2].map(|axis| place[axis] + beside[axis]),
+                place: [0, 1, 2].map(|axis| place[axis] + beside[axis] + shift[axis]),
                 // A successor waits for its event.
                 sown: if member.replaces.is_none() && self.germinates(plant) { member.sown } else { NEVER },
             }

@@ -40,6 +40,8 @@ pub(super) struct Plant {
     /// Its number within treatment and replicate: plants of one number, replicate and seed share their draws.
     pub number: u32,
     pub ground_area_m2: Option<f64>,
+    /// Whether it is a guard of its stand, of which no measure tells.
+    pub guard: bool,
 }
 
 impl Source {
@@ -124,6 +126,7 @@ impl Source {
             let treatment_of = interned(&treatment.words, &mut self.treatments);
             let species_of = interned(&species.words, &mut self.species);
             let ground = columns.has("ground_area_m2").then(|| columns.numbers("ground_area_m2")).transpose()?;
+            let guard = columns.has("guard").then(|| columns.ints("guard")).transpose()?;
             for row in 0..columns.rows() {
                 let end = ends.get(&plot[row]).copied().unwrap_or(until);
                 let plant = Plant {
@@ -136,6 +139,7 @@ impl Source {
                     last: u32::try_from(sown[row]).ok().and_then(|sown| end.checked_sub(sown)),
                     number: 0,
                     ground_area_m2: ground.as_ref().and_then(|ground| ground[row]),
+                    guard: guard.as_ref().is_some_and(|guard| guard[row] == 1),
                 };
                 let at = usize::try_from(id[row]).unwrap_or_default();
                 if self.plants.len() <= at {

@@ -70,8 +70,12 @@ pub(super) fn each_plant<U: Unit>(
                 end_plot(&mut standing, plot, &mut tell);
                 plot = plots[row];
             }
+            let number = plants[row].unsigned_abs();
+            if source.plants.get(number as usize).is_some_and(|plant| plant.guard) {
+                continue;
+            }
             if let Some(taken) = row_of(row) {
-                let plant = source.first.saturating_add(plants[row].unsigned_abs());
+                let plant = source.first.saturating_add(number);
                 unit.add(standing.entry((plant, keyed.at(row))).or_default(), taken);
             }
         }

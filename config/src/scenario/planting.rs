@@ -68,6 +68,11 @@ impl Planting {
         *self == Self::default()
     }
 
+    /// Whether a distance or a density is stated.
+    pub(super) fn has_distances(&self) -> bool {
+        self.plant_pop_at_planting.is_some() || self.row_spacing.is_some() || self.plant_spacing.is_some()
+    }
+
     /// The distances between rows and in a row, metres; `None` where the keys give none.
     fn distances(&self) -> Option<(f64, f64)> {
         const CM: f64 = 0.01;
@@ -129,7 +134,7 @@ impl Scenario {
             let problem = format!("`{key}` and `spacing_m` both say how far the plants stand apart");
             faults.push(Fault::new(&path.key(key), problem, "one of them: `spacing_m` for a square grid, else rows"));
         }
-        if let (Some(key), true) = (first, self.member.len() > 1) {
+        if let (Some(key), true) = (first, self.stand.is_none() && self.member.len() > 1) {
             let problem =
                 format!("`{key}` sets single plants in rows, and each plot has {} members", self.member.len());
             faults.push(Fault::new(&path.key(key), problem, "`spacing_m` between plots, and `at_m` of each member"));
@@ -165,7 +170,7 @@ impl Scenario {
 }
 
 /// The sine and the cosine of an angle in degrees; exact at right angles, so that rows to the east are level.
-fn turned(degrees: f64) -> (f64, f64) {
+pub(super) fn turned(degrees: f64) -> (f64, f64) {
     match degrees {
         0.0 | 360.0 => (0.0, 1.0),
         90.0 => (1.0, 0.0),

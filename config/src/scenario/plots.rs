@@ -7,11 +7,14 @@
 
 use super::Scenario;
 use super::events::Work;
+use super::planting::Grid;
+use super::stand::MOST_PLANTS;
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::management::Successor;
+use phytomer_sim::random::PlantRandom;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// One of the plants of each plot.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -36,6 +39,23 @@ pub struct Member {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 65_534))]
     pub replaces: Option<u32>,
+    /// Whether the plant is a guard: it grows and is recorded, and `summary` leaves it out.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub guard: bool,
+}
+
+/// The members of a scenario with a stand and the names of all species, found when they are asked for. Two are always
+/// equal, since the scenario decides what is in them.
+#[derive(Debug, Clone, Default)]
+pub struct Laid {
+    members: OnceLock<Vec<Member>>,
+    names: OnceLock<Vec<String>>,
+}
+
+impl PartialEq for Laid {
+    fn eq(&self, _other: &Self) -> bool {
+        true
+    }
 }
 
 fn is_first(sown: &u32) -> bool {
@@ -50,9 +70,37 @@ impl Member {
 }
 
 impl Scenario {
+    /// The members of each plot that are stated, one by one or by a stand; none where a plot is a single plant.
+    pub fn stated_members(&self) -> &[Member] {
+        match &self.stand {
+            Some(stand) => self.laid.members.get_or_init(|| stand.members()),
+            None => &self.member,
+        }
+    }
+
     /// The number of plants in each plot.
     pub fn members(&self) -> u32 {
-        u32::try_from(self.member.len()).unwrap_or(u32::MAX).max(1)
+        let stated = match &self.stand {
+            Some(stand) => stand.plants(),
+            None => self.member.len() as u64,
+        };
+        u32::try_from(stated).unwrap_or(u32::MAX).max(1)
+    }
+
+    /// How far a plant stands from the place of its member, metres; `draws` are those of the plant.
+    pub fn shift_of(&self, draws: &PlantRandom) -> [f64; 3] {
+        let [x, y] = self.stand.as_ref().map_or([0.0; 2], |stand| stand.shift(draws));
+        [x, y, 0.0]
+    }
+
+    /// The ground that belongs to a member of a plot, m²: in a stand that of its layout, else that of a place of the
+    /// grid, shared by all members. `None` where neither is stated.
+    pub fn ground_area_m2(&self, member: u32) -> Option<f64> {
+        if let Some(stand) = &self.stand {
+            return stand.ground_area_m2(member.into());
+        }
+        let Grid { across, along } = self.grid()?;
+        Some((across[0] * along[1] - across[1] * along[0]).abs() / f64::from(self.members().max(1)))
     }
 
     /// The number of plots.
@@ -63,11 +111,11 @@ impl Scenario {
     /// The members of one plot, in their order. A scenario without members has one: a plant of the scenario's species.
     /// A successor that states no place stands at that of the member that it replaces.
     pub fn plot_members(&self) -> Vec<Member> {
-        if self.member.is_empty() {
+        if self.stated_members().is_empty() {
             return vec![Member::default()];
         }
         // A member stands after the one that it replaces, whose place is then known.
-        let mut members = self.member.clone();
+        let mut members = self.stated_members().to_vec();
         for number in 1..members.len() {
             let replaced = members[number].replaces.map(|replaced| replaced as usize);
             if let Some(replaced) = replaced.filter(|replaced| *replaced < number && members[number].at_m.is_empty()) {
@@ -79,13 +127,13 @@ impl Scenario {
 
     /// A member by its number; one that states no place, and is the successor of another, has the place of that one.
     pub(crate) fn member_at(&self, number: usize) -> Option<Member> {
-        let mut member = self.member.get(number)?.clone();
+        let mut member = self.stated_members().get(number)?.clone();
         let mut last = number;
         while member.at_m.is_empty()
-            && let Some(replaced) = self.member[last].replaces.map(|replaced| replaced as usize)
+            && let Some(replaced) = self.stated_members()[last].replaces.map(|replaced| replaced as usize)
             && replaced < last
         {
-            member.at_m.clone_from(&self.member[replaced].at_m);
+            member.at_m.clone_from(&self.stated_members()[replaced].at_m);
             last = replaced;
         }
         Some(member)
@@ -94,13 +142,13 @@ impl Scenario {
     /// The last tick at which a member may be sown.
     pub(super) fn last_sowing(&self) -> u32 {
         let sown = |member: &Member| if member.replaces.is_some() { self.ages.until } else { member.sown };
-        self.member.iter().map(sown).max().unwrap_or(0)
+        self.stated_members().iter().map(sown).max().unwrap_or(0)
     }
 
     /// The members that are planted by an event alone.
     pub(super) fn successors(&self) -> Arc<[Successor]> {
         let of = |(member, stated): (usize, &Member)| Some(Successor { member, follows: stated.replaces? as usize });
-        self.member.iter().enumerate().filter_map(of).collect()
+        self.stated_members().iter().enumerate().filter_map(of).collect()
     }
 
     /// The number of the plot of a plant, and the index of the plant among the members of the plot.
@@ -110,7 +158,7 @@ impl Scenario {
 
     /// The tick of its plot at which a plant is sown.
     pub fn sown_at(&self, plant: u32) -> u32 {
-        self.member.get(self.plot_of(plant).1 as usize).map_or(0, |member| member.sown)
+        self.stated_members().get(self.plot_of(plant).1 as usize).map_or(0, |member| member.sown)
     }
 
     /// The age, in ticks, that a plant has at the end of the run.
@@ -121,13 +169,15 @@ impl Scenario {
     /// The names of all species that grow, without repetition: the scenario's own first, then the others in the order
     /// of the members.
     pub fn species_names(&self) -> Vec<&str> {
-        let mut names = vec![self.species.as_str()];
-        for name in self.member.iter().filter_map(|member| member.species.as_deref()) {
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
-        names
+        let Some(stand) = &self.stand else {
+            let of_members = self.member.iter().filter_map(|member| member.species.as_deref());
+            return distinct([self.species.as_str()].into_iter().chain(of_members));
+        };
+        let found = self.laid.names.get_or_init(|| {
+            let names = distinct([self.species.as_str()].into_iter().chain(stand.species()));
+            names.into_iter().map(str::to_owned).collect()
+        });
+        found.iter().map(String::as_str).collect()
     }
 
     /// The species of a member, as an index into [`Scenario::species_names`].
@@ -138,7 +188,7 @@ impl Scenario {
 
     /// The species of a plant, as an index into [`Scenario::species_names`].
     pub fn species_of_plant(&self, plant: u32) -> usize {
-        self.member.get(self.plot_of(plant).1 as usize).map_or(0, |member| self.species_of(member))
+        self.stated_members().get(self.plot_of(plant).1 as usize).map_or(0, |member| self.species_of(member))
     }
 
     /// The last age, in ticks, that a plant of a species reaches: that of its member that is sown first. A species is
@@ -149,15 +199,15 @@ impl Scenario {
 
     /// The tick at which the member of a species that is sown first is sown.
     pub fn first_sowing_of(&self, species: usize) -> u32 {
-        let of_species = self.member.iter().filter(|member| self.species_of(member) == species);
+        let of_species = self.stated_members().iter().filter(|member| self.species_of(member) == species);
         of_species.map(|member| member.sown).min().unwrap_or(0)
     }
 
     /// Adds the faults of successors, and of their absence.
     fn check_successors(&self, faults: &mut Vec<Fault>) {
         let replants = self.event.iter().any(|event| event.operation == Work::Replanting);
-        let mut replaced_by: Vec<Option<usize>> = vec![None; self.member.len()];
-        for (number, member) in self.member.iter().enumerate() {
+        let mut replaced_by: Vec<Option<usize>> = vec![None; self.stated_members().len()];
+        for (number, member) in self.stated_members().iter().enumerate() {
             let Some(replaced) = member.replaces else { continue };
             let path = Path::root().key("member").index(number);
             let mut fault = |key: &str, problem: String, expected: String| {
@@ -184,7 +234,7 @@ impl Scenario {
                 fault("replaces", problem, "`[[event]]` with the operation `replanting`".to_owned());
             }
         }
-        if replants && self.member.iter().all(|member| member.replaces.is_none()) {
+        if replants && self.stated_members().iter().all(|member| member.replaces.is_none()) {
             let path = Path::root().key("event");
             let problem = "`replanting` has no effect: no member is the successor of another";
             faults.push(Fault::new(&path, problem, "a `[[member]]` with `replaces`, the number of the other member"));
@@ -194,7 +244,7 @@ impl Scenario {
 
     /// When a successor is planted is not known before the run, so that it meets pests by its age alone.
     fn check_pests_of_successors(&self, faults: &mut Vec<Fault>) {
-        if self.member.iter().all(|member| member.replaces.is_none()) {
+        if self.stated_members().iter().all(|member| member.replaces.is_none()) {
             return;
         }
         for (number, _) in self.pest.iter().enumerate().filter(|(_, pest)| pest.dates.is_some()) {
@@ -208,7 +258,9 @@ impl Scenario {
     pub(super) fn check_members(&self, faults: &mut Vec<Fault>) {
         self.check_successors(faults);
         let members = self.members();
-        if !self.plants.is_multiple_of(members) {
+        // A stand that is too large is told of by itself.
+        let is_known = self.stand.as_ref().is_none_or(|stand| stand.plants() <= MOST_PLANTS);
+        if is_known && !self.plants.is_multiple_of(members) {
             let problem = format!("{} plants cannot be dealt into plots of {members}", self.plants);
             let below = u64::from(self.plots()) * u64::from(members);
             let above = below + u64::from(members);
@@ -219,16 +271,32 @@ impl Scenario {
         let until = self.ages.until;
         for (number, member) in self.member.iter().enumerate().filter(|(_, member)| member.sown >= until) {
             let path = Path::root().key("member").index(number).key("sown");
-            let problem = format!("the member is sown at tick {}, and the run ends at tick {until}", member.sown);
-            faults.push(Fault::new(&path, problem, format!("a tick in [0, {}]", until.saturating_sub(1))));
+            faults.push(too_late(&path, "the member is", member.sown, until));
         }
         let own = |member: &Member| member.species.as_ref().is_none_or(|name| *name == self.species);
-        if !self.member.is_empty() && !self.member.iter().any(own) {
+        if !self.stated_members().is_empty() && !self.stated_members().iter().any(own) {
             let problem = format!("no plant of `{}` grows: each member names another species", self.species);
             let expected = "the species of a member, which then need not name it";
             faults.push(Fault::new(&Path::root().key("species"), problem, expected));
         }
     }
+}
+
+/// What is sown when the run has ended.
+pub(super) fn too_late(path: &Path, who: &str, sown: u32, until: u32) -> Fault {
+    let problem = format!("{who} sown at tick {sown}, and the run ends at tick {until}");
+    Fault::new(path, problem, format!("a tick in [0, {}]", until.saturating_sub(1)))
+}
+
+/// The names without repetition, in the order in which they come first.
+fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut distinct: Vec<&str> = Vec::new();
+    for name in names {
+        if !distinct.contains(&name) {
+            distinct.push(name);
+        }
+    }
+    distinct
 }
 
 #[cfg(test)]

@@ -317,7 +317,7 @@ pub static EVENTS: [Column; 12] = [
 ];
 
 /// A row per plant.
-pub static PLANTS: [Column; 13] = [
+pub static PLANTS: [Column; 14] = [
     TREATMENT,
     PLOT,
     PLANT,
@@ -344,10 +344,11 @@ pub static PLANTS: [Column; 13] = [
     Column::double(
         "ground_area_m2",
         "m2",
-        "The ground of the plant: that of a place of the grid of its treatment, shared by the members of a plot. Null where \
-         the scenario states no distances.",
+        "The ground of the plant: in a stand that of its layout, else that of a place of the grid of its treatment, shared \
+         by the members of a plot. Null where the scenario states no distances.",
     )
     .or_null(),
+    Column::truth("guard", "Whether the plant is a guard of its stand, which `summary` leaves out."),
     Column::truth(
         "sampled",
         "Whether `components`, `records` and `events` have rows of the plant: true unless the run has a sample that it is \

@@ -47,7 +47,7 @@ pub(crate) use membership::by_number;
 pub use memory::{MemoryTables, TableBatches};
 pub(crate) use of_species::OfSpecies;
 pub(crate) use part::{Part, PartReport};
-pub use plan::{Factor, Input, Provenance, RunPlan};
+pub use plan::{Factor, Input, OfMember, Provenance, RunPlan};
 pub(crate) use plants::{PlantColumns, Standing};
 pub(crate) use recording::Recording;
 pub(crate) use records::{PlantAtAge, RecordColumns, RecordRow};

@@ -37,11 +37,20 @@ pub struct RunPlan {
     pub calendars: Vec<Calendars>,
     /// The species of each model, as an index into [`Provenance::species`]; a species is its own model beyond the list.
     pub species_of_models: Vec<usize>,
-    /// The ground of a plant in the plots of each treatment, m², in the order of the treatments; `None` where plants
-    /// have no neighbours, and for treatments beyond the list.
-    pub ground_areas_m2: Vec<Option<f64>>,
+    /// What is stated of the members of the plots of each treatment, in the order of the treatments: of each member, or
+    /// once where it is the same of all. Nothing is stated for treatments beyond the list.
+    pub members: Vec<Vec<OfMember>>,
     /// The origin of the figures.
     pub provenance: Provenance,
+}
+
+/// What a scenario states of a member of its plots.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct OfMember {
+    /// The ground of the plant, m²; `None` where plants have no neighbours.
+    pub ground_area_m2: Option<f64>,
+    /// Whether the plant is a guard, which `summary` leaves out.
+    pub guard: bool,
 }
 
 /// The origin of a run's figures: scenario, species, seed, program and input files.

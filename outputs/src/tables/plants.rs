@@ -6,6 +6,7 @@
 
 use super::buffers::{NULL, columns};
 use super::membership::Membership;
+use super::plan::OfMember;
 use phytomer_sim::plant::Plant;
 
 columns! {
@@ -22,7 +23,8 @@ columns! {
         x: Double(f64) = plant.place[0],
         y: Double(f64) = plant.place[1],
         z: Double(f64) = plant.place[2],
-        ground_area: Double(f64) = of.1.ground_area_m2.unwrap_or(f64::NAN),
+        ground_area: Double(f64) = of.1.member.ground_area_m2.unwrap_or(f64::NAN),
+        guard: Bool(i8) = i8::from(of.1.member.guard),
         sampled: Bool(i8) = i8::from(of.0.sampled),
     }
 }
@@ -32,8 +34,8 @@ columns! {
 pub struct Standing {
     /// The ticks of a year of its species.
     pub ticks_per_year: Option<f64>,
-    /// Its share of the ground of the grid, m².
-    pub ground_area_m2: Option<f64>,
+    /// What is stated of it as a member of its plot.
+    pub member: OfMember,
 }
 
 impl PlantColumns {

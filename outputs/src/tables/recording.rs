@@ -9,7 +9,7 @@
 
 use super::sink::{Rows, Sink};
 use super::{
-    ComponentColumns, ComponentIndex, ComponentRow, EventColumns, Group, Membership, OfSpecies, PlantAtAge,
+    ComponentColumns, ComponentIndex, ComponentRow, EventColumns, Group, Membership, OfMember, OfSpecies, PlantAtAge,
     PlantColumns, RecordColumns, RecordRow, RunPlan, Sample, SiteColumns, SortedEvents, Standing, SummaryColumns,
     Table, TableError, by_number, summarise,
 };
@@ -42,9 +42,16 @@ pub struct Recording<S> {
     sorted: SortedEvents,
     calendars: Vec<Calendars>,
     species: OfSpecies,
-    ground_areas_m2: Vec<Option<f64>>,
+    members: Vec<Vec<OfMember>>,
     /// The present treatment and replicate.
     group: Group,
+}
+
+/// What is stated of the member of this number in a plot.
+fn of_member(members: &[Vec<OfMember>], plot: &Plot, number: usize) -> OfMember {
+    let stated = members.get(plot.treatment as usize).map(Vec::as_slice).unwrap_or_default();
+    let once = stated.first().filter(|_| stated.len() == 1);
+    once.or_else(|| stated.get(number)).copied().unwrap_or_default()
 }
 
 /// Whether the plant with the index `at` in a plot has rows in `components`, `records` and `events`.
@@ -81,7 +88,7 @@ impl<S: Sink> Recording<S> {
             sorted: SortedEvents::default(),
             calendars: plan.calendars.clone(),
             species: OfSpecies::of(plan),
-            ground_areas_m2: plan.ground_areas_m2.clone(),
+            members: plan.members.clone(),
             group: Group::default(),
         })
     }
@@ -102,7 +109,8 @@ impl<S: Sink> Recording<S> {
 
     /// Writes the rows of a plot as it stands at `tick`.
     pub fn record(&mut self, tick: Tick, plot: &Plot) -> Result<(), TableError> {
-        by_number(plot).into_iter().try_for_each(|at| self.write_age(tick, plot, at))
+        let mut plants = by_number(plot).into_iter().enumerate();
+        plants.try_for_each(|(number, at)| self.write_age(tick, plot, (number, at)))
     }
 
     /// The last recorded tick of a plot that ended in this way.
@@ -162,11 +170,11 @@ impl<S: Sink> Recording<S> {
 
     fn write_plants(&mut self, plot: &Plot) -> Result<(), TableError> {
         let Some(table) = &mut self.tables.plants else { return Ok(()) };
-        for at in by_number(plot) {
+        for (number, at) in by_number(plot).into_iter().enumerate() {
             let of = Membership::of(plot, at);
             let species = self.species.number(of);
-            let ground_area_m2 = self.ground_areas_m2.get(of.treatment as usize).copied().flatten();
-            let standing = Standing { ticks_per_year: self.species.ticks_per_year(of), ground_area_m2 };
+            let member = of_member(&self.members, plot, number);
+            let standing = Standing { ticks_per_year: self.species.ticks_per_year(of), member };
             let of = Membership { sampled: has(self.sample, plot, at), species, ..of };
             table.columns.add(of, standing, &plot.plants[at]);
             table.flush_if_full()?;
@@ -199,13 +207,15 @@ impl<S: Sink> Recording<S> {
         Ok(())
     }
 
-    /// Writes the rows at a tick of the plant with the index `at` in a plot, if it is sown by then.
-    fn write_age(&mut self, tick: Tick, plot: &Plot, at: usize) -> Result<(), TableError> {
+    /// Writes the rows at a tick of a plant, if it is sown by then: the member of this number, with the index `at` in the
+    /// plot.
+    fn write_age(&mut self, tick: Tick, plot: &Plot, (number, at): (usize, usize)) -> Result<(), TableError> {
         let (of, plant) = (Membership::of(plot, at), &plot.plants[at]);
         let Some(age) = of.age_at(tick) else { return Ok(()) };
         self.index.read(plant)?;
         self.index.find_tips(plant, age);
-        if let Some(table) = &mut self.tables.summary {
+        let guard = of_member(&self.members, plot, number).guard;
+        if let Some(table) = self.tables.summary.as_mut().filter(|_| !guard) {
             table.columns.add(of, plant, age, &summarise(plant, &self.index, age));
             table.flush_if_full()?;
         }

@@ -146,13 +146,14 @@ fn planting_in_words(planting: &Planting) -> Vec<(&'static str, String)> {
 fn plants_in_words(resolved: &Resolved) -> String {
     let (scenario, trial) = (&resolved.scenario, resolved.trial());
     let plants = amounts::count(trial.plants().into());
-    if scenario.member.is_empty() || trial.treatments().len() > 1 {
+    let members = scenario.stated_members();
+    if members.is_empty() || trial.treatments().len() > 1 {
         return plants;
     }
     let plots = amounts::of(trial.plots().into(), "plot");
-    let later = scenario.member.iter().filter(|member| member.sown > 0).count();
+    let later = members.iter().filter(|member| member.sown > 0).count();
     let sown = if later > 0 { format!(", {later} of them sown later") } else { String::new() };
-    let successors = scenario.member.iter().filter(|member| member.replaces.is_some()).count();
+    let successors = members.iter().filter(|member| member.replaces.is_some()).count();
     let waiting = match successors {
         0 => String::new(),
         1 => ", 1 of them a successor".to_owned(),

@@ -249,7 +249,7 @@ pub fn clock(resolved: &Resolved) -> &'static str {
 fn is_sown_later(resolved: &Resolved) -> bool {
     let trial = resolved.trial();
     let later = |member: &Member| member.sown > 0 || member.replaces.is_some();
-    trial.treatments().iter().any(|treatment| treatment.scenario.member.iter().any(later))
+    trial.treatments().iter().any(|treatment| treatment.scenario.stated_members().iter().any(later))
 }
 
 fn in_words(forecast: &Forecast, members: u32) -> String {
