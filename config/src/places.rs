@@ -5,13 +5,13 @@
 //! one plot in each replicate. Absent: what a stand is (`scenario::stand`).
 
 use crate::document::{Entry, Node, Value};
-use crate::load::path_of;
 use crate::report::Fault;
 use crate::scenario::Stand;
 use crate::scenario::stand::MOST_PLANTS;
 use crate::solids::Reading;
 use crate::source::{SourceId, Span};
 use csv::{ReaderBuilder, StringRecord, Trim};
+use phytomer_law::fault::Path;
 
 /// The most faults of a file that are told.
 const MOST_FAULTS: usize = 20;
@@ -53,7 +53,7 @@ fn fill_layout(node: &mut Node, reading: &mut Reading<'_>) {
     let Some((name, span)) = layout.get("file").and_then(|file| Some((file.text()?.to_owned(), file.span))) else {
         return;
     };
-    let path = path_of(&["stand", "layout", "file"]);
+    let path = path_of_file();
     if layout.get("at").is_some() {
         let problem = "the layout has a file, and places of its own";
         return reading.faults.push(Fault::new(span, &path, problem, "`file` or `at`"));
@@ -81,6 +81,11 @@ fn fill_layout(node: &mut Node, reading: &mut Reading<'_>) {
     }
 }
 
+/// The path of the key that names the file.
+fn path_of_file() -> Path {
+    Path::root().key("stand").key("layout").key("file")
+}
+
 /// The value of a key of a table.
 fn below<'n>(node: &'n mut Node, key: &str) -> Option<&'n mut Node> {
     match &mut node.value {
@@ -99,7 +104,7 @@ struct File<'t> {
 impl File<'_> {
     fn fault(&mut self, span: Span, problem: String, expected: impl Into<String>) {
         if self.faults.len() < MOST_FAULTS {
-            self.faults.push(Fault::new(span, &path_of(&["stand", "layout", "file"]), problem, expected));
+            self.faults.push(Fault::new(span, &path_of_file(), problem, expected));
         }
     }
 

@@ -10,6 +10,7 @@ mod events;
 pub mod experiment;
 mod field_plot;
 pub(crate) mod icasa;
+mod member;
 mod meshes;
 mod pests;
 mod planting;
@@ -24,10 +25,11 @@ pub use calendar::{Calendar, Fertilizer, Soil, TickLength};
 pub use events::{Event, Work};
 pub use experiment::{Design, Experiment};
 pub use field_plot::FieldPlot;
+pub use member::Member;
 pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use pests::{Attacked, Clustered, Host, Larvae, Pest, exposure};
 pub use planting::{Grid, Planting};
-pub use plots::{Laid, Member};
+pub use plots::Laid;
 pub use site::{DrawnObstacle, Kills, Obstacle, Plane, Site, Wind};
 pub use stand::Stand;
 pub use tables::Table;
@@ -99,8 +101,8 @@ pub struct Scenario {
     /// tick 0.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub member: Vec<Member>,
-    /// Many plants in each plot by a layout, as `[stand]`, instead of `member`: rows, triangles, hills, random places, a
-    /// fan, a file. `plants` may then be left out for one plot.
+    /// Many plants in each plot by a layout, as `[stand]`, instead of `member`: rows, triangles, hills, random places,
+    /// a fan, a file. `plants` may then be left out for one plot.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stand: Option<Stand>,
     /// The members of the stand.

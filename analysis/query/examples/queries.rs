@@ -2,9 +2,10 @@
 //! asked for.
 //!
 //! `cargo run --release -p phytomer-query --features engine --example queries -- RUN [THREADS [NAME…]]`, where names
-//! choose among the queries. Each runs three times by turns in both engines; the best times are told, their ratios, the geometric mean of the ratios, and on Linux
-//! the most memory that phytomer's side has had. DuckDB is that of `.venv`, which `.ci/run` fills. In the dev profile the
-//! ratios mean nothing. Absent: growing the run, such as `phytomer grow poplar --plants 300`.
+//! choose among the queries. Each runs three times by turns in both engines; the best times are told, their ratios, the
+//! geometric mean of the ratios, and on Linux the most memory that phytomer's side has had. DuckDB is that of `.venv`,
+//! which `.ci/run` fills. In the dev profile the ratios mean nothing. Absent: growing the run, such as `phytomer grow
+//! poplar --plants 300`.
 
 use phytomer_outputs::read::Run;
 use phytomer_query::{Engine, Settings, Stop, Table};

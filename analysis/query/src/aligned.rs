@@ -3,10 +3,10 @@
 //! A part file has whole plots, so rows of one plant lie in part files of one name in every table of the run. Where
 //! both sides of a join are scans of such tables, narrowed or not, and `plant_id` of both is among the keys, this rule
 //! gives both scans the same files part by part and lets each part be joined by itself: what is held at once is a part
-//! and not the whole side, and parts are joined on all threads. Rows that are sorted by the plant first can be sorted in
-//! the same parts (`order`). Absent: joins of several runs, and of what was grouped.
+//! and not the whole side, and parts are joined on all threads. Rows that are sorted by the plant first can be sorted
+//! in the same parts (`order`). Absent: joins of several runs, and of what was grouped.
 
-use super::order::{Plan, only};
+use super::step::{Plan, only};
 use datafusion::common::tree_node::TreeNodeRecursion;
 use datafusion::common::{JoinType, Result};
 use datafusion::datasource::physical_plan::{FileGroup, FileScanConfig, FileScanConfigBuilder};

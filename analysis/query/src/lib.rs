@@ -14,6 +14,7 @@ mod error;
 mod functions;
 mod order;
 mod output;
+mod step;
 mod stop;
 
 pub use arrow_schema::SchemaRef;

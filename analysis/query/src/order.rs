@@ -1,12 +1,13 @@
 //! The order of rows: the parts of a plan run at once, and what they give is taken part after part.
 //!
 //! DataFusion takes the rows of parts as they come, so that the order of groups, the sums of real numbers and rows of
-//! equal rank would depend on threads. After its own rules this one replaces each place where parts meet: plain meetings
-//! become [`InOrder`], merges of sorted parts prefer the earlier one, each part finds its own first rows
+//! equal rank would depend on threads. After its own rules this one replaces each place where parts meet: plain
+//! meetings become [`InOrder`], merges of sorted parts prefer the earlier one, each part finds its own first rows
 //! ([`Apart`]), and a join that keeps a side whole meets the other side as one part. Absent: the number of parts, which
 //! the engine states, and the order of groups and ties once memory was too small and they went by the disk.
 
 use super::aligned::{by_parts, is_plant, whole_files};
+use super::step::{Plan, only};
 use arrow_array::RecordBatch;
 use datafusion::common::config::ConfigOptions;
 use datafusion::common::tree_node::{Transformed, TreeNode, TreeNodeRecursion};
@@ -31,9 +32,6 @@ use std::sync::Arc;
 
 /// The batches that a part may be ahead of those before it.
 const AHEAD: usize = 2;
-
-/// A step of a plan, with those below it.
-pub type Plan = Arc<dyn ExecutionPlan>;
 
 /// The rule that keeps rows in the order of parts.
 #[derive(Debug)]
@@ -300,10 +298,4 @@ impl ExecutionPlan for Apart {
         let sort = self.sorts.get(part).ok_or_else(|| DataFusionError::Internal(format!("there is no part {part}")))?;
         sort.execute(part, context)
     }
-}
-
-/// The one step below another.
-pub fn only(children: Vec<Plan>) -> Result<Plan> {
-    let one = <[Plan; 1]>::try_from(children);
-    one.map(|[child]| child).map_err(|_| DataFusionError::Internal("one step below is expected".to_owned()))
 }

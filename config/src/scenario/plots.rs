@@ -7,42 +7,13 @@
 
 use super::Scenario;
 use super::events::Work;
+use super::member::{Member, too_late};
 use super::planting::Grid;
 use super::stand::MOST_PLANTS;
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::management::Successor;
 use phytomer_sim::random::PlantRandom;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::sync::{Arc, OnceLock};
-
-/// One of the plants of each plot.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Member {
-    /// The species of the plant: a shipped species by its name, or a species file by its path. The scenario's species
-    /// if not given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(length(min = 1))]
-    pub species: Option<String>,
-    /// The place of the plant, metres from the place of its plot: two numbers on level ground, or three. The place of
-    /// the plot if not given.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 2, max = 3), inner(range(min = -1e5, max = 1e5)))]
-    pub at_m: Vec<f64>,
-    /// The tick of the plot at which the plant is sown and has the age 0. Tick 0 if not given.
-    #[serde(default, skip_serializing_if = "is_first")]
-    #[schemars(range(min = 0, max = 65_534))]
-    pub sown: u32,
-    /// The number of another member of the list, from 0, of which this one is the successor: an event with the
-    /// operation `replanting` plants it where the other one is dead, was taken or did not germinate.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0, max = 65_534))]
-    pub replaces: Option<u32>,
-    /// Whether the plant is a guard: it grows and is recorded, and `summary` leaves it out.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub guard: bool,
-}
 
 /// The members of a scenario with a stand and the names of all species, found when they are asked for. Two are always
 /// equal, since the scenario decides what is in them.
@@ -55,17 +26,6 @@ pub struct Laid {
 impl PartialEq for Laid {
     fn eq(&self, _other: &Self) -> bool {
         true
-    }
-}
-
-fn is_first(sown: &u32) -> bool {
-    *sown == 0
-}
-
-impl Member {
-    /// The place of the plant from the place of its plot, [x, y, z] in metres.
-    pub fn place(&self) -> [f64; 3] {
-        [0, 1, 2].map(|axis| self.at_m.get(axis).copied().unwrap_or(0.0))
     }
 }
 
@@ -280,12 +240,6 @@ impl Scenario {
             faults.push(Fault::new(&Path::root().key("species"), problem, expected));
         }
     }
-}
-
-/// What is sown when the run has ended.
-pub(super) fn too_late(path: &Path, who: &str, sown: u32, until: u32) -> Fault {
-    let problem = format!("{who} sown at tick {sown}, and the run ends at tick {until}");
-    Fault::new(path, problem, format!("a tick in [0, {}]", until.saturating_sub(1)))
 }
 
 /// The names without repetition, in the order in which they come first.

@@ -207,8 +207,8 @@ impl<S: Sink> Recording<S> {
         Ok(())
     }
 
-    /// Writes the rows at a tick of a plant, if it is sown by then: the member of this number, with the index `at` in the
-    /// plot.
+    /// Writes the rows at a tick of a plant, if it is sown by then: the member of this number, with the index `at` in
+    /// the plot.
     fn write_age(&mut self, tick: Tick, plot: &Plot, (number, at): (usize, usize)) -> Result<(), TableError> {
         let (of, plant) = (Membership::of(plot, at), &plot.plants[at]);
         let Some(age) = of.age_at(tick) else { return Ok(()) };

@@ -3,7 +3,7 @@
 use super::layout::{Lattice, Layout, Place};
 use super::{Borders, MOST_PLANTS, Mixed, Stand};
 use crate::scenario::Scenario;
-use crate::scenario::plots::too_late;
+use crate::scenario::member::too_late;
 use phytomer_law::fault::{Fault, Path};
 
 impl Scenario {

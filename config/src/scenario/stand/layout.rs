@@ -1,8 +1,8 @@
 //! The layouts of a stand: where its places are, which of them are outer ones, and the ground of each.
 //!
 //! Rows run north unless stated; the next row lies to the right of it, eastward. The ground of rows begins at the place
-//! of the plot, its south-west corner, and a plant stands in the middle of its cell; a fan has its centre there. Absent:
-//! what is drawn.
+//! of the plot, its south-west corner, and a plant stands in the middle of its cell; a fan has its centre there.
+//! Absent: what is drawn.
 
 use super::{Ground, MOST_PLANTS};
 use crate::scenario::planting::turned;
@@ -320,8 +320,8 @@ impl Layout {
         }
     }
 
-    /// The places, in their order: row by row, arc by arc, line by line; of a stand that is refused for its size only the
-    /// first.
+    /// The places, in their order: row by row, arc by arc, line by line; of a stand that is refused for its size only
+    /// the first.
     pub(super) fn all(&self) -> Vec<Spot> {
         match self {
             Self::Places(places) => places.at.iter().zip(0..).map(|(place, number)| place.spot(number)).collect(),

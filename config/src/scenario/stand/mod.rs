@@ -16,7 +16,7 @@ mod tests;
 pub use layout::{Hills, Lattice, Layout, Nelder, Place, Places, RandomPlaces, Spot};
 pub use mix::{Mixed, SownSpecies};
 
-use super::plots::Member;
+use super::member::Member;
 use super::{DEFAULT_SEED, MOST_SEED};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -46,8 +46,8 @@ pub struct Stand {
     #[serde(default, skip_serializing_if = "is_default")]
     #[schemars(range(max = 1000))]
     pub guard_rows: u32,
-    /// How far from its marked place a plant stands at most, metres: anywhere in the disc of this radius, drawn for each
-    /// plant. 0 if not given.
+    /// How far from its marked place a plant stands at most, metres: anywhere in the disc of this radius, drawn for
+    /// each plant. 0 if not given.
     #[serde(default, skip_serializing_if = "is_default")]
     #[schemars(range(min = 0, max = 1000))]
     pub jitter_m: f64,
