@@ -1,9 +1,9 @@
 //! Grow any plant from seed to death, a million at a time, and query the result like a database.
 //!
 //! This is the facade: the crates of the house under short names, and [`run`], which makes a run folder out of a
-//! scenario; [`forest`] plants a landscape from a raster; [`report`] tells of runs in a page; [`sample`] grows a few
-//! plants of a species to hold them against what was published; [`simulate`] tells what plants of other numbers are
-//! like. The command line is the binary's own (`cli/`).
+//! scenario; [`fitted`] has species of measured branches; [`forest`] plants a landscape from a raster; [`report`]
+//! tells of runs in a page; [`sample`] grows a few plants of a species to hold them against what was published;
+//! [`simulate`] tells what plants of other numbers are like. The command line is the binary's own (`cli/`).
 //!
 //! ```no_run
 //! use phytomer::run::{self, Progress, Settings};
@@ -24,6 +24,7 @@ pub use phytomer_weather as weather;
 pub mod architecture;
 pub mod asystem;
 pub mod counted;
+pub mod fitted;
 pub mod forest;
 pub mod report;
 pub mod run;

@@ -149,3 +149,27 @@ fn the_fitted_trees_of_the_paper_are_species() {
     let (height, reach) = (sum(8), 0.677067 * sum(7));
     assert!((1.0 / height - 0.174).abs() < 1e-6 && (reach / (height - 1.0) - 0.75).abs() < 1e-6);
 }
+
+/// Figs. 20 and 21: no number of them is printed, and each number of the files says that it is assumed.
+#[test]
+fn the_pine_and_the_zelkova_are_assumed() {
+    let (of, pine) = shipped("aono_kunii/pine");
+    let controllers = pine.tree.rule.controller.as_ref().map_or(0, Vec::len);
+    assert_eq!((of, controllers, pine.tree.rule.deviation_m.is_some()), (TreeType::Gmt2, 2, true));
+    assert!(pine.tree.leaf.is_some() && pine.glue.is_empty());
+    let (of, zelkova) = shipped("aono_kunii/zelkova");
+    let glued: Vec<TreeType> = zelkova.glue.iter().map(|glued| glued.model).collect();
+    assert_eq!((of, glued), (TreeType::Gmt1, vec![TreeType::Gmt3]));
+    for name in ["aono_kunii/pine", "aono_kunii/zelkova"] {
+        let (_, text) = presets(Kind::Species).iter().find(|(own, _)| *own == name).expect("a species");
+        let numbers = text.lines().filter(|line| line.contains("= {"));
+        assert!(
+            numbers.clone().count() > 12 && numbers.into_iter().all(|line| line.contains("assumed = true")),
+            "{name}"
+        );
+        let bare = |line: &&str| {
+            line.split_once("= ").is_some_and(|(_, value)| value.starts_with(|c: char| c.is_ascii_digit() || c == '-'))
+        };
+        assert_eq!(text.lines().filter(bare).count(), 0, "{name} has a number that does not say that it is assumed");
+    }
+}

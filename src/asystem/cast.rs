@@ -3,7 +3,8 @@
 //!
 //! Names have been checked (`phytomer_asystem`), so a name that is not there changes nothing.
 
-use super::trees::{Modes, Segment, Shade, Tree, form_of};
+use super::foliage::form_of;
+use super::trees::{Modes, Segment, Shade, Tree};
 use phytomer_asystem::{Colour, Statement};
 use std::collections::BTreeMap;
 
@@ -83,7 +84,7 @@ impl Cast {
             Statement::Rotate { degrees, absolute: true, .. } => segment.degrees = *degrees,
             Statement::Rotate { degrees, .. } => segment.degrees += degrees,
             Statement::Release { .. } => *segment = Segment::default(),
-            Statement::Color { colour, .. } => tree.colour = *colour,
+            Statement::Color { colour, .. } => tree.colour = Some(*colour),
             Statement::Appear { on, .. } => tree.appears = *on,
             Statement::Girth { on, form, .. } => tree.give_girth(*on, *form),
             Statement::Deform { deformation, .. } => tree.deform(deformation),

@@ -2,8 +2,8 @@
 //! they come to be.
 
 use super::cast::Cast;
+use super::foliage::form_of;
 use super::grown::{MOST_COMPONENTS, foretold};
-use super::trees::form_of;
 use phytomer_asystem::{Fault, Refused, Script, Statement, Step, Typing, read};
 use phytomer_looks::FormName;
 

@@ -1,10 +1,11 @@
-//! The plants of a stage as line drawings: a branch for each internode, triangles for leaves, and shadows.
+//! The plants of a stage as line drawings: a branch for each internode, triangles for leaves, shadows, and stars
+//! for controllers.
 
 use super::trees::Tree;
 use phytomer_outputs::meshes::{MeshOptions, Scene, mesh_plant};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{AxisId, Class, Kind, NodeId, Plant};
-use phytomer_strokes::{Branch, Drawing, Fill, Patch, Shadow};
+use phytomer_strokes::{Branch, Drawing, Fill, Patch, Shadow, Star};
 
 /// Adds a tree, grown to a plant, to a drawing.
 pub fn add(drawing: &mut Drawing, tree: &Tree, (plant, age): (&Plant, Tick)) {
@@ -21,7 +22,7 @@ pub fn add(drawing: &mut Drawing, tree: &Tree, (plant, age): (&Plant, Tick)) {
         let form = tree.girth.filter(|form| !form.main_axis || is_main);
         let fill = form.map_or(Fill::FULL, |form| Fill { dense: form.dense, shaded: form.shaded });
         let girth = form.map(|_| frustum.radii.map(|radius| 2.0 * f64::from(radius)));
-        drawing.branches.push(Branch { ends: [at(frustum.base), at(tip)], girth, colour: tree.colour, fill });
+        drawing.branches.push(Branch { ends: [at(frustum.base), at(tip)], girth, colour: tree.ink(), fill });
     }
     let options = MeshOptions { kinds: kinds(|class| class != Class::Internode), ..MeshOptions::default() };
     let mesh = mesh_plant(plant, age, &options);
@@ -31,6 +32,8 @@ pub fn add(drawing: &mut Drawing, tree: &Tree, (plant, age): (&Plant, Tick)) {
         colour,
     };
     drawing.patches.extend(mesh.faces.iter().map(leaf));
+    let star = |(place, filled): ([f64; 3], bool)| Star { place, colour: tree.ink(), filled };
+    drawing.stars.extend(tree.controllers().into_iter().map(star));
     if let Some(shade) = tree.shade {
         let shadow = Shadow { emitter: shade.emitter, colour: shade.colour, merged: shade.merged };
         let (branches, patches) = ([starts[0], drawing.branches.len()], [starts[1], drawing.patches.len()]);

@@ -2,6 +2,7 @@
 //! folder, under the names of their workstations.
 
 use super::drawn::add;
+use super::stars::stars;
 use super::stations::Station;
 use super::trees::Tree;
 use phytomer_asystem::WorkstationType;
@@ -57,7 +58,7 @@ pub fn drawing_of(all: &[Grown<'_>]) -> Drawing {
 /// Those of the file.
 pub fn write(station: &Station, background: Colour, all: &[Grown<'_>], path: &Path) -> Result<(), StageError> {
     match station.kind {
-        WorkstationType::Model => write_model(all, path),
+        WorkstationType::Model => write_model(all, station.controllers, path),
         _ => {
             let drawing = drawing_of(all);
             write_sheet(station.kind, &station.sheet(background, &drawing), &drawing, path)
@@ -77,8 +78,8 @@ pub fn write_sheet(kind: WorkstationType, sheet: &Sheet, drawing: &Drawing, path
     put(path, |out| write_png(&canvas, "phytomer asystem", Compression::High, out))
 }
 
-/// Writes trees as a mesh, each in its place.
-fn write_model(all: &[Grown<'_>], path: &Path) -> Result<(), StageError> {
+/// Writes trees as a mesh, each in its place, and their controllers as stars.
+fn write_model(all: &[Grown<'_>], controllers: bool, path: &Path) -> Result<(), StageError> {
     let sides = |tree: &Tree| tree.girth.map_or(CORNERS, |form| form.corners);
     let mut bodies = Vec::with_capacity(all.len());
     for Grown { tree, plant, age, .. } in all {
@@ -91,7 +92,8 @@ fn write_model(all: &[Grown<'_>], path: &Path) -> Result<(), StageError> {
         name: grown.name.to_owned(),
     };
     let members = all.iter().enumerate().map(member).collect();
-    let mesh = PlotMesh { bodies, members, obstacles: Vec::new(), name: "a stage".to_owned(), place: [0.0; 3] };
+    let obstacles = all.iter().filter(|_| controllers).flat_map(|grown| stars(grown.tree)).collect();
+    let mesh = PlotMesh { bodies, members, obstacles, name: "a stage".to_owned(), place: [0.0; 3] };
     put(path, |out| mesh.write(out))
 }
 

@@ -9,7 +9,7 @@ use super::grown::plant_of;
 use super::recorded::species_of;
 use super::stations::{Content, Station};
 use super::trees::Tree;
-use phytomer_asystem::{COMMANDS, Command, Statement, Step, WorkstationType, command_of};
+use phytomer_asystem::{COMMANDS, Command, Device, Statement, Step, WorkstationType, command_of};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use phytomer_strokes::{Drawing, Sheet};
@@ -101,6 +101,12 @@ impl Stage {
                 self.station(&workstation.text, |station| station.set_window(*frame));
             }
             Statement::Clear { workstation } => self.station(&workstation.text, Station::clear),
+            Statement::Activate { workstation, device: Device::Valuator } => {
+                self.station(&workstation.text, |station| station.controllers = true);
+            }
+            Statement::Deactivate { workstation, device: Device::Valuator } => {
+                self.station(&workstation.text, |station| station.controllers = false);
+            }
             Statement::Compose { tree, viewing } => {
                 let content = Content::Tree(tree.text.clone());
                 self.stations.values_mut().for_each(|station| station.show(content.clone(), *viewing));

@@ -35,13 +35,16 @@ pub struct Station {
     viewing: Viewing,
     /// How long each of its frames is shown, seconds.
     pub frames: Vec<f64>,
+    /// Whether it shows the controllers of its trees: while its valuator is active, by which they are placed.
+    pub controllers: bool,
 }
 
 impl Station {
     /// A workstation that shows everything from the front.
     pub fn open(kind: WorkstationType) -> Self {
         let (content, viewing) = (Content::default(), Viewing::default());
-        Self { kind, content, ports: Vec::new(), window: None, viewing, frames: Vec::new() }
+        let (ports, frames) = (Vec::new(), Vec::new());
+        Self { kind, content, ports, window: None, viewing, frames, controllers: false }
     }
 
     /// The ending of its files.
@@ -87,7 +90,7 @@ impl Station {
             frame: *frame,
             window: self.window,
         };
-        Sheet { size: SIZE, background, ports: ports.iter().map(port).collect() }
+        Sheet { size: SIZE, background, ports: ports.iter().map(port).collect(), stars: self.controllers }
     }
 
     fn view(&self, view: ViewType, drawing: &Drawing) -> View {

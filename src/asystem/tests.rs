@@ -141,3 +141,72 @@ fn what_the_models_refuse_is_told_before_anything_is_drawn() {
     let leaf = told("create gmt1 a 3 .9 .8 20 -40; leaf a gmt1 eliptic 3 0 99 0;");
     assert!(leaf.contains("the nearest is `elliptic`"), "{leaf}");
 }
+
+/// The star of Fig. 23: in every kind of workstation, at the place of the controller as the tree stands.
+#[test]
+fn controllers_are_stars_while_the_valuator_is_active() {
+    let folder = tempfile::tempdir().unwrap();
+    let tree = "create gmt1 a 3 .9 .8 20 -40 1 2 0 1 2 10; deform a off on off {1 3 .5 31 2 0 1 3 -.5 1 12 5};";
+    let script = format!("{tree} abs_zoom a 2; abs_translate a 1 1 1; abs_rotate a 90;");
+    let mut stage = Stage::new(folder.path());
+    steps(&script).iter().for_each(|step| drop(stage.take(step).unwrap()));
+    let stars = stage.cast.trees["a"].controllers();
+    // From the root (1, 2, 0): (30, 0, 0) and (0, 10, 5), twice as large, a quarter turn on.
+    for ((place, pulls), expected) in stars.iter().zip([([2.0, 63.0, 1.0], true), ([-18.0, 3.0, 11.0], false)]) {
+        assert!(near(*place, expected.0, 1e-9) && *pulls == expected.1, "{stars:?}");
+    }
+    assert_eq!(stars.len(), 2);
+    let open = "open d display; open p plotter; open m model;";
+    run(&format!("{open} {tree} exit;"), folder.path());
+    let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    let without = ["d.png", "p.svg", "m.ply"].map(read);
+    let active = "activate d valuator; activate p valuator; activate m valuator;";
+    run(&format!("{open} {active} {tree} exit;"), folder.path());
+    let with = ["d.png", "p.svg", "m.ply"].map(read);
+    assert!(without.iter().zip(&with).all(|(a, b)| a != b));
+    let paths = |svg: &[u8]| String::from_utf8_lossy(svg).matches("<path d").count();
+    // A filled star, an outline and what it encloses.
+    assert_eq!(paths(&with[1]), paths(&without[1]) + 3);
+    let vertices = |ply: &[u8]| {
+        let text = String::from_utf8_lossy(ply).into_owned();
+        let line = text.lines().find_map(|line| line.strip_prefix("element vertex ").map(str::to_owned));
+        line.and_then(|count| count.parse::<usize>().ok()).unwrap()
+    };
+    assert!(vertices(&with[2]) > vertices(&without[2]));
+    let closed = "deactivate d valuator; deactivate p valuator; deactivate m valuator;";
+    run(&format!("{open} {active} {tree} {closed} exit;"), folder.path());
+    assert_eq!(["d.png", "p.svg", "m.ply"].map(read), without);
+}
+
+/// The wood of a model has the colour of the tree; without one it is bark.
+#[test]
+fn the_wood_of_a_model_has_the_colour_of_its_tree() {
+    let folder = tempfile::tempdir().unwrap();
+    let drawn = |colour: &str| {
+        let script =
+            format!("open m model; create gmt1 a 2 .9 .8 20 -40; leaf a gmt1 elliptic 2 0 128 0; {colour} exit;");
+        run(&script, folder.path());
+        let mut colours = std::collections::BTreeSet::new();
+        let mut stage = Stage::new(folder.path());
+        steps(&script).iter().for_each(|step| drop(stage.take(step).unwrap()));
+        let tree = stage.cast.trees.get("a").cloned().unwrap();
+        let (plant, age) = grown::plant_of(&tree, 1, u32::MAX).unwrap();
+        let mesh = phytomer_outputs::meshes::mesh_plant(&plant, age, &phytomer_outputs::meshes::MeshOptions::default());
+        mesh.vertices.iter().for_each(|vertex| drop(colours.insert(vertex.tag().colour)));
+        (colours, fs::read(folder.path().join("m.ply")).unwrap())
+    };
+    let (bark, plain) = drawn("");
+    let (red, painted) = drawn("color a 200 30 20;");
+    let wood = |colour: &[u8; 4]| colour[..3] == [200, 30, 20];
+    assert!(red.iter().any(wood) && !bark.iter().any(wood), "{red:?} {bark:?}");
+    assert_eq!(red.len(), 2, "wood and leaves: {red:?}");
+    assert_eq!((plain.len(), plain == painted), (painted.len(), false));
+}
+
+#[test]
+fn workstations_that_differ_in_capitals_alone_are_refused() {
+    for script in ["open a display; open A plotter;", "open oak display; close oak; open OAK display;"] {
+        assert!(told(script).contains("differ in capitals alone"), "{script}: {}", told(script));
+    }
+    assert_eq!(told("open a display; close a; open a plotter; open b display;"), "");
+}

@@ -4,14 +4,15 @@
 //! zoom multiplies every length in it. Places and turns belong to the stage. Absent: growth (`grown`), and how trees
 //! are drawn (`drawn`).
 
+use super::foliage::Leaves;
 use phytomer_asystem::{Angles, Colour, Controller, Deformation, GirthForm, Part, TreeDescriptor, TreeType as Word};
 use phytomer_looks::FormName;
-use phytomer_models::buds::params::{ColourText, LeafChoice};
 use phytomer_models::fault::{Fault, Path};
 use phytomer_models::geometric::{
-    self as models, CombinedLevels, CutLateral, Descriptor, Falloff, GeometricTree, GluedTree, Rule, TreeLeaf, TreeType,
+    self as models, CombinedLevels, CutLateral, Descriptor, Falloff, GeometricTree, GluedTree, Rule, TreeType,
 };
 use phytomer_models::law::{Constant, Quantity, Variate};
+use phytomer_sim::rotation::Rotation;
 
 /// The first branch where a script states none, metres: its height above the origin. The controllers of Table 4 stand
 /// three times as far away.
@@ -68,15 +69,6 @@ pub struct Shade {
     pub merged: bool,
 }
 
-/// The leaves of a tree.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Leaves {
-    form: FormName,
-    level: u32,
-    colour: Colour,
-    size: [f64; 2],
-}
-
 /// One of the trees that stand on a root.
 #[derive(Debug, Clone, PartialEq)]
 struct Stem {
@@ -107,8 +99,8 @@ pub struct Tree {
     root: [f64; 3],
     /// Where it stands.
     pub segment: Segment,
-    /// Its colour.
-    pub colour: Colour,
+    /// The colour that `color` has given it.
+    pub colour: Option<Colour>,
     /// Whether it is seen.
     pub appears: bool,
     /// How its branches have a girth: `None`, they are lines.
@@ -150,7 +142,7 @@ impl Tree {
             stems: vec![stem],
             root,
             segment: Segment::default(),
-            colour: modes.colour.unwrap_or([0; 3]),
+            colour: modes.colour,
             appears: true,
             girth: None,
             shade: None,
@@ -222,9 +214,38 @@ impl Tree {
         }
     }
 
+    /// The colour of its lines: black where `color` has given it none.
+    pub fn ink(&self) -> Colour {
+        self.colour.unwrap_or([0; 3])
+    }
+
+    /// The length of its first branch, as large as it stands.
+    pub fn first_m(&self) -> f64 {
+        self.stems.first().map_or(1.0, |stem| length(stem.way) * stem.zoom * self.segment.zoom)
+    }
+
+    /// Its controllers, each once: where they stand, and whether they pull.
+    pub fn controllers(&self) -> Vec<([f64; 3], bool)> {
+        let Some(first) = self.stems.first() else { return Vec::new() };
+        let turn = Rotation::about(first.way, (self.segment.degrees % 360.0).to_radians());
+        let root = self.stands_at();
+        let mut all = Vec::new();
+        for stem in &self.stems {
+            let zoom = stem.zoom * self.segment.zoom;
+            for one in &stem.controllers {
+                let from_root = turn.turned([0, 1, 2].map(|k| (one.at[k] - stem.root[k]) * zoom));
+                let star = ([0, 1, 2].map(|k| root[k] + from_root[k]), one.factor >= 0.0);
+                if !all.contains(&star) {
+                    all.push(star);
+                }
+            }
+        }
+        all
+    }
+
     /// The colour of its leaves.
     pub fn leaf_colour(&self) -> Colour {
-        self.stems.iter().find_map(|stem| stem.leaves).map_or(self.colour, |leaves| leaves.colour)
+        self.stems.iter().find_map(|stem| stem.leaves).map_or(self.ink(), |leaves| leaves.colour)
     }
 
     /// Its type: that of its first range, but what deviates is no gmt1.
@@ -351,26 +372,6 @@ impl Stem {
             false => levels.zip(until).map(|(level, to)| cut(level, (*to >= level).then_some(*to))).collect(),
         }
     }
-}
-
-impl Leaves {
-    fn stated(self, zoom: f64) -> TreeLeaf {
-        let [length, width] = self.size.map(|metres| Constant::Number(100.0 * metres * zoom));
-        let [r, g, b] = self.colour;
-        TreeLeaf {
-            form: self.form,
-            length_cm: length,
-            width_cm: width,
-            from_level: Some(Quantity::from(self.level)),
-            colour: Some(LeafChoice::One(ColourText(format!("#{r:02x}{g:02x}{b:02x}")))),
-            ..TreeLeaf::default()
-        }
-    }
-}
-
-/// The form of this name.
-pub fn form_of(word: &str) -> Option<FormName> {
-    FormName::ALL.into_iter().find(|form| form.word() == word)
 }
 
 fn length(way: [f64; 3]) -> f64 {

@@ -5,11 +5,12 @@
 //! CSV, which are the library's.
 
 mod abc;
+mod gmt;
 mod told;
 
 use super::{Misuse, Verdict, refuse, terminal};
 use anyhow::{Context, Result};
-use clap::{Args, ValueEnum};
+use clap::{Args, Subcommand, ValueEnum};
 use phytomer::counted;
 use phytomer_config::validate_texts;
 use phytomer_fits::check::{Checked, Material, check};
@@ -32,6 +33,7 @@ const SEED: u64 = 1988;
 
 /// Fit a law to measured plants, and write it as a species.
 #[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 #[command(after_help = "\
 Examples:
   phytomer fit --sample nodes                   a table as it is read, with the columns of a law
@@ -41,6 +43,7 @@ Examples:
   phytomer fit nodes.csv --law nodes --json --check 20
   phytomer fit runs/coffee --law mortality --order 2                   what a run would have told
   phytomer fit seen.csv --law abc --base priors.toml --out fitted.toml   numbers with a `prior`, by simulation
+  phytomer fit gmt --help                       ratios, angles and more of a geometric tree, from its branches
   phytomer fit runs/coffee --law abc --summary height_m@48 --base coffee --vary order.1.pause=0.02..0.3
 
 Columns of each law (CSV with a header, or Parquet with these columns):
@@ -58,6 +61,8 @@ The species inherits from --base and holds the fitted keys alone, each with sour
 has estimates, covariance, log-likelihood, BIC and tests of all rivals. docs/statistics.md has every formula. Exit code 3
 where the file is wrong or the law cannot be estimated: nothing is written then.")]
 pub struct Fit {
+    #[command(subcommand)]
+    tree: Option<Tree>,
     /// The table: .csv, .txt or .parquet; or a run folder.
     #[arg(value_name = "DATA", required_unless_present = "sample")]
     data: Option<PathBuf>,
@@ -111,6 +116,12 @@ pub struct Fit {
     abc: abc::Abc,
 }
 
+/// What is fitted beside laws.
+#[derive(Debug, Subcommand)]
+enum Tree {
+    Gmt(Box<gmt::Gmt>),
+}
+
 /// The laws that can be fitted.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Word {
@@ -139,6 +150,9 @@ impl Word {
 
 impl Fit {
     pub fn obey(self) -> Result<Verdict> {
+        if let Some(Tree::Gmt(tree)) = self.tree {
+            return tree.obey();
+        }
         if let Some(law) = &self.sample {
             return sample(law);
         }
@@ -153,15 +167,15 @@ impl Fit {
         let loaded = if path.is_dir() { self.counted(path, law)? } else { load(path)? };
         let (table, hash) = match loaded {
             Ok(loaded) => loaded,
-            Err(faults) => return self.decline(&faults),
+            Err(faults) => return decline(&faults, self.json),
         };
         let table = match self.chosen(table)? {
             Ok(table) => table,
-            Err(fault) => return self.decline(&[fault]),
+            Err(fault) => return decline(&[fault], self.json),
         };
         let data = match read(law, &table) {
             Ok(data) => data,
-            Err(faults) => return self.decline(&faults),
+            Err(faults) => return decline(&faults, self.json),
         };
         let wanted = self.wanted(path)?;
         match fit(law, &data, &wanted) {
@@ -196,7 +210,7 @@ impl Fit {
             Err(problem) => {
                 let expected = "a finished run with such axes".to_owned();
                 let file = path.display().to_string();
-                return Ok(Err(vec![Fault { file, line: None, problem, expected }]));
+                return Ok(Err(vec![Fault { file, line: None, column: None, problem, expected }]));
             }
         };
         let json = path.join("run.json");
@@ -247,19 +261,6 @@ impl Fit {
             };
         }
         Ok(Ok(table))
-    }
-
-    fn decline(&self, faults: &[Fault]) -> Result<Verdict> {
-        if self.json {
-            let faults: Vec<_> = faults
-                .iter()
-                .map(|f| json!({"file": f.file, "line": f.line, "problem": f.problem, "expected": f.expected}))
-                .collect();
-            terminal::put_json(&json!({"status": "invalid", "faults": faults}))?;
-        } else {
-            faults.iter().for_each(|fault| terminal::say(&fault.to_string()));
-        }
-        Ok(Verdict::Invalid)
     }
 
     fn finish(&self, outcome: &Outcome, checked: Option<&Checked>, path: &Path, hash: &str) -> Result<Verdict> {
@@ -325,6 +326,20 @@ impl Fit {
     }
 }
 
+/// Tells what is wrong with a file.
+fn decline(faults: &[Fault], as_json: bool) -> Result<Verdict> {
+    if as_json {
+        let faults: Vec<_> = faults
+            .iter()
+            .map(|f| json!({"file": f.file, "line": f.line, "column": f.column, "problem": f.problem, "expected": f.expected}))
+            .collect();
+        terminal::put_json(&json!({"status": "invalid", "faults": faults}))?;
+    } else {
+        faults.iter().for_each(|fault| terminal::say(&fault.to_string()));
+    }
+    Ok(Verdict::Invalid)
+}
+
 /// The sample of a law on stdout.
 fn sample(law: &str) -> Result<Verdict> {
     if law == "abc" {
@@ -354,7 +369,7 @@ fn hash_of(bytes: &[u8]) -> String {
 fn load(path: &Path) -> Result<Loaded> {
     let shown = path.display().to_string();
     let told = |problem: String, expected: &str| {
-        vec![Fault { file: shown.clone(), line: None, problem, expected: expected.to_owned() }]
+        vec![Fault { file: shown.clone(), line: None, column: None, problem, expected: expected.to_owned() }]
     };
     let length = std::fs::metadata(path).with_context(|| format!("cannot read {shown}"))?.len();
     if length > MOST_BYTES {

@@ -15,6 +15,7 @@ pub mod crown;
 pub mod data;
 pub mod draws;
 pub mod fit;
+pub mod gmt;
 pub mod json;
 mod likelihood;
 mod matrix;

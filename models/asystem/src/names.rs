@@ -23,6 +23,8 @@ pub struct Names {
     trees: BTreeMap<String, Known>,
     clusters: BTreeMap<String, BTreeSet<String>>,
     workstations: BTreeMap<String, BTreeSet<Device>>,
+    /// The names that workstations have had, by their small letters.
+    spelled: BTreeMap<String, String>,
     ended: bool,
 }
 
@@ -261,6 +263,12 @@ impl Names {
         if self.workstations.insert(name.text.clone(), BTreeSet::new()).is_some() {
             let problem = format!("the workstation `{}` is open", name.text);
             faults.push(Fault::new(name.place, problem, "another name, or `close` before"));
+        }
+        // Many disks do not tell capitals from small letters: one file would take the place of the other.
+        let known = self.spelled.entry(name.text.to_lowercase()).or_insert_with(|| name.text.clone());
+        if *known != name.text {
+            let problem = format!("the workstations `{}` and `{known}` differ in capitals alone", name.text);
+            faults.push(Fault::new(name.place, problem, "a name that differs in its letters: it is that of a file"));
         }
     }
 

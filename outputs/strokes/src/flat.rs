@@ -2,7 +2,7 @@
 
 use super::ports::Way;
 use super::views::View;
-use super::{Branch, Colour, Drawing, Patch, Place, Shadow};
+use super::{Branch, Colour, Drawing, Patch, Place, Shadow, Sheet, Star};
 use phytomer_sim::math::sincos;
 use std::f64::consts::TAU;
 
@@ -14,6 +14,9 @@ const JOINT: u32 = 12;
 const DARK: f64 = 0.6;
 /// The opacity of a shadow of its own.
 const VEIL: f64 = 0.35;
+/// The outer radius of a star, pixels, and the share of it at which its five corners meet: that of a pentagram.
+const STAR: f64 = 18.0;
+const NOTCH: f64 = 0.381_966;
 
 /// A polygon on the sheet.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,15 +39,16 @@ impl Shadow {
 }
 
 /// The shapes of a drawing as a view shows them.
-pub fn shapes(drawing: &Drawing, background: Colour, view: View, way: &Way) -> Vec<Flat> {
+pub fn shapes(drawing: &Drawing, sheet: &Sheet, view: View, way: &Way) -> Vec<Flat> {
     let mut flat = shadows(drawing, view, way);
-    let eye = Eye { view, way, background };
+    let eye = Eye { view, way, background: sheet.background };
     let mut items: Vec<(f64, Vec<Flat>)> = Vec::with_capacity(drawing.branches.len() + drawing.patches.len());
     items.extend(drawing.branches.iter().filter_map(|branch| eye.branch(branch)));
     items.extend(drawing.patches.iter().filter_map(|patch| eye.patch(patch)));
     // A stable order, so that equally far shapes keep that of the drawing.
     items.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     flat.extend(items.into_iter().flat_map(|(_, shapes)| shapes));
+    flat.extend(sheet.shown(drawing).iter().flat_map(|star| eye.star(star)));
     flat
 }
 
@@ -116,6 +120,18 @@ impl Eye<'_> {
         Some((0.5 * (near + far), shapes))
     }
 
+    /// A star of the standard size; nothing behind the eye.
+    fn star(&self, star: &Star) -> Vec<Flat> {
+        let Some(((at, _), _)) = self.view.seen(star.place) else { return Vec::new() };
+        let middle = self.way.pixel(at);
+        let of = |radius: f64, colour: Colour| Flat { corners: pentagram(middle, radius), colour, opacity: 1.0 };
+        let outline = of(STAR, star.colour);
+        match star.filled {
+            true => vec![outline],
+            false => vec![outline, of(0.6 * STAR, self.background)],
+        }
+    }
+
     fn patch(&self, patch: &Patch) -> Option<(f64, Vec<Flat>)> {
         let seen: Option<Vec<_>> = patch.corners.iter().map(|place| self.view.seen(*place)).collect();
         let seen = seen?;
@@ -133,6 +149,16 @@ fn sides(base: [f64; 2], tip: [f64; 2], radii: [f64; 2]) -> [[f64; 2]; 4] {
     let across = if long > 0.0 { [way[1] / long, -way[0] / long] } else { [1.0, 0.0] };
     let at = |place: [f64; 2], radius: f64| [place[0] + across[0] * radius, place[1] + across[1] * radius];
     [at(base, -radii[0]), at(tip, -radii[1]), at(tip, radii[1]), at(base, radii[0])]
+}
+
+/// The ten corners of a star with a point up.
+fn pentagram([x, y]: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
+    let corner = |k: u32| {
+        let (sin, cos) = sincos(TAU * f64::from(k) / 10.0);
+        let radius = if k % 2 == 0 { radius } else { NOTCH * radius };
+        [x + radius * sin, y - radius * cos]
+    };
+    (0..10).map(corner).collect()
 }
 
 fn joint(place: [f64; 2], radius: f64) -> Vec<[f64; 2]> {

@@ -1,10 +1,11 @@
 //! Line drawings of trees, as the figures of Aono & Kunii 1984 are: branches as lines or with a girth, leaves, and the
 //! shadows that a light at a place throws on the ground.
 //!
-//! A [`Drawing`] holds what is drawn, in metres, z up. A [`Sheet`] shows it in ports, each a view with its part of the
-//! sheet, as [`Sheet::svg`] or [`Sheet::pixels`]; both draw the same shapes (`flat`), the farther first. `views` leads
-//! from space to a plane, `ports` from that plane to the sheet. Equal drawings give equal bytes on every platform.
-//! Absent: how trees grow, and pictures with light and air (`phytomer-pictures`).
+//! A [`Drawing`] holds what is drawn, in metres, z up; a star marks a point that pulls at a tree (their Fig. 23). A
+//! [`Sheet`] shows it in ports, each a view with its part of the sheet, as [`Sheet::svg`] or [`Sheet::pixels`]; both
+//! draw the same shapes (`flat`), the farther first. `views` leads from space to a plane, `ports` from that plane to
+//! the sheet. Equal drawings give equal bytes on every platform. Absent: how trees grow, and pictures with light and
+//! air (`phytomer-pictures`).
 
 mod flat;
 mod pixels;
@@ -72,6 +73,17 @@ pub struct Shadow {
     pub merged: bool,
 }
 
+/// A point that pulls at a tree or pushes it away, as a star that has its size on the sheet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Star {
+    /// Where it is.
+    pub place: Place,
+    /// Its colour.
+    pub colour: Colour,
+    /// Whether it is filled, as one that pulls is; else it is an outline.
+    pub filled: bool,
+}
+
 /// What is drawn.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Drawing {
@@ -81,6 +93,8 @@ pub struct Drawing {
     pub patches: Vec<Patch>,
     /// The shadows, each with the numbers of its first branch and of the one after its last, and the same of patches.
     pub shadows: Vec<(Shadow, [usize; 2], [usize; 2])>,
+    /// The stars, which lie over all else.
+    pub stars: Vec<Star>,
 }
 
 /// A sheet on which a drawing is shown.
@@ -92,6 +106,8 @@ pub struct Sheet {
     pub background: Colour,
     /// Its ports, of which later ones lie over earlier ones.
     pub ports: Vec<Port>,
+    /// Whether it shows the stars of a drawing.
+    pub stars: bool,
 }
 
 impl Sheet {
@@ -113,12 +129,17 @@ impl Sheet {
         Self { ports: ports.collect(), ..self.clone() }
     }
 
+    /// The stars that it shows of a drawing.
+    fn shown<'a>(&self, drawing: &'a Drawing) -> &'a [Star] {
+        if self.stars { &drawing.stars } else { &[] }
+    }
+
     /// The shapes in each port.
     fn flat(&self, drawing: &Drawing) -> Vec<(Port, Vec<Flat>)> {
         let windows = ports::windows(self, drawing);
         let shapes = self.ports.iter().zip(windows).map(|(port, window)| {
             let way = ports::Way::of(self, port, &window);
-            (*port, flat::shapes(drawing, self.background, port.view, &way))
+            (*port, flat::shapes(drawing, self, port.view, &way))
         });
         shapes.collect()
     }

@@ -61,7 +61,7 @@ impl Way {
 
 /// The window of each port: its own, or one that shows all that is drawn; these have one scale.
 pub fn windows(sheet: &Sheet, drawing: &Drawing) -> Vec<Window> {
-    let whole = |port: &Port| extent(drawing, port.view);
+    let whole = |port: &Port| extent(sheet, drawing, port.view);
     let open = || sheet.ports.iter().filter(|port| port.window.is_none());
     let scales = open().map(|port| Way::of(sheet, port, &whole(port)).scale);
     let scale = scales.fold(f64::INFINITY, f64::min);
@@ -76,10 +76,11 @@ pub fn windows(sheet: &Sheet, drawing: &Drawing) -> Vec<Window> {
 }
 
 /// The window around all that is drawn; a metre around the origin where that is nothing.
-fn extent(drawing: &Drawing, view: View) -> Window {
+fn extent(sheet: &Sheet, drawing: &Drawing, view: View) -> Window {
     let ends = drawing.branches.iter().flat_map(|branch| branch.ends);
     let corners = drawing.patches.iter().flat_map(|patch| patch.corners.iter().copied());
-    let places = ends.chain(corners).chain(shadow_places(drawing));
+    let stars = sheet.shown(drawing).iter().map(|star| star.place);
+    let places = ends.chain(corners).chain(shadow_places(drawing)).chain(stars);
     let seen = places
         .filter_map(|place| view.seen(place))
         .map(|((at, _), _)| at)

@@ -12,7 +12,7 @@ fn pole(height: f64, girth: Option<[f64; 2]>) -> Branch {
 
 fn sheet(ports: Vec<Port>, window: Option<Window>) -> Sheet {
     let ports = ports.into_iter().map(|port| Port { window, ..port }).collect();
-    Sheet { size: [200, 100], background: WHITE, ports }
+    Sheet { size: [200, 100], background: WHITE, ports, stars: true }
 }
 
 fn whole(view: View) -> Vec<Port> {
@@ -137,4 +137,34 @@ fn what_is_no_place_is_not_drawn_and_stops_nothing() {
         sheet(whole(view), None).pixels(&drawing);
         sheet(whole(view), Some([-1.0, 1.0, 1.0, -1.0])).svg(&drawing);
     }
+}
+
+/// A pentagram of the outer radius R has the area 5 R² NOTCH sin 36°; here R is 18 pixels.
+#[test]
+fn a_star_has_its_size_on_the_sheet_and_lies_in_its_window() {
+    let star = Star { place: [40.0, 0.0, 5.0], colour: RED, filled: true };
+    let drawing = Drawing { branches: vec![pole(10.0, None)], stars: vec![star], ..Drawing::default() };
+    let reds = |sheet: &Sheet, drawing: &Drawing| {
+        let pole = sheet.pixels(&Drawing { stars: Vec::new(), ..drawing.clone() });
+        let both = sheet.pixels(drawing);
+        let red = |canvas: &phytomer_pictures::Canvas| {
+            canvas.pixels.iter().map(|[_, green, ..]| f64::from(255 - green) / 255.0).sum::<f64>()
+        };
+        red(&both) - red(&pole)
+    };
+    let area = 5.0 * 18.0 * 18.0 * 0.381_966 * 0.587_785;
+    for window in [[-5.0, 45.0, 15.0, -5.0], [-50.0, 90.0, 60.0, -10.0]] {
+        let sheet = sheet(whole(View::Front), Some(window));
+        let found = reds(&sheet, &drawing);
+        assert!((found - area).abs() < 4.0, "{found} pixels, {area} expected");
+        let hollow = Drawing { stars: vec![Star { filled: false, ..star }], ..drawing.clone() };
+        assert!((reds(&sheet, &hollow) - area * (1.0 - 0.36)).abs() < 4.0);
+    }
+    // Without a window the star is seen whole; a sheet without stars shows the pole alone.
+    let whole = sheet(whole(View::Front), None);
+    assert!((reds(&whole, &drawing) - area).abs() < 4.0);
+    let without = Sheet { stars: false, ..whole.clone() };
+    let alone = Drawing { stars: Vec::new(), ..drawing.clone() };
+    assert_eq!(without.svg(&drawing), without.svg(&alone));
+    assert_eq!(whole.svg(&drawing).matches("<path d").count(), 2);
 }

@@ -81,7 +81,7 @@ pub fn fit(of: &Fit, path: &Path) -> Result<Verdict> {
     };
     let measured = match measured(of, path)? {
         Ok(measured) => measured,
-        Err(faults) => return of.decline(&faults),
+        Err(faults) => return super::decline(&faults, of.json),
     };
     let simulator = match ready(of, base, &measured) {
         Ok(simulator) => simulator,

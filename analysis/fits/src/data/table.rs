@@ -15,6 +15,8 @@ pub struct Fault {
     pub file: String,
     /// The line from 1; for tables without lines the row from 1.
     pub line: Option<u64>,
+    /// The character of the line, from 1, where it is known.
+    pub column: Option<u64>,
     /// What is wrong.
     pub problem: String,
     /// What was expected, and what to do.
@@ -23,11 +25,12 @@ pub struct Fault {
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { file, line, problem, expected } = self;
-        match line {
-            Some(line) => write!(f, "{file}:{line}: {problem}; expected {expected}"),
-            None => write!(f, "{file}: {problem}; expected {expected}"),
+        let Self { file, line, column, problem, expected } = self;
+        write!(f, "{file}:")?;
+        for place in [line, column].into_iter().flatten() {
+            write!(f, "{place}:")?;
         }
+        write!(f, " {problem}; expected {expected}")
     }
 }
 
@@ -53,6 +56,7 @@ impl Table {
         let fault = |line, problem: String, expected: &str| Fault {
             file: file.to_owned(),
             line,
+            column: None,
             problem,
             expected: expected.to_owned(),
         };
@@ -83,11 +87,10 @@ impl Table {
                 Ok(record) => {
                     let problem = format!("{} cells under {} names", record.len(), names.len());
                     let line = record.position().map(csv::Position::line);
-                    faults.push(fault(
-                        line,
-                        problem,
-                        "a cell for each column; leave it empty where nothing was measured",
-                    ));
+                    let expected = "a cell for each column; leave it empty where nothing was measured";
+                    let last = record.len().min(names.len() + 1).saturating_sub(1);
+                    let column = line.and_then(|line| column_of(bytes, line, last));
+                    faults.push(Fault { column, ..fault(line, problem, expected) });
                 }
                 Err(error) => {
                     let line = error.position().map(csv::Position::line);
@@ -141,8 +144,33 @@ impl Table {
 
     /// A fault of this table.
     pub fn fault(&self, line: Option<u64>, problem: impl Into<String>, expected: &str) -> Fault {
-        Fault { file: self.file.clone(), line, problem: problem.into(), expected: expected.to_owned() }
+        Fault { file: self.file.clone(), line, column: None, problem: problem.into(), expected: expected.to_owned() }
     }
+}
+
+/// The character, from 1, at which a cell of a line of comma-separated values begins; `None` where there is none, or
+/// where the cells of the row do not stand on one line.
+pub fn column_of(bytes: &[u8], line: u64, cell: usize) -> Option<u64> {
+    let at = usize::try_from(line).ok()?.checked_sub(1)?;
+    let text = std::str::from_utf8(bytes.split(|byte| *byte == b'\n').nth(at)?).ok()?;
+    let (mut quoted, mut passed, mut is_blank) = (false, 0, true);
+    for (column, letter) in (1..).zip(text.trim_start_matches('\u{feff}').chars()) {
+        if passed == cell && is_blank && !letter.is_whitespace() {
+            return Some(column);
+        }
+        match letter {
+            '"' => quoted = !quoted,
+            ',' if !quoted => {
+                passed += 1;
+                is_blank = true;
+                continue;
+            }
+            _ => {}
+        }
+        is_blank = is_blank && letter.is_whitespace();
+    }
+    // An empty cell at the end of the line.
+    (passed == cell).then(|| text.trim_end().chars().count() as u64 + 1)
 }
 
 fn in_words(error: &csv::Error) -> String {
