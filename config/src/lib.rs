@@ -24,6 +24,7 @@ mod making;
 mod meaning;
 mod models;
 mod numbers;
+pub mod plan;
 pub mod published;
 mod report;
 mod resolved;
