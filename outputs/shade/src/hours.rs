@@ -8,8 +8,8 @@
 //! from one moment to the next, when it does so is known to a step s, so that hours are off by ΔA·s/√12 in the mean
 //! square; morning and evening, which may mirror each other, count as one twice as large, and days by themselves.
 //! *Cells*: half of what the black and the white cells of the grid differ by. That is an estimate and no bound; it
-//! falls with finer steps and grids. What the sun's place is off by (.02°, and .1° for the declination that holds for a day)
-//! is not in it, nor what the days between those that are followed would say.
+//! falls with finer steps and grids. Not in it: what the sun's place is off by (.02°, and .1° for the declination that
+//! holds for a day), and what the days between those that are followed would say.
 
 use crate::body::{Caster, Cause};
 use crate::samples::Samples;
