@@ -29,4 +29,5 @@ pub mod forest;
 pub mod report;
 pub mod run;
 pub mod sample;
+pub mod shade;
 pub mod simulate;

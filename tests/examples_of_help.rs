@@ -13,7 +13,7 @@ use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 21] = [
+const VERBS: [&str; 22] = [
     "init",
     "grow",
     "merge",
@@ -35,6 +35,7 @@ const VERBS: [&str; 21] = [
     "sensitivity",
     "report",
     "asystem",
+    "shade",
 ];
 
 /// The examples of a verb's help: the lines that begin with the program's name.
@@ -62,6 +63,7 @@ fn every_example_of_help_runs() {
     run(folder.path(), &["init", "my_herb", "--model", "lsystem"]).ending(0);
     lay_trees_of_others(folder.path());
     lay_site(folder.path());
+    lay_court(folder.path());
     lay_counts(folder.path());
     let script = "open paper plotter; create gmt1 oak 4 .9 .7 20 -40; exit;";
     fs::write(folder.path().join("my_trees.asys"), script).unwrap();
@@ -130,6 +132,17 @@ fn lay_site(folder: &Path) {
     fs::write(site.join("cover.asc"), cells).unwrap();
 }
 
+fn lay_court(folder: &Path) {
+    let court = folder.join("my_court");
+    fs::create_dir(&court).unwrap();
+    let text = "name = \"court\"\nlatitude_deg = 48\nsun = { days_a_month = 1, step_min = 60 }\n\
+                zone = [{ name = \"bench\", corners_m = [[0, 0], [3, 0], [3, 2]] }]\n\
+                building = [{ place_m = [1, -3], size_m = [4, 2, 3] }]\n\
+                [arrange]\nspot = [{ name = \"a\", place_m = [1, -1] }]\n\
+                candidate = [{ name = \"bush\", species = \"coffee\", age = 12, cost = 1 }]\n";
+    fs::write(court.join("site.toml"), text).unwrap();
+}
+
 fn obey_example(folder: &Path, number: usize, words: &[&str]) {
     let mut words = words.to_vec();
     let name = format!("example-{}-{number}", words.len());
@@ -151,7 +164,7 @@ fn obey_example(folder: &Path, number: usize, words: &[&str]) {
         "fit" if words.contains(&"abc") && words.contains(&"--base") => {
             words.extend(["--particles", "20", "--generations", "2", "--plants", "2", "--quiet"]);
         }
-        "forest" => words.extend((!words.contains(&"--overwrite")).then_some("--overwrite")),
+        "forest" | "shade" => words.extend((!words.contains(&"--overwrite")).then_some("--overwrite")),
         _ => {}
     }
     // A film that goes into a pipe is no text.

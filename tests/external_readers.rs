@@ -300,14 +300,14 @@ fn an_independent_validator_accepts_every_shipped_file() {
         return;
     };
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let [species, scenario, forest] = ["species", "scenario", "forest"].map(|kind| {
+    let [species, scenario, forest, plan] = ["species", "scenario", "forest", "plan"].map(|kind| {
         let file = folder.path().join(kind).to_str().expect("a path in UTF-8").to_owned();
         std::fs::write(&file, phytomer(&["schema", kind])).expect("a schema");
         file
     });
-    let [presets, page] =
-        ["config/presets", "docs/forest.md"].map(|path| Path::new(ROOT).join(path).display().to_string());
-    read(&python, "schemas.py", &[&species, &scenario, &presets, &forest, &page]);
+    let [presets, page, court] = ["config/presets", "docs/forest.md", "docs/shade/court.toml"]
+        .map(|path| Path::new(ROOT).join(path).display().to_string());
+    read(&python, "schemas.py", &[&species, &scenario, &presets, &forest, &page, &plan, &court]);
 }
 
 /// Each mistake is reported where the file's first line names the schema, and passes without that line: so the schema

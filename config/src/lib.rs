@@ -25,6 +25,7 @@ mod meaning;
 mod models;
 mod numbers;
 mod places;
+pub mod plan;
 pub mod published;
 mod report;
 mod resolved;

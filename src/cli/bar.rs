@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use phytomer::run::filming::Filming;
 use phytomer::run::{Progress, Reading};
 use phytomer_outputs::Checking;
+use phytomer_shade::Watch;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::thread;
 use std::time::Duration;
@@ -60,6 +61,11 @@ pub fn filming<T>(filming: &Filming, frames: u32, hidden: bool, work: impl FnOnc
 /// Does `work` while a bar shows how many of the ages of a page have been grown.
 pub fn viewing<T>(filming: &Filming, hidden: bool, work: impl FnOnce() -> T) -> T {
     beside(hidden, |_| (filming.share(), "growing".to_owned()), work)
+}
+
+/// Does `work` while a bar shows how far the sun of a year has been followed.
+pub fn following<T>(watch: &Watch, hidden: bool, work: impl FnOnce() -> T) -> T {
+    beside(hidden, |_| (watch.share(), "following the sun".to_owned()), work)
 }
 
 /// Does `work` while a bar shows how many of about so many simulations have been done.

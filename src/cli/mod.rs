@@ -33,6 +33,7 @@ mod regrown;
 mod report;
 mod schema;
 mod sensitivity;
+mod shade;
 mod simulated;
 mod span;
 pub mod terminal;
@@ -71,6 +72,7 @@ Examples:
   phytomer sensitivity coffee --of height_m@48   which of its numbers matter for its height
   phytomer report runs/coffee --out told.html   what became of its plants, as a page with charts
   phytomer asystem my_trees.asys --out drawn    trees by the commands of the A-system
+  phytomer shade my_court/site.toml             hours of shade on the zones of a plan, month by month
 
 `phytomer help <verb>` has more of each.";
 
@@ -105,6 +107,7 @@ enum Verb {
     Report(report::ReportVerb),
     Sensitivity(sensitivity::Sensitivity),
     Asystem(asystem::Asystem),
+    Shade(shade::ShadeVerb),
 }
 
 /// How the program ends, other than by an error.
@@ -161,6 +164,7 @@ impl Cli {
             Verb::Report(verb) => verb.obey(),
             Verb::Sensitivity(verb) => verb.obey(),
             Verb::Asystem(verb) => verb.obey(),
+            Verb::Shade(verb) => verb.obey(),
         }
     }
 }

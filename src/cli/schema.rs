@@ -1,4 +1,4 @@
-//! `schema`: the JSON Schemas of species, scenario and forest files, for editors and for programs that write such
+//! `schema`: the JSON Schemas of species, scenario, forest and plan files, for editors and for programs that write such
 //! files.
 //!
 //! Absent: the schemas themselves, which `phytomer-config` makes from the types.
@@ -7,6 +7,7 @@ use super::{Verdict, terminal};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
 use phytomer_config::forest::forest_schema;
+use phytomer_config::plan::plan_schema;
 use phytomer_config::{Kind, schema_of};
 
 /// Print the JSON Schema of a kind of file.
@@ -16,6 +17,7 @@ Examples:
   phytomer schema species
   phytomer schema scenario
   phytomer schema forest
+  phytomer schema plan
 
 An editor with taplo obeys a schema that the first line of a file names:
   #:schema ./species.schema.json")]
@@ -33,6 +35,8 @@ pub enum FileKind {
     Scenario,
     /// One forest.
     Forest,
+    /// One plan, for hours of shade.
+    Plan,
 }
 
 impl Schema {
@@ -41,6 +45,7 @@ impl Schema {
             FileKind::Species => terminal::put_json(&schema_of(Kind::Species)),
             FileKind::Scenario => terminal::put_json(&schema_of(Kind::Scenario)),
             FileKind::Forest => terminal::put_json(forest_schema()),
+            FileKind::Plan => terminal::put_json(plan_schema()),
         }?;
         Ok(Verdict::Done)
     }

@@ -1,8 +1,8 @@
 """An independent validator holds every shipped file against the JSON Schemas:
-schemas.py SPECIES SCENARIO PRESETS FOREST PAGE
+schemas.py SPECIES SCENARIO PRESETS FOREST PAGE PLAN COURT
 
-SPECIES, SCENARIO and FOREST are what `phytomer schema` prints; PRESETS is the folder with `species` and `scenarios`,
-PAGE the documentation of forests, which has one as TOML.
+SPECIES, SCENARIO, FOREST and PLAN are what `phytomer schema` prints; PRESETS is the folder with `species` and
+`scenarios`, PAGE the documentation of forests, which has one as TOML, and COURT a plan.
 """
 
 import copy
@@ -43,4 +43,9 @@ forest = tomllib.loads(Path(sys.argv[5]).read_text(encoding="utf-8").split("```t
 faults = [f"{error.json_path}: {error.message}" for error in check.iter_errors(forest)]
 assert not faults, "\n".join(faults)
 assert refuses_a_misspelling(check, forest), "a misspelt key of a forest is let through"
+check = validator(sys.argv[6])
+plan = tomllib.loads(Path(sys.argv[7]).read_text(encoding="utf-8"))
+faults = [f"{error.json_path}: {error.message}" for error in check.iter_errors(plan)]
+assert not faults, "\n".join(faults)
+assert refuses_a_misspelling(check, plan), "a misspelt key of a plan is let through"
 print("schemas ok")
