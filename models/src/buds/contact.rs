@@ -55,12 +55,18 @@ impl<'a> Axis<'a> {
         let left = self.plant.axes.key[self.bud.axis.index()].0 & 1 == 1;
         let axis = self.bud.axis;
         let Self { around: Some(around), plant, .. } = self else { return Some(Lie::Free) };
+        let stood = around.ahead;
         around.ahead.tend(plant, axis, trend);
-        around.try_next(f64::from(length), left)
+        let lie = around.try_next(f64::from(length), left);
+        if lie.is_none() {
+            around.ahead = stood;
+        }
+        lie
     }
 
     /// Turns a leaf of the node that is being dressed whose tip would enter a solid at its birth or as it turns with
-    /// age: it then lies along the solid for all its life, its upper side away from it. One for which there is no room stays as it is.
+    /// age: it then lies along the solid for all its life, its upper side away from it. One for which there is no room
+    /// stays as it is.
     #[inline]
     pub(super) fn lay_leaf(&mut self, leaf: OrganId) {
         let Self { around: Some(around), plant, .. } = self else { return };

@@ -175,6 +175,9 @@ impl<'a> Axis<'a> {
             if self.bud.units >= self.last_unit {
                 return self.end(ApexFate::Completed, EventKind::Completed, ApexEnd::Completed);
             }
+            if self.is_stuck() {
+                break;
+            }
         }
         self.pass_state()?;
         Ok(true)

@@ -137,8 +137,8 @@ impl Solids {
         }
     }
 
-    /// Whether the internode of a step can have a heading: its end is free and within the reach of what it holds to, and
-    /// nothing lies on the line to it.
+    /// Whether the internode of a step can have a heading: its end is free and within the reach of what it holds to,
+    /// and nothing lies on the line to it.
     pub fn is_free(&self, step: &Step, heading: Point) -> bool {
         let end = along(step.from, heading, step.length);
         let holds = step.hold.is_none_or(|hold| self.distance(hold.surface, end) <= hold.reach);
